@@ -1,0 +1,62 @@
+"""A model: an FMU file and what it says of itself."""
+
+from __future__ import annotations
+
+import difflib
+from dataclasses import dataclass
+from pathlib import Path
+
+from pysim.types.errors import BadInput
+
+
+@dataclass(frozen=True)
+class Variable:
+    """One variable of a model, from its variable table. Numbers are in `unit`, which is an SI unit or "1" or "%"."""
+
+    name: str
+    reference: int
+    type: str  # "Real" | "Integer" | "Boolean" | ...
+    causality: str  # as in FMI: "parameter" | "calculatedParameter" | "input" | "output" | "local" | "independent"
+    variability: str  # as in FMI
+    start: float | None
+    unit: str
+    display_unit: str | None
+    description: str
+    min: float | None
+    max: float | None
+    nominal: float | None
+    derivative_of: str | None
+
+
+@dataclass(frozen=True)
+class Abilities:
+    """What the FMU says it can do."""
+
+    fmi: int  # 2 | 3
+    model_exchange: bool
+    co_simulation: bool
+    directional_derivatives: bool
+    state_handling: bool
+    event_indicators: int
+    states: tuple[str, ...]  # names, in the order of the state vector
+    derivatives: tuple[str, ...]  # names, same order
+
+
+@dataclass(frozen=True)
+class Model:
+    """An FMU on disk. Holds no instance and no library; `pysim.simulate` opens those for as long as a run lasts."""
+
+    path: Path
+    name: str
+    token: str  # guid or instantiationToken: changes with the model's content
+    variables: tuple[Variable, ...]
+    abilities: Abilities
+
+    def __getitem__(self, name: str) -> Variable:
+        """The variable of that name."""
+        for variable in self.variables:
+            if variable.name == name:
+                return variable
+        near = difflib.get_close_matches(name, [v.name for v in self.variables], n=3)
+        hint = f"; near it: {', '.join(near)}" if near else ""
+        raise BadInput(f"{self.path.name} has no variable {name!r}{hint}")

@@ -1,0 +1,66 @@
+"""What was recorded, by a simulation or on a bench."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from enum import Enum
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pysim.types.errors import BadInput
+
+Array = NDArray[np.float64]
+
+
+class Outcome(Enum):
+    """How a run ended."""
+
+    DONE = "done"
+    STEP_TOO_SMALL = "the step size fell below its limit"
+    NOT_FINITE = "a value is no longer finite"
+    MODEL_ERROR = "the model reported an error"
+    TERMINATED = "the model ended the run"
+    TOO_MANY_STEPS = "the limit of steps was reached"
+    TOO_MANY_EVENTS = "events follow each other without time passing"
+
+
+@dataclass(frozen=True)
+class Record:
+    """Signals over time.
+
+    Args:
+        time: (n_t,) s, increasing.
+        values: (n_t, n_y), a column per name, in the unit of the same place.
+        names: (n_y) names of the columns.
+        units: (n_y) units, "1" where there is none.
+        outcome: DONE, or why the run stopped; a stopped run's record ends where it stopped.
+        message: what the model or the solver said of it.
+        origin: "simulated" or "measured", and of what.
+        statistics: counts of the run: steps, rejected, derivatives, jacobians, events.
+    """
+
+    time: Array
+    values: Array
+    names: tuple[str, ...]
+    units: tuple[str, ...]
+    outcome: Outcome = Outcome.DONE
+    message: str = ""
+    origin: str = ""
+    statistics: Mapping[str, int] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        n_t, n_y = self.time.size, len(self.names)
+        if self.values.shape != (n_t, n_y):
+            raise BadInput(
+                f"record: {n_t} times and {n_y} names need values of shape ({n_t}, {n_y}), got {self.values.shape}"
+            )
+        if len(self.units) != n_y:
+            raise BadInput(f"record: {n_y} names need {n_y} units, got {len(self.units)}")
+
+    def __getitem__(self, name: str) -> Array:
+        """The column of that name, (n_t,)."""
+        if name not in self.names:
+            raise BadInput(f"record has no signal {name!r}; it has {', '.join(self.names)}")
+        return self.values[:, self.names.index(name)]

@@ -1,0 +1,76 @@
+"""A command as a closed-form function of time, with its exact derivative."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pysim.types.errors import BadInput
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Signal:
+    """Pieces of a cubic plus sines of linearly changing frequency; before the first piece its start value holds.
+
+    In piece k, with s = t - starts[k] and s not beyond the next piece's start:
+        y(s) = sum_n cubics[k, n] s^n
+             + sum_j a_j sin(phi_j + omega_j s + 0.5 kappa_j s^2),   (a, phi, omega, kappa) = sines[k, j]
+    This one form holds steps, ramps, stepped sines (thesis Eq. 2.1), chirps (Eq. 2.2), stochastic waves (Appendix A)
+    and splines through logged samples. The signal may jump or kink only where a piece starts.
+
+    Args:
+        starts: (n_k,) s, increasing.
+        cubics: (n_k, 4) in the signal's unit per s^n.
+        sines: (n_k, n_j, 4) amplitude (unit), phase (rad), angular frequency (rad/s), its rate (rad/s^2);
+            unused rows are zero.
+    Raises:
+        BadInput: shapes that do not match, times that do not increase, or values that are not finite.
+    """
+
+    starts: Array
+    cubics: Array
+    sines: Array
+
+    def __post_init__(self) -> None:
+        for name in ("starts", "cubics", "sines"):
+            array = np.array(getattr(self, name), dtype=np.float64, order="C")
+            array.setflags(write=False)
+            object.__setattr__(self, name, array)
+        n_k = self.starts.size
+        if self.starts.shape != (n_k,) or n_k == 0 or self.cubics.shape != (n_k, 4):
+            raise BadInput(
+                f"signal pieces: starts {self.starts.shape} need cubics of shape ({n_k}, 4), got {self.cubics.shape}"
+            )
+        if self.sines.ndim != 3 or self.sines.shape[::2] != (n_k, 4):
+            raise BadInput(f"signal pieces: sines need shape ({n_k}, n, 4), got {self.sines.shape}")
+        if not all(np.isfinite(a).all() for a in (self.starts, self.cubics, self.sines)):
+            raise BadInput("signal pieces: every number must be finite")
+        if np.any(np.diff(self.starts) <= 0):
+            raise BadInput("signal pieces: starts must increase")
+
+    def _locate(self, t: Array) -> tuple[NDArray[np.intp], Array]:
+        k = np.maximum(np.searchsorted(self.starts, t, side="right") - 1, 0)
+        return k, np.maximum(t - self.starts[k], 0.0)
+
+    def value(self, t: Array) -> Array:
+        """The signal at times t (n_t,) in s, in its own unit."""
+        k, s = self._locate(np.asarray(t, dtype=np.float64))
+        a, phi, omega, kappa = np.moveaxis(self.sines[k], -1, 0)
+        waves = a * np.sin(phi + (omega + 0.5 * kappa * s[..., None]) * s[..., None])
+        c = self.cubics[k]
+        return c[..., 0] + s * (c[..., 1] + s * (c[..., 2] + s * c[..., 3])) + waves.sum(axis=-1)
+
+    def derivative(self, t: Array) -> Array:
+        """The signal's rate at times t (n_t,) in s, in its unit per s; to the right of a kink."""
+        t = np.asarray(t, dtype=np.float64)
+        k, s = self._locate(t)
+        a, phi, omega, kappa = np.moveaxis(self.sines[k], -1, 0)
+        rate = omega + kappa * s[..., None]
+        waves = a * rate * np.cos(phi + (omega + 0.5 * kappa * s[..., None]) * s[..., None])
+        c = self.cubics[k]
+        inside = c[..., 1] + s * (2 * c[..., 2] + 3 * s * c[..., 3]) + waves.sum(axis=-1)
+        return np.where(t < self.starts[0], 0.0, inside)
