@@ -13,7 +13,7 @@ __all__ = [
     "Model",
     "Outcome",
     "Record",
-    "SimulationError",
     "Signal",
+    "SimulationError",
     "Variable",
 ]
