@@ -1,19 +1,26 @@
 """The only things that cross folders: frozen, checked once, numpy and the standard library only."""
 
+from pysim.types.criterion import Criterion, Deviation
 from pysim.types.errors import BadInput, SimulationError
 from pysim.types.experiment import Experiment
+from pysim.types.frequency_response import FrequencyResponse
 from pysim.types.model import Abilities, Model, Variable
 from pysim.types.record import Outcome, Record
 from pysim.types.signal import Signal
+from pysim.types.sine_test import SineTest
 
 __all__ = [
     "Abilities",
     "BadInput",
+    "Criterion",
+    "Deviation",
     "Experiment",
+    "FrequencyResponse",
     "Model",
     "Outcome",
     "Record",
     "Signal",
     "SimulationError",
+    "SineTest",
     "Variable",
 ]

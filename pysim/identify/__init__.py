@@ -1,0 +1,34 @@
+"""From time to frequency: stepped-sine tests, sine fits, frequency responses, and how far two of them are apart."""
+
+from pysim.identify.accuracy import (
+    FREQUENCY_CRITERIA,
+    TIME_CRITERIA,
+    frequency_deviations,
+    max_deviation,
+    mean_deviation,
+    response_difference,
+    time_deviations,
+)
+from pysim.identify.frequency_response import THESIS_REFERENCE_HZ, frequency_response, magnitude_db
+from pysim.identify.sine_fit import SineFit, sine_fit
+from pysim.identify.stepped_sine import SteppedSine, command, stepped_sine
+from pysim.identify.transfer_function import TransferFunction
+
+__all__ = [
+    "FREQUENCY_CRITERIA",
+    "THESIS_REFERENCE_HZ",
+    "TIME_CRITERIA",
+    "SineFit",
+    "SteppedSine",
+    "TransferFunction",
+    "command",
+    "frequency_deviations",
+    "frequency_response",
+    "magnitude_db",
+    "max_deviation",
+    "mean_deviation",
+    "response_difference",
+    "sine_fit",
+    "stepped_sine",
+    "time_deviations",
+]

@@ -1,0 +1,74 @@
+"""From the records of a stepped-sine test to magnitude and phase over frequency (thesis Section 2.3)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pysim.identify.sine_fit import sine_fit
+from pysim.types import BadInput, FrequencyResponse, Record, SineTest
+
+Array = NDArray[np.float64]
+
+THESIS_REFERENCE_HZ = 0.1  # the frequency whose amplitude counts as 0 dB, Eq. 2.12
+
+
+def frequency_response(
+    records: Sequence[Record],
+    frequencies: Sequence[float],
+    test: SineTest,
+    *,
+    onset: float,
+    noise: float | None = None,
+) -> FrequencyResponse:
+    """Fit each record's sine and set the results in a row.
+
+    Args:
+        records: one per frequency, holding the output once it swings steadily.
+        frequencies: (n_f) Hz, increasing, of the same places.
+        test: what was commanded; its output is a column of every record.
+        onset: s; when the sine started, with phase zero.
+        noise: standard deviation of the output's samples, in its unit; from the residuals when not known.
+    Returns:
+        gain = fitted amplitude / commanded amplitude; the phase against the command, unwrapped from the lowest
+        frequency upwards, which needs less than half a turn from one frequency to the next.
+    Raises:
+        BadInput: a record whose sine cannot be fitted, or counts that do not match.
+    Source: thesis Eq. 2.11-2.13. Differs: the gain is kept absolute; `magnitude_db` relates it to 0.1 Hz.
+    """
+    if len(records) != len(frequencies):
+        raise BadInput(f"frequency response: {len(records)} records for {len(frequencies)} frequencies")
+    fits = [
+        sine_fit(record.time, record[test.output], f, origin=onset, noise=noise)
+        for record, f in zip(records, frequencies, strict=True)
+    ]
+    return FrequencyResponse(
+        frequency=np.asarray(frequencies, dtype=np.float64),
+        gain=np.array([fit.amplitude for fit in fits]) / test.amplitude,
+        phase=np.unwrap([fit.phase for fit in fits]),
+        test=test,
+        origin=records[0].origin if records else "",
+        mean=np.array([fit.offset for fit in fits]),
+        covariance=np.array([fit.covariance for fit in fits]),
+    )
+
+
+def magnitude_db(response: FrequencyResponse, reference_hz: float | None = THESIS_REFERENCE_HZ) -> Array:
+    """Magnitude in dB, (n_f,): relative to the gain at `reference_hz`, or absolute for None.
+
+    Raises:
+        BadInput: the response was not taken at the reference frequency.
+    Source: thesis Eq. 2.12.
+    """
+    magnitude = 20 * np.log10(response.gain)
+    if reference_hz is None:
+        return magnitude
+    at = np.flatnonzero(np.isclose(response.frequency, reference_hz, rtol=1e-6))
+    if at.size == 0:
+        raise BadInput(
+            f"{response.origin}, {response.test.label}: magnitudes relative to {reference_hz:g} Hz need that "
+            f"frequency; the lowest one here is {response.frequency[0]:g} Hz"
+        )
+    return magnitude - magnitude[at[0]]

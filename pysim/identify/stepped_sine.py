@@ -1,0 +1,100 @@
+"""The frequency response test of thesis Section 2.1.1 as one experiment per frequency, with closed-form commands."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from pysim.types import BadInput, Experiment, Signal, SineTest
+
+
+@dataclass(frozen=True)
+class SteppedSine:
+    """How a stepped-sine test is run; the times are those of thesis Section 2.1.1 and Figure 2.1.
+
+    Args:
+        rest: s at zero command.
+        ramp: s from zero to the offset, in a straight line.
+        hold: s at the offset before the sine starts; the sine starts with phase zero at rest + ramp + hold.
+        settle_periods: periods of the sine that are left out of the fit, at least.
+        settle_time: s after the start of the sine that are left out of the fit, at least; the pump's transients
+            have decayed to 1e-4 of the amplitude by 0.3 s.
+        fit_periods: whole periods recorded and fitted, the last ones of the test.
+        points: samples per fitted period. Equidistant over whole periods, so that the mean and every harmonic below
+            points - 1 is orthogonal to the fitted sine.
+    Raises:
+        BadInput: a duration that is negative, or too few periods or points for a fit.
+    """
+
+    rest: float = 0.5
+    ramp: float = 0.5
+    hold: float = 1.0
+    settle_periods: int = 1
+    settle_time: float = 0.5
+    fit_periods: int = 1
+    points: int = 24
+
+    def __post_init__(self) -> None:
+        if min(self.rest, self.hold, self.settle_time, self.settle_periods) < 0 or not self.ramp > 0:
+            raise BadInput("stepped sine: durations must not be negative, and the ramp must take some time")
+        if self.fit_periods < 1 or self.points < 5:
+            raise BadInput(
+                f"stepped sine: a fit needs one whole period of five points, "
+                f"got {self.fit_periods} periods of {self.points} points"
+            )
+
+    @property
+    def onset(self) -> float:
+        """When the sine starts, s from the start of the test."""
+        return self.rest + self.ramp + self.hold
+
+    def settling_periods(self, frequency: float) -> int:
+        """Whole periods left out at this frequency (Hz): the larger of both limits."""
+        return max(self.settle_periods, math.ceil(self.settle_time * frequency - 1e-9))
+
+
+def command(test: SineTest, frequency: float, plan: SteppedSine) -> Signal:
+    """Rest, ramp, hold, then amplitude sin(2 pi f (t - onset)) + offset without an end; frequency in Hz.
+
+    Source: thesis Eq. 2.1 and Section 2.1.1, steps 1 and 2. The ramp down of step 3 follows after the measurement.
+    """
+    starts = np.array([0.0, plan.rest, plan.rest + plan.ramp, plan.onset])
+    cubics = np.zeros((4, 4))
+    cubics[1, 1] = test.offset / plan.ramp
+    cubics[2:, 0] = test.offset
+    sines = np.zeros((4, 1, 4))
+    sines[3, 0] = test.amplitude, 0.0, 2 * math.pi * frequency, 0.0
+    keep = np.append(np.diff(starts) > 0, True)  # a rest or hold of no length is no piece
+    return Signal(starts[keep], cubics[keep], sines[keep])
+
+
+def stepped_sine(
+    test: SineTest,
+    frequency: float,
+    *,
+    plan: SteppedSine | None = None,
+    rate_input: str | None = None,
+    overrides: Mapping[str, float] | None = None,
+) -> Experiment:
+    """The test at one frequency; it records the output over the last whole periods only.
+
+    Args:
+        test: offset and amplitude; the model's input and output.
+        frequency: Hz, positive.
+        plan: durations, periods and sampling; the thesis' own by default.
+        rate_input: a second input that takes the command's exact derivative, in the input's unit per s.
+        overrides: parameters of the model to set first.
+    Raises:
+        BadInput: a frequency that is not positive.
+    """
+    plan = plan or SteppedSine()
+    if not (frequency > 0 and math.isfinite(frequency)):
+        raise BadInput(f"stepped sine: the frequency must be positive and finite, got {frequency} Hz")
+    inputs = {test.input: command(test, frequency, plan)}
+    rates = {} if rate_input is None else {rate_input: test.input}
+    first = plan.onset + plan.settling_periods(frequency) / frequency
+    times = first + np.arange(plan.fit_periods * plan.points) / (plan.points * frequency)
+    return Experiment(times, (test.output,), inputs, overrides or {}, rates=rates)
