@@ -1,6 +1,7 @@
 """The only things that cross folders: frozen, checked once, numpy and the standard library only."""
 
 from pysim.types.criterion import Criterion, Deviation
+from pysim.types.dataset import Dataset, MeasuredRecord, MeasuredSignal
 from pysim.types.errors import BadInput, SimulationError
 from pysim.types.experiment import Experiment
 from pysim.types.frequency_response import FrequencyResponse
@@ -13,9 +14,12 @@ __all__ = [
     "Abilities",
     "BadInput",
     "Criterion",
+    "Dataset",
     "Deviation",
     "Experiment",
     "FrequencyResponse",
+    "MeasuredRecord",
+    "MeasuredSignal",
     "Model",
     "Outcome",
     "Record",

@@ -1,0 +1,73 @@
+"""Measurements of a test bench: what was logged, in which units, and what each log is for."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from pysim.types.errors import BadInput
+from pysim.types.frequency_response import FrequencyResponse
+from pysim.types.record import Record
+
+
+@dataclass(frozen=True)
+class MeasuredSignal:
+    """One column of the logs.
+
+    Args:
+        name: the column's name.
+        role: "input" | "output".
+        unit: of the column.
+        quantity: what it is, in words.
+        variable: the model variable it stands for.
+        noise: standard deviation of the measurement noise, in `unit`, or None where not known.
+        resolution: quantisation step, in `unit`, or None where not known.
+    """
+
+    name: str
+    role: str
+    unit: str
+    quantity: str
+    variable: str
+    noise: float | None = None
+    resolution: float | None = None
+
+
+@dataclass(frozen=True)
+class MeasuredRecord:
+    """One log or table.
+
+    Args:
+        source: where it came from, relative to the data set.
+        kind: "frequency-response" | "chirp" | "stochastic" | "step" | "other" | "frequency-response-table".
+        use: "fit" | "validate".
+        data: signals over time, or a response over frequency.
+    """
+
+    source: str
+    kind: str
+    use: str
+    data: Record | FrequencyResponse
+
+
+@dataclass(frozen=True)
+class Dataset:
+    """All measurements of one system. Signals are named by their columns; see `MeasuredSignal.variable`."""
+
+    name: str
+    description: str
+    system: str
+    signals: tuple[MeasuredSignal, ...]
+    records: tuple[MeasuredRecord, ...]
+
+    def signal(self, name: str) -> MeasuredSignal:
+        """The signal of that column name."""
+        for signal in self.signals:
+            if signal.name == name:
+                return signal
+        raise BadInput(
+            f"data set {self.name!r} has no signal {name!r}; it has {', '.join(s.name for s in self.signals)}"
+        )
+
+    def responses(self) -> tuple[FrequencyResponse, ...]:
+        """Every measured frequency response, in the order of the records."""
+        return tuple(record.data for record in self.records if isinstance(record.data, FrequencyResponse))

@@ -1,0 +1,135 @@
+"""Data sets of frequency-response tables: what is read, and what is refused where."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from pysim.io import read_dataset
+from pysim.types import BadInput
+
+TOML = """[dataset]
+name = "two tables"
+description = "by hand"
+system = "pump"
+
+[signals.cmd]
+role = "input"
+unit = "%"
+quantity = "command"
+variable = "alphaCMD"
+
+[signals."angle"]
+role = "output"
+unit = "%"
+quantity = "angle"
+noise = 0.1
+
+[[records]]
+file = "O+25_A5.csv"
+columns = ["frequency_hz", "magnitude_db", "phase_deg"]
+kind = "frequency-response-table"
+offset = 25.0
+amplitude = 5.0
+use = "fit"
+
+[[records]]
+file = "sub/reordered.txt"
+columns = ["phase_deg", "comment", "frequency_hz", "magnitude_db"]
+kind = "frequency-response-table"
+offset = -50
+amplitude = 10
+use = "validate"
+"""
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    (tmp_path / "sub").mkdir()
+    (tmp_path / "dataset.toml").write_text(TOML, encoding="utf-8")
+    (tmp_path / "O+25_A5.csv").write_text("# f, M, phi\n0.1,0.0,-1\n1,-6.0205999132796239,-170\n2,-20,170\n")
+    (tmp_path / "sub" / "reordered.txt").write_text("-10 0 0,5 20\n")
+    return tmp_path
+
+
+def test_reads_gain_phase_and_who_is_who(folder: Path) -> None:
+    data = read_dataset(folder)
+    assert (data.name, data.description, data.system) == ("two tables", "by hand", "pump")
+    assert data.signal("cmd").variable == "alphaCMD"
+    assert data.signal("angle").variable == "angle"
+    assert data.signal("angle").noise == 0.1
+    first, second = data.responses()
+    np.testing.assert_allclose(first.gain, [1.0, 0.5, 0.1])
+    np.testing.assert_allclose(np.degrees(first.phase), [-1, -170, -190])  # unwrapped
+    assert (first.test.offset, first.test.amplitude, first.test.input, first.test.output) == (25.0, 5.0, "cmd", "angle")
+    np.testing.assert_allclose([second.frequency[0], second.gain[0], second.phase[0]], [0.5, 10.0, -np.pi / 18])
+    assert [record.use for record in data.records] == ["fit", "validate"]
+
+
+def test_reading_changes_nothing(folder: Path) -> None:
+    before = {path: (path.stat().st_mtime_ns, path.read_bytes()) for path in folder.rglob("*.*")}
+    read_dataset(folder)
+    assert before == {path: (path.stat().st_mtime_ns, path.read_bytes()) for path in folder.rglob("*.*")}
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ("[dataset]", "[dataset", r"dataset\.toml: .*line 1"),
+        ("[dataset]", "[dataseat]", r"the section \[dataset\] is missing"),
+        ('role = "input"\n', "", r"dataset\.toml, line 6: role is missing"),
+        ('role = "input"', 'role = "in"', "line 6: role = 'in' is not known; use one of input, output"),
+        (
+            'role = "output"',
+            'role = "input"',
+            r"line 18: a response needs one input, and 2 signals",
+        ),
+        ('role = "input"', 'role = "output"', r"line 18: a response needs one input, and 0 signals"),
+        ('unit = "%"', 'unit = "percent"', "line 6: unit = 'percent' is not known"),
+        ("noise = 0.1", "noise = nan", "line 12: noise = nan is no finite number"),
+        ("offset = 25.0\n", "", "line 18: offset is missing"),
+        ("offset = 25.0", "ofset = 25.0", "line 18: the key 'ofset' is not known"),
+        ("amplitude = 10\n", "amplitude = true\n", "line 26: amplitude = True is no finite number"),
+        ("amplitude = 5.0", "amplitude = -5.0", "amplitude must be positive"),
+        ('use = "validate"', 'use = "test"', "line 26: use = 'test' is not known; use one of fit, validate"),
+        ('kind = "frequency-response-table"', 'kind = "chirp"', 'line 18: records of kind "chirp" cannot be read'),
+        (
+            '"magnitude_db", "phase_deg"]',
+            '"magnitude_db"]',
+            "line 18: columns must name frequency_hz, magnitude",
+        ),
+        ("O+25_A5.csv", "O+25_A7.csv", r"line 18: cannot read .*O\+25_A7\.csv"),
+    ],
+)
+def test_refuses_faults_in_the_description(folder: Path, old: str, new: str, words: str) -> None:
+    assert old in TOML
+    (folder / "dataset.toml").write_text(TOML.replace(old, new, 1), encoding="utf-8")
+    with pytest.raises(BadInput, match=words):
+        read_dataset(folder)
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("0.1,0,0\n0.1,0,0\n", r"O\+25_A5\.csv, line 2: frequencies must be positive and increase"),
+        ("0,0,0\n0.1,0,0\n", "line 1: frequencies must be positive"),
+        ("0.1,0\n", "line 1: 2 columns where 3 belong"),
+        ("0.1,0,nan\n", "line 1: phase_deg is nan"),
+    ],
+)
+def test_refuses_faults_in_a_table(folder: Path, text: str, words: str) -> None:
+    (folder / "O+25_A5.csv").write_text(text)
+    with pytest.raises(BadInput, match=words):
+        read_dataset(folder)
+
+
+def test_refuses_a_folder_without_description(tmp_path: Path) -> None:
+    with pytest.raises(BadInput, match=r"data set: cannot read .*dataset\.toml"):
+        read_dataset(tmp_path)
+
+
+def test_a_record_may_choose_among_outputs(folder: Path) -> None:
+    extra = '[signals.u]\nrole = "output"\nunit = "1"\n\n[[records]]\noutput = "u"\n'
+    text = TOML.replace("[[records]]\n", extra, 1).replace('file = "sub', 'output = "angle"\nfile = "sub')
+    (folder / "dataset.toml").write_text(text, encoding="utf-8")
+    assert [response.test.output for response in read_dataset(folder).responses()] == ["u", "angle"]

@@ -1,0 +1,71 @@
+"""Text tables in every dialect a bench writes, and the faults they come with."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from pysim.io.text_table import read_table
+from pysim.types import BadInput
+
+COLUMNS = ("a", "b", "c")
+
+
+def table(tmp_path: Path, text: str, encoding: str = "utf-8") -> Path:
+    path = tmp_path / "log.txt"
+    path.write_bytes(text.encode(encoding))
+    return path
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "1.5\t-2\t3e2\n4\t5\t6\n",
+        "1,5\t-2\t3e2\n4\t5\t6\n",
+        "1,5;-2;3e2\n4;5;6\n",
+        "1.5 ; -2 ; 3e2\r\n4 ; 5 ; 6\r\n",
+        "1.5,-2,3e2\n4,5,6\n",
+        "1.5, -2, 3e2\n4, 5, 6\n",
+        "  1.5   -2  3e2\n 4 5 6\n",
+        "1,5 -2,0 3e2\n4,0 5,0 6\n",
+        "# made by hand\na b c\nSampling rate 250 Hz\n\n1.5 -2 3e2\n# a pause\n4 5 6",
+        "\ufeffa,b,c\n1.5,-2,3e2\n4,5,6\n",
+    ],
+)
+def test_every_dialect_gives_the_same_numbers(tmp_path: Path, text: str) -> None:
+    values, _ = read_table(table(tmp_path, text), COLUMNS, "test")
+    np.testing.assert_array_equal(values, [[1.5, -2.0, 300.0], [4.0, 5.0, 6.0]])
+
+
+def test_line_numbers_count_headers_and_comments(tmp_path: Path) -> None:
+    _, lines = read_table(table(tmp_path, "a b c\n1 2 3\n# stop\n\n4 5 6\n"), COLUMNS, "test")
+    assert lines.tolist() == [2, 5]
+
+
+def test_latin_1_is_read(tmp_path: Path) -> None:
+    values, _ = read_table(table(tmp_path, "# Öltemperatur 40 °C\n1 2 3\n", "latin-1"), COLUMNS, "test")
+    assert values.tolist() == [[1.0, 2.0, 3.0]]
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("", "holds no numbers"),
+        ("a b c\n# nothing\n", "holds no numbers"),
+        ("1 2 3\n4 5\n", r"line 2: 2 columns where 3 belong \(a, b, c\)"),
+        ("1 2 3\n4\t\t6\n", "line 2: '' is no number for b"),
+        ("1 2 3\n4 five 6\n", "line 2: 'five' is no number for b"),
+        ("1 two 3\n4 5 6\n", "line 1: 'two' is no number for b"),
+        ("1 2 3\n4 5 nan\n", "line 2: c is nan, which is not finite"),
+        ("1 2 3\n-inf 5 6\n", "line 2: a is -inf, which is not finite"),
+        ("1 2 3\n4 5 1_000\n", "line 2: '1_000' is no number for c"),
+    ],
+)
+def test_faults_are_named_with_their_line(tmp_path: Path, text: str, words: str) -> None:
+    with pytest.raises(BadInput, match=words):
+        read_table(table(tmp_path, text), COLUMNS, "test")
+
+
+def test_a_missing_file_names_who_asked_for_it(tmp_path: Path) -> None:
+    with pytest.raises(BadInput, match=r"dataset\.toml, line 9: cannot read .*none\.txt \(No such file"):
+        read_table(tmp_path / "none.txt", COLUMNS, "dataset.toml, line 9")
