@@ -1,0 +1,191 @@
+"""What the modelDescription.xml files of FMI 2 and FMI 3 have in common."""
+
+import re
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from xml.etree import ElementTree
+from xml.etree.ElementTree import Element
+
+from ..errors import BuildError
+from ..lower.ode_model import DefaultExperiment, OdeModel, ScalarType, Variable
+from .influence import Layout, direct_influence
+from .units import BASE_UNITS, conversion, parse_unit
+
+GENERATION_TOOL = "fmu_build"
+LOG_CATEGORIES = {  # as in runtime/src/log.c
+    "logStatusError": "Calls that cannot be carried out",
+    "logStatusWarning": "Assertions of level warning that do not hold",
+    "logStatusDiscard": "Points where the model cannot be evaluated",
+    "logEvents": "Events as they happen",
+}
+
+
+@dataclass(frozen=True)
+class Description:
+    """An XML file's content beside the model itself.
+
+    Args:
+        token: guid or instantiation token; the same as in model.c.
+        sources: the .c files to compile, relative to the folder of sources.
+    """
+
+    token: str
+    identifier: str
+    sources: tuple[str, ...]
+
+
+def model_identifier(class_name: str) -> str:
+    """The name of the binary, made of the letters, digits and underscores that C allows."""
+    return re.sub(r"\W", "_", class_name, flags=re.ASCII)
+
+
+def text_of(root: Element) -> str:
+    """The file's text: indented, in a fixed order, the same bytes for the same content."""
+    ElementTree.indent(root)
+    return '<?xml version="1.0" encoding="UTF-8"?>\n' + ElementTree.tostring(root, encoding="unicode") + "\n"
+
+
+def add(parent: Element, tag: str, **attributes: str | None) -> Element:
+    """A new child; attributes that are None are left out."""
+    return ElementTree.SubElement(parent, tag, {k: v for k, v in attributes.items() if v is not None})
+
+
+def number(value: float, scalar_type: ScalarType = ScalarType.REAL) -> str:
+    """A value as XML Schema writes xs:double, xs:int and xs:boolean."""
+    if scalar_type is ScalarType.BOOLEAN:
+        return "true" if value else "false"
+    if scalar_type is ScalarType.INTEGER:
+        return str(round(value))
+    return {"inf": "INF", "-inf": "-INF", "nan": "NaN"}.get(repr(float(value)), repr(float(value)))
+
+
+def flag(value: bool) -> str:
+    return "true" if value else "false"
+
+
+def xml_type(variable: Variable) -> str:
+    """Real, Integer, Boolean or Enumeration."""
+    return "Enumeration" if variable.enumeration else variable.scalar_type.value
+
+
+def initial_of(variable: Variable) -> str | None:
+    """`initial` as FMI wants it written: not for inputs and time."""
+    return None if variable.causality in ("input", "independent") else variable.initial
+
+
+def start_of(variable: Variable) -> str | None:
+    """The start value where FMI wants one: for inputs and constants, and with initial = exact or approx."""
+    if variable.causality == "input" or variable.initial in ("exact", "approx"):
+        return number(variable.start or 0.0, variable.scalar_type)
+    return None
+
+
+def limits(variable: Variable) -> dict[str, str | None]:
+    """min, max and nominal; FMI knows a positive nominal value and those of Real only."""
+    if variable.scalar_type is ScalarType.BOOLEAN:
+        return {}
+    found = {
+        name: None if value is None else number(value, variable.scalar_type)
+        for name, value in (("min", variable.min), ("max", variable.max))
+    }
+    if variable.scalar_type is ScalarType.REAL and variable.nominal:
+        found["nominal"] = number(abs(variable.nominal))
+    return found
+
+
+def unit_attributes(variable: Variable) -> dict[str, str | None]:
+    """unit and displayUnit, the latter only where a conversion is known."""
+    if not variable.unit or variable.scalar_type is not ScalarType.REAL:
+        return {}
+    return {"unit": variable.unit, "displayUnit": _display_unit(variable)}
+
+
+def add_units(root: Element, variables: Iterable[Variable]) -> None:
+    """UnitDefinitions, in the order of first use."""
+    displays: dict[str, dict[str, None]] = {}
+    for variable in variables:
+        attributes = unit_attributes(variable)
+        unit, display = attributes.get("unit"), attributes.get("displayUnit")
+        if unit is not None:
+            shown = displays.setdefault(unit, {})
+            if display is not None:
+                shown[display] = None
+    if not displays:
+        return
+    parent = add(root, "UnitDefinitions")
+    for name, shown in displays.items():
+        _add_unit(parent, name, list(shown))
+
+
+def _add_unit(parent: Element, name: str, displays: list[str]) -> None:
+    element, unit = add(parent, "Unit", name=name), parse_unit(name)
+    if unit is None:
+        return
+    exponents = {b: str(e) for b, e in zip(BASE_UNITS, unit.exponents, strict=True) if e}
+    add(element, "BaseUnit", **exponents, **_scale(unit.factor, unit.offset))
+    for display_name in displays:
+        display = parse_unit(display_name)
+        assert display is not None  # _display_unit has seen to it
+        add(element, "DisplayUnit", name=display_name, **_scale(*conversion(unit, display)))
+
+
+def _scale(factor: float, offset: float) -> dict[str, str | None]:
+    return {
+        "factor": None if factor == 1.0 else number(factor),
+        "offset": None if offset == 0.0 else number(offset),
+    }
+
+
+def _display_unit(variable: Variable) -> str | None:
+    name, unit = variable.display_unit, parse_unit(variable.unit or "")
+    if not name or name == variable.unit or unit is None:
+        return None
+    display = parse_unit(name)
+    if display is None:
+        return None
+    if not unit.measures_like(display):
+        raise BuildError(
+            f'{variable.name}: displayUnit "{name}" does not measure the same quantity as unit "{variable.unit}"; '
+            "choose a unit that can be converted."
+        )
+    return name
+
+
+def enumerations(variables: Iterable[Variable]) -> Iterator[tuple[str, tuple[str, ...]]]:
+    """(type name, literals) of each enumeration, in the order of first use."""
+    literals = dict.fromkeys(v.enumeration for v in variables if v.enumeration)
+    return ((enumeration_name(names), names) for names in literals)
+
+
+def enumeration_name(literals: tuple[str, ...]) -> str:
+    return f"enumeration({', '.join(literals)})"
+
+
+def add_default_experiment(root: Element, experiment: DefaultExperiment) -> None:
+    values = {
+        "startTime": experiment.start,
+        "stopTime": experiment.stop,
+        "tolerance": experiment.tolerance,
+        "stepSize": experiment.interval,
+    }
+    given = {name: number(value) for name, value in values.items() if value is not None}
+    if given:
+        add(root, "DefaultExperiment", **given)
+
+
+def add_log_categories(root: Element) -> None:
+    parent = add(root, "LogCategories")
+    for name, description in LOG_CATEGORIES.items():
+        add(parent, "Category", name=name, description=description)
+
+
+def reinitialised(model: OdeModel) -> set[int]:
+    """Continuous states that an event may change."""
+    s = model.symbols
+    layout, masks = Layout.of(s), direct_influence(s, model.updates_x)
+    return {k for k, mask in enumerate(masks) if mask != layout.bit("x", k)}
+
+
+def needs_completed_steps(model: OdeModel) -> bool:
+    """Whether the host must report its steps: the history of delay() grows with them."""
+    return bool(model.delays)

@@ -1,0 +1,150 @@
+"""modelDescription.xml of FMI 3.0, for model exchange and co-simulation, and its buildDescription.xml."""
+
+from xml.etree.ElementTree import Element
+
+from ..lower.ode_model import OdeModel, Variable
+from .description import (
+    GENERATION_TOOL,
+    Description,
+    add,
+    add_default_experiment,
+    add_log_categories,
+    add_units,
+    enumeration_name,
+    enumerations,
+    flag,
+    initial_of,
+    limits,
+    needs_completed_steps,
+    reinitialised,
+    start_of,
+    text_of,
+    unit_attributes,
+    xml_type,
+)
+from .structure import ModelStructure, Unknown, model_structure
+
+_ABILITIES = {
+    "canGetAndSetFMUState": "true",
+    "canSerializeFMUState": "true",
+    "providesDirectionalDerivatives": "true",
+    "providesAdjointDerivatives": "true",
+}
+_TYPES = {"Real": "Float64", "Integer": "Int32", "Boolean": "Boolean", "Enumeration": "Enumeration"}
+
+
+def fmi3_description(model: OdeModel, about: Description) -> str:
+    """The XML text for a model whose variable table is complete; a value reference is a row of it."""
+    root = Element(
+        "fmiModelDescription",
+        {
+            "fmiVersion": "3.0",
+            "modelName": model.name,
+            "instantiationToken": about.token,
+            **({"description": model.description} if model.description else {}),
+            "generationTool": GENERATION_TOOL,
+            "variableNamingConvention": "structured",
+        },
+    )
+    _add_interfaces(root, model, about)
+    add_units(root, model.variables)
+    _add_types(root, model)
+    add_log_categories(root)
+    add_default_experiment(root, model.default_experiment)
+    _add_variables(root, model)
+    _add_structure(root, model_structure(model))
+    return text_of(root)
+
+
+def fmi3_build_description(about: Description) -> str:
+    """sources/buildDescription.xml: how to compile the sources elsewhere."""
+    root = Element("fmiBuildDescription", {"fmiVersion": "3.0"})
+    configuration = add(root, "BuildConfiguration", modelIdentifier=about.identifier)
+    files = add(configuration, "SourceFileSet", language="C11")
+    for name in about.sources:
+        add(files, "SourceFile", name=name)
+    return text_of(root)
+
+
+def _add_interfaces(root: Element, model: OdeModel, about: Description) -> None:
+    add(
+        root,
+        "ModelExchange",
+        modelIdentifier=about.identifier,
+        needsCompletedIntegratorStep=flag(needs_completed_steps(model)),
+        **_ABILITIES,
+    )
+    add(
+        root,
+        "CoSimulation",
+        modelIdentifier=about.identifier,
+        canHandleVariableCommunicationStepSize="true",
+        maxOutputDerivativeOrder="1",
+        providesIntermediateUpdate="true",
+        mightReturnEarlyFromDoStep="true",
+        canReturnEarlyAfterIntermediateUpdate="true",
+        hasEventMode="true",
+        **_ABILITIES,
+    )
+
+
+def _add_types(root: Element, model: OdeModel) -> None:
+    found = list(enumerations(model.variables))
+    if not found:
+        return
+    parent = add(root, "TypeDefinitions")
+    for name, literals in found:
+        element = add(parent, "EnumerationType", name=name)
+        for value, literal in enumerate(literals, start=1):
+            add(element, "Item", name=literal, value=str(value))
+
+
+def _add_variables(root: Element, model: OdeModel) -> None:
+    parent = add(root, "ModelVariables")
+    row_of = {variable.name: row for row, variable in enumerate(model.variables)}
+    reinit = reinitialised(model)
+    for row, variable in enumerate(model.variables):
+        state = variable.derivative_of
+        add(
+            parent,
+            _TYPES[xml_type(variable)],
+            name=variable.name,
+            valueReference=str(row),
+            description=variable.description or None,
+            causality=variable.causality,
+            variability=variable.variability,
+            initial=initial_of(variable),
+            declaredType=enumeration_name(variable.enumeration) if variable.enumeration else None,
+            quantity=_quantity(variable),
+            **unit_attributes(variable),
+            **limits(variable),
+            start=start_of(variable),
+            derivative=None if state is None else str(row_of[state]),
+            reinit="true" if variable.vector == "x" and variable.index in reinit else None,
+        )
+
+
+def _quantity(variable: Variable) -> str | None:
+    return None if xml_type(variable) == "Boolean" else variable.quantity or None
+
+
+def _add_structure(root: Element, structure: ModelStructure) -> None:
+    parent = add(root, "ModelStructure")
+    for tag, unknowns in (
+        ("Output", structure.outputs),
+        ("ContinuousStateDerivative", structure.derivatives),
+        ("InitialUnknown", structure.initial_unknowns),
+        ("EventIndicator", structure.event_indicators),
+    ):
+        for unknown in unknowns:
+            _add_unknown(parent, tag, unknown)
+
+
+def _add_unknown(parent: Element, tag: str, unknown: Unknown) -> None:
+    add(
+        parent,
+        tag,
+        valueReference=str(unknown.row),
+        dependencies=" ".join(str(row) for row in unknown.dependencies),
+        dependenciesKind=None if unknown.kinds is None else " ".join(unknown.kinds),
+    )

@@ -1,0 +1,151 @@
+"""Unit strings as Modelica writes them ("kg.m2", "m3/s", "1/(Pa.s)", "l/min") in terms of the SI base units."""
+
+import math
+import re
+from dataclasses import dataclass
+
+BASE_UNITS = ("kg", "m", "s", "A", "K", "mol", "cd", "rad")  # those of the FMI standard, in its order
+
+
+@dataclass(frozen=True)
+class Unit:
+    """A value in this unit is `factor * value + offset` in SI base units with these exponents."""
+
+    exponents: tuple[int, ...]  # (8), in the order of BASE_UNITS
+    factor: float = 1.0
+    offset: float = 0.0
+
+    def to_power(self, power: int) -> "Unit":
+        return Unit(tuple(power * e for e in self.exponents), self.factor**power)
+
+    def times(self, other: "Unit") -> "Unit":
+        return Unit(
+            tuple(a + b for a, b in zip(self.exponents, other.exponents, strict=True)), self.factor * other.factor
+        )
+
+    def measures_like(self, other: "Unit") -> bool:
+        """Whether both measure the same kind of quantity; angles count as pure numbers here (rev/min, 1/s)."""
+        return self.exponents[:-1] == other.exponents[:-1]
+
+
+def _unit(factor: float = 1.0, **exponents: int) -> Unit:
+    return Unit(tuple(exponents.get(base, 0) for base in BASE_UNITS), factor)
+
+
+ONE = _unit()
+_PREFIXES = {
+    **{"Y": 1e24, "Z": 1e21, "E": 1e18, "P": 1e15, "T": 1e12, "G": 1e9, "M": 1e6, "k": 1e3, "h": 1e2, "da": 1e1},
+    **{"d": 1e-1, "c": 1e-2, "m": 1e-3, "u": 1e-6, "n": 1e-9, "p": 1e-12, "f": 1e-15, "a": 1e-18},
+}
+_PREFIXED = {
+    **{base: _unit(**{base: 1}) for base in BASE_UNITS if base != "kg"},
+    "g": _unit(1e-3, kg=1),
+    "t": _unit(1e3, kg=1),
+    "sr": _unit(rad=2),
+    "Hz": _unit(s=-1),
+    "Bq": _unit(s=-1),
+    "N": _unit(kg=1, m=1, s=-2),
+    "Pa": _unit(kg=1, m=-1, s=-2),
+    "bar": _unit(1e5, kg=1, m=-1, s=-2),
+    "J": _unit(kg=1, m=2, s=-2),
+    "eV": _unit(1.602176634e-19, kg=1, m=2, s=-2),
+    "W": _unit(kg=1, m=2, s=-3),
+    "VA": _unit(kg=1, m=2, s=-3),
+    "V": _unit(kg=1, m=2, s=-3, A=-1),
+    "Ohm": _unit(kg=1, m=2, s=-3, A=-2),
+    "S": _unit(kg=-1, m=-2, s=3, A=2),
+    "C": _unit(s=1, A=1),
+    "F": _unit(kg=-1, m=-2, s=4, A=2),
+    "H": _unit(kg=1, m=2, s=-2, A=-2),
+    "Wb": _unit(kg=1, m=2, s=-2, A=-1),
+    "T": _unit(kg=1, s=-2, A=-1),
+    "lm": _unit(cd=1, rad=2),
+    "lx": _unit(cd=1, m=-2, rad=2),
+    "Gy": _unit(m=2, s=-2),
+    "kat": _unit(mol=1, s=-1),
+    "l": _unit(1e-3, m=3),
+    "L": _unit(1e-3, m=3),
+    "P": _unit(1e-1, kg=1, m=-1, s=-1),  # poise
+    "St": _unit(1e-4, m=2, s=-1),  # stokes
+}
+_UNPREFIXED = {
+    "1": ONE,
+    "%": _unit(1e-2),
+    "min": _unit(60.0, s=1),
+    "h": _unit(3600.0, s=1),
+    "d": _unit(86400.0, s=1),
+    "deg": _unit(math.pi / 180, rad=1),
+    "rev": _unit(2 * math.pi, rad=1),
+    "r": _unit(2 * math.pi, rad=1),
+    "rpm": _unit(2 * math.pi / 60, rad=1, s=-1),
+    "degC": Unit(_unit(K=1).exponents, 1.0, 273.15),
+    "degF": Unit(_unit(K=1).exponents, 5 / 9, 459.67 * 5 / 9),
+    "atm": _unit(101325.0, kg=1, m=-1, s=-2),
+    "psi": _unit(6894.757293168361, kg=1, m=-1, s=-2),
+}
+
+_FACTOR = re.compile(r"(?P<symbol>1|%|[A-Za-z]+?)\^?(?P<exponent>[+-]?\d+)?")
+
+
+def parse_unit(text: str) -> Unit | None:
+    """What the unit string says, or None where it is not one we know.
+
+    Grammar (Modelica specification, unit expressions): factors joined by ".", one "/" before one factor or a group in
+    brackets; a factor is a symbol with an SI prefix and an integer exponent.
+    """
+    plain = _UNPREFIXED.get(text)
+    if plain is not None:
+        return plain
+    above, slash, below = text.partition("/")
+    numerator = _product(above)
+    if numerator is None or not slash:
+        return numerator
+    if below.startswith("(") and below.endswith(")"):
+        below = below[1:-1]
+    elif "." in below:
+        return None
+    denominator = _product(below)
+    return None if denominator is None else numerator.times(denominator.to_power(-1))
+
+
+def _product(text: str) -> Unit | None:
+    if text.startswith("(") and text.endswith(")"):
+        text = text[1:-1]
+    result = ONE
+    for part in text.split("."):
+        factor = _factor(part)
+        if factor is None:
+            return None
+        result = result.times(factor)
+    return result
+
+
+def _factor(text: str) -> Unit | None:
+    match = _FACTOR.fullmatch(text)
+    if match is None:
+        return None
+    unit = _symbol(match["symbol"])
+    return None if unit is None else unit.to_power(int(match["exponent"] or 1))
+
+
+def _symbol(symbol: str) -> Unit | None:
+    """A whole symbol goes before a prefixed one: "min" is a minute, "cd" a candela, "Pa" a pascal."""
+    for known in (_UNPREFIXED, _PREFIXED):
+        if symbol in known:
+            return known[symbol]
+    for length in (1, 2):
+        prefix, rest = symbol[:length], symbol[length:]
+        if prefix in _PREFIXES and rest in _PREFIXED:
+            unit = _PREFIXED[rest]
+            return Unit(unit.exponents, unit.factor * _PREFIXES[prefix])
+    return None
+
+
+def conversion(unit: Unit, display: Unit) -> tuple[float, float]:
+    """(factor, offset) such that a value in `unit` is `factor * value + offset` in `display`."""
+    return _tidy(unit.factor / display.factor), _tidy((unit.offset - display.offset) / display.factor)
+
+
+def _tidy(value: float) -> float:
+    """Without the last digit's rounding: 1e-05, not 1.0000000000000001e-05."""
+    return float(f"{value:.15g}")
