@@ -40,7 +40,7 @@ def indicator_rows(model: OdeModel) -> list[int]:
 def derivative_rows(model: OdeModel) -> list[tuple[int, int]]:
     """Per continuous state, in the order of x: (row of the state, row of its derivative)."""
     row_of = {variable.name: row for row, variable in enumerate(model.variables)}
-    pairs = {}
+    pairs: dict[int, tuple[int, int]] = {}
     for row, variable in enumerate(model.variables):
         if variable.derivative_of is not None:
             state = row_of[variable.derivative_of]

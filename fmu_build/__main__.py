@@ -1,0 +1,7 @@
+"""`python -m fmu_build` is `fmu-build`."""
+
+import sys
+
+from .cli import main
+
+sys.exit(main())

@@ -1,0 +1,104 @@
+"""The whole way: a Modelica class to a checked .fmu."""
+
+import importlib.util
+import tempfile
+from collections.abc import Mapping, Sequence
+from importlib.resources import files
+from pathlib import Path
+
+from .cache import cached, content_key, copy_whole, store
+from .errors import BuildError
+from .pack import Platform, check_writable, select_platforms
+
+BUNDLED_LIBRARY = "HydraulicTestBench"
+_NOTHING: Mapping[str, float | str] = {}
+_NEEDED = {  # to build; running a finished FMU needs none of them
+    "rumoca": "rumoca==0.10.2",
+    "casadi": "casadi",
+    "ziglang": "ziglang",
+    "fmpy": "fmpy",
+}
+
+
+def build(
+    class_name: str,
+    output: Path | None = None,
+    *,
+    libraries: Sequence[Path] = (),
+    fmi: int = 2,
+    platforms: Sequence[str] = ("host",),
+    overrides: Mapping[str, float | str] = _NOTHING,
+    use_cache: bool = True,
+) -> Path:
+    """Compile a Modelica class to an FMU for model exchange and co-simulation.
+
+    Args:
+        class_name: full name, such as "HydraulicTestBench.Examples.PumpAngle".
+        output: file to write; None leaves the FMU in the cache and gives its place there.
+        libraries: directories with a package.mo, or single .mo files, beside our own library.
+        fmi: 2 or 3.
+        platforms: names of `pack.PLATFORMS`, "host" or "all".
+        overrides: values of parameters by their name in the class, in SI units; a text is taken as Modelica.
+        use_cache: False builds anew even where the same FMU has been built before.
+    Returns:
+        The FMU's path.
+    Raises:
+        BuildError: the class, an argument or the installation is at fault; nothing has been written.
+    """
+    if fmi not in (2, 3):
+        raise BuildError(f"there is no FMI version {fmi} here; choose 2 or 3.")
+    targets = select_platforms(platforms)
+    if output is not None:
+        check_writable(output)
+    paths = [*_existing(libraries), bundled_library()]
+    key = content_key(class_name, paths, overrides, [f"FMI {fmi}", *(target.name for target in targets)])
+    fmu = cached(key) if use_cache else None
+    if fmu is None:
+        fmu = _build_anew(class_name, paths, overrides, fmi, targets, key)
+    if output is None:
+        return fmu
+    try:
+        copy_whole(fmu, output)
+    except OSError as error:
+        raise BuildError(f"cannot write {output}: {error.strerror or error}; choose another place.") from error
+    return output
+
+
+def bundled_library() -> Path:
+    """The folder of our Modelica library: in a checkout beside this package, else installed with it."""
+    return Path(str(files("modelica").joinpath(BUNDLED_LIBRARY)))
+
+
+def _build_anew(
+    class_name: str,
+    libraries: Sequence[Path],
+    overrides: Mapping[str, float | str],
+    fmi: int,
+    targets: Sequence[Platform],
+    key: str,
+) -> Path:
+    """Build into the cache. The heavy imports are here: a model that is in the cache does not wait for them."""
+    _check_installation()
+    from .front import load
+    from .lower import lower
+    from .pack.fmu import pack
+
+    model = lower(load(class_name, libraries, overrides))
+    with tempfile.TemporaryDirectory(prefix="fmu_build-") as folder:
+        fmu = Path(folder) / "model.fmu"
+        pack(model, fmu, fmi=fmi, platforms=targets)
+        return store(key, fmu)
+
+
+def _check_installation() -> None:
+    missing = [package for name, package in _NEEDED.items() if importlib.util.find_spec(name) is None]
+    if missing:
+        raise BuildError(f"building an FMU needs {' and '.join(missing)}: pip install {' '.join(missing)}.")
+
+
+def _existing(libraries: Sequence[Path]) -> list[Path]:
+    paths = [Path(library) for library in libraries]
+    for path in paths:
+        if not path.exists():
+            raise BuildError(f"the library {path} does not exist; name a directory with a package.mo, or a .mo file.")
+    return paths

@@ -1,0 +1,92 @@
+"""The command `fmu-build`."""
+
+import argparse
+import os
+import sys
+import traceback
+from collections.abc import Sequence
+from pathlib import Path
+
+from .build import build
+from .errors import BuildError
+
+DONE, WRONG_USE, OUR_BUG = 0, 2, 3
+
+_EPILOG = """Example:
+  fmu-build HydraulicTestBench.Examples.PumpAngle -o pump.fmu --set parameters.K_P=12
+
+Platforms: x86_64-linux, x86_64-windows, x86_64-darwin, aarch64-linux, aarch64-darwin, host, all.
+The first build for a platform compiles the C library's start-up code: seconds, for Windows some minutes."""
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Exit code: 0 done, 2 wrong use or a model that cannot be built, 3 a mistake of ours."""
+    parser = _parser()
+    try:
+        arguments = parser.parse_args(argv)
+    except SystemExit as exit_:  # argparse has said what is wrong, or printed the help
+        return exit_.code if isinstance(exit_.code, int) else WRONG_USE
+    output = Path(arguments.output or f"{arguments.class_name}.fmu")
+    try:
+        path = build(
+            arguments.class_name,
+            output,
+            libraries=[Path(library) for library in arguments.library],
+            fmi=arguments.fmi,
+            platforms=arguments.platform or ["host"],
+            overrides=dict(_setting(text) for text in arguments.set),
+            use_cache=not arguments.no_cache,
+        )
+    except BuildError as error:
+        print(f"fmu-build: {error}", file=sys.stderr)
+        return WRONG_USE
+    except KeyboardInterrupt:
+        print("fmu-build: interrupted; nothing was written.", file=sys.stderr)
+        return WRONG_USE
+    except Exception as error:
+        return _report_our_bug(error)
+    print(path)
+    return DONE
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="fmu-build",
+        description="Compile a Modelica class to an FMU for model exchange and co-simulation.",
+        epilog=_EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument("class_name", metavar="CLASS", help="full name of the Modelica class")
+    parser.add_argument("-o", "--output", metavar="FILE", help="FMU to write (default: CLASS.fmu here)")
+    parser.add_argument(
+        "--library", metavar="DIR", action="append", default=[], help="another library: a directory, or a .mo file"
+    )
+    parser.add_argument("--fmi", type=int, choices=(2, 3), default=2, help="FMI version (default: 2)")
+    parser.add_argument("--platform", metavar="NAME", action="append", help="see below (default: host)")
+    parser.add_argument(
+        "--set", metavar="NAME=VALUE", action="append", default=[], help="start value of a parameter, in SI units"
+    )
+    parser.add_argument("--no-cache", action="store_true", help="build even if the same FMU has been built before")
+    return parser
+
+
+def _setting(text: str) -> tuple[str, float | str]:
+    """ "a.b=3" -> ("a.b", 3.0); what is no number is Modelica text, such as true."""
+    name, equals, value = (part.strip() for part in text.partition("="))
+    if not name or not equals or not value:
+        raise BuildError(f'--set {text}: expected NAME=VALUE, such as "--set parameters.K_P=12".')
+    try:
+        return name, float(value)
+    except ValueError:
+        return name, value
+
+
+def _report_our_bug(error: Exception) -> int:
+    print(
+        f"fmu-build: a mistake of ours, not of your model: {type(error).__name__}: {error}\n"
+        "Please report it with the class; HTB_DEBUG=1 shows where it happened.",
+        file=sys.stderr,
+    )
+    if os.environ.get("HTB_DEBUG"):
+        traceback.print_exc()
+    return OUR_BUG

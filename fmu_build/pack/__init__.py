@@ -1,0 +1,10 @@
+"""Packing: OdeModel -> compiled, zipped, checked .fmu.
+
+`pack` itself is in `pack.fmu`: it brings CasADi along, for which an FMU from the cache must not wait.
+"""
+
+from .archive import check_writable
+from .compiler import CompilerError
+from .platforms import PLATFORMS, Platform, host_platform, select_platforms
+
+__all__ = ["PLATFORMS", "CompilerError", "Platform", "check_writable", "host_platform", "select_platforms"]

@@ -1,0 +1,50 @@
+"""C sources to a shared library for any platform, by the C compiler in the Python package ziglang."""
+
+import importlib.util
+import subprocess
+from collections.abc import Sequence
+from pathlib import Path
+
+from ..errors import BuildError
+from .platforms import Platform
+
+FLAGS = (
+    *("-std=c11", "-Wall", "-Wextra", "-Wpedantic", "-Werror"),
+    *("-O3", "-fno-math-errno", "-fno-trapping-math"),  # safe ones: NaN, infinities and rounding stay as they are
+    *("-shared", "-fPIC", "-fvisibility=hidden"),
+    *("-g0", "-s", "-fno-sanitize=all"),  # no debug data, and so no paths of this machine, in the binary
+)
+_LONGEST_S = 900.0  # the very first build for Windows compiles zig's C library, some minutes on a slow machine
+
+
+class CompilerError(Exception):
+    """The compiler refused what we generated: our mistake, not the user's."""
+
+
+def compile_shared(folder: Path, sources: Sequence[str], platform: Platform, library: str) -> bytes:
+    """The bytes of a shared library called `library`, which is also left in `folder`.
+
+    Names are relative to `folder`, so the same sources give the same bytes wherever they lie.
+    """
+    command = [_zig(), "cc", "-target", platform.zig_target, *FLAGS, *sources, "-lm", "-o", library]
+    try:
+        done = subprocess.run(
+            command, cwd=folder, capture_output=True, text=True, errors="replace", timeout=_LONGEST_S, check=False
+        )
+    except OSError as error:
+        raise BuildError(f"the C compiler of ziglang cannot be started: {error}; reinstall it.") from error
+    if done.returncode:
+        raise CompilerError(f"{platform.name}: the C compiler failed.\n{done.stderr.strip()}")
+    return (folder / library).read_bytes()
+
+
+def _zig() -> str:
+    """The compiler's program; started directly, which saves the start of a second Python."""
+    spec = importlib.util.find_spec("ziglang")
+    if spec is None or not spec.submodule_search_locations:
+        raise BuildError("building an FMU needs the C compiler of the Python package ziglang: pip install ziglang.")
+    folder = Path(spec.submodule_search_locations[0])
+    for name in ("zig", "zig.exe"):
+        if (folder / name).exists():
+            return str(folder / name)
+    raise BuildError(f"the package ziglang in {folder} holds no compiler; reinstall it: pip install ziglang.")

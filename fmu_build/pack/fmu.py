@@ -1,0 +1,97 @@
+"""An OdeModel to a checked .fmu."""
+
+import hashlib
+import tempfile
+import uuid
+from collections.abc import Mapping, Sequence
+from itertools import groupby
+from pathlib import Path
+
+from ..emit import (
+    Description,
+    c_source,
+    complete_table,
+    fmi2_description,
+    fmi3_build_description,
+    fmi3_description,
+    model_identifier,
+)
+from ..errors import BuildError
+from ..lower.ode_model import OdeModel
+from .archive import check_writable, write_archive
+from .compiler import compile_shared
+from .documentation import documentation_page
+from .mach_o import fat_library
+from .platforms import Platform
+from .sources import compiled, source_files
+
+_NO_TOKEN = "{00000000-0000-0000-0000-000000000000}"
+_LICENSE = Path(__file__).with_name("license.txt")
+
+
+def pack(model: OdeModel, output: Path, *, fmi: int, platforms: Sequence[Platform]) -> None:
+    """Write the FMU of `model`; the same arguments give the same bytes.
+
+    Raises:
+        BuildError: the target cannot be written, a package is missing, or the FMU fails FMPy's validation.
+        CompilerError: the generated C does not compile.
+    """
+    check_writable(output)
+    model = complete_table(model)
+    sources = source_files(c_source(model, _NO_TOKEN), fmi)
+    members = _texts(model, sources, fmi)
+    token = _token(members)
+    blank, final = _NO_TOKEN.encode(), token.encode()
+    for path in ("modelDescription.xml", "sources/model.c"):
+        members[path] = members[path].replace(blank, final)
+    sources["model.c"] = members["sources/model.c"]
+    members |= _binaries(sources, model_identifier(model.name), fmi, platforms)
+    write_archive(output, members, _validate)
+
+
+def _texts(model: OdeModel, sources: Mapping[str, bytes], fmi: int) -> dict[str, bytes]:
+    """All members but the binaries, with `_NO_TOKEN` for the token."""
+    about = Description(_NO_TOKEN, model_identifier(model.name), compiled(sources))
+    describe = fmi2_description if fmi == 2 else fmi3_description
+    members = {f"sources/{name}": content for name, content in sources.items()}
+    members["modelDescription.xml"] = describe(model, about).encode()
+    members["documentation/index.html"] = documentation_page(model).encode()
+    members["documentation/licenses/license.txt"] = _LICENSE.read_bytes().replace(b"\r\n", b"\n")
+    if fmi == 3:
+        members["sources/buildDescription.xml"] = fmi3_build_description(about).encode()
+    return members
+
+
+def _token(members: Mapping[str, bytes]) -> str:
+    """The same content has the same token, another content another one."""
+    digest = hashlib.sha256()
+    for path, content in sorted(members.items()):
+        digest.update(f"{path}\0{len(content)}\0".encode() + content)
+    return "{" + str(uuid.UUID(bytes=digest.digest()[:16], version=5)) + "}"
+
+
+def _binaries(
+    sources: Mapping[str, bytes], identifier: str, fmi: int, platforms: Sequence[Platform]
+) -> dict[str, bytes]:
+    """Libraries by their place in the FMU; where platforms share a folder (FMI 2 on macOS), one for all of them."""
+    members = {}
+    with tempfile.TemporaryDirectory(prefix="fmu_build-") as name:
+        folder = Path(name)
+        for file, content in sources.items():
+            (folder / file).write_bytes(content)
+
+        def place(platform: Platform) -> str:
+            return f"binaries/{platform.folder(fmi)}/{identifier}{platform.suffix}"
+
+        for path, group in groupby(sorted(platforms, key=place), key=place):
+            names = compiled(sources)
+            members[path] = fat_library([compile_shared(folder, names, p, identifier + p.suffix) for p in group])
+    return members
+
+
+def _validate(path: Path) -> None:
+    from fmpy.validation import validate_fmu
+
+    problems = validate_fmu(str(path))
+    if problems:
+        raise BuildError("the FMU does not pass FMPy's validation: " + " ".join(problems))
