@@ -9,13 +9,15 @@ import pytest
 from fmu_build.emit import c_source, complete_table
 from fmu_build.emit.c_source import c_string
 from fmu_build.emit.functions import model_functions
+from fmu_build.emit.hoist import hoist_parameters
 from tests import ode_models
 from tests.generated_c import compile_shared, exported
 
 
 def functions_of(model, folder):
     model = complete_table(model)
-    sizes = {f.name: tuple(r.numel() for r in f.results) for f in model_functions(model)[1] if not f.is_empty}
+    functions = model_functions(hoist_parameters(model))[1]
+    sizes = {f.name: tuple(r.numel() for r in f.results) for f in functions if not f.is_empty}
     return exported(c_source(model, "token"), sizes, folder)
 
 
