@@ -1,0 +1,88 @@
+"""What makes a difference to the cache, and what does not."""
+
+import os
+
+import pytest
+
+from fmu_build import cache
+from fmu_build.cache import cache_folder, cached, content_key, store
+from fmu_build.errors import BuildError
+
+
+@pytest.fixture(autouse=True)
+def own_cache(tmp_path, monkeypatch):
+    monkeypatch.setenv("HTB_CACHE", str(tmp_path / "cache"))
+
+
+@pytest.fixture
+def library(tmp_path):
+    folder = tmp_path / "Library"
+    folder.mkdir()
+    (folder / "package.mo").write_text("package Library end Library;")
+    return folder
+
+
+def key(library, name="Library.A", overrides=None, options=("FMI 2",)):
+    return content_key(name, [library], overrides or {}, options)
+
+
+def test_everything_that_shapes_the_fmu_changes_the_key(library):
+    keys = [
+        key(library),
+        key(library, name="Library.B"),
+        key(library, overrides={"a": 1.0}),
+        key(library, overrides={"a": 2.0}),
+        key(library, options=["FMI 3"]),
+    ]
+    (library / "A.mo").write_text("model A end A;")
+    keys.append(key(library))
+    (library / "A.mo").rename(library / "B.mo")
+    keys.append(key(library))
+    assert len(set(keys)) == len(keys)
+
+
+def test_place_time_and_other_files_do_not_matter(library, tmp_path):
+    before = key(library)
+    os.utime(library / "package.mo", (0, 0))
+    (library / "notes.md").write_text("x")
+    moved = library.rename(tmp_path / "elsewhere")
+    assert key(moved) == before
+
+
+def test_an_fmu_comes_back(tmp_path):
+    (tmp_path / "a.fmu").write_bytes(b"content")
+    assert cached("k") is None
+    assert store("k", tmp_path / "a.fmu") == cached("k")
+    assert cached("k").read_bytes() == b"content"
+    assert cached("k").parent == cache_folder()
+
+
+def test_the_unused_go_first(tmp_path, monkeypatch):
+    (tmp_path / "a.fmu").write_bytes(b"content")
+    for k, name in enumerate("abc"):
+        os.utime(store(name, tmp_path / "a.fmu"), (k, k))
+    cached("a")  # used just now
+    monkeypatch.setattr(cache, "KEPT_FMUS", 2)
+    store("d", tmp_path / "a.fmu")
+    assert [cached(name) is not None for name in "abcd"] == [True, False, False, True]
+
+
+def test_a_cache_that_cannot_be_written_names_the_cure(tmp_path, monkeypatch):
+    (tmp_path / "file").touch()
+    monkeypatch.setenv("HTB_CACHE", str(tmp_path / "file" / "cache"))
+    with pytest.raises(BuildError, match="HTB_CACHE"):
+        store("k", tmp_path / "file")
+
+
+@pytest.mark.parametrize(
+    ("system", "variable", "tail"),
+    [
+        ("linux", "XDG_CACHE_HOME", ("hydraulic-test-bench", "fmu")),
+        ("win32", "LOCALAPPDATA", ("hydraulic-test-bench", "fmu")),
+    ],
+)
+def test_the_systems_own_place(monkeypatch, tmp_path, system, variable, tail):
+    monkeypatch.delenv("HTB_CACHE")
+    monkeypatch.setattr(cache.sys, "platform", system)
+    monkeypatch.setenv(variable, str(tmp_path))
+    assert cache_folder() == tmp_path.joinpath(*tail)

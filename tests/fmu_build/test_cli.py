@@ -1,0 +1,88 @@
+"""Exit codes and messages of `fmu-build`; the build itself is replaced by what a test needs."""
+
+from pathlib import Path
+
+import pytest
+
+from fmu_build import cli
+from fmu_build.errors import BuildError
+
+
+@pytest.fixture
+def calls(monkeypatch):
+    """Arguments of each call of `build`, which does nothing."""
+    found = []
+
+    def build(class_name, output, **options):
+        found.append((class_name, output, options))
+        return output
+
+    monkeypatch.setattr(cli, "build", build)
+    return found
+
+
+def test_arguments_arrive(calls, capsys):
+    command = ["A.B", "-o", "x.fmu", "--library", "L", "--library", "M.mo", "--fmi", "3", "--no-cache"]
+    command += ["--platform", "all", "--set", "a.b=3", "--set", "on = true"]
+    assert cli.main(command) == 0
+    options = {
+        "libraries": [Path("L"), Path("M.mo")],
+        "fmi": 3,
+        "platforms": ["all"],
+        "overrides": {"a.b": 3.0, "on": "true"},
+        "use_cache": False,
+    }
+    assert calls == [("A.B", Path("x.fmu"), options)]
+    assert capsys.readouterr().out.strip() == "x.fmu"
+
+
+def test_defaults(calls):
+    assert cli.main(["A.B"]) == 0
+    options = {"libraries": [], "fmi": 2, "platforms": ["host"], "overrides": {}, "use_cache": True}
+    assert calls == [("A.B", Path("A.B.fmu"), options)]
+
+
+@pytest.mark.parametrize(
+    ("command", "message"),
+    [
+        ([], "CLASS"),
+        (["A", "--fmi", "4"], "--fmi"),
+        (["A", "--set", "a"], "NAME=VALUE"),
+        (["A", "--set", "=3"], "NAME=VALUE"),
+        (["A", "--nonsense"], "--nonsense"),
+    ],
+)
+def test_wrong_use(calls, capsys, command, message):
+    assert cli.main(command) == 2
+    assert message in capsys.readouterr().err
+    assert not calls
+
+
+def test_help_is_no_mistake(capsys):
+    assert cli.main(["--help"]) == 0
+    assert "x86_64-windows" in capsys.readouterr().out
+
+
+def fail_with(monkeypatch, error):
+    def build(*arguments, **options):
+        raise error
+
+    monkeypatch.setattr(cli, "build", build)
+
+
+def test_a_bad_model_is_one_line_with_its_place(monkeypatch, capsys):
+    fail_with(monkeypatch, BuildError("unknown class C", Path("A.mo"), 7))
+    assert cli.main(["A"]) == 2
+    assert capsys.readouterr().err == "fmu-build: A.mo:7: unknown class C\n"
+
+
+def test_our_own_mistake_has_its_own_code(monkeypatch, capsys):
+    fail_with(monkeypatch, ZeroDivisionError("x"))
+    monkeypatch.delenv("HTB_DEBUG", raising=False)
+    assert cli.main(["A"]) == 3
+    error = capsys.readouterr().err
+    assert "ZeroDivisionError: x" in error
+    assert "Traceback" not in error
+    monkeypatch.setenv("HTB_DEBUG", "1")
+    assert cli.main(["A"]) == 3
+    assert "Traceback" in capsys.readouterr().err
