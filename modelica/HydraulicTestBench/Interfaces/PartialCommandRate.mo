@@ -1,0 +1,12 @@
+within HydraulicTestBench.Interfaces;
+partial block PartialCommandRate "Slot for the rate of the command"
+  extends Icons.Slot;
+  RealInput s(unit="%") "Command";
+  RealInput s_t(unit="%/s") "Its time derivative as far as it is known, 0 where it is not";
+  RealOutput rate(unit="%/s") "Time derivative of the command, for the PD controller";
+  annotation(Documentation(info="<html>
+<p>The PD controller differentiates the angle error (Eq. 3.17), and with it the command. How the rate is had is the law:
+one equation for <code>rate</code>.</p>
+<p><b>Source:</b> this library, for thesis Eq. 3.17.</p>
+</html>"));
+end PartialCommandRate;

@@ -1,0 +1,15 @@
+within HydraulicTestBench.Interfaces;
+partial block PartialCompressibility "Slot for what makes the oil in the two chambers softer"
+  extends Icons.Slot;
+  RealInput p1(unit="Pa") "Gauge pressure in chamber 1";
+  RealInput p2(unit="Pa") "Gauge pressure in chamber 2";
+  RealOutput kappa1(unit="1/Pa") "Compressibility added to 1/beta in chamber 1";
+  RealOutput kappa2(unit="1/Pa") "Compressibility added to 1/beta in chamber 2";
+  annotation(Documentation(info="<html>
+<p>In each chamber 1/&beta;<sub>eff</sub> = 1/&beta; + &kappa;. Both chambers hold the same oil, so one class with one
+parameter serves both; the law is two equations. In the base model &kappa; = 0 and &beta;<sub>eff</sub> = &beta;. The
+pressures are gauge: a law in absolute pressure adds that of the surrounding air.</p>
+<p><b>Source:</b> thesis Eq. 3.4 and 3.5.</p>
+<p><b>Used by:</b> <code>oil</code> of <code>Pump.SwashPlateControl</code>.</p>
+</html>"));
+end PartialCompressibility;

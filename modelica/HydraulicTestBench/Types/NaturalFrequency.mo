@@ -1,0 +1,8 @@
+within HydraulicTestBench.Types;
+type NaturalFrequency = Real(
+    final quantity="AngularVelocity", final unit="rad/s", displayUnit="Hz",
+    min=0, nominal=100) "Natural frequency, undamped"
+  annotation(Documentation(info="<html>
+<p>The thesis gives it in Hz (Table 4.6); Eq. 3.19 takes rad/s.</p>
+<p><b>Source:</b> thesis; the numbers inside a model are SI units.</p>
+</html>"));

@@ -1,0 +1,8 @@
+within HydraulicTestBench.Types;
+type Percent = Real(
+    final quantity="Percent", final unit="%",
+    nominal=10) "Share of full deflection in percent"
+  annotation(Documentation(info="<html>
+<p>The bench commands and logs the swash plate angle in percent of 15 degrees.</p>
+<p><b>Source:</b> thesis, nomenclature; the numbers inside a model are SI units.</p>
+</html>"));
