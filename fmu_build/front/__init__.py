@@ -1,0 +1,38 @@
+"""Front end: Modelica text -> FlatModel."""
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+from fmu_build.front.flat_model import FlatModel
+from fmu_build.front.session import compile_class
+from fmu_build.front.source import find_class
+
+__all__ = ["FlatModel", "load"]
+
+NO_OVERRIDES: Mapping[str, float | str] = {}
+
+
+def load(class_name: str, libraries: Sequence[Path], overrides: Mapping[str, float | str] = NO_OVERRIDES) -> FlatModel:
+    """Compile a Modelica class to one flat system of equations.
+
+    Args:
+        class_name: full name, such as `HydraulicTestBench.Examples.PumpAngle`.
+        libraries: directories with a package.mo, or single .mo files.
+        overrides: parameter values by name inside the class, in SI units; a text is taken as Modelica.
+    Raises:
+        BuildError: the class is unknown, wrong, unbalanced, or outside the supported subset (SUBSET.md).
+    """
+    from fmu_build.front.rumoca_form import to_flat_model
+
+    paths = [Path(library) for library in libraries]
+    source = find_class(class_name, paths)
+    dae, flat = compile_class(source, paths, overrides)
+    return to_flat_model(
+        dae,
+        flat,
+        name=class_name,
+        span=source.span,
+        experiment=source.experiment,
+        documentation=source.documentation,
+        description=source.description,
+    )

@@ -1,0 +1,42 @@
+"""rumoca's function bodies -> `Function`."""
+
+from collections.abc import Mapping
+from typing import Any
+
+from fmu_build.errors import BuildError
+from fmu_build.front.flat_model import Assignment, ForStatement, Function
+from fmu_build.front.rumoca_form.expressions import Arena
+from fmu_build.front.rumoca_form.places import Places
+
+
+def convert_function(form: Mapping[str, Any], storage: Mapping[str, Any], arena: Arena, places: Places) -> Function:
+    span = places.span(form["declaration"])
+    if form["external"] is not None:
+        raise BuildError(f"function {form['name']} is external; write it in Modelica", span.file, span.line)
+    types = storage["value_types"]
+    local = (*form["outputs"], *form["locals"])
+    return Function(
+        form["name"],
+        len(form["parameters"]),
+        len(form["outputs"]),
+        tuple(tuple(types[variable["value_type"]]["dimensions"]) for variable in local),
+        tuple(_statement(statement, arena, places) for statement in form["statements"]),
+        span,
+    )
+
+
+def _statement(form: Mapping[str, Any], arena: Arena, places: Places) -> Assignment | ForStatement:
+    ((kind, what),) = form.items()
+    if kind == "assignment":
+        value = arena.expression(what["rhs"])
+        return Assignment((what["target"],), (value,), value.span)
+    if kind == "assignment_group":
+        values = tuple(arena.expression(item["rhs"]) for item in what["assignments"])
+        return Assignment(tuple(item["target"] for item in what["assignments"]), values, values[0].span)
+    if kind == "for":
+        span = places.span(what["begin_provenance"])
+        if what["iteration_locals"]:
+            raise BuildError("a variable local to one loop iteration is not supported", span.file, span.line)
+        statements = tuple(_statement(item, arena, places) for item in what["statements"])
+        return ForStatement(what["domain"], tuple(what["targets"]), statements, span)
+    raise BuildError(f"statement of kind '{kind}' in a function is not supported")

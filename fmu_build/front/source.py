@@ -1,0 +1,161 @@
+"""Finds a class in libraries and files, and reads its annotations, which rumoca does not pass on."""
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from fmu_build.errors import BuildError
+from fmu_build.front.expression import Span
+from fmu_build.front.flat_model import Experiment
+
+CLASS_KINDS = "model|block|class|package|connector|record|function|type|operator"
+TOKEN = re.compile(
+    r'"(?:\\.|[^"\\])*"|//[^\n]*|/\*.*?\*/|[A-Za-z_]\w*|\'[^\']*\'|\d[\d.]*(?:[eE][+-]?\d+)?|\S', re.DOTALL
+)
+
+
+@dataclass(frozen=True)
+class ClassSource:
+    """Where a class is written; `is_single_file` where its file is no part of a library directory."""
+
+    name: str
+    file: Path
+    line: int
+    text: str
+    is_single_file: bool
+    description: str
+    annotation: tuple[str, ...]  # tokens between the annotation's parentheses
+
+    @property
+    def span(self) -> Span:
+        return Span(self.file, self.line)
+
+    @property
+    def experiment(self) -> Experiment:
+        values = _named_numbers(_call_arguments(self.annotation, "experiment"))
+        return Experiment(
+            start=values.get("StartTime"),
+            stop=values.get("StopTime"),
+            tolerance=values.get("Tolerance"),
+            interval=values.get("Interval"),
+        )
+
+    @property
+    def documentation(self) -> str:
+        """HTML of the Documentation annotation, empty where there is none."""
+        tokens = _call_arguments(self.annotation, "Documentation")
+        for at, token in enumerate(tokens[:-2]):
+            if token == "info" and tokens[at + 1] == "=":
+                return "".join(_text(part) for part in tokens[at + 2 :] if part.startswith('"'))
+        return ""
+
+
+def find_class(name: str, libraries: Sequence[Path]) -> ClassSource:
+    """Look the class up by its full name.
+
+    Raises:
+        BuildError: no library holds it.
+    """
+    parts = name.split(".")
+    for library in libraries:
+        if not library.exists():
+            raise BuildError(f"library {library} does not exist")
+        if library.is_dir() and not (library / "package.mo").is_file():
+            raise BuildError(f"{library} is no Modelica library: it has no package.mo")
+        if library.is_dir() and library.name == parts[0]:
+            file, inside = _file_in_library(library, parts[1:])
+            return _read(name, file, inside or [parts[-1]], False)
+        if library.is_file() and re.search(rf"\b(?:{CLASS_KINDS})\s+{re.escape(parts[0])}\b", _load(library)):
+            return _read(name, library, parts, True)
+    where = ", ".join(str(library) for library in libraries) or "no library"
+    raise BuildError(f"class {name} is not in {where}; give its full name, and its library or file")
+
+
+def _file_in_library(library: Path, parts: list[str]) -> tuple[Path, list[str]]:
+    """The file that holds the class, and the names to follow inside it."""
+    folder = library
+    for depth, part in enumerate(parts):
+        if (folder / part / "package.mo").is_file():
+            folder = folder / part
+        elif (folder / f"{part}.mo").is_file():
+            return folder / f"{part}.mo", parts[depth:]
+        else:
+            return folder / "package.mo", [folder.name, *parts[depth:]]
+    return folder / "package.mo", [folder.name]
+
+
+def _load(file: Path) -> str:
+    try:
+        return file.read_text(encoding="utf-8-sig")
+    except (OSError, UnicodeDecodeError) as failure:
+        raise BuildError(f"cannot be read as UTF-8 text: {failure}", file) from None
+
+
+def _read(name: str, file: Path, path: list[str], is_single_file: bool) -> ClassSource:
+    text = _load(file)
+    tokens = [(match.group(), match.start()) for match in TOKEN.finditer(text)]
+    tokens = [token for token in tokens if not token[0].startswith(("//", "/*"))]
+    begin, end = 0, len(tokens)
+    for part in path:
+        found = _class_range(tokens, part, begin, end)
+        if found is None:
+            raise BuildError(f"class {name} is not here: there is no {part}", file)
+        begin, end = found
+    line = text.count("\n", 0, tokens[begin][1]) + 1
+    words = [token for token, _ in tokens[begin:end]]
+    description = "".join(_text(word) for word in words[2:3] if word.startswith('"'))
+    return ClassSource(name, file, line, text, is_single_file, description, _own_annotation(words))
+
+
+def _class_range(tokens: list[tuple[str, int]], name: str, begin: int, end: int) -> tuple[int, int] | None:
+    """Token range from the class keyword to `end name`."""
+    kinds = CLASS_KINDS.split("|")
+    for at in range(begin, end - 1):
+        if tokens[at][0] in kinds and tokens[at + 1][0] == name and (at == 0 or tokens[at - 1][0] != "end"):
+            for stop in range(at + 2, end - 1):
+                if tokens[stop][0] == "end" and tokens[stop + 1][0] == name:
+                    return at, stop
+            return at, end
+    return None
+
+
+def _own_annotation(words: list[str]) -> tuple[str, ...]:
+    """Arguments of the last `annotation (...)` followed by nothing but the end of the class."""
+    for at in range(len(words) - 1, 0, -1):
+        if words[at] == "annotation":
+            arguments = _call_arguments(tuple(words[at:]), "annotation")
+            rest = words[at + len(arguments) + 3 :]
+            return arguments if rest in ([";"], []) else ()
+    return ()
+
+
+def _call_arguments(tokens: tuple[str, ...], name: str) -> tuple[str, ...]:
+    """Tokens between the parentheses after the first `name (`."""
+    for at in range(len(tokens) - 1):
+        if tokens[at] == name and tokens[at + 1] == "(":
+            depth = 0
+            for stop in range(at + 1, len(tokens)):
+                depth += {"(": 1, ")": -1}.get(tokens[stop], 0)
+                if depth == 0:
+                    return tokens[at + 2 : stop]
+    return ()
+
+
+def _named_numbers(tokens: tuple[str, ...]) -> dict[str, float]:
+    """`StopTime = 2, Tolerance = 1e-6` -> numbers by name; other values are left out."""
+    numbers = {}
+    for at in range(len(tokens) - 2):
+        if tokens[at + 1] == "=":
+            value = tokens[at + 2] if tokens[at + 2] not in "+-" else "".join(tokens[at + 2 : at + 4])
+            try:
+                numbers[tokens[at]] = float(value)
+            except ValueError:
+                continue
+    return numbers
+
+
+def _text(token: str) -> str:
+    """A Modelica string without its quotes and escapes."""
+    escapes = {"n": "\n", "t": "\t"}
+    return re.sub(r"\\(.)", lambda match: escapes.get(match.group(1), match.group(1)), token[1:-1], flags=re.DOTALL)
