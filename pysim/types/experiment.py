@@ -25,8 +25,9 @@ class Experiment:
         inputs: input name -> Signal, in the input's unit; an input not named keeps its start value.
         overrides: parameter or start value -> number, in the variable's unit; set before initialisation.
         start: s, not after times[0].
+        rates: input -> another input that is driven: the first carries the exact derivative, per s, of the second.
     Raises:
-        BadInput: times that do not increase, or nothing to record.
+        BadInput: times that do not increase, nothing to record, or the rate of an input that is not driven.
     """
 
     times: Array
@@ -34,6 +35,7 @@ class Experiment:
     inputs: Mapping[str, Signal] = field(default_factory=dict)
     overrides: Mapping[str, float] = field(default_factory=dict)
     start: float = 0.0
+    rates: Mapping[str, str] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         times = np.array(self.times, dtype=np.float64)
@@ -41,12 +43,16 @@ class Experiment:
         object.__setattr__(self, "times", times)
         object.__setattr__(self, "inputs", MappingProxyType(dict(self.inputs)))
         object.__setattr__(self, "overrides", MappingProxyType(dict(self.overrides)))
+        object.__setattr__(self, "rates", MappingProxyType(dict(self.rates)))
         if times.ndim != 1 or times.size == 0 or np.any(np.diff(times) <= 0) or not np.isfinite(times).all():
             raise BadInput("experiment: times must be a non-empty row of finite, increasing numbers")
         if times[0] < self.start:
             raise BadInput(f"experiment: the first time {times[0]} s lies before the start {self.start} s")
         if not self.record:
             raise BadInput("experiment: name at least one variable to record")
+        for name, of in self.rates.items():
+            if of not in self.inputs or name in self.inputs:
+                raise BadInput(f"experiment: {name!r} can be the rate of an input only, and have no signal of its own; got {of!r}")
 
     def override(self, **values: float) -> Experiment:
         """The same experiment with more parameters set."""

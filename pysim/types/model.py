@@ -40,6 +40,9 @@ class Abilities:
     event_indicators: int
     states: tuple[str, ...]  # names, in the order of the state vector
     derivatives: tuple[str, ...]  # names, same order
+    library: str = ""  # modelIdentifier of the shared library
+    needs_completed_step: bool = True  # wants to be told of every accepted step
+    single_instance: bool = False  # at most one instance per process
 
 
 @dataclass(frozen=True)

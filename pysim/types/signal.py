@@ -11,6 +11,9 @@ from pysim.types.errors import BadInput
 
 Array = NDArray[np.float64]
 
+# Pieces computed one by one in double precision meet within this share of the largest value.
+_ROUNDING = 1e-9
+
 
 @dataclass(frozen=True)
 class Signal:
@@ -52,25 +55,43 @@ class Signal:
         if np.any(np.diff(self.starts) <= 0):
             raise BadInput("signal pieces: starts must increase")
 
+    def value(self, t: Array) -> Array:
+        """The signal at times t (n_t,) in s, in its own unit; to the right of a jump."""
+        return self._value(*self._locate(t))
+
+    def derivative(self, t: Array) -> Array:
+        """The signal's rate at times t (n_t,) in s, in its unit per s; to the right of a kink."""
+        return np.where(np.asarray(t) < self.starts[0], 0.0, self._rate(*self._locate(t)))
+
+    def breaks(self) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+        """Per piece (n_k,), whether the value jumps and whether the rate jumps where the piece starts."""
+        k, at_start, at_end = np.arange(self.starts.size), np.zeros(self.starts.size), np.diff(self.starts)
+        value, rate = self._value(k, at_start), self._rate(k, at_start)
+        value_before = np.concatenate([value[:1], self._value(k[:-1], at_end)])
+        rate_before = np.concatenate([[0.0], self._rate(k[:-1], at_end)])
+        return _differ(value_before, value), _differ(rate_before, rate)
+
     def _locate(self, t: Array) -> tuple[NDArray[np.intp], Array]:
+        """Piece and time within it."""
+        t = np.asarray(t, dtype=np.float64)
         k = np.maximum(np.searchsorted(self.starts, t, side="right") - 1, 0)
         return k, np.maximum(t - self.starts[k], 0.0)
 
-    def value(self, t: Array) -> Array:
-        """The signal at times t (n_t,) in s, in its own unit."""
-        k, s = self._locate(np.asarray(t, dtype=np.float64))
+    def _value(self, k: NDArray[np.intp], s: Array) -> Array:
         a, phi, omega, kappa = np.moveaxis(self.sines[k], -1, 0)
         waves = a * np.sin(phi + (omega + 0.5 * kappa * s[..., None]) * s[..., None])
         c = self.cubics[k]
         return c[..., 0] + s * (c[..., 1] + s * (c[..., 2] + s * c[..., 3])) + waves.sum(axis=-1)
 
-    def derivative(self, t: Array) -> Array:
-        """The signal's rate at times t (n_t,) in s, in its unit per s; to the right of a kink."""
-        t = np.asarray(t, dtype=np.float64)
-        k, s = self._locate(t)
+    def _rate(self, k: NDArray[np.intp], s: Array) -> Array:
         a, phi, omega, kappa = np.moveaxis(self.sines[k], -1, 0)
         rate = omega + kappa * s[..., None]
         waves = a * rate * np.cos(phi + (omega + 0.5 * kappa * s[..., None]) * s[..., None])
         c = self.cubics[k]
-        inside = c[..., 1] + s * (2 * c[..., 2] + 3 * s * c[..., 3]) + waves.sum(axis=-1)
-        return np.where(t < self.starts[0], 0.0, inside)
+        return c[..., 1] + s * (2 * c[..., 2] + 3 * s * c[..., 3]) + waves.sum(axis=-1)
+
+
+def _differ(before: Array, after: Array) -> NDArray[np.bool_]:
+    """Whether two rows differ by more than the rounding of the pieces they were computed from."""
+    scale = max(np.max(np.abs(before)), np.max(np.abs(after)))
+    return np.abs(after - before) > _ROUNDING * scale

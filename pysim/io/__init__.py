@@ -1,0 +1,8 @@
+"""Files in and out: .fmu, csv, npz."""
+
+from pysim.io.archive import extracted
+from pysim.io.cache import cache_folder
+from pysim.io.dataset import read_dataset
+from pysim.io.fmu import read_model
+
+__all__ = ["cache_folder", "extracted", "read_dataset", "read_model"]

@@ -1,0 +1,57 @@
+"""Unpack an FMU once, into a folder named after its content."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import shutil
+import tempfile
+import zipfile
+from functools import lru_cache
+from pathlib import Path, PurePosixPath, PureWindowsPath
+
+from pysim.io.cache import cache_folder
+from pysim.types import BadInput
+
+
+def extracted(path: Path) -> Path:
+    """The folder with the unpacked FMU. The same content is unpacked once per machine.
+
+    Raises:
+        BadInput: not a zip archive, or a member that would land outside the folder.
+    """
+    stat = path.stat()
+    return _extracted(path.resolve(), stat.st_mtime_ns, stat.st_size)
+
+
+@lru_cache(maxsize=64)
+def _extracted(path: Path, _modified: int, _size: int) -> Path:
+    folder = cache_folder("fmu") / hashlib.sha256(path.read_bytes()).hexdigest()[:32]
+    if not folder.is_dir():
+        _unpack(path, folder)
+    return folder
+
+
+def _unpack(path: Path, folder: Path) -> None:
+    """Unpack beside the target and rename, so that a folder that exists is always complete."""
+    partial = Path(tempfile.mkdtemp(prefix="unpack-", dir=folder.parent))
+    try:
+        with zipfile.ZipFile(path) as archive:
+            for member in archive.infolist():
+                _check_member(path, member.filename)
+            archive.extractall(partial)
+        os.replace(partial, folder)
+    except zipfile.BadZipFile as error:
+        raise BadInput(f"{path} is not an FMU: {error}; export it again") from error
+    except OSError:
+        if not folder.is_dir():  # else another process was faster
+            raise
+    finally:
+        shutil.rmtree(partial, ignore_errors=True)
+
+
+def _check_member(path: Path, name: str) -> None:
+    """Refuse names that leave the folder, by the rules of either family of systems."""
+    parts = PurePosixPath(name.replace("\\", "/"))
+    if parts.is_absolute() or ".." in parts.parts or PureWindowsPath(name).drive:
+        raise BadInput(f"{path} holds a file named {name!r}, which would be written outside its folder: do not use it")

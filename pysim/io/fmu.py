@@ -1,0 +1,97 @@
+"""Read what an FMU says of itself."""
+
+from __future__ import annotations
+
+import zipfile
+import xml.etree.ElementTree as ElementTree
+from pathlib import Path
+
+from fmpy.model_description import ModelDescription, ModelVariable, read_model_description
+
+from pysim.types import Abilities, BadInput, Model, Variable
+
+
+def read_model(path: Path | str) -> Model:
+    """Read the variable table and the abilities of an FMU (FMI 2.0 or 3.0). Loads and extracts nothing.
+
+    Raises:
+        BadInput: no such file, not an FMU, or FMI 1.0.
+    """
+    path = Path(path)
+    if not path.is_file():
+        raise BadInput(f"no FMU at {path}")
+    try:
+        description = read_model_description(str(path), validate=False)
+    except (zipfile.BadZipFile, KeyError) as error:
+        raise BadInput(f"{path} is not an FMU: {error}") from error
+    except Exception as error:  # FMPy raises bare exceptions for whatever it cannot read
+        raise BadInput(f"{path}: its modelDescription.xml cannot be read: {error}") from error
+    if description.fmiMajorVersion not in (2, 3):
+        raise BadInput(f"{path} is an FMI {description.fmiVersion} FMU; export it as FMI 2.0 or 3.0")
+    return Model(
+        path=path.resolve(),
+        name=description.modelName,
+        token=description.guid,
+        variables=tuple(_variable(v) for v in description.modelVariables),
+        abilities=_abilities(description, path),
+    )
+
+
+def _variable(v: ModelVariable) -> Variable:
+    return Variable(
+        name=v.name,
+        reference=v.valueReference,
+        type=v.type,
+        causality=v.causality or "local",
+        variability=v.variability or "continuous",
+        start=_number(v.start),
+        unit=v.unit or _declared(v, "unit") or "1",
+        display_unit=v.displayUnit or _declared(v, "displayUnit"),
+        description=v.description or "",
+        min=_number(v.min or _declared(v, "min")),
+        max=_number(v.max or _declared(v, "max")),
+        nominal=_number(v.nominal or _declared(v, "nominal")),
+        derivative_of=v.derivative.name if v.derivative is not None else None,
+    )
+
+
+def _declared(v: ModelVariable, attribute: str) -> str | None:
+    """An attribute the variable takes from its type definition."""
+    return getattr(v.declaredType, attribute) if v.declaredType is not None else None
+
+
+def _number(text: str | None) -> float | None:
+    """An attribute as a number; None where there is none, or where it is a string or an array."""
+    if text in ("true", "false"):
+        return float(text == "true")
+    try:
+        return None if text is None else float(text)
+    except ValueError:
+        return None
+
+
+def _abilities(d: ModelDescription, path: Path) -> Abilities:
+    kind = d.modelExchange or d.coSimulation
+    if kind is None:
+        raise BadInput(f"{path} offers neither model exchange nor co-simulation; export it with one of them")
+    derivatives = [u.variable for u in d.derivatives]
+    return Abilities(
+        fmi=d.fmiMajorVersion,
+        model_exchange=d.modelExchange is not None,
+        co_simulation=d.coSimulation is not None,
+        directional_derivatives=kind.providesDirectionalDerivative or _provides_derivatives_3(path, type(kind).__name__),
+        state_handling=kind.canGetAndSetFMUstate,
+        event_indicators=d.numberOfEventIndicators,
+        states=tuple(v.derivative.name for v in derivatives),
+        derivatives=tuple(v.name for v in derivatives),
+        library=kind.modelIdentifier,
+        needs_completed_step=getattr(kind, "needsCompletedIntegratorStep", False),
+        single_instance=kind.canBeInstantiatedOnlyOncePerProcess,
+    )
+
+
+def _provides_derivatives_3(path: Path, kind: str) -> bool:
+    """FMI 3 writes providesDirectionalDerivatives, with an s that FMPy 0.3.32 does not look for."""
+    with zipfile.ZipFile(path) as archive:
+        element = ElementTree.fromstring(archive.read("modelDescription.xml")).find(kind)
+    return element is not None and element.get("providesDirectionalDerivatives") in ("true", "1")

@@ -1,0 +1,9 @@
+"""Run FMUs fast: one compiled loop that calls the FMU's own functions."""
+
+from pysim.simulate._base import Solver
+from pysim.simulate._many import simulate_many
+from pysim.simulate._run import simulate
+from pysim.simulate.rk4 import Rk4
+from pysim.simulate.rk45 import Rk45
+
+__all__ = ["Rk4", "Rk45", "Solver", "simulate", "simulate_many"]
