@@ -1,0 +1,112 @@
+#include "integrate.h"
+
+#include <float.h>
+#include <math.h>
+
+#include "crossing.h"
+#include "delay.h"
+#include "evaluate.h"
+#include "events.h"
+#include "rodas.h"
+
+static const double SAFETY = 0.9, GROWTH = 6.0, SHRINK = 0.2;
+static const double SHRINK_AFTER_FAILURE = 0.25;
+static const double STRETCH = 1.1; /* a step may be this much longer, so that no tiny one is left before the limit */
+static const double FIRST_STEP = 1e-6; /* s, where values and derivatives give no scale */
+enum { HISTORY_POINTS = 4 };           /* per step, for delay() */
+
+static double scaled_size(const Instance *s, const double *values) {
+    double sum = 0.0;
+    for (size_t k = 0; k < s->model->n_x; k++) {
+        const double ratio = values[k] / (s->model->nominal_x[k] + fabs(s->x[k]));
+        sum += ratio * ratio;
+    }
+    return sqrt(sum / (double)s->model->n_x);
+}
+
+/* First proposal: 1 percent of the time in which the states would change by their own size. */
+static double first_step(Instance *s, double limit) {
+    const double whole = limit - *s->t;
+    if (s->model->n_x == 0 || evaluate_derivatives(s) != STATUS_OK) return whole;
+    const double size = scaled_size(s, s->x), speed = scaled_size(s, s->dx);
+    const double step = size > 1e-5 && speed > 1e-5 ? 0.01 * size / speed : FIRST_STEP;
+    return fmin(whole, step);
+}
+
+static double smallest_step(const Instance *s) { return 16.0 * DBL_EPSILON * fmax(fabs(*s->t), DBL_MIN / DBL_EPSILON); }
+
+/* Where the next step ends: the limit itself if that is near. */
+static double step_end(const Instance *s, double limit) {
+    const double begin = s->integrator.begin;
+    const double step = fmin(s->memory->step_size, delay_smallest(s));
+    if (begin + STRETCH * step >= limit) return limit;
+    return begin + 2.0 * step >= limit ? begin + 0.5 * (limit - begin) : begin + step;
+}
+
+static double next_step_size(double step, double error, bool after_rejection) {
+    const double factor = SAFETY * pow(fmax(error, 1e-10), -1.0 / RODAS_ORDER);
+    return step * fmin(after_rejection ? 1.0 : GROWTH, fmax(SHRINK, factor));
+}
+
+static Status give_up(Instance *s, double step, bool evaluated) {
+    if (evaluated)
+        log_message(s, LOG_DISCARD, "At time %.16g s even a step of %.3g s misses the tolerance of %.3g.",
+                    s->integrator.begin, step, s->memory->tolerance);
+    else
+        log_message(s, LOG_DISCARD, "At time %.16g s even a step of %.3g s cannot be evaluated.", s->integrator.begin, step);
+    return STATUS_DISCARD;
+}
+
+/* One trial: OK if it is accepted, Discard if a smaller step must be tried. */
+static Status try_step(Instance *s, double end, bool *evaluated, double *error, bool *event) {
+    s->log.quiet = true;
+    Status status = rodas_try(s, end, error);
+    *evaluated = status == STATUS_OK;
+    if (*evaluated && *error > 1.0) status = STATUS_DISCARD;
+    if (status == STATUS_OK) {
+        status = crossing_locate(s, event);
+        *evaluated = status == STATUS_OK;
+    }
+    s->log.quiet = false;
+    return status;
+}
+
+static Status accepted_step(Instance *s, double limit, bool *event) {
+    Memory *memory = s->memory;
+    bool rejected = false;
+    for (;;) {
+        const double end = step_end(s, limit), step = end - s->integrator.begin;
+        bool evaluated = false;
+        double error = 0.0;
+        if (try_step(s, end, &evaluated, &error, event) == STATUS_OK) {
+            const double next = next_step_size(step, error, rejected);
+            memory->step_size = step < memory->step_size ? fmax(next, memory->step_size) : next;
+            return STATUS_OK;
+        }
+        rejected = true;
+        memory->step_size = evaluated ? next_step_size(step, error, true) : SHRINK_AFTER_FAILURE * step;
+        if (memory->step_size < smallest_step(s)) return give_up(s, step, evaluated);
+    }
+}
+
+/* Adds points of the accepted step, up to the present time, to the histories. */
+static Status record_history(Instance *s) {
+    if (s->model->n_v == 0) return STATUS_OK;
+    const IntegratorWork *w = &s->integrator;
+    const double reached = (*s->t - w->begin) / (w->end - w->begin);
+    Status status = STATUS_OK;
+    for (int k = 1; k <= HISTORY_POINTS && status == STATUS_OK; k++) {
+        rodas_move(s, k < HISTORY_POINTS ? reached * k / HISTORY_POINTS : reached);
+        status = delay_record(s, false);
+    }
+    return status;
+}
+
+Status integrate_step(Instance *s, double limit, bool *event) {
+    *event = false;
+    if (s->memory->step_size <= 0.0) s->memory->step_size = first_step(s, limit);
+    Status status = rodas_begin(s);
+    if (status == STATUS_OK) status = accepted_step(s, limit, event);
+    if (status == STATUS_OK) status = record_history(s);
+    return status == STATUS_OK ? events_check(s) : status;
+}

@@ -1,0 +1,17 @@
+/* Dense linear systems, column-major, without allocation. */
+#ifndef LINEAR_H
+#define LINEAR_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+/* Factors the n x n matrix in place (LU, partial pivoting); false if it is singular or not finite. */
+bool lu_factor(size_t n, double *matrix, int *pivot);
+
+/* Solves A x = b in place, with A as left by lu_factor. */
+void lu_solve(size_t n, const double *lu, const int *pivot, double *b);
+
+/* Solves the transposed system A' x = b in place. */
+void lu_solve_transposed(size_t n, const double *lu, const int *pivot, double *b);
+
+#endif
