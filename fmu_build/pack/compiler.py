@@ -21,21 +21,37 @@ class CompilerError(Exception):
     """The compiler refused what we generated: our mistake, not the user's."""
 
 
-def compile_shared(folder: Path, sources: Sequence[str], platform: Platform, library: str) -> bytes:
-    """The bytes of a shared library called `library`, which is also left in `folder`.
+def compile_shared(sources: Sequence[Path], includes: Sequence[Path], platform: Platform, library: Path) -> bytes:
+    """The bytes of a shared library made of absolute `sources`; it is also left at `library`.
 
-    Names are relative to `folder`, so the same sources give the same bytes wherever they lie.
+    The compiler works in the folder of the last source: zig remembers what it has compiled by the working folder, and
+    one that stays the same spares compiling the run-time system for each model. No path gets into the library.
     """
-    command = [_zig(), "cc", "-target", platform.zig_target, *FLAGS, *sources, "-lm", "-o", library]
+    command = [_zig(), "cc", "-target", platform.zig_target, *FLAGS, *_linker_flags(platform, library)]
+    command += [f"-I{folder}" for folder in includes] + [str(source) for source in sources]
     try:
         done = subprocess.run(
-            command, cwd=folder, capture_output=True, text=True, errors="replace", timeout=_LONGEST_S, check=False
+            [*command, "-lm", "-o", str(library)],
+            cwd=sources[-1].parent,
+            capture_output=True,
+            text=True,
+            errors="replace",
+            timeout=_LONGEST_S,
+            check=False,
         )
     except OSError as error:
         raise BuildError(f"the C compiler of ziglang cannot be started: {error}; reinstall it.") from error
     if done.returncode:
         raise CompilerError(f"{platform.name}: the C compiler failed.\n{done.stderr.strip()}")
-    return (folder / library).read_bytes()
+    return library.read_bytes()
+
+
+def _linker_flags(platform: Platform, library: Path) -> list[str]:
+    if platform.suffix == ".so":
+        return ["-Wl,-z,defs"]  # elsewhere a missing symbol is an error anyway
+    if platform.suffix == ".dylib":
+        return [f"-Wl,-install_name,@rpath/{library.name}"]  # else the whole path is kept inside
+    return []
 
 
 def _zig() -> str:

@@ -23,7 +23,7 @@ from .compiler import compile_shared
 from .documentation import documentation_page
 from .mach_o import fat_library
 from .platforms import Platform
-from .sources import compiled, source_files
+from .sources import Sources, sources_for
 
 _NO_TOKEN = "{00000000-0000-0000-0000-000000000000}"
 _LICENSE = Path(__file__).with_name("license.txt")
@@ -38,22 +38,23 @@ def pack(model: OdeModel, output: Path, *, fmi: int, platforms: Sequence[Platfor
     """
     check_writable(output)
     model = complete_table(model)
-    sources = source_files(c_source(model, _NO_TOKEN), fmi)
+    sources = sources_for(fmi)
     members = _texts(model, sources, fmi)
     token = _token(members)
-    blank, final = _NO_TOKEN.encode(), token.encode()
     for path in ("modelDescription.xml", "sources/model.c"):
-        members[path] = members[path].replace(blank, final)
-    sources["model.c"] = members["sources/model.c"]
-    members |= _binaries(sources, model_identifier(model.name), fmi, platforms)
+        members[path] = members[path].replace(_NO_TOKEN.encode(), token.encode())
+    model_c = members["sources/model.c"]
+    members |= _binaries(model_c, sources, model_identifier(model.name), fmi, platforms)
     write_archive(output, members, _validate)
 
 
-def _texts(model: OdeModel, sources: Mapping[str, bytes], fmi: int) -> dict[str, bytes]:
+def _texts(model: OdeModel, sources: Sources, fmi: int) -> dict[str, bytes]:
     """All members but the binaries, with `_NO_TOKEN` for the token."""
-    about = Description(_NO_TOKEN, model_identifier(model.name), compiled(sources))
+    files = ("model.c", *(path.name for path in sources.compiled))
+    about = Description(_NO_TOKEN, model_identifier(model.name), files)
     describe = fmi2_description if fmi == 2 else fmi3_description
-    members = {f"sources/{name}": content for name, content in sources.items()}
+    members = {f"sources/{name}": content for name, content in sources.contents().items()}
+    members["sources/model.c"] = c_source(model, _NO_TOKEN).encode()
     members["modelDescription.xml"] = describe(model, about).encode()
     members["documentation/index.html"] = documentation_page(model).encode()
     members["documentation/licenses/license.txt"] = _LICENSE.read_bytes().replace(b"\r\n", b"\n")
@@ -71,21 +72,21 @@ def _token(members: Mapping[str, bytes]) -> str:
 
 
 def _binaries(
-    sources: Mapping[str, bytes], identifier: str, fmi: int, platforms: Sequence[Platform]
+    model_c: bytes, sources: Sources, identifier: str, fmi: int, platforms: Sequence[Platform]
 ) -> dict[str, bytes]:
     """Libraries by their place in the FMU; where platforms share a folder (FMI 2 on macOS), one for all of them."""
+
+    def place(platform: Platform) -> str:
+        return f"binaries/{platform.folder(fmi)}/{identifier}{platform.suffix}"
+
     members = {}
     with tempfile.TemporaryDirectory(prefix="fmu_build-") as name:
         folder = Path(name)
-        for file, content in sources.items():
-            (folder / file).write_bytes(content)
-
-        def place(platform: Platform) -> str:
-            return f"binaries/{platform.folder(fmi)}/{identifier}{platform.suffix}"
-
+        (folder / "model.c").write_bytes(model_c)
+        files = (folder / "model.c", *sources.compiled)
         for path, group in groupby(sorted(platforms, key=place), key=place):
-            names = compiled(sources)
-            members[path] = fat_library([compile_shared(folder, names, p, identifier + p.suffix) for p in group])
+            library = folder / Path(path).name
+            members[path] = fat_library([compile_shared(files, sources.includes, p, library) for p in group])
     return members
 
 

@@ -1,7 +1,7 @@
 """The C files of an FMU, all in one folder: the generated model, the run-time system and the FMI headers."""
 
 import importlib.util
-from collections.abc import Iterable
+from dataclasses import dataclass
 from pathlib import Path
 
 from ..errors import BuildError
@@ -9,30 +9,34 @@ from ..errors import BuildError
 RUNTIME = Path(__file__).parents[1] / "runtime"
 
 
-def runtime_files() -> list[Path]:
-    """Every source of the run-time system, headers included."""
-    return sorted(path for folder in ("include", "src") for path in (RUNTIME / folder).glob("*.[ch]"))
+@dataclass(frozen=True)
+class Sources:
+    """What is compiled and shipped for one FMI version, beside model.c."""
+
+    runtime: tuple[Path, ...]  # .c and .h
+    headers: tuple[Path, ...]  # of the FMI standard
+
+    @property
+    def includes(self) -> tuple[Path, ...]:
+        return tuple(dict.fromkeys(path.parent for path in (*self.runtime, *self.headers)))
+
+    @property
+    def compiled(self) -> tuple[Path, ...]:
+        return tuple(path for path in self.runtime if path.suffix == ".c")
+
+    def contents(self) -> dict[str, bytes]:
+        """Name and content of each file; they all lie in one folder of the FMU."""
+        return {path.name: path.read_bytes().replace(b"\r\n", b"\n") for path in (*self.runtime, *self.headers)}
 
 
-def source_files(model_c: str, fmi: int) -> dict[str, bytes]:
-    """Name and content of each file for one FMI version, in a fixed order.
-
-    A run-time source whose name begins with fmi2 or fmi3 belongs to that version alone.
-    """
+def sources_for(fmi: int) -> Sources:
+    """A run-time source whose name begins with fmi2 or fmi3 belongs to that version alone."""
     other = f"fmi{5 - fmi}"
-    paths = [path for path in runtime_files() if not path.name.startswith(other)]
-    files = {"model.c": model_c.encode()}
-    for path in [*paths, *_fmi_headers(fmi)]:
-        files[path.name] = path.read_bytes().replace(b"\r\n", b"\n")
-    return files
+    runtime = sorted(path for folder in ("include", "src") for path in (RUNTIME / folder).glob("*.[ch]"))
+    return Sources(tuple(path for path in runtime if not path.name.startswith(other)), _fmi_headers(fmi))
 
 
-def compiled(names: Iterable[str]) -> tuple[str, ...]:
-    """The files that are given to the compiler."""
-    return tuple(name for name in names if name.endswith(".c"))
-
-
-def _fmi_headers(fmi: int) -> list[Path]:
+def _fmi_headers(fmi: int) -> tuple[Path, ...]:
     """The standard's own headers, as the package fmpy brings them."""
     spec = importlib.util.find_spec("fmpy")
     if spec is None or not spec.submodule_search_locations:
@@ -40,4 +44,4 @@ def _fmi_headers(fmi: int) -> list[Path]:
     headers = sorted((Path(spec.submodule_search_locations[0]) / "c-code").glob(f"fmi{fmi}*.h"))
     if not headers:
         raise BuildError(f"the package fmpy holds no headers for FMI {fmi}; reinstall it: pip install fmpy.")
-    return headers
+    return tuple(headers)

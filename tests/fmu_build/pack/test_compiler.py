@@ -18,7 +18,7 @@ QUICK = [p for p in PLATFORMS if p.suffix != ".dll"]  # the first build for Wind
 @pytest.mark.parametrize("platform", QUICK, ids=lambda p: p.name)
 def test_a_library_in_the_platforms_format(tmp_path, platform):
     (tmp_path / "a.c").write_text(SOURCE)
-    library = compile_shared(tmp_path, ["a.c"], platform, f"m{platform.suffix}")
+    library = compile_shared([tmp_path / "a.c"], [], platform, tmp_path / f"m{platform.suffix}")
     assert library.startswith(HEADS[platform.suffix])
     assert str(tmp_path).encode() not in library
     assert b"shown" in library
@@ -31,17 +31,17 @@ def test_the_place_of_the_sources_does_not_matter(tmp_path):
         folder = tmp_path / name
         folder.mkdir()
         (folder / "a.c").write_text(SOURCE)
-        found.add(compile_shared(folder, ["a.c"], host_platform(), "m.so"))
+        found.add(compile_shared([folder / "a.c"], [], host_platform(), folder / "m.so"))
     assert len(found) == 1
 
 
 def test_a_warning_is_an_error(tmp_path):
     (tmp_path / "a.c").write_text("static int unused(void) { return 1; }\n")
     with pytest.raises(CompilerError, match=r"a\.c:1.*unused"):
-        compile_shared(tmp_path, ["a.c"], host_platform(), "m.so")
+        compile_shared([tmp_path / "a.c"], [], host_platform(), tmp_path / "m.so")
 
 
 def test_without_ziglang_it_says_what_to_install(tmp_path, monkeypatch):
     monkeypatch.setattr(compiler.importlib.util, "find_spec", lambda name: None)
     with pytest.raises(BuildError, match="pip install ziglang"):
-        compile_shared(tmp_path, [], host_platform(), "m.so")
+        compile_shared([tmp_path / "a.c"], [], host_platform(), tmp_path / "m.so")
