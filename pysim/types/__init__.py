@@ -1,5 +1,6 @@
 """The only things that cross folders: frozen, checked once, numpy and the standard library only."""
 
+from pysim.types.comparison import Comparison, ResponseComparison
 from pysim.types.criterion import Criterion, Deviation
 from pysim.types.dataset import Dataset, MeasuredRecord, MeasuredSignal
 from pysim.types.errors import BadInput, SimulationError
@@ -13,6 +14,7 @@ from pysim.types.sine_test import SineTest
 __all__ = [
     "Abilities",
     "BadInput",
+    "Comparison",
     "Criterion",
     "Dataset",
     "Deviation",
@@ -23,6 +25,7 @@ __all__ = [
     "Model",
     "Outcome",
     "Record",
+    "ResponseComparison",
     "Signal",
     "SimulationError",
     "SineTest",

@@ -1,0 +1,58 @@
+"""Find the command, run it, and turn what went wrong into one line and an exit code."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import traceback
+from collections.abc import Sequence
+
+from pysim.cli import compare, demo, simulate
+
+DONE, NO, WRONG_USE, OUR_BUG = 0, 1, 2, 3
+_COMMANDS = {"compare": compare, "demo": demo, "simulate": simulate}
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run one command.
+
+    Args:
+        argv: the words behind `pysim`; those of this process by default.
+    Returns:
+        0 done, 1 the answer is no, 2 wrong use, 3 our bug.
+    """
+    parser = argparse.ArgumentParser(prog="pysim", description="Simulate FMUs and compare them with a test bench.")
+    commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
+    for name, module in _COMMANDS.items():
+        help_text = (module.__doc__ or "").strip().splitlines()[0]
+        module.add_arguments(commands.add_parser(name, help=help_text, description=help_text))
+    try:
+        args = parser.parse_args(argv)
+    except SystemExit as end:  # argparse has said what is wrong, or shown the help
+        return int(end.code or 0)
+    return _guarded(args)
+
+
+def _guarded(args: argparse.Namespace) -> int:
+    try:
+        return int(_COMMANDS[args.command].run(args))
+    except KeyboardInterrupt:
+        print("pysim: stopped", file=sys.stderr)
+        return WRONG_USE
+    except Exception as error:
+        if _is_users(error):
+            print(f"pysim {args.command}: {error}", file=sys.stderr)
+            return WRONG_USE
+        traceback.print_exc()
+        print(f"pysim {args.command}: this is our mistake, please report the lines above", file=sys.stderr)
+        return OUR_BUG
+
+
+def _is_users(error: Exception) -> bool:
+    """Whether the message is meant for the user: bad input, a model that does not compile, a place we cannot write."""
+    from pysim.types import BadInput
+
+    if isinstance(error, BadInput | OSError):
+        return True
+    builder = sys.modules.get("fmu_build.errors")
+    return builder is not None and isinstance(error, builder.BuildError)

@@ -1,0 +1,80 @@
+"""Options that several commands share."""
+
+from __future__ import annotations
+
+import argparse
+import tomllib
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from pysim.types import Model
+
+
+def add_parameters(parser: argparse.ArgumentParser) -> None:
+    """`--set` and `--parameters`."""
+    parser.add_argument("--set", metavar="NAME=VALUE", action="append", default=[], help="set a parameter, SI unit")
+    parser.add_argument("--parameters", metavar="FILE.toml", type=Path, help="lines NAME = VALUE; --set goes before")
+
+
+def read_parameters(args: argparse.Namespace, model: Model) -> dict[str, float]:
+    """Parameters of the model from both options.
+
+    Raises:
+        BadInput: a file that cannot be read, no number, or a name the model does not have.
+    """
+    from pysim.types import BadInput
+
+    values = _from_file(args.parameters) if args.parameters else {}
+    for text in args.set:
+        name, _, value = text.partition("=")
+        try:
+            values[name.strip()] = float(value)
+        except ValueError:
+            raise BadInput(f"--set {text}: write NAME=VALUE with a number in the parameter's unit") from None
+    for name in values:
+        variable = model[name]
+        if variable.causality != "parameter":
+            raise BadInput(f"{name} of {model.path.name} is a {variable.causality}, not a parameter that can be set")
+    return values
+
+
+def _from_file(path: Path) -> dict[str, float]:
+    """A TOML file of numbers; dotted names and sections mean the same."""
+    from pysim.types import BadInput
+
+    try:
+        content = tomllib.loads(path.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise BadInput(f"--parameters {path}: cannot be read ({error.strerror}); correct the name") from error
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise BadInput(f"--parameters {path}: {error}; write lines NAME = VALUE") from error
+    return _flat(content, "", path)
+
+
+def _flat(table: dict[str, object], prefix: str, path: Path) -> dict[str, float]:
+    from pysim.types import BadInput
+
+    values: dict[str, float] = {}
+    for key, value in table.items():
+        if isinstance(value, dict):
+            values |= _flat(value, f"{prefix}{key}.", path)
+        elif isinstance(value, int | float) and not isinstance(value, bool):
+            values[prefix + key] = float(value)
+        else:
+            raise BadInput(f"--parameters {path}: {prefix + key} = {value!r} is no number; write NAME = VALUE")
+    return values
+
+
+def prepare_folder(folder: Path) -> Path:
+    """Make the output folder now, so that a place we cannot write to is known before the work is done."""
+    from pysim.types import BadInput
+
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        probe = folder / ".pysim-probe"
+        probe.touch()
+        probe.unlink()
+    except OSError as error:
+        raise BadInput(f"--output {folder}: cannot write there ({error.strerror}); choose another folder") from error
+    return folder

@@ -1,0 +1,97 @@
+"""Build the thesis' pump, run its 18 tests for both parameter sets, and report."""
+
+from __future__ import annotations
+
+import argparse
+import json
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from pysim.types import Comparison, Dataset
+    from validation.thesis import Difference
+
+QUICK_FREQUENCIES_HZ = (0.1, 1, 3, 6, 10, 15, 20, 30)
+_TABLES = {"free": "4.8", "locked": "4.7"}
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The words behind `pysim demo`."""
+    parser.add_argument("--output", metavar="DIR", type=Path, default=Path("results/demo"), help="(results/demo)")
+    parser.add_argument("--quick", action="store_true", help="8 frequencies in place of 19")
+
+
+def run(args: argparse.Namespace) -> int:
+    """Print both tables and leave report.html, plots, JSON, the FMUs and the data set; 0 when that is done."""
+    from pysim.cli._options import prepare_folder
+    from pysim.io import read_dataset
+    from pysim.report import comparison_data, comparison_text
+    from validation.thesis import FREQUENCIES_HZ, write_dataset
+
+    folder = prepare_folder(args.output)
+    frequencies = QUICK_FREQUENCIES_HZ if args.quick else FREQUENCIES_HZ
+    dataset = read_dataset(write_dataset(folder / "measurements", frequencies))
+    comparisons = [_compare(label, folder, dataset) for label in _TABLES]
+    for comparison in comparisons:
+        print(comparison_text(comparison), end="\n\n")
+    numbers = json.dumps(comparison_data(comparisons), indent=1, allow_nan=False)
+    (folder / "comparison.json").write_text(numbers, encoding="utf-8")
+    (folder / "report.html").write_text(_report(comparisons, folder, args.quick), encoding="utf-8")
+    print(f"Report: {folder / 'report.html'}")
+    return 0
+
+
+def _compare(label: str, folder: Path, dataset: Dataset) -> Comparison:
+    """Build one parameter set's FMU and run all tests through it."""
+    import sys
+
+    from pysim.cli._progress import ProgressBar
+    from pysim.diagnose import compare
+    from validation.pump import CLASSES, pump_model
+
+    print(f"Building {CLASSES[label]} ...", file=sys.stderr)
+    model = pump_model(label, output=folder / f"{CLASSES[label].rpartition('.')[2]}.fmu")
+    with ProgressBar(f"{label} set") as progress:
+        return compare(model, dataset, label=label, progress=progress)
+
+
+def _report(comparisons: Sequence[Comparison], folder: Path, quick: bool) -> str:
+    from pysim.cli._pictures import write_pictures
+    from pysim.report import comparison_page
+
+    remarks = [part for comparison in comparisons for part in _against_the_thesis(comparison)]
+    redo = f"pysim demo --output {folder}{' --quick' if quick else ''}"
+    pictures = write_pictures(comparisons, folder)
+    title = "The pump's swash plate against its measurements"
+    return comparison_page(title, comparisons, pictures=pictures, redo=redo, remarks=remarks)
+
+
+def _against_the_thesis(comparison: Comparison) -> list[str]:
+    """Our numbers beside the thesis' own, and why they differ."""
+    from pysim.report import cell, heading, items, table
+    from validation.thesis import differences, explain
+
+    printed = _TABLES[comparison.label]
+    rows = differences(comparison, printed)
+    head = ["offset %", "amplitude %"]
+    for name, unit in (("mean", "dB"), ("max", "dB"), ("mean", "deg"), ("max", "deg")):
+        head += [f"{name} {unit}", "thesis", "fit"]
+    cells = [
+        [cell(f"{row.offset:g}"), cell(f"{row.amplitude:g}")]
+        + [
+            cell(f"{value:.{2 if i < 2 else 1}f}")
+            for i in range(4)
+            for value in (row.ours[i], row.printed[i], row.misfit[i])
+        ]
+        for row in rows
+    ]
+    caption = f"{comparison.label}: this page | thesis Table {printed} | misfit of the transfer function, Table 4.4"
+    title = f"Where and why this differs from thesis Table {printed} ({comparison.label} set)"
+    return [heading(title), items(explain(rows, printed)), table(caption, head, cells)]
+
+
+def _threes(row: Difference) -> zip[tuple[float, float, float]]:
+    """Per criterion: our number, the thesis' own, and the transfer function's misfit."""
+    return zip(row.ours, row.printed, row.misfit, strict=True)

@@ -1,0 +1,99 @@
+"""Bode plots of measured and simulated responses, in the arrangement of thesis Appendix C."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import MultipleLocator
+
+from pysim.identify import FREQUENCY_CRITERIA, magnitude_db
+from pysim.plot.style import (
+    BAND,
+    COLOURS,
+    DASHES,
+    MEASURED,
+    SMALL,
+    TEXT,
+    frequency_axis,
+    legend_above,
+    new_figure,
+    quiet,
+)
+from pysim.types import BadInput, Comparison, FrequencyResponse, ResponseComparison
+
+_MAX_DB, _MAX_DEG = FREQUENCY_CRITERIA[1].limit, FREQUENCY_CRITERIA[3].limit
+
+
+def bode_figure(comparisons: Sequence[Comparison], offset: float) -> Figure:
+    """Magnitude (dB, relative to 0.1 Hz) above phase (deg) over frequency (Hz); a column per amplitude.
+
+    Args:
+        comparisons: parameter sets against one data set, each in a colour of its own.
+        offset: whose tests are shown, in the input's unit.
+    Raises:
+        BadInput: no test has that offset.
+    """
+    columns = [[test for test in c.tests if test.measured.test.offset == offset] for c in comparisons]
+    if not columns or not columns[0]:
+        raise BadInput(f"bode figure: no test at offset {offset:g}")
+    count = len(columns[0])
+    figure = new_figure(1.2 + 2.9 * count, 5.4)
+    axes = figure.subplots(2, count, sharex=True, sharey="row", squeeze=False)
+    handles: dict[str, Any] = {}
+    for column in range(count):
+        tests = [(comparison.label, tests[column]) for comparison, tests in zip(comparisons, columns, strict=True)]
+        _draw_column(axes[0, column], axes[1, column], tests, handles)
+    axes[0, 0].set_ylabel("Magnitude relative to 0.1 Hz (dB)", fontsize=TEXT)
+    axes[1, 0].set_ylabel("Phase (deg)", fontsize=TEXT)
+    axes[1, 0].yaxis.set_major_locator(MultipleLocator(45.0))
+    legend_above(figure, list(handles.values()), list(handles))
+    return figure
+
+
+def _draw_column(
+    top: Axes, bottom: Axes, tests: Sequence[tuple[str, ResponseComparison]], handles: dict[str, Any]
+) -> None:
+    """One test: the measured response with its band, then every parameter set."""
+    measured = tests[0][1].measured
+    f = measured.frequency
+    for axes, values, limit in ((top, magnitude_db(measured), _MAX_DB), (bottom, _degrees(measured), _MAX_DEG)):
+        quiet(axes)
+        band = axes.fill_between(f, values - limit, values + limit, color=BAND, alpha=0.6, linewidth=0)
+        (line,) = axes.plot(f, values, color=MEASURED, linewidth=1.0, marker=".", markersize=5)
+        handles.setdefault("measured (or what stands for it)", line)
+        handles.setdefault(f"±{_MAX_DB:g} dB, ±{_MAX_DEG:g} deg (Table 1.3)", band)
+    for i, (label, test) in enumerate(tests):
+        if test.simulated is None:
+            continue
+        look: dict[str, Any] = {
+            "color": COLOURS[i % len(COLOURS)],
+            "linestyle": DASHES[i % len(DASHES)],
+            "linewidth": 1.7,
+        }
+        (line,) = top.plot(f, magnitude_db(test.simulated), **look)
+        bottom.plot(f, _degrees(test.simulated), **look)
+        handles.setdefault(label, line)
+    top.set_title(f"offset {measured.test.offset:g} %, amplitude {measured.test.amplitude:g} %", fontsize=TEXT)
+    _write_verdicts(top, tests)
+    frequency_axis(bottom, f[0], f[-1])
+    bottom.set_xlabel("Frequency (Hz)", fontsize=TEXT)
+
+
+def _write_verdicts(axes: Axes, tests: Sequence[tuple[str, ResponseComparison]]) -> None:
+    """Pass or fail of each parameter set in the lower left corner."""
+    for i, (label, test) in enumerate(tests):
+        words = f"{label}: {'pass' if test.passes else 'fail'}"
+        place = {
+            "xytext": (6, 6 + 12 * (len(tests) - 1 - i)),
+            "textcoords": "offset points",
+            "xycoords": "axes fraction",
+        }
+        axes.annotate(words, (0, 0), **place, color=COLOURS[i % len(COLOURS)], fontsize=SMALL)  # type: ignore[arg-type]
+
+
+def _degrees(response: FrequencyResponse) -> Any:
+    return np.degrees(response.phase)

@@ -1,0 +1,47 @@
+"""Records over time, one above the other."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from matplotlib.figure import Figure
+
+from pysim.plot.style import COLOURS, DASHES, MEASURED, TEXT, legend_above, new_figure, quiet
+from pysim.types import BadInput, Record
+
+_DISPLAY = {"Pa": ("bar", 1e-5), "m": ("mm", 1e3), "rad": ("deg", 57.29577951308232)}
+
+
+def time_response_figure(records: Mapping[str, Record], signals: Sequence[str]) -> Figure:
+    """A panel per signal with every record laid over the others, the first one as the reference in black.
+
+    Args:
+        records: label -> record; each has all signals.
+        signals: names, from top to bottom; pressures are drawn in bar, lengths in mm, angles in degrees.
+    Raises:
+        BadInput: no record, no signal, or a record without one of them.
+    """
+    if not records or not signals:
+        raise BadInput("time response figure: needs at least one record and one signal")
+    figure = new_figure(8.0, 0.9 + 1.7 * len(signals))
+    axes = figure.subplots(len(signals), 1, sharex=True, squeeze=False)[:, 0]
+    handles = []
+    for i, record in enumerate(records.values()):
+        colour = MEASURED if i == 0 else COLOURS[(i - 1) % len(COLOURS)]
+        for panel, name in zip(axes, signals, strict=True):
+            unit, factor = _display(record, name)
+            dash = "-" if i == 0 else DASHES[i % len(DASHES)]
+            (line,) = panel.plot(record.time, factor * record[name], color=colour, linestyle=dash, linewidth=1.3)
+            panel.set_ylabel(f"{name} ({unit})", fontsize=TEXT)
+        handles.append(line)
+    for panel in axes:
+        quiet(panel)
+    axes[-1].set_xlabel("Time (s)", fontsize=TEXT)
+    legend_above(figure, handles, list(records))
+    return figure
+
+
+def _display(record: Record, name: str) -> tuple[str, float]:
+    """The unit a hydraulics engineer reads, and the factor to it."""
+    unit = record.units[record.names.index(name)] if name in record.names else "1"
+    return _DISPLAY.get(unit, (unit if unit != "1" else "-", 1.0))

@@ -1,0 +1,1 @@
+"""Published and independent results, and what redoes them: `python -m validation --list`."""

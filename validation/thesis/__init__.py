@@ -1,0 +1,16 @@
+"""What the thesis printed, as data, with one folder per table."""
+
+from validation.thesis.explanation import Difference, differences, explain
+from validation.thesis.published import PublishedDeviations, published_deviations
+from validation.thesis.table_4_1.responses import FREQUENCIES_HZ, measured_responses, write_dataset
+
+__all__ = [
+    "FREQUENCIES_HZ",
+    "Difference",
+    "PublishedDeviations",
+    "differences",
+    "explain",
+    "measured_responses",
+    "published_deviations",
+    "write_dataset",
+]
