@@ -128,7 +128,7 @@ bool delay_values_update(Instance *s) {
 
 Status delay_values_complete(Instance *s) {
     double *source = s->event.delay_source;
-    double *res[] = {source};
+    double *res[] = {source, NULL, NULL};
     if (call_model(s, s->model->delays, res) != STATUS_OK) return STATUS_DISCARD;
     for (size_t k = 0; k < s->model->n_v; k++) {
         if (!is_late(s, k)) continue;
@@ -143,7 +143,7 @@ Status delay_start(Instance *s) {
     const size_t n = s->model->n_v;
     if (n == 0) return STATUS_OK;
     double *source = s->event.delay_source;
-    double *res[] = {source};
+    double *res[] = {source, NULL, NULL};
     if (call_model(s, s->model->delays, res) != STATUS_OK) return STATUS_DISCARD;
     for (size_t k = 0; k < n; k++) {
         s->delays[k].first = 0;
@@ -215,7 +215,7 @@ Status delay_record(Instance *s, bool is_break) {
     if (n == 0) return STATUS_OK;
     if (evaluate_unknowns(s) != STATUS_OK) return STATUS_DISCARD;
     double *source = s->event.delay_source;
-    double *res[] = {source};
+    double *res[] = {source, NULL, NULL};
     if (call_model(s, s->model->delays, res) != STATUS_OK) return STATUS_DISCARD;
     for (size_t k = 0; k < n; k++) record_one(s, k, source[k], is_break);
     return STATUS_OK;
