@@ -1,0 +1,41 @@
+"""Builds each model under test once per FMI version."""
+
+from collections.abc import Callable
+
+import pytest
+
+from tests.cases import CASES, Case
+from tests.contracts.building import build_case
+from tests.contracts.fmu import Fmu
+
+
+@pytest.fixture(scope="session")
+def built(tmp_path_factory: pytest.TempPathFactory) -> Callable[[Case, int], Fmu]:
+    """(case, FMI version) -> unpacked FMU."""
+    made: dict[tuple[str, int], Fmu] = {}
+    folder = tmp_path_factory.mktemp("fmus")
+
+    def get(case: Case, fmi: int) -> Fmu:
+        key = case.name, fmi
+        if key not in made:
+            with pytest.MonkeyPatch.context() as patch:
+                patch.setenv("HTB_CACHE", str(folder / "cache"))
+                made[key] = Fmu.unpack(build_case(case, fmi, folder), folder / f"{case.name}_{fmi}", fmi)
+        return made[key]
+
+    return get
+
+
+@pytest.fixture(params=CASES, ids=lambda case: case.name)
+def case(request: pytest.FixtureRequest) -> Case:
+    return request.param
+
+
+@pytest.fixture(params=[2, 3], ids=["fmi2", "fmi3"])
+def fmi(request: pytest.FixtureRequest) -> int:
+    return request.param
+
+
+@pytest.fixture
+def fmu(built: Callable[[Case, int], Fmu], case: Case, fmi: int) -> Fmu:
+    return built(case, fmi)

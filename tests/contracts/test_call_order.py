@@ -1,0 +1,130 @@
+"""Illegal calls to every model end in an error and a message, never in a crash."""
+
+import pytest
+from fmpy.fmi1 import FMICallException
+
+ERROR, DISCARD = 3, 2
+
+
+def refused(instance, call):
+    """The call returns an error and says why."""
+    before = len(instance.messages)
+    with pytest.raises(FMICallException) as failure:
+        call()
+    assert failure.value.status == ERROR
+    assert len(instance.messages) > before
+
+
+BEFORE_START = {
+    "me": {
+        "time": lambda i: i.raw.setTime(1.0),
+        "derivatives": lambda i: i.dx,
+        "update": lambda i: i.iterate_events(),
+        "continuous time": lambda i: i.raw.enterContinuousTimeMode(),
+        "completed step": lambda i: i.raw.completedIntegratorStep(),
+        "event mode": lambda i: i.raw.enterEventMode(),
+        "exit": lambda i: i.raw.exitInitializationMode(),
+        "terminate": lambda i: i.raw.terminate(),
+    },
+    "cs": {
+        "step": lambda i: i.step(0.0, 0.1),
+        "exit": lambda i: i.raw.exitInitializationMode(),
+        "terminate": lambda i: i.raw.terminate(),
+    },
+}
+WHILE_RUNNING = {
+    "me": {
+        "begin": lambda i: i.begin(),
+        "exit": lambda i: i.raw.exitInitializationMode(),
+        "update": lambda i: i.iterate_events(),
+        "continuous time": lambda i: i.raw.enterContinuousTimeMode(),
+        "time": lambda i: i.raw.setTime(float("nan")),
+    },
+    "cs": {
+        "begin": lambda i: i.begin(),
+        "exit": lambda i: i.raw.exitInitializationMode(),
+        "backwards": lambda i: i.step(0.0, -0.1),
+        "nowhere": lambda i: i.step(0.0, float("nan")),
+        "not from here": lambda i: i.step(0.5, 0.1),
+    },
+}
+KINDS = [(kind, name) for kind in ("me", "cs") for name in BEFORE_START[kind]]
+RUNNING_KINDS = [(kind, name) for kind in ("me", "cs") for name in WHILE_RUNNING[kind]]
+
+
+@pytest.mark.parametrize(("kind", "name"), KINDS)
+def test_too_early(fmu, kind, name):
+    with fmu.open(kind) as instance:
+        refused(instance, lambda: BEFORE_START[kind][name](instance))
+
+
+@pytest.mark.parametrize(("kind", "name"), RUNNING_KINDS)
+def test_out_of_place(fmu, case, kind, name):
+    with fmu.open(kind) as instance:
+        instance.start(case.settings)
+        refused(instance, lambda: WHILE_RUNNING[kind][name](instance))
+
+
+@pytest.mark.parametrize("kind", ["me", "cs"])
+def test_after_the_end(fmu, case, kind):
+    call = (lambda i: i.raw.setTime(1.0)) if kind == "me" else (lambda i: i.step(0.0, 0.1))
+    with fmu.open(kind) as instance:
+        instance.start(case.settings)
+        instance.raw.terminate()
+        refused(instance, lambda: call(instance))
+
+
+@pytest.mark.parametrize("kind", ["me", "cs"])
+def test_unknown_references_and_wrong_types(fmu, case, kind):
+    real, boolean = ("getReal", "getBoolean") if fmu.fmi == 2 else ("getFloat64", "getBoolean")
+    row = next(v.valueReference for v in fmu.description.modelVariables if v.type in ("Real", "Float64"))
+    for function, reference in ((real, 10**6), (boolean, row), (boolean, 10**6)):
+        with fmu.open(kind) as instance:
+            instance.start(case.settings)
+            refused(instance, lambda f=function, r=reference, i=instance: getattr(i.raw, f)([r]))
+
+
+def test_calculated_variables_cannot_be_set(fmu, case):
+    names = [v.name for v in fmu.description.modelVariables if v.initial == "calculated"]
+    for name in names[:20]:
+        if fmu.variables[name].type in ("Real", "Float64"):
+            with fmu.open("me") as instance:
+                refused(instance, lambda n=name, i=instance: i.set({n: 1.0}))
+
+
+def test_fixed_parameters_cannot_change_during_a_run(fmu, case):
+    for name in fmu.of(causality="parameter", variability="fixed"):
+        with fmu.open("cs") as instance:
+            instance.start(case.settings)
+            refused(instance, lambda n=name, i=instance: i.set({n: 1.0}))
+
+
+def test_null_pointers(fmu, case):
+    prefix, kind = (f"fmi{fmu.fmi}", "Real" if fmu.fmi == 2 else "Float64")
+    extra = () if fmu.fmi == 2 else (1,)
+    for verb in ("Get", "Set"):
+        with fmu.open("me") as instance:
+            instance.start(case.settings)
+            function = getattr(instance.raw, f"{prefix}{verb}{kind}")
+            refused(instance, lambda f=function, i=instance: f(i.raw.component, None, 1, None, *extra))
+
+
+def test_no_instance(fmu):
+    with fmu.open("me") as instance, pytest.raises(FMICallException) as failure:
+        instance.raw._call(f"fmi{fmu.fmi}Terminate", None)
+    assert failure.value.status == ERROR
+
+
+def test_another_models_token(fmu):
+    with fmu.open("me") as instance:
+        instance.raw.guid = "{other}"
+        with pytest.raises(Exception, match=r"(?i)instantiate"):
+            instance._instantiate({})
+
+
+def test_reset_after_an_error(fmu, case):
+    with fmu.open("me") as instance:
+        refused(instance, lambda: instance.raw.setTime(1.0))
+        instance.raw.reset()
+        instance.start(case.settings)
+        assert len(instance.dx) == len(fmu.states)
