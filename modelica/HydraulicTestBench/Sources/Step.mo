@@ -1,0 +1,13 @@
+within HydraulicTestBench.Sources;
+block Step "Step of the command"
+  extends Icons.Component;
+  parameter Types.Percent height = 50 "Height";
+  parameter Real t_step(final unit="s") = 0.1 "When it comes";
+  Interfaces.RealOutput y(unit="%") "Command";
+equation
+  y = if time < t_step then 0 else height;
+  annotation(Documentation(info="<html>
+<p>Zero, then <code>height</code>. Its rate is not offered: it is infinite at one instant.</p>
+<p><b>Source:</b> this library.</p>
+</html>"));
+end Step;
