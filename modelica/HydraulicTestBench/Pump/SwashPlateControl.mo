@@ -59,7 +59,8 @@ model SwashPlateControl "Swash plate control of the A4VSG pump: card, proportion
   Interfaces.RealOutput alphaPercent(unit="%", nominal=10) "Swash plate angle as fed back and logged";
   Interfaces.RealOutput u(unit="1", nominal=0.1) "Spool position";
 
-  // Slots, in the order of the signal path
+  // Slots, in the order of the signal path. What a slot needs to know stands twice: the modifier of the declaration
+  // serves the default, that of the constraining class whatever is put in its place.
   replaceable CommandRateObserver commandRate constrainedby Interfaces.PartialCommandRate
     "Rate of the command";
   replaceable Interfaces.Neutral.SignalWithRate angleError constrainedby Interfaces.PartialSignalWithRate
@@ -68,13 +69,13 @@ model SwashPlateControl "Swash plate control of the A4VSG pump: card, proportion
     "What becomes of the card's command at its output";
   replaceable Interfaces.Neutral.Signal spoolCommand constrainedby Interfaces.PartialSignal
     "What becomes of the command on its way to the spool, ahead of the dead time";
-  replaceable PadeDeadTime deadTime constrainedby Interfaces.PartialDeadTime(final tau=tau)
+  replaceable PadeDeadTime deadTime(tau=tau) constrainedby Interfaces.PartialDeadTime(tau=tau)
     "Dead time";
-  replaceable SecondOrderSpool spool constrainedby Interfaces.PartialSpool(
-    final omega_v=omega_v, final zeta_v=zeta_v) "Dynamics of the spool";
+  replaceable SecondOrderSpool spool(omega_v=omega_v, zeta_v=zeta_v) constrainedby Interfaces.PartialSpool(
+    omega_v=omega_v, zeta_v=zeta_v) "Dynamics of the spool";
   replaceable Interfaces.Neutral.Signal spoolOpening constrainedby Interfaces.PartialSignal
     "Opening of the edges from the spool position";
-  replaceable Interfaces.Neutral.Supply supply constrainedby Interfaces.PartialSupply(final pS=pS)
+  replaceable Interfaces.Neutral.Supply supply(pS=pS) constrainedby Interfaces.PartialSupply(pS=pS)
     "Supply pressure";
   replaceable Interfaces.Neutral.Compressibility oil constrainedby Interfaces.PartialCompressibility
     "What makes the oil softer";
