@@ -70,8 +70,6 @@ def _add_interfaces(root: Element, model: OdeModel, about: Description) -> None:
         "CoSimulation",
         modelIdentifier=about.identifier,
         canHandleVariableCommunicationStepSize="true",
-        canInterpolateInputs="true",
-        maxOutputDerivativeOrder="1",
         **_ABILITIES,
     )
     for interface in (exchange, simulation):

@@ -79,7 +79,6 @@ def _add_interfaces(root: Element, model: OdeModel, about: Description) -> None:
         "CoSimulation",
         modelIdentifier=about.identifier,
         canHandleVariableCommunicationStepSize="true",
-        maxOutputDerivativeOrder="1",
         providesIntermediateUpdate="true",
         mightReturnEarlyFromDoStep="true",
         canReturnEarlyAfterIntermediateUpdate="true",
