@@ -29,11 +29,11 @@ def deviation_figure(comparisons: Sequence[Comparison]) -> Figure:
         for i, comparison in enumerate(comparisons):
             values = _values(comparison, column)
             colour, marker = COLOURS[i % len(COLOURS)], MARKERS[i % len(MARKERS)]
-            inside = values <= criterion.limit
+            inside, outside = values <= criterion.limit, values > criterion.limit
             rows = np.arange(values.size)
             look: dict[str, Any] = {"color": colour, "marker": marker, "linestyle": "none", "markersize": 5.5}
             (filled,) = panel.plot(values[inside], rows[inside], **look)
-            panel.plot(values[~inside], rows[~inside], **look, markerfacecolor="white")
+            panel.plot(values[outside], rows[outside], **look, markerfacecolor="white")
             if column == 0:
                 handles.append(filled)
         _draw_limit(panel, criterion, max(float(np.nanmax(_values(c, column), initial=0.0)) for c in comparisons))

@@ -72,7 +72,8 @@ def _method(comparisons: Sequence[Comparison]) -> list[str]:
         "Deviations are simulated minus measured, averaged and at their largest over the frequencies (Eq. 2.27, 2.28). "
         "A test passes when all four are within Table 1.3.",
     ]
-    changed = [
-        f"{c.label}: " + ", ".join(f"{k} = {v:g}" for k, v in c.overrides.items()) for c in comparisons if c.overrides
-    ]
-    return [items([*lines, *(f"Set beforehand, {text}." for text in changed)])]
+    for comparison in comparisons:
+        if comparison.overrides:
+            values = ", ".join(f"{name} = {value:g}" for name, value in comparison.overrides.items())
+            lines.append(f"Set beforehand for {comparison.label}: {values}.")
+    return [items(lines)]

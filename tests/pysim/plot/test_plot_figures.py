@@ -1,0 +1,71 @@
+"""Figures show the numbers they were given."""
+
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from matplotlib.figure import Figure
+
+from pysim.identify import magnitude_db
+from pysim.plot import bode_figure, deviation_figure, render, time_response_figure
+from pysim.types import BadInput, Record
+from tests.pysim.comparisons import comparison
+
+SETS = [comparison("A"), comparison("B", error_db=1.0, fails=1)]
+
+
+def curves(figure: Figure, axes: int) -> list[np.ndarray]:
+    return [np.asarray(line.get_ydata()) for line in figure.axes[axes].get_lines()]
+
+
+def test_bode_has_a_column_per_amplitude_and_a_curve_per_response() -> None:
+    figure = bode_figure(SETS, 50.0)
+    assert len(figure.axes) == 4
+    test = SETS[1].tests[2]
+    measured, first, second = curves(figure, 0)
+    np.testing.assert_allclose(measured, magnitude_db(test.measured))
+    np.testing.assert_allclose(first, measured)
+    assert test.simulated is not None
+    np.testing.assert_allclose(second, magnitude_db(test.simulated))
+    np.testing.assert_allclose(curves(figure, 2)[0], np.degrees(test.measured.phase))
+    band = figure.axes[0].collections[0].get_paths()[0].get_extents()
+    assert (band.y1, band.y0) == pytest.approx((measured.max() + 2.0, measured.min() - 2.0))
+
+
+def test_bode_leaves_out_what_did_not_run() -> None:
+    assert len(curves(bode_figure(SETS, -50.0), 0)) == 2
+    with pytest.raises(BadInput, match="no test at offset 7"):
+        bode_figure(SETS, 7.0)
+
+
+def test_deviations_tell_pass_from_fail() -> None:
+    figure = deviation_figure(SETS)
+    mean_db = figure.axes[0].get_lines()
+    filled_a, hollow_a, filled_b, hollow_b = ([float(x) for x in line.get_xdata()] for line in mean_db[:4])
+    np.testing.assert_allclose(filled_a, [0.0] * 4)
+    assert hollow_a == filled_b == []
+    np.testing.assert_allclose(hollow_b, [0.75] * 3)  # the fourth did not run
+    assert mean_db[3].get_markerfacecolor() == "white"
+    assert mean_db[4].get_xdata()[0] == 0.5
+
+
+def test_time_response_is_drawn_in_the_reader_s_units() -> None:
+    record = Record(np.arange(3.0), np.array([[1e5, 1.0], [2e5, 2.0], [3e5, 4.0]]), ("p1", "u"), ("Pa", "1"))
+    figure = time_response_figure({"reference": record, "FMU": record}, ("p1", "u"))
+    np.testing.assert_allclose(curves(figure, 0)[1], [1.0, 2.0, 3.0])
+    assert figure.axes[0].get_ylabel() == "p1 (bar)"
+    with pytest.raises(BadInput, match="at least one record"):
+        time_response_figure({}, ("u",))
+
+
+def test_rendering_gives_the_same_png_twice() -> None:
+    first, second = render(deviation_figure(SETS), "png"), render(deviation_figure(SETS), "png")
+    assert first[:8] == b"\x89PNG\r\n\x1a\n"
+    assert first == second
+    assert render(deviation_figure(SETS), "svg").startswith(b"<?xml")
+
+
+def test_no_global_plotting_state_is_touched() -> None:
+    script = "import sys, pysim.plot; sys.exit('matplotlib.pyplot' in sys.modules)"
+    assert subprocess.run([sys.executable, "-c", script], check=False).returncode == 0

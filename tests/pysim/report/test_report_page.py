@@ -1,0 +1,70 @@
+"""The HTML page: well formed, self-contained, complete."""
+
+import base64
+import re
+from html.parser import HTMLParser
+
+from pysim.report import comparison_page, paragraph, picture
+from tests.pysim.comparisons import comparison
+
+_VOID = {"meta", "img", "br", "link", "input", "hr"}
+
+
+class Checker(HTMLParser):
+    """Keeps the open elements and every address the page refers to."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.open: list[str] = []
+        self.addresses: list[str] = []
+        self.text = ""
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        if tag not in _VOID:
+            self.open.append(tag)
+        self.addresses += [value or "" for name, value in attrs if name in ("src", "href")]
+
+    def handle_endtag(self, tag: str) -> None:
+        assert self.open.pop() == tag
+
+    def handle_data(self, data: str) -> None:
+        self.text += data
+
+
+def checked(html: str) -> Checker:
+    checker = Checker()
+    checker.feed(html)
+    assert not checker.open
+    return checker
+
+
+def test_page_is_whole_and_needs_no_network() -> None:
+    sets = [comparison("A"), comparison("B <odd>", error_db=3.0, fails=1)]
+    html = comparison_page(
+        "Title & all", sets, pictures={"A picture": b"<svg/>"}, redo="pysim demo", remarks=["<p>x</p>"]
+    )
+    page = checked(html)
+    assert [address for address in page.addresses if not address.startswith("data:")] == []
+    assert "url(" not in html
+    for words in ("Title & all", "4 of 4 tests pass", "0 of 4 tests pass", "B <odd>", "at 5 Hz: stopped", "pysim demo"):
+        assert words in page.text
+    assert page.text.count("Take it <with> care.") == 3  # beside the verdicts, and below each table
+    assert "Set beforehand for A: k = 2.5." in page.text
+
+
+def test_what_is_beyond_a_limit_is_marked() -> None:
+    html = comparison_page("t", [comparison("B", error_db=3.0)], pictures={}, redo="")
+    assert re.findall(r'<td class="beyond">([\d.]+)</td>', html) == ["2.25", "3.00"] * 4
+    assert html.count('<td class="fail">fail</td>') == 4
+
+
+def test_pictures_are_inside() -> None:
+    html = picture(b"<svg>1</svg>", 'a "quoted" caption')
+    data = re.search(r"base64,([^\"]+)", html)
+    assert data is not None
+    assert base64.b64decode(data[1]) == b"<svg>1</svg>"
+    checked(html)
+
+
+def test_text_is_escaped() -> None:
+    assert paragraph("<script>", note=True) == '<p class="note">&lt;script&gt;</p>'
