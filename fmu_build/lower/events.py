@@ -1,0 +1,106 @@
+"""Collects what makes events: relations, samples, delays; and stands for the variables during evaluation."""
+
+from dataclasses import dataclass, field
+
+import casadi as ca
+
+from fmu_build.errors import BuildError
+from fmu_build.front import expression as ex
+from fmu_build.lower.parameters import Parameters
+from fmu_build.lower.scope import Scope
+from fmu_build.lower.values import Scalar, Value
+
+
+@dataclass
+class RawRelation:
+    """A relation and its symbol, before the unknowns in it are replaced by their solution."""
+
+    symbol: Scalar
+    value: Scalar
+    strict: bool
+
+
+@dataclass
+class RawSample:
+    """A clock: `ticks` is 1 in the first pass of the event it makes, `flag` during the whole event."""
+
+    flag: Scalar
+    before: Scalar
+    start: Scalar
+    interval: Scalar
+
+    @property
+    def ticks(self) -> Scalar:
+        return ca.logic_and(self.flag, ca.logic_not(self.before))
+
+
+@dataclass
+class RawDelay:
+    symbol: Scalar
+    source: Scalar
+    time: Scalar
+    maximum: Scalar
+
+
+@dataclass
+class Events:
+    """The surroundings expressions are evaluated in (see `evaluate.Surroundings`)."""
+
+    scope: Scope
+    parameters: Parameters = field(init=False)
+    relations: list[RawRelation] = field(default_factory=list)
+    samples: list[RawSample] = field(default_factory=list)
+    delays: list[RawDelay] = field(default_factory=list)
+    initial: Scalar = field(default_factory=lambda: ca.SX.sym("initial()"))
+    terminal: Scalar = field(default_factory=lambda: ca.SX.sym("terminal()"))
+
+    def __post_init__(self) -> None:
+        self._relation_of: dict[tuple[str, bool], Scalar] = {}
+        self._sample_of: dict[tuple[str, str], Scalar] = {}
+        self._delay_of: dict[int, Scalar] = {}
+        scope = self.scope
+        fast = [scope.time, *(v.symbol for v in (*scope.states, *scope.algebraics, *scope.inputs)), *scope.derivatives]
+        self._fast = {symbol.element_hash() for symbol in fast}
+
+    @property
+    def time(self) -> Scalar:
+        return self.scope.time
+
+    def reference(self, name: str, form: ex.Form, span: ex.Span) -> Value:
+        if form is ex.Form.VALUE and name in self.parameters:
+            return self.parameters.value(name)
+        return self.scope.reference(name, form, span)
+
+    def relation(self, value: Scalar, strict: bool) -> Scalar:
+        """The symbol of a relation; one between values that change at events only is no relation."""
+        if not any(symbol.element_hash() in self._fast for symbol in ca.symvar(value)):
+            return value > 0 if strict else value >= 0
+        key = str(value), strict
+        if key not in self._relation_of:
+            symbol = ca.SX.sym(f"r{len(self.relations)}")
+            self.relations.append(RawRelation(symbol, value, strict))
+            self._relation_of[key] = symbol
+        return self._relation_of[key]
+
+    def jump(self, name: str, arguments: list[Scalar], span: ex.Span) -> Scalar:
+        raise BuildError(f"{name}() needs noEvent() around it here", span.file, span.line)
+
+    def delay(self, node: ex.Delay, source: Scalar, time: Scalar, maximum: Scalar) -> Scalar:
+        if node.number not in self._delay_of:
+            symbol = ca.SX.sym(f"delayed{len(self.delays)}")
+            self.delays.append(RawDelay(symbol, source, time, maximum))
+            self._fast.add(symbol.element_hash())
+            self._delay_of[node.number] = symbol
+        return self._delay_of[node.number]
+
+    def flag(self, node: ex.Initial | ex.Terminal) -> Scalar:
+        return self.initial if isinstance(node, ex.Initial) else self.terminal
+
+    def sample(self, start: Scalar, interval: Scalar, node: ex.Sample) -> Scalar:
+        key = str(start), str(interval)
+        if key not in self._sample_of:
+            number = len(self.samples)
+            sample = RawSample(ca.SX.sym(f"tick{number}"), ca.SX.sym(f"ticked{number}"), start, interval)
+            self.samples.append(sample)
+            self._sample_of[key] = sample.ticks
+        return self._sample_of[key]

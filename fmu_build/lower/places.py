@@ -1,0 +1,121 @@
+"""Decides in which vector each variable is kept; variables with one and the same value share their place."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+from fmu_build.front.flat_model import FlatModel, Role
+from fmu_build.front.flat_model import Scalar as ScalarKind
+from fmu_build.lower.continuous import Solved
+from fmu_build.lower.evaluate import Evaluator
+from fmu_build.lower.ode_model import Causality, Variability, Vector
+from fmu_build.lower.parameters import Parameters
+from fmu_build.lower.scope import ScalarVariable, Scope, scalar_names
+from fmu_build.lower.start import Start, start_values
+from fmu_build.lower.table import Entry
+from fmu_build.lower.values import Scalar
+
+
+@dataclass
+class Places:
+    """`entries` in the model's order, derivatives last; `outputs` is what is kept in w."""
+
+    entries: list[Entry] = field(default_factory=list)
+    outputs: list[Scalar] = field(default_factory=list)
+
+
+def place_variables(
+    flat: FlatModel,
+    scope: Scope,
+    parameters: Parameters,
+    solved: Solved,
+    derivatives: Sequence[Scalar],
+    start: Start,
+    evaluator: Evaluator,
+) -> Places:
+    places = Places()
+    entry_of = {
+        entry.variable.name: entry
+        for entries in (
+            _parameter_entries(parameters, evaluator),
+            _state_entries(scope, start, evaluator),
+            _input_entries(scope, evaluator),
+            _discrete_entries(scope, start, evaluator),
+            _algebraic_entries(scope, solved, derivatives, places),
+        )
+        for entry in entries
+    }
+    for variable in flat.variables:
+        if variable.scalar is not ScalarKind.STRING:
+            places.entries += [entry_of[name] for name in scalar_names(variable)]
+    places.entries += [
+        Entry(state, "local", "continuous", "calculated", "dx", k, derivative_of=state.name)
+        for k, state in enumerate(scope.states)
+    ]
+    return places
+
+
+def _causality(variable: ScalarVariable) -> Causality:
+    return "output" if variable.flat.is_output else "local"
+
+
+def _parameter_entries(parameters: Parameters, evaluator: Evaluator) -> list[Entry]:
+    entries = []
+    for k, variable in enumerate(parameters.settable):
+        variability: Variability = "tunable" if variable.flat.is_tunable else "fixed"
+        start = Scalar(parameters.starts[k])
+        entries.append(Entry(variable, "parameter", variability, "exact", "p", k, start))
+    for k, calculated in enumerate(parameters.calculated):
+        variable = calculated.variable
+        if variable.flat.role is Role.CONSTANT:
+            entries.append(Entry(variable, "local", "constant", "exact", "c", k, calculated.value))
+        elif calculated.value.is_constant() or variable.flat.fixed is not None or not variable.flat.is_tunable:
+            entries.append(Entry(variable, "calculatedParameter", "fixed", "calculated", "c", k))
+        else:
+            entries.append(Entry(variable, "calculatedParameter", "tunable", "calculated", "c", k))
+    return entries
+
+
+def _state_entries(scope: Scope, start: Start, evaluator: Evaluator) -> list[Entry]:
+    entries = []
+    for k, (variable, value) in enumerate(zip(scope.states, start_values(scope.states, evaluator), strict=True)):
+        is_kept = start.states[k] is variable.symbol
+        initial, shown = ("exact", value) if is_kept else ("calculated", None)
+        entries.append(Entry(variable, _causality(variable), "continuous", initial, "x", k, shown))
+    return entries
+
+
+def _input_entries(scope: Scope, evaluator: Evaluator) -> list[Entry]:
+    entries = []
+    for k, (variable, value) in enumerate(zip(scope.inputs, start_values(scope.inputs, evaluator), strict=True)):
+        variability: Variability = "continuous" if variable.flat.scalar is ScalarKind.REAL else "discrete"
+        entries.append(Entry(variable, "input", variability, None, "u", k, value))
+    return entries
+
+
+def _discrete_entries(scope: Scope, start: Start, evaluator: Evaluator) -> list[Entry]:
+    entries = []
+    values = start_values(scope.discretes, evaluator)
+    for k, (variable, value) in enumerate(zip(scope.discretes, values, strict=True)):
+        is_kept = start.discretes[k].element_hash() == variable.symbol.element_hash()
+        initial, shown = ("exact", value) if is_kept else ("calculated", None)
+        entries.append(Entry(variable, _causality(variable), "discrete", initial, "d", k, shown))
+    return entries
+
+
+def _algebraic_entries(scope: Scope, solved: Solved, derivatives: Sequence[Scalar], places: Places) -> list[Entry]:
+    known: dict[int, tuple[Vector, int]] = {}
+    for vector, symbols in (("x", scope.states), ("u", scope.inputs)):
+        known |= {v.symbol.element_hash(): (vector, k) for k, v in enumerate(symbols)}
+    for k, derivative in enumerate(derivatives):
+        if derivative.n_dep() > 0:
+            known.setdefault(derivative.element_hash(), ("dx", k))
+    values = solved.replace([variable.symbol for variable in scope.algebraics])
+    entries = []
+    for variable, value in zip(scope.algebraics, values, strict=True):
+        place = None if value.is_constant() else known.get(value.element_hash())
+        if place is None:
+            place = ("w", len(places.outputs))
+            places.outputs.append(value)
+            known[value.element_hash()] = place
+        entries.append(Entry(variable, _causality(variable), "continuous", "calculated", *place))
+    return entries
