@@ -17,26 +17,9 @@ from fmpy.fmi2 import FMU2Model
 from fmpy.fmi3 import FMU3Model
 
 from pysim.io import extracted
-from pysim.simulate._fmu_calls import FMU
+from pysim.simulate._fmu_calls import FUNCTIONS
 from pysim.simulate._messages import Mailbox
 from pysim.types import BadInput, Model
-
-# Field of FMU -> function, per version.
-_FUNCTIONS = {
-    "set_time": ("fmi2SetTime", "fmi3SetTime"),
-    "set_states": ("fmi2SetContinuousStates", "fmi3SetContinuousStates"),
-    "get_states": ("fmi2GetContinuousStates", "fmi3GetContinuousStates"),
-    "get_nominals": ("fmi2GetNominalsOfContinuousStates", "fmi3GetNominalsOfContinuousStates"),
-    "get_derivatives": ("fmi2GetDerivatives", "fmi3GetContinuousStateDerivatives"),
-    "get_indicators": ("fmi2GetEventIndicators", "fmi3GetEventIndicators"),
-    "set_reals": ("fmi2SetReal", "fmi3SetFloat64"),
-    "get_reals": ("fmi2GetReal", "fmi3GetFloat64"),
-    "get_directional": ("fmi2GetDirectionalDerivative", "fmi3GetDirectionalDerivative"),
-    "completed_step": ("fmi2CompletedIntegratorStep", "fmi3CompletedIntegratorStep"),
-    "enter_event_mode": ("fmi2EnterEventMode", "fmi3EnterEventMode"),
-    "update_discrete": ("fmi2NewDiscreteStates", "fmi3UpdateDiscreteStates"),
-    "enter_continuous_mode": ("fmi2EnterContinuousTimeMode", "fmi3EnterContinuousTimeMode"),
-}
 
 # Setter of FMPy per type of variable.
 _SETTERS = {"Real": "setReal", "Integer": "setInteger", "Enumeration": "setInteger", "Boolean": "setBoolean"}
@@ -57,15 +40,20 @@ class Instance:
         self.model, self.fmu, self.mailbox = model, fmu, mailbox
         self.lost = False  # after a fatal error nothing may be called any more
 
-    def native(self) -> np.ndarray:
-        """(1,) FMU: the addresses for native code."""
-        table = np.zeros(1, dtype=FMU)
+    def address(self, function: str) -> int:
+        """Address of one of the library's functions."""
+        return ctypes.cast(getattr(self.fmu.dll, function), ctypes.c_void_p).value or 0
+
+    def addresses(self) -> dict[str, Any]:
+        """What native code needs to call this instance."""
         version = self.model.abilities.fmi
-        table["fmi"], table["instance"] = version, self.fmu.component
-        table["needs_completed_step"] = self.model.abilities.needs_completed_step
-        for name, functions in _FUNCTIONS.items():
-            table[name] = ctypes.cast(getattr(self.fmu.dll, functions[version - 2]), ctypes.c_void_p).value
-        return table
+        return {
+            "version": version,
+            "instance": self.fmu.component,
+            "needs_completed_step": self.model.abilities.needs_completed_step,
+            "answers": np.zeros(4),
+            **{name: self.address(functions[version - 2]) for name, functions in FUNCTIONS.items()},
+        }
 
     def initialise(self, overrides: Mapping[str, float], start: float, stop: float, tolerance: float | None) -> None:
         """Set start values, go through initialisation mode, arrive in event mode.

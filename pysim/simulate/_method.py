@@ -1,34 +1,98 @@
-"""Which native function serves which family of methods; resolved when the loop is compiled."""
+"""Methods as data: coefficients of the two families, and which native function steps with them."""
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, NamedTuple
 
-from numba.extending import overload
+import numpy as np
+from numpy.typing import NDArray
 
-from pysim.simulate._explicit import ExplicitMethod, attempt_explicit, explicit_dense
+from pysim.simulate._explicit import attempt_explicit
+from pysim.simulate._native import doubles, native
+from pysim.simulate._rosenbrock import attempt_rosenbrock
 
-_ATTEMPT = {ExplicitMethod: attempt_explicit}
-_DENSE = {ExplicitMethod: explicit_dense}
+Array = NDArray[np.float64]
+
+EXPLICIT, ROSENBROCK = range(2)
+
+METHOD = np.dtype(
+    [
+        ("family", np.int64),
+        ("stages", np.int64),  # s
+        ("terms", np.int64),  # d
+        ("error_order", np.float64),
+        ("end_in_error", np.int64),
+        ("gamma", np.float64),
+        *((name, np.int64) for name in ("a", "b", "c", "error", "dense", "coupling", "slope")),  # addresses
+    ]
+)
 
 
-def attempt_step(method: Any, control: Any, fmu: Any, inputs: Any, run: Any, work: Any, h: float) -> tuple[int, float]:
-    """One step of length h (s) from run.t: fills work.k and work.x_new; the worst status and the error norm."""
-    raise NotImplementedError("native only")
+class ExplicitMethod(NamedTuple):
+    """Runge-Kutta with s stages: k_i = f(t + c_i h, x + h sum_j a_ij k_j), x_new = x + h sum_i b_i k_i.
+
+    k_s stands for the derivative at the end of the step, which is the first stage of the next one.
+    """
+
+    order: int
+    error_order: int  # the estimate falls with this power of the step
+    a: Array  # (s, s) lower triangle
+    b: Array  # (s,)
+    c: Array  # (s,)
+    error: Array  # (s + 1,) weights of the estimate, times h; zero for a fixed step
+    dense: Array  # (s + 1, d) weights of theta^1 ... theta^d in (x(t + theta h) - x) / h
 
 
-def dense_coefficients(method: Any, work: Any, h: float) -> None:
+class RosenbrockMethod(NamedTuple):
+    """Linearly implicit, with s stages, in the form that needs no product with the Jacobian J:
+
+    (I / (h gamma) - J) k_i = f(t + c_i h, x + sum_j a_ij k_j) + sum_j coupling_ij k_j / h + h slope_i df/dt,
+    x_new = x + sum_i b_i k_i.
+    """
+
+    order: int
+    error_order: int
+    gamma: float
+    a: Array  # (s, s) strictly lower triangle
+    b: Array  # (s,)
+    c: Array  # (s,)
+    coupling: Array  # (s, s) strictly lower triangle
+    slope: Array  # (s,)
+    error: Array  # (s + 1,) weights of the estimate; the last one is zero
+    dense: Array  # (s + 1, d) weights of theta^1 ... theta^d in x(t + theta h) - x; the last row is zero
+
+
+def method_arrays(method: ExplicitMethod | RosenbrockMethod) -> dict[str, Any]:
+    """What METHOD points to."""
+    return {
+        **{name: value for name, value in method._asdict().items() if name != "order"},
+        "family": EXPLICIT if isinstance(method, ExplicitMethod) else ROSENBROCK,
+        "stages": method.b.size,
+        "terms": method.dense.shape[1],
+        "end_in_error": int(method.error[-1] != 0.0),
+    }
+
+
+@native
+def attempt_step(job: Any, h: float) -> tuple[int, float]:
+    """One step of length h (s) from run.t: fills k and x_new (dx_new if it enters the error); status and error norm."""
+    if job.method.family == EXPLICIT:
+        return attempt_explicit(job, h)
+    return attempt_rosenbrock(job, h)
+
+
+@native
+def dense_coefficients(job: Any, h: float) -> None:
     """Fill work.dense with the interpolant over the step just taken."""
-    raise NotImplementedError("native only")
-
-
-@overload(attempt_step, strict=False)
-def _attempt_step(method: Any, control: Any, fmu: Any, inputs: Any, run: Any, work: Any, h: Any) -> Any:
-    family = _ATTEMPT[method.instance_class]
-    return lambda method, control, fmu, inputs, run, work, h: family(method, control, fmu, inputs, run, work, h)
-
-
-@overload(dense_coefficients, strict=False)
-def _dense_coefficients(method: Any, work: Any, h: Any) -> Any:
-    family = _DENSE[method.instance_class]
-    return lambda method, work, h: family(method, work, h)
+    work, method = job.work, job.method
+    n, terms = work.n, method.terms
+    scale = h if method.family == EXPLICIT else 1.0
+    k, weights, dense = doubles(work.k), doubles(method.dense), doubles(work.dense)
+    for j in range(terms * n):
+        dense[j] = 0.0
+    for i in range(method.stages + 1):
+        for p in range(terms):
+            weight = scale * weights[i * terms + p]
+            if weight != 0.0:
+                for j in range(n):
+                    dense[p * n + j] += weight * k[i * n + j]

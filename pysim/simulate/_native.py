@@ -1,4 +1,9 @@
-"""How this folder's functions become machine code, and how they call into an FMU."""
+"""How this folder's functions become machine code, and how they reach memory and an FMU.
+
+Native functions take one argument, the record of a run (`_job.JOB`), and find arrays by the addresses in it. Passing
+Numba's array objects instead would cost each call some 400 words on the stack and an atomic count per array, ten times
+as much as a derivative of the pump.
+"""
 
 from __future__ import annotations
 
@@ -14,19 +19,17 @@ from numba.extending import intrinsic
 
 from pysim.io import cache_folder
 
-# A part of a loop: no GIL, compiled into whatever calls it. fastmath stays off: NaN has to be seen.
+# A part of the loop: no GIL, compiled into whatever calls it. No fastmath: NaN has to be seen.
 native = numba.njit(nogil=True, error_model="numpy")
-
-# The same for the handful of lines that every derivative call runs through: passing an array to a function that is not
-# inlined costs seven registers, which is more than the work it does.
-inlined = numba.njit(nogil=True, error_model="numpy", forceinline=True)
 
 
 def _source_key() -> str:
-    """Hash of every source file of this folder."""
+    """Hash of the files that hold native code."""
     digest = hashlib.sha256()
     for path in sorted(Path(__file__).parent.glob("*.py")):
-        digest.update(path.read_bytes())
+        text = path.read_bytes()
+        if b"import" in text and b"@native" in text or path.name in ("_native.py", "_job.py"):
+            digest.update(text)
     return digest.hexdigest()[:16]
 
 
@@ -44,24 +47,38 @@ def entry(function: Callable[..., Any]) -> Callable[..., Any]:
         config.CACHE_DIR = before
 
 
-@intrinsic  # type: ignore[untyped-decorator]
+@intrinsic
 def call(typing_context: Any, address: Any, arguments: Any) -> Any:
     """Call the C function at `address` (int64) with a tuple of arguments; the int it returns.
 
-    The C signature follows from the Numba types: an array is passed as the pointer to its first item, int64 as a
-    pointer or size_t, int32 as int, fmi2Boolean or (widened, as every 64-bit calling convention allows) C bool,
-    float64 as double. Because the address is data, one compiled loop serves every FMU.
+    The C signature follows from the Numba types: int64 is a pointer or size_t, float64 a double, int32 an int or (widened,
+    as every 64-bit calling convention allows) a C bool. Because the address is data, one compiled loop serves every FMU.
     """
 
     def emit(context: Any, builder: Any, signature: Any, values: Any) -> Any:
         target, packed = values
-        passed = []
-        for i, kind in enumerate(arguments.types):
-            value = builder.extract_value(packed, i)
-            if isinstance(kind, types.Array):
-                value = context.make_array(kind)(context, builder, value).data
-            passed.append(value)
-        function_type = ir.FunctionType(ir.IntType(32), [v.type for v in passed])
+        passed = [builder.extract_value(packed, i) for i in range(len(arguments))]
+        function_type = ir.FunctionType(ir.IntType(32), [value.type for value in passed])
         return builder.call(builder.inttoptr(target, function_type.as_pointer()), passed)
 
     return types.int32(types.int64, arguments), emit
+
+
+def _pointer_to(item: types.Type) -> Callable[..., Any]:
+    """An intrinsic that takes an address as a pointer to items of that type."""
+
+    @intrinsic
+    def pointer(typing_context: Any, address: Any) -> Any:
+        def emit(context: Any, builder: Any, signature: Any, values: Any) -> Any:
+            return builder.inttoptr(values[0], context.get_value_type(signature.return_type))
+
+        return types.CPointer(item)(types.int64), emit
+
+    return pointer
+
+
+doubles = _pointer_to(types.float64)
+singles = _pointer_to(types.float32)
+longs = _pointer_to(types.int64)
+ints = _pointer_to(types.int32)
+octets = _pointer_to(types.uint8)

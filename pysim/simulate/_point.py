@@ -7,40 +7,50 @@ from typing import Any
 
 from pysim.simulate._fmu_calls import WARNING, get_derivatives, set_states, set_time
 from pysim.simulate._inputs import set_inputs
-from pysim.simulate._native import inlined, native
-
-
-@inlined
-def set_point(fmu: Any, inputs: Any, run: Any, t: float, x: Any) -> int:
-    """Move the FMU to time t (s) and states x (n,), with the inputs of that time; the worst status."""
-    status = set_time(fmu, t)
-    status = max(status, set_states(fmu, x))
-    return max(status, set_inputs(fmu, inputs, t, run.horizon))
-
-
-@inlined
-def evaluate(fmu: Any, inputs: Any, run: Any, t: float, x: Any, dx: Any) -> int:
-    """dx (n,) at time t (s) and states x (n,); the worst status."""
-    run.derivatives += 1
-    status = set_point(fmu, inputs, run, t, x)
-    return status if status > WARNING else max(status, get_derivatives(fmu, dx))
+from pysim.simulate._native import doubles, native
 
 
 @native
-def all_finite(a: Any) -> bool:
+def set_point(job: Any, t: float, x: int) -> int:
+    """Move the FMU to time t (s) and the states at address x, with the inputs of that time; the worst status."""
+    status = set_time(job.fmu, t)
+    status = max(status, set_states(job.fmu, x, job.work.n))
+    return max(status, set_inputs(job, t))
+
+
+@native
+def evaluate(job: Any, t: float, x: int, dx: int) -> int:
+    """Derivatives to address dx at time t (s) and the states at address x; the worst status."""
+    job.run.derivatives += 1
+    status = set_point(job, t, x)
+    return status if status > WARNING else max(status, get_derivatives(job.fmu, dx, job.work.n))
+
+
+@native
+def copy(source: int, target: int, n: int) -> None:
+    """target = source, n doubles."""
+    a, b = doubles(source), doubles(target)
+    for i in range(n):
+        b[i] = a[i]
+
+
+@native
+def all_finite(values: int, n: int) -> bool:
+    """Whether n doubles are all finite."""
+    a = doubles(values)
     total = 0.0
-    for i in range(a.size):
+    for i in range(n):
         total += 0.0 * a[i]  # NaN or infinity times zero is NaN, which stays
     return total == 0.0
 
 
 @native
-def error_norm(control: Any, work: Any) -> float:
-    """Root mean square of work.error over what is tolerated; 1 is just accepted."""
-    n = work.error.size
+def error_norm(job: Any, values: int, x: int, y: int) -> float:
+    """Root mean square of n values over what is tolerated between the states x and y; 1 is just accepted."""
+    v, a, b, nominal = doubles(values), doubles(x), doubles(y), doubles(job.work.nominal)
+    rtol, atol, n = job.control.rtol, job.control.atol, job.work.n
     total = 0.0
     for i in range(n):
-        size = max(abs(work.x[i]), abs(work.x_new[i]))
-        ratio = work.error[i] / (control.atol * work.nominal[i] + control.rtol * size)
+        ratio = v[i] / (atol * nominal[i] + rtol * max(abs(a[i]), abs(b[i])))
         total += ratio * ratio
     return math.sqrt(total / max(n, 1))

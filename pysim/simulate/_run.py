@@ -7,18 +7,20 @@ from collections.abc import Callable
 import numpy as np
 
 from pysim.simulate._base import Solver
-from pysim.simulate._fmu_calls import ASKS, DISCARD, ERROR, FATAL
-from pysim.simulate._inputs import find_breaks, pack_inputs
+from pysim.simulate._fmu_calls import DISCARD, ERROR, FATAL
+from pysim.simulate._inputs import break_arrays, input_arrays
+from pysim.simulate._job import Job
 from pysim.simulate._library import CallFailed, Instance, Library, open_library
 from pysim.simulate._loop import integrate
-from pysim.simulate._recording import Rows
-from pysim.simulate._state import RUN, RUNNING, STATISTICS, new_work
+from pysim.simulate._method import RosenbrockMethod, method_arrays
+from pysim.simulate._recording import row_arrays
+from pysim.simulate._state import RUNNING, work_arrays
 from pysim.simulate.rk45 import Rk45
 from pysim.types import Experiment, Model, Outcome, Record, SimulationError
 
 _BUDGET = 20_000  # steps between two looks at the world outside: some 20 ms
 
-_STATUS = {DISCARD: "discarded a point", ERROR: "an error", FATAL: "a fatal error"}
+_STATUS = {DISCARD: "the model discards the point", ERROR: "an FMI function failed", FATAL: "a fatal FMI error"}
 
 
 def simulate(model: Model, experiment: Experiment, *, solver: Solver = Rk45(), check: bool = True) -> Record:  # noqa: B008
@@ -49,47 +51,56 @@ def run(library: Library, experiment: Experiment, solver: Solver, stopped: Calla
         with library.instance() as instance:
             return _run_instance(instance, experiment, solver, stopped)
     except CallFailed as error:
-        return _record(library.model, experiment, np.zeros((0, len(experiment.record))), Outcome.MODEL_ERROR, str(error))
+        return _record(library.model, experiment, np.zeros((0, len(experiment.record))), Outcome.MODEL_ERROR, str(error), {})
 
 
 def _run_instance(instance: Instance, experiment: Experiment, solver: Solver, stopped: Callable[[], bool]) -> Record:
-    model, control, method = instance.model, solver.control(), solver.method()
-    inputs, breaks = pack_inputs(model, experiment), find_breaks(experiment)
-    first = {name: float(signal.value(np.array(experiment.start))) for name, signal in experiment.inputs.items()}
-    try:
-        instance.initialise(
-            {**first, **experiment.overrides}, experiment.start, float(breaks.times[-1]), control.rtol if control.step == 0 else None
-        )
-    except CallFailed as error:
-        raise CallFailed(f"{error}{instance.mailbox.text()}") from error
-    abilities = model.abilities
-    work = new_work(
-        len(abilities.states),
-        abilities.event_indicators,
-        method.b.size,
-        method.dense.shape[1],
-        [model[name].reference for name in abilities.states],
-        [model[name].reference for name in abilities.derivatives],
-        implicit=False,
-    )
-    runs = np.zeros(1, dtype=RUN)
-    runs["start"] = runs["t"] = experiment.start
-    runs["segment"] = -1
-    rows = Rows(
-        experiment.times.copy(),
-        np.array([model[name].reference for name in experiment.record], dtype=np.uint32),
-        np.zeros((experiment.times.size, len(experiment.record))),
-    )
-    code = RUNNING
-    fmus, asks = instance.native(), np.zeros(1, dtype=ASKS)
+    control = solver.control()
+    starts = {name: float(signal.value(np.array(experiment.start))) for name, signal in experiment.inputs.items()}
+    tolerance = control.rtol if control.step == 0.0 else None
+    instance.initialise({**experiment.overrides, **starts}, experiment.start, float(experiment.times[-1]), tolerance)
+    job, code = _prepare(instance, experiment, solver), RUNNING
     while code == RUNNING and not stopped():
-        code = integrate(method, control, fmus, inputs, breaks, runs, work, rows, asks, _BUDGET)
-    instance.lost = bool(runs["status"][0] >= FATAL)
+        code = integrate(job.record, _BUDGET)
+    instance.lost = bool(job.number("run", "status") >= FATAL)
     outcome = list(Outcome)[code]
-    return _record(model, experiment, rows.values[: runs["row"][0]], outcome, "" if outcome is Outcome.DONE else outcome.value + instance.mailbox.text(), runs)
+    message = "" if outcome is Outcome.DONE else _explain(job, outcome) + instance.mailbox.text()
+    values = job.array("rows", "values")[: job.number("rows", "next")]
+    return _record(instance.model, experiment, values, outcome, message, job.statistics())
 
 
-def _record(model: Model, experiment: Experiment, values: np.ndarray, outcome: Outcome, message: str, runs=None) -> Record:
+def _prepare(instance: Instance, experiment: Experiment, solver: Solver) -> Job:
+    """Everything native code needs for this run."""
+    model, method = instance.model, solver.method()
+    abilities, job = model.abilities, Job(experiment.start, float(experiment.times[-1]))
+    implicit = isinstance(method, RosenbrockMethod)
+    job.put("fmu", instance.addresses())
+    job.put("method", method_arrays(method))
+    job.put("control", solver.control()._asdict())
+    job.put("inputs", input_arrays(model, experiment))
+    job.put("breaks", break_arrays(experiment))
+    terms = method.dense.shape[1]
+    job.put("work", work_arrays(len(abilities.states), abilities.event_indicators, method.b.size, terms, implicit))
+    job.put(
+        "work",
+        {
+            "state_references": np.array([model[name].reference for name in abilities.states], dtype=np.uint32),
+            "derivative_references": np.array([model[name].reference for name in abilities.derivatives], dtype=np.uint32),
+            "has_directional": abilities.directional_derivatives,
+        },
+    )
+    job.put("rows", row_arrays(model, experiment.record, experiment.times, instance.address))
+    return job
+
+
+def _explain(job: Job, outcome: Outcome) -> str:
+    status = _STATUS.get(int(job.number("run", "status")))
+    return f"{outcome.value} at {job.number('run', 't'):g} s" + (f" ({status})" if status else "")
+
+
+def _record(
+    model: Model, experiment: Experiment, values: np.ndarray, outcome: Outcome, message: str, statistics: dict[str, int]
+) -> Record:
     return Record(
         time=experiment.times[: len(values)],
         values=values,
@@ -98,7 +109,7 @@ def _record(model: Model, experiment: Experiment, values: np.ndarray, outcome: O
         outcome=outcome,
         message=message,
         origin=f"simulated {model.name}",
-        statistics={name: int(runs[name][0]) for name in STATISTICS} if runs is not None else {},
+        statistics=statistics,
     )
 
 

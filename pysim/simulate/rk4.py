@@ -6,9 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from pysim.simulate._base import fixed
-from pysim.simulate._explicit import ExplicitMethod
-from pysim.simulate._state import Control
+from pysim.simulate._base import Control, fixed
+from pysim.simulate._method import ExplicitMethod
 
 
 def _hermite(b: np.ndarray) -> np.ndarray:
@@ -24,13 +23,12 @@ _B = np.array([1, 2, 2, 1]) / 6.0
 
 _METHOD = ExplicitMethod(
     order=4,
+    error_order=5,
     a=np.array([[0, 0, 0, 0], [0.5, 0, 0, 0], [0, 0.5, 0, 0], [0, 0, 1.0, 0]]),
     b=_B,
     c=np.array([0, 0.5, 0.5, 1.0]),
     error=np.zeros(5),
-    error_order=5,
     dense=_hermite(_B),
-    end_in_error=False,
 )
 
 

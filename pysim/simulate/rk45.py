@@ -7,9 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from pysim.simulate._base import adaptive
-from pysim.simulate._explicit import ExplicitMethod
-from pysim.simulate._state import Control
+from pysim.simulate._base import Control, adaptive
+from pysim.simulate._method import ExplicitMethod
 
 # Dormand and Prince 1980, as printed in Hairer, Norsett, Wanner I, Table II.5.2; the seventh stage is the derivative at
 # the end of the step.
@@ -37,13 +36,12 @@ _DENSE = np.array(
 
 _METHOD = ExplicitMethod(
     order=5,
+    error_order=5,
     a=_A,
     b=_B,
     c=_A.sum(axis=1),
     error=np.append(_B, 0.0) - _EMBEDDED,
-    error_order=5,
     dense=_DENSE,
-    end_in_error=True,
 )
 
 

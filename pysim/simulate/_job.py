@@ -1,0 +1,57 @@
+"""The memory of one run: a record of numbers and addresses for native code, and the arrays the addresses point to."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from pysim.simulate._fmu_calls import FMU
+from pysim.simulate._inputs import BREAKS, INPUTS
+from pysim.simulate._method import METHOD
+from pysim.simulate._recording import ROWS
+from pysim.simulate._state import CONTROL, RUN, STATISTICS, WORK
+
+JOB = np.dtype(
+    [
+        ("fmu", FMU),
+        ("method", METHOD),
+        ("control", CONTROL),
+        ("inputs", INPUTS),
+        ("breaks", BREAKS),
+        ("run", RUN),
+        ("work", WORK),
+        ("rows", ROWS),
+    ]
+)
+
+
+class Job:
+    """One run. Native code gets `record` (1,) of JOB."""
+
+    def __init__(self, start: float, end: float) -> None:
+        self.record = np.zeros(1, dtype=JOB)
+        self._arrays: dict[tuple[str, str], np.ndarray] = {}
+        self.put("run", {"start": start, "end": end, "t": start, "segment": -1, "jacobian_at": np.nan})
+
+    def put(self, section: str, values: Mapping[str, Any]) -> None:
+        """Fill fields of a section; an array is kept alive and its address stored."""
+        for name, value in values.items():
+            if isinstance(value, np.ndarray):
+                array = np.ascontiguousarray(value)
+                self._arrays[section, name] = array
+                value = array.ctypes.data
+            self.record[section][name] = value
+
+    def array(self, section: str, name: str) -> np.ndarray:
+        """An array that was put in."""
+        return self._arrays[section, name]
+
+    def number(self, section: str, name: str) -> Any:
+        """A number, as it stands now."""
+        return self.record[section][name][0]
+
+    def statistics(self) -> dict[str, int]:
+        """Counts of the run so far."""
+        return {name: int(self.number("run", name)) for name in STATISTICS}
