@@ -89,7 +89,11 @@ class _Numbering:
 
 
 def expression_graph(arguments: Sequence[ca.SX], results: Sequence[ca.SX]) -> Graph:
-    """The graph of `results`, each of any shape and sparsity, in terms of `arguments` (column vectors of symbols).
+    """The graph of `results`, each of any shape and sparsity.
+
+    Args:
+        arguments: dense column vectors of symbols.
+        results: expressions in these symbols.
 
     Dense positions are column-major. Raises RuntimeError (from CasADi) when a result holds another symbol.
     """
@@ -101,8 +105,7 @@ def expression_graph(arguments: Sequence[ca.SX], results: Sequence[ca.SX]) -> Gr
         operation = function.instruction_id(k)
         if operation == ca.OP_INPUT:
             argument, element = function.instruction_input(k)
-            position = _dense_positions(arguments[argument])[element]
-            register[function.instruction_output(k)[0]] = numbering.add(ca.OP_INPUT, (argument, position))
+            register[function.instruction_output(k)[0]] = numbering.add(ca.OP_INPUT, (argument, element))
         elif operation == ca.OP_CONST:
             constant = function.instruction_constant(k)
             register[function.instruction_output(k)[0]] = numbering.add(ca.OP_CONST, (), constant)

@@ -21,14 +21,17 @@ class CompilerError(Exception):
     """The compiler refused what we generated: our mistake, not the user's."""
 
 
-def compile_shared(sources: Sequence[Path], includes: Sequence[Path], platform: Platform, library: Path) -> bytes:
+def compile_shared(sources: Sequence[Path], includes: Sequence[str], platform: Platform, library: Path) -> bytes:
     """The bytes of a shared library made of absolute `sources`; it is also left at `library`.
+
+    Args:
+        includes: the compiler's options for folders of headers.
 
     The compiler works in the folder of the last source: zig remembers what it has compiled by the working folder, and
     one that stays the same spares compiling the run-time system for each model. No path gets into the library.
     """
     command = [_zig(), "cc", "-target", platform.zig_target, *FLAGS, *_linker_flags(platform, library)]
-    command += [f"-I{folder}" for folder in includes] + [str(source) for source in sources]
+    command += [*includes, *(str(source) for source in sources)]
     try:
         done = subprocess.run(
             [*command, "-lm", "-o", str(library)],

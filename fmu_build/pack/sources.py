@@ -17,8 +17,10 @@ class Sources:
     headers: tuple[Path, ...]  # of the FMI standard
 
     @property
-    def includes(self) -> tuple[Path, ...]:
-        return tuple(dict.fromkeys(path.parent for path in (*self.runtime, *self.headers)))
+    def includes(self) -> tuple[str, ...]:
+        """Options for the compiler; the standard's headers are not held to our warnings."""
+        ours = (f"-I{path.parent}" for path in self.runtime)
+        return tuple(dict.fromkeys([*ours, f"-isystem{self.headers[0].parent}"]))
 
     @property
     def compiled(self) -> tuple[Path, ...]:

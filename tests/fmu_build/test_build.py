@@ -1,0 +1,105 @@
+"""The way from class to file, with a model written by hand in the place of the front end and the lowering."""
+
+import importlib
+import subprocess
+import sys
+import zipfile
+
+import pytest
+
+import fmu_build
+import fmu_build.front
+import fmu_build.lower
+from fmu_build import BuildError, build
+from fmu_build.build import bundled_library
+from tests import ode_models
+
+build_module = importlib.import_module("fmu_build.build")
+
+
+@pytest.fixture
+def loads(tmp_path, monkeypatch):
+    """Own cache, and a front end that gives the oscillator; collects the arguments it is called with."""
+    monkeypatch.setenv("HTB_CACHE", str(tmp_path / "cache"))
+    calls = []
+
+    def load(class_name, libraries, overrides):
+        calls.append((class_name, libraries, overrides))
+        return "flat model"
+
+    monkeypatch.setattr(fmu_build.front, "load", load)
+    monkeypatch.setattr(fmu_build.lower, "lower", lambda flat: ode_models.oscillator(), raising=False)
+    return calls
+
+
+def test_a_second_build_comes_from_the_cache(loads, tmp_path):
+    first = build("Test.Oscillator", tmp_path / "a.fmu", overrides={"m": 3.0})
+    second = build("Test.Oscillator", tmp_path / "b.fmu", overrides={"m": 3.0})
+    assert loads == [("Test.Oscillator", [bundled_library()], {"m": 3.0})]
+    assert first.read_bytes() == second.read_bytes()
+    assert zipfile.ZipFile(first).testzip() is None
+
+
+def test_another_value_or_version_is_another_build(loads):
+    paths = {build("A"), build("A", overrides={"m": 1.0}), build("A", fmi=3), build("A")}
+    assert len(paths) == len(loads) == 3
+
+
+def test_without_the_cache_it_is_built_again(loads):
+    assert build("A") == build("A", use_cache=False)
+    assert len(loads) == 2
+
+
+def test_an_unchanged_model_needs_none_of_the_tools(loads, tmp_path):
+    """What the cache holds is found without importing the compiler's parts, and so at once."""
+    build("Test.Oscillator")
+    script = (
+        "import sys; from pathlib import Path; from fmu_build import build\n"
+        f"build('Test.Oscillator', Path({str(tmp_path / 'c.fmu')!r}))\n"
+        "print([m for m in ('casadi', 'rumoca', 'fmpy', 'numpy', 'ziglang') if m in sys.modules])"
+    )
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "[]"
+    assert (tmp_path / "c.fmu").exists()
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"fmi": 1}, "FMI version 1"),
+        ({"platforms": ["beos"]}, "beos"),
+        ({"libraries": ["nowhere"]}, "nowhere does not exist"),
+    ],
+)
+def test_wrong_arguments(loads, options, message):
+    with pytest.raises(BuildError, match=message):
+        build("A", **options)
+    assert not loads
+
+
+def test_an_unwritable_target_is_refused_before_any_work(loads, tmp_path):
+    with pytest.raises(BuildError, match="does not exist"):
+        build("A", tmp_path / "missing" / "a.fmu")
+    assert not loads
+
+
+@pytest.mark.parametrize("package", ["rumoca", "ziglang"])
+def test_a_missing_tool_is_named_with_its_cure(loads, monkeypatch, package):
+    find = importlib.util.find_spec
+    monkeypatch.setattr(build_module.importlib.util, "find_spec", lambda name: None if name == package else find(name))
+    with pytest.raises(BuildError, match=f"pip install {package}"):
+        build("A")
+
+
+def test_a_failed_build_leaves_nothing_behind(loads, tmp_path, monkeypatch):
+    def refuse(flat):
+        raise BuildError("no")
+
+    monkeypatch.setattr(fmu_build.lower, "lower", refuse)
+    with pytest.raises(BuildError, match="no"):
+        build("A", tmp_path / "a.fmu")
+    assert not [path for path in tmp_path.rglob("*") if path.is_file()]
+
+
+def test_our_library_is_found():
+    assert (bundled_library() / "package.mo").is_file()
