@@ -1,5 +1,5 @@
 within HydraulicTestBench.Interfaces;
-partial block PartialCommandRate "Slot for the rate of the command"
+partial model PartialCommandRate "Slot for the rate of the command"
   extends Icons.Slot;
   RealInput s(unit="%") "Command";
   RealInput s_t(unit="%/s") "Its time derivative as far as it is known, 0 where it is not";

@@ -1,5 +1,5 @@
 within HydraulicTestBench.Interfaces;
-partial block PartialCompressibility "Slot for what makes the oil in the two chambers softer"
+partial model PartialCompressibility "Slot for what makes the oil in the two chambers softer"
   extends Icons.Slot;
   RealInput p1(unit="Pa") "Gauge pressure in chamber 1";
   RealInput p2(unit="Pa") "Gauge pressure in chamber 2";

@@ -1,5 +1,5 @@
 within HydraulicTestBench.Interfaces;
-partial block PartialDeadTime "Slot for the dead time of the inner loop"
+partial model PartialDeadTime "Slot for the dead time of the inner loop"
   extends Icons.Slot;
   parameter Types.Duration tau "Dead time";
   RealInput s(unit="1") "Spool command of the card";

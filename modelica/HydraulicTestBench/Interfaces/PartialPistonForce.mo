@@ -1,5 +1,5 @@
 within HydraulicTestBench.Interfaces;
-partial block PartialPistonForce "Slot for a force on the control piston"
+partial model PartialPistonForce "Slot for a force on the control piston"
   extends Icons.Slot;
   RealInput x(unit="m") "Position of the piston";
   RealInput v(unit="m/s") "Velocity of the piston";

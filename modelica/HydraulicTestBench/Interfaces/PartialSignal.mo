@@ -1,5 +1,5 @@
 within HydraulicTestBench.Interfaces;
-partial block PartialSignal "Slot for a signal: s in, y out"
+partial model PartialSignal "Slot for a signal: s in, y out"
   extends Icons.Slot;
   RealInput s(unit="1") "Signal as the base model has it";
   RealOutput y(unit="1") "Signal as the rest of the model sees it";

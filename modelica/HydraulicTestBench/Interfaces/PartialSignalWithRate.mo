@@ -1,5 +1,5 @@
 within HydraulicTestBench.Interfaces;
-partial block PartialSignalWithRate "Slot for a signal and its time derivative"
+partial model PartialSignalWithRate "Slot for a signal and its time derivative"
   extends Icons.Slot;
   RealInput s "Signal as the base model has it";
   RealInput s_t "Its time derivative";

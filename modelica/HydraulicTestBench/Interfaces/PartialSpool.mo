@@ -1,5 +1,5 @@
 within HydraulicTestBench.Interfaces;
-partial block PartialSpool "Slot for the dynamics of the valve spool"
+partial model PartialSpool "Slot for the dynamics of the valve spool"
   extends Icons.Slot;
   parameter Types.NaturalFrequency omega_v "Natural frequency";
   parameter Types.DampingRatio zeta_v "Damping ratio";

@@ -1,5 +1,5 @@
 within HydraulicTestBench.Pump;
-block CommandRateInput "Rate of the command as it is fed"
+model CommandRateInput "Rate of the command as it is fed"
   extends Interfaces.PartialCommandRate;
 equation
   rate = s_t;

@@ -1,5 +1,5 @@
 within HydraulicTestBench.Pump;
-block CommandRateObserver "Rate of the command: what is known of it, plus an estimate of the rest"
+model CommandRateObserver "Rate of the command: what is known of it, plus an estimate of the rest"
   extends Interfaces.PartialCommandRate;
   parameter Types.Duration T_rate(min=1e-5) = 0.5e-3 "Time constant of the estimate";
   Types.Percent followed(stateSelect=StateSelect.always) "Command as the observer follows it";

@@ -1,5 +1,5 @@
 within HydraulicTestBench.Pump;
-block PadeDeadTime "Dead time as a Pade approximation of order 3"
+model PadeDeadTime "Dead time as a Pade approximation of order 3"
   extends Interfaces.PartialDeadTime;
   constant Types.Duration tau_min = 0.1e-3 "Shorter dead times are held at this one";
   final parameter Types.Duration T = max(tau, tau_min) "Dead time in force";

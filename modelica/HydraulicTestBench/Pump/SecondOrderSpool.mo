@@ -1,5 +1,5 @@
 within HydraulicTestBench.Pump;
-block SecondOrderSpool "Spool of the proportional valve as a second order lag, thesis Eq. 3.19"
+model SecondOrderSpool "Spool of the proportional valve as a second order lag, thesis Eq. 3.19"
   extends Interfaces.PartialSpool(
     u(start=0, fixed=true, stateSelect=StateSelect.always),
     u_t(start=0, fixed=true, stateSelect=StateSelect.always));

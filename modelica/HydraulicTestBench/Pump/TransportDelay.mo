@@ -1,5 +1,5 @@
 within HydraulicTestBench.Pump;
-block TransportDelay "Dead time as a true delay"
+model TransportDelay "Dead time as a true delay"
   extends Interfaces.PartialDeadTime;
   parameter Types.Duration tau_max = 0.05 "Longest dead time, sizes the memory";
 equation

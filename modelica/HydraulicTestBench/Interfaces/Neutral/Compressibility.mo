@@ -1,5 +1,5 @@
 within HydraulicTestBench.Interfaces.Neutral;
-block Compressibility "Nothing softer than the oil itself"
+model Compressibility "Nothing softer than the oil itself"
   extends PartialCompressibility;
 equation
   kappa1 = 0;

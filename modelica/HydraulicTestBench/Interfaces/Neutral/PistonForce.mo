@@ -1,5 +1,5 @@
 within HydraulicTestBench.Interfaces.Neutral;
-block PistonForce "No further force"
+model PistonForce "No further force"
   extends PartialPistonForce;
 equation
   f = 0;

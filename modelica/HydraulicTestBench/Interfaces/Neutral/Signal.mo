@@ -1,5 +1,5 @@
 within HydraulicTestBench.Interfaces.Neutral;
-block Signal "The signal as it is"
+model Signal "The signal as it is"
   extends PartialSignal;
 equation
   y = s;

@@ -1,5 +1,5 @@
 within HydraulicTestBench.Interfaces.Neutral;
-block SignalWithRate "The signal and its rate as they are"
+model SignalWithRate "The signal and its rate as they are"
   extends PartialSignalWithRate;
 equation
   y = s;
