@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import casadi as ca
 
 _COMMUTATIVE = frozenset({ca.OP_ADD, ca.OP_MUL, ca.OP_EQ, ca.OP_NE, ca.OP_AND, ca.OP_OR, ca.OP_FMIN, ca.OP_FMAX})
+_LARGEST_POWER = 5  # up to here x^n is a few products
 SELECT = -1  # operands (condition, value where it is not 0, value where it is 0); CasADi has no such operation
 
 
@@ -50,7 +51,7 @@ class _Numbering:
         if operation in (ca.OP_ASSIGN, ca.OP_LIFT):
             return operands[0]
         if operation in (ca.OP_CONSTPOW, ca.OP_POW):
-            number = self._half_integer_power(*operands)
+            number = self._power_by_roots(*operands)
             if number is not None:
                 return number
         if operation == ca.OP_ADD:
@@ -65,15 +66,20 @@ class _Numbering:
             self.nodes.append(Node(operation, operands, constant))
         return self._known[key]
 
-    def _half_integer_power(self, base: int, exponent: int) -> int | None:
-        """x^1.5 and its like cost a root and some products; pow() costs ten times that."""
+    def _power_by_roots(self, base: int, exponent: int) -> int | None:
+        """x^0.25, x^-1.5 and their like: products and roots cost a few ns each, pow() 20 ns."""
         node = self.nodes[exponent]
-        whole = abs(node.constant) - 0.5
-        if node.operation != ca.OP_CONST or whole not in (0.0, 1.0, 2.0, 3.0):
+        quarters = 4 * abs(node.constant)
+        if node.operation != ca.OP_CONST or quarters not in range(1, _LARGEST_POWER * 4 + 1):
             return None
-        value = self.add(ca.OP_SQRT, (base,))
-        for _ in range(int(whole)):
-            value = self.add(ca.OP_MUL, (value, base))
+        whole, rest = divmod(int(quarters), 4)
+        factors = [base] * whole
+        if rest:
+            root = self.add(ca.OP_SQRT, (base,))
+            factors += [root] * (rest >= 2) + [self.add(ca.OP_SQRT, (root,))] * (rest % 2)
+        value = factors[-1]
+        for factor in factors[:-1]:
+            value = self.add(ca.OP_MUL, (value, factor))
         return value if node.constant > 0 else self.add(ca.OP_INV, (value,))
 
     def _selection(self, a: int, b: int) -> int | None:

@@ -46,6 +46,13 @@ class _Value:
     is_constant: bool
     of_parameters: bool  # of p and c, or constant
     name: ca.SX | None = None  # the symbol that stands for it once it is hoisted
+    reciprocal: "_Value | None" = None
+
+    def inverse(self) -> "_Value":
+        """A division by what does not change becomes a multiplication, which is four times as fast."""
+        if self.reciprocal is None:
+            self.reciprocal = _Value(1 / self.expression, False, self.is_constant, self.of_parameters)
+        return self.reciprocal
 
 
 @dataclass
@@ -80,6 +87,8 @@ class _Hoist:
         if all(operand.of_parameters for operand in operands):
             constant = all(operand.is_constant for operand in operands)
             return _Value(_apply(operation, [o.expression for o in operands]), False, constant, True)
+        if operation == ca.OP_DIV and operands[1].of_parameters:
+            return _Value(self._used(operands[0]) * self._used(operands[1].inverse()), False, False, False)
         return _Value(_apply(operation, [self._used(o) for o in operands]), False, False, False)
 
     def _used(self, value: _Value) -> ca.SX:
