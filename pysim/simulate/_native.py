@@ -20,7 +20,7 @@ from numba.extending import intrinsic
 from pysim.io import cache_folder
 
 # A part of the loop: no GIL, compiled into whatever calls it. No fastmath: NaN has to be seen.
-native = numba.njit(nogil=True, error_model="numpy")
+native = numba.njit(nogil=True, error_model="numpy", no_cpython_wrapper=True, no_cfunc_wrapper=True)
 
 
 def _source_key() -> str:
