@@ -1,6 +1,6 @@
 """The continuous equations in an order in which each block follows from those before it."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import casadi as ca
@@ -9,6 +9,7 @@ from fmu_build.errors import BuildError
 from fmu_build.front.flat_model import FlatModel
 from fmu_build.lower.equations import Definition, ScalarEquation, eliminate_aliases, incidence
 from fmu_build.lower.evaluate import Evaluator, Frame
+from fmu_build.lower.index_reduction import is_regular, reduce_index
 from fmu_build.lower.parameters import explicit
 from fmu_build.lower.scope import Scope
 from fmu_build.lower.solve import solve_block
@@ -59,10 +60,8 @@ def solve_continuous(flat: FlatModel, scope: Scope, equations: Sequence[ScalarEq
             flat.span.file,
             flat.span.line,
         )
-    has_start = {v.symbol.element_hash(): v.flat.start is not None for v in scope.algebraics}
-    # Derivatives go first: an algebraic variable may carry a start value and can be asked for.
-    rank = [0] * len(scope.derivatives) + [1 + has_start[symbol.element_hash()] for symbol in algebraics]
-    equations, unknowns, aliases = eliminate_aliases(equations, [*scope.derivatives, *algebraics], rank)
+    has_start = {v.symbol.element_hash(): v.flat.start is not None for v in (*scope.algebraics, *scope.states)}
+    equations, unknowns, aliases = _index_one(equations, algebraics, scope, has_start)
     definitions: list[Definition] = []
     iterated: list[Scalar] = []
     residuals: list[Scalar] = []
@@ -76,6 +75,27 @@ def solve_continuous(flat: FlatModel, scope: Scope, equations: Sequence[ScalarEq
     symbols = [definition.symbol for definition in definitions]
     values, residuals = explicit(symbols, [definition.value for definition in definitions], residuals)
     return Solved(symbols, values, iterated, residuals)
+
+
+def _index_one(
+    equations: Sequence[ScalarEquation], algebraics: Sequence[Scalar], scope: Scope, has_start: Mapping[int, bool]
+) -> tuple[list[ScalarEquation], list[Scalar], list[Definition]]:
+    """Equations that determine the unknowns, without aliases; differentiated where states constrain each other."""
+
+    def rank(symbols: Sequence[Scalar]) -> list[int]:
+        # Derivatives go first: an algebraic variable may carry a start value and can be asked for.
+        return [1 + has_start[s.element_hash()] if s.element_hash() in has_start else 0 for s in symbols]
+
+    unknowns = [*scope.derivatives, *algebraics]
+    plain = eliminate_aliases(equations, unknowns, rank(unknowns))
+    if is_regular(plain[0], incidence(plain[0], plain[1]), len(plain[1])):
+        return plain
+    # Derivatives have to stay visible while equations are differentiated.
+    equations, algebraics, first = eliminate_aliases(equations, algebraics, rank(algebraics))
+    reduced = reduce_index(equations, algebraics, scope)
+    scope.give_up(reduced.given_up)
+    equations, unknowns, second = eliminate_aliases(reduced.equations, reduced.unknowns, rank(reduced.unknowns))
+    return equations, unknowns, [*second, *first]
 
 
 def square_blocks(

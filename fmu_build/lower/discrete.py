@@ -13,7 +13,7 @@ from fmu_build.lower.evaluate import Evaluator, Frame
 from fmu_build.lower.events import Events
 from fmu_build.lower.ode_model import Check
 from fmu_build.lower.parameters import explicit
-from fmu_build.lower.scope import Scope, ScalarVariable
+from fmu_build.lower.scope import ScalarVariable, Scope
 from fmu_build.lower.sorting import blocks
 from fmu_build.lower.values import Scalar, Value, choose, scalars
 
@@ -40,7 +40,6 @@ class DiscretePart:
         self.pre_conditions: list[Scalar] = []
         self._active = self._read_clauses()
         self._raw_discretes = [value for variables in self._targets() for value in self._new_values(variables)]
-        self._raw_states = [self._reinitialised(variable) for variable in scope.states]
         self._raw_checks = [self._check(k) for k in range(len(flat.assertions))]
         self._raw_terminations = [
             Check(self._is_active(t.activation), self._message(t.message)) for t in flat.terminations
@@ -48,11 +47,12 @@ class DiscretePart:
 
     def updates(self, solved: Solved) -> Updates:
         """One pass, with algebraic variables, derivatives and new discrete values put in."""
+        raw_states = self._reinitialised_states()
         samples = self._events.samples
         parts = [
             self._raw_discretes,
             [*self.conditions, *(sample.flag for sample in samples)],
-            self._raw_states,
+            raw_states,
             [check.condition for check in self._raw_terminations],
         ]
         flat_list = solved.replace([value for part in parts for value in part])
@@ -119,6 +119,16 @@ class DiscretePart:
     def _condition(self, equation: DiscreteEquation) -> Scalar:
         assert equation.activation is not None
         return self._is_active(equation.activation)
+
+    def _reinitialised_states(self) -> list[Scalar]:
+        for reinit in self._flat.reinits:
+            if any(variable.flat.name == reinit.state for variable in self._scope.given_up):
+                raise BuildError(
+                    f"{reinit.state} cannot be reinitialised: it follows from other states; set its stateSelect to always",
+                    reinit.span.file,
+                    reinit.span.line,
+                )
+        return [self._reinitialised(variable) for variable in self._scope.states]
 
     def _reinitialised(self, variable: ScalarVariable) -> Scalar:
         result = variable.symbol

@@ -8,7 +8,6 @@ import casadi as ca
 from fmu_build.front.expression import Span
 from fmu_build.lower.values import Scalar, column
 
-
 KNOWN = 99  # rank of what is no unknown
 
 

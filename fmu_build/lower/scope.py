@@ -48,6 +48,7 @@ class Scope:
         self.inputs: list[ScalarVariable] = []
         self.discretes: list[ScalarVariable] = []
         self.derivatives: list[Scalar] = []
+        self.given_up: list[ScalarVariable] = []
         self.pre_discretes: list[Scalar] = []
         self._values: dict[tuple[str, ex.Form], Value] = {}
         for variable in flat.variables:
@@ -59,9 +60,13 @@ class Scope:
             raise BuildError(f"{form.value} of {name} is not supported here", span.file, span.line)
         return found
 
-    def scalars_of(self, name: str) -> list[ScalarVariable]:
-        """The elements of one discrete variable or state."""
-        return [variable for variable in (*self.discretes, *self.states) if variable.flat.name == name]
+    def give_up(self, variables: list[ScalarVariable]) -> None:
+        """Turn states that index reduction found to follow from others into algebraic variables."""
+        kept = [k for k, state in enumerate(self.states) if state not in variables]
+        self.algebraics += variables
+        self.given_up += variables
+        self.states = [self.states[k] for k in kept]
+        self.derivatives = [self.derivatives[k] for k in kept]
 
     def _add(self, variable: FlatVariable) -> None:
         lists = {

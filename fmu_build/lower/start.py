@@ -74,7 +74,7 @@ def initial_conditions(
     Raises:
         BuildError: more initial equations than they can determine, or a free parameter they do not determine.
     """
-    equations = _show_free_parameters(_initial_equations(flat, evaluator, solved), parameters)
+    equations = _show_free_parameters(_initial_equations(flat, scope, evaluator, solved), parameters)
     state_starts = start_values(scope.states, evaluator)
     guesses_q = _iteration_guesses(scope, solved, evaluator)
     candidates = _candidates(scope, parameters, evaluator, state_starts)
@@ -102,13 +102,17 @@ def initial_conditions(
     )
 
 
-def _initial_equations(flat: FlatModel, evaluator: Evaluator, solved: Solved) -> list[ScalarEquation]:
+def _initial_equations(flat: FlatModel, scope: Scope, evaluator: Evaluator, solved: Solved) -> list[ScalarEquation]:
     raw = [
         ScalarEquation(residual, equation.span)
         for equation in flat.initial_equations
         for value in evaluator.elements(equation.residual, equation.domain, Frame(False))
         for residual in scalars(value)
     ]
+    # A given-up state with a fixed start is a condition on the states that are left.
+    fixed = [variable for variable in scope.given_up if variable.is_fixed]
+    starts = start_values(fixed, evaluator)
+    raw += [ScalarEquation(v.symbol - start, v.flat.span) for v, start in zip(fixed, starts, strict=True)]
     replaced = solved.replace([equation.residual for equation in raw])
     return [ScalarEquation(r, equation.span) for r, equation in zip(replaced, raw, strict=True)]
 
