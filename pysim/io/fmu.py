@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-import zipfile
 import xml.etree.ElementTree as ElementTree
+import zipfile
 from pathlib import Path
 
 from fmpy.model_description import ModelDescription, ModelVariable, read_model_description
@@ -41,7 +41,7 @@ def _variable(v: ModelVariable) -> Variable:
     return Variable(
         name=v.name,
         reference=v.valueReference,
-        type=v.type,
+        type=v.type + "".join(f"[{size}]" for size in v.shape or ()),
         causality=v.causality or "local",
         variability=v.variability or "continuous",
         start=_number(v.start),
@@ -79,7 +79,8 @@ def _abilities(d: ModelDescription, path: Path) -> Abilities:
         fmi=d.fmiMajorVersion,
         model_exchange=d.modelExchange is not None,
         co_simulation=d.coSimulation is not None,
-        directional_derivatives=kind.providesDirectionalDerivative or _provides_derivatives_3(path, type(kind).__name__),
+        directional_derivatives=kind.providesDirectionalDerivative
+        or _provides_derivatives_3(path, type(kind).__name__),
         state_handling=kind.canGetAndSetFMUstate,
         event_indicators=d.numberOfEventIndicators,
         states=tuple(v.derivative.name for v in derivatives),

@@ -30,10 +30,10 @@ _SEARCH = 200  # evaluations to locate one event; every third one halves the bra
 def crossed(job: Any, before: int, after: int) -> bool:
     """Whether an indicator changed between > 0 and <= 0."""
     a, b = doubles(before), doubles(after)
+    changes = 0
     for i in range(job.work.m):
-        if (a[i] > 0.0) != (b[i] > 0.0):
-            return True
-    return False
+        changes += (a[i] > 0.0) != (b[i] > 0.0)
+    return changes > 0
 
 
 @native
@@ -50,8 +50,9 @@ def _first_secant(job: Any, low: float, high: float) -> float:
 def locate(job: Any, h: float) -> tuple[int, float]:
     """Share of the step just after its first sign change; the worst status. work.z_new is taken there.
 
-    The bracket is narrowed by secants kept half a tolerance away from its ends, so that both ends close in, and in every
-    third round by its middle, so that they always do. work.z, work.z_new and work.dense are filled; work.x_try changes.
+    The bracket is narrowed by secants kept half a tolerance away from its ends, so that both ends close in, and in
+    every third round by its middle, so that they always do. work.z, work.z_new and work.dense are filled; work.x_try
+    changes.
     """
     run, work, low, high = job.run, job.work, 0.0, 1.0
     width = 4.0 * _EPS * max(abs(run.t), abs(run.t + h)) / h

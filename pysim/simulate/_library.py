@@ -21,12 +21,26 @@ from pysim.simulate._fmu_calls import FUNCTIONS
 from pysim.simulate._messages import Mailbox
 from pysim.types import BadInput, Model
 
-# Setter of FMPy per type of variable.
-_SETTERS = {"Real": "setReal", "Integer": "setInteger", "Enumeration": "setInteger", "Boolean": "setBoolean"}
-_SETTERS_3 = {"Enumeration": "setInt64"}
+# Setter of FMPy per type of variable, FMI 2 and FMI 3.
+_SETTERS = {
+    2: {"Real": "setReal", "Integer": "setInteger", "Enumeration": "setInteger", "Boolean": "setBoolean"},
+    3: {
+        "Float64": "setFloat64",
+        "Float32": "setFloat32",
+        "Int32": "setInt32",
+        "Int64": "setInt64",
+        "Enumeration": "setInt64",
+        "Boolean": "setBoolean",
+    },
+}
 
 _FATAL = 4
 _loading = threading.Lock()  # FMPy changes the working directory while it loads
+
+
+def settable_types(model: Model) -> frozenset[str]:
+    """Types of variables that can be set to a number."""
+    return frozenset(_SETTERS[model.abilities.fmi])
 
 
 class CallFailed(RuntimeError):
@@ -76,10 +90,10 @@ class Instance:
             raise CallFailed(str(error)) from error
 
     def _set(self, name: str, value: float) -> None:
-        variable, version = self.model[name], self.model.abilities.fmi
-        setter = _SETTERS[variable.type] if version == 2 else _SETTERS_3.get(variable.type, f"set{variable.type}")
-        number = float(value) if variable.type in ("Real", "Float32", "Float64") else int(value)
-        getattr(self.fmu, setter)([variable.reference], [number])
+        variable = self.model[name]
+        real = variable.type in ("Real", "Float32", "Float64")
+        setter = getattr(self.fmu, _SETTERS[self.model.abilities.fmi][variable.type])
+        setter([variable.reference], [float(value) if real else int(value)])
 
 
 class Library:

@@ -8,8 +8,9 @@ from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
 
 from pysim.simulate._base import Solver
+from pysim.simulate._check import check_experiment
 from pysim.simulate._library import open_library
-from pysim.simulate._run import check_experiment, run
+from pysim.simulate._run import run
 from pysim.simulate.rk45 import Rk45
 from pysim.types import BadInput, Experiment, Model, Record
 

@@ -19,8 +19,12 @@ from numba.extending import intrinsic
 
 from pysim.io import cache_folder
 
-# A part of the loop: no GIL, compiled into whatever calls it. No fastmath: NaN has to be seen.
-native = numba.njit(nogil=True, error_model="numpy", no_cpython_wrapper=True, no_cfunc_wrapper=True)
+_njit: Any = numba.njit
+_intrinsic: Any = intrinsic
+_config: Any = config
+
+# A part of the loop: compiled into whatever calls it, so no wrapper for Python is wanted. No fastmath: NaN has to be seen.
+native = _njit(nogil=True, error_model="numpy", no_cpython_wrapper=True, no_cfunc_wrapper=True)
 
 
 def _source_key() -> str:
@@ -28,7 +32,7 @@ def _source_key() -> str:
     digest = hashlib.sha256()
     for path in sorted(Path(__file__).parent.glob("*.py")):
         text = path.read_bytes()
-        if b"import" in text and b"@native" in text or path.name in ("_native.py", "_job.py"):
+        if b"@native" in text:
             digest.update(text)
     return digest.hexdigest()[:16]
 
@@ -39,20 +43,22 @@ def entry(function: Callable[..., Any]) -> Callable[..., Any]:
     Numba's own cache looks at the date of the one file that holds the function, not at the files of the functions it
     calls; so its folder is named here after the content of all of them.
     """
-    before = config.CACHE_DIR
-    config.CACHE_DIR = str(cache_folder("native") / _source_key())
+    before = _config.CACHE_DIR
+    _config.CACHE_DIR = str(cache_folder("native") / _source_key())
     try:
-        return numba.njit(nogil=True, error_model="numpy", cache=True)(function)
+        compiled: Callable[..., Any] = _njit(nogil=True, error_model="numpy", cache=True)(function)
+        return compiled
     finally:
-        config.CACHE_DIR = before
+        _config.CACHE_DIR = before
 
 
-@intrinsic
+@_intrinsic
 def call(typing_context: Any, address: Any, arguments: Any) -> Any:
     """Call the C function at `address` (int64) with a tuple of arguments; the int it returns.
 
-    The C signature follows from the Numba types: int64 is a pointer or size_t, float64 a double, int32 an int or (widened,
-    as every 64-bit calling convention allows) a C bool. Because the address is data, one compiled loop serves every FMU.
+    The C signature follows from the Numba types: int64 is a pointer or size_t, float64 a double, int32 an int or
+    (widened, as every 64-bit calling convention allows) a C bool. Because the address is data, one compiled loop serves
+    every FMU.
     """
 
     def emit(context: Any, builder: Any, signature: Any, values: Any) -> Any:
@@ -64,10 +70,10 @@ def call(typing_context: Any, address: Any, arguments: Any) -> Any:
     return types.int32(types.int64, arguments), emit
 
 
-def _pointer_to(item: types.Type) -> Callable[..., Any]:
+def _pointer_to(item: Any) -> Any:
     """An intrinsic that takes an address as a pointer to items of that type."""
 
-    @intrinsic
+    @_intrinsic
     def pointer(typing_context: Any, address: Any) -> Any:
         def emit(context: Any, builder: Any, signature: Any, values: Any) -> Any:
             return builder.inttoptr(values[0], context.get_value_type(signature.return_type))

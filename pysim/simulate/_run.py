@@ -7,6 +7,7 @@ from collections.abc import Callable
 import numpy as np
 
 from pysim.simulate._base import Solver
+from pysim.simulate._check import check_experiment
 from pysim.simulate._fmu_calls import DISCARD, ERROR, FATAL
 from pysim.simulate._inputs import break_arrays, input_arrays
 from pysim.simulate._job import Job
@@ -45,18 +46,24 @@ def simulate(model: Model, experiment: Experiment, *, solver: Solver = Rk45(), c
     return record
 
 
-def run(library: Library, experiment: Experiment, solver: Solver, stopped: Callable[[], bool] = lambda: False) -> Record:
+def run(
+    library: Library, experiment: Experiment, solver: Solver, stopped: Callable[[], bool] = lambda: False
+) -> Record:
     """Run a checked experiment; a failure is an outcome. `stopped` is asked some 50 times a second."""
     try:
         with library.instance() as instance:
             return _run_instance(instance, experiment, solver, stopped)
     except CallFailed as error:
-        return _record(library.model, experiment, np.zeros((0, len(experiment.record))), Outcome.MODEL_ERROR, str(error), {})
+        return _record(
+            library.model, experiment, np.zeros((0, len(experiment.record))), Outcome.MODEL_ERROR, str(error), {}
+        )
 
 
 def _run_instance(instance: Instance, experiment: Experiment, solver: Solver, stopped: Callable[[], bool]) -> Record:
     control = solver.control()
-    starts = {name: float(signal.value(np.array(experiment.start))) for name, signal in experiment.inputs.items()}
+    start = np.array(experiment.start)
+    starts = {name: float(signal.value(start)) for name, signal in experiment.inputs.items()}
+    starts |= {name: float(experiment.inputs[of].derivative(start)) for name, of in experiment.rates.items()}
     tolerance = control.rtol if control.step == 0.0 else None
     instance.initialise({**experiment.overrides, **starts}, experiment.start, float(experiment.times[-1]), tolerance)
     job, code = _prepare(instance, experiment, solver), RUNNING
@@ -85,7 +92,9 @@ def _prepare(instance: Instance, experiment: Experiment, solver: Solver) -> Job:
         "work",
         {
             "state_references": np.array([model[name].reference for name in abilities.states], dtype=np.uint32),
-            "derivative_references": np.array([model[name].reference for name in abilities.derivatives], dtype=np.uint32),
+            "derivative_references": np.array(
+                [model[name].reference for name in abilities.derivatives], dtype=np.uint32
+            ),
             "has_directional": abilities.directional_derivatives,
         },
     )
@@ -111,9 +120,3 @@ def _record(
         origin=f"simulated {model.name}",
         statistics=statistics,
     )
-
-
-def check_experiment(model: Model, experiment: Experiment) -> None:
-    """Refuse names that the model does not have or that cannot play their part."""
-    for name in (*experiment.inputs, *experiment.rates, *experiment.overrides, *experiment.record):
-        model[name]

@@ -11,7 +11,7 @@ from pysim.simulate._method import ExplicitMethod
 
 
 def _hermite(b: np.ndarray) -> np.ndarray:
-    """Cubic through both ends of the step with their derivatives, as weights of the stages and of the last derivative."""
+    """Cubic through both ends of the step with their derivatives: weights of the stages and of the last derivative."""
     dense = np.zeros((b.size + 1, 3))
     dense[: b.size] = np.outer(b, (0.0, 3.0, -2.0))  # (x_new - x) / h
     dense[0] += (1.0, -2.0, 1.0)

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from pysim.simulate._base import Control, adaptive
 from pysim.simulate._method import RosenbrockMethod
 
-# Rodas5P: Steinebach 2023, Construction of Rosenbrock-Wanner method Rodas5P, BIT Numerical Mathematics 63:27. Rows of the
-# strict lower triangles; the last two stages only add up those before them, which makes the method stiffly accurate.
+# Rodas5P: Steinebach 2023, Construction of Rosenbrock-Wanner method Rodas5P, BIT Numerical Mathematics 63:27. Rows of
+# the strict lower triangles; the last stages only add up those before them, which makes the method stiffly accurate.
 _LAST = -7.502846399306121, 2.561846144803919, -11.627539656261098, -0.18268767659942256, 0.030198172008377946
 _A = (
     (3.0,),

@@ -15,7 +15,7 @@ class Variable:
 
     name: str
     reference: int
-    type: str  # "Real" | "Integer" | "Boolean" | ...
+    type: str  # "Real" | "Integer" | "Boolean" | ...; an array of FMI 3 has its size behind it, "Float64[3]"
     causality: str  # as in FMI: "parameter" | "calculatedParameter" | "input" | "output" | "local" | "independent"
     variability: str  # as in FMI
     start: float | None

@@ -1,0 +1,144 @@
+"""Records in files: .csv to look at and to hand on, .npz for the exact bits and everything else of the record."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import os
+import re
+import tempfile
+import zipfile
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from pysim.types import BadInput, Outcome, Record
+
+_HEADING = re.compile(r"(?P<name>.*) \[(?P<unit>[^\[\]]*)\]")
+
+
+def write_record(record: Record, path: Path | str) -> None:
+    """Write a record; the suffix chooses the form. The file is complete or not there.
+
+    In a .csv the first line says what it is, the second names each column and its unit, `alpha [deg]`; numbers are
+    written with all their digits.
+
+    Raises:
+        BadInput: another suffix than .csv or .npz, or a place that cannot be written.
+    """
+    path = Path(path)
+    form = _FORMS.get(path.suffix.lower())
+    if form is None:
+        raise BadInput(f"{path}: records are written as .csv or .npz; change the suffix")
+    try:
+        _replace(path, form[0](record))
+    except OSError as error:
+        raise BadInput(f"{path}: cannot write there ({error.strerror}); choose another folder") from error
+
+
+def read_record(path: Path | str) -> Record:
+    """Read what `write_record` wrote.
+
+    Raises:
+        BadInput: no such file, another suffix, or not a record; with the line in a .csv.
+    """
+    path = Path(path)
+    form = _FORMS.get(path.suffix.lower())
+    if form is None:
+        raise BadInput(f"{path}: records are read from .csv or .npz; change the suffix")
+    try:
+        return form[1](path)
+    except OSError as error:
+        raise BadInput(f"{path}: cannot be read ({error.strerror})") from error
+    except (KeyError, zipfile.BadZipFile, UnicodeDecodeError, json.JSONDecodeError) as error:
+        raise BadInput(f"{path} is not a record: {error}; write it with write_record") from error
+
+
+def _replace(path: Path, content: bytes) -> None:
+    """Write beside the target and rename."""
+    handle, partial = tempfile.mkstemp(dir=path.parent, prefix=path.name)
+    try:
+        with os.fdopen(handle, "wb") as file:
+            file.write(content)
+        os.replace(partial, path)
+    except BaseException:
+        os.unlink(partial)
+        raise
+
+
+def _description(record: Record) -> dict[str, Any]:
+    """Everything but the numbers, for JSON."""
+    return {
+        "names": list(record.names),
+        "units": list(record.units),
+        "outcome": record.outcome.name,
+        "message": record.message,
+        "origin": record.origin,
+        "statistics": dict(record.statistics),
+    }
+
+
+def _as_npz(record: Record) -> bytes:
+    buffer = io.BytesIO()
+    np.savez_compressed(buffer, time=record.time, values=record.values, about=json.dumps(_description(record)))
+    return buffer.getvalue()
+
+
+def _from_npz(path: Path) -> Record:
+    with np.load(path, allow_pickle=False) as file:
+        about = json.loads(str(file["about"]))
+        return Record(
+            file["time"],
+            file["values"],
+            tuple(about["names"]),
+            tuple(about["units"]),
+            Outcome[about["outcome"]],
+            about["message"],
+            about["origin"],
+            about["statistics"],
+        )
+
+
+def _as_csv(record: Record) -> bytes:
+    text = io.StringIO()
+    note = " ".join(f"# {record.origin}: {record.outcome.value}. {record.message}".split())
+    text.write(note + "\n")
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(["time [s]", *(f"{n} [{u}]" for n, u in zip(record.names, record.units, strict=True))])
+    writer.writerows(np.column_stack([record.time, record.values]).tolist())
+    return text.getvalue().encode()
+
+
+def _from_csv(path: Path) -> Record:
+    lines = path.read_text(encoding="utf-8").splitlines()
+    skipped = 1 if lines and lines[0].startswith("#") else 0
+    rows = list(csv.reader(lines[skipped:]))
+    headings = [_HEADING.fullmatch(text) for text in rows[0]] if rows else []
+    if len(headings) < 2 or not all(headings):
+        raise BadInput(f"{path}, line {skipped + 1}: column names like 'time [s],alpha [deg]' must stand here")
+    numbers = np.array([_numbers(path, skipped + i, row, len(headings)) for i, row in enumerate(rows[1:], start=2)])
+    numbers = numbers.reshape(-1, len(headings))
+    columns = [heading for heading in headings[1:] if heading is not None]
+    origin = lines[0].removeprefix("#").strip() if skipped else ""
+    return Record(
+        numbers[:, 0],
+        numbers[:, 1:],
+        tuple(c["name"] for c in columns),
+        tuple(c["unit"] for c in columns),
+        origin=origin,
+    )
+
+
+def _numbers(path: Path, line: int, row: list[str], width: int) -> list[float]:
+    try:
+        numbers = [float(text) for text in row]
+    except ValueError as error:
+        raise BadInput(f"{path}, line {line}: {error}; every entry must be a number") from error
+    if len(numbers) != width:
+        raise BadInput(f"{path}, line {line}: {len(numbers)} entries, but {width} columns are named")
+    return numbers
+
+
+_FORMS = {".csv": (_as_csv, _from_csv), ".npz": (_as_npz, _from_npz)}

@@ -1,0 +1,56 @@
+"""Whether a model can do what an experiment asks: said before anything runs."""
+
+from __future__ import annotations
+
+import math
+
+from pysim.simulate._library import settable_types
+from pysim.simulate._recording import GETTERS
+from pysim.types import BadInput, Experiment, Model, Variable
+
+
+def check_experiment(model: Model, experiment: Experiment) -> None:
+    """Check every name the experiment uses.
+
+    Raises:
+        BadInput: a name the model does not have, or one that cannot be driven, set or recorded.
+    """
+    for name in (*experiment.inputs, *experiment.rates):
+        _check_input(model, model[name])
+    for name, value in experiment.overrides.items():
+        if name in experiment.inputs or name in experiment.rates:
+            raise BadInput(f"experiment: {name} has a signal and an override; remove one of them")
+        _check_override(model, model[name], value)
+    for name in experiment.record:
+        if model[name].type not in GETTERS[model.abilities.fmi]:
+            raise BadInput(f"{model.path.name}: {name} is {model[name].type} and cannot be recorded; record a number")
+    for name in model.abilities.states:
+        if model[name].type not in ("Real", "Float64"):
+            raise BadInput(
+                f"{model.path.name}: state {name} is {model[name].type}; only scalar states can be simulated"
+            )
+
+
+def _check_input(model: Model, variable: Variable) -> None:
+    if variable.causality != "input":
+        inputs = ", ".join(v.name for v in model.variables if v.causality == "input") or "none"
+        raise BadInput(f"{model.path.name}: {variable.name} is no input but {variable.causality}; inputs: {inputs}")
+    if variable.type not in ("Real", "Float64") or variable.variability != "continuous":
+        raise BadInput(
+            f"{model.path.name}: input {variable.name} is {variable.variability} and {variable.type}; "
+            "a signal can drive continuous real inputs only, set it as an override"
+        )
+
+
+def _check_override(model: Model, variable: Variable, value: float) -> None:
+    name, place = variable.name, model.path.name
+    if variable.type not in settable_types(model):
+        raise BadInput(f"{place}: {name} is {variable.type} and cannot be set to a number")
+    fixed = variable.causality not in ("parameter", "input") and variable.start is None
+    if fixed or variable.variability == "constant" or variable.causality == "structuralParameter":
+        kind = "constant" if variable.variability == "constant" else variable.causality
+        raise BadInput(f"{place}: {name} ({kind}) cannot be set; override parameters, inputs or start values")
+    if not math.isfinite(value):
+        raise BadInput(f"{place}: {name} cannot be set to {value}; give a finite number")
+    if variable.type not in ("Real", "Float64", "Float32") and value != round(value):
+        raise BadInput(f"{place}: {name} is {variable.type} and cannot be set to {value}; give a whole number")
