@@ -1,7 +1,6 @@
-/* The history is a cubic Hermite spline whose slopes are those of the parabola through three neighbouring points.
-   Where an expression jumped or bent, at an event, its point is stored twice: no parabola crosses such a break.
-   A delayed value stops at the next break until an event, like a relation, so that an integrator sees a smooth
-   function up to the very end of its step. */
+/* The history is interpolated by polynomials through up to NODES neighbouring points. Where an expression jumped or
+   bent, at an event, its point is stored twice: no polynomial crosses such a break. A delayed value stops at the next
+   break until an event, like a relation, so that an integrator sees a smooth function up to the very end of its step. */
 #include "delay.h"
 
 #include <math.h>
@@ -10,6 +9,8 @@
 
 /* Points closer than this part of the maximum delay replace each other, so that the ring never runs short. */
 static const double CLOSEST = 2.0 / DELAY_CAPACITY;
+enum { NODES = 6 };
+static const double MOST_UNEQUAL = 10.0;
 static const double SAME_VALUE = 1e-10; /* relative difference below which a value did not jump */
 
 typedef struct {
@@ -39,34 +40,50 @@ static uint32_t find_interval(const History *h, double time) {
     return low;
 }
 
-static double secant(const History *h, uint32_t j) {
-    return (value_at(h, j + 1) - value_at(h, j)) / (time_at(h, j + 1) - time_at(h, j));
-}
-
-/* Slopes at both ends of interval j, of positive length. */
-static void slopes(const History *h, uint32_t j, double *left, double *right) {
-    const double here = secant(h, j), length = time_at(h, j + 1) - time_at(h, j);
-    const double before = j > 0 ? time_at(h, j) - time_at(h, j - 1) : 0.0;
-    const double after = j + 2 < h->count ? time_at(h, j + 2) - time_at(h, j + 1) : 0.0;
-    if (before > 0.0) *left = (secant(h, j - 1) * length + here * before) / (length + before);
-    if (after > 0.0) *right = (secant(h, j + 1) * length + here * after) / (length + after);
-    if (!(before > 0.0)) *left = after > 0.0 ? 2.0 * here - *right : here;
-    if (!(after > 0.0)) *right = before > 0.0 ? 2.0 * here - *left : here;
-}
-
 typedef struct {
     double value, rate;
 } Sample;
 
-static Sample hermite(const History *h, uint32_t j, double time) {
-    const double begin = time_at(h, j), length = time_at(h, j + 1) - begin;
-    if (!(length > 0.0)) return (Sample){value_at(h, j + 1), 0.0};
-    double left = 0.0, right = 0.0;
-    slopes(h, j, &left, &right);
-    const double a = (time - begin) / length, here = secant(h, j);
-    const double second = 3.0 * here - 2.0 * left - right, third = left + right - 2.0 * here;
-    return (Sample){value_at(h, j) + length * a * (left + a * (second + a * third)),
-                    left + a * (2.0 * second + 3.0 * a * third)};
+/* True if the interval from point j to the next may support a polynomial over another one of `length`: it is no break
+   and not so much shorter or longer that the rounding errors of its ends would be blown up. */
+static bool is_usable(const History *h, uint32_t j, double length) {
+    const double own = time_at(h, j + 1) - time_at(h, j);
+    return own > length / MOST_UNEQUAL && own < length * MOST_UNEQUAL;
+}
+
+/* Widens the interval that begins at *first to at most NODES points, evenly to both sides; returns their number. */
+static uint32_t choose_nodes(const History *h, uint32_t *first) {
+    const uint32_t middle = *first;
+    const double length = time_at(h, middle + 1) - time_at(h, middle);
+    uint32_t last = middle + 1;
+    while (last - *first + 1 < NODES) {
+        const bool left = *first > 0 && is_usable(h, *first - 1, length);
+        const bool right = last + 1 < h->count && is_usable(h, last, length);
+        if (!left && !right) break;
+        if (left && (!right || middle - *first <= last - middle - 1))
+            --*first;
+        else
+            ++last;
+    }
+    return last - *first + 1;
+}
+
+/* Newton's interpolation formula over the points around interval j. */
+static Sample interpolate(const History *h, uint32_t j, double time) {
+    if (!(time_at(h, j + 1) > time_at(h, j))) return (Sample){value_at(h, j + 1), 0.0};
+    const uint32_t n = choose_nodes(h, &j);
+    double differences[NODES];
+    for (uint32_t k = 0; k < n; k++) differences[k] = value_at(h, j + k);
+    for (uint32_t order = 1; order < n; order++)
+        for (uint32_t k = n - 1; k >= order; k--)
+            differences[k] = (differences[k] - differences[k - 1]) / (time_at(h, j + k) - time_at(h, j + k - order));
+    Sample sample = {differences[n - 1], 0.0};
+    for (uint32_t k = n - 1; k-- > 0;) {
+        const double distance = time - time_at(h, j + k);
+        sample.rate = sample.rate * distance + sample.value;
+        sample.value = sample.value * distance + differences[k];
+    }
+    return sample;
 }
 
 /* Value of the left piece where it ends at the break `limit`. */
@@ -84,7 +101,7 @@ static Sample look_back(const Instance *s, size_t k, double time) {
     if (time >= state->limit) return at_limit(&h, state->limit);
     if (h.count < 2 || time <= time_at(&h, 0)) return (Sample){value_at(&h, 0), 0.0};
     if (time >= time_at(&h, h.count - 1)) return (Sample){value_at(&h, h.count - 1), 0.0};
-    return hermite(&h, find_interval(&h, time), time);
+    return interpolate(&h, find_interval(&h, time), time);
 }
 
 static double newest_time(const Instance *s, size_t k) {

@@ -116,6 +116,7 @@ Status initialise(Instance *s) {
     Status status = guess(s);
     if (status == STATUS_OK) status = settle(s);
     if (status == STATUS_OK) status = events_initial(s);
+    if (status == STATUS_OK) status = evaluate_unknowns(s); /* later solutions are found from this one */
     if (status == STATUS_OK) set_computed(s, HAS_START);
     return status;
 }

@@ -58,6 +58,7 @@ static void lay_out_newton(Instance *s, Arena *a) {
     n->jacobian = doubles(a, size * size);
     n->step = doubles(a, size);
     n->previous = doubles(a, size);
+    n->start = doubles(a, size);
     n->pivot = take(a, size, sizeof(int));
 }
 

@@ -51,6 +51,7 @@ typedef struct {
     double start_time, stop_time; /* s; stop_time is infinite unless defined */
     double tolerance;
     double step_size;        /* the integrator's proposal for its next step, s; 0: none yet */
+    double accepted_step, accepted_error; /* of the last step, s and in units of the tolerance; 0: none yet */
     double last_event_time;  /* s; events up to here are done */
     double next_event_time;  /* s; the next time event */
     uint32_t phase;          /* Phase */
@@ -61,7 +62,7 @@ typedef struct {
 
 /* Work space of one Newton iteration, for the larger of n_q and n_i. */
 typedef struct {
-    double *residual, *jacobian, *step, *previous;
+    double *residual, *jacobian, *step, *previous, *start;
     int *pivot;
 } NewtonWork;
 

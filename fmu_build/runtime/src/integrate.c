@@ -43,9 +43,23 @@ static double step_end(const Instance *s, double limit) {
     return begin + 2.0 * step >= limit ? begin + 0.5 * (limit - begin) : begin + step;
 }
 
-static double next_step_size(double step, double error, bool after_rejection) {
-    const double factor = SAFETY * pow(fmax(error, 1e-10), -1.0 / RODAS_ORDER);
-    return step * fmin(after_rejection ? 1.0 : GROWTH, fmax(SHRINK, factor));
+/* Quotient of the next step and one of the given error, within bounds. */
+static double factor_for(double error) {
+    return fmin(GROWTH, fmax(SHRINK, SAFETY * pow(fmax(error, 1e-10), -1.0 / RODAS_ORDER)));
+}
+
+/* After an accepted step: also expects the error to go on growing as it did (K. Gustafsson, Control-theoretic techniques
+   for stepsize selection in implicit Runge-Kutta methods, ACM Trans. Math. Softw. 20, 1994). */
+static double next_step_size(Memory *memory, double step, double error, bool after_rejection) {
+    double factor = factor_for(error);
+    if (memory->accepted_step > 0.0) {
+        const double growth = pow(fmax(error, 1e-10) / memory->accepted_error, 1.0 / RODAS_ORDER);
+        const double predicted = step / memory->accepted_step * factor / growth;
+        factor = fmin(factor, fmax(SHRINK, predicted));
+    }
+    memory->accepted_step = step;
+    memory->accepted_error = fmax(error, 1e-2);
+    return step * (after_rejection ? fmin(factor, 1.0) : factor);
 }
 
 static Status give_up(Instance *s, double step, bool evaluated) {
@@ -79,12 +93,12 @@ static Status accepted_step(Instance *s, double limit, bool *event) {
         bool evaluated = false;
         double error = 0.0;
         if (try_step(s, end, &evaluated, &error, event) == STATUS_OK) {
-            const double next = next_step_size(step, error, rejected);
+            const double next = next_step_size(memory, step, error, rejected);
             memory->step_size = step < memory->step_size ? fmax(next, memory->step_size) : next;
             return STATUS_OK;
         }
         rejected = true;
-        memory->step_size = evaluated ? next_step_size(step, error, true) : SHRINK_AFTER_FAILURE * step;
+        memory->step_size = step * (evaluated ? fmin(factor_for(error), 1.0) : SHRINK_AFTER_FAILURE);
         if (memory->step_size < smallest_step(s)) return give_up(s, step, evaluated);
     }
 }

@@ -8,8 +8,8 @@
 
 #include "linear.h"
 
-enum { MAX_ITERATIONS = 50 };
-static const double SMALLEST_DAMPING = 1e-4;
+enum { MAX_ITERATIONS = 100 };
+static const double SMALLEST_DAMPING = 1e-4, CAREFUL_DAMPING = 1.0 / 16.0;
 
 /* Size of a correction that is small: relative to its unknown, to the largest unknown, and in itself (an unknown
    that is zero has no other scale; a flow of 1e-6 m3/s still has ten digits). */
@@ -44,13 +44,15 @@ static void move(double *unknowns, const double *from, const double *step, doubl
 
 typedef enum { FAILED, STEPPED, SOLVED } Progress;
 
-/* One damped step along work->step, whose size in units of CONVERGED is `before`. */
-static Progress damped_step(Instance *s, NewtonSystem *system, double *unknowns, size_t n, double before) {
+/* One damped step along work->step, whose size in units of CONVERGED is `before`. `damping` is the first factor tried;
+   on return that for the next step: a step that did what the linear model promised lets it grow. */
+static Progress damped_step(Instance *s, NewtonSystem *system, double *unknowns, size_t n, double before,
+                            double *damping) {
     NewtonWork *work = &s->newton;
     memcpy(work->previous, unknowns, n * sizeof *unknowns);
     const bool tiny = scaled_norm(n, work->step, unknowns, &ROUNDING) <= 1.0;
-    for (double damping = 1.0; damping >= SMALLEST_DAMPING; damping *= 0.5) {
-        move(unknowns, work->previous, work->step, damping, n);
+    for (double factor = tiny ? 1.0 : *damping; factor >= SMALLEST_DAMPING; factor *= 0.5) {
+        move(unknowns, work->previous, work->step, factor, n);
         if (system(s, work->residual, NULL) != STATUS_OK) continue;
         lu_solve(n, work->jacobian, work->pivot, work->residual); /* now the simplified correction */
         const double after = scaled_norm(n, work->residual, work->previous, &CONVERGED);
@@ -58,14 +60,16 @@ static Progress damped_step(Instance *s, NewtonSystem *system, double *unknowns,
             move(unknowns, unknowns, work->residual, 1.0, n);
             return SOLVED;
         }
-        if (after <= (1.0 - 0.25 * damping) * before) return STEPPED;
+        if (after <= (1.0 - 0.25 * factor) * before) {
+            *damping = after <= (1.0 - 0.75 * factor) * before ? fmin(1.0, 2.0 * factor) : factor;
+            return STEPPED;
+        }
         if (tiny && isfinite(after)) return SOLVED;
     }
-    memcpy(unknowns, work->previous, n * sizeof *unknowns);
     return FAILED;
 }
 
-Status newton_solve(Instance *s, NewtonSystem *system, double *unknowns, size_t n) {
+static Status attempt(Instance *s, NewtonSystem *system, double *unknowns, size_t n, double damping) {
     NewtonWork *work = &s->newton;
     for (int iteration = 0; iteration < MAX_ITERATIONS; iteration++) {
         if (system(s, work->residual, work->jacobian) != STATUS_OK) return STATUS_DISCARD;
@@ -78,11 +82,19 @@ Status newton_solve(Instance *s, NewtonSystem *system, double *unknowns, size_t 
             move(unknowns, unknowns, work->step, 1.0, n);
             return STATUS_OK;
         }
-        switch (damped_step(s, system, unknowns, n, size)) {
-            case SOLVED: return STATUS_OK;
-            case FAILED: return STATUS_DISCARD;
-            case STEPPED: break;
-        }
+        const Progress progress = damped_step(s, system, unknowns, n, size, &damping);
+        if (progress != STEPPED) return progress == SOLVED ? STATUS_OK : STATUS_DISCARD;
     }
+    return STATUS_DISCARD;
+}
+
+Status newton_solve(Instance *s, NewtonSystem *system, double *unknowns, size_t n) {
+    double *start = s->newton.start;
+    memcpy(start, unknowns, n * sizeof *unknowns);
+    if (attempt(s, system, unknowns, n, 1.0) == STATUS_OK) return STATUS_OK;
+    /* Short steps follow the path on which all residuals shrink together; long ones may jump off it over a fold. */
+    memcpy(unknowns, start, n * sizeof *unknowns);
+    if (attempt(s, system, unknowns, n, CAREFUL_DAMPING) == STATUS_OK) return STATUS_OK;
+    memcpy(unknowns, start, n * sizeof *unknowns);
     return STATUS_DISCARD;
 }

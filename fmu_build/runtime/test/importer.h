@@ -53,7 +53,7 @@ static inline fmi2ValueReference reference(const char *name) {
 static inline double get(fmi2Component c, const char *name) {
     const fmi2ValueReference vr = reference(name);
     double value = NAN;
-    CHECK(fmi2GetReal(c, &vr, 1, &value) == fmi2OK);
+    if (fmi2GetReal(c, &vr, 1, &value) != fmi2OK) fprintf(stderr, "%s: %s\n", name, last_message), exit(1);
     return value;
 }
 

@@ -1,57 +1,43 @@
 /* A driven oscillator, x'' = k (u - x) - damping x', with a tunable stiffness, a fixed damping, the calculated
    frequency sqrt(k) and the output force k (u - x). Its Jacobian and its partial derivatives are written out. */
-#include <math.h>
-#include <stddef.h>
-
-#include "model.h"
+#include "model_by_hand.h"
 
 enum { X, V };
 enum { K, DAMPING };
 
-static int calculated(const double **arg, double **res, int *iw, double *w, int mem) {
-    (void)iw, (void)w, (void)mem;
+FUNCTION(calculated) {
     if (res[0]) res[0][0] = sqrt(arg[ARG_P][K]);
-    return 0;
 }
 
-static int start(const double **arg, double **res, int *iw, double *w, int mem) {
-    (void)iw, (void)w, (void)mem;
+FUNCTION(start) {
     if (res[0]) {
         res[0][X] = arg[ARG_X][X];
         res[0][V] = arg[ARG_X][V];
     }
-    return 0;
 }
 
 static double force(const double **arg) { return arg[ARG_P][K] * (arg[ARG_U][0] - arg[ARG_X][X]); }
 
-static int derivatives(const double **arg, double **res, int *iw, double *w, int mem) {
-    (void)iw, (void)w, (void)mem;
+FUNCTION(derivatives) {
     if (res[0]) {
         res[0][X] = arg[ARG_X][V];
         res[0][V] = force(arg) - arg[ARG_P][DAMPING] * arg[ARG_X][V];
     }
-    return 0;
 }
 
-static int outputs(const double **arg, double **res, int *iw, double *w, int mem) {
-    (void)iw, (void)w, (void)mem;
+FUNCTION(outputs) {
     if (res[0]) res[0][0] = force(arg);
-    return 0;
 }
 
-static int jacobian(const double **arg, double **res, int *iw, double *w, int mem) {
-    (void)iw, (void)w, (void)mem;
+FUNCTION(jacobian) {
     if (res[0]) {
         res[0][0] = 0.0, res[0][1] = -arg[ARG_P][K];
         res[0][2] = 1.0, res[0][3] = -arg[ARG_P][DAMPING];
     }
     if (res[3]) res[3][X] = res[3][V] = 0.0;
-    return 0;
 }
 
-static int forward(const double **arg, double **res, int *iw, double *w, int mem) {
-    (void)iw, (void)w, (void)mem;
+FUNCTION(forward) {
     const double *x = arg[ARG_SEED_X], *p = arg[ARG_SEED_P];
     const double f = arg[ARG_P][K] * (arg[ARG_SEED_U][0] - x[X]) + p[K] * (arg[ARG_U][0] - arg[ARG_X][X]);
     if (res[0]) {
@@ -59,11 +45,9 @@ static int forward(const double **arg, double **res, int *iw, double *w, int mem
         res[0][V] = f - arg[ARG_P][DAMPING] * x[V] - p[DAMPING] * arg[ARG_X][V];
     }
     if (res[1]) res[1][0] = f;
-    return 0;
 }
 
-static int reverse(const double **arg, double **res, int *iw, double *w, int mem) {
-    (void)iw, (void)w, (void)mem;
+FUNCTION(reverse) {
     const double *dx = arg[ARG_WEIGHT_DX], f = dx[V] + arg[ARG_WEIGHT_W][0];
     if (res[0]) {
         res[0][X] = -arg[ARG_P][K] * f;
@@ -74,7 +58,6 @@ static int reverse(const double **arg, double **res, int *iw, double *w, int mem
         res[2][K] = (arg[ARG_U][0] - arg[ARG_X][X]) * f;
         res[2][DAMPING] = -arg[ARG_X][V] * dx[V];
     }
-    return 0;
 }
 
 static const ModelVariable variables[] = {
@@ -101,7 +84,7 @@ const Model model = {
     .n_p = 2,
     .n_c = 1,
     .n_w = 1,
-    .n_variables = sizeof variables / sizeof variables[0],
+    .n_variables = LENGTH(variables),
     .variables = variables,
     .start_x = start_x,
     .start_u = start_u,

@@ -1,0 +1,77 @@
+/* Clocks and relations of time against the recursion of the sampled integrator. */
+#include "importer.h"
+
+static void ticks_at_exact_times(void) {
+    const double steps[] = {1.0, 0.1, 0.04};
+    for (size_t k = 0; k < COUNT(steps); k++) {
+        fmi2Component c = instantiate(fmi2CoSimulation);
+        initialise_from(c, 0.0, 0.0);
+        CHECK(get_integer(c, "initial") == 1 && get_integer(c, "n") == 1);
+        run_steps(c, 0.0, 1.0, steps[k]);
+        CHECK(get_integer(c, "n") == 11);
+        CHECK_NEAR(get(c, "x"), pow(0.8, 10), 1e-12); /* x(n+1) = x(n) (1 - gain interval) */
+        CHECK_NEAR(get(c, "y"), 0.75, 1e-12);
+        CHECK(fmi2Terminate(c) == fmi2OK);
+        CHECK(get_integer(c, "initial") == 11);
+        fmi2FreeInstance(c);
+    }
+}
+
+/* A million ticks: start + n interval, not a sum with a million rounding errors. */
+static void ticks_do_not_drift(void) {
+    fmi2Component c = instantiate(fmi2ModelExchange);
+    CHECK(set(c, "interval", 0.1) == fmi2OK && set(c, "t_step", 1e9) == fmi2OK);
+    initialise_from(c, 0.0, 0.0);
+    fmi2EventInfo info = handle_event(c);
+    for (int n = 1; n <= 1000000; n++) {
+        CHECK(info.nextEventTimeDefined && info.nextEventTime == n * 0.1);
+        CHECK(fmi2SetTime(c, info.nextEventTime) == fmi2OK && fmi2EnterEventMode(c) == fmi2OK);
+        info = handle_event(c);
+    }
+    CHECK(get_integer(c, "n") == 1000001);
+    fmi2FreeInstance(c);
+}
+
+static void a_tick_happens_once(void) {
+    fmi2Component c = instantiate(fmi2ModelExchange);
+    fmi2EventInfo info;
+    initialise_from(c, 0.0, 0.0);
+    CHECK(fmi2NewDiscreteStates(c, &info) == fmi2OK && fmi2NewDiscreteStates(c, &info) == fmi2OK);
+    CHECK(get_integer(c, "n") == 1 && info.nextEventTime == 0.1);
+    CHECK(set(c, "interval", 0.03) == fmi2OK && fmi2NewDiscreteStates(c, &info) == fmi2OK);
+    CHECK(get_integer(c, "n") == 1);
+    CHECK_NEAR(info.nextEventTime, 0.03, 1e-15);
+    CHECK(set(c, "interval", 0.0) == fmi2OK && fmi2NewDiscreteStates(c, &info) == fmi2Error && logged("must be positive"));
+    fmi2FreeInstance(c);
+}
+
+static void a_discrete_input_acts_between_steps(void) {
+    fmi2Component c = instantiate(fmi2CoSimulation);
+    const fmi2ValueReference on = reference("on");
+    const fmi2Boolean yes = fmi2True;
+    initialise_from(c, 0.0, 0.0);
+    run_steps(c, 0.0, 0.3, 0.1);
+    CHECK(fmi2SetBoolean(c, &on, 1, &yes) == fmi2OK);
+    run_steps(c, 0.3, 1.0, 0.1);
+    CHECK_NEAR(get(c, "z"), 0.7, 1e-12);
+    fmi2FreeInstance(c);
+}
+
+static void the_start_may_lie_anywhere(void) {
+    fmi2Component c = instantiate(fmi2ModelExchange);
+    CHECK(set(c, "start", -0.05) == fmi2OK);
+    initialise_from(c, 10.0, 0.0);
+    const fmi2EventInfo info = handle_event(c);
+    CHECK(get_integer(c, "n") == 0 && get(c, "y") == 0.0);
+    CHECK_NEAR(info.nextEventTime, 10.05, 1e-14);
+    fmi2FreeInstance(c);
+}
+
+int main(void) {
+    ticks_at_exact_times();
+    ticks_do_not_drift();
+    a_tick_happens_once();
+    a_discrete_input_acts_between_steps();
+    the_start_may_lie_anywhere();
+    return 0;
+}
