@@ -15,6 +15,8 @@ from pysim.simulate._recording import interpolate, record_here, record_inside
 from pysim.simulate._state import DONE, MODEL_ERROR, NOT_FINITE, RUNNING, TERMINATED, TOO_MANY_STEPS
 from pysim.simulate._stepping import accepted_step, first_step, next_target
 
+_STANDSTILL = 1e-15  # of the time so far and of the whole run: less is rounding
+
 
 @entry
 def integrate(jobs: Any, budget: int) -> int:
@@ -111,7 +113,7 @@ def _advance(job: Any) -> int:
 def _arrive(job: Any, t_new: float, event: bool) -> int:
     """Make the end of the step the current point; handle what is due there; record it."""
     fmu, run, work = job.fmu, job.run, job.work
-    if t_new - run.t > 1e-12 * max(abs(t_new), abs(run.start)):
+    if t_new - run.t > _STANDSTILL * max(abs(t_new), run.end - run.start):
         run.crowd = 0
     run.t = t_new
     copy(work.x_new, work.x, work.n)

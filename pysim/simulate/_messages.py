@@ -13,9 +13,9 @@ from fmpy import fmi2
 _KEPT = 20  # messages of one run; a model may log at every step
 
 try:
-    from fmpy.logging import addLoggerProxy as _format_messages
+    from fmpy import logging as _logging
 except (ImportError, OSError):  # FMPy brings no such library for this machine: %s and %g stay in the texts
-    _format_messages = None
+    _logging = None
 
 _mailboxes: dict[int, Mailbox] = {}
 _numbers = itertools.count(1)
@@ -63,6 +63,6 @@ class Mailbox:
         table.allocateMemory = ctypes.cast(fmpy.calloc, fmi2.fmi2CallbackAllocateMemoryTYPE)
         table.freeMemory = ctypes.cast(fmpy.free, fmi2.fmi2CallbackFreeMemoryTYPE)
         table.componentEnvironment = number
-        if _format_messages is not None:
-            _format_messages(ctypes.byref(table))
+        if _logging is not None:
+            _logging.addLoggerProxy(ctypes.byref(table))
         return {"callbacks": table}

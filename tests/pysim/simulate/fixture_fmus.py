@@ -52,6 +52,15 @@ class Fixture:
 OSCILLATOR = Fixture(
     "oscillator", ("x", "v"), inputs=("u", "u_rate"), parameters=(("w", 2.0), ("D", 0.1)), outputs=("power", "y_rate")
 )
+BALL = Fixture(
+    "ball", ("h", "v"), parameters=(("g", 9.81), ("e", 0.8)), outputs=("bounces",), indicators=1, starts=(1.0, 0.0)
+)
+CLOCK = Fixture("clock", ("x",), parameters=(("period", 0.3), ("last", 1e9)), outputs=("level",))
+STIFF = Fixture("stiff", ("x", "y"), parameters=(("rate", 1e5),), outputs=("miss",), starts=(0.0, 1.0))
+FRAGILE = Fixture(
+    "fragile", ("x",), parameters=(("manner", 0.0), ("refuse", 0.0)), outputs=("root",), starts=(1.0,), tangents=False
+)
+FOLLOWER = Fixture("follower", ("x",), inputs=("u",), outputs=("events", "u_seen"))
 
 
 def _attributes(**values: str) -> str:
@@ -97,7 +106,8 @@ def _xml_3(f: Fixture) -> str:
         structure.append(f'<EventIndicator valueReference="{600 + i}"/>')
     return f"""<?xml version="1.0" encoding="UTF-8"?>
 <fmiModelDescription fmiVersion="3.0" modelName="{f.source}" instantiationToken="{f.source}">
-<ModelExchange modelIdentifier="{f.source}" providesDirectionalDerivatives="{str(f.tangents).lower()}" needsCompletedIntegratorStep="true"/>
+<ModelExchange modelIdentifier="{f.source}" needsCompletedIntegratorStep="true"
+ providesDirectionalDerivatives="{str(f.tangents).lower()}"/>
 <UnitDefinitions><Unit name="m"/><Unit name="N"/><Unit name="W"/></UnitDefinitions>
 <ModelVariables>{"".join(variables)}</ModelVariables>
 <ModelStructure>{"".join(structure)}</ModelStructure>

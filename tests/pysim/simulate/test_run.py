@@ -1,0 +1,62 @@
+import dataclasses
+import math
+import re
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+from pysim.simulate import simulate
+from pysim.types import BadInput, Experiment, Signal
+from tests.pysim.simulate.fixture_fmus import FOLLOWER, OSCILLATOR
+
+_NONE = Signal(np.zeros(1), np.zeros((1, 4)), np.zeros((1, 0, 4)))
+_TIMES = np.array([0.0, 1.0])
+
+
+def test_record_says_what_it_is(fixture_model):
+    record = simulate(fixture_model(OSCILLATOR), Experiment(_TIMES, ("x", "u", "power", "time")))
+    assert record.names == ("x", "u", "power", "time")
+    assert record.units == ("m", "N", "W", "1")
+    assert record.origin == "simulated oscillator"
+    assert record.message == ""
+    assert set(record.statistics) == {"steps", "rejected", "derivatives", "jacobians", "events"}
+
+
+@pytest.mark.parametrize("fmi", [2, 3])
+def test_overrides_and_start_values_take_effect(fixture_model, fmi):
+    end = Experiment(np.array([math.pi]), ("x", "w"), overrides={"x": 0.7, "w": 0.5, "D": 0.0})
+    record = simulate(fixture_model(OSCILLATOR, fmi), end)
+    np.testing.assert_allclose(record.values, [[0.7 * math.cos(0.5 * math.pi), 0.5]], atol=1e-6)
+
+
+def test_undriven_input_is_constant_and_can_be_overridden(fixture_model):
+    record = simulate(fixture_model(FOLLOWER), Experiment(_TIMES, ("x",), overrides={"u": 3.0}))
+    np.testing.assert_allclose(record["x"], [0, 3], rtol=1e-13)
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ({"record": ("xx",)}, "no variable 'xx'; near it: x"),
+        ({"inputs": {"v": _NONE}}, "v is no input but local; inputs: u, u_rate"),
+        ({"inputs": {"force": _NONE}}, "no variable 'force'"),
+        ({"overrides": {"mass": 1.0}}, "no variable 'mass'"),
+        ({"overrides": {"power": 1.0}}, "power (output) cannot be set"),
+        ({"overrides": {"der(x)": 1.0}}, "der(x) (local) cannot be set"),
+        ({"overrides": {"w": math.nan}}, "w cannot be set to nan"),
+        ({"overrides": {"u": 1.0}, "inputs": {"u": _NONE}}, "u has a signal and an override"),
+        ({"inputs": {"u": _NONE}, "rates": {"x": "u"}}, "x is no input"),
+    ],
+)
+def test_misuse_is_said_in_one_sentence(fixture_model, change, words):
+    experiment = dataclasses.replace(Experiment(_TIMES, ("x",)), **change)
+    with pytest.raises(BadInput, match=re.escape(words)):
+        simulate(fixture_model(OSCILLATOR), experiment)
+
+
+def test_simulating_needs_no_compiler_and_no_front_end():
+    code = "import sys, pysim.simulate; print(*({'rumoca', 'casadi', 'ziglang', 'matplotlib'} & set(sys.modules)))"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == ""

@@ -1,0 +1,99 @@
+"""The battery every solver passes: order as claimed, off-step values, events, tolerance, settings."""
+
+import dataclasses
+import math
+
+import numpy as np
+import pytest
+
+from pysim.simulate import simulate
+from pysim.simulate._method import ExplicitMethod
+from pysim.types import BadInput, Experiment, Signal
+from tests.pysim.simulate.fixture_fmus import BALL, OSCILLATOR
+from tests.pysim.simulate.solver_cases import SOLVERS, SolverCase
+
+_W, _D, _OMEGA = 2.0, 0.1, 3.0
+
+
+@pytest.fixture(params=SOLVERS.values(), ids=SOLVERS.keys())
+def case(request: pytest.FixtureRequest) -> SolverCase:
+    return request.param
+
+
+def forced_oscillation(t: np.ndarray) -> np.ndarray:
+    """x'' + 2 D w x' + w^2 x = sin(omega t) from x(0) = 1, x'(0) = 0."""
+    gain = 1 / (_W**2 - _OMEGA**2 + 2j * _D * _W * _OMEGA)
+    damping, ringing = _D * _W, _W * math.sqrt(1 - _D**2)
+    a = 1 - gain.imag
+    b = (damping * a - _OMEGA * gain.real) / ringing
+    free = np.exp(-damping * t) * (a * np.cos(ringing * t) + b * np.sin(ringing * t))
+    return np.imag(gain * np.exp(1j * _OMEGA * t)) + free
+
+
+def sine(omega: float) -> Signal:
+    return Signal(np.zeros(1), np.zeros((1, 4)), np.array([[[1.0, 0.0, omega, 0.0]]]))
+
+
+def forced(times: np.ndarray) -> Experiment:
+    return Experiment(times, ("x", "v"), {"u": sine(_OMEGA)}, {"x": 1.0})
+
+
+def largest_error(model, times, solver) -> tuple[float, int]:
+    record = simulate(model, forced(times), solver=solver)
+    return float(np.max(np.abs(record["x"] - forced_oscillation(times)))), record.statistics["steps"]
+
+
+def test_error_falls_with_the_claimed_order(case, fixture_model):
+    model, end = fixture_model(OSCILLATOR), np.array([20.0])
+    coarse_error, coarse_steps = largest_error(model, end, case.make(case.coarse))
+    finer = case.coarse / (4 if case.fixed else 1e3)
+    fine_error, fine_steps = largest_error(model, end, case.make(finer))
+    measured = math.log(coarse_error / fine_error) / math.log(fine_steps / coarse_steps)
+    assert measured == pytest.approx(case.order, abs=0.6)  # a single end point, and steps that differ in length
+
+
+def test_values_between_steps_are_as_good_as_the_order_of_the_interpolant(case, fixture_model):
+    model = fixture_model(OSCILLATOR)
+    times = np.linspace(0, 20, 4001)[1:] - 0.0017
+    coarse, coarse_steps = largest_error(model, times, case.make(case.coarse))
+    fine, fine_steps = largest_error(model, times, case.make(case.coarse / (4 if case.fixed else 1e3)))
+    assert math.log(coarse / fine) / math.log(fine_steps / coarse_steps) > 3.6
+    assert coarse < 2e-5
+
+
+def test_fmi_2_and_fmi_3_give_the_same_bits(case, fixture_model):
+    times = np.linspace(0, 5, 101)
+    records = [simulate(fixture_model(OSCILLATOR, fmi), forced(times), solver=case.make(case.coarse)) for fmi in (2, 3)]
+    np.testing.assert_array_equal(records[0].values, records[1].values)
+    assert records[0].statistics == records[1].statistics
+
+
+@pytest.mark.parametrize("fmi", [2, 3])
+def test_ball_bounces_when_and_as_high_as_it_should(case, fixture_model, fmi):
+    first, e, g = math.sqrt(2 / 9.81), 0.8, 9.81
+    bounces = first + np.concatenate([[0], np.cumsum(2 * first * e ** np.arange(1, 8))])
+    tops = (bounces[:-1] + bounces[1:]) / 2
+    record = simulate(fixture_model(BALL, fmi), Experiment(tops, ("h", "bounces")), solver=case.make(case.coarse))
+    np.testing.assert_allclose(record["h"], e ** (2 * np.arange(1, 8)), rtol=2e-9)  # parabolas: no method errs
+    np.testing.assert_array_equal(record["bounces"], np.arange(1, 8))
+    assert record.statistics["events"] >= 7
+    assert g == pytest.approx(2 / first**2)
+
+
+def test_dense_output_joins_both_ends_of_the_step(case):
+    method = case.make(case.coarse).method()
+    ends = method.dense.sum(axis=1)
+    np.testing.assert_allclose(ends[:-1], method.b, atol=2e-13)
+    assert ends[-1] == pytest.approx(0.0, abs=2e-13)
+    if isinstance(method, ExplicitMethod):
+        np.testing.assert_allclose(method.dense[:, 0], np.eye(len(method.dense))[0], atol=1e-14)
+        np.testing.assert_allclose(method.c, method.a.sum(axis=1), atol=1e-14)
+
+
+def test_settings_are_checked_and_frozen(case):
+    with pytest.raises(BadInput, match="must be"):
+        case.make(0.0)
+    with pytest.raises(BadInput, match="must be"):
+        case.make(math.nan)
+    with pytest.raises(dataclasses.FrozenInstanceError):
+        case.make(case.coarse).max_steps = 3  # type: ignore[misc]

@@ -1,0 +1,101 @@
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from pysim.types import BadInput, Signal
+
+_numbers = st.floats(-5, 5).map(lambda v: round(v, 3))
+
+
+@st.composite
+def signals(draw: st.DrawFn) -> Signal:
+    """Pieces of 0.1 to 2 s with moderate coefficients, as commands have them."""
+    count = draw(st.integers(1, 5))
+    lengths = draw(st.lists(st.floats(0.1, 2.0), min_size=count, max_size=count))
+    starts = draw(_numbers) + np.cumsum(lengths)
+    waves = draw(st.integers(0, 3))
+    cubics = np.reshape(draw(st.lists(_numbers, min_size=4 * count, max_size=4 * count)), (count, 4))
+    size = 4 * count * waves
+    sines = np.reshape(draw(st.lists(_numbers, min_size=size, max_size=size)), (count, waves, 4))
+    return Signal(starts, cubics, sines)
+
+
+def by_hand(signal: Signal, t: float) -> float:
+    """The defining formula of the docstring, written once more, plainly."""
+    k = max([i for i, start in enumerate(signal.starts) if start <= t], default=0)
+    s = max(t - signal.starts[k], 0.0)
+    cubic = sum(c * s**n for n, c in enumerate(signal.cubics[k]))
+    return cubic + sum(a * np.sin(phi + om * s + 0.5 * kappa * s * s) for a, phi, om, kappa in signal.sines[k])
+
+
+@given(signals(), st.lists(st.floats(-8, 20), min_size=1, max_size=8))
+def test_value_is_the_defining_formula(signal, times):
+    np.testing.assert_allclose(
+        signal.value(np.array(times)), [by_hand(signal, t) for t in times], atol=1e-9, rtol=1e-11
+    )
+
+
+@given(signals(), st.floats(0, 1), st.integers(0, 4))
+@settings(max_examples=200)
+def test_derivative_is_the_limit_of_differences(signal, share, piece):
+    k = piece % signal.starts.size
+    end = signal.starts[k + 1] if k + 1 < signal.starts.size else signal.starts[k] + 1.0
+    h = 1e-4
+    t = signal.starts[k] + 2 * h + share * (end - signal.starts[k] - 4 * h)  # a central difference within one piece
+    coarse, fine = ((signal.value(np.array([t + d])) - signal.value(np.array([t - d]))) / (2 * d) for d in (h, h / 2))
+    extrapolated = (4 * fine - coarse) / 3
+    np.testing.assert_allclose(signal.derivative(np.array([t])), extrapolated, atol=2e-7, rtol=1e-8)
+
+
+@given(signals())
+def test_before_its_start_the_signal_stands_still(signal):
+    early = signal.starts[0] - np.array([0.5, 3.0])
+    np.testing.assert_array_equal(signal.value(early), signal.value(signal.starts[:1])[0])
+    np.testing.assert_array_equal(signal.derivative(early), 0.0)
+
+
+@given(signals())
+def test_breaks_are_where_both_sides_differ(signal):
+    jumps, kinks = signal.breaks()
+    assert not jumps[0]
+    for k in range(1, signal.starts.size):
+        before = Signal(signal.starts[:k], signal.cubics[:k], signal.sines[:k])  # goes on past the start of piece k
+        t = signal.starts[k : k + 1]
+        jump = abs(before.value(t) - signal.value(t))[0]
+        kink = abs(before.derivative(t) - signal.derivative(t))[0]
+        assert jumps[k] == (jump > 1e-6) or jump < 1e-5
+        assert kinks[k] == (kink > 1e-5) or kink < 1e-4
+
+
+def test_smooth_pieces_have_no_breaks():
+    # sin t cut into pieces, each with its own phase: nothing but rounding happens where they meet.
+    starts = np.linspace(0, 6, 25)
+    sines = np.array([[[1.0, t, 1.0, 0.0]] for t in starts])
+    jumps, kinks = Signal(starts, np.zeros((25, 4)), sines).breaks()
+    assert not jumps.any()
+    assert kinks.tolist() == [True] + [False] * 24  # from standstill to a rate of 1
+
+
+@pytest.mark.parametrize(
+    ("starts", "cubics", "sines", "words"),
+    [
+        ([0, 1], np.zeros((1, 4)), np.zeros((2, 0, 4)), r"cubics of shape \(2, 4\)"),
+        ([0], np.zeros((1, 4)), np.zeros((1, 4)), r"sines need shape \(1, n, 4\)"),
+        ([0], np.full((1, 4), np.nan), np.zeros((1, 0, 4)), "every number must be finite"),
+        ([0, 0], np.zeros((2, 4)), np.zeros((2, 0, 4)), "starts must increase"),
+        ([], np.zeros((0, 4)), np.zeros((0, 0, 4)), "starts"),
+    ],
+)
+def test_shapes_are_checked(starts, cubics, sines, words):
+    with pytest.raises(BadInput, match=words):
+        Signal(np.array(starts, float), cubics, sines)
+
+
+def test_arrays_are_copied_and_read_only():
+    starts = np.zeros(1)
+    signal = Signal(starts, np.zeros((1, 4)), np.zeros((1, 0, 4)))
+    starts[0] = 5.0
+    assert signal.starts[0] == 0.0
+    with pytest.raises(ValueError, match="read-only"):
+        signal.starts[0] = 1.0
