@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "crossing.h"
 #include "rodas.h"
 
 /* Hands out parts of one block; with a null base it only adds up sizes. */
@@ -82,6 +83,7 @@ static void lay_out_integrator(Instance *s, Arena *a) {
     w->z_before = doubles(a, s->model->n_r);
     w->z_after = doubles(a, s->model->n_r);
     w->z_between = doubles(a, s->model->n_r);
+    w->z_looks = doubles(a, s->model->n_r * (CROSSING_LOOKS + 1));
     s->backup = s->interface == CO_SIMULATION ? take(a, s->memory_size, 1) : NULL;
 }
 

@@ -75,6 +75,7 @@ typedef struct {
     double *iteration, *j_xx, *j_xq, *j_qx, *j_qq;
     int *pivot_x, *pivot_q;
     double *z_before, *z_after, *z_between;  /* event indicators (n_r) while a crossing is searched for */
+    double *z_looks;                         /* those at CROSSING_LOOKS + 1 points of the step */
 } IntegratorWork;
 
 /* Work space of the event iteration. */

@@ -1,0 +1,29 @@
+"""The C tests in fmu_build/runtime/test: each program with each model it can judge."""
+
+from collections.abc import Callable
+
+import pytest
+
+MODELS = ("oscillator", "ball", "sampled", "delayed", "loop", "van_der_pol", "troubled")
+
+
+@pytest.mark.parametrize(
+    ("program", "model"),
+    [
+        ("test_exchange", "oscillator"),
+        ("test_integrator", "oscillator"),
+        ("test_ball", "ball"),
+        ("test_sampled", "sampled"),
+        ("test_delayed", "delayed"),
+        ("test_loop", "loop"),
+        ("test_van_der_pol", "van_der_pol"),
+        ("test_troubled", "troubled"),
+    ],
+)
+def test_against_known_answers(c_test: Callable[..., str], program: str, model: str) -> None:
+    c_test(program, model)
+
+
+@pytest.mark.parametrize("model", MODELS)
+def test_restored_states_repeat_bit_for_bit(c_test: Callable[..., str], model: str) -> None:
+    c_test("test_states", model)
