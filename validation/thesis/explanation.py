@@ -72,8 +72,8 @@ def explain(rows: tuple[Difference, ...], table: str) -> list[str]:
         f"{_largest(ours, printed, 2):.1f} deg at most.",
         f"Why: the fits have five poles and no dead time, and are {_range(misfit, 3)} deg away from the measured phase "
         "at most (Table 4.4). The tables agree when that is near 30 Hz, the pump lagging more than its fit: a model "
-        "close to the fit is that much away from the pump. In magnitude the fits are 0.6 to 2 dB off at most, up to the "
-        "whole limit of Table 1.3.",
+        "close to the fit is that much away from the pump. In magnitude the fits are 0.6 to 2 dB off at most, "
+        "up to the whole limit of Table 1.3.",
         f"Is that all? By the triangle inequality the two comparisons may differ by the fit's own misfit, number by "
         f"number. Beyond it, and beyond the rounding of the printed tables, there remain {excess_db:.2f} dB and "
         f"{excess_deg:.1f} deg at most over {len(rows)} tests; nothing else speaks for a model other than the thesis'.",

@@ -1,0 +1,1 @@
+"""The table of `pysim demo` against the independent result and the thesis."""

@@ -1,0 +1,1 @@
+"""The pump's FMU against the independent simulation, over time."""

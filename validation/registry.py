@@ -1,0 +1,33 @@
+"""All cases by name."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from importlib import import_module
+from types import MappingProxyType
+
+from validation.findings import Finding
+
+
+@dataclass(frozen=True)
+class Case:
+    """A module with `run() -> Iterable[Finding]`, imported only when it is run."""
+
+    module: str
+    about: str
+
+    def run(self) -> Iterable[Finding]:
+        """Findings, one by one as they come."""
+        findings: Iterable[Finding] = import_module(self.module).run()
+        return findings
+
+
+CASES: Mapping[str, Case] = MappingProxyType(
+    {
+        "pump-frequency": Case("validation.pump_frequency.case", "FMU against the independent simulation, every point"),
+        "pump-time": Case("validation.pump_time.case", "FMU against the independent simulation over time, ME and CS"),
+        "demo-table": Case("validation.demo_table.case", "the demo against the independent result and the thesis"),
+        "wine": Case("validation.wine.case", "the Windows binary under Wine against the binary of this machine"),
+    }
+)

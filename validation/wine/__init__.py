@@ -1,0 +1,1 @@
+"""The Windows binary, loaded and stepped under Wine."""
