@@ -4,6 +4,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from fmu_build.front.flat_model import FlatModel
+from fmu_build.front.redeclaration import refuse_lost_redeclarations
 from fmu_build.front.session import compile_class
 from fmu_build.front.source import find_class
 
@@ -26,6 +27,7 @@ def load(class_name: str, libraries: Sequence[Path], overrides: Mapping[str, flo
 
     paths = [Path(library) for library in libraries]
     source = find_class(class_name, paths)
+    refuse_lost_redeclarations(source, paths)
     dae, flat = compile_class(source, paths, overrides)
     return to_flat_model(
         dae,

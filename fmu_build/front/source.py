@@ -3,6 +3,7 @@
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from pathlib import Path
 
 from fmu_build.errors import BuildError
@@ -26,6 +27,7 @@ class ClassSource:
     is_single_file: bool
     description: str
     annotation: tuple[str, ...]  # tokens between the annotation's parentheses
+    tokens: tuple[str, ...]  # the class as written, up to its `end`
 
     @property
     def span(self) -> Span:
@@ -94,21 +96,28 @@ def _load(file: Path) -> str:
 
 def _read(name: str, file: Path, path: list[str], is_single_file: bool) -> ClassSource:
     text = _load(file)
-    tokens = [(match.group(), match.start()) for match in TOKEN.finditer(text)]
-    tokens = [token for token in tokens if not token[0].startswith(("//", "/*"))]
-    begin, end = 0, len(tokens)
+    tokens = _tokenise(text)
+    begin, inside, end = 0, 0, len(tokens)
     for part in path:
-        found = _class_range(tokens, part, begin, end)
+        found = _class_range(tokens, part, inside, end)
         if found is None:
             raise BuildError(f"class {name} is not here: there is no {part}", file)
         begin, end = found
+        inside = begin + 2  # behind the class keyword and the name
     line = text.count("\n", 0, tokens[begin][1]) + 1
     words = [token for token, _ in tokens[begin:end]]
     description = "".join(_text(word) for word in words[2:3] if word.startswith('"'))
-    return ClassSource(name, file, line, text, is_single_file, description, _own_annotation(words))
+    return ClassSource(name, file, line, text, is_single_file, description, _own_annotation(words), tuple(words))
 
 
-def _class_range(tokens: list[tuple[str, int]], name: str, begin: int, end: int) -> tuple[int, int] | None:
+@lru_cache(maxsize=1024)
+def _tokenise(text: str) -> tuple[tuple[str, int], ...]:
+    """Tokens with their offsets, comments left out."""
+    found = ((match.group(), match.start()) for match in TOKEN.finditer(text))
+    return tuple(token for token in found if not token[0].startswith(("//", "/*")))
+
+
+def _class_range(tokens: Sequence[tuple[str, int]], name: str, begin: int, end: int) -> tuple[int, int] | None:
     """Token range from the class keyword to `end name`."""
     kinds = CLASS_KINDS.split("|")
     for at in range(begin, end - 1):
