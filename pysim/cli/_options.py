@@ -35,7 +35,7 @@ def read_parameters(args: argparse.Namespace, model: Model) -> dict[str, float]:
     for name in values:
         variable = model[name]
         if variable.causality != "parameter":
-            raise BadInput(f"{name} of {model.path.name} is a {variable.causality}, not a parameter that can be set")
+            raise BadInput(f"{name} of {model.path.name} has the causality {variable.causality}; set parameters only")
     return values
 
 

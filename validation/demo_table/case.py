@@ -12,9 +12,12 @@ from pysim.types import Comparison
 from validation.findings import Finding
 from validation.pump import pump_model
 from validation.read_csv import read_csv
-from validation.thesis import differences, write_dataset
+from validation.thesis import Difference, differences, write_dataset
 
 LIMITS = (0.05, 0.05, 0.3, 0.3)
+# With the locked set, V_0 - A_p x_p of Eq. 3.5 reaches zero inside this test's stroke: the thesis' equations end there,
+# our model has a floor, and the independent simulation leaves the test out.
+UNDEFINED = {("locked", 75.0, 20.0)}
 _NUMBERS = ("mean_db", "max_db", "mean_deg", "max_deg")
 _UNITS = ("dB", "dB", "deg", "deg")
 _FILE = Path(__file__).parents[1] / "reference" / "free_set_deviations.csv"
@@ -57,8 +60,13 @@ def _locked_set_fails_on_the_mean_phase(locked: Comparison) -> Iterator[Finding]
 
 def _explained(comparison: Comparison, table: str) -> Iterator[Finding]:
     """What Table 4.4 cannot explain of the difference from the thesis' own table."""
-    rows = differences(comparison, table)
+    rows = [row for row in differences(comparison, table) if (comparison.label, *_size(row)) not in UNDEFINED]
     for numbers, unit, limit in ((slice(0, 2), "dB", 0.05), (slice(2, 4), "deg", 0.3)):
         worst = max(max(row.excess[numbers]) for row in rows)
         title = f"{comparison.label} set: difference from thesis Table {table} beyond the misfit of Table 4.4"
         yield Finding(title, worst, limit, unit)
+
+
+def _size(row: Difference) -> tuple[float, float]:
+    """Offset without its sign, and amplitude."""
+    return abs(row.offset), row.amplitude
