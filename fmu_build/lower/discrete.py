@@ -8,6 +8,7 @@ import casadi as ca
 from fmu_build.errors import BuildError
 from fmu_build.front import expression as ex
 from fmu_build.front.flat_model import Activation, DiscreteEquation, FlatModel
+from fmu_build.front.flat_model import Scalar as ScalarKind
 from fmu_build.lower.continuous import Solved
 from fmu_build.lower.evaluate import Evaluator, Frame
 from fmu_build.lower.events import Events
@@ -39,7 +40,6 @@ class DiscretePart:
         self.conditions: list[Scalar] = []
         self.pre_conditions: list[Scalar] = []
         self._active = self._read_clauses()
-        self._raw_discretes = [value for variables in self._targets() for value in self._new_values(variables)]
         self._raw_checks = [self._check(k) for k in range(len(flat.assertions))]
         self._raw_terminations = [
             Check(self._is_active(t.activation), self._message(t.message)) for t in flat.terminations
@@ -48,15 +48,16 @@ class DiscretePart:
     def updates(self, solved: Solved) -> Updates:
         """One pass, with algebraic variables, derivatives and new discrete values put in."""
         raw_states = self._reinitialised_states()
+        raw_discretes = self._new_discretes()
         samples = self._events.samples
         parts = [
-            self._raw_discretes,
+            raw_discretes,
             [*self.conditions, *(sample.flag for sample in samples)],
             raw_states,
             [check.condition for check in self._raw_terminations],
         ]
         flat_list = solved.replace([value for part in parts for value in part])
-        n_d = len(self._raw_discretes)
+        n_d = len(raw_discretes)
         new, rest = self._sorted_discretes(flat_list[:n_d], flat_list[n_d:])
         sizes = [len(part) for part in parts[1:]]
         conditions, states, terminations = rest[: sizes[0]], rest[sizes[0] : sum(sizes[:2])], rest[sum(sizes[:2]) :]
@@ -98,15 +99,19 @@ class DiscretePart:
             return active
         return ca.logic_and(active, self._evaluator.value(activation.guard, self._frame))
 
-    def _targets(self) -> list[list[ScalarVariable]]:
-        """Scalars of each discrete variable, in the order of `scope.discretes`."""
-        groups: dict[str, list[ScalarVariable]] = {}
-        for variable in self._scope.discretes:
-            groups.setdefault(variable.flat.name, []).append(variable)
-        return list(groups.values())
+    def _new_discretes(self) -> list[Scalar]:
+        """New values in the order of `scope.discretes`, to which evaluation may add hidden variables."""
+        values: list[Scalar] = []
+        while len(values) < len(self._scope.discretes):
+            first = self._scope.discretes[len(values)]
+            values += self._new_values(first)
+        return values
 
-    def _new_values(self, variables: list[ScalarVariable]) -> list[Scalar]:
-        name, span = variables[0].flat.name, variables[0].flat.span
+    def _new_values(self, first: ScalarVariable) -> list[Scalar]:
+        """New values of all elements of the variable whose first element is given."""
+        name, span = first.flat.name, first.flat.span
+        if name in self._events.hidden:
+            return [self._events.hidden[name]]
         equations = [equation for equation in self._flat.discrete_equations if equation.target == name]
         if not equations:
             raise BuildError(f"there is no equation for the discrete variable {name}", span.file, span.line)
@@ -124,7 +129,7 @@ class DiscretePart:
         for reinit in self._flat.reinits:
             if any(variable.flat.name == reinit.state for variable in self._scope.given_up):
                 raise BuildError(
-                    f"{reinit.state} cannot be reinitialised: it follows from other states; set its stateSelect to always",
+                    f"{reinit.state} cannot be reinitialised: it follows from others; give it StateSelect.always",
                     reinit.span.file,
                     reinit.span.line,
                 )
@@ -139,10 +144,13 @@ class DiscretePart:
         return result
 
     def _check(self, number: int) -> Check:
+        """Inside a when-clause the outcome is kept in a hidden variable, as checks are looked at after the event."""
         assertion = self._flat.assertions[number]
         violated = self._evaluator.value(assertion.violation, Frame(False))
         if assertion.clause is not None:
-            violated = ca.logic_and(violated, self._active[assertion.clause])
+            kept, before = self._events.hide(f"'violated {number + 1}'", ScalarKind.BOOLEAN, assertion.span)
+            self._events.hidden[kept.name()] = choose(self._active[assertion.clause], violated, before)
+            violated = kept
         return Check(ca.logic_not(violated), self._message(assertion.message), assertion.is_warning)
 
     def _message(self, message: ex.Expression) -> str:

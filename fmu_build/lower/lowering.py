@@ -37,7 +37,7 @@ def lower(flat: FlatModel) -> OdeModel:
     start = initial_conditions(flat, scope, parameters, evaluator, solved)
     calculated = parameters.explicit(start.parameters)
     numbers = _numbers(parameters, calculated)
-    places = place_variables(flat, scope, parameters, solved, derivatives, start, evaluator)
+    places = place_variables(flat, scope, parameters, solved, derivatives, start, evaluator, events.hidden_variables)
     symbols = Symbols(
         t=scope.time,
         x=column(v.symbol for v in scope.states),

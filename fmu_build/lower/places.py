@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from fmu_build.front.flat_model import FlatModel, Role
+from fmu_build.front.flat_model import FlatModel, FlatVariable, Role
 from fmu_build.front.flat_model import Scalar as ScalarKind
 from fmu_build.lower.continuous import Solved
 from fmu_build.lower.evaluate import Evaluator
@@ -31,7 +31,9 @@ def place_variables(
     derivatives: Sequence[Scalar],
     start: Start,
     evaluator: Evaluator,
+    hidden: Sequence[FlatVariable],
 ) -> Places:
+    """The place of every scalar of the model and of the lowering's own discrete variables `hidden`."""
     places = Places()
     entry_of = {
         entry.variable.name: entry
@@ -44,7 +46,7 @@ def place_variables(
         )
         for entry in entries
     }
-    for variable in flat.variables:
+    for variable in (*flat.variables, *hidden):
         if variable.scalar is not ScalarKind.STRING:
             places.entries += [entry_of[name] for name in scalar_names(variable)]
     places.entries += [

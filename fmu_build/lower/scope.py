@@ -52,7 +52,7 @@ class Scope:
         self.pre_discretes: list[Scalar] = []
         self._values: dict[tuple[str, ex.Form], Value] = {}
         for variable in flat.variables:
-            self._add(variable)
+            self.add(variable)
 
     def reference(self, name: str, form: ex.Form, span: ex.Span) -> Value:
         found = self._values.get((name, form))
@@ -68,7 +68,8 @@ class Scope:
         self.states = [self.states[k] for k in kept]
         self.derivatives = [self.derivatives[k] for k in kept]
 
-    def _add(self, variable: FlatVariable) -> None:
+    def add(self, variable: FlatVariable) -> None:
+        """Give a variable its symbols; parameters are not kept here."""
         lists = {
             Role.STATE: self.states,
             Role.ALGEBRAIC: self.algebraics,

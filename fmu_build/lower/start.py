@@ -244,14 +244,15 @@ def _is_parametric(value: Scalar, parameters: Parameters, iterated: Sequence[Sca
 def _discrete_starts(flat: FlatModel, scope: Scope, evaluator: Evaluator, solved: Solved) -> list[Scalar]:
     """A user's value counts for what only when-clauses change; the rest follows from its equation anyway."""
     given = {value.target: value.value for value in flat.initial_values}
-    always = {equation.target for equation in flat.discrete_equations if equation.activation is None}
+    by_when = {equation.target for equation in flat.discrete_equations}
+    by_when -= {equation.target for equation in flat.discrete_equations if equation.activation is None}
     starts = start_values(scope.discretes, evaluator)
     result = []
     for variable, start in zip(scope.discretes, starts, strict=True):
         name = variable.flat.name
         if name in given:
             result.append(scalars(evaluator.value(given[name], Frame(False)))[variable.element])
-        elif name not in always and start.is_constant():
+        elif name in by_when and start.is_constant():
             result.append(variable.symbol)
         else:
             result.append(start)

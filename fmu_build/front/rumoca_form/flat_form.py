@@ -9,6 +9,9 @@ from fmu_build.errors import BuildError
 from fmu_build.front import expression as ex
 from fmu_build.front.rumoca_form.places import Places, span_key
 
+Place = tuple[int, int, int]
+Arguments = tuple[ex.Expression, ex.Expression]  # start and interval
+
 BINARY = {"Add": "add", "Sub": "subtract", "Mul": "multiply", "Div": "divide", "Exp": "power"}
 
 
@@ -57,14 +60,33 @@ class FlatForm:
         start, interval = found.pop(0)
         return ex.Sample(span, start, interval)
 
-    def _find_samples(self) -> dict[tuple[int, int, int], list[tuple[ex.Expression, ex.Expression]]]:
+    def _find_samples(self) -> dict[Place, list[Arguments]]:
+        """Arguments by place, also where a condition names a variable that its equation makes a sample()."""
         samples = defaultdict(list)
         for form in ("equations", "structured_equations", "when_chains", "algorithms"):
             for node in _walk(self._flat[form]):
                 if node.get("function") == "Sample":
-                    start, interval = (self._expression(argument) for argument in node["args"])
-                    samples[span_key(node)].append((start, interval))
+                    samples[span_key(node)].append(self._arguments(node))
+        named = self._named_samples()
+        for node in _walk(self._flat["when_chains"]):
+            reference = node.get("VarRef")
+            if reference and reference["name"]["name"] in named:
+                samples[span_key(reference)].append(named[reference["name"]["name"]])
         return dict(samples)
+
+    def _named_samples(self) -> dict[str, Arguments]:
+        """Variables given by `name = sample(...)`."""
+        named = {}
+        for equation in self._flat["equations"]:
+            binary = equation["residual"].get("Binary", {})
+            call = binary.get("rhs", {}).get("BuiltinCall", {})
+            if binary.get("op") == "Sub" and "VarRef" in binary["lhs"] and call.get("function") == "Sample":
+                named[binary["lhs"]["VarRef"]["name"]["name"]] = self._arguments(call)
+        return named
+
+    def _arguments(self, call: Mapping[str, Any]) -> Arguments:
+        start, interval = (self._expression(argument) for argument in call["args"])
+        return start, interval
 
     def _expression(self, node: Mapping[str, Any]) -> ex.Expression:
         ((kind, what),) = node.items()

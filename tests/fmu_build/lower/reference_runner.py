@@ -78,6 +78,8 @@ class Runner:
 
     def run(self, stop: float) -> "Runner":
         """Integrate to `stop` with every event on the way."""
+        if self.time == 0.0 and self.model.samples:
+            self._event()
         while self.time < stop - 1e-12 and not self.terminated:
             next_time = min([stop, *self._time_events()])
             self._integrate(next_time)
@@ -120,11 +122,13 @@ class Runner:
         if self.values["i"].size == 0:
             self.values["c"] = self.get("calculated")
 
-    def _relations(self) -> np.ndarray:
-        z = self.get("indicators")
+    def _relations(self) -> None:
         strict = np.array([relation.strict for relation in self.model.relations], dtype=bool)
+        of_time = np.array([relation.instant is not None for relation in self.model.relations], dtype=bool)
+        z, now = self.get("indicators"), self.time
+        self.time = now + 1e-11  # what counts of a time event is the interval that begins there
+        z, self.time = np.where(of_time, self.get("indicators"), z), now
         self.values["r"] = np.where(strict, z > 0, z >= 0).astype(float)
-        return z
 
     # Passes until nothing changes: relations, then discrete variables, when-conditions and states at once.
     def _iterate(self, flag: int | None, ticks: tuple[int, ...] = ()) -> None:
@@ -190,14 +194,14 @@ class Runner:
         if self.values["x"].size == 0 or stop - self.time < 1e-13:
             self._move(stop, self.values["x"])
             return
+        watched = np.array([relation.instant is None for relation in self.model.relations], dtype=bool)
+        held = self.get("indicators")[watched]
         shortest = min([*(self.get("delays") / 2), np.inf])
         solver = DOP853(
             self._rate, self.time, self.values["x"], stop, rtol=1e-11, atol=1e-13, max_step=min(shortest, 0.05)
         )
-        watched = np.array([relation.instant is None for relation in self.model.relations], dtype=bool)
-        z = self.get("indicators")[watched]
         while solver.status == "running":
-            begin, held = solver.t, z
+            begin = solver.t
             solver.step()
             dense = solver.dense_output()
             self._move(solver.t, solver.y)
@@ -206,6 +210,7 @@ class Runner:
             if np.any((z > 0) != (held > 0)):
                 self._locate(begin, solver.t, dense, held, watched)
                 return
+            held = z
 
     def _locate(self, low: float, high: float, dense, held: np.ndarray, watched: np.ndarray) -> None:
         while high - low > 1e-14 * max(1.0, abs(high)):
