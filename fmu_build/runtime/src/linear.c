@@ -35,8 +35,8 @@ bool lu_factor(size_t n, double *matrix, int *pivot) {
 }
 
 void lu_solve(size_t n, const double *lu, const int *pivot, double *b) {
+    for (size_t k = 0; k < n; k++) swap(b + k, b + pivot[k]);
     for (size_t k = 0; k < n; k++) {
-        swap(b + k, b + pivot[k]);
         const double *column = lu + k * n;
         for (size_t i = k + 1; i < n; i++) b[i] -= column[i] * b[k];
     }
@@ -56,6 +56,6 @@ void lu_solve_transposed(size_t n, const double *lu, const int *pivot, double *b
     for (size_t k = n; k-- > 0;) {
         const double *column = lu + k * n;
         for (size_t i = k + 1; i < n; i++) b[k] -= column[i] * b[i];
-        swap(b + k, b + pivot[k]);
     }
+    for (size_t k = n; k-- > 0;) swap(b + k, b + pivot[k]);
 }
