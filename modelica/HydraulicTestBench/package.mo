@@ -4,7 +4,8 @@ package HydraulicTestBench "Hydraulic pump control on a test bench, with slots f
   annotation(
     version="0.1.0",
     Documentation(info="<html>
-<p>A Bosch Rexroth A4VSG pump whose swash plate is moved by a valve-controlled cylinder and a controller card. Start with
+<p>A Bosch Rexroth A4VSG pump whose swash plate is moved by a valve-controlled cylinder and a controller card. Start
+with
 <code>UsersGuide</code>; the model is <code>Pump.SwashPlateControl</code>.</p>
 <p>The library loads alone. Its flanges and signals are those of the Modelica Standard Library.</p>
 <p><b>Source:</b> S. S. T&oslash;rdal and A. Klausen, <i>System Identification of a Variable Piston Pump and Design of a

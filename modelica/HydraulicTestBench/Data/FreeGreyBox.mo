@@ -15,10 +15,12 @@ record FreeGreyBox "Identified parameters with piston area and stroke free, thes
     K_L=0.02e-6,
     tau=3.83e-3);
   annotation(Documentation(info="<html>
-<p>Fitted with stroke and area of the control piston among the unknowns. The better of the two sets: within the limits of
+<p>Fitted with stroke and area of the control piston among the unknowns. The better of the two sets: within the limits
+of
 the thesis' Table 1.3 for most tests.</p>
 <p><b>Source:</b> thesis Table 4.6, column of final values.</p>
-<p><b>Leaves out:</b> the uncertainty of the values, which the thesis does not give. K_L stands on its lower bound, so it
+<p><b>Leaves out:</b> the uncertainty of the values, which the thesis does not give. K_L stands on its lower bound, so
+it
 is an upper estimate rather than a value.</p>
 </html>"));
 end FreeGreyBox;

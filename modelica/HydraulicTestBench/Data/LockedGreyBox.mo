@@ -19,7 +19,8 @@ record LockedGreyBox "Identified parameters with piston area and stroke from the
 <p><b>Source:</b> thesis Table 4.5, column of final values.</p>
 <p><b>Leaves out:</b> the uncertainty of the values. K_D stands on its upper bound. T_d = 0.00354 s lies below the lower
 bound printed in the same table (0.005305 s): a misprint, since Table 4.6 has 0.0035368 s; the bounds of
-<code>Pump.SwashPlateControl</code> are those of Table 4.6. V_0 is less than A_p L/2 (21.1 against 21.5 cm3), so a chamber
+<code>Pump.SwashPlateControl</code> are those of Table 4.6. V_0 is less than A_p L/2 (21.1 against 21.5 cm3), so a
+chamber
 would vanish before the end of the stroke.</p>
 </html>"));
 end LockedGreyBox;

@@ -9,7 +9,8 @@ equation
   annotation(
     experiment(StartTime=0, StopTime=4, Interval=0.001, Tolerance=1e-6),
     Documentation(info="<html>
-<p>Offset 25 percent, amplitude 10 percent, 5 Hz: plot <code>pump.alphaCMD</code> and <code>pump.alphaPercent</code>. The
+<p>Offset 25 percent, amplitude 10 percent, 5 Hz: plot <code>pump.alphaCMD</code> and <code>pump.alphaPercent</code>.
+The
 response lags the command by about 43 degrees at 0.93 of its amplitude.</p>
 <p><b>Source:</b> thesis Section 2.1.1, Table 4.6.</p>
 </html>"));

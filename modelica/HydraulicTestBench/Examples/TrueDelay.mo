@@ -9,7 +9,8 @@ equation
   annotation(
     experiment(StartTime=0, StopTime=5, Interval=0.002, Tolerance=1e-8),
     Documentation(info="<html>
-<p>As <code>TimeResponse</code>, with the slot <code>deadTime</code> redeclared; also the shortest example of how a slot is
+<p>As <code>TimeResponse</code>, with the slot <code>deadTime</code> redeclared; also the shortest example of how a
+slot is
 filled.</p>
 <p><b>Source:</b> thesis Eq. 3.20.</p>
 </html>"));

@@ -9,7 +9,8 @@ equation
   annotation(
     experiment(StartTime=0, StopTime=5, Interval=0.002, Tolerance=1e-8),
     Documentation(info="<html>
-<p>As <code>TimeResponse</code>, but <code>alphaCMD_t</code> stays 0: <code>Pump.CommandRateObserver</code> estimates the
+<p>As <code>TimeResponse</code>, but <code>alphaCMD_t</code> stays 0: <code>Pump.CommandRateObserver</code> estimates
+the
 rate. The angle differs by less than 0.001 percent.</p>
 <p><b>Source:</b> thesis Eq. 3.17.</p>
 </html>"));

@@ -1,7 +1,9 @@
 within HydraulicTestBench.Icons;
 partial class Component "Icon of a component"
   annotation(
-    Icon(coordinateSystem(extent={{-100, -100}, {100, 100}}), graphics={Rectangle(extent={{-100, 100}, {100, -100}}, lineColor={0, 60, 100}, fillColor={255, 255, 255}, fillPattern=FillPattern.Solid),
+    Icon(coordinateSystem(extent={{-100, -100}, {100, 100}}),
+      graphics={Rectangle(extent={{-100, 100}, {100, -100}},
+        lineColor={0, 60, 100}, fillColor={255, 255, 255}, fillPattern=FillPattern.Solid),
       Text(extent={{-150, 150}, {150, 110}}, textString="%name", textColor={0, 0, 255})}),
     Documentation(info="<html>
 <p>Drawing only: no variable, no equation.</p>

@@ -4,7 +4,8 @@ connector Flange_a "Rotational flange, drive side"
   flow Types.Torque tau "Cut torque, positive into the component";
   annotation(
     defaultComponentName="flange_a",
-    Icon(coordinateSystem(extent={{-100, -100}, {100, 100}}), graphics={Ellipse(extent={{-100, 100}, {100, -100}},
+    Icon(coordinateSystem(extent={{-100, -100}, {100, 100}}),
+      graphics={Ellipse(extent={{-100, 100}, {100, -100}},
       lineColor={95, 95, 95}, fillColor={95, 95, 95}, fillPattern=FillPattern.Solid)}),
     Documentation(info="<html>
 <p>Same variables, units and signs as <code>Modelica.Mechanics.Rotational.Interfaces.Flange_a</code>: the two can be

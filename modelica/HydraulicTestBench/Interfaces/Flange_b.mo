@@ -4,7 +4,8 @@ connector Flange_b "Rotational flange, driven side"
   flow Types.Torque tau "Cut torque, positive into the component";
   annotation(
     defaultComponentName="flange_b",
-    Icon(coordinateSystem(extent={{-100, -100}, {100, 100}}), graphics={Ellipse(extent={{-100, 100}, {100, -100}},
+    Icon(coordinateSystem(extent={{-100, -100}, {100, 100}}),
+      graphics={Ellipse(extent={{-100, 100}, {100, -100}},
       lineColor={95, 95, 95}, fillColor={255, 255, 255}, fillPattern=FillPattern.Solid)}),
     Documentation(info="<html>
 <p>Same variables, units and signs as <code>Modelica.Mechanics.Rotational.Interfaces.Flange_b</code>: the two can be

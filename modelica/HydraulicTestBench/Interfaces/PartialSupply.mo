@@ -10,7 +10,8 @@ equation
   Q = -port.q;
   annotation(Documentation(info="<html>
 <p>The supply's pressure is pS - dp. Q is the signed flow through the open P edge of the valve. The law is one equation
-that gives dp from Q; in the base model dp = 0. A law without a lag on Q would make an algebraic loop with the valve.</p>
+that gives dp from Q; in the base model dp = 0. A law without a lag on Q would make an algebraic loop with the
+valve.</p>
 <p><b>Source:</b> thesis Eq. 3.1, p<sub>P</sub>.</p>
 </html>"));
 end PartialSupply;

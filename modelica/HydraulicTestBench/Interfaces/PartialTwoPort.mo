@@ -13,6 +13,7 @@ equation
 <p>Nothing is stored inside. The law is one equation between q and dp; a law of the two pressures themselves uses
 <code>port_a.p</code> and <code>port_b.p</code>.</p>
 <p><b>Source:</b> thesis Eq. 3.6 (signs).</p>
-<p><b>Used by:</b> <code>internalLeakage</code> of <code>Pump.SwashPlateControl</code>, <code>Hydraulics.Orifice</code>.</p>
+<p><b>Used by:</b> <code>internalLeakage</code> of <code>Pump.SwashPlateControl</code>,
+<code>Hydraulics.Orifice</code>.</p>
 </html>"));
 end PartialTwoPort;

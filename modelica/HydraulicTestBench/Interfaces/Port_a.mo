@@ -4,7 +4,8 @@ connector Port_a "Hydraulic port (design inlet)"
   flow Types.VolumeFlowRate q "Volume flow, positive into the component";
   annotation(
     defaultComponentName="port_a",
-    Icon(coordinateSystem(extent={{-100, -100}, {100, 100}}), graphics={Ellipse(extent={{-100, 100}, {100, -100}},
+    Icon(coordinateSystem(extent={{-100, -100}, {100, 100}}),
+      graphics={Ellipse(extent={{-100, 100}, {100, -100}},
       lineColor={0, 100, 160}, fillColor={0, 100, 160}, fillPattern=FillPattern.Solid)}),
     Documentation(info="<html>
 <p>Where oil enters or leaves a component. The pressure is <b>gauge</b>: 0 is the surrounding air. The flow is in m3/s

@@ -19,7 +19,8 @@ equation
 <p>An observer of third order follows the command and gives the rate at which it does so. Where the true rate is fed to
 s_t, it follows exactly, and the output <i>is</i> that rate. Where s_t stays 0, the output is the command passed through
 s (1 + 3Ts + 3(Ts)<sup>2</sup>)/(1 + Ts)<sup>3</sup>, a differentiator whose relative error is (&omega;T)<sup>3</sup>:
-0.03 percent of the rate at 20 Hz and 0.08 percent at 30 Hz with T = 0.5 ms. On the pump's response that is at most 0.004 dB
+0.03 percent of the rate at 20 Hz and 0.08 percent at 30 Hz with T = 0.5 ms. On the pump's response that is at most
+0.004 dB
 and 0.03 degrees up to 30 Hz. One law thus does for both, without a switch and without der() of an input.</p>
 <p>All states are in percent of command, so that a solver's error control treats them alike.</p>
 <p><b>Source:</b> this library, for the derivative in thesis Eq. 3.17.</p>

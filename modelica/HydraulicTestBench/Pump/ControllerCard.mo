@@ -20,7 +20,8 @@ equation
   annotation(Documentation(info="<html>
 <p>The outer loop asks for a spool position in proportion to the angle error, the inner loop drives the spool there.
 No signal is differentiated: the rates of angle and spool are states or follow from them.</p>
-<p><b>Source:</b> thesis Eq. 3.17 (K_D T_d s + K_D), 3.18, Fig. 3.4; the loop gives Eq. 3.20. The angle error is in rad.</p>
+<p><b>Source:</b> thesis Eq. 3.17 (K_D T_d s + K_D), 3.18, Fig. 3.4; the loop gives Eq. 3.20. The angle error is in
+rad.</p>
 <p><b>Valid:</b> a card that samples much faster than its loop; its delay is in the dead time.</p>
 <p><b>Leaves out:</b> sampling, resolution and limits of the card.</p>
 </html>"));

@@ -183,16 +183,20 @@ equation
   connect(swashPlate.alpha_t, angleSensor.s_t);
   annotation(
     Documentation(info="<html>
-<p>From the command (percent of 15 degrees) to the swash plate angle and the spool position of the Bosch Rexroth A4VSG 71
-pump on the thesis' bench: outer P and inner PD controller, dead time, second order valve spool, four edges, two chambers,
+<p>From the command (percent of 15 degrees) to the swash plate angle and the spool position of the Bosch Rexroth A4VSG
+71
+pump on the thesis' bench: outer P and inner PD controller, dead time, second order valve spool, four edges, two
+chambers,
 piston with spring and damper, linkage. Nine states of the physics and the dead time, two of the command's rate.</p>
 <p><b>Source:</b> thesis Eq. 3.1 to 3.12 and 3.17 to 3.20, Fig. 3.2 to 3.4; parameters of Tables 4.6 and 5; names of
-Tables 6, 7, 8 and 10 (Appendix F). <code>delay1</code> is there the name of a block; here it is that block's output.</p>
+Tables 6, 7, 8 and 10 (Appendix F). <code>delay1</code> is there the name of a block; here it is that block's
+output.</p>
 <p><b>FMUs:</b> compile <code>FreeGreyBox</code> for Table 4.6 and <code>LockedGreyBox</code> for Table 4.5. They differ
 in the start values of the 13 identified parameters alone, each of which can be set in the FMU.</p>
 <p><b>Command rate:</b> the PD controller needs the rate of the command. Feed it to <code>alphaCMD_t</code> where it is
 known; leave that input alone where it is not, and <code>CommandRateObserver</code> estimates it.</p>
-<p><b>Slots:</b> every <code>replaceable</code> part is a place where physics may be missing; <code>Interfaces.Neutral</code>
+<p><b>Slots:</b> every <code>replaceable</code> part is a place where physics may be missing;
+<code>Interfaces.Neutral</code>
 fills it with nothing. <code>UsersGuide.AddAnEffect</code> shows how to put an effect in.</p>
 <p><b>Start:</b> at rest in the middle, both chambers at p_start (half of pS; set both together).</p>
 <p><b>Valid:</b> no load on the pump; amplitudes and frequencies of the tests it was fitted to (5 to 20 percent around

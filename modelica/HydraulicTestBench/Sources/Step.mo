@@ -9,5 +9,6 @@ equation
   annotation(Documentation(info="<html>
 <p>Zero, then <code>height</code>. Its rate is not offered: it is infinite at one instant.</p>
 <p><b>Source:</b> this library.</p>
+<p><b>Leaves out:</b> the slope a real command has.</p>
 </html>"));
 end Step;

@@ -22,7 +22,8 @@ model PumpWithFriction
 end PumpWithFriction;
 </pre>
 <p>The strength appears in the FMU as <code>pistonForce.F_c</code>. Nothing of the pump is touched or copied.</p>
-<p><b>Two effects in one slot:</b> a class that extends the same partial class, holds both effects as components, hands its
+<p><b>Two effects in one slot:</b> a class that extends the same partial class, holds both effects as components,
+hands its
 inputs to both and adds their forces or flows; signals go through one after the other.</p>
 <pre>
 model FrictionAndPreload &quot;Both forces at once&quot;
@@ -37,8 +38,10 @@ equation
   f = friction.f + preload.f;
 end FrictionAndPreload;
 </pre>
-<p><b>States in a filling</b> get a start value with <code>fixed=true</code>, so that the start of the model stays defined.</p>
-<p><b>Check it:</b> with the strength off, the response is that of the base model to the last digit; with it on, the sign is
+<p><b>States in a filling</b> get a start value with <code>fixed=true</code>, so that the start of the model stays
+defined.</p>
+<p><b>Check it:</b> with the strength off, the response is that of the base model to the last digit; with it on, the
+sign is
 right (<code>Signs</code>); the model stays balanced.</p>
 <p><b>Source:</b> Modelica Language Specification 3.6, Section 7.3 (redeclaration).</p>
 </html>"));

@@ -10,7 +10,8 @@ RealOutput</td></tr>
 <td>Modelica.Mechanics.Rotational.Interfaces.Flange_a, Flange_b</td></tr>
 <tr><td>Interfaces.Port_a, Port_b</td><td>p (Pa, gauge)</td><td>q (m3/s)</td><td>this library</td></tr>
 </table>
-<p>Connectors are joined by the names of their variables, so the Modelica Standard Library need not be loaded to use this
+<p>Connectors are joined by the names of their variables, so the Modelica Standard Library need not be loaded to use
+this
 library, and can be loaded beside it.</p>
 <p><b>Source:</b> Modelica Standard Library 4; Modelica Language Specification 3.6, Section 9.</p>
 </html>"));

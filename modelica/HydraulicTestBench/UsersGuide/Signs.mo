@@ -14,7 +14,8 @@ V<sub>0</sub> - A<sub>p</sub>x<sub>p</sub>.</li>
 <li>The supply delivers Q = Q1 for u &ge; 0 and Q = -Q2 for u &lt; 0; it is negative where a chamber stands above supply
 pressure.</li>
 </ul>
-<p><b>Source:</b> thesis Eq. 3.1 to 3.9, Fig. 3.2. The third row of Eq. 3.15 there reads x<sub>4</sub>/m<sub>eff</sub>; by
+<p><b>Source:</b> thesis Eq. 3.1 to 3.9, Fig. 3.2. The third row of Eq. 3.15 there reads
+x<sub>4</sub>/m<sub>eff</sub>; by
 its own definition of the states it has to be dx<sub>3</sub>/dt = x<sub>4</sub>.</p>
 </html>"));
 end Signs;

@@ -2,7 +2,8 @@ within HydraulicTestBench;
 package UsersGuide "Guide to the library"
   extends Icons.Information;
   annotation(DocumentationClass=true, Documentation(info="<html>
-<p>The library describes the swash plate control of a hydraulic pump so that a simulation can be set beside measurements,
+<p>The library describes the swash plate control of a hydraulic pump so that a simulation can be set beside
+measurements,
 and so that physics the model lacks can be added at one place, by one class.</p>
 <ul>
 <li><code>PumpModel</code>: what to compile, inputs, outputs, parameters</li>

@@ -16,7 +16,8 @@ equation
   annotation(
     experiment(StartTime=0, StopTime=0.2, Interval=0.0005, Tolerance=1e-9),
     Documentation(info="<html>
-<p>Told, the observer gives the rate exactly; untold, with the share (&omega;T)<sup>3</sup> of error, 2.5e-4 at 20 Hz.</p>
+<p>Told, the observer gives the rate exactly; untold, with the share (&omega;T)<sup>3</sup> of error, 2.5e-4 at 20
+Hz.</p>
 <p><b>Source:</b> <code>Pump.CommandRateObserver</code>.</p>
 </html>"));
 end CommandRate;

@@ -1,0 +1,88 @@
+"""Every file of the library: in its place, in its package's order, documented, and good Modelica by itself."""
+
+import re
+from pathlib import Path
+
+import pytest
+import rumoca
+
+from tests.modelica.library import FILES, FOLDERS, LIBRARY, class_name
+
+ALL_FILES = pytest.mark.parametrize("file", FILES, ids=class_name)
+COMPONENTS = [file for file in FILES if file.parent.name in ("Functions", "Hydraulics", "Pump", "Sources")]
+
+
+def read(file: Path) -> str:
+    return file.read_text(encoding="utf-8")
+
+
+def without_texts(source: str) -> str:
+    """The source without strings and comments."""
+    return re.sub(r'"(?:\\.|[^"\\])*"|//[^\n]*', "", source)
+
+
+@pytest.mark.parametrize("folder", FOLDERS, ids=lambda folder: folder.name)
+def test_package_order_names_each_class_once(folder: Path) -> None:
+    ordered = (folder / "package.order").read_text(encoding="utf-8").split()
+    classes = {path.stem for path in folder.glob("*.mo")} - {"package"}
+    classes |= {path.parent.name for path in folder.glob("*/package.mo")}
+    constants = set(re.findall(r"^  constant \w+ (\w+)", read(folder / "package.mo"), re.MULTILINE))
+    assert len(ordered) == len(set(ordered))
+    assert set(ordered) == classes | constants
+
+
+def test_every_folder_is_a_package() -> None:
+    assert {path.parent for path in FILES} == set(FOLDERS)
+
+
+@ALL_FILES
+def test_file_holds_the_class_of_its_place(file: Path) -> None:
+    *outer, name = class_name(file).split(".")
+    source = read(file)
+    assert source.startswith(f"within {'.'.join(outer)};\n")
+    assert re.search(rf"^(partial )?(\w+) {name}\b", source, re.MULTILINE)
+    assert re.search(rf"^end {name};$|^(type|connector) {name} = ", source, re.MULTILINE)
+
+
+@ALL_FILES
+def test_rumoca_parses_the_file_alone(file: Path) -> None:
+    assert [found.message for found in rumoca.validate(str(file)) if found.rule == "syntax-error"] == []
+
+
+@ALL_FILES
+def test_class_is_described_and_names_its_source(file: Path) -> None:
+    source = read(file)
+    name = class_name(file).split(".")[-1]
+    documentation = re.search(r'Documentation\(info="((?:\\.|[^"\\])*)"', source)
+    assert re.search(rf'(\w+) {name}( = [^"]*)?\s+"[^"]+"', source) or re.search(r'\) "[^"]+"\n  annotation', source)
+    assert documentation
+    text = documentation[1].strip()
+    assert text.startswith("<html>")
+    assert text.endswith("</html>")
+    assert "<b>Source:</b>" in text
+
+
+@pytest.mark.parametrize("file", [file for file in COMPONENTS if file.stem != "package"], ids=class_name)
+def test_component_says_its_limits(file: Path) -> None:
+    assert re.search(r"<b>Valid[:,]|<b>Leaves out:", read(file))
+
+
+@ALL_FILES
+def test_lines_fit_the_page(file: Path) -> None:
+    long = [n for n, line in enumerate(read(file).splitlines(), 1) if len(line) > 120]
+    assert long == []
+
+
+@ALL_FILES
+def test_library_needs_no_other(file: Path) -> None:
+    assert not re.search(r"\bModelica\.", without_texts(read(file)))
+
+
+def test_connectors_agree_with_the_standard_library() -> None:
+    """Variables, prefixes and order of Modelica.Mechanics.Rotational.Interfaces.Flange_a."""
+    for name in ("Flange_a", "Flange_b"):
+        source = without_texts(read(LIBRARY / "Interfaces" / f"{name}.mo"))
+        assert re.findall(r"^  (flow )?Types\.(\w+) (\w+)", source, re.MULTILINE) == [
+            ("", "Angle", "phi"),
+            ("flow ", "Torque", "tau"),
+        ]
