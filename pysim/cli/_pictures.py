@@ -24,5 +24,6 @@ def write_pictures(comparisons: Sequence[Comparison], folder: Path) -> dict[str,
     for name, (caption, at) in figures.items():
         figure = deviation_figure(comparisons) if at is None else bode_figure(comparisons, at)
         (folder / name).write_bytes(render(figure, "png"))
+        figure.set_layout_engine("none")  # what the first drawing found is good for the second, and costs as much
         pictures[caption] = render(figure, "svg")
     return pictures

@@ -8,8 +8,8 @@ from matplotlib.figure import Figure
 
 
 def render(figure: Figure, form: str) -> bytes:
-    """The figure as "png" (180 dots per inch) or "svg"."""
+    """The figure as "png" (150 dots per inch) or "svg"."""
     buffer = BytesIO()
     metadata = {"Date": None} if form == "svg" else {"Software": None}
-    figure.savefig(buffer, format=form, dpi=180, metadata=metadata)
+    figure.savefig(buffer, format=form, dpi=150, metadata=metadata)
     return buffer.getvalue()

@@ -29,7 +29,7 @@ def comparison_page(
         remarks: sections of HTML to put behind the pictures.
     """
     first = comparisons[0]
-    sets = ", ".join(comparison.label for comparison in comparisons)
+    models = "; ".join(f"{comparison.label}: {comparison.model}" for comparison in comparisons)
     parts = [heading("Verdict"), items(f"{c.label}: {verdict_text(c)}" for c in comparisons)]
     parts += [paragraph(first.note, note=True), heading("What was done"), *_method(comparisons)]
     for comparison in comparisons:
@@ -37,7 +37,7 @@ def comparison_page(
         parts += [paragraph(first.note, note=True)]
     parts += [heading("Pictures"), *(picture(svg, caption) for caption, svg in pictures.items())]
     parts += [*remarks, heading("Do it again"), commands(redo)]
-    return page(title, f"{first.model}, parameters: {sets}; measurements: {first.dataset}.", parts)
+    return page(title, f"{models}; measurements: {first.dataset}.", parts)
 
 
 def comparison_table(comparison: Comparison) -> str:

@@ -44,6 +44,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
     monkeypatch.setattr(import_module("pysim.diagnose.compare"), "simulate_many", simulate_many)
     monkeypatch.setattr("pysim.io.read_model", lambda path: linear.model())
+    monkeypatch.setattr("pysim.plot.render", lambda figure, form: b"drawn")  # slow, and tested where it lives
     return tmp_path
 
 

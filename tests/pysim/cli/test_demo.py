@@ -58,6 +58,7 @@ def demo(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Path:
         return [from_the_table(experiment, 2e-3 * (model.name == "locked")) for experiment in experiments]
 
     monkeypatch.setattr("validation.pump.pump_model", pump_model)
+    monkeypatch.setattr("pysim.plot.render", lambda figure, form: b"drawn")  # slow, and tested where it lives
     monkeypatch.setattr(import_module("pysim.diagnose.compare"), "simulate_many", simulate_many)
     return tmp_path / "results" / "demo"
 
