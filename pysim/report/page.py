@@ -21,7 +21,8 @@ p, li { max-width: 46rem; } .lead { color: var(--quiet); margin-top: 0; }
 table { border-collapse: collapse; font-variant-numeric: tabular-nums; font-size: .9rem; margin: .8rem 0; }
 caption { text-align: left; color: var(--quiet); padding-bottom: .3rem; }
 th, td { padding: .18rem .6rem; text-align: right; border-bottom: 1px solid var(--line); }
-td { white-space: nowrap; } th { font-weight: 600; vertical-align: bottom; min-width: 4rem; } td.beyond { background: var(--mark); color: var(--fail); }
+td { white-space: nowrap; } th { font-weight: 600; vertical-align: bottom; min-width: 4rem; }
+td.beyond { background: var(--mark); color: var(--fail); }
 td.fail { color: var(--fail); font-weight: 600; } td.pass { color: var(--pass); }
 figure { margin: 1.2rem 0; } figure img { width: 100%; height: auto; background: #fff; border-radius: 4px; }
 figcaption { color: var(--quiet); font-size: .9rem; }
