@@ -3,7 +3,8 @@
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from fmu_build.front.flat_model import FlatModel
+from fmu_build.errors import BuildError
+from fmu_build.front.flat_model import FlatModel, Role
 from fmu_build.front.redeclaration import refuse_lost_redeclarations
 from fmu_build.front.session import compile_class
 from fmu_build.front.source import find_class
@@ -29,7 +30,7 @@ def load(class_name: str, libraries: Sequence[Path], overrides: Mapping[str, flo
     source = find_class(class_name, paths)
     refuse_lost_redeclarations(source, paths)
     dae, flat = compile_class(source, paths, overrides)
-    return to_flat_model(
+    model = to_flat_model(
         dae,
         flat,
         name=class_name,
@@ -38,3 +39,15 @@ def load(class_name: str, libraries: Sequence[Path], overrides: Mapping[str, flo
         documentation=source.documentation,
         description=source.description,
     )
+    _check_overrides(model, overrides)
+    return model
+
+
+def _check_overrides(model: FlatModel, overrides: Mapping[str, float | str]) -> None:
+    """rumoca takes a modification of what does not exist without a word."""
+    parameters = {v.name for v in model.variables if v.role in (Role.PARAMETER, Role.STRUCTURAL)}
+    for name in overrides:
+        if name not in parameters:
+            raise BuildError(
+                f"{model.name} has no parameter {name} that could be set", model.span.file, model.span.line
+            )

@@ -3,17 +3,14 @@
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import lru_cache
 from pathlib import Path
 
 from fmu_build.errors import BuildError
 from fmu_build.front.expression import Span
 from fmu_build.front.flat_model import Experiment
+from fmu_build.front.tokens import tokenise
 
 CLASS_KINDS = "model|block|class|package|connector|record|function|type|operator"
-TOKEN = re.compile(
-    r'"(?:\\.|[^"\\])*"|//[^\n]*|/\*.*?\*/|[A-Za-z_]\w*|\'[^\']*\'|\d[\d.]*(?:[eE][+-]?\d+)?|\S', re.DOTALL
-)
 
 
 @dataclass(frozen=True)
@@ -96,7 +93,7 @@ def _load(file: Path) -> str:
 
 def _read(name: str, file: Path, path: list[str], is_single_file: bool) -> ClassSource:
     text = _load(file)
-    tokens = _tokenise(text)
+    tokens = tokenise(text)
     begin, inside, end = 0, 0, len(tokens)
     for part in path:
         found = _class_range(tokens, part, inside, end)
@@ -108,13 +105,6 @@ def _read(name: str, file: Path, path: list[str], is_single_file: bool) -> Class
     words = [token for token, _ in tokens[begin:end]]
     description = "".join(_text(word) for word in words[2:3] if word.startswith('"'))
     return ClassSource(name, file, line, text, is_single_file, description, _own_annotation(words), tuple(words))
-
-
-@lru_cache(maxsize=1024)
-def _tokenise(text: str) -> tuple[tuple[str, int], ...]:
-    """Tokens with their offsets, comments left out."""
-    found = ((match.group(), match.start()) for match in TOKEN.finditer(text))
-    return tuple(token for token in found if not token[0].startswith(("//", "/*")))
 
 
 def _class_range(tokens: Sequence[tuple[str, int]], name: str, begin: int, end: int) -> tuple[int, int] | None:

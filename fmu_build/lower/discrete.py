@@ -151,7 +151,8 @@ class DiscretePart:
             kept, before = self._events.hide(f"'violated {number + 1}'", ScalarKind.BOOLEAN, assertion.span)
             self._events.hidden[kept.name()] = choose(self._active[assertion.clause], violated, before)
             violated = kept
-        return Check(ca.logic_not(violated), self._message(assertion.message), assertion.is_warning)
+        holds: Scalar = ca.logic_not(violated)
+        return Check(holds, self._message(assertion.message), assertion.is_warning)
 
     def _message(self, message: ex.Expression) -> str:
         text = self._evaluator.value(message, Frame(False))

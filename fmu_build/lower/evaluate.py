@@ -21,7 +21,8 @@ EVENT_FREE = ("no_event", "smooth")
 class Surroundings(Protocol):
     """What the variables of a model and its events stand for."""
 
-    time: Scalar
+    @property
+    def time(self) -> Scalar: ...
 
     def reference(self, name: str, form: ex.Form, span: ex.Span) -> Value: ...
 

@@ -3,11 +3,13 @@
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
+import casadi as ca
+
 from fmu_build.front.flat_model import FlatModel, FlatVariable, Role
 from fmu_build.front.flat_model import Scalar as ScalarKind
 from fmu_build.lower.continuous import Solved
 from fmu_build.lower.evaluate import Evaluator
-from fmu_build.lower.ode_model import Causality, Variability, Vector
+from fmu_build.lower.ode_model import Causality, Initial, Variability, Vector
 from fmu_build.lower.parameters import Parameters
 from fmu_build.lower.scope import ScalarVariable, Scope, scalar_names
 from fmu_build.lower.start import Start, start_values
@@ -64,7 +66,7 @@ def _parameter_entries(parameters: Parameters, evaluator: Evaluator) -> list[Ent
     entries = []
     for k, variable in enumerate(parameters.settable):
         variability: Variability = "tunable" if variable.flat.is_tunable else "fixed"
-        start = Scalar(parameters.starts[k])
+        start = ca.SX(parameters.starts[k])
         entries.append(Entry(variable, "parameter", variability, "exact", "p", k, start))
     for k, calculated in enumerate(parameters.calculated):
         variable = calculated.variable
@@ -77,12 +79,19 @@ def _parameter_entries(parameters: Parameters, evaluator: Evaluator) -> list[Ent
     return entries
 
 
+def _with_start(
+    variable: ScalarVariable, variability: Variability, vector: Vector, index: int, start: Scalar | None
+) -> Entry:
+    """A state or discrete variable; with a start value it keeps what the user sets."""
+    initial: Initial = "calculated" if start is None else "exact"
+    return Entry(variable, _causality(variable), variability, initial, vector, index, start)
+
+
 def _state_entries(scope: Scope, start: Start, evaluator: Evaluator) -> list[Entry]:
     entries = []
     for k, (variable, value) in enumerate(zip(scope.states, start_values(scope.states, evaluator), strict=True)):
         is_kept = start.states[k] is variable.symbol
-        initial, shown = ("exact", value) if is_kept else ("calculated", None)
-        entries.append(Entry(variable, _causality(variable), "continuous", initial, "x", k, shown))
+        entries.append(_with_start(variable, "continuous", "x", k, value if is_kept else None))
     return entries
 
 
@@ -99,22 +108,21 @@ def _discrete_entries(scope: Scope, start: Start, evaluator: Evaluator) -> list[
     values = start_values(scope.discretes, evaluator)
     for k, (variable, value) in enumerate(zip(scope.discretes, values, strict=True)):
         is_kept = start.discretes[k].element_hash() == variable.symbol.element_hash()
-        initial, shown = ("exact", value) if is_kept else ("calculated", None)
-        entries.append(Entry(variable, _causality(variable), "discrete", initial, "d", k, shown))
+        entries.append(_with_start(variable, "discrete", "d", k, value if is_kept else None))
     return entries
 
 
 def _algebraic_entries(scope: Scope, solved: Solved, derivatives: Sequence[Scalar], places: Places) -> list[Entry]:
     known: dict[int, tuple[Vector, int]] = {}
-    for vector, symbols in (("x", scope.states), ("u", scope.inputs)):
-        known |= {v.symbol.element_hash(): (vector, k) for k, v in enumerate(symbols)}
+    known |= {v.symbol.element_hash(): ("x", k) for k, v in enumerate(scope.states)}
+    known |= {v.symbol.element_hash(): ("u", k) for k, v in enumerate(scope.inputs)}
     for k, derivative in enumerate(derivatives):
         if derivative.n_dep() > 0:
             known.setdefault(derivative.element_hash(), ("dx", k))
     values = solved.replace([variable.symbol for variable in scope.algebraics])
     entries = []
     for variable, value in zip(scope.algebraics, values, strict=True):
-        place = None if value.is_constant() else known.get(value.element_hash())
+        place: tuple[Vector, int] | None = None if value.is_constant() else known.get(value.element_hash())
         if place is None:
             place = ("w", len(places.outputs))
             places.outputs.append(value)

@@ -6,7 +6,7 @@ from typing import Any
 import casadi as ca
 import numpy as np
 
-Scalar = ca.SX
+Scalar = Any  # ca.SX of one element; CasADi carries no type hints that mypy could follow
 Value = Any  # Scalar, np.ndarray of Scalar, str, or a tuple of fields for a record
 
 

@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from fmu_build.errors import BuildError
+from fmu_build.front import expression as ex
 from fmu_build.front.expression import Span
 from fmu_build.front.flat_model import (
     Assertion,
@@ -18,6 +19,7 @@ from fmu_build.front.flat_model import (
 from fmu_build.front.rumoca_form.clauses import Clauses
 from fmu_build.front.rumoca_form.expressions import Node
 from fmu_build.front.rumoca_form.flat_form import FlatForm
+from fmu_build.front.rumoca_form.folded import refuse_folded_conditions
 from fmu_build.front.rumoca_form.functions import convert_function
 from fmu_build.front.rumoca_form.places import Places
 from fmu_build.front.rumoca_form.variables import convert_variable
@@ -62,6 +64,7 @@ def to_flat_model(
             f"{name} uses what the compiler calls '{unknown[0]}', which is not supported", span.file, span.line
         )
     places = Places(dae["source_map"])
+    refuse_folded_conditions(dae, places)
     flat_form = FlatForm(flat, places)
     return _Converter(storage, flat_form, places).model(name, span, experiment, documentation, description)
 
@@ -166,8 +169,6 @@ class _Converter:
         return tuple(reinits), tuple(assertions), tuple(terminations)
 
     def _assertion(self, action: Node, what: Node, is_warning: bool, span: Span) -> Assertion:
-        from fmu_build.front import expression as ex
-
         trigger, guard = action["trigger"], action["guard"]
         violation = self._clauses.violation(trigger, guard)
         if "condition" in what:

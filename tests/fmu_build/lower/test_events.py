@@ -250,5 +250,5 @@ def test_discrete_inputs():
 
 
 def test_discrete_loop_is_refused():
-    with pytest.raises(BuildError, match="cycle|depend on each other"):
+    with pytest.raises(BuildError, match=r"cycle|depend on each other"):
         body("Boolean a; Boolean b; equation a = not b; b = a;")

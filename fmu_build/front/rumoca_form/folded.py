@@ -1,0 +1,100 @@
+"""Finds `if` statements inside when-clauses that rumoca has decided at compile time.
+
+Where the condition holds parameters only, rumoca 0.10.2 keeps one branch, by the parameters' default values, and says
+so nowhere. Setting the parameter later would have no effect, so such a model is refused. What is left of the
+condition in the compiled model tells: nothing.
+"""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from fmu_build.errors import BuildError
+from fmu_build.front.rumoca_form.places import Places
+from fmu_build.front.tokens import tokenise
+
+Token = tuple[str, int]
+OPENERS = ("when", "if", "for", "while")
+
+
+@dataclass(frozen=True)
+class Condition:
+    """Byte ranges of an `if` condition and of the when-clause around it."""
+
+    clause: tuple[int, int]
+    start: int
+    end: int
+
+
+def refuse_folded_conditions(dae: Mapping[str, Any], places: Places) -> None:
+    """Raise a BuildError where a condition inside a used when-clause has vanished."""
+    storage = dae["storage"]
+    acted = _starts(
+        [*storage["discrete_real_equations"], *storage["event_actions"]]
+        + [value for owner in storage["discrete_value_owners"] for b in owner["branches"] for value in b["values"]]
+    )
+    kept = _starts([{"provenance": provenance} for provenance in storage["expressions"]["provenance"]])
+    for source, _, text in dae["source_map"]["files"]:
+        if source not in acted or "when" not in text:
+            continue
+        for condition in conditions_in_clauses(text):
+            is_used = any(condition.clause[0] <= start < condition.clause[1] for start in acted[source])
+            is_kept = any(condition.start <= start < condition.end for start in kept.get(source, ()))
+            if is_used and not is_kept:
+                span = places.span({"span": {"source": source, "start": condition.start}})
+                raise BuildError(
+                    "the condition of this if inside a when-clause holds parameters only, and the compiler "
+                    "would fix it at their default values; write an if-expression: variable = if ... then ... else ...",
+                    span.file,
+                    span.line,
+                )
+
+
+def _starts(items: list[Mapping[str, Any]]) -> dict[int, list[int]]:
+    """Where in the text the items begin, by source."""
+    starts: dict[int, list[int]] = {}
+    for item in items:
+        span = (item.get("provenance") or {}).get("span")
+        if span:
+            starts.setdefault(span["source"], []).append(span["start"])
+    return starts
+
+
+def conditions_in_clauses(text: str) -> Iterator[Condition]:
+    """Conditions of `if` and `elseif` statements (not expressions) inside when-clauses."""
+    words = tokenise(text.encode().decode("latin-1"))  # one character per byte, as rumoca counts
+    opened: list[tuple[str, int]] = []  # statements around the present token
+    found: list[tuple[int, int]] = []
+    expression_ifs = 0  # whose `then` is still to come
+    at_start = False
+    for k, (word, offset) in enumerate(words):
+        is_statement = at_start
+        at_start = word in (";", "loop", "equation", "algorithm")
+        if word in OPENERS and k > 0 and words[k - 1][0] == "end":
+            kind, begin = opened.pop() if opened else ("", 0)
+            if kind == "when":
+                yield from (Condition((begin, offset), *condition) for condition in found)
+                found = []
+        elif word in OPENERS and is_statement:
+            opened.append((word, offset))
+        elif word in ("if", "elseif") and not (word == "elseif" and is_statement):
+            expression_ifs += 1
+        elif word == "then" and expression_ifs:
+            expression_ifs -= 1
+        elif word in ("then", "else"):
+            at_start = word == "then" or is_statement
+        if word in ("if", "elseif") and is_statement and any(kind == "when" for kind, _ in opened):
+            found.append((offset + len(word), _end_of_condition(words, k)))
+
+
+def _end_of_condition(words: Sequence[Token], k: int) -> int:
+    """Offset of the `then` that closes the condition beginning after token k."""
+    inner = 0
+    for word, offset in words[k + 1 :]:
+        if word == "if":
+            inner += 1
+        if word == "then":
+            if inner == 0:
+                return offset
+            inner -= 1
+    return words[-1][1]

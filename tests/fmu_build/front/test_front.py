@@ -1,0 +1,163 @@
+"""The front end: what it reads, and that every refusal names its place."""
+
+import textwrap
+from pathlib import Path
+
+import pytest
+
+from fmu_build.errors import BuildError
+from fmu_build.front import expression as ex
+from fmu_build.front import load
+from fmu_build.front.flat_model import Experiment, Role
+from fmu_build.front.rumoca_form import to_flat_model
+from fmu_build.front.rumoca_form.folded import conditions_in_clauses
+
+
+@pytest.fixture
+def write(tmp_path):
+    def write(text: str, name: str = "M.mo") -> Path:
+        file = tmp_path / name
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text(textwrap.dedent(text).lstrip("\n"), encoding="utf-8")
+        return file
+
+    return write
+
+
+@pytest.fixture
+def library(write) -> Path:
+    write("package L end L;", "L/package.mo")
+    write("within L; package Sub end Sub;", "L/Sub/package.mo")
+    write(
+        """
+        within L.Sub;
+        model Tank "A \\"round\\" tank, 20 °C"
+          type Level = Real(quantity = "Length", unit = "m", displayUnit = "mm", min = 0);
+          parameter Real area(unit = "m2") = 2 "Cross section";
+          input Real q "Inflow";
+          output Level h(start = 1, fixed = true) "Level";
+          Inner part(k = 3);
+          model Inner parameter Real k = 1; output Real y = k*time; end Inner;
+        equation
+          area*der(h) = q;
+          annotation(
+            experiment(StartTime = 1, StopTime = 2.5, Tolerance = 1e-8),
+            Documentation(info = "<html><p>Fills at \\"q\\".</p></html>"));
+        end Tank;
+        """,
+        "L/Sub/Tank.mo",
+    )
+    return write("", "L/unused").parent
+
+
+def test_a_class_of_a_library(library):
+    flat = load("L.Sub.Tank", [library])
+    by_name = {variable.name: variable for variable in flat.variables}
+    assert (flat.name, flat.description) == ("L.Sub.Tank", 'A "round" tank, 20 °C')
+    assert flat.experiment == Experiment(1.0, 2.5, 1e-8, None)
+    assert flat.documentation == '<html><p>Fills at "q".</p></html>'
+    level = by_name["h"]
+    assert (level.quantity, level.unit, level.display_unit, level.role) == ("Length", "m", "mm", Role.STATE)
+    assert level.is_output
+    assert not by_name["part.y"].is_output
+    assert by_name["q"].role is Role.INPUT
+    assert flat.equations[-1].span.file == library / "Sub" / "Tank.mo"
+
+
+def test_overrides_reach_into_components(library):
+    flat = load("L.Sub.Tank", [library], {"area": 5.0, "part.k": 7})
+    values = {variable.name: variable.binding for variable in flat.variables if variable.binding is not None}
+    assert [values[name].value for name in ("area", "part.k")] == [5.0, 7.0]
+
+
+def test_override_of_what_does_not_exist(library):
+    with pytest.raises(BuildError, match="nothere"):
+        load("L.Sub.Tank", [library], {"nothere": 1.0})
+
+
+def test_unknown_class_and_library(library, tmp_path):
+    with pytest.raises(BuildError, match="there is no Pool"):
+        load("L.Sub.Pool", [library])
+    with pytest.raises(BuildError, match="class X is not in"):
+        load("X", [library])
+    with pytest.raises(BuildError, match="does not exist"):
+        load("X", [tmp_path / "none"])
+
+
+@pytest.mark.parametrize(
+    ("text", "line", "message"),
+    [
+        ("model M\n  Real x\nequation\n  der(x) = 1;\nend M;", 2, "syntax error: unexpected `x`"),
+        ("model M\n  Real x;\n  Real y;\nequation\n  der(x) = 1;\nend M;", 1, "unbalanced"),
+        ("model M\n  input Real u;\n  Real y;\nequation\n  y = der(u);\nend M;", 1, "der"),
+        ("model M\n  Real x[2];\nequation\n  x = {1, 2, 3};\nend M;", 4, "dimension"),
+        (
+            'model M\n  function f input Real x; output Real y; external "C" y = g(x); end f;\n'
+            "  Real y = f(time);\nequation\nend M;",
+            2,
+            "external",
+        ),
+    ],
+)
+def test_refusals_name_file_and_line(write, capfd, text, line, message):
+    file = write(text)
+    with pytest.raises(BuildError, match=message) as caught:
+        load("M", [file])
+    assert (caught.value.file, caught.value.line) == (file, line)
+    assert str(caught.value).startswith(f"{file}:{line}: ")
+    assert capfd.readouterr().err == ""
+
+
+def test_another_schema_is_refused():
+    with pytest.raises(BuildError, match=r"install rumoca==0\.10\.2"):
+        to_flat_model(
+            {"schema_version": 44},
+            {},
+            name="M",
+            span=ex.Span(),
+            experiment=Experiment(),
+            documentation="",
+            description="",
+        )
+
+
+def test_if_on_parameters_inside_a_when_clause_is_refused(write):
+    """rumoca would keep the branch of the default value without a word."""
+    file = write(
+        """
+        model M
+          Real x(start = 0, fixed = true);
+          discrete Real a(start = 0);
+          parameter Real limit = 3;
+        equation
+          der(x) = 1;
+          when x > 1 then
+            if limit > 2 then
+              a = 1;
+            else
+              a = 2;
+            end if;
+          end when;
+        end M;
+        """
+    )
+    with pytest.raises(BuildError, match="if-expression") as caught:
+        load("M", [file])
+    assert caught.value.line == 8
+
+
+def test_conditions_are_told_from_if_expressions():
+    text = """equation
+      when if a then b else c then
+        x = if d then 1 else if e then 2 else 3;
+        if f and (if g then h else i) then y = 1; elseif j then y = if k then 1 else 2; else y = 3; end if;
+      end when;
+      if l then z = 1; end if;"""
+    found = [text[c.start : c.end].strip() for c in conditions_in_clauses(text)]
+    assert found == ["f and (if g then h else i)", "j"]
+
+
+def test_the_same_text_gives_the_same_model(library):
+    first, second = (load("L.Sub.Tank", [library]) for _ in range(2))
+    assert [v.name for v in first.variables] == [v.name for v in second.variables]
+    assert [e.span for e in first.equations] == [e.span for e in second.equations]
