@@ -31,6 +31,10 @@ class Case:
         stop: end of a run that shows everything, s.
         settings: start values to set before each run, beside those of the model.
         answers: of that run.
+        delay_times: parameters that set the time of a delay(). Partial derivatives hold the delayed values fixed, so
+            those with respect to such a parameter lack that way of acting.
+        agreement: largest difference between model exchange (FMPy's CVODE) and co-simulation, relative to the
+            variables' sizes. More for delay(): model exchange knows its history at the importer's steps only.
     """
 
     name: str
@@ -40,6 +44,8 @@ class Case:
     stop: float = 1.0
     settings: Mapping[str, float] = field(default_factory=dict)
     answers: tuple[Answer, ...] = ()
+    delay_times: tuple[str, ...] = ()
+    agreement: float = 1e-4
 
 
 def _oscillation(time: float) -> float:
@@ -116,4 +122,114 @@ HAND_WRITTEN = (
     ),
 )
 
-CASES = HAND_WRITTEN
+LIBRARY = (
+    Case(name="pump", class_name="HydraulicTestBench.Pump.FreeGreyBox", stop=0.2, settings={"alphaCMD": 30.0}),
+    Case(name="pump_locked", class_name="HydraulicTestBench.Pump.LockedGreyBox", stop=0.1, settings={"alphaCMD": 10.0}),
+    Case(
+        name="pump_with_delay",
+        class_name="HydraulicTestBench.Examples.TrueDelay",
+        stop=0.3,
+        delay_times=("pump.T_d",),
+        agreement=1e-2,
+    ),
+    Case(
+        name="chamber_filling",
+        class_name="HydraulicTestBench.Validation.ChamberFilling",
+        answers=(Answer("chamber.p", 1.0, 1.4e9 * 1e-6 / 1e-3, 1.0), Answer("error", 0.5, 0.0, 1.0)),
+    ),
+    Case(
+        name="spool_step",
+        class_name="HydraulicTestBench.Validation.SpoolStep",
+        stop=0.1,
+        answers=tuple(Answer("error", t, 0.0, 1e-7) for t in (0.005, 0.02, 0.1)),
+    ),
+    Case(
+        name="orifices_in_series",
+        class_name="HydraulicTestBench.Validation.OrificesInSeries",
+        stop=0.2,
+        answers=(Answer("error", 0.2, 0.0, 10.0),),
+    ),
+)
+
+BALL = """model Ball "Bounces, and rests once it is slow"
+  parameter Real e(min=0, max=1) = 0.7;
+  parameter Real g(unit="m/s2") = 9.81;
+  output Real h(start=1, fixed=true, unit="m");
+  output Real v(start=0, fixed=true, unit="m/s");
+  output Boolean flying(start=true, fixed=true);
+  output Integer bounces(start=0, fixed=true);
+equation
+  der(h) = v;
+  der(v) = if flying then -g else 0;
+  when h < 0 then
+    flying = pre(flying) and abs(v) > 0.01;
+    bounces = pre(bounces) + 1;
+    reinit(v, if flying then -e*pre(v) else 0);
+  end when;
+end Ball;
+"""
+
+SAMPLED = """model Sampled "First-order plant under a sampled controller"
+  type Mode = enumeration(Slow, Fast);
+  parameter Mode mode = Mode.Fast;
+  parameter Real T(unit="s") = 0.1;
+  input Real r(start=1);
+  output Real y(start=0, fixed=true);
+  output Real u(start=0, fixed=true);
+  output Integer ticks(start=0, fixed=true);
+equation
+  when sample(0, T) then
+    u = pre(u) + T*(if mode == Mode.Fast then 2 else 1)*(r - y);
+    ticks = pre(ticks) + 1;
+  end when;
+  der(y) = u - y;
+end Sampled;
+"""
+
+IMPLICIT = """model Implicit "Flow through two quadratic resistances with a volume between"
+  parameter Real a = 2;
+  input Real p(start=4);
+  output Real v(start=0, fixed=true);
+  Real q;
+  Real k(start=1);
+initial equation
+  k^2 = a;
+equation
+  p - v = q + a*q^3;
+  der(v) = q*k;
+  der(k) = 0;
+end Implicit;
+"""
+
+TEXTS = (
+    Case(
+        name="ball",
+        class_name="Ball",
+        text=BALL,
+        stop=1.5,
+        answers=(
+            Answer("h", (_ball_contact(1) + _ball_contact(2)) / 2, 0.49, 1e-5),
+            Answer("bounces", (_ball_contact(2) + _ball_contact(3)) / 2, 2, 0),
+            Answer("v", _ball_contact(2) + 1e-4, 0.49 * math.sqrt(2 * 9.81) - 9.81e-4, 1e-5),
+        ),
+    ),
+    Case(
+        name="sampled",
+        class_name="Sampled",
+        text=SAMPLED,
+        answers=(
+            Answer("ticks", 0.55, 6, 0),
+            Answer("u", 0.05, 0.2, 1e-12),
+            Answer("y", 0.1, 0.2 * (1 - math.exp(-0.1)), 1e-8),
+            Answer("u", 0.15, 0.2 + 0.2 * (1 - 0.2 * (1 - math.exp(-0.1))), 1e-8),
+        ),
+    ),
+    Case(
+        name="implicit",
+        class_name="Implicit",
+        text=IMPLICIT,
+        answers=(Answer("q", 0.0, 1.1281738984, 1e-8), Answer("k", 1.0, math.sqrt(2), 1e-9)),
+    ),
+)
+
+CASES = HAND_WRITTEN + LIBRARY + TEXTS

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-PROBE = 1e-5  # step of finite differences, relative to a variable's size
+PROBE = 1e-6  # step of finite differences, relative to a variable's size: 1 Pa where orifices are smooth over 1e3 Pa
 
 
 def scales(fmu, names, values):
@@ -64,12 +64,12 @@ def test_directional_derivatives_are_those_of_finite_differences(point, fmu):
     if not exact.size:
         return
     weight = np.abs(exact * point.scale).max(axis=1) + 1e-4 * np.abs(values)
-    # truncation is of the order PROBE^2, rounding of the order 1e-16/PROBE; both stay well below 1e-5
+    # truncation is (1e-3)^2 at the orifices, rounding of the order 1e-16/PROBE; both stay well below 1e-5
     assert (np.abs((exact - numeric) * point.scale) <= 1e-5 * weight[:, None] + 1e-12).all()
 
 
-def test_derivatives_by_tunable_parameters(point, fmu):
-    parameters = fmu.of(causality="parameter", variability="tunable")
+def test_derivatives_by_tunable_parameters(point, fmu, case):
+    parameters = [p for p in fmu.of(causality="parameter", variability="tunable") if p not in case.delay_times]
     unknowns = unknowns_of(fmu)
     values = point.instance.get(unknowns)
     for name, value in zip(parameters, point.instance.get(parameters), strict=True):
@@ -83,7 +83,8 @@ def test_derivatives_by_tunable_parameters(point, fmu):
         point.move(point.values)
         numeric = (results[0] - results[1]) / 2 / PROBE
         exact = point.instance.directional(unknowns, [name], [size])
-        np.testing.assert_allclose(exact, numeric, rtol=1e-5, atol=1e-8 * (1 + np.abs(values).max(initial=0)))
+        limit = 1e-8 * (1 + np.abs(values).max(initial=0))
+        np.testing.assert_allclose(exact, numeric, rtol=1e-5, atol=limit, err_msg=name)
 
 
 def test_seeds_add_up(point, fmu):

@@ -66,7 +66,7 @@ def test_model_exchange_and_co_simulation_agree(fmu, case):
     size = sizes(fmu, names, mine)
     for k, name in enumerate(names):
         theirs = np.interp(times, exchange["time"], exchange[name])
-        assert np.abs(theirs - mine[:, k]).max() <= 1e-4 * size[k], name
+        assert np.abs(theirs - mine[:, k]).max() <= case.agreement * size[k], name
 
 
 def test_start_values_and_parameters_are_obeyed(fmu, case):
