@@ -122,10 +122,9 @@ def _algebraic_entries(scope: Scope, solved: Solved, derivatives: Sequence[Scala
     values = solved.replace([variable.symbol for variable in scope.algebraics])
     entries = []
     for variable, value in zip(scope.algebraics, values, strict=True):
-        place: tuple[Vector, int] | None = None if value.is_constant() else known.get(value.element_hash())
-        if place is None:
-            place = ("w", len(places.outputs))
+        key = value.element_hash()
+        if value.is_constant() or key not in known:
+            known[key] = ("w", len(places.outputs))
             places.outputs.append(value)
-            known[value.element_hash()] = place
-        entries.append(Entry(variable, _causality(variable), "continuous", "calculated", *place))
+        entries.append(Entry(variable, _causality(variable), "continuous", "calculated", *known[key]))
     return entries
