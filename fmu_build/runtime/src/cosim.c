@@ -9,8 +9,8 @@
 #include "relations.h"
 
 static const double SAME_POINT = 1e-9;  /* of the time, or of 1 s: an importer may add up its steps */
+static const double STEPS_WITHOUT_STATES = 10.0; /* per communication step, to look for events */
 enum { MAX_EVENTS_AT_ONCE = 100 };
-enum { STEPS_WITHOUT_STATES = 10 };     /* per communication step, to look for events */
 
 static bool can_step(Instance *s, const char *function, double point, double size) {
     const double slack = SAME_POINT * fmax(1.0, fabs(*s->t));

@@ -78,7 +78,7 @@ static void look_weights(double part, double *weights) {
     for (int i = 0; i <= CROSSING_LOOKS; i++) {
         weights[i] = 1.0;
         for (int j = 0; j <= CROSSING_LOOKS; j++)
-            if (j != i) weights[i] *= (part * CROSSING_LOOKS - j) / (double)(i - j);
+            if (j != i) weights[i] *= (part * (double)CROSSING_LOOKS - (double)j) / (double)(i - j);
     }
 }
 
@@ -112,10 +112,10 @@ static Status locate_between_looks(Instance *s, double end, bool *found) {
     for (size_t k = 0; k < s->n_state_relations; k++) suspicious = suspicious || is_suspicious(s, k);
     Status status = STATUS_OK;
     for (int point = 1; suspicious && point <= GRID && !*found && status == STATUS_OK; point++) {
-        const double part = (double)point / GRID;
+        const double part = (double)point / (double)GRID;
         if (part > end) break;
         if (part == end || polynomial_crosses(s, part))
-            status = narrow_between(s, (double)(point - 1) / GRID, part, found);
+            status = narrow_between(s, (double)(point - 1) / (double)GRID, part, found);
     }
     return status;
 }
@@ -127,8 +127,8 @@ Status crossing_locate(Instance *s, bool *found) {
     double end = 2.0; /* the first look at which a relation has changed; beyond the step: none */
     for (int look = 0; look <= CROSSING_LOOKS; look++) {
         double *z = s->integrator.z_looks + (size_t)look * n;
-        if (indicators_at(s, (double)look / CROSSING_LOOKS, z) != STATUS_OK) return STATUS_DISCARD;
-        if (look > 0 && end > 1.0 && any_crossed(s, z)) end = (double)look / CROSSING_LOOKS;
+        if (indicators_at(s, (double)look / (double)CROSSING_LOOKS, z) != STATUS_OK) return STATUS_DISCARD;
+        if (look > 0 && end > 1.0 && any_crossed(s, z)) end = (double)look / (double)CROSSING_LOOKS;
     }
     const Status status = locate_between_looks(s, end, found);
     if (status == STATUS_OK && !*found) rodas_move(s, 1.0);

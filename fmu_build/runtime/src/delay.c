@@ -8,7 +8,7 @@
 #include "evaluate.h"
 
 /* Points closer than this part of the maximum delay replace each other, so that the ring never runs short. */
-static const double CLOSEST = 2.0 / DELAY_CAPACITY;
+static const double CLOSEST = 2.0 / (double)DELAY_CAPACITY;
 enum { NODES = 6 };
 static const double MOST_UNEQUAL = 10.0;
 static const double SAME_VALUE = 1e-10; /* relative difference below which a value did not jump */

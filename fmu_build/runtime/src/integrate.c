@@ -45,7 +45,7 @@ static double step_end(const Instance *s, double limit) {
 
 /* Quotient of the next step and one of the given error, within bounds. */
 static double factor_for(double error) {
-    return fmin(GROWTH, fmax(SHRINK, SAFETY * pow(fmax(error, 1e-10), -1.0 / RODAS_ORDER)));
+    return fmin(GROWTH, fmax(SHRINK, SAFETY * pow(fmax(error, 1e-10), -1.0 / (double)RODAS_ORDER)));
 }
 
 /* After an accepted step: also expects the error to go on growing as it did (K. Gustafsson, Control-theoretic techniques
@@ -53,7 +53,7 @@ static double factor_for(double error) {
 static double next_step_size(Memory *memory, double step, double error, bool after_rejection) {
     double factor = factor_for(error);
     if (memory->accepted_step > 0.0) {
-        const double growth = pow(fmax(error, 1e-10) / memory->accepted_error, 1.0 / RODAS_ORDER);
+        const double growth = pow(fmax(error, 1e-10) / memory->accepted_error, 1.0 / (double)RODAS_ORDER);
         const double predicted = step / memory->accepted_step * factor / growth;
         factor = fmin(factor, fmax(SHRINK, predicted));
     }
@@ -110,7 +110,7 @@ static Status record_history(Instance *s) {
     const double reached = (*s->t - w->begin) / (w->end - w->begin);
     Status status = STATUS_OK;
     for (int k = 1; k <= HISTORY_POINTS && status == STATUS_OK; k++) {
-        rodas_move(s, k < HISTORY_POINTS ? reached * k / HISTORY_POINTS : reached);
+        rodas_move(s, k < HISTORY_POINTS ? reached * (double)k / (double)HISTORY_POINTS : reached);
         status = delay_record(s, false);
     }
     return status;

@@ -1,5 +1,6 @@
 #include "timeevents.h"
 
+#include <float.h>
 #include <math.h>
 
 #include "delay.h"
@@ -12,7 +13,8 @@ static Status instants(Instance *s) {
     if (call_model(s, s->model->instants, res) != STATUS_OK) return STATUS_DISCARD;
     for (size_t k = 0; k < s->model->n_s; k++) {
         const double start = s->event.sample_start[k], interval = s->event.sample_interval[k];
-        if (isfinite(start) && interval > 0.0 && isfinite(interval)) continue;
+        const double shortest = 16.0 * DBL_EPSILON * fmax(fabs(*s->t), fabs(start)); /* else the ticks coincide */
+        if (isfinite(start) && interval > shortest && isfinite(interval)) continue;
         log_message(s, LOG_ERROR, "sample() number %zu: start %.16g s and interval %.16g s; the interval must be positive.",
                     k + 1, start, interval);
         return STATUS_ERROR;
@@ -20,11 +22,12 @@ static Status instants(Instance *s) {
     return STATUS_OK;
 }
 
-/* First tick of clock k after `time`: start + n * interval, never a running sum. */
+/* First tick of clock k after `time`: start + n * interval, never a running sum. The division may round either way,
+   which two corrections set right. */
 static double first_tick_after(const Instance *s, size_t k, double time) {
     const double start = s->event.sample_start[k], interval = s->event.sample_interval[k];
     double n = fmax(0.0, floor((time - start) / interval));
-    while (start + n * interval <= time) n += 1.0; /* once; twice where the division was rounded down */
+    for (int correction = 0; correction < 2 && start + n * interval <= time; correction++) n += 1.0;
     return start + n * interval;
 }
 

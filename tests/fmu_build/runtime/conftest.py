@@ -4,15 +4,15 @@ import importlib.util
 import shutil
 import subprocess
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
 
 RUNTIME = Path(__file__).parents[3] / "fmu_build" / "runtime"
-_WARNINGS = "-std=c11 -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wstrict-prototypes -Werror".split()
-_SANITIZERS = "-g -O1 -fsanitize=address,undefined -fno-sanitize-recover=all".split()
+_WARNINGS = ["-std=c11", "-Wall", "-Wextra", "-Wpedantic", "-Wshadow", "-Wconversion", "-Wstrict-prototypes", "-Werror"]
+_SANITIZERS = ["-g", "-O1", "-fsanitize=address,undefined", "-fno-sanitize-recover=all"]
 _LONGEST_S = 300.0
 
 
@@ -32,13 +32,14 @@ def system_compiler() -> Compiler | None:
 
 def zig() -> Compiler:
     """The compiler that builds our FMUs, optimised as there."""
-    options = "-O3 -fno-math-errno -fno-trapping-math -fno-sanitize=all".split()
+    options = ["-O3", "-fno-math-errno", "-fno-trapping-math", "-fno-sanitize=all"]
     return Compiler((sys.executable, "-m", "ziglang", "cc"), tuple(options))
 
 
 def fmi_headers() -> Path:
     spec = importlib.util.find_spec("fmpy")
-    assert spec is not None and spec.origin is not None
+    assert spec is not None
+    assert spec.origin is not None
     return Path(spec.origin).parent / "c-code"
 
 
@@ -80,9 +81,9 @@ class Builder:
 
 
 @pytest.fixture(scope="session", params=["sanitized", "zig"])
-def c_test(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Callable[..., str]]:
+def c_test(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Callable[..., str]:
     """A function (test, model, fmi=2) that builds and runs a C test, under sanitizers and with zig."""
     compiler = system_compiler() if request.param == "sanitized" else zig()
     if compiler is None:
         pytest.skip("no gcc or clang here, so no address and undefined-behaviour sanitizers")
-    yield Builder(compiler, tmp_path_factory.mktemp(request.param))
+    return Builder(compiler, tmp_path_factory.mktemp(request.param))

@@ -27,3 +27,17 @@ def test_against_known_answers(c_test: Callable[..., str], program: str, model: 
 @pytest.mark.parametrize("model", MODELS)
 def test_restored_states_repeat_bit_for_bit(c_test: Callable[..., str], model: str) -> None:
     c_test("test_states", model)
+
+
+@pytest.mark.parametrize("model", MODELS)
+def test_abuse_ends_in_a_status(c_test: Callable[..., str], model: str) -> None:
+    c_test("test_abuse", model)
+
+
+def test_fmi_3_events_and_early_return(c_test: Callable[..., str]) -> None:
+    c_test("test_fmi3", "ball", fmi=3)
+
+
+@pytest.mark.parametrize("model", ["oscillator", "loop"])
+def test_adjoint_and_directional_derivatives_agree(c_test: Callable[..., str], model: str) -> None:
+    c_test("test_adjoint", model, fmi=3)
