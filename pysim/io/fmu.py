@@ -6,7 +6,7 @@ import xml.etree.ElementTree as ElementTree
 import zipfile
 from pathlib import Path
 
-from fmpy.model_description import ModelDescription, ModelVariable, read_model_description
+from fmpy.model_description import ModelDescription, ModelVariable, Unknown, read_model_description
 
 from pysim.types import Abilities, BadInput, Model, Variable
 
@@ -88,7 +88,12 @@ def _abilities(d: ModelDescription, path: Path) -> Abilities:
         library=kind.modelIdentifier,
         needs_completed_step=getattr(kind, "needsCompletedIntegratorStep", False),
         single_instance=kind.canBeInstantiatedOnlyOncePerProcess,
+        dependencies=tuple(_dependencies(u) for u in d.derivatives),
     )
+
+
+def _dependencies(unknown: Unknown) -> frozenset[str] | None:
+    return None if unknown.dependencies is None else frozenset(v.name for v in unknown.dependencies)
 
 
 def _provides_derivatives_3(path: Path, kind: str) -> bool:

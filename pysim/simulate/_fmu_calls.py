@@ -92,11 +92,15 @@ def get_values(fmu: Any, getter: int, references: int, values: int, n: int) -> i
 
 
 @native
-def get_column(fmu: Any, derivatives: int, state: int, seed: int, column: int, n: int) -> int:
-    """column (n,) = partial derivative of all derivatives by one state; the first two are addresses of references."""
+def get_directional(
+    fmu: Any, unknowns: int, n_unknowns: int, knowns: int, n_knowns: int, seed: int, result: int
+) -> int:
+    """result (n_unknowns,) = d unknowns / d knowns times seed (n_knowns,), at the point last set."""
     if fmu.version == 2:
-        return call(fmu.get_directional, (fmu.instance, derivatives, n, state, 1, seed, column))
-    return call(fmu.get_directional, (fmu.instance, derivatives, n, state, 1, seed, 1, column, n))
+        return call(fmu.get_directional, (fmu.instance, unknowns, n_unknowns, knowns, n_knowns, seed, result))
+    return call(
+        fmu.get_directional, (fmu.instance, unknowns, n_unknowns, knowns, n_knowns, seed, n_knowns, result, n_unknowns)
+    )
 
 
 @native

@@ -7,37 +7,45 @@ from pysim.simulate._native import doubles, longs, native
 
 @native
 def factorise(matrix: int, pivots: int, n: int) -> bool:
-    """Replace the (n, n) matrix, rows one after the other, by its factors; False if it is singular or not finite."""
-    a, p = doubles(matrix), longs(pivots)
+    """Replace the (n, n) matrix, columns one after the other, by its factors; False if singular or not finite."""
+    p = longs(pivots)
     for c in range(n):
+        pivot_column = doubles(matrix + 8 * n * c)
         best = c
         for r in range(c + 1, n):
-            if abs(a[r * n + c]) > abs(a[best * n + c]):
+            if abs(pivot_column[r]) > abs(pivot_column[best]):
                 best = r
         p[c] = best
-        if not (0.0 < abs(a[best * n + c]) < 1e300):
+        if not 0.0 < abs(pivot_column[best]) < 1e300:
             return False
-        if best != c:
-            for j in range(c, n):  # not the factors to the left: `solve` swaps as it goes
-                a[c * n + j], a[best * n + j] = a[best * n + j], a[c * n + j]
+        pivot_column[c], pivot_column[best] = pivot_column[best], pivot_column[c]
+        inverse = 1.0 / pivot_column[c]
+        pivot_column[c] = inverse  # `solve` multiplies by it
         for r in range(c + 1, n):
-            factor = a[r * n + c] / a[c * n + c]
-            a[r * n + c] = factor
-            if factor != 0.0:
-                for j in range(c + 1, n):
-                    a[r * n + j] -= factor * a[c * n + j]
+            pivot_column[r] *= inverse
+        for j in range(c + 1, n):
+            column = doubles(matrix + 8 * n * j)
+            top = column[best]
+            column[best] = column[c]
+            column[c] = top
+            if top != 0.0:
+                for r in range(c + 1, n):
+                    column[r] -= top * pivot_column[r]
     return True
 
 
 @native
 def solve(matrix: int, pivots: int, right: int, n: int) -> None:
     """Replace the right-hand side (n,) by the solution; `matrix` and `pivots` come from `factorise`."""
-    a, p, b = doubles(matrix), longs(pivots), doubles(right)
+    p, b = longs(pivots), doubles(right)
     for c in range(n):
-        b[c], b[p[c]] = b[p[c]], b[c]
+        column, top = doubles(matrix + 8 * n * c), b[p[c]]
+        b[p[c]] = b[c]
+        b[c] = top
         for r in range(c + 1, n):
-            b[r] -= a[r * n + c] * b[c]
+            b[r] -= top * column[r]
     for c in range(n - 1, -1, -1):
-        for j in range(c + 1, n):
-            b[c] -= a[c * n + j] * b[j]
-        b[c] /= a[c * n + c]
+        column = doubles(matrix + 8 * n * c)
+        b[c] *= column[c]
+        for r in range(c):
+            b[r] -= b[c] * column[r]

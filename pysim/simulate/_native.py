@@ -23,7 +23,7 @@ _njit: Any = numba.njit
 _intrinsic: Any = intrinsic
 _config: Any = config
 
-# A part of the loop: compiled into whatever calls it, so no wrapper for Python is wanted. No fastmath: NaN is to be seen.
+# A part of the loop: compiled into whatever calls it, so no wrapper for Python. No fastmath: NaN has to be seen.
 native = _njit(nogil=True, error_model="numpy", no_cpython_wrapper=True, no_cfunc_wrapper=True)
 
 

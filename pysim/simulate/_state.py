@@ -63,10 +63,14 @@ WORK = np.dtype(
         ("matrix", np.int64),  # (n, n) factorised
         ("pivots", np.int64),  # (n,) of int64
         ("slope", np.int64),  # (n,) partial derivative of dx by time
-        ("one", np.int64),  # (1,) seed of a directional derivative
-        ("state_references", np.int64),  # (n,) of uint32
-        ("derivative_references", np.int64),  # (n,) of uint32; none where the FMU has no directional derivatives
         ("has_directional", np.int64),
+        ("ones", np.int64),  # (n,) seed of a directional derivative
+        ("derivative_references", np.int64),  # (n,) of uint32
+        ("groups", np.int64),  # of states whose columns one directional derivative yields
+        ("group_first", np.int64),  # (groups + 1,) of int64, group g owns the members group_first[g]:group_first[g + 1]
+        ("group_members", np.int64),  # (n,) of int64, numbers of states
+        ("group_references", np.int64),  # (n,) of uint32, of the members
+        ("pattern", np.int64),  # (n, n) row j: 1 where a derivative depends on state j
     ]
 )
 
@@ -88,5 +92,5 @@ def work_arrays(n: int, m: int, stages: int, terms: int, implicit: bool) -> dict
         "matrix": np.zeros(square),
         "pivots": np.zeros(n, dtype=np.int64),
         "slope": np.zeros(n),
-        "one": np.ones(1),
+        "ones": np.ones(n),
     }

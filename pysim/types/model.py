@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import difflib
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 
 from pysim.types.errors import BadInput
@@ -43,6 +44,7 @@ class Abilities:
     library: str = ""  # modelIdentifier of the shared library
     needs_completed_step: bool = True  # wants to be told of every accepted step
     single_instance: bool = False  # at most one instance per process
+    dependencies: tuple[frozenset[str] | None, ...] = ()  # per derivative, names of what it depends on; None: unknown
 
 
 @dataclass(frozen=True)
@@ -55,11 +57,15 @@ class Model:
     variables: tuple[Variable, ...]
     abilities: Abilities
 
+    @cached_property
+    def _by_name(self) -> dict[str, Variable]:
+        return {variable.name: variable for variable in self.variables}
+
     def __getitem__(self, name: str) -> Variable:
         """The variable of that name."""
-        for variable in self.variables:
-            if variable.name == name:
-                return variable
-        near = difflib.get_close_matches(name, [v.name for v in self.variables], n=3)
+        variable = self._by_name.get(name)
+        if variable is not None:
+            return variable
+        near = difflib.get_close_matches(name, list(self._by_name), n=3)
         hint = f"; near it: {', '.join(near)}" if near else ""
         raise BadInput(f"{self.path.name} has no variable {name!r}{hint}")

@@ -97,7 +97,7 @@ def _worst(model: Model, runs: Sequence[Experiment], results: Sequence[Record]) 
     references = simulate_many(model, same, solver=_TIGHT)
     worst = 0.0
     for run, result, reference in zip(runs, results, references, strict=True):
-        if result.time[-1] < run.times[-1] - 1e-6:
+        if result.time.size < run.times.size - 1:  # FMPy's own grid may leave out one point at an end
             return float("inf")
         worst = max(worst, float(np.sqrt(np.mean((result.values - reference.values) ** 2))))
     return worst

@@ -22,7 +22,7 @@ def test_same_solution_as_lapack(n):
         matrix[rng.integers(n), rng.integers(n)] = 0.0
         matrix += np.roll(np.eye(n), 1, axis=0) * 3  # large entries off the diagonal: pivoting has to find them
         solution = right.copy()
-        assert _solve(matrix.copy(), np.zeros(n, np.int64), solution, n)
+        assert _solve(matrix.T.copy(), np.zeros(n, np.int64), solution, n)
         np.testing.assert_allclose(matrix @ solution, right, atol=1e-10)
         np.testing.assert_allclose(solution, np.linalg.solve(matrix, right), rtol=1e-7)
 

@@ -1,0 +1,50 @@
+"""Columns of the Jacobian that one directional derivative yields together, because no row depends on two of them."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from pysim.types import Abilities
+
+
+def column_groups(abilities: Abilities) -> list[list[int]]:
+    """States in groups such that no derivative depends on two states of a group (Curtis, Powell, Reid 1974)."""
+    pattern = dependency_pattern(abilities)
+    groups: list[list[int]] = []
+    covered: list[np.ndarray] = []
+    for state in np.argsort(-pattern.sum(axis=0), kind="stable").tolist():  # the fullest first
+        column = pattern[:, state]
+        for group, rows in zip(groups, covered, strict=True):
+            if not np.any(rows & column):
+                group.append(state)
+                rows |= column
+                break
+        else:
+            groups.append([state])
+            covered.append(column.copy())
+    return groups
+
+
+def dependency_pattern(abilities: Abilities) -> np.ndarray:
+    """(n, n) of bool: whether derivative i may depend on state j."""
+    n = len(abilities.states)
+    pattern = np.ones((n, n), dtype=bool)
+    for row, names in zip(pattern, abilities.dependencies, strict=False):
+        if names is not None:
+            row[:] = [state in names for state in abilities.states]
+    return pattern
+
+
+def group_arrays(abilities: Abilities, references: np.ndarray) -> dict[str, Any]:
+    """What WORK needs to take the Jacobian in groups; `references` (n,) are those of the states."""
+    groups = column_groups(abilities)
+    members = np.array([state for group in groups for state in group], dtype=np.int64)
+    return {
+        "groups": len(groups),
+        "group_first": np.cumsum([0, *map(len, groups)], dtype=np.int64),
+        "group_members": members,
+        "group_references": references[members],
+        "pattern": dependency_pattern(abilities).T.astype(np.float64),
+    }
