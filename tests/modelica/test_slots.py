@@ -4,12 +4,14 @@ All slots are filled at once, the pump is run, and the thesis' equations, with t
 checked on the result. A slot wired to the wrong variable, or with the wrong sign, breaks one of these identities.
 """
 
+import html
+import re
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from tests.modelica.library import Run, compiled, run
+from tests.modelica.library import LIBRARY, Run, compiled, run
 
 FILLINGS = (Path(__file__).parent / "slot_fillings.mo").read_text(encoding="utf-8")
 PARAMETERS = {"A_p": 401.33e-6, "V_0": 0.0607e-3, "m_eff": 62.384, "k": 13.445e3, "b": 13.422e3, "L": 47.011e-3}
@@ -82,6 +84,15 @@ def test_slot_takes_the_effect(filling: str, slot: str) -> None:
     structure = model.structure()
     assert structure.n_equations == structure.n_unknowns
     assert structure.is_balanced
+
+
+@pytest.mark.parametrize(("name", "parameters"), [("PumpWithFriction", {"F_c"}), ("PumpWithBoth", {"F_c", "F_0"})])
+def test_recipe_of_the_guide_compiles(name: str, parameters: set[str]) -> None:
+    guide = (LIBRARY / "UsersGuide" / "AddAnEffect.mo").read_text(encoding="utf-8")
+    recipe = "\n".join(html.unescape(text) for text in re.findall(r"<pre>(.*?)</pre>", guide, re.DOTALL))
+    model = compiled(name, recipe)
+    assert parameters <= {variable.split(".")[-1] for variable in model.to_dict("flat")["variables"]}
+    assert model.structure().is_balanced
 
 
 def assert_equal(left: np.ndarray, right: np.ndarray, scale: float) -> None:

@@ -1,9 +1,12 @@
 within HydraulicTestBench.Examples;
 model FullStroke "Steps of the command from stop to stop, locked parameter set"
   extends Icons.Example;
-  Sources.Step forth(height=100, t_step=0.1) "Step to the positive stop";
-  Sources.Step back(height=-200, t_step=0.6) "Step to the negative stop";
-  Pump.LockedGreyBox pump "Pump";
+  Sources.Step forth(height=100, t_step=0.1) "Step to the positive stop"
+    annotation(Placement(transformation(extent={{-80, 20}, {-40, 60}})));
+  Sources.Step back(height=-200, t_step=0.6) "Step to the negative stop"
+    annotation(Placement(transformation(extent={{-20, 20}, {20, 60}})));
+  Pump.LockedGreyBox pump "Pump"
+    annotation(Placement(transformation(extent={{40, 20}, {80, 60}})));
 equation
   pump.alphaCMD = forth.y + back.y;
   pump.alphaCMD_t = 0;

@@ -1,8 +1,10 @@
 within HydraulicTestBench.Examples;
 model SteppedSine "One frequency response test of the pump, free parameter set"
   extends Icons.Example;
-  Sources.SteppedSine command(offset=25, amplitude=10, f=5) "Command of the test";
-  Pump.FreeGreyBox pump "Pump";
+  Sources.SteppedSine command(offset=25, amplitude=10, f=5) "Command of the test"
+    annotation(Placement(transformation(extent={{-80, 20}, {-40, 60}})));
+  Pump.FreeGreyBox pump "Pump"
+    annotation(Placement(transformation(extent={{-20, 20}, {20, 60}})));
 equation
   connect(command.y, pump.alphaCMD);
   connect(command.y_t, pump.alphaCMD_t);

@@ -1,8 +1,10 @@
 within HydraulicTestBench.Examples;
 model TimeResponse "Response of the pump to three growing sines, free parameter set"
   extends Icons.Example;
-  Sources.GrowingSines command "Command";
-  Pump.FreeGreyBox pump "Pump";
+  Sources.GrowingSines command "Command"
+    annotation(Placement(transformation(extent={{-80, 20}, {-40, 60}})));
+  Pump.FreeGreyBox pump "Pump"
+    annotation(Placement(transformation(extent={{-20, 20}, {20, 60}})));
 equation
   connect(command.y, pump.alphaCMD);
   connect(command.y_t, pump.alphaCMD_t);

@@ -1,8 +1,10 @@
 within HydraulicTestBench.Examples;
 model TrueDelay "Response of the pump with a true delay in place of the Pade approximation"
   extends Icons.Example;
-  Sources.GrowingSines command "Command";
-  Pump.FreeGreyBox pump(redeclare Pump.TransportDelay deadTime) "Pump with a true dead time";
+  Sources.GrowingSines command "Command"
+    annotation(Placement(transformation(extent={{-80, 20}, {-40, 60}})));
+  Pump.FreeGreyBox pump(redeclare Pump.TransportDelay deadTime) "Pump with a true dead time"
+    annotation(Placement(transformation(extent={{-20, 20}, {20, 60}})));
 equation
   connect(command.y, pump.alphaCMD);
   connect(command.y_t, pump.alphaCMD_t);

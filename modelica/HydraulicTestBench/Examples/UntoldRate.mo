@@ -1,8 +1,10 @@
 within HydraulicTestBench.Examples;
 model UntoldRate "The same without telling the pump the rate of its command"
   extends Icons.Example;
-  Sources.GrowingSines command "Command";
-  Pump.FreeGreyBox pump "Pump";
+  Sources.GrowingSines command "Command"
+    annotation(Placement(transformation(extent={{-80, 20}, {-40, 60}})));
+  Pump.FreeGreyBox pump "Pump"
+    annotation(Placement(transformation(extent={{-20, 20}, {20, 60}})));
 equation
   connect(command.y, pump.alphaCMD);
   pump.alphaCMD_t = 0;

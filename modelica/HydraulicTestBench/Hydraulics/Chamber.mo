@@ -4,9 +4,12 @@ model Chamber "Oil volume with a pressure, thesis Eq. 3.4"
   parameter Types.BulkModulus beta "Oil stiffness";
   parameter Types.Volume V_min(min=1e-9) = 1e-7 "Floor of the volume in the denominator";
   parameter Types.Pressure p_start = 0 "Pressure at the start";
-  Interfaces.Port_a port "Node of all that flows in and out, displacement by a piston included";
-  Interfaces.RealInput V(unit="m3") "Volume of oil";
-  Interfaces.RealInput kappa(unit="1/Pa") "Compressibility added to that of the oil";
+  Interfaces.Port_a port "Node of all that flows in and out, displacement by a piston included"
+    annotation(Placement(transformation(extent={{-10, -110}, {10, -90}})));
+  Interfaces.RealInput V(unit="m3") "Volume of oil"
+    annotation(Placement(transformation(extent={{-140, 40}, {-100, 80}})));
+  Interfaces.RealInput kappa(unit="1/Pa") "Compressibility added to that of the oil"
+    annotation(Placement(transformation(extent={{-140, -80}, {-100, -40}})));
   Types.Pressure p(start=p_start, fixed=true, stateSelect=StateSelect.always) "Pressure";
   Real p_t(final unit="Pa/s", nominal=1e8) "Rate of pressure";
   Types.BulkModulus beta_eff "Effective stiffness";

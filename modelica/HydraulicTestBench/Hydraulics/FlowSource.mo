@@ -2,7 +2,8 @@ within HydraulicTestBench.Hydraulics;
 model FlowSource "Constant flow whatever the pressure"
   extends Icons.Component;
   parameter Types.VolumeFlowRate q "Flow delivered";
-  Interfaces.Port_b port "To the circuit";
+  Interfaces.Port_b port "To the circuit"
+    annotation(Placement(transformation(extent={{-10, 90}, {10, 110}})));
 equation
   port.q = -q;
   annotation(Documentation(info="<html>

@@ -6,11 +6,16 @@ model ProportionalValve "Edges of the 4/3-way proportional valve, thesis Eq. 3.1
   parameter Types.Area k2 "Quadratic coefficient of the opening";
   parameter Types.Area k3 "Linear coefficient of the opening";
   parameter Types.Pressure dp_smooth(min=1) = 1e4 "Below this difference the law turns into a straight line";
-  Interfaces.Port_a port_P "Supply";
-  Interfaces.Port_b port_T "Tank";
-  Interfaces.Port_b port_A "To chamber 1";
-  Interfaces.Port_a port_B "From chamber 2";
-  Interfaces.RealInput u(unit="1") "Spool opening; positive joins P to A and B to T";
+  Interfaces.Port_a port_P "Supply"
+    annotation(Placement(transformation(extent={{-60, -110}, {-40, -90}})));
+  Interfaces.Port_b port_T "Tank"
+    annotation(Placement(transformation(extent={{40, -110}, {60, -90}})));
+  Interfaces.Port_b port_A "To chamber 1"
+    annotation(Placement(transformation(extent={{-60, 90}, {-40, 110}})));
+  Interfaces.Port_a port_B "From chamber 2"
+    annotation(Placement(transformation(extent={{40, 90}, {60, 110}})));
+  Interfaces.RealInput u(unit="1") "Spool opening; positive joins P to A and B to T"
+    annotation(Placement(transformation(extent={{-140, -20}, {-100, 20}})));
   Types.Area K "Opening area of each open edge";
   Types.Pressure dp1 "Pressure difference at the edge of port A";
   Types.Pressure dp2 "Pressure difference at the edge of port B";

@@ -2,7 +2,8 @@ within HydraulicTestBench.Hydraulics;
 model Tank "Constant pressure whatever flows, thesis Eq. 3.1"
   extends Icons.Component;
   parameter Types.Pressure p = 0 "Pressure";
-  Interfaces.Port_a port "To the circuit";
+  Interfaces.Port_a port "To the circuit"
+    annotation(Placement(transformation(extent={{-10, 90}, {10, 110}})));
 equation
   port.p = p;
   annotation(Documentation(info="<html>

@@ -1,9 +1,12 @@
 within HydraulicTestBench.Interfaces;
 partial model PartialExternalLeakage "Slot for leakage of each chamber to the tank"
   extends Icons.Slot;
-  Port_a port_1 "At chamber 1";
-  Port_a port_2 "At chamber 2";
-  Port_b port_T "At the tank";
+  Port_a port_1 "At chamber 1"
+    annotation(Placement(transformation(extent={{-60, 90}, {-40, 110}})));
+  Port_a port_2 "At chamber 2"
+    annotation(Placement(transformation(extent={{40, 90}, {60, 110}})));
+  Port_b port_T "At the tank"
+    annotation(Placement(transformation(extent={{-10, -110}, {10, -90}})));
   Types.Pressure p1 "Pressure of chamber 1 above the tank";
   Types.Pressure p2 "Pressure of chamber 2 above the tank";
   Types.VolumeFlowRate q1 "Flow from chamber 1 to the tank";

@@ -1,10 +1,14 @@
 within HydraulicTestBench.Interfaces;
 partial model PartialSignalWithRate "Slot for a signal and its time derivative"
   extends Icons.Slot;
-  RealInput s "Signal as the base model has it";
-  RealInput s_t "Its time derivative";
-  RealOutput y "Signal as the rest of the model sees it";
-  RealOutput y_t "Time derivative of y";
+  RealInput s "Signal as the base model has it"
+    annotation(Placement(transformation(extent={{-140, 40}, {-100, 80}})));
+  RealInput s_t "Its time derivative"
+    annotation(Placement(transformation(extent={{-140, -80}, {-100, -40}})));
+  RealOutput y "Signal as the rest of the model sees it"
+    annotation(Placement(transformation(extent={{100, 50}, {120, 70}})));
+  RealOutput y_t "Time derivative of y"
+    annotation(Placement(transformation(extent={{100, -70}, {120, -50}})));
   annotation(Documentation(info="<html>
 <p>For what may act on a quantity whose rate the PD controller needs (Eq. 3.17). The law is two equations, for y and for
 y_t, and y_t has to be the derivative of y: a static law y = f(s) gives y_t = f'(s) s_t, a law with y as a state gives

@@ -2,7 +2,8 @@ within HydraulicTestBench.Interfaces;
 partial model PartialSupply "Slot for the pressure supply of the valve"
   extends Icons.Slot;
   parameter Types.Pressure pS "Supply pressure at no flow";
-  Port_b port "To the P port of the valve";
+  Port_b port "To the P port of the valve"
+    annotation(Placement(transformation(extent={{-10, 90}, {10, 110}})));
   Types.VolumeFlowRate Q "Flow delivered, negative where the valve pushes oil back";
   Types.Pressure dp "Loss of supply pressure";
 equation

@@ -1,8 +1,10 @@
 within HydraulicTestBench.Interfaces;
 partial model PartialTwoPort "Two hydraulic ports with the same flow through both"
   extends Icons.Slot;
-  Port_a port_a "Inlet at positive flow";
-  Port_b port_b "Outlet at positive flow";
+  Port_a port_a "Inlet at positive flow"
+    annotation(Placement(transformation(extent={{-110, -10}, {-90, 10}})));
+  Port_b port_b "Outlet at positive flow"
+    annotation(Placement(transformation(extent={{90, -10}, {110, 10}})));
   Types.Pressure dp "Pressure difference port_a.p - port_b.p";
   Types.VolumeFlowRate q "Flow from port_a to port_b";
 equation

@@ -4,11 +4,16 @@ block ControllerCard "Outer P and inner PD controller, thesis Eq. 3.17 and 3.18"
   parameter Types.ControllerGain K_p "Gain of the outer controller, spool command per rad";
   parameter Types.ControllerGain K_D "Gain of the inner controller";
   parameter Types.Duration T_d "Derivative time of the inner controller";
-  Interfaces.RealInput e(unit="rad") "Angle error";
-  Interfaces.RealInput e_t(unit="rad/s") "Rate of the angle error";
-  Interfaces.RealInput u(unit="1") "Spool position from its sensor";
-  Interfaces.RealInput u_t(unit="1/s") "Spool velocity";
-  Interfaces.RealOutput y(unit="1") "Spool command, ahead of the dead time";
+  Interfaces.RealInput e(unit="rad") "Angle error"
+    annotation(Placement(transformation(extent={{-140, 55}, {-100, 95}})));
+  Interfaces.RealInput e_t(unit="rad/s") "Rate of the angle error"
+    annotation(Placement(transformation(extent={{-140, 5}, {-100, 45}})));
+  Interfaces.RealInput u(unit="1") "Spool position from its sensor"
+    annotation(Placement(transformation(extent={{-140, -45}, {-100, -5}})));
+  Interfaces.RealInput u_t(unit="1/s") "Spool velocity"
+    annotation(Placement(transformation(extent={{-140, -95}, {-100, -55}})));
+  Interfaces.RealOutput y(unit="1") "Spool command, ahead of the dead time"
+    annotation(Placement(transformation(extent={{100, -10}, {120, 10}})));
   Types.SpoolPosition P_Cont "Output of the outer controller";
   Types.SpoolPosition PD_Prop "Proportional part of the inner controller";
   Types.SpoolPosition PD_Der "Derivative part of the inner controller";

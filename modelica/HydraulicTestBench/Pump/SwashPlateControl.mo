@@ -54,54 +54,84 @@ model SwashPlateControl "Swash plate control of the A4VSG pump: card, proportion
   final parameter Types.Length xpMAX = stroke_share*L/2 "Largest position of the control piston";
   final parameter Types.Length xpMIN = -stroke_share*L/2 "Smallest position of the control piston";
 
-  Interfaces.RealInput alphaCMD(unit="%", min=-100, max=100, start=0, nominal=10) "Swash plate angle command";
-  Interfaces.RealInput alphaCMD_t(unit="%/s", start=0, nominal=100) "Rate of alphaCMD where known, else 0";
-  Interfaces.RealOutput alphaPercent(unit="%", nominal=10) "Swash plate angle as fed back and logged";
-  Interfaces.RealOutput u(unit="1", nominal=0.1) "Spool position";
+  Interfaces.RealInput alphaCMD(unit="%", min=-100, max=100, start=0, nominal=10) "Swash plate angle command"
+    annotation(Placement(transformation(extent={{-240, 40}, {-200, 80}}),
+      iconTransformation(extent={{-140, 40}, {-100, 80}})));
+  Interfaces.RealInput alphaCMD_t(unit="%/s", start=0, nominal=100) "Rate of alphaCMD where known, else 0"
+    annotation(Placement(transformation(extent={{-240, -20}, {-200, 20}}),
+      iconTransformation(extent={{-140, -80}, {-100, -40}})));
+  Interfaces.RealOutput alphaPercent(unit="%", nominal=10) "Swash plate angle as fed back and logged"
+    annotation(Placement(transformation(extent={{260, 50}, {280, 70}}),
+      iconTransformation(extent={{100, 50}, {120, 70}})));
+  Interfaces.RealOutput u(unit="1", nominal=0.1) "Spool position"
+    annotation(Placement(transformation(extent={{260, 10}, {280, 30}}),
+      iconTransformation(extent={{100, -70}, {120, -50}})));
 
   // Slots, in the order of the signal path. What a slot needs to know stands twice: the modifier of the declaration
   // serves the default, that of the constraining class whatever is put in its place.
   replaceable CommandRateObserver commandRate constrainedby Interfaces.PartialCommandRate
-    "Rate of the command";
+    "Rate of the command"
+    annotation(Placement(transformation(extent={{-172, 48}, {-148, 72}})));
   replaceable Interfaces.Neutral.SignalWithRate angleError constrainedby Interfaces.PartialSignalWithRate
-    "What the outer controller sees of the angle error";
+    "What the outer controller sees of the angle error"
+    annotation(Placement(transformation(extent={{-132, 8}, {-108, 32}})));
   replaceable Interfaces.Neutral.Signal cardOutput constrainedby Interfaces.PartialSignal
-    "What becomes of the card's command at its output";
+    "What becomes of the card's command at its output"
+    annotation(Placement(transformation(extent={{-52, 8}, {-28, 32}})));
   replaceable Interfaces.Neutral.Signal spoolCommand constrainedby Interfaces.PartialSignal
-    "What becomes of the command on its way to the spool, ahead of the dead time";
+    "What becomes of the command on its way to the spool, ahead of the dead time"
+    annotation(Placement(transformation(extent={{-12, 8}, {12, 32}})));
   replaceable PadeDeadTime deadTime(tau=tau) constrainedby Interfaces.PartialDeadTime(tau=tau)
-    "Dead time";
+    "Dead time"
+    annotation(Placement(transformation(extent={{28, 8}, {52, 32}})));
   replaceable SecondOrderSpool spool(omega_v=omega_v, zeta_v=zeta_v) constrainedby Interfaces.PartialSpool(
-    omega_v=omega_v, zeta_v=zeta_v) "Dynamics of the spool";
+    omega_v=omega_v, zeta_v=zeta_v) "Dynamics of the spool"
+    annotation(Placement(transformation(extent={{68, 8}, {92, 32}})));
   replaceable Interfaces.Neutral.Signal spoolOpening constrainedby Interfaces.PartialSignal
-    "Opening of the edges from the spool position";
+    "Opening of the edges from the spool position"
+    annotation(Placement(transformation(extent={{108, 8}, {132, 32}})));
   replaceable Interfaces.Neutral.Supply supply(pS=pS) constrainedby Interfaces.PartialSupply(pS=pS)
-    "Supply pressure";
+    "Supply pressure"
+    annotation(Placement(transformation(extent={{-152, -52}, {-128, -28}})));
   replaceable Interfaces.Neutral.Compressibility oil constrainedby Interfaces.PartialCompressibility
-    "What makes the oil softer";
+    "What makes the oil softer"
+    annotation(Placement(transformation(extent={{-32, -102}, {-8, -78}})));
   replaceable Interfaces.Neutral.InternalLeakage internalLeakage constrainedby Interfaces.PartialTwoPort
-    "Flow between the chambers beside Eq. 3.6";
+    "Flow between the chambers beside Eq. 3.6"
+    annotation(Placement(transformation(extent={{48, -102}, {72, -78}})));
   replaceable Interfaces.Neutral.ExternalLeakage externalLeakage constrainedby Interfaces.PartialExternalLeakage
-    "Flow from the chambers to the tank";
+    "Flow from the chambers to the tank"
+    annotation(Placement(transformation(extent={{8, -162}, {32, -138}})));
   replaceable Interfaces.Neutral.PistonForce pistonForce constrainedby Interfaces.PartialPistonForce
-    "Force on the piston beside Eq. 3.9";
+    "Force on the piston beside Eq. 3.9"
+    annotation(Placement(transformation(extent={{88, -52}, {112, -28}})));
   replaceable Interfaces.Neutral.SignalWithRate linkage constrainedby Interfaces.PartialSignalWithRate
-    "Position of the swash plate's end of the linkage";
+    "Position of the swash plate's end of the linkage"
+    annotation(Placement(transformation(extent={{128, -102}, {152, -78}})));
   replaceable Interfaces.Neutral.SignalWithRate angleSensor constrainedby Interfaces.PartialSignalWithRate
-    "What the sensor makes of the angle";
+    "What the sensor makes of the angle"
+    annotation(Placement(transformation(extent={{208, -102}, {232, -78}})));
 
   // Fixed parts
-  ControllerCard card(final K_p=K_p, final K_D=K_D, final T_d=T_d) "Controller card";
+  ControllerCard card(final K_p=K_p, final K_D=K_D, final T_d=T_d) "Controller card"
+    annotation(Placement(transformation(extent={{-92, 8}, {-68, 32}})));
   Hydraulics.ProportionalValve valve(
-    final rho=rho, final k1=k1, final k2=k2, final k3=k3, final dp_smooth=dp_smooth) "Edges of the valve";
-  Hydraulics.Tank tank(final p=pT) "Tank";
-  Hydraulics.Chamber chamber1(final beta=beta, final p_start=p_start) "Chamber that grows with positive xp";
-  Hydraulics.Chamber chamber2(final beta=beta, final p_start=p_start) "Chamber that shrinks with positive xp";
-  Hydraulics.Orifice leakage(final K=K_L, final rho=rho, final dp_smooth=dp_smooth) "Leakage of Eq. 3.6";
+    final rho=rho, final k1=k1, final k2=k2, final k3=k3, final dp_smooth=dp_smooth) "Edges of the valve"
+    annotation(Placement(transformation(extent={{-92, -102}, {-68, -78}})));
+  Hydraulics.Tank tank(final p=pT) "Tank"
+    annotation(Placement(transformation(extent={{-152, -152}, {-128, -128}})));
+  Hydraulics.Chamber chamber1(final beta=beta, final p_start=p_start) "Chamber that grows with positive xp"
+    annotation(Placement(transformation(extent={{-32, -52}, {-8, -28}})));
+  Hydraulics.Chamber chamber2(final beta=beta, final p_start=p_start) "Chamber that shrinks with positive xp"
+    annotation(Placement(transformation(extent={{-32, -152}, {-8, -128}})));
+  Hydraulics.Orifice leakage(final K=K_L, final rho=rho, final dp_smooth=dp_smooth) "Leakage of Eq. 3.6"
+    annotation(Placement(transformation(extent={{8, -102}, {32, -78}})));
   ControlPiston piston(
     final A_p=A_p, final V_0=V_0, final m_eff=m_eff, final k=k, final b=b,
-    final xpMAX=xpMAX, final xpMIN=xpMIN) "Control piston";
-  SwashPlateLinkage swashPlate(final a=a) "Swash plate";
+    final xpMAX=xpMAX, final xpMIN=xpMIN) "Control piston"
+    annotation(Placement(transformation(extent={{88, -102}, {112, -78}})));
+  SwashPlateLinkage swashPlate(final a=a) "Swash plate"
+    annotation(Placement(transformation(extent={{168, -102}, {192, -78}})));
 
   // Names of thesis Tables 7, 8 and 10
   Types.Angle alphaRef = alphaCMD/100*alphaMAX "Command in radians";
@@ -182,12 +212,13 @@ equation
   connect(swashPlate.alpha, angleSensor.s);
   connect(swashPlate.alpha_t, angleSensor.s_t);
   annotation(
+    Diagram(coordinateSystem(extent={{-200, -180}, {260, 100}})),
     Documentation(info="<html>
 <p>From the command (percent of 15 degrees) to the swash plate angle and the spool position of the Bosch Rexroth A4VSG
 71
 pump on the thesis' bench: outer P and inner PD controller, dead time, second order valve spool, four edges, two
 chambers,
-piston with spring and damper, linkage. Nine states of the physics and the dead time, two of the command's rate.</p>
+piston with spring and damper, linkage. Nine states of the physics and the dead time, three of the command's rate.</p>
 <p><b>Source:</b> thesis Eq. 3.1 to 3.12 and 3.17 to 3.20, Fig. 3.2 to 3.4; parameters of Tables 4.6 and 5; names of
 Tables 6, 7, 8 and 10 (Appendix F). <code>delay1</code> is there the name of a block; here it is that block's
 output.</p>
@@ -197,7 +228,9 @@ in the start values of the 13 identified parameters alone, each of which can be 
 known; leave that input alone where it is not, and <code>CommandRateObserver</code> estimates it.</p>
 <p><b>Slots:</b> every <code>replaceable</code> part is a place where physics may be missing;
 <code>Interfaces.Neutral</code>
-fills it with nothing. <code>UsersGuide.AddAnEffect</code> shows how to put an effect in.</p>
+fills it with nothing. <code>UsersGuide.Slots</code> lists them, <code>UsersGuide.AddAnEffect</code> shows how to put
+an effect
+in.</p>
 <p><b>Start:</b> at rest in the middle, both chambers at p_start (half of pS; set both together).</p>
 <p><b>Valid:</b> no load on the pump; amplitudes and frequencies of the tests it was fitted to (5 to 20 percent around
 &plusmn;25 to &plusmn;75 percent, 0.1 to 30 Hz).</p>

@@ -4,8 +4,10 @@ block GrowingSines "Three sines that grow from zero, with their exact rate"
   parameter Types.Percent A[3] = {40, 15, 5} "Amplitudes";
   parameter Types.Frequency f[3] = {0.4, 2.3, 7.1} "Frequencies";
   parameter Types.Duration T = 0.5 "Time constant of the growth";
-  Interfaces.RealOutput y(unit="%") "Command";
-  Interfaces.RealOutput y_t(unit="%/s") "Rate of the command";
+  Interfaces.RealOutput y(unit="%") "Command"
+    annotation(Placement(transformation(extent={{100, 50}, {120, 70}})));
+  Interfaces.RealOutput y_t(unit="%/s") "Rate of the command"
+    annotation(Placement(transformation(extent={{100, -70}, {120, -50}})));
 protected
   constant Real pi2(final unit="1") = 2*Constants.pi "Full turn";
   Types.Percent sines "Sum of the sines";

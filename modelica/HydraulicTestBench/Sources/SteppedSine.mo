@@ -7,8 +7,10 @@ block SteppedSine "Command of one frequency response test, with its exact rate"
   parameter Real t_ramp(final unit="s") = 0.5 "When the ramp to the offset begins";
   parameter Real t_hold(final unit="s") = 1 "When the offset is reached";
   parameter Real t_sine(final unit="s") = 2 "When the sine begins";
-  Interfaces.RealOutput y(unit="%") "Command";
-  Interfaces.RealOutput y_t(unit="%/s") "Rate of the command";
+  Interfaces.RealOutput y(unit="%") "Command"
+    annotation(Placement(transformation(extent={{100, 50}, {120, 70}})));
+  Interfaces.RealOutput y_t(unit="%/s") "Rate of the command"
+    annotation(Placement(transformation(extent={{100, -70}, {120, -50}})));
 protected
   final parameter Types.AngularVelocity omega = 2*Constants.pi*f "Angular frequency";
 equation

@@ -1,8 +1,10 @@
 within HydraulicTestBench.Validation;
 model ChamberFilling "Constant flow into a closed chamber"
   extends Icons.Example;
-  Hydraulics.FlowSource source(q=1e-6) "Flow";
-  Hydraulics.Chamber chamber(beta=1.4e9, p_start=0) "Chamber";
+  Hydraulics.FlowSource source(q=1e-6) "Flow"
+    annotation(Placement(transformation(extent={{-80, 20}, {-40, 60}})));
+  Hydraulics.Chamber chamber(beta=1.4e9, p_start=0) "Chamber"
+    annotation(Placement(transformation(extent={{-20, 20}, {20, 60}})));
   Types.Pressure p_exact = chamber.beta*source.q*time/1e-3 "Closed form";
   Types.Pressure error = chamber.p - p_exact "Difference from the closed form";
 equation

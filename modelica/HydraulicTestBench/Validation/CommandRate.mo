@@ -1,8 +1,10 @@
 within HydraulicTestBench.Validation;
 model CommandRate "Rate of a sine, told and untold"
   extends Icons.Example;
-  Pump.CommandRateObserver told "Observer that is told the rate";
-  Pump.CommandRateObserver untold "Observer that is not";
+  Pump.CommandRateObserver told "Observer that is told the rate"
+    annotation(Placement(transformation(extent={{-80, 20}, {-40, 60}})));
+  Pump.CommandRateObserver untold "Observer that is not"
+    annotation(Placement(transformation(extent={{-20, 20}, {20, 60}})));
   Types.PercentRate rate_exact = omega*cos(omega*time) "Rate of the sine";
   Types.PercentRate error_told = told.rate - rate_exact "Difference where it is told";
   Types.PercentRate error = untold.rate - rate_exact "Difference where it is not, transient at the start";

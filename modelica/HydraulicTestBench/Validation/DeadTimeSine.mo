@@ -1,7 +1,8 @@
 within HydraulicTestBench.Validation;
 model DeadTimeSine "Sine through the Pade dead time"
   extends Icons.Example;
-  Pump.PadeDeadTime deadTime(tau=3.83e-3) "Dead time of the free set";
+  Pump.PadeDeadTime deadTime(tau=3.83e-3) "Dead time of the free set"
+    annotation(Placement(transformation(extent={{-80, 20}, {-40, 60}})));
   Types.SpoolPosition y_exact = sin(omega*(time - deadTime.tau)) "Closed form";
   Types.SpoolPosition error = deadTime.y - y_exact "Difference from the closed form, transient at the start";
 protected

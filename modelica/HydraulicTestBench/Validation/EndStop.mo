@@ -2,9 +2,12 @@ within HydraulicTestBench.Validation;
 model EndStop "Piston pressed against its end stop"
   extends Icons.Example;
   Pump.ControlPiston piston(
-    A_p=401.33e-6, V_0=0.0607e-3, m_eff=62.384, k=0, b=13.422e3, xpMAX=1e-3, xpMIN=-1e-3) "Piston";
-  Hydraulics.Tank pressure(p=170e5) "Pressure in chamber 1";
-  Hydraulics.Tank tank "No pressure in chamber 2";
+    A_p=401.33e-6, V_0=0.0607e-3, m_eff=62.384, k=0, b=13.422e3, xpMAX=1e-3, xpMIN=-1e-3) "Piston"
+    annotation(Placement(transformation(extent={{-80, 20}, {-40, 60}})));
+  Hydraulics.Tank pressure(p=170e5) "Pressure in chamber 1"
+    annotation(Placement(transformation(extent={{-20, 20}, {20, 60}})));
+  Hydraulics.Tank tank "No pressure in chamber 2"
+    annotation(Placement(transformation(extent={{40, 20}, {80, 60}})));
   Types.Force error = piston.f_stop + pressure.p*piston.A_p "Difference of the forces, zero at rest";
   Types.Length depth = piston.x - piston.xpMAX "How far the stop gives way";
 equation

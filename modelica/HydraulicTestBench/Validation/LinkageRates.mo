@@ -1,7 +1,8 @@
 within HydraulicTestBench.Validation;
 model LinkageRates "Rates of the swash plate against its angle"
   extends Icons.Example;
-  Pump.SwashPlateLinkage swashPlate(a=0.0877) "Linkage";
+  Pump.SwashPlateLinkage swashPlate(a=0.0877) "Linkage"
+    annotation(Placement(transformation(extent={{-80, 20}, {-40, 60}})));
   Types.Angle alpha_integrated(start=0, fixed=true) "Integral of the angular velocity";
   Types.AngularVelocity rate_integrated(start=10e-3*omega/0.0877, fixed=true) "Integral of the angular acceleration";
   Types.Angle error = swashPlate.alpha - alpha_integrated "Angle against integrated velocity";

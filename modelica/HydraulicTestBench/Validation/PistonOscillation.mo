@@ -3,9 +3,12 @@ model PistonOscillation "Free oscillation of the control piston"
   extends Icons.Example;
   Pump.ControlPiston piston(
     A_p=401.33e-6, V_0=0.0607e-3, m_eff=62.384, k=13.445e3, b=200, xpMAX=23e-3, xpMIN=-23e-3,
-    x(start=5e-3)) "Piston, released at 5 mm";
-  Hydraulics.Tank tank1 "No pressure in chamber 1";
-  Hydraulics.Tank tank2 "No pressure in chamber 2";
+    x(start=5e-3)) "Piston, released at 5 mm"
+    annotation(Placement(transformation(extent={{-80, 20}, {-40, 60}})));
+  Hydraulics.Tank tank1 "No pressure in chamber 1"
+    annotation(Placement(transformation(extent={{-20, 20}, {20, 60}})));
+  Hydraulics.Tank tank2 "No pressure in chamber 2"
+    annotation(Placement(transformation(extent={{40, 20}, {80, 60}})));
   Types.Length x_exact "Closed form";
   Types.Length error = piston.x - x_exact "Difference from the closed form";
 protected

@@ -1,7 +1,8 @@
 within HydraulicTestBench.Validation;
 model SpoolStep "Step response of the valve spool"
   extends Icons.Example;
-  Pump.SecondOrderSpool spool(omega_v=2*Constants.pi*28.05, zeta_v=0.82031) "Spool";
+  Pump.SecondOrderSpool spool(omega_v=2*Constants.pi*28.05, zeta_v=0.82031) "Spool"
+    annotation(Placement(transformation(extent={{-80, 20}, {-40, 60}})));
   Types.SpoolPosition u_exact "Closed form";
   Types.SpoolPosition error = spool.u - u_exact "Difference from the closed form";
 protected
