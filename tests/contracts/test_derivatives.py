@@ -69,7 +69,11 @@ def test_directional_derivatives_are_those_of_finite_differences(point, fmu):
 
 
 def test_derivatives_by_tunable_parameters(point, fmu, case):
-    parameters = [p for p in fmu.of(causality="parameter", variability="tunable") if p not in case.delay_times]
+    if case.has_delay:
+        pytest.skip(
+            "an event at the start writes the history of delay() anew, so a difference shows more than held values"
+        )
+    parameters = fmu.of(causality="parameter", variability="tunable")
     unknowns = unknowns_of(fmu)
     values = point.instance.get(unknowns)
     for name, value in zip(parameters, point.instance.get(parameters), strict=True):
