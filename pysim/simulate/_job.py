@@ -36,13 +36,12 @@ class Job:
         self.put("run", {"start": start, "end": end, "t": start, "segment": -1, "jacobian_at": np.nan})
 
     def put(self, section: str, values: Mapping[str, Any]) -> None:
-        """Fill fields of a section; an array is kept alive and its address stored."""
+        """Fill a section, zero where `values` is silent; an array is kept alive and its address stored."""
         for name, value in values.items():
             if isinstance(value, np.ndarray):
-                array = np.ascontiguousarray(value)
-                self._arrays[section, name] = array
-                value = array.ctypes.data
-            self.record[section][name] = value
+                self._arrays[section, name] = value
+        zeros = dict.fromkeys(JOB[section].names or (), 0)
+        self.record[section] = tuple({**zeros, **{name: _plain(value) for name, value in values.items()}}.values())
 
     def array(self, section: str, name: str) -> np.ndarray:
         """An array that was put in."""
@@ -55,3 +54,12 @@ class Job:
     def statistics(self) -> dict[str, int]:
         """Counts of the run so far."""
         return {name: int(self.number("run", name)) for name in STATISTICS}
+
+
+def _plain(value: Any) -> Any:
+    """A number as it is, an array as its address."""
+    if not isinstance(value, np.ndarray):
+        return value
+    if not value.flags.c_contiguous:
+        raise ValueError("native code reads arrays item after item: this one is not contiguous")
+    return value.__array_interface__["data"][0]

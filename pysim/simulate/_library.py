@@ -19,6 +19,7 @@ from fmpy.fmi3 import FMU3Model
 from pysim.io import extracted
 from pysim.simulate._fmu_calls import FUNCTIONS
 from pysim.simulate._messages import Mailbox
+from pysim.simulate._sparsity import jacobian_arrays
 from pysim.types import BadInput, Model
 
 # Setter of FMPy per type of variable, FMI 2 and FMI 3.
@@ -50,8 +51,8 @@ class CallFailed(RuntimeError):
 class Instance:
     """An FMU between instantiation and release."""
 
-    def __init__(self, model: Model, fmu: Any, mailbox: Mailbox) -> None:
-        self.model, self.fmu, self.mailbox = model, fmu, mailbox
+    def __init__(self, library: Library, fmu: Any, mailbox: Mailbox) -> None:
+        self.model, self.jacobian, self.fmu, self.mailbox = library.model, library.jacobian, fmu, mailbox
         self.lost = False  # after a fatal error nothing may be called any more
 
     def address(self, function: str) -> int:
@@ -101,6 +102,7 @@ class Library:
 
     def __init__(self, model: Model) -> None:
         self.model = model
+        self.jacobian = jacobian_arrays(model)
         self._idle: deque[tuple[Any, Mailbox]] = deque()
         self._folder = extracted(model.path)
         _check_binary(model, self._folder)
@@ -128,7 +130,7 @@ class Library:
         except IndexError:
             fmu, mailbox = self._load()
         mailbox.empty()
-        instance = Instance(self.model, fmu, mailbox)
+        instance = Instance(self, fmu, mailbox)
         try:
             fmu.instantiate(**mailbox.callbacks)
         except Exception as error:  # FMPy raises a bare Exception

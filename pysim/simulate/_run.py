@@ -15,7 +15,6 @@ from pysim.simulate._library import CallFailed, Instance, Library, open_library
 from pysim.simulate._loop import integrate
 from pysim.simulate._method import RosenbrockMethod, method_arrays
 from pysim.simulate._recording import row_arrays
-from pysim.simulate._sparsity import group_arrays
 from pysim.simulate._state import RUNNING, work_arrays
 from pysim.simulate.rk45 import Rk45
 from pysim.types import Experiment, Model, Outcome, Record, SimulationError
@@ -82,18 +81,13 @@ def _prepare(instance: Instance, experiment: Experiment, solver: Solver) -> Job:
     model, method = instance.model, solver.method()
     abilities, job = model.abilities, Job(experiment.start, float(experiment.times[-1]))
     implicit = isinstance(method, RosenbrockMethod)
+    n, m, terms = len(abilities.states), abilities.event_indicators, method.dense.shape[1]
     job.put("fmu", instance.addresses())
     job.put("method", method_arrays(method))
     job.put("control", solver.control()._asdict())
     job.put("inputs", input_arrays(model, experiment))
     job.put("breaks", break_arrays(experiment))
-    terms = method.dense.shape[1]
-    job.put("work", work_arrays(len(abilities.states), abilities.event_indicators, method.b.size, terms, implicit))
-    references = [
-        np.array([model[n].reference for n in names], np.uint32) for names in (abilities.states, abilities.derivatives)
-    ]
-    job.put("work", {"derivative_references": references[1], "has_directional": abilities.directional_derivatives})
-    job.put("work", group_arrays(abilities, references[0]))
+    job.put("work", {**work_arrays(n, m, method.b.size, terms, implicit), **instance.jacobian})
     job.put("rows", row_arrays(model, experiment.record, experiment.times, instance.address))
     return job
 

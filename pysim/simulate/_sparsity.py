@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from pysim.types import Abilities
+from pysim.types import Abilities, Model
 
 
 def column_groups(abilities: Abilities) -> list[list[int]]:
@@ -37,14 +37,18 @@ def dependency_pattern(abilities: Abilities) -> np.ndarray:
     return pattern
 
 
-def group_arrays(abilities: Abilities, references: np.ndarray) -> dict[str, Any]:
-    """What WORK needs to take the Jacobian in groups; `references` (n,) are those of the states."""
+def jacobian_arrays(model: Model) -> dict[str, Any]:
+    """What WORK needs to take the Jacobian of a model, in groups; the same for every run."""
+    abilities = model.abilities
+    references = np.array([model[name].reference for name in abilities.states], dtype=np.uint32)
     groups = column_groups(abilities)
     members = np.array([state for group in groups for state in group], dtype=np.int64)
     return {
+        "has_directional": abilities.directional_derivatives,
+        "derivative_references": np.array([model[name].reference for name in abilities.derivatives], dtype=np.uint32),
         "groups": len(groups),
         "group_first": np.cumsum([0, *map(len, groups)], dtype=np.int64),
         "group_members": members,
         "group_references": references[members],
-        "pattern": dependency_pattern(abilities).T.astype(np.float64),
+        "pattern": np.ascontiguousarray(dependency_pattern(abilities).T, dtype=np.float64),
     }
