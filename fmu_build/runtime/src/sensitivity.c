@@ -102,8 +102,15 @@ static void negate(double *values, size_t n) {
     for (size_t k = 0; k < n; k++) values[k] = -values[k];
 }
 
-/* Tangents of dx and w for the seeds of x, u and p; first those of q, from g(q) = 0. */
-static Status tangents(Instance *s) {
+/* Outputs and all that is kept with them cost more than the derivatives: their tangents only if one is asked for. */
+static bool any_in(const Instance *s, const uint32_t *references, size_t n, Vector vector) {
+    for (size_t k = 0; k < n; k++)
+        if (s->model->variables[references[k]].vector == vector) return true;
+    return false;
+}
+
+/* Tangents of dx, and of w if wanted, for the seeds of x, u and p; first those of q, from g(q) = 0. */
+static Status tangents(Instance *s, bool with_w) {
     DerivativeWork *w = &s->derivative;
     const size_t n_q = s->model->n_q;
     if (n_q > 0) {
@@ -114,7 +121,7 @@ static Status tangents(Instance *s) {
         lu_solve(n_q, w->jacobian, w->pivot, w->seed_q);
         negate(w->seed_q, n_q);
     }
-    double *res[] = {w->out_dx, w->out_w, NULL};
+    double *res[] = {w->out_dx, with_w ? w->out_w : NULL, NULL};
     return call_model(s, s->model->forward, res);
 }
 
@@ -145,7 +152,7 @@ Status directional_derivative(Instance *s, const char *function, const Partials 
     if (status == STATUS_OK) status = prepare(s, function);
     if (status != STATUS_OK) return status;
     add_seeds(s, partials->knowns, partials->n_knowns, &seeds, seed);
-    status = tangents(s);
+    status = tangents(s, any_in(s, partials->unknowns, partials->n_unknowns, VECTOR_W));
     if (status == STATUS_OK) read_results(s, partials->unknowns, partials->n_unknowns, &results, change);
     clear_seeds(s);
     return status;
