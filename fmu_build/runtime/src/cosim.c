@@ -10,7 +10,8 @@
 
 static const double SAME_POINT = 1e-9;  /* of the time, or of 1 s: an importer may add up its steps */
 static const double STEPS_WITHOUT_STATES = 10.0; /* per communication step, to look for events */
-enum { MAX_EVENTS_AT_ONCE = 100 };
+static const double NO_PROGRESS = 1e-10; /* of the communication step */
+enum { MAX_EVENTS_AT_ONCE = 100, MAX_STEPS_WITHOUT_PROGRESS = 100000 };
 
 static bool can_step(Instance *s, const char *function, double point, double size) {
     const double slack = SAME_POINT * fmax(1.0, fabs(*s->t));
@@ -40,7 +41,7 @@ Status cosim_start(Instance *s) {
 /* The progress of one communication step. */
 typedef struct {
     double target; /* where it ends, s; an importer may shorten it */
-    int events_at_once;
+    int events_at_once, steps_without_progress;
     bool shortened;
     StepResult *result;
 } Run;
@@ -92,11 +93,22 @@ static bool is_done(const Instance *s, const Run *run) {
     return *s->t >= run->target || run->result->event_needed || run->result->terminate;
 }
 
+/* Error control that never comes through, or events that pile up: better a discarded step than an endless one. */
+static Status check_progress(Instance *s, Run *run, double before, double size) {
+    run->steps_without_progress = *s->t - before < NO_PROGRESS * size ? run->steps_without_progress + 1 : 0;
+    if (run->steps_without_progress <= MAX_STEPS_WITHOUT_PROGRESS) return STATUS_OK;
+    log_message(s, LOG_DISCARD, "After %d tiny steps in a row the time is still %.16g s.", MAX_STEPS_WITHOUT_PROGRESS,
+                *s->t);
+    return STATUS_DISCARD;
+}
+
 static Status run_step(Instance *s, Run *run, double size) {
     Status status = take_over_inputs(s, run);
     while (status <= STATUS_WARNING && !is_done(s, run)) {
         bool event = false;
+        const double before = *s->t;
         status = worse(status, integrate_step(s, limit_of(s, run, size), &event));
+        status = worse(status, check_progress(s, run, before, size));
         if (status > STATUS_WARNING) break;
         offer_update(s, run);
         if (event || *s->t >= s->memory->next_event_time) status = worse(status, handle_event(s, run));

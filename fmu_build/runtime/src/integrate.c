@@ -33,7 +33,10 @@ static double first_step(Instance *s, double limit) {
     return fmin(whole, step);
 }
 
-static double smallest_step(const Instance *s) { return 16.0 * DBL_EPSILON * fmax(fabs(*s->t), DBL_MIN / DBL_EPSILON); }
+/* Below this, the rounding of the time would show in the step. */
+static double smallest_step(const Instance *s, double limit) {
+    return 16.0 * DBL_EPSILON * fmax(fabs(s->integrator.begin), fabs(limit));
+}
 
 /* Where the next step ends: the limit itself if that is near. */
 static double step_end(const Instance *s, double limit) {
@@ -99,7 +102,7 @@ static Status accepted_step(Instance *s, double limit, bool *event) {
         }
         rejected = true;
         memory->step_size = step * (evaluated ? fmin(factor_for(error), 1.0) : SHRINK_AFTER_FAILURE);
-        if (memory->step_size < smallest_step(s)) return give_up(s, step, evaluated);
+        if (memory->step_size < smallest_step(s, limit)) return give_up(s, step, evaluated);
     }
 }
 
