@@ -1,6 +1,7 @@
 /* Load an FMI 2.0 co-simulation library and step it: the part of an importer that a binary for Windows has to please.
  *
  * Usage: loader LIBRARY GUID RESOURCES_URI INPUT_REFERENCE OUTPUT_REFERENCE INPUT_VALUE STEP COUNT
+ *        TOLERANCE
  * Prints time and output after every step; exit code 0, or the number of the call that failed.
  * Declarations follow the FMI 2.0.4 standard, Sections 2.1 and 4.2.
  */
@@ -19,13 +20,13 @@ typedef struct {
     void *environment;
 } Callbacks;
 
-typedef Component (*Instantiate)(const char *, int, const char *, const char *, const Callbacks *, int, int);
-typedef int (*Setup)(Component, int, double, double, int, double);
-typedef int (*Plain)(Component);
-typedef int (*SetReal)(Component, const unsigned *, size_t, const double *);
-typedef int (*GetReal)(Component, const unsigned *, size_t, double *);
-typedef int (*DoStep)(Component, double, double, int);
-typedef void (*Free)(Component);
+typedef Component (*InstantiateFunction)(const char *, int, const char *, const char *, const Callbacks *, int, int);
+typedef int (*SetupFunction)(Component, int, double, double, int, double);
+typedef int (*PlainFunction)(Component);
+typedef int (*SetRealFunction)(Component, const unsigned *, size_t, const double *);
+typedef int (*GetRealFunction)(Component, const unsigned *, size_t, double *);
+typedef int (*DoStepFunction)(Component, double, double, int);
+typedef void (*FreeFunction)(Component);
 
 static void print_message(void *environment, const char *name, int status, const char *category, const char *text, ...) {
     va_list values;
@@ -57,8 +58,8 @@ static FARPROC find(HMODULE library, const char *name) {
 
 int main(int count, char **words) {
     static const Callbacks callbacks = {print_message, calloc, free, NULL, NULL};
-    if (count != 9) {
-        fprintf(stderr, "loader LIBRARY GUID RESOURCES_URI INPUT_REFERENCE OUTPUT_REFERENCE INPUT_VALUE STEP COUNT\n");
+    if (count != 10) {
+        fprintf(stderr, "loader LIBRARY GUID RESOURCES_URI INPUT_REFERENCE OUTPUT_REFERENCE INPUT_VALUE STEP COUNT TOLERANCE\n");
         return 1;
     }
     HMODULE library = LoadLibraryA(words[1]);
@@ -69,19 +70,19 @@ int main(int count, char **words) {
     const unsigned input = (unsigned)strtoul(words[4], NULL, 10), output = (unsigned)strtoul(words[5], NULL, 10);
     const double command = strtod(words[6], NULL), step = strtod(words[7], NULL);
     const int steps = atoi(words[8]);
-    FUNCTION(Instantiate, Instantiate);
-    FUNCTION(Setup, SetupExperiment);
-    FUNCTION(Plain, EnterInitializationMode);
-    FUNCTION(Plain, ExitInitializationMode);
-    FUNCTION(SetReal, SetReal);
-    FUNCTION(GetReal, GetReal);
-    FUNCTION(DoStep, DoStep);
-    FUNCTION(Plain, Terminate);
-    FUNCTION(Free, FreeInstance);
+    FUNCTION(InstantiateFunction, Instantiate);
+    FUNCTION(SetupFunction, SetupExperiment);
+    FUNCTION(PlainFunction, EnterInitializationMode);
+    FUNCTION(PlainFunction, ExitInitializationMode);
+    FUNCTION(SetRealFunction, SetReal);
+    FUNCTION(GetRealFunction, GetReal);
+    FUNCTION(DoStepFunction, DoStep);
+    FUNCTION(PlainFunction, Terminate);
+    FUNCTION(FreeFunction, FreeInstance);
 
     Component model = Instantiate("wine", 1, words[2], words[3], &callbacks, 0, 0);
     if (model == NULL) return 4;
-    TRY(5, SetupExperiment(model, 0, 0.0, 0.0, 0, 0.0));
+    TRY(5, SetupExperiment(model, 1, strtod(words[9], NULL), 0.0, 0, 0.0));
     TRY(6, EnterInitializationMode(model));
     TRY(7, ExitInitializationMode(model));
     TRY(8, SetReal(model, &input, 1, &command));
