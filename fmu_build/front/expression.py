@@ -117,6 +117,15 @@ class Index(Expression):
 
 
 @dataclass(frozen=True, eq=False)
+class ArrayUpdate(Expression):
+    """The array `base` with `value` put in at the subscripts: an assignment to elements inside a function."""
+
+    base: Expression
+    value: Expression
+    subscripts: tuple[Expression, ...]
+
+
+@dataclass(frozen=True, eq=False)
 class Range(Expression):
     start: Expression
     step: Expression | None

@@ -12,7 +12,7 @@ from fmu_build.errors import BuildError
 from fmu_build.front import expression as ex
 from fmu_build.front.flat_model import Assignment, FlatModel, ForStatement, Function
 from fmu_build.lower.builtins import ARITHMETIC, ELEMENTWISE, JUMPING, WHOLE
-from fmu_build.lower.values import Scalar, Value, array, broadcast, choose, is_true
+from fmu_build.lower.values import Scalar, Value, array, broadcast, choose, is_true, scalars
 
 COMPARISONS = ("less", "less_equal", "greater", "greater_equal", "equal", "not_equal")
 EVENT_FREE = ("no_event", "smooth")
@@ -67,7 +67,7 @@ class Evaluator:
         if id(node) not in frame.done:
             try:
                 frame.done[id(node)] = self._methods[type(node)](node, frame)
-            except (ValueError, IndexError, RuntimeError, NotImplementedError) as failure:
+            except (ValueError, IndexError, TypeError, RuntimeError, NotImplementedError) as failure:
                 raise BuildError(f"cannot evaluate: {failure}", node.span.file, node.span.line) from None
         return frame.done[id(node)]
 
@@ -191,6 +191,22 @@ class Evaluator:
             result = choose(ca.eq(index, k + 1), np.take(base, k, axis=axis), result)
         return result
 
+    def _arrayupdate(self, node: ex.ArrayUpdate, frame: Frame) -> Value:
+        base, value = self.value(node.base, frame), self.value(node.value, frame)
+        indices = [None if isinstance(s, ex.Slice) else self.value(s, frame) for s in node.subscripts]
+        result = base.ravel().copy()
+        if any(isinstance(i, ca.SX) and not i.is_constant() for i in indices):
+            for k, place in enumerate(np.ndindex(*base.shape)):
+                result[k] = choose(_is_at(place, indices), value, result[k])
+            return result.reshape(base.shape)
+        chosen: np.ndarray | np.int64 = np.arange(base.size).reshape(base.shape)
+        for axis, (index, subscript) in reversed(list(enumerate(zip(indices, node.subscripts, strict=True)))):
+            if index is not None:
+                wanted = [self._position(i, base.shape[axis], subscript.span) for i in scalars(index)]
+                chosen = np.take(chosen, wanted if isinstance(index, np.ndarray) else wanted[0], axis=axis)
+        result[np.ravel(chosen)] = scalars(value)
+        return result.reshape(base.shape)
+
     def _position(self, index: Scalar, size: int, span: ex.Span) -> int:
         position = round(float(index)) - 1
         if not 0 <= position < size:
@@ -262,3 +278,12 @@ class Evaluator:
 def _undefined(shape: tuple[int, ...]) -> Value:
     nothing = ca.SX.nan()
     return array([nothing] * int(np.prod(shape))).reshape(shape) if shape else nothing
+
+
+def _is_at(place: tuple[int, ...], indices: list[Scalar | None]) -> Scalar:
+    """Whether the subscripts, known at run time only, mean this element."""
+    holds = ca.SX(1)
+    for position, index in zip(place, indices, strict=True):
+        if index is not None:
+            holds = ca.logic_and(holds, ca.eq(index, position + 1))
+    return holds

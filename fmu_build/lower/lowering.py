@@ -37,7 +37,8 @@ def lower(flat: FlatModel) -> OdeModel:
     start = initial_conditions(flat, scope, parameters, evaluator, solved)
     calculated = parameters.explicit(start.parameters)
     numbers = _numbers(parameters, calculated)
-    places = place_variables(flat, scope, parameters, solved, derivatives, start, evaluator, events.hidden_variables)
+    shown = (*flat.variables, *events.hidden_variables)
+    places = place_variables(shown, scope, parameters, calculated, solved, derivatives, start, evaluator)
     symbols = Symbols(
         t=scope.time,
         x=column(v.symbol for v in scope.states),

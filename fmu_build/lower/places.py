@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 
 import casadi as ca
 
-from fmu_build.front.flat_model import FlatModel, FlatVariable, Role
+from fmu_build.front.flat_model import FlatVariable, Role
 from fmu_build.front.flat_model import Scalar as ScalarKind
 from fmu_build.lower.continuous import Solved
 from fmu_build.lower.evaluate import Evaluator
@@ -26,21 +26,21 @@ class Places:
 
 
 def place_variables(
-    flat: FlatModel,
+    shown: Sequence[FlatVariable],
     scope: Scope,
     parameters: Parameters,
+    calculated: Sequence[Scalar],
     solved: Solved,
     derivatives: Sequence[Scalar],
     start: Start,
     evaluator: Evaluator,
-    hidden: Sequence[FlatVariable],
 ) -> Places:
-    """The place of every scalar of the model and of the lowering's own discrete variables `hidden`."""
+    """The place of every scalar of the variables `shown`: the model's, and the lowering's own discrete ones."""
     places = Places()
     entry_of = {
         entry.variable.name: entry
         for entries in (
-            _parameter_entries(parameters, evaluator),
+            _parameter_entries(parameters, calculated),
             _state_entries(scope, start, evaluator),
             _input_entries(scope, evaluator),
             _discrete_entries(scope, start, evaluator),
@@ -48,7 +48,7 @@ def place_variables(
         )
         for entry in entries
     }
-    for variable in (*flat.variables, *hidden):
+    for variable in shown:
         if variable.scalar is not ScalarKind.STRING:
             places.entries += [entry_of[name] for name in scalar_names(variable)]
     places.entries += [
@@ -62,20 +62,20 @@ def _causality(variable: ScalarVariable) -> Causality:
     return "output" if variable.flat.is_output else "local"
 
 
-def _parameter_entries(parameters: Parameters, evaluator: Evaluator) -> list[Entry]:
+def _parameter_entries(parameters: Parameters, explicit: Sequence[Scalar]) -> list[Entry]:
     entries = []
     for k, variable in enumerate(parameters.settable):
         variability: Variability = "tunable" if variable.flat.is_tunable else "fixed"
         start = ca.SX(parameters.starts[k])
         entries.append(Entry(variable, "parameter", variability, "exact", "p", k, start))
-    for k, calculated in enumerate(parameters.calculated):
-        variable = calculated.variable
-        if variable.flat.role is Role.CONSTANT:
-            entries.append(Entry(variable, "local", "constant", "exact", "c", k, calculated.value))
-        elif calculated.value.is_constant() or variable.flat.fixed is not None or not variable.flat.is_tunable:
-            entries.append(Entry(variable, "calculatedParameter", "fixed", "calculated", "c", k))
-        else:
-            entries.append(Entry(variable, "calculatedParameter", "tunable", "calculated", "c", k))
+    tunable = {v.symbol.element_hash() for v in parameters.settable if v.flat.is_tunable}
+    for k, (calculated, value) in enumerate(zip(parameters.calculated, explicit, strict=True)):
+        if calculated.variable.flat.role is Role.CONSTANT:
+            entries.append(Entry(calculated.variable, "local", "constant", "exact", "c", k, value))
+            continue
+        follows = any(symbol.element_hash() in tunable for symbol in ca.symvar(value))
+        variability = "tunable" if follows else "fixed"
+        entries.append(Entry(calculated.variable, "calculatedParameter", variability, "calculated", "c", k))
     return entries
 
 

@@ -121,6 +121,10 @@ class Arena:
         subscripts = tuple(self._subscript(item) for item in self._subscripts[number])
         return ex.Index(span, self.expression(node["base"]), subscripts)
 
+    def _array_update(self, number: int, node: Node, span: ex.Span) -> ex.Expression:
+        subscripts = tuple(self._subscript(item) for item in self._subscripts[number])
+        return ex.ArrayUpdate(span, self.expression(node["base"]), self.expression(node["value"]), subscripts)
+
     def _subscript(self, item: Node) -> ex.Expression:
         span = self._places.span(item["provenance"])
         if item["kind"] == "whole":

@@ -65,8 +65,12 @@ def to_flat_model(
         )
     places = Places(dae["source_map"])
     refuse_folded_conditions(dae, places)
-    flat_form = FlatForm(flat, places)
-    return _Converter(storage, flat_form, places).model(name, span, experiment, documentation, description)
+    try:
+        converter = _Converter(storage, FlatForm(flat, places), places)
+        return converter.model(name, span, experiment, documentation, description)
+    except (AssertionError, AttributeError, IndexError, KeyError, TypeError, ValueError) as failure:
+        what = f"{type(failure).__name__}: {failure}"
+        raise BuildError(f"the compiler's form of {name} is not known here ({what})", span.file, span.line) from failure
 
 
 class _Converter:

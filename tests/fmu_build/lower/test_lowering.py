@@ -249,3 +249,45 @@ def test_start_of_oscillator_state_is_settable_and_default():
     starts = {v.name: (v.start, v.initial) for v in model.variables if v.vector == "x"}
     assert starts == {"x": (1.0, "exact"), "v": (0.0, "exact")}
     assert Runner(model, start={"x": 2.0}).run(1).at("x") == pytest.approx(2 * cos(2), rel=1e-9)
+
+
+X = 0.7
+
+
+@pytest.mark.parametrize(
+    ("algorithm", "expected"),
+    [
+        ("a := x; b := 1; for i in 1:3 loop a := a*b + i; b := a - b; end for; y := a + 10*b;", 95.4741),
+        ("a := 0; for i in 1:3 loop for j in 1:i loop a := a + i*j*x; end for; a := 2*a; end for; y := a;", 68 * X),
+        ("v[1] := x; for i in 2:3 loop v[i] := 2*v[i-1]; end for; y := v[3];", 4 * X),
+        ("v := {x, 2*x, 3*x}; v[2] := 10; y := sum(v);", 4 * X + 10),
+        ("v := zeros(3); v[2:3] := {x, 1}; y := v[1] + 10*v[2] + 100*v[3];", 10 * X + 100),
+        ("n := integer(2*x) + 1; v := {1, 2, 3}; v[n] := x; y := v[1] + 10*v[2] + 100*v[3];", 301 + 10 * X),
+        ("if x > 0.5 then y := 1; return; end if; y := 2;", 1),
+        ("n := 0; y := x; while y < 100 and n < 20 loop y := 2*y; n := n + 1; end while;", 256 * X),
+        ("a := x; if a > 0.5 then a := a + 1; y := 2*a; else a := a - 1; y := a; end if; y := y + a;", 3 * X + 3),
+    ],
+)
+def test_function_bodies(algorithm, expected):
+    model = compiled(f"""
+        model M
+          function f input Real x; output Real y; protected Real a; Real b; Real v[3]; Integer n;
+          algorithm {algorithm} end f;
+          Real x(start = {X}, fixed = true); Real y;
+        equation der(x) = 0; y = f(x);
+        end M;""")
+    assert Runner(model).at("y") == pytest.approx(expected, rel=1e-12)
+
+
+def test_string_parameter_shows_in_messages_only():
+    model = body(
+        'parameter String who = "tank"; Real x(start = 0, fixed = true); equation der(x) = 1;'
+        'assert(x < 1, "level of the " + who + " is too high");'
+    )
+    assert model.checks[0].message == "level of the tank is too high"
+    assert "who" not in [variable.name for variable in model.variables]
+
+
+def test_calculated_parameter_is_tunable_where_it_follows_a_tunable_one():
+    model = body("parameter Real a = 2; final parameter Real b = 3*a; final parameter Real c = 4; Real y = b*c*time;")
+    assert {v.name: v.variability for v in model.variables if v.vector == "c"} == {"b": "tunable", "c": "fixed"}
