@@ -10,6 +10,7 @@ MODELS = ("oscillator", "ball", "sampled", "delayed", "loop", "van_der_pol", "tr
 @pytest.mark.parametrize(
     ("program", "model"),
     [
+        ("test_linear", "oscillator"),
         ("test_exchange", "oscillator"),
         ("test_integrator", "oscillator"),
         ("test_ball", "ball"),
