@@ -50,9 +50,11 @@ def read_record(path: Path | str) -> Record:
         raise BadInput(f"{path}: records are read from .csv or .npz; change the suffix")
     try:
         return form[1](path)
+    except BadInput:
+        raise
     except OSError as error:
         raise BadInput(f"{path}: cannot be read ({error.strerror})") from error
-    except (KeyError, zipfile.BadZipFile, UnicodeDecodeError, json.JSONDecodeError) as error:
+    except (KeyError, EOFError, ValueError, zipfile.BadZipFile) as error:
         raise BadInput(f"{path} is not a record: {error}; write it with write_record") from error
 
 

@@ -1,0 +1,61 @@
+import zipfile
+from pathlib import Path
+
+import pytest
+
+from pysim.io import archive as module
+from pysim.io import extracted
+from pysim.types import BadInput
+
+
+@pytest.fixture(autouse=True)
+def own_cache(tmp_path, monkeypatch):
+    folder = tmp_path / "cache"
+    folder.mkdir()
+    monkeypatch.setattr(module, "cache_folder", lambda purpose: folder)
+    module._extracted.cache_clear()
+    yield folder
+    module._extracted.cache_clear()
+
+
+def pack(path: Path, **members: str) -> Path:
+    with zipfile.ZipFile(path, "w") as archive:
+        for name, text in members.items():
+            archive.writestr(name.replace("__", "/"), text)
+    return path
+
+
+def test_same_content_is_unpacked_once_and_other_content_elsewhere(tmp_path, own_cache):
+    one = extracted(pack(tmp_path / "a.fmu", resources__data="1"))
+    assert (one / "resources" / "data").read_text() == "1"
+    (one / "mark").touch()
+    (tmp_path / "b.fmu").write_bytes((tmp_path / "a.fmu").read_bytes())
+    assert (extracted(tmp_path / "b.fmu") / "mark").exists()
+    other = extracted(pack(tmp_path / "a.fmu", resources__data="22"))  # the same file, overwritten
+    assert other != one
+    assert (other / "resources" / "data").read_text() == "22"
+    assert {path.name for path in own_cache.iterdir()} == {one.name, other.name}
+
+
+@pytest.mark.parametrize(
+    "name", ["../out", "/out", "a/../../out", "..\\out", "C:\\out", "C:out", "\\\\host\\share\\out"]
+)
+def test_member_that_leaves_the_folder_is_refused_and_nothing_is_left(tmp_path, own_cache, name):
+    path = tmp_path / "evil.fmu"
+    with zipfile.ZipFile(path, "w") as archive:
+        archive.writestr("good", "1")
+        info = zipfile.ZipInfo("x")
+        info.filename = name
+        archive.writestr(info, "2")
+    with pytest.raises(BadInput, match="would be written outside its folder"):
+        extracted(path)
+    assert list(own_cache.iterdir()) == []
+    assert not (tmp_path / "out").exists()
+
+
+def test_broken_archive_is_bad_input_and_leaves_nothing(tmp_path, own_cache):
+    path = tmp_path / "broken.fmu"
+    path.write_bytes(b"PK\x03\x04 nothing that follows makes sense")
+    with pytest.raises(BadInput, match=r"broken\.fmu is not an FMU"):
+        extracted(path)
+    assert list(own_cache.iterdir()) == []

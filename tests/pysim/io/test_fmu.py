@@ -1,0 +1,72 @@
+import zipfile
+from pathlib import Path
+
+import pytest
+
+from pysim.io import read_model
+from pysim.types import BadInput
+from tests.pysim.simulate.fixture_fmus import BALL, OSCILLATOR, STIFF, build
+
+
+@pytest.mark.parametrize("fmi", [2, 3])
+def test_table_and_abilities(tmp_path, fmi):
+    model = read_model(str(build(OSCILLATOR, fmi, tmp_path)))
+    assert (model.name, model.token) == ("oscillator", "oscillator")
+    assert model.abilities.fmi == fmi
+    assert (model.abilities.model_exchange, model.abilities.co_simulation) == (True, False)
+    assert model.abilities.directional_derivatives
+    assert model.abilities.states == ("x", "v")
+    assert model.abilities.derivatives == ("der(x)", "der(v)")
+    assert model.abilities.library == "oscillator"
+    assert model.abilities.needs_completed_step
+    w = model["w"]
+    assert (w.causality, w.variability, w.start, w.reference) == ("parameter", "fixed", 2.0, 400)
+    assert (model["u"].unit, model["u"].causality, model["power"].unit) == ("N", "input", "W")
+    assert model["der(x)"].derivative_of == "x"
+    assert model["D"].unit == "1"
+
+
+@pytest.mark.parametrize("fmi", [2, 3])
+def test_event_indicators_are_counted(tmp_path, fmi):
+    assert read_model(build(BALL, fmi, tmp_path)).abilities.event_indicators == 1
+    assert read_model(build(STIFF, fmi, tmp_path)).abilities.event_indicators == 0
+
+
+def test_dependencies_are_names_and_none_where_not_given(tmp_path):
+    path = tmp_path / "given.fmu"
+    with zipfile.ZipFile(build(OSCILLATOR, 2, tmp_path)) as archive:
+        text = archive.read("modelDescription.xml").decode()
+    assert read_model(build(OSCILLATOR, 2, tmp_path)).abilities.dependencies == (None, None)
+    with zipfile.ZipFile(path, "w") as archive:
+        # der(x) is variable 4 and depends on v, number 3; der(v) on x, v and u, numbers 2, 3 and 6.
+        text = text.replace('<Unknown index="4"/>', '<Unknown index="4" dependencies="3"/>')
+        archive.writestr("modelDescription.xml", text.replace('index="5"/>', 'index="5" dependencies="2 3 6"/>'))
+    assert read_model(path).abilities.dependencies == (frozenset({"v"}), frozenset({"x", "v", "u"}))
+
+
+def write(path: Path, description: str | None) -> Path:
+    with zipfile.ZipFile(path, "w") as archive:
+        if description is not None:
+            archive.writestr("modelDescription.xml", description)
+    return path
+
+
+def test_what_is_no_fmu_is_named(tmp_path):
+    with pytest.raises(BadInput, match=r"no FMU at .*missing\.fmu"):
+        read_model(tmp_path / "missing.fmu")
+    (tmp_path / "text.fmu").write_text("hello")
+    with pytest.raises(BadInput, match=r"text\.fmu is not an FMU"):
+        read_model(tmp_path / "text.fmu")
+    with pytest.raises(BadInput, match=r"empty\.fmu is not an FMU"):
+        read_model(write(tmp_path / "empty.fmu", None))
+    with pytest.raises(BadInput, match=r"modelDescription\.xml cannot be read"):
+        read_model(write(tmp_path / "broken.fmu", "<fmiModelDescription"))
+
+
+def test_fmi_1_is_refused_with_the_cure(tmp_path):
+    xml = (
+        '<fmiModelDescription fmiVersion="1.0" modelName="old" modelIdentifier="old" guid="g" '
+        'numberOfContinuousStates="0" numberOfEventIndicators="0"><ModelVariables/></fmiModelDescription>'
+    )
+    with pytest.raises(BadInput, match=r"is an FMI 1\.0 FMU; export it as FMI 2\.0 or 3\.0"):
+        read_model(write(tmp_path / "old.fmu", xml))

@@ -1,0 +1,89 @@
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra import numpy as hnp
+
+from pysim.io import read_record, write_record
+from pysim.types import BadInput, Outcome, Record
+
+_numbers = st.floats(allow_nan=False, allow_infinity=False)
+
+
+def record(values: np.ndarray, **rest) -> Record:
+    names = tuple(f"a[{i},1].b" for i in range(values.shape[1]))
+    return Record(np.arange(len(values)) / 3, values, names, ("bar",) * len(names), **rest)
+
+
+_STOPPED = record(
+    np.array([[1.0, 2.0], [3.0, 4.0]]),
+    outcome=Outcome.NOT_FINITE,
+    message="it said:\nno",
+    origin="simulated pump",
+    statistics={"steps": 7},
+)
+
+
+@given(
+    hnp.arrays(float, hnp.array_shapes(min_dims=2, max_dims=2, max_side=4), elements=_numbers),
+    st.sampled_from(["csv", "npz"]),
+)
+def test_numbers_come_back_bit_for_bit(tmp_path_factory, values, suffix):
+    path = tmp_path_factory.mktemp("records") / f"r.{suffix}"
+    written = record(values)
+    write_record(written, path)
+    back = read_record(str(path))
+    np.testing.assert_array_equal(back.values, written.values)
+    np.testing.assert_array_equal(back.time, written.time)
+    assert (back.names, back.units) == (written.names, written.units)
+
+
+def test_npz_keeps_everything(tmp_path):
+    write_record(_STOPPED, tmp_path / "r.npz")
+    back = read_record(tmp_path / "r.npz")
+    assert (back.outcome, back.message, back.origin) == (_STOPPED.outcome, _STOPPED.message, _STOPPED.origin)
+    assert back.statistics == _STOPPED.statistics
+
+
+def test_csv_opens_in_a_spreadsheet(tmp_path):
+    write_record(_STOPPED, tmp_path / "r.csv")
+    lines = (tmp_path / "r.csv").read_text().splitlines()
+    assert lines == [
+        "# simulated pump: a value is no longer finite. it said: no",
+        'time [s],"a[0,1].b [bar]","a[1,1].b [bar]"',
+        "0.0,1.0,2.0",
+        "0.3333333333333333,3.0,4.0",
+    ]
+    assert "simulated pump" in read_record(tmp_path / "r.csv").origin
+
+
+def test_empty_record_survives(tmp_path):
+    write_record(record(np.zeros((0, 2))), tmp_path / "r.csv")
+    assert read_record(tmp_path / "r.csv").values.shape == (0, 2)
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("", "line 1: column names"),
+        ("time [s],alpha\n0,1\n", "line 1: column names"),
+        ("# x\ntime [s],alpha [deg]\n0,1\n1,one\n", "line 4: could not convert"),
+        ("time [s],alpha [deg]\n0,1,2\n", "line 2: 3 entries, but 2 columns"),
+    ],
+)
+def test_broken_csv_is_said_with_its_line(tmp_path, text, words):
+    (tmp_path / "r.csv").write_text(text)
+    with pytest.raises(BadInput, match=words):
+        read_record(tmp_path / "r.csv")
+
+
+def test_wrong_places_and_forms_are_refused(tmp_path):
+    with pytest.raises(BadInput, match=r"\.csv or \.npz"):
+        write_record(_STOPPED, tmp_path / "r.xlsx")
+    with pytest.raises(BadInput, match="cannot write there"):
+        write_record(_STOPPED, tmp_path / "nowhere" / "r.csv")
+    with pytest.raises(BadInput, match="cannot be read"):
+        read_record(tmp_path / "r.npz")
+    (tmp_path / "r.npz").write_bytes(b"no")
+    with pytest.raises(BadInput, match="not a record"):
+        read_record(tmp_path / "r.npz")
