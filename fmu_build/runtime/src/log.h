@@ -23,7 +23,9 @@ typedef struct {
 struct Instance;
 
 /* Sends a printf-style message. Errors are sent whatever is enabled, as FMI demands. */
-#if defined(__GNUC__) || defined(__clang__)
+#if defined(__MINGW32__) && !defined(__clang__)
+__attribute__((format(gnu_printf, 3, 4))) /* its plain printf format is Microsoft's, without %zu */
+#elif defined(__GNUC__) || defined(__clang__)
 __attribute__((format(printf, 3, 4)))
 #endif
 void log_message(struct Instance *s, LogCategory category, const char *format, ...);

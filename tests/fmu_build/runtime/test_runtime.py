@@ -4,13 +4,14 @@ from collections.abc import Callable
 
 import pytest
 
-MODELS = ("oscillator", "ball", "sampled", "delayed", "loop", "van_der_pol", "troubled")
+MODELS = ("oscillator", "ball", "sampled", "delayed", "loop", "van_der_pol", "troubled", "nonautonomous")
 
 
 @pytest.mark.parametrize(
     ("program", "model"),
     [
         ("test_linear", "oscillator"),
+        ("test_order", "nonautonomous"),
         ("test_exchange", "oscillator"),
         ("test_integrator", "oscillator"),
         ("test_ball", "ball"),
