@@ -109,8 +109,8 @@ def _initial_equations(flat: FlatModel, scope: Scope, evaluator: Evaluator, solv
         for value in evaluator.elements(equation.residual, equation.domain, Frame(False))
         for residual in scalars(value)
     ]
-    # A given-up state with a fixed start is a condition on the states that are left.
-    fixed = [variable for variable in scope.given_up if variable.is_fixed]
+    # A fixed start of what is no state (any more) is a condition on the states.
+    fixed = [variable for variable in scope.algebraics if variable.is_fixed]
     starts = start_values(fixed, evaluator)
     raw += [ScalarEquation(v.symbol - start, v.flat.span) for v, start in zip(fixed, starts, strict=True)]
     replaced = solved.replace([equation.residual for equation in raw])

@@ -138,6 +138,21 @@ def test_initial_equations_linear_and_steady_state():
     assert (run.at("x"), run.at("y")) == (3.0, 7.0)
 
 
+def test_fixed_start_of_an_algebraic_variable_determines_the_state():
+    model = body(
+        "Real T(start = 300, fixed = true); Real h(start = 3e5); equation h = 1000*T + 0.5*T^2; der(h) = -1000;"
+    )
+    run = Runner(model)
+    assert (run.at("h"), run.at("T")) == pytest.approx((345000, 300), rel=1e-9)
+    assert run.run(1).at("T") == pytest.approx(-1000 + (1e6 + 2 * 344000) ** 0.5, rel=1e-9)
+
+
+def test_derivative_of_an_algebraic_expression():
+    model = body("Real x(start = 0, fixed = true); Real y; Real a; equation der(x) = 2; y = x^2; a = der(y);")
+    assert model.symbols.x.numel() == 1
+    assert Runner(model).run(1).at("a") == pytest.approx(8, rel=1e-9)
+
+
 def test_nonlinear_initial_equation_is_left_to_newton():
     model = body("Real x(start = 1); initial equation x^3 + x = 10; equation der(x) = -x;")
     assert model.symbols.i.numel() == 1
