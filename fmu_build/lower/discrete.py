@@ -7,7 +7,7 @@ import casadi as ca
 
 from fmu_build.errors import BuildError
 from fmu_build.front import expression as ex
-from fmu_build.front.flat_model import Activation, DiscreteEquation, FlatModel
+from fmu_build.front.flat_model import Activation, FlatModel
 from fmu_build.front.flat_model import Scalar as ScalarKind
 from fmu_build.lower.continuous import Solved
 from fmu_build.lower.evaluate import Evaluator, Frame
@@ -118,12 +118,9 @@ class DiscretePart:
         result: Value = self._scope.reference(name, ex.Form.PRE, span)
         for equation in reversed(equations):
             value = self._evaluator.value(equation.value, self._frame)
-            result = value if equation.activation is None else choose(self._condition(equation), value, result)
+            activation = equation.activation
+            result = value if activation is None else choose(self._is_active(activation), value, result)
         return scalars(result)
-
-    def _condition(self, equation: DiscreteEquation) -> Scalar:
-        assert equation.activation is not None
-        return self._is_active(equation.activation)
 
     def _reinitialised_states(self) -> list[Scalar]:
         for reinit in self._flat.reinits:

@@ -5,7 +5,6 @@ from dataclasses import dataclass
 
 import casadi as ca
 
-from fmu_build.front.flat_model import FlatVariable, Role
 from fmu_build.front.flat_model import Scalar as ScalarKind
 from fmu_build.lower.evaluate import Evaluator
 from fmu_build.lower.ode_model import Causality, Initial, ScalarType, Variability, Variable, Vector
@@ -113,7 +112,3 @@ def _times_second(denominator: str) -> str:
             factors[k] = f"s{int(factor[1:] or 1) + 1}"
             return ".".join(factors)
     return ".".join([*factors, "s"])
-
-
-def causality_of(flat: FlatVariable) -> Causality:
-    return "input" if flat.is_input and flat.role is Role.INPUT else "output" if flat.is_output else "local"

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from fmu_build.front.expression import Span
+from fmu_build.front.session import WRAPPER
 
 
 class Places:
@@ -14,6 +15,8 @@ class Places:
     def __init__(self, source_map: Mapping[str, Any]) -> None:
         self._files: dict[int, tuple[Path, list[int]]] = {}
         for number, name, text in source_map["files"]:
+            if Path(name).stem == WRAPPER:  # nothing a user has written
+                continue
             starts = [0]
             for line in text.encode().split(b"\n"):
                 starts.append(starts[-1] + len(line) + 1)
