@@ -18,10 +18,10 @@ h2 { font-size: 1.25rem; margin: 2.5rem 0 .5rem; border-bottom: 1px solid var(--
 p, li { max-width: 46rem; } .lead { color: var(--quiet); margin-top: 0; }
 .note { border-left: 4px solid #d08700; padding: .1rem 0 .1rem .9rem; margin: 1rem 0; }
 .scroll { overflow-x: auto; }
-table { border-collapse: collapse; font-variant-numeric: tabular-nums; font-size: .9rem; margin: .8rem 0; }
+table { border-collapse: collapse; font-variant-numeric: tabular-nums; font-size: .86rem; margin: .8rem 0; }
 caption { text-align: left; color: var(--quiet); padding-bottom: .3rem; }
-th, td { padding: .18rem .6rem; text-align: right; border-bottom: 1px solid var(--line); }
-td { white-space: nowrap; } th { font-weight: 600; vertical-align: bottom; min-width: 4rem; }
+th, td { padding: .18rem .45rem; text-align: right; border-bottom: 1px solid var(--line); }
+td { white-space: nowrap; } th { font-weight: 600; vertical-align: bottom; min-width: 2.6rem; }
 td.beyond { background: var(--mark); color: var(--fail); }
 td.fail { color: var(--fail); font-weight: 600; } td.pass { color: var(--pass); }
 figure { margin: 1.2rem 0; } figure img { width: 100%; height: auto; background: #fff; border-radius: 4px; }

@@ -76,7 +76,7 @@ def explain(rows: tuple[Difference, ...], table: str) -> list[str]:
         "up to the whole limit of Table 1.3.",
         f"Is that all? By the triangle inequality the two comparisons may differ by the fit's own misfit, number by "
         f"number. Beyond it, and beyond the rounding of the printed tables, there remain {excess_db:.2f} dB and "
-        f"{excess_deg:.1f} deg at most over {len(rows)} tests; nothing else speaks for a model other than the thesis'.",
+        f"{excess_deg:.1f} deg at most over {len(rows)} tests; by these numbers, this can be the thesis' model.",
         f"Verdicts that differ from Table {table}: {', '.join(other) if other else 'none'}.",
     ]
 
