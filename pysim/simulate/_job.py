@@ -26,6 +26,8 @@ JOB = np.dtype(
     ]
 )
 
+_FIELDS = {section: JOB[section].names or () for section in JOB.names or ()}
+
 
 class Job:
     """One run. Native code gets `record` (1,) of JOB."""
@@ -37,11 +39,14 @@ class Job:
 
     def put(self, section: str, values: Mapping[str, Any]) -> None:
         """Fill a section, zero where `values` is silent; an array is kept alive and its address stored."""
-        for name, value in values.items():
+        row = []
+        for name in _FIELDS[section]:
+            value = values.get(name, 0)
             if isinstance(value, np.ndarray):
                 self._arrays[section, name] = value
-        zeros = dict.fromkeys(JOB[section].names or (), 0)
-        self.record[section] = tuple({**zeros, **{name: _plain(value) for name, value in values.items()}}.values())
+                value = _address(value)
+            row.append(value)
+        self.record[section] = tuple(row)
 
     def array(self, section: str, name: str) -> np.ndarray:
         """An array that was put in."""
@@ -56,10 +61,7 @@ class Job:
         return {name: int(self.number("run", name)) for name in STATISTICS}
 
 
-def _plain(value: Any) -> Any:
-    """A number as it is, an array as its address."""
-    if not isinstance(value, np.ndarray):
-        return value
-    if not value.flags.c_contiguous:
+def _address(array: np.ndarray) -> int:
+    if not array.flags.c_contiguous:
         raise ValueError("native code reads arrays item after item: this one is not contiguous")
-    return value.__array_interface__["data"][0]
+    return array.ctypes.data
