@@ -19,7 +19,7 @@ from pysim.types import (
     SineTest,
 )
 
-# The stiff method takes long steps where nothing happens; at these tolerances the four numbers of a test of the pump are
+# The stiff method takes long steps where nothing happens; at these tolerances the four numbers of the pump's tests are
 # within 0.002 dB and 0.01 degrees of those at 1e-8.
 SOLVER = Rodas(rtol=1e-5, atol=1e-5)
 
