@@ -1,10 +1,6 @@
-/* The integrator's order with fixed steps: 5 at the end of a step, 4 for the dense output inside; and the linear solver
-   it stands on. */
-#include <string.h>
-
+/* The integrator's order with fixed steps: 5 at the end of a step, 4 for the dense output inside. */
 #include "check.h"
 #include "instance.h"
-#include "linear.h"
 #include "rodas.h"
 
 /* Largest error over [0, 2] with n steps: at their ends, and within them. */
@@ -35,31 +31,7 @@ static void has_the_order_it_claims(void) {
     }
 }
 
-/* A 5 x 5 matrix that needs its rows exchanged at nearly every pivot; A x and A' x are undone exactly enough. */
-static void solves_linear_systems(void) {
-    enum { N = 5 };
-    double a[N * N], lu[N * N], b[N], c[N];
-    int pivot[N];
-    for (int j = 0; j < N; j++)
-        for (int i = 0; i < N; i++) a[j * N + i] = sin(1.0 + 7.0 * i + 3.0 * i * j) + (i == (j + 2) % N ? 4.0 : 0.0);
-    for (int i = 0; i < N; i++) {
-        b[i] = c[i] = 0.0;
-        for (int j = 0; j < N; j++) b[i] += a[j * N + i] * (j - 1.5), c[i] += a[i * N + j] * (j - 1.5);
-    }
-    memcpy(lu, a, sizeof a);
-    CHECK(lu_factor(N, lu, pivot));
-    lu_solve(N, lu, pivot, b);
-    lu_solve_transposed(N, lu, pivot, c);
-    for (int i = 0; i < N; i++) {
-        CHECK_NEAR(b[i], i - 1.5, 1e-13);
-        CHECK_NEAR(c[i], i - 1.5, 1e-13);
-    }
-    memset(lu, 0, sizeof lu);
-    CHECK(!lu_factor(N, lu, pivot));
-}
-
 int main(void) {
     has_the_order_it_claims();
-    solves_linear_systems();
     return 0;
 }
