@@ -52,7 +52,9 @@ class Experiment:
             raise BadInput("experiment: name at least one variable to record")
         for name, of in self.rates.items():
             if of not in self.inputs or name in self.inputs:
-                raise BadInput(f"experiment: {name!r} can be the rate of an input only, and have no signal of its own; got {of!r}")
+                raise BadInput(
+                    f"experiment: {name!r} is to carry the rate of {of!r}; give {of!r} a signal, and {name!r} none"
+                )
 
     def override(self, **values: float) -> Experiment:
         """The same experiment with more parameters set."""
