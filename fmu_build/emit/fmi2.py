@@ -26,6 +26,7 @@ from .description import (
 from .structure import ModelStructure, Unknown, model_structure
 
 _ABILITIES = {
+    "canNotUseMemoryManagementFunctions": "true",  # the runtime takes its one block from calloc
     "canGetAndSetFMUstate": "true",
     "canSerializeFMUstate": "true",
     "providesDirectionalDerivative": "true",
