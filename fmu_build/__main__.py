@@ -2,6 +2,6 @@
 
 import sys
 
-from .cli import main
+from fmu_build.cli import main
 
 sys.exit(main())

@@ -6,9 +6,9 @@ from collections.abc import Mapping, Sequence
 from importlib.resources import files
 from pathlib import Path
 
-from .cache import cached, content_key, copy_whole, store
-from .errors import BuildError
-from .pack import Platform, check_writable, select_platforms
+from fmu_build.cache import cached, content_key, copy_whole, store
+from fmu_build.errors import BuildError
+from fmu_build.pack import Platform, check_writable, select_platforms
 
 BUNDLED_LIBRARY = "HydraulicTestBench"
 _NOTHING: Mapping[str, float | str] = {}
@@ -79,9 +79,9 @@ def _build_anew(
 ) -> Path:
     """Build into the cache. The heavy imports are here: a model that is in the cache does not wait for them."""
     _check_installation()
-    from .front import load
-    from .lower import lower
-    from .pack.fmu import pack
+    from fmu_build.front import load
+    from fmu_build.lower import lower
+    from fmu_build.pack.fmu import pack
 
     model = lower(load(class_name, libraries, overrides))
     with tempfile.TemporaryDirectory(prefix="fmu_build-") as folder:

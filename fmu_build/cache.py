@@ -10,7 +10,7 @@ from contextlib import suppress
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
-from .errors import BuildError
+from fmu_build.errors import BuildError
 
 FOLDER_VARIABLE = "HTB_CACHE"
 KEPT_FMUS = 200

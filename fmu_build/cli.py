@@ -7,8 +7,8 @@ import traceback
 from collections.abc import Sequence
 from pathlib import Path
 
-from .build import build
-from .errors import BuildError
+from fmu_build.build import build
+from fmu_build.errors import BuildError
 
 DONE, WRONG_USE, OUR_BUG = 0, 2, 3
 

@@ -1,10 +1,10 @@
 """Code generation: OdeModel -> model.c and modelDescription.xml, from one variable table."""
 
-from .c_source import c_source
-from .description import Description, model_identifier
-from .fmi2 import fmi2_description
-from .fmi3 import fmi3_build_description, fmi3_description
-from .table import complete_table
+from fmu_build.emit.c_source import c_source
+from fmu_build.emit.description import Description, model_identifier
+from fmu_build.emit.fmi2 import fmi2_description
+from fmu_build.emit.fmi3 import fmi3_build_description, fmi3_description
+from fmu_build.emit.table import complete_table
 
 __all__ = [
     "Description",

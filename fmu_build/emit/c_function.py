@@ -5,7 +5,7 @@ from collections.abc import Callable, Sequence
 
 import casadi as ca
 
-from .graph import SELECT, Graph, Node, expression_graph
+from fmu_build.emit.graph import SELECT, Graph, Node, expression_graph
 
 # Members of `enum Argument`, in its order; the lower-case name is the local pointer in the C text.
 ARGUMENTS = (

@@ -2,10 +2,10 @@
 
 from collections.abc import Iterable, Sequence
 
-from ..lower.ode_model import Check, OdeModel, Variable, Vector
-from .c_function import c_function, c_number
-from .functions import model_functions
-from .hoist import hoist_parameters
+from fmu_build.emit.c_function import c_function, c_number
+from fmu_build.emit.functions import model_functions
+from fmu_build.emit.hoist import hoist_parameters
+from fmu_build.lower.ode_model import Check, OdeModel, Variable, Vector
 
 _CAUSALITY = {
     "independent": "INDEPENDENT",

@@ -6,10 +6,10 @@ from dataclasses import dataclass
 from xml.etree import ElementTree
 from xml.etree.ElementTree import Element
 
-from ..errors import BuildError
-from ..lower.ode_model import DefaultExperiment, OdeModel, ScalarType, Variable
-from .influence import Layout, direct_influence
-from .units import BASE_UNITS, conversion, parse_unit
+from fmu_build.emit.influence import Layout, direct_influence
+from fmu_build.emit.units import BASE_UNITS, conversion, parse_unit
+from fmu_build.errors import BuildError
+from fmu_build.lower.ode_model import DefaultExperiment, OdeModel, ScalarType, Variable
 
 GENERATION_TOOL = "fmu_build"
 LOG_CATEGORIES = {  # as in runtime/src/log.c

@@ -2,8 +2,7 @@
 
 from xml.etree.ElementTree import Element
 
-from ..lower.ode_model import OdeModel, Variable
-from .description import (
+from fmu_build.emit.description import (
     GENERATION_TOOL,
     Description,
     add,
@@ -22,7 +21,8 @@ from .description import (
     unit_attributes,
     xml_type,
 )
-from .structure import ModelStructure, Unknown, model_structure
+from fmu_build.emit.structure import ModelStructure, Unknown, model_structure
+from fmu_build.lower.ode_model import OdeModel, Variable
 
 _ABILITIES = {
     "canGetAndSetFMUState": "true",

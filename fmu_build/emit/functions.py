@@ -4,7 +4,7 @@ from dataclasses import dataclass, fields
 
 import casadi as ca
 
-from ..lower.ode_model import OdeModel, Symbols
+from fmu_build.lower.ode_model import OdeModel, Symbols
 
 
 @dataclass(frozen=True)

@@ -5,9 +5,9 @@ from dataclasses import dataclass
 
 import casadi as ca
 
-from ..lower.ode_model import OdeModel, ScalarType, Variable
-from .influence import Influence, Layout, direct_influence, initial_influence, running_influence
-from .table import derivative_rows, indicator_rows
+from fmu_build.emit.influence import Influence, Layout, direct_influence, initial_influence, running_influence
+from fmu_build.emit.table import derivative_rows, indicator_rows
+from fmu_build.lower.ode_model import OdeModel, ScalarType, Variable
 
 
 @dataclass(frozen=True)

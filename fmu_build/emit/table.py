@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import casadi as ca
 
-from ..lower.ode_model import OdeModel, ScalarType, Variable
+from fmu_build.lower.ode_model import OdeModel, ScalarType, Variable
 
 TIME = Variable(
     name="time",

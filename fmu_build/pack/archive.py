@@ -7,7 +7,7 @@ import zipfile
 from collections.abc import Callable, Mapping
 from pathlib import Path
 
-from ..errors import BuildError
+from fmu_build.errors import BuildError
 
 _EARLIEST = (1980, 1, 1, 0, 0, 0)  # the first time a zip file can state
 _UNIX = 3

@@ -5,8 +5,8 @@ import subprocess
 from collections.abc import Sequence
 from pathlib import Path
 
-from ..errors import BuildError
-from .platforms import Platform
+from fmu_build.errors import BuildError
+from fmu_build.pack.platforms import Platform
 
 FLAGS = (
     *("-std=c11", "-Wall", "-Wextra", "-Wpedantic", "-Werror"),

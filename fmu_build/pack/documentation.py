@@ -4,7 +4,7 @@ import re
 from collections.abc import Iterable
 from html import escape
 
-from ..lower.ode_model import OdeModel, Variable
+from fmu_build.lower.ode_model import OdeModel, Variable
 
 _STYLE = """body { font-family: sans-serif; max-width: 60em; margin: 2em auto; padding: 0 1em; }
 table { border-collapse: collapse; } th, td { text-align: left; padding: 0.2em 0.8em; border-bottom: 1px solid #ccc; }

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from itertools import groupby
 from pathlib import Path
 
-from ..emit import (
+from fmu_build.emit import (
     Description,
     c_source,
     complete_table,
@@ -16,14 +16,14 @@ from ..emit import (
     fmi3_description,
     model_identifier,
 )
-from ..errors import BuildError
-from ..lower.ode_model import OdeModel
-from .archive import check_writable, write_archive
-from .compiler import compile_shared
-from .documentation import documentation_page
-from .mach_o import fat_library
-from .platforms import Platform
-from .sources import Sources, sources_for
+from fmu_build.errors import BuildError
+from fmu_build.lower.ode_model import OdeModel
+from fmu_build.pack.archive import check_writable, write_archive
+from fmu_build.pack.compiler import compile_shared
+from fmu_build.pack.documentation import documentation_page
+from fmu_build.pack.mach_o import fat_library
+from fmu_build.pack.platforms import Platform
+from fmu_build.pack.sources import Sources, sources_for
 
 _NO_TOKEN = "{00000000-0000-0000-0000-000000000000}"
 _LICENSE = Path(__file__).with_name("license.txt")

@@ -5,7 +5,7 @@ import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from ..errors import BuildError
+from fmu_build.errors import BuildError
 
 
 @dataclass(frozen=True)

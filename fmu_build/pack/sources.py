@@ -4,7 +4,7 @@ import importlib.util
 from dataclasses import dataclass
 from pathlib import Path
 
-from ..errors import BuildError
+from fmu_build.errors import BuildError
 
 RUNTIME = Path(__file__).parents[1] / "runtime"
 
