@@ -3,11 +3,11 @@
 from pysim.types.comparison import Comparison, ResponseComparison
 from pysim.types.criterion import Criterion, Deviation
 from pysim.types.dataset import Dataset, MeasuredRecord, MeasuredSignal
-from pysim.types.errors import BadInput, SimulationError
+from pysim.types.errors import BadInput
 from pysim.types.experiment import Experiment
 from pysim.types.frequency_response import FrequencyResponse
 from pysim.types.model import Abilities, Model, Variable
-from pysim.types.record import Outcome, Record
+from pysim.types.record import Outcome, Record, SimulationError
 from pysim.types.signal import Signal
 from pysim.types.sine_test import SineTest
 

@@ -64,3 +64,11 @@ class Record:
         if name not in self.names:
             raise BadInput(f"record has no signal {name!r}; it has {', '.join(self.names)}")
         return self.values[:, self.names.index(name)]
+
+
+class SimulationError(RuntimeError):
+    """A run stopped early. `record` holds the part that was reached."""
+
+    def __init__(self, message: str, record: Record) -> None:
+        super().__init__(message)
+        self.record = record
