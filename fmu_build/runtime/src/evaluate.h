@@ -18,6 +18,7 @@ static inline void changed_discrete(Instance *s) { s->memory->computed &= HAS_ST
 
 static inline bool is_computed(const Instance *s, Computed what) { return s->memory->computed & (uint32_t)what; }
 static inline void set_computed(Instance *s, Computed what) { s->memory->computed |= (uint32_t)what; }
+static inline void clear_computed(Instance *s, Computed what) { s->memory->computed &= ~(uint32_t)what; }
 
 /* Name of the first variable kept at `index` of a vector, for messages. */
 const char *variable_name(const Instance *s, Vector vector, size_t index);

@@ -73,13 +73,8 @@ static void lay_out_integrator(Instance *s, Arena *a) {
     w->rate = doubles(a, n_x);
     w->stages = doubles(a, n_x * RODAS_STAGES);
     w->iteration = doubles(a, n_x * n_x);
-    w->j_xx = doubles(a, n_x * n_x);
-    w->j_xq = doubles(a, n_x * n_q);
-    w->j_qx = doubles(a, n_q * n_x);
-    w->j_qq = doubles(a, n_q * n_q);
     w->dg_dt = doubles(a, n_q);
     w->pivot_x = take(a, n_x, sizeof(int));
-    w->pivot_q = take(a, n_q, sizeof(int));
     w->z_before = doubles(a, s->model->n_r);
     w->z_after = doubles(a, s->model->n_r);
     w->z_between = doubles(a, s->model->n_r);
@@ -124,8 +119,16 @@ static void lay_out_derivatives(Instance *s, Arena *a) {
     w->out_p = doubles(a, m->n_p);
     w->out_q = doubles(a, m->n_q);
     w->out_v = doubles(a, m->n_v);
-    w->jacobian = doubles(a, m->n_q * m->n_q);
-    w->pivot = take(a, m->n_q, sizeof(int));
+}
+
+static void lay_out_jacobian(Instance *s, Arena *a) {
+    const size_t n_x = s->model->n_x, n_q = s->model->n_q;
+    JacobianWork *w = &s->jacobian;
+    w->xx = doubles(a, n_x * n_x);
+    w->xq = doubles(a, n_x * n_q);
+    w->qx = doubles(a, n_q * n_x);
+    w->qq = doubles(a, n_q * n_q);
+    w->pivot = take(a, n_q, sizeof(int));
 }
 
 static void lay_out(Instance *s, Arena *a) {
@@ -141,6 +144,7 @@ static void lay_out(Instance *s, Arena *a) {
     lay_out_integrator(s, a);
     lay_out_events(s, a);
     lay_out_derivatives(s, a);
+    lay_out_jacobian(s, a);
 }
 
 static void point_arguments(Instance *s) {

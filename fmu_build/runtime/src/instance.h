@@ -33,7 +33,8 @@ typedef enum {
     HAS_Q = 1 << 3,
     HAS_DX = 1 << 4,
     HAS_W = 1 << 5,
-    HAS_Z = 1 << 6
+    HAS_Z = 1 << 6,
+    HAS_JACOBIAN = 1 << 7
 } Computed;
 
 /* One delay(): its history lies in a ring of DELAY_CAPACITY points. */
@@ -72,8 +73,8 @@ typedef struct {
     double *x_start, *x_end, *x_stage;       /* n_x */
     double *stages;                          /* n_x for each stage of the method */
     double *rate, *dg_dt;                    /* df/dt (n_x), dg/dt (n_q) */
-    double *iteration, *j_xx, *j_xq, *j_qx, *j_qq;
-    int *pivot_x, *pivot_q;
+    double *iteration;                       /* n_x x n_x */
+    int *pivot_x;
     double *z_before, *z_after, *z_between;  /* event indicators (n_r) while a crossing is searched for */
     double *z_looks;                         /* those at CROSSING_LOOKS + 1 points of the step */
 } IntegratorWork;
@@ -88,9 +89,14 @@ typedef struct {
 typedef struct {
     double *seed_x, *seed_u, *seed_p, *seed_v, *seed_q, *weight_dx, *weight_w, *weight_g;
     double *out_dx, *out_w, *out_g, *out_x, *out_u, *out_p, *out_q, *out_v;
-    double *jacobian;
-    int *pivot;
 } DerivativeWork;
+
+/* Partial derivatives at one point, column-major: of the derivatives by x, while q follows, and by q; of the residuals
+   g by x, turned into -dq/dx, and by q, factored. */
+typedef struct {
+    double *xx, *xq, *qx, *qq;
+    int *pivot;
+} JacobianWork;
 
 typedef struct Instance Instance;
 
@@ -124,6 +130,7 @@ struct Instance {
     IntegratorWork integrator;
     EventWork event;
     DerivativeWork derivative;
+    JacobianWork jacobian;
     char *backup; /* memory before a communication step */
 
     /* Co-simulation, FMI 3. */

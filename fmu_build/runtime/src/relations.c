@@ -37,7 +37,7 @@ static Status update_relations_of_time(Instance *s, bool *changed) {
     double *res[] = {s->z};
     Status status = call_model(s, s->model->indicators, res);
     *s->t = now;
-    s->memory->computed &= ~(uint32_t)HAS_Z;
+    clear_computed(s, HAS_Z);
     for (size_t k = 0; k < s->model->n_r && status == STATUS_OK; k++)
         if (s->model->relations[k].of_time) status = set_relation(s, k, s->z[k], changed);
     return status;

@@ -6,6 +6,7 @@
 #include "delay.h"
 #include "evaluate.h"
 #include "linear.h"
+#include "linearise.h"
 
 /* Coefficients for the transformed stages U (E. Hairer, G. Wanner, Solving Ordinary Differential Equations II,
    Section IV.7), which save the products with the Jacobian:
@@ -62,29 +63,6 @@ static Status add_delay_rates(Instance *s) {
     return status;
 }
 
-/* y -= M * column, with M of n_x rows and n_q columns. */
-static void subtract_product(size_t n_x, size_t n_q, const double *matrix, const double *column, double *y) {
-    for (size_t j = 0; j < n_q; j++)
-        for (size_t i = 0; i < n_x; i++) y[i] -= matrix[j * n_x + i] * column[j];
-}
-
-/* Eliminates q from the Jacobian and df/dt: with g(x, q, t) = 0, dq = -g_q^-1 (g_x dx + g_t dt). */
-static Status eliminate_blocks(Instance *s) {
-    const size_t n_x = s->model->n_x, n_q = s->model->n_q;
-    IntegratorWork *w = &s->integrator;
-    if (n_q == 0) return STATUS_OK;
-    double *res[] = {NULL, w->j_qq};
-    if (call_model(s, s->model->residual, res) != STATUS_OK) return STATUS_DISCARD;
-    if (!lu_factor(n_q, w->j_qq, w->pivot_q)) return STATUS_DISCARD;
-    for (size_t j = 0; j < n_x; j++) {
-        lu_solve(n_q, w->j_qq, w->pivot_q, w->j_qx + j * n_q);
-        subtract_product(n_x, n_q, w->j_xq, w->j_qx + j * n_q, w->j_xx + j * n_x);
-    }
-    lu_solve(n_q, w->j_qq, w->pivot_q, w->dg_dt);
-    subtract_product(n_x, n_q, w->j_xq, w->dg_dt, w->rate);
-    return STATUS_OK;
-}
-
 Status rodas_begin(Instance *s) {
     IntegratorWork *w = &s->integrator;
     w->begin = *s->t;
@@ -92,10 +70,9 @@ Status rodas_begin(Instance *s) {
     if (s->model->n_x == 0) return STATUS_OK;
     memcpy(w->x_start, s->x, s->model->n_x * sizeof *s->x);
     Status status = evaluate_derivatives(s);
-    double *res[] = {w->j_xx, w->j_xq, w->j_qx, w->rate, w->dg_dt};
-    if (status == STATUS_OK) status = call_model(s, s->model->jacobian, res);
+    if (status == STATUS_OK) status = linearise(s, w->rate, w->dg_dt);
     if (status == STATUS_OK) status = add_delay_rates(s);
-    if (status == STATUS_OK) status = eliminate_blocks(s);
+    if (status == STATUS_OK) let_blocks_follow(s, w->rate, w->dg_dt);
     return status;
 }
 
@@ -103,7 +80,7 @@ Status rodas_begin(Instance *s) {
 static bool factor_iteration_matrix(Instance *s, double h) {
     const size_t n = s->model->n_x;
     IntegratorWork *w = &s->integrator;
-    for (size_t k = 0; k < n * n; k++) w->iteration[k] = -w->j_xx[k];
+    for (size_t k = 0; k < n * n; k++) w->iteration[k] = -s->jacobian.xx[k];
     for (size_t k = 0; k < n; k++) w->iteration[k * n + k] += 1.0 / (GAMMA * h);
     return lu_factor(n, w->iteration, w->pivot_x);
 }

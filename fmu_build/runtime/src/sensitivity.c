@@ -5,6 +5,7 @@
 #include "evaluate.h"
 #include "initialise.h"
 #include "linear.h"
+#include "linearise.h"
 #include "variables.h"
 
 static void clear(double *values, size_t n) {
@@ -89,17 +90,27 @@ static Status prepare(Instance *s, const char *function) {
     return evaluate_unknowns(s);
 }
 
-static Status factor_blocks(Instance *s) {
-    DerivativeWork *w = &s->derivative;
-    double *res[] = {NULL, w->jacobian};
-    if (call_model(s, s->model->residual, res) == STATUS_OK && lu_factor(s->model->n_q, w->jacobian, w->pivot))
-        return STATUS_OK;
-    log_message(s, LOG_DISCARD, "The non-linear equations are singular at time %.16g s.", *s->t);
-    return STATUS_DISCARD;
-}
-
 static void negate(double *values, size_t n) {
     for (size_t k = 0; k < n; k++) values[k] = -values[k];
+}
+
+static bool all_in(const Instance *s, const uint32_t *references, size_t n, Vector vector) {
+    for (size_t k = 0; k < n; k++)
+        if (s->model->variables[references[k]].vector != vector) return false;
+    return true;
+}
+
+/* Derivatives by states, as an integrator asks for them state by state: all of them come from one Jacobian. */
+static Status jacobian_times(Instance *s, const Partials *partials, const double *seed, double *change) {
+    const ModelVariable *variables = s->model->variables;
+    if (evaluate_jacobian(s) != STATUS_OK) return STATUS_DISCARD;
+    for (size_t i = 0; i < partials->n_unknowns; i++) change[i] = 0.0;
+    for (size_t j = 0; j < partials->n_knowns; j++) {
+        const double *column = s->jacobian.xx + variables[partials->knowns[j]].index * s->model->n_x;
+        for (size_t i = 0; i < partials->n_unknowns; i++)
+            change[i] += column[variables[partials->unknowns[i]].index] * seed[j];
+    }
+    return STATUS_OK;
 }
 
 /* Outputs and all that is kept with them cost more than the derivatives: their tangents only if one is asked for. */
@@ -118,7 +129,7 @@ static Status tangents(Instance *s, bool with_w) {
         if (factor_blocks(s) != STATUS_OK) return STATUS_DISCARD;
         if (call_model(s, s->model->forward, res_g) != STATUS_OK) return STATUS_DISCARD;
         memcpy(w->seed_q, w->out_g, n_q * sizeof *w->out_g);
-        lu_solve(n_q, w->jacobian, w->pivot, w->seed_q);
+        lu_solve(n_q, s->jacobian.qq, s->jacobian.pivot, w->seed_q);
         negate(w->seed_q, n_q);
     }
     double *res[] = {w->out_dx, with_w ? w->out_w : NULL, NULL};
@@ -134,7 +145,7 @@ static Status weights(Instance *s) {
         if (factor_blocks(s) != STATUS_OK) return STATUS_DISCARD;
         if (call_model(s, s->model->reverse, res_q) != STATUS_OK) return STATUS_DISCARD;
         memcpy(w->weight_g, w->out_q, n_q * sizeof *w->out_q);
-        lu_solve_transposed(n_q, w->jacobian, w->pivot, w->weight_g);
+        lu_solve_transposed(n_q, s->jacobian.qq, s->jacobian.pivot, w->weight_g);
         negate(w->weight_g, n_q);
     }
     double *res[] = {w->out_x, w->out_u, w->out_p, NULL, NULL};
@@ -151,6 +162,9 @@ Status directional_derivative(Instance *s, const char *function, const Partials 
         status = check_references(s, function, partials->unknowns, partials->n_unknowns, &results, "an unknown");
     if (status == STATUS_OK) status = prepare(s, function);
     if (status != STATUS_OK) return status;
+    if (all_in(s, partials->knowns, partials->n_knowns, VECTOR_X) &&
+        all_in(s, partials->unknowns, partials->n_unknowns, VECTOR_DX))
+        return jacobian_times(s, partials, seed, change);
     add_seeds(s, partials->knowns, partials->n_knowns, &seeds, seed);
     status = tangents(s, any_in(s, partials->unknowns, partials->n_unknowns, VECTOR_W));
     if (status == STATUS_OK) read_results(s, partials->unknowns, partials->n_unknowns, &results, change);

@@ -27,6 +27,8 @@ static const ModelVariable variables[] = {
     {"time", 0, VECTOR_T, TYPE_REAL, INDEPENDENT, CONTINUOUS, INITIAL_NONE},
     {"y", 0, VECTOR_X, TYPE_REAL, OUTPUT, CONTINUOUS, INITIAL_EXACT},
     {"v", 1, VECTOR_X, TYPE_REAL, OUTPUT, CONTINUOUS, INITIAL_EXACT},
+    {"der(y)", 0, VECTOR_DX, TYPE_REAL, LOCAL, CONTINUOUS, INITIAL_CALCULATED},
+    {"der(v)", 1, VECTOR_DX, TYPE_REAL, LOCAL, CONTINUOUS, INITIAL_CALCULATED},
     {"eps", 0, VECTOR_P, TYPE_REAL, PARAMETER, FIXED, INITIAL_EXACT},
 };
 static const double start_x[] = {2.0, 0.0}, start_p[] = {1e-6}, nominal_x[] = {1.0, 1.0};
