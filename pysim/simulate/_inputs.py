@@ -42,6 +42,8 @@ def input_arrays(model: Model, experiment: Experiment) -> dict[str, Any]:
     """What INPUTS points to."""
     driven = [(name, signal, 0) for name, signal in experiment.inputs.items()]
     driven += [(name, experiment.inputs[of], 1) for name, of in experiment.rates.items()]
+    if not driven:
+        return {"count": 0}
     signals = [signal for _, signal, _ in driven]
     present = [signal.sines[..., 0] != 0 for signal in signals]
     pieces = _offsets([signal.starts.size for signal in signals])
@@ -50,10 +52,10 @@ def input_arrays(model: Model, experiment: Experiment) -> dict[str, Any]:
         "references": np.array([model[name].reference for name, _, _ in driven], dtype=np.uint32),
         "rate": np.array([rate for _, _, rate in driven], dtype=np.int64),
         "pieces": pieces,
-        "starts": np.concatenate([np.zeros(0), *(s.starts for s in signals)]),
-        "cubics": np.concatenate([np.zeros((0, 4)), *(s.cubics for s in signals)]),
-        "waves": _offsets(np.concatenate([np.zeros(0), *(p.sum(axis=1) for p in present)])),
-        "sines": np.concatenate([np.zeros((0, 4)), *(s.sines[p] for s, p in zip(signals, present, strict=True))]),
+        "starts": np.concatenate([s.starts for s in signals]),
+        "cubics": np.concatenate([s.cubics for s in signals]),
+        "waves": _offsets(np.concatenate([p.sum(axis=1) for p in present])),
+        "sines": np.concatenate([s.sines[p] for s, p in zip(signals, present, strict=True)]),
         "cursor": pieces[:-1].copy(),
         "values": np.zeros(len(driven)),
     }

@@ -7,11 +7,12 @@ from typing import Any
 
 import numpy as np
 
+from pysim.simulate._base import Solver
 from pysim.simulate._fmu_calls import FMU
 from pysim.simulate._inputs import BREAKS, INPUTS
 from pysim.simulate._method import METHOD
 from pysim.simulate._recording import ROWS
-from pysim.simulate._state import CONTROL, RUN, STATISTICS, WORK
+from pysim.simulate._state import CONTROL, RUN, SCRATCH, STATISTICS, WORK
 
 JOB = np.dtype(
     [
@@ -30,11 +31,17 @@ _FIELDS = {section: JOB[section].names or () for section in JOB.names or ()}
 
 
 class Job:
-    """One run. Native code gets `record` (1,) of JOB."""
+    """One run, and then the next. Native code gets `record` (1,) of JOB."""
 
-    def __init__(self, start: float, end: float) -> None:
+    def __init__(self, solver: Solver) -> None:
+        self.solver = solver
         self.record = np.zeros(1, dtype=JOB)
         self._arrays: dict[tuple[str, str], np.ndarray] = {}
+
+    def restart(self, start: float, end: float) -> None:
+        """Forget the run before; times in s. What `put` was given stays."""
+        for name in SCRATCH:
+            self._arrays["work", name].fill(0.0)
         self.put("run", {"start": start, "end": end, "t": start, "segment": -1, "jacobian_at": np.nan})
 
     def put(self, section: str, values: Mapping[str, Any]) -> None:
@@ -64,4 +71,5 @@ class Job:
 def _address(array: np.ndarray) -> int:
     if not array.flags.c_contiguous:
         raise ValueError("native code reads arrays item after item: this one is not contiguous")
-    return array.ctypes.data
+    address: int = array.__array_interface__["data"][0]  # a fifth of the time of array.ctypes.data
+    return address

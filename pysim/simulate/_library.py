@@ -17,8 +17,10 @@ from fmpy.fmi2 import FMU2Model
 from fmpy.fmi3 import FMU3Model
 
 from pysim.io import extracted
-from pysim.simulate._fmu_calls import FUNCTIONS
+from pysim.simulate._fmu_calls import ERROR, FATAL, FUNCTIONS, OK
+from pysim.simulate._job import Job
 from pysim.simulate._messages import Mailbox
+from pysim.simulate._recording import row_layout
 from pysim.simulate._sparsity import jacobian_arrays
 from pysim.types import BadInput, Model
 
@@ -35,7 +37,7 @@ _SETTERS = {
     },
 }
 
-_FATAL = 4
+_REALS = frozenset({"Real", "Float32", "Float64"})
 _loading = threading.Lock()  # FMPy changes the working directory while it loads
 
 
@@ -49,11 +51,25 @@ class CallFailed(RuntimeError):
 
 
 class Instance:
-    """An FMU between instantiation and release."""
+    """One instance of an FMU, used for run after run, by one thread at a time.
+
+    Between runs it is reset, which the standard defines to give what a new instance is. An FMU that refuses to be
+    reset, or that reported an error, is instantiated anew.
+    """
 
     def __init__(self, library: Library, fmu: Any, mailbox: Mailbox) -> None:
         self.model, self.jacobian, self.fmu, self.mailbox = library.model, library.jacobian, fmu, mailbox
-        self.lost = False  # after a fatal error nothing may be called any more
+        self.status = OK  # worst one of the run; after a fatal error nothing may be called any more
+        self.job: Job | None = None  # memory of the run before
+        self._alive, self._can_reset = False, True
+        self._rows: dict[tuple[str, ...], dict[str, Any]] = {}
+        version = self.model.abilities.fmi
+        self._addresses = {
+            "version": version,
+            "needs_completed_step": self.model.abilities.needs_completed_step,
+            "answers": np.zeros(4),
+            **{name: self.address(functions[version - 2]) for name, functions in FUNCTIONS.items()},
+        }
 
     def address(self, function: str) -> int:
         """Address of one of the library's functions."""
@@ -61,16 +77,48 @@ class Instance:
 
     def addresses(self) -> dict[str, Any]:
         """What native code needs to call this instance."""
-        version = self.model.abilities.fmi
-        return {
-            "version": version,
-            "instance": self.fmu.component,
-            "needs_completed_step": self.model.abilities.needs_completed_step,
-            "answers": np.zeros(4),
-            **{name: self.address(functions[version - 2]) for name, functions in FUNCTIONS.items()},
-        }
+        return {**self._addresses, "instance": self.fmu.component}
 
-    def initialise(self, overrides: Mapping[str, float], start: float, stop: float, tolerance: float | None) -> None:
+    def rows(self, names: tuple[str, ...]) -> dict[str, Any]:
+        """What native code needs to read these variables."""
+        if names not in self._rows:
+            self._rows[names] = row_layout(self.model, names, self.address)
+        return self._rows[names]
+
+    def renew(self) -> None:
+        """Be as new, whatever the run before did.
+
+        Raises:
+            CallFailed: the FMU could not be instantiated.
+        """
+        self.mailbox.empty()
+        self.status = OK
+        if self._alive and self._can_reset and self._reset():
+            return
+        self.release()
+        self.mailbox.empty()
+        try:
+            self.fmu.instantiate(**self.mailbox.callbacks)
+        except Exception as error:  # FMPy raises a bare Exception
+            raise CallFailed("the FMU could not be instantiated" + self.mailbox.text()) from error
+        self._alive = True
+
+    def _reset(self) -> bool:
+        try:
+            self.fmu.reset()
+        except FMICallException:
+            self._can_reset = False
+        return self._can_reset
+
+    def release(self) -> None:
+        """Free the instance; the library stays loaded."""
+        if self._alive:
+            (self.fmu.fmi2FreeInstance if self.model.abilities.fmi == 2 else self.fmu.fmi3FreeInstance)(
+                self.fmu.component
+            )
+        self._alive = False
+
+    def initialise(self, values: Mapping[str, float], start: float, stop: float, tolerance: float | None) -> None:
         """Set start values, go through initialisation mode, arrive in event mode.
 
         Raises:
@@ -78,8 +126,7 @@ class Instance:
         """
         fmu = self.fmu
         try:
-            for name, value in overrides.items():
-                self._set(name, value)
+            self._set(values)
             if self.model.abilities.fmi == 2:
                 fmu.setupExperiment(tolerance=tolerance, startTime=start, stopTime=stop)
                 fmu.enterInitializationMode()
@@ -87,27 +134,32 @@ class Instance:
                 fmu.enterInitializationMode(tolerance=tolerance, startTime=start, stopTime=stop)
             fmu.exitInitializationMode()
         except FMICallException as error:
-            self.lost = error.status >= _FATAL
+            self.status = max(self.status, error.status)
             raise CallFailed(str(error)) from error
 
-    def _set(self, name: str, value: float) -> None:
-        variable = self.model[name]
-        real = variable.type in ("Real", "Float32", "Float64")
-        setter = getattr(self.fmu, _SETTERS[self.model.abilities.fmi][variable.type])
-        setter([variable.reference], [float(value) if real else int(value)])
+    def _set(self, values: Mapping[str, float]) -> None:
+        """Set variables, in one call for each type."""
+        groups: dict[str, tuple[list[int], list[float]]] = {}
+        for name, value in values.items():
+            variable = self.model[name]
+            references, numbers = groups.setdefault(variable.type, ([], []))
+            references.append(variable.reference)
+            numbers.append(float(value) if variable.type in _REALS else int(value))
+        for kind, (references, numbers) in groups.items():
+            getattr(self.fmu, _SETTERS[self.model.abilities.fmi][kind])(references, numbers)
 
 
 class Library:
-    """A loaded FMU; makes instances, from any thread."""
+    """A loaded FMU; lends instances, to any thread."""
 
     def __init__(self, model: Model) -> None:
         self.model = model
         self.jacobian = jacobian_arrays(model)
-        self._idle: deque[tuple[Any, Mailbox]] = deque()
+        self._idle: deque[Instance] = deque()
         self._folder = extracted(model.path)
         _check_binary(model, self._folder)
 
-    def _load(self) -> tuple[Any, Mailbox]:
+    def _load(self) -> Instance:
         kind = FMU2Model if self.model.abilities.fmi == 2 else FMU3Model
         with _loading:
             fmu = kind(
@@ -116,36 +168,34 @@ class Library:
                 unzipDirectory=str(self._folder),
                 instanceName=self.model.name,
             )
-        return fmu, Mailbox(self.model.abilities.fmi)
+        return Instance(self, fmu, Mailbox(self.model.abilities.fmi))
 
     @contextmanager
     def instance(self) -> Iterator[Instance]:
-        """A new instance, freed at the end of the block.
+        """An instance that is as new, for the length of the block.
 
         Raises:
             CallFailed: the FMU could not be instantiated.
         """
         try:
-            fmu, mailbox = self._idle.popleft()
+            instance = self._idle.pop()
         except IndexError:
-            fmu, mailbox = self._load()
-        mailbox.empty()
-        instance = Instance(self, fmu, mailbox)
-        try:
-            fmu.instantiate(**mailbox.callbacks)
-        except Exception as error:  # FMPy raises a bare Exception
-            raise CallFailed("the FMU could not be instantiated" + mailbox.text()) from error
+            instance = self._load()
+        instance.renew()
         try:
             yield instance
         finally:
-            if not instance.lost:
-                (fmu.fmi2FreeInstance if self.model.abilities.fmi == 2 else fmu.fmi3FreeInstance)(fmu.component)
-                self._idle.append((fmu, mailbox))
+            if instance.status < FATAL:
+                if instance.status >= ERROR:
+                    instance.release()
+                self._idle.append(instance)
 
     def close(self) -> None:
-        """Unload the shared library."""
+        """Free the instances and unload the shared library."""
         while self._idle:
-            self._idle.popleft()[0].freeLibrary()
+            instance = self._idle.pop()
+            instance.release()
+            instance.fmu.freeLibrary()
 
 
 @contextmanager

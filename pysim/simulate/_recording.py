@@ -50,17 +50,14 @@ GETTERS = {
 }
 
 
-def row_arrays(model: Model, names: tuple[str, ...], times: np.ndarray, address: Any) -> dict[str, Any]:
-    """What ROWS points to; `address` gives the address of a function by its name."""
+def row_layout(model: Model, names: tuple[str, ...], address: Any) -> dict[str, Any]:
+    """What ROWS needs to read these variables; `address` gives the address of a function by its name."""
     getters = GETTERS[model.abilities.fmi]
     groups: dict[tuple[str, int], list[int]] = {}
     for column, name in enumerate(names):
         groups.setdefault(getters[model[name].type], []).append(column)
     places = [column for columns in groups.values() for column in columns]
     return {
-        "count": times.size,
-        "times": times,
-        "values": np.zeros((times.size, len(names))),
         "columns": len(names),
         "groups": len(groups),
         "getters": np.array([address(function) for function, _ in groups], dtype=np.int64),

@@ -14,7 +14,6 @@ from pysim.simulate._job import Job
 from pysim.simulate._library import CallFailed, Instance, Library, open_library
 from pysim.simulate._loop import integrate
 from pysim.simulate._method import RosenbrockMethod, method_arrays
-from pysim.simulate._recording import row_arrays
 from pysim.simulate._state import RUNNING, work_arrays
 from pysim.simulate.rk45 import Rk45
 from pysim.types import Experiment, Model, Outcome, Record, SimulationError
@@ -69,7 +68,7 @@ def _run_instance(instance: Instance, experiment: Experiment, solver: Solver, st
     job, code = _prepare(instance, experiment, solver), RUNNING
     while code == RUNNING and not stopped():
         code = integrate(job.record, _BUDGET)
-    instance.lost = bool(job.number("run", "status") >= FATAL)
+    instance.status = int(job.number("run", "status"))
     outcome = list(Outcome)[code]
     message = "" if outcome is Outcome.DONE else _explain(job, outcome) + instance.mailbox.text()
     values = job.array("rows", "values")[: job.number("rows", "next")]
@@ -77,18 +76,26 @@ def _run_instance(instance: Instance, experiment: Experiment, solver: Solver, st
 
 
 def _prepare(instance: Instance, experiment: Experiment, solver: Solver) -> Job:
-    """Everything native code needs for this run."""
-    model, method = instance.model, solver.method()
-    abilities, job = model.abilities, Job(experiment.start, float(experiment.times[-1]))
+    """Everything native code needs for this run; what depends on model and solver alone is still there."""
+    if instance.job is None or instance.job.solver is not solver:
+        instance.job = _new_job(instance, solver)
+    job, names, times = instance.job, experiment.record, experiment.times
+    values = np.zeros((times.size, len(names)))
+    job.restart(experiment.start, float(times[-1]))
+    job.put("fmu", instance.addresses())
+    job.put("inputs", input_arrays(instance.model, experiment))
+    job.put("breaks", break_arrays(experiment))
+    job.put("rows", {**instance.rows(names), "count": times.size, "times": times, "values": values})
+    return job
+
+
+def _new_job(instance: Instance, solver: Solver) -> Job:
+    abilities, method, job = instance.model.abilities, solver.method(), Job(solver)
     implicit = isinstance(method, RosenbrockMethod)
     n, m, terms = len(abilities.states), abilities.event_indicators, method.dense.shape[1]
-    job.put("fmu", instance.addresses())
     job.put("method", method_arrays(method))
     job.put("control", solver.control()._asdict())
-    job.put("inputs", input_arrays(model, experiment))
-    job.put("breaks", break_arrays(experiment))
     job.put("work", {**work_arrays(n, m, method.b.size, terms, implicit), **instance.jacobian})
-    job.put("rows", row_arrays(model, experiment.record, experiment.times, instance.address))
     return job
 
 

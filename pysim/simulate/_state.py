@@ -75,6 +75,10 @@ WORK = np.dtype(
 )
 
 
+# Arrays of WORK that must not tell a run of the one before.
+SCRATCH = ("x", "dx", "x_new", "x_try", "error", "k", "dense", "z", "z_new", "z_try", "z_low", "jacobian", "slope")
+
+
 def work_arrays(n: int, m: int, stages: int, terms: int, implicit: bool) -> dict[str, Any]:
     """What WORK points to, for n states and m event indicators."""
     k = np.zeros((stages + 1, n))
