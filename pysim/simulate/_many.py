@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import threading
 from collections.abc import Callable, Sequence
-from concurrent.futures import ThreadPoolExecutor, as_completed
+from concurrent.futures import FIRST_EXCEPTION, ThreadPoolExecutor, as_completed, wait
 
 from pysim.simulate._base import Solver
 from pysim.simulate._check import check_experiment
@@ -46,12 +46,14 @@ def simulate_many(
     with open_library(model) as library, ThreadPoolExecutor(count) as pool:
         jobs = [pool.submit(run, library, experiment, solver, stop.is_set) for experiment in experiments]
         try:
-            for done, job in enumerate(as_completed(jobs), start=1):
-                job.result()
-                if progress is not None:
+            if progress is None:  # then this thread sleeps; waking for every run, it would take the workers' time
+                wait(jobs, return_when=FIRST_EXCEPTION)
+            else:
+                for done, job in enumerate(as_completed(jobs), start=1):
+                    job.result()
                     progress(done, len(jobs))
+            return tuple(job.result() for job in jobs)
         except BaseException:  # also an interrupt: the threads must not go on behind the caller's back
             stop.set()
             pool.shutdown(wait=True, cancel_futures=True)
             raise
-        return tuple(job.result() for job in jobs)
