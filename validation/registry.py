@@ -28,6 +28,7 @@ CASES: Mapping[str, Case] = MappingProxyType(
         "pump-frequency": Case("validation.pump_frequency.case", "FMU against the independent simulation, every point"),
         "pump-time": Case("validation.pump_time.case", "FMU against the independent simulation over time, ME and CS"),
         "demo-table": Case("validation.demo_table.case", "the demo against the independent result and the thesis"),
+        "native-loop": Case("validation.benchmarks.native_loop", "time and accuracy against FMPy's CVODE loop"),
         "wine": Case("validation.wine.case", "the Windows binary under Wine against the binary of this machine"),
     }
 )
