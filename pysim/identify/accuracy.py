@@ -37,6 +37,9 @@ def response_difference(
 ) -> tuple[Array, Array]:
     """Simulated minus measured: magnitude in dB (n_f,) and phase in degrees (n_f,).
 
+    Both phases are continuous, but each may start in a turn of its own; whole turns between them are taken off at the
+    lowest frequency.
+
     Args:
         reference_hz: where both magnitudes count as 0 dB; None compares absolute gains.
     Raises:
@@ -47,7 +50,8 @@ def response_difference(
     ):
         raise BadInput(f"compare: {simulated.origin} and {measured.origin} need the same frequencies")
     magnitude = magnitude_db(simulated, reference_hz) - magnitude_db(measured, reference_hz)
-    return magnitude, np.degrees(simulated.phase - measured.phase)
+    phase = np.degrees(simulated.phase - measured.phase)
+    return magnitude, phase - 360 * np.round(phase[0] / 360)
 
 
 def frequency_deviations(

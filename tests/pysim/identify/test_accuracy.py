@@ -37,6 +37,19 @@ def test_a_value_on_its_limit_passes_and_nan_does_not() -> None:
     assert not type(first)(first.criterion, float("nan")).passes
 
 
+def test_whole_turns_between_two_phases_do_not_count() -> None:
+    # written as 0..360 degrees and unwrapped, the lag of 1, 22 and 106 degrees starts at 359
+    turned = response([1.0, 1.0, 0.5], [359.0, 338.0, 254.0])
+    for simulated in (turned, response([1.0, 1.0, 0.5], [-721.0, -742.0, -826.0])):
+        _, phase = response_difference(simulated, MEASURED)
+        np.testing.assert_allclose(phase, [-1.0, -2.0, -6.0], atol=1e-9)
+
+
+def test_a_turn_within_the_band_stays_a_deviation() -> None:
+    _, phase = response_difference(response([1.0, 1.0, 0.5], [0.0, -20.0, -460.0]), MEASURED)
+    np.testing.assert_allclose(phase, [0.0, 0.0, -360.0], atol=1e-9)
+
+
 def test_refuses_other_frequencies() -> None:
     with pytest.raises(BadInput, match="the same frequencies"):
         frequency_deviations(response([1.0] * 3, [0.0] * 3, (0.1, 1.0, 9.0)), MEASURED)
