@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from types import MappingProxyType
 
 import numpy as np
 
+from pysim.types._frozen import FrozenMapping
 from pysim.types.criterion import Deviation
 from pysim.types.frequency_response import FrequencyResponse
 
@@ -45,6 +45,9 @@ class Comparison:
         dataset: name of the data set.
         note: what the data set says of itself; belongs beside every verdict.
         tests: one per measured response, in the data set's order.
+        reference_hz: where magnitudes count as 0 dB, on both sides; None where gains are compared as they are.
+        conditions: what else it takes to repeat the runs, in words: FMU token, solver, settling, versions.
+        parameters: every parameter of the model in these runs, name -> (value, unit).
     """
 
     model: str
@@ -53,9 +56,13 @@ class Comparison:
     note: str
     tests: tuple[ResponseComparison, ...]
     overrides: Mapping[str, float] = field(default_factory=dict)
+    reference_hz: float | None = 0.1
+    conditions: Mapping[str, str] = field(default_factory=dict)
+    parameters: Mapping[str, tuple[float, str]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "overrides", MappingProxyType(dict(self.overrides)))
+        for name in ("overrides", "conditions", "parameters"):
+            object.__setattr__(self, name, FrozenMapping(getattr(self, name)))
 
     @property
     def passes(self) -> bool:
@@ -64,12 +71,25 @@ class Comparison:
 
     @property
     def independent(self) -> int:
-        """How many measured responses differ from each other; a copied one is no evidence of its own."""
-        distinct: list[FrequencyResponse] = []
+        """How many measured responses differ from each other."""
+        return len(self.groups)
+
+    @property
+    def independent_passes(self) -> int:
+        """How many of the independent tests pass; one that stands in several rows passes where all of them do."""
+        return sum(all(test.passes for test in group) for group in self.groups)
+
+    @property
+    def groups(self) -> tuple[tuple[ResponseComparison, ...], ...]:
+        """The tests, those with the same measured response together: a copied one is no evidence of its own."""
+        found: list[list[ResponseComparison]] = []
         for test in self.tests:
-            if not any(_same(test.measured, other) for other in distinct):
-                distinct.append(test.measured)
-        return len(distinct)
+            group = next((group for group in found if _same(group[0].measured, test.measured)), None)
+            if group is None:
+                found.append([test])
+            else:
+                group.append(test)
+        return tuple(tuple(group) for group in found)
 
 
 def _same(a: FrequencyResponse, b: FrequencyResponse) -> bool:

@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from pysim.types import BadInput, Comparison, FrequencyResponse, ResponseComparison, SineTest
+from pysim.types import BadInput, Comparison, Criterion, Deviation, FrequencyResponse, ResponseComparison, SineTest
 
 TEST = SineTest(-25.0, 5.0, "cmd", "angle")
 GOOD: dict[str, Any] = {
@@ -60,5 +60,14 @@ def test_copied_measurements_count_once() -> None:
     tests = tuple(ResponseComparison(response, None, ()) for response in (first, copy, other))
     comparison = Comparison("m", "l", "d", "", tests)
     assert comparison.independent == 2
+    assert [len(group) for group in comparison.groups] == [2, 1]
     assert not comparison.passes
     assert not Comparison("m", "l", "d", "", ()).passes
+
+
+def test_an_independent_test_passes_where_all_its_rows_do() -> None:
+    first, other = FrequencyResponse(**GOOD), FrequencyResponse(**{**GOOD, "phase": [0.0, -1.0001]})
+    good = (Deviation(Criterion("", "", 1.0, "dB", ""), 0.5),)
+    rows = [(first, good), (first, ()), (other, good), (other, good)]
+    comparison = Comparison("m", "l", "d", "", tuple(ResponseComparison(r, None, d) for r, d in rows))
+    assert (comparison.independent_passes, comparison.independent) == (1, 2)
