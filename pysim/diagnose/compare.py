@@ -2,18 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 
-from pysim.identify import SteppedSine, frequency_deviations, frequency_response, stepped_sine
+from pysim.identify import (
+    THESIS_REFERENCE_HZ,
+    SteadyRun,
+    SteppedSine,
+    frequency_deviations,
+    frequency_response,
+    magnitude_db,
+    run_until_settled,
+    stepped_sine,
+)
 from pysim.simulate import Rodas, Solver, simulate_many
 from pysim.types import (
     BadInput,
     Comparison,
     Dataset,
+    Experiment,
     FrequencyResponse,
     Model,
-    Outcome,
     Record,
     ResponseComparison,
     SineTest,
@@ -32,6 +41,7 @@ def compare(
     *,
     overrides: Mapping[str, float] | None = None,
     label: str = "",
+    reference_hz: float | None = THESIS_REFERENCE_HZ,
     plan: SteppedSine | None = None,
     solver: Solver | None = None,
     workers: int | None = None,
@@ -42,36 +52,48 @@ def compare(
     Args:
         model: has a variable for each signal of the measured responses, in the same unit. An input named like the
             command with `_t` behind it is taken as the command's rate and gets its exact derivative.
-        dataset: its frequency responses are used; 0 dB is the gain at 0.1 Hz on both sides (Eq. 2.12).
+        dataset: its frequency responses are used.
         overrides: parameters to set first, in the variables' units.
         label: name of the parameter set, for tables and plots.
-        plan: how the tests are run.
+        reference_hz: whose gain counts as 0 dB on both sides (Eq. 2.12); None compares absolute gains.
+        plan: how the tests are run; a run that has not settled is repeated with longer settling.
         solver: of pysim.simulate; SOLVER where None.
         workers: runs at a time; all cores by default.
-        progress: called with runs done and runs in all.
+        progress: called with runs done and runs in all; starts again where runs are repeated.
     Returns:
-        simulated responses and the deviations of Table 1.3 per test; a run that failed fails its test, with its reason.
+        simulated responses and the deviations of Table 1.3 per test; a run that failed, does not settle
+        or does not move fails its test, with its reason.
     Raises:
-        BadInput: no responses, an unknown variable, or a unit that differs between model and data set.
+        BadInput: no responses, one without the reference frequency, an unknown variable, or a unit that differs
+            between model and data set; all before the first run.
     """
     responses = dataset.responses()
     if not responses:
         raise BadInput(f"data set {dataset.name!r} holds no frequency responses; add records of that kind")
+    if reference_hz is not None:
+        for response in responses:  # now, not after minutes of runs
+            magnitude_db(response, reference_hz)
     plan = plan or SteppedSine()
+    solver = solver or SOLVER
     tests = [_model_test(model, dataset, response.test) for response in responses]
-    experiments = [
-        stepped_sine(test, f, plan=plan, rate_input=_rate_input(model, test.input), overrides=overrides)
-        for test, response in zip(tests, responses, strict=True)
-        for f in response.frequency.tolist()
-    ]
-    records = iter(simulate_many(model, experiments, solver=solver or SOLVER, workers=workers, progress=progress))
+
+    def make(test: SineTest, frequency: float, plan: SteppedSine) -> Experiment:
+        rate_input = _rate_input(model, test.input)
+        return stepped_sine(test, frequency, plan=plan, rate_input=rate_input, overrides=overrides)
+
+    def run(experiments: Sequence[Experiment]) -> Sequence[Record]:
+        return simulate_many(model, experiments, solver=solver, workers=workers, progress=progress)
+
+    points = [(test, f) for test, m in zip(tests, responses, strict=True) for f in m.frequency.tolist()]
+    runs = iter(run_until_settled(points, make, run, plan))
     return Comparison(
         model=model.name,
         label=label or model.name,
         dataset=dataset.name,
         note=dataset.description,
-        tests=tuple(_judge(m, test, records, plan) for m, test in zip(responses, tests, strict=True)),
+        tests=tuple(_judge(m, t, runs, plan, reference_hz) for m, t in zip(responses, tests, strict=True)),
         overrides=overrides or {},
+        reference_hz=reference_hz,
     )
 
 
@@ -101,14 +123,17 @@ def _rate_input(model: Model, command: str) -> str | None:
 
 
 def _judge(
-    measured: FrequencyResponse, test: SineTest, records: Iterator[Record], plan: SteppedSine
+    measured: FrequencyResponse,
+    test: SineTest,
+    runs: Iterator[SteadyRun],
+    plan: SteppedSine,
+    reference_hz: float | None,
 ) -> ResponseComparison:
-    """Take this test's records off the row and compare."""
+    """Take this test's runs off the row and compare."""
     frequencies = measured.frequency.tolist()
-    own = [next(records) for _ in frequencies]
-    for frequency, record in zip(frequencies, own, strict=True):
-        if record.outcome is not Outcome.DONE:
-            reason = f"at {frequency:g} Hz: {record.outcome.value}. {record.message}".strip()
-            return ResponseComparison(measured, None, (), reason)
-    simulated = frequency_response(own, frequencies, test, onset=plan.onset)
-    return ResponseComparison(measured, simulated, frequency_deviations(simulated, measured))
+    own = [next(runs) for _ in frequencies]
+    for frequency, run in zip(frequencies, own, strict=True):
+        if run.trouble:
+            return ResponseComparison(measured, None, (), f"at {frequency:g} Hz: {run.trouble}")
+    simulated = frequency_response([run.record for run in own], frequencies, test, onset=plan.onset)
+    return ResponseComparison(measured, simulated, frequency_deviations(simulated, measured, reference_hz=reference_hz))

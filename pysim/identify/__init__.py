@@ -10,6 +10,7 @@ from pysim.identify.accuracy import (
     time_deviations,
 )
 from pysim.identify.frequency_response import THESIS_REFERENCE_HZ, frequency_response, magnitude_db
+from pysim.identify.settling import SteadyRun, run_until_settled
 from pysim.identify.sine_fit import SineFit, sine_fit
 from pysim.identify.stepped_sine import SteppedSine, command, stepped_sine
 from pysim.identify.transfer_function import TransferFunction
@@ -19,6 +20,7 @@ __all__ = [
     "THESIS_REFERENCE_HZ",
     "TIME_CRITERIA",
     "SineFit",
+    "SteadyRun",
     "SteppedSine",
     "TransferFunction",
     "command",
@@ -28,6 +30,7 @@ __all__ = [
     "max_deviation",
     "mean_deviation",
     "response_difference",
+    "run_until_settled",
     "sine_fit",
     "stepped_sine",
     "time_deviations",

@@ -35,7 +35,7 @@ def frequency_response(
         gain = fitted amplitude / commanded amplitude; the phase against the command, unwrapped from the lowest
         frequency upwards, which needs less than half a turn from one frequency to the next.
     Raises:
-        BadInput: a record whose sine cannot be fitted, or counts that do not match.
+        BadInput: a record whose sine cannot be fitted or has no amplitude, or counts that do not match.
     Source: thesis Eq. 2.11-2.13. Differs: the gain is kept absolute; `magnitude_db` relates it to 0.1 Hz.
     """
     if len(records) != len(frequencies):
@@ -44,6 +44,9 @@ def frequency_response(
         sine_fit(record.time, record[test.output], f, origin=onset, noise=noise)
         for record, f in zip(records, frequencies, strict=True)
     ]
+    for f, fit in zip(frequencies, fits, strict=True):
+        if fit.amplitude == 0.0:
+            raise BadInput(f"frequency response: {test.output} does not move at {f:g} Hz; there is nothing to compare")
     return FrequencyResponse(
         frequency=np.asarray(frequencies, dtype=np.float64),
         gain=np.array([fit.amplitude for fit in fits]) / test.amplitude,
@@ -69,6 +72,6 @@ def magnitude_db(response: FrequencyResponse, reference_hz: float | None = THESI
     if at.size == 0:
         raise BadInput(
             f"{response.origin}, {response.test.label}: magnitudes relative to {reference_hz:g} Hz need that "
-            f"frequency; the lowest one here is {response.frequency[0]:g} Hz"
+            f"frequency; the lowest one here is {response.frequency[0]:g} Hz: add it, or choose reference_hz"
         )
     return magnitude - magnitude[at[0]]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -21,7 +21,8 @@ class SteppedSine:
         hold: s at the offset before the sine starts; the sine starts with phase zero at rest + ramp + hold.
         settle_periods: periods of the sine that are left out of the fit, at least.
         settle_time: s after the start of the sine that are left out of the fit, at least; the pump's transients
-            have decayed to 1e-4 of the amplitude by 0.3 s.
+            have decayed to 1e-4 of the amplitude by 0.3 s. `run_until_settled` doubles both where that is too short.
+        settle_limit: s after the start of the sine; no settling is doubled beyond it.
         fit_periods: whole periods recorded and fitted, the last ones of the test.
         points: samples per fitted period. Equidistant over whole periods, so that the mean and every harmonic below
             points - 1 is orthogonal to the fitted sine.
@@ -34,12 +35,15 @@ class SteppedSine:
     hold: float = 1.0
     settle_periods: int = 1
     settle_time: float = 0.5
+    settle_limit: float = 60.0
     fit_periods: int = 1
     points: int = 24
 
     def __post_init__(self) -> None:
-        if min(self.rest, self.hold, self.settle_time, self.settle_periods) < 0 or not self.ramp > 0:
+        if min(self.rest, self.hold, self.settle_time, self.settle_limit) < 0 or not self.ramp > 0:
             raise BadInput("stepped sine: durations must not be negative, and the ramp must take some time")
+        if self.settle_periods < 1:
+            raise BadInput(f"stepped sine: leave at least one period out of the fit, got {self.settle_periods}")
         if self.fit_periods < 1 or self.points < 5:
             raise BadInput(
                 f"stepped sine: a fit needs one whole period of five points, "
@@ -54,6 +58,15 @@ class SteppedSine:
     def settling_periods(self, frequency: float) -> int:
         """Whole periods left out at this frequency (Hz): the larger of both limits."""
         return max(self.settle_periods, math.ceil(self.settle_time * frequency - 1e-9))
+
+    def settling_twice_as_long(self) -> SteppedSine:
+        """The same plan with twice the settling."""
+        return replace(self, settle_periods=2 * self.settle_periods, settle_time=2 * self.settle_time)
+
+    @property
+    def lead_points(self) -> int:
+        """Samples in the half period before the fitted ones, which shows whether the output repeats itself."""
+        return self.points // 2
 
 
 def command(test: SineTest, frequency: float, plan: SteppedSine) -> Signal:

@@ -1,6 +1,7 @@
 """`compare` with a linear system in place of the FMU: every number is known in closed form."""
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from importlib import import_module
 from typing import Any
 
@@ -75,6 +76,34 @@ def test_a_failed_run_fails_its_test_and_no_other(monkeypatch: pytest.MonkeyPatc
     assert result.tests[3].message == "at 12 Hz: a value is no longer finite. at t = 0.7 s"
     assert result.tests[3].simulated is None
     assert not result.passes
+
+
+def test_an_output_that_stands_still_fails_its_test_and_no_other(monkeypatch: pytest.MonkeyPatch) -> None:
+    def answer(experiment: Experiment) -> Record:
+        record = linear.steady_output(experiment)
+        still = experiment.inputs["cmd"].cubics[-1, 0] < 0 and experiment.inputs["cmd"].sines[-1, 0, 0] == 5.0
+        return replace(record, values=np.full_like(record.values, 3.0)) if still else record
+
+    _replace(monkeypatch, answer)
+    result = compare(linear.model(), linear.dataset())
+    assert [test.passes for test in result.tests] == [False, True, True, True]
+    assert result.tests[0].message == "at 0.1 Hz: angle does not move; there is no response to compare"
+
+
+def test_the_reference_frequency_is_the_callers(runs: list[Experiment]) -> None:
+    gain = 1 + 0.02 * 2 * np.pi * np.array(linear.FREQUENCIES)
+    for reference_hz, at_zero in ((None, 1.0), (1.0, gain[1])):
+        result = compare(linear.model(), linear.dataset(), overrides={"k": 0.02}, reference_hz=reference_hz)
+        expected = np.abs(20 * np.log10(gain / at_zero))
+        values = [deviation.value for deviation in result.tests[0].deviations]
+        np.testing.assert_allclose(values, [expected.mean(), expected.max(), 0.0, 0.0], atol=1e-9)
+        assert result.reference_hz == reference_hz
+
+
+def test_a_missing_reference_frequency_is_known_before_the_first_run(runs: list[Experiment]) -> None:
+    with pytest.raises(BadInput, match=r"relative to 0\.7 Hz need that frequency"):
+        compare(linear.model(), linear.dataset(), reference_hz=0.7)
+    assert not runs
 
 
 @pytest.mark.parametrize(

@@ -43,7 +43,10 @@ def test_refuses_a_test_without_a_sine(amplitude: float, frequency: float) -> No
         stepped_sine(SineTest(25.0, amplitude, "a", "y"), frequency)
 
 
-@pytest.mark.parametrize("wrong", [{"rest": -1.0}, {"ramp": 0.0}, {"fit_periods": 0}, {"points": 4}])
+@pytest.mark.parametrize(
+    "wrong",
+    [{"rest": -1.0}, {"ramp": 0.0}, {"fit_periods": 0}, {"settle_periods": 0}, {"settle_limit": -1.0}, {"points": 4}],
+)
 def test_refuses_impossible_plans(wrong: dict[str, float]) -> None:
     with pytest.raises(BadInput, match="stepped sine"):
         SteppedSine(**wrong)  # type: ignore[arg-type]
