@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from types import MappingProxyType
+from numbers import Real
 
 import numpy as np
 from numpy.typing import NDArray
 
+from pysim.types._frozen import FrozenMapping
 from pysim.types.errors import BadInput
 from pysim.types.signal import Signal
 
@@ -27,7 +29,8 @@ class Experiment:
         start: s, not after times[0].
         rates: input -> another input that is driven: the first carries the exact derivative, per s, of the second.
     Raises:
-        BadInput: times that do not increase, nothing to record, or the rate of an input that is not driven.
+        BadInput: times that do not increase, nothing to record, an input that is no Signal, an override that is no
+            number, or the rate of an input that is not driven.
     """
 
     times: Array
@@ -38,18 +41,37 @@ class Experiment:
     rates: Mapping[str, str] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
+        if isinstance(self.record, str):
+            raise BadInput(
+                f"experiment: record is the text {self.record!r}; write a tuple of names, ({self.record!r},)"
+            )
         times = np.array(self.times, dtype=np.float64)
         times.setflags(write=False)
         object.__setattr__(self, "times", times)
-        object.__setattr__(self, "inputs", MappingProxyType(dict(self.inputs)))
-        object.__setattr__(self, "overrides", MappingProxyType(dict(self.overrides)))
-        object.__setattr__(self, "rates", MappingProxyType(dict(self.rates)))
+        object.__setattr__(self, "record", tuple(self.record))
+        for name in ("inputs", "overrides", "rates"):
+            object.__setattr__(self, name, FrozenMapping(getattr(self, name)))
+        self._check_times()
+        self._check_names()
+
+    def _check_times(self) -> None:
+        times = self.times
         if times.ndim != 1 or times.size == 0 or np.any(np.diff(times) <= 0) or not np.isfinite(times).all():
             raise BadInput("experiment: times must be a non-empty row of finite, increasing numbers")
+        if not math.isfinite(self.start):
+            raise BadInput(f"experiment: the start is {self.start} s; give a finite time")
         if times[0] < self.start:
             raise BadInput(f"experiment: the first time {times[0]} s lies before the start {self.start} s")
+
+    def _check_names(self) -> None:
         if not self.record:
             raise BadInput("experiment: name at least one variable to record")
+        for name, signal in self.inputs.items():
+            if not isinstance(signal, Signal):
+                raise BadInput(f"experiment: input {name!r} is {signal!r}; give a Signal, as Signal.constant(1.0)")
+        for name, value in self.overrides.items():
+            if not isinstance(value, Real):
+                raise BadInput(f"experiment: {name!r} cannot be set to {value!r}; give a number in its unit")
         for name, of in self.rates.items():
             if of not in self.inputs or name in self.inputs:
                 raise BadInput(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import difflib
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 
@@ -54,8 +54,8 @@ class Model:
     path: Path
     name: str
     token: str  # guid or instantiationToken: changes with the model's content
-    variables: tuple[Variable, ...]
-    abilities: Abilities
+    variables: tuple[Variable, ...] = field(repr=False)
+    abilities: Abilities = field(repr=False)
 
     @cached_property
     def _by_name(self) -> dict[str, Variable]:

@@ -9,6 +9,7 @@ from enum import Enum
 import numpy as np
 from numpy.typing import NDArray
 
+from pysim.types._frozen import FrozenMapping
 from pysim.types.errors import BadInput
 
 Array = NDArray[np.float64]
@@ -39,6 +40,8 @@ class Record:
         message: what the model or the solver said of it.
         origin: "simulated" or "measured", and of what.
         statistics: counts of the run: steps, rejected, derivatives, jacobians, events.
+    Raises:
+        BadInput: shapes that do not match, or times that do not increase.
     """
 
     time: Array
@@ -51,19 +54,38 @@ class Record:
     statistics: Mapping[str, int] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
+        for name in ("time", "values"):
+            object.__setattr__(self, name, _read_only(name, getattr(self, name)))
+        for name in ("names", "units"):
+            if isinstance(getattr(self, name), str):
+                raise BadInput(f"record: {name} is the text {getattr(self, name)!r}; write a tuple of texts")
+            object.__setattr__(self, name, tuple(getattr(self, name)))
+        object.__setattr__(self, "statistics", FrozenMapping(self.statistics))
         n_t, n_y = self.time.size, len(self.names)
-        if self.values.shape != (n_t, n_y):
+        if self.time.shape != (n_t,) or self.values.shape != (n_t, n_y):
             raise BadInput(
                 f"record: {n_t} times and {n_y} names need values of shape ({n_t}, {n_y}), got {self.values.shape}"
             )
         if len(self.units) != n_y:
             raise BadInput(f"record: {n_y} names need {n_y} units, got {len(self.units)}")
+        if not np.isfinite(self.time).all() or np.any(np.diff(self.time) <= 0):
+            raise BadInput("record: times must be finite and increase")
 
     def __getitem__(self, name: str) -> Array:
         """The column of that name, (n_t,)."""
         if name not in self.names:
             raise BadInput(f"record has no signal {name!r}; it has {', '.join(self.names)}")
         return self.values[:, self.names.index(name)]
+
+
+def _read_only(name: str, numbers: Array) -> Array:
+    """A copy that nobody can change."""
+    try:
+        array = np.array(numbers, dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        raise BadInput(f"record: {name} must hold numbers ({error})") from error
+    array.setflags(write=False)
+    return array
 
 
 class SimulationError(RuntimeError):

@@ -5,8 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
+from pysim.types._spline import hermite, natural_rates
 from pysim.types.errors import BadInput
 
 Array = NDArray[np.float64]
@@ -24,6 +25,8 @@ class Signal:
              + sum_j a_j sin(phi_j + omega_j s + 0.5 kappa_j s^2),   (a, phi, omega, kappa) = sines[k, j]
     This one form holds steps, ramps, stepped sines (thesis Eq. 2.1), chirps (Eq. 2.2), stochastic waves (Appendix A)
     and splines through logged samples. The signal may jump or kink only where a piece starts.
+
+    `Signal.constant`, `steps`, `lines` and `through` make the usual ones.
 
     Args:
         starts: (n_k,) s, increasing.
@@ -54,6 +57,52 @@ class Signal:
             raise BadInput("signal pieces: every number must be finite")
         if np.any(np.diff(self.starts) <= 0):
             raise BadInput("signal pieces: starts must increase")
+
+    @classmethod
+    def constant(cls, value: float) -> Signal:
+        """The same value at all times, in the signal's unit."""
+        return cls.steps([0.0], [value])
+
+    @classmethod
+    def steps(cls, times: ArrayLike, values: ArrayLike) -> Signal:
+        """values[k] from times[k] (n_t,) in s on; before the first time the first value holds.
+
+        Raises:
+            BadInput: rows that differ in length, times that do not increase, or numbers that are not finite.
+        """
+        t, v = _samples(times, values, least=1)
+        return cls._of_cubics(t, np.column_stack([v, np.zeros((t.size, 3))]))
+
+    @classmethod
+    def lines(cls, times: ArrayLike, values: ArrayLike) -> Signal:
+        """Straight lines from sample to sample, (n_t,) each, times in s; the first and the last value hold outside.
+
+        Raises:
+            BadInput: fewer than two samples, and as `steps`.
+        """
+        t, v = _samples(times, values, least=2)
+        slopes = np.append(np.diff(v) / np.diff(t), 0.0)
+        return cls._of_cubics(t, np.column_stack([v, slopes, np.zeros((t.size, 2))]))
+
+    @classmethod
+    def through(cls, times: ArrayLike, values: ArrayLike, rates: ArrayLike | None = None) -> Signal:
+        """A smooth curve through samples, (n_t,) each, times in s; the first and the last value hold outside.
+
+        Args:
+            times: s, increasing.
+            values: in the signal's unit.
+            rates: in its unit per s, met exactly. Where None they follow from the natural cubic spline: the curvature
+                is continuous and vanishes at both ends.
+        Raises:
+            BadInput: fewer than two samples, and as `steps`.
+        """
+        t, v = _samples(times, values, least=2)
+        m = natural_rates(t, v) if rates is None else _samples(times, rates, least=2)[1]
+        return cls._of_cubics(t, np.vstack([hermite(t, v, m), [v[-1], 0.0, 0.0, 0.0]]))
+
+    @classmethod
+    def _of_cubics(cls, starts: Array, cubics: Array) -> Signal:
+        return cls(starts, cubics, np.zeros((starts.size, 0, 4)))
 
     def value(self, t: Array) -> Array:
         """The signal at times t (n_t,) in s, in its own unit; to the right of a jump."""
@@ -89,6 +138,21 @@ class Signal:
         waves = a * rate * np.cos(phi + (omega + 0.5 * kappa * s[..., None]) * s[..., None])
         c = self.cubics[k]
         return c[..., 1] + s * (2 * c[..., 2] + 3 * s * c[..., 3]) + waves.sum(axis=-1)
+
+
+def _samples(times: ArrayLike, values: ArrayLike, *, least: int) -> tuple[Array, Array]:
+    """Checked rows of equal length (n_t,)."""
+    try:
+        t, v = np.array(times, dtype=np.float64), np.array(values, dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        raise BadInput(f"signal: times and values must be rows of numbers ({error})") from error
+    if t.ndim != 1 or t.shape != v.shape or t.size < least:
+        raise BadInput(
+            f"signal: needs rows of at least {least} times and as many values, got shapes {t.shape} and {v.shape}"
+        )
+    if not (np.isfinite(t).all() and np.isfinite(v).all() and (np.diff(t) > 0).all()):
+        raise BadInput("signal: times and values must be finite, and times increase")
+    return t, v
 
 
 def _differ(before: Array, after: Array) -> NDArray[np.bool_]:

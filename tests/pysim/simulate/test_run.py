@@ -11,7 +11,7 @@ from pysim.simulate import simulate
 from pysim.types import BadInput, Experiment, Signal
 from tests.pysim.simulate.fixture_fmus import FOLLOWER, OSCILLATOR
 
-_NONE = Signal(np.zeros(1), np.zeros((1, 4)), np.zeros((1, 0, 4)))
+_NONE = Signal.constant(0.0)
 _TIMES = np.array([0.0, 1.0])
 
 

@@ -1,9 +1,11 @@
+import pickle
+
 import numpy as np
 import pytest
 
 from pysim.types import BadInput, Experiment, Signal
 
-_NONE = Signal(np.zeros(1), np.zeros((1, 4)), np.zeros((1, 0, 4)))
+_NONE = Signal.constant(0.0)
 
 
 @pytest.mark.parametrize(
@@ -14,6 +16,10 @@ _NONE = Signal(np.zeros(1), np.zeros((1, 4)), np.zeros((1, 0, 4)))
         ([0, np.inf], {}, "finite, increasing"),
         ([1], {"start": 2.0}, "lies before the start"),
         ([1], {"record": ()}, "at least one variable"),
+        ([1], {"start": np.nan}, "start is nan s; give a finite time"),
+        ([1], {"record": "abc"}, r"record is the text 'abc'; write a tuple of names, \('abc',\)"),
+        ([1], {"inputs": {"u": 5.0}}, r"input 'u' is 5\.0; give a Signal, as Signal\.constant"),
+        ([1], {"overrides": {"a": "5"}}, "'a' cannot be set to '5'; give a number"),
         ([1], {"rates": {"r": "u"}}, "give 'u' a signal"),
         ([1], {"rates": {"u": "u"}, "inputs": {"u": _NONE}}, "and 'u' none"),
     ],
@@ -30,3 +36,14 @@ def test_override_leaves_the_original_alone():
     assert dict(second.overrides) == {"a": 2.0, "b": 3.0}
     with pytest.raises(ValueError, match="read-only"):
         first.times[0] = 0.0
+
+
+def test_goes_to_another_process_and_stays_as_it_is():
+    inputs = {"u": _NONE}
+    first = Experiment(np.ones(1), ["x"], inputs, {"a": 1.0}, rates={"u_t": "u"})
+    inputs["v"] = _NONE
+    second = pickle.loads(pickle.dumps(first))
+    assert (second.record, dict(second.overrides), dict(second.rates)) == (("x",), {"a": 1.0}, {"u_t": "u"})
+    assert list(second.inputs) == ["u"]
+    with pytest.raises(TypeError):
+        second.overrides["a"] = 2.0

@@ -2,6 +2,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from scipy import interpolate
 
 from pysim.types import BadInput, Signal
 
@@ -99,3 +100,51 @@ def test_arrays_are_copied_and_read_only():
     assert signal.starts[0] == 0.0
     with pytest.raises(ValueError, match="read-only"):
         signal.starts[0] = 1.0
+
+
+def test_steps_hold_the_first_value_before_and_the_last_after():
+    signal = Signal.steps([1, 2], [5, 7])
+    np.testing.assert_array_equal(signal.value(np.array([-3, 0.9, 1.0, 1.9, 2.0, 99])), [5, 5, 5, 5, 7, 7])
+    np.testing.assert_array_equal(Signal.constant(3.0).value(np.array([-1.0, 0.0, 8.0])), 3.0)
+
+
+_times = st.lists(st.floats(0.05, 2.0), min_size=1, max_size=9).map(lambda h: np.cumsum([0.3, *h]))
+
+
+@given(_times, st.data())
+def test_lines_are_those_of_numpy(times, data):
+    values = np.array(data.draw(st.lists(_numbers, min_size=times.size, max_size=times.size)))
+    t = np.linspace(times[0] - 1, times[-1] + 1, 101)
+    np.testing.assert_allclose(Signal.lines(times, values).value(t), np.interp(t, times, values), atol=1e-10)
+
+
+@given(_times, st.data())
+def test_curve_is_the_natural_spline_of_scipy(times, data):
+    values = np.array(data.draw(st.lists(_numbers, min_size=times.size, max_size=times.size)))
+    signal, t = Signal.through(times, values), np.linspace(times[0], times[-1], 101)[:-1]
+    reference = interpolate.CubicSpline(times, values, bc_type="natural")
+    np.testing.assert_allclose(signal.value(t), reference(t), atol=1e-9)
+    np.testing.assert_allclose(signal.derivative(t), reference(t, 1), atol=1e-7)
+    outside = np.array([times[0] - 1, times[-1], times[-1] + 1])
+    np.testing.assert_array_equal(signal.value(outside), values[[0, -1, -1]])
+
+
+def test_curve_with_rates_is_exact_for_a_cubic():
+    t, fine = np.array([0.0, 0.5, 2.0]), np.linspace(0, 1.99, 50)
+    signal = Signal.through(t, t**3 - t, rates=3 * t**2 - 1)
+    np.testing.assert_allclose(signal.value(fine), fine**3 - fine, atol=1e-13)
+    np.testing.assert_allclose(signal.derivative(fine), 3 * fine**2 - 1, atol=1e-13)
+
+
+@pytest.mark.parametrize("make", [Signal.steps, Signal.lines, Signal.through])
+@pytest.mark.parametrize(
+    ("times", "values"), [([0, 0], [1, 2]), ([0, 1], [1]), ([0, np.nan], [1, 2]), ([0, 1], [1, np.inf]), ([], [])]
+)
+def test_samples_are_checked(make, times, values):
+    with pytest.raises(BadInput, match="signal: "):
+        make(times, values)
+
+
+def test_text_is_no_signal():
+    with pytest.raises(BadInput, match="rows of numbers"):
+        Signal.constant("5 percent")
