@@ -7,7 +7,7 @@ from xml.etree import ElementTree
 from xml.etree.ElementTree import Element
 
 from fmu_build.emit.influence import Layout, direct_influence
-from fmu_build.emit.units import BASE_UNITS, conversion, parse_unit
+from fmu_build.emit.units import BASE_UNITS, Unit, conversion, parse_unit
 from fmu_build.errors import BuildError
 from fmu_build.lower.ode_model import DefaultExperiment, OdeModel, ScalarType, Variable
 
@@ -94,10 +94,33 @@ def limits(variable: Variable) -> dict[str, str | None]:
 
 
 def unit_attributes(variable: Variable) -> dict[str, str | None]:
-    """unit and displayUnit, the latter only where a conversion is known."""
+    """unit, and displayUnit where it is another one.
+
+    Raises:
+        BuildError: a unit that cannot be read: an importer could not convert it.
+    """
     if not variable.unit or variable.scalar_type is not ScalarType.REAL:
         return {}
-    return {"unit": variable.unit, "displayUnit": _display_unit(variable)}
+    unit = _readable(variable, "unit", variable.unit)
+    name = variable.display_unit
+    if not name or name == variable.unit:
+        return {"unit": variable.unit}
+    if not unit.measures_like(_readable(variable, "displayUnit", name)):
+        raise BuildError(
+            f'{variable.name}: displayUnit "{name}" does not measure the same quantity as unit "{variable.unit}"; '
+            "choose a unit that can be converted."
+        )
+    return {"unit": variable.unit, "displayUnit": name}
+
+
+def _readable(variable: Variable, attribute: str, text: str) -> Unit:
+    unit = parse_unit(text)
+    if unit is None:
+        raise BuildError(
+            f'{variable.name}: {attribute} "{text}" is not a unit; write it with SI symbols as "N.m", "m3/s" or '
+            '"kg/(m.s2)".'
+        )
+    return unit
 
 
 def add_units(root: Element, variables: Iterable[Variable]) -> None:
@@ -119,13 +142,12 @@ def add_units(root: Element, variables: Iterable[Variable]) -> None:
 
 def _add_unit(parent: Element, name: str, displays: list[str]) -> None:
     element, unit = add(parent, "Unit", name=name), parse_unit(name)
-    if unit is None:
-        return
+    assert unit is not None  # unit_attributes has seen to it
     exponents = {b: str(e) for b, e in zip(BASE_UNITS, unit.exponents, strict=True) if e}
     add(element, "BaseUnit", **exponents, **_scale(unit.factor, unit.offset))
     for display_name in displays:
         display = parse_unit(display_name)
-        assert display is not None  # _display_unit has seen to it
+        assert display is not None  # likewise
         add(element, "DisplayUnit", name=display_name, **_scale(*conversion(unit, display)))
 
 
@@ -134,21 +156,6 @@ def _scale(factor: float, offset: float) -> dict[str, str | None]:
         "factor": None if factor == 1.0 else number(factor),
         "offset": None if offset == 0.0 else number(offset),
     }
-
-
-def _display_unit(variable: Variable) -> str | None:
-    name, unit = variable.display_unit, parse_unit(variable.unit or "")
-    if not name or name == variable.unit or unit is None:
-        return None
-    display = parse_unit(name)
-    if display is None:
-        return None
-    if not unit.measures_like(display):
-        raise BuildError(
-            f'{variable.name}: displayUnit "{name}" does not measure the same quantity as unit "{variable.unit}"; '
-            "choose a unit that can be converted."
-        )
-    return name
 
 
 def enumerations(variables: Iterable[Variable]) -> Iterator[tuple[str, tuple[str, ...]]]:
@@ -187,5 +194,5 @@ def reinitialised(model: OdeModel) -> set[int]:
 
 
 def needs_completed_steps(model: OdeModel) -> bool:
-    """Whether the host must report its steps: the history of delay() grows with them."""
-    return bool(model.delays)
+    """Whether the host must report its steps: delay() remembers them, and `assert` is looked at after each."""
+    return bool(model.delays or model.checks)

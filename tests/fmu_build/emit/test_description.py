@@ -16,7 +16,7 @@ from fmu_build.emit import (
     model_identifier,
 )
 from fmu_build.errors import BuildError
-from fmu_build.lower.ode_model import ScalarType
+from fmu_build.lower.ode_model import Check, ScalarType
 from tests import ode_models
 from tests.ode_models import PARAMETER, ode_model, real, symbols
 
@@ -73,8 +73,22 @@ def test_units_and_display_units(fmi):
 
 
 @pytest.mark.parametrize("fmi", [2, 3])
-def test_an_unknown_display_unit_is_left_out(fmi):
-    assert "displayUnit" not in variables(small(unit="Pa", display_unit="furlong"), fmi)["a"][1]
+@pytest.mark.parametrize(
+    ("attributes", "message"),
+    [
+        ({"unit": "foo"}, 'a: unit "foo"'),
+        ({"unit": "m.foo2"}, 'a: unit "m.foo2"'),
+        ({"unit": "Pa", "display_unit": "furlong"}, 'a: displayUnit "furlong"'),
+    ],
+)
+def test_a_unit_that_cannot_be_read_is_refused(attributes, message, fmi):
+    with pytest.raises(BuildError, match=message):
+        describe(small(**attributes), fmi)
+
+
+@pytest.mark.parametrize("fmi", [2, 3])
+def test_a_display_unit_that_is_the_unit_is_left_out(fmi):
+    assert "displayUnit" not in variables(small(unit="Pa", display_unit="Pa"), fmi)["a"][1]
 
 
 def test_a_display_unit_of_another_quantity_is_refused():
@@ -117,3 +131,16 @@ def test_build_description_lists_the_sources():
 @pytest.mark.parametrize(("name", "identifier"), [("A.B.C", "A_B_C"), ("'ä b'.C", "___b__C")])
 def test_model_identifiers_are_c_identifiers(name, identifier):
     assert model_identifier(name) == identifier
+
+
+@pytest.mark.parametrize("fmi", [2, 3])
+def test_steps_are_asked_for_by_delays_and_assertions(fmi):
+    s = symbols(p=1)
+    checked = replace(small(), checks=(Check(s.p[0] > 0, "a must be positive"),), symbols=s)
+    name, wanted = {
+        2: ("completedIntegratorStepNotNeeded", "false"),
+        3: ("needsCompletedIntegratorStep", "true"),
+    }[fmi]
+    for model, needs in ((small(), False), (checked, True), (ode_models.sampled_delay(), True)):
+        shown = ElementTree.fromstring(describe(model, fmi)).find("ModelExchange").get(name)
+        assert (shown == wanted) == needs
