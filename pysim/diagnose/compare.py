@@ -69,7 +69,11 @@ def compare(
     """
     responses = dataset.responses()
     if not responses:
-        raise BadInput(f"data set {dataset.name!r} holds no frequency responses; add records of that kind")
+        skipped = f" (not read: {', '.join(dataset.skipped)})" if dataset.skipped else ""
+        raise BadInput(
+            f"data set {dataset.name!r} holds no frequency responses{skipped}; "
+            'add records of the kind "frequency-response-table"'
+        )
     if reference_hz is not None:
         for response in responses:  # now, not after minutes of runs
             magnitude_db(response, reference_hz)
@@ -90,11 +94,18 @@ def compare(
         model=model.name,
         label=label or model.name,
         dataset=dataset.name,
-        note=dataset.description,
+        note=_note(dataset),
         tests=tuple(_judge(m, t, runs, plan, reference_hz) for m, t in zip(responses, tests, strict=True)),
         overrides=overrides or {},
         reference_hz=reference_hz,
     )
+
+
+def _note(dataset: Dataset) -> str:
+    """What the data set says of itself, and what of it was left out."""
+    if not dataset.skipped:
+        return dataset.description
+    return f"{dataset.description} Not compared, being logs over time: {', '.join(dataset.skipped)}."
 
 
 def _model_test(model: Model, dataset: Dataset, test: SineTest) -> SineTest:

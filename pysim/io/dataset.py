@@ -3,22 +3,23 @@
 from __future__ import annotations
 
 import tomllib
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from pysim.io.text_table import read_table, read_text
-from pysim.types import BadInput, Dataset, FrequencyResponse, MeasuredRecord, MeasuredSignal, SineTest
+from pysim.io.response_table import TABLE_COLUMNS, read_response
+from pysim.io.text_table import read_text
+from pysim.io.units import SI
+from pysim.types import BadInput, Dataset, MeasuredRecord, MeasuredSignal, SineTest
 
-_TIME_AND_ANGLE = ("1", "%", "s", "Hz", "rad", "deg", "rad/s", "deg/s")
-_PHYSICAL = ("m", "mm", "Pa", "bar", "m3/s", "l/min", "N", "N.m", "V", "mA")
-UNITS = _TIME_AND_ANGLE + _PHYSICAL
 TABLE = "frequency-response-table"
-TABLE_COLUMNS = ("frequency_hz", "magnitude_db", "phase_deg")
+LOGS = ("frequency-response", "chirp", "stochastic", "step", "other")
+_KEYS = ("dataset", "signals", "records")
+_DATASET_KEYS = ("name", "description", "system")
 _SIGNAL_KEYS = ("role", "unit", "quantity", "variable", "noise", "resolution")
-_RECORD_KEYS = ("file", "columns", "kind", "use", "offset", "amplitude", "frequency", "input", "output")
+_RECORD_KEYS = ("file", "columns", "kind", "use", "offset", "amplitude", "frequency", "input", "output", "origin")
 
 
 @dataclass(frozen=True)
@@ -61,12 +62,12 @@ class _Section:
 
 
 def read_dataset(folder: Path | str) -> Dataset:
-    """Read a data set whose records are tables of frequency responses.
+    """Read a data set. Tables of frequency responses are read; logs over time are skipped and named.
 
     Args:
         folder: holds dataset.toml; the files it names are relative to it.
     Returns:
-        signals in their own units; gains from decibels, phases in rad.
+        everything in SI units or %, gains from decibels, phases in rad and continuous.
     Raises:
         BadInput: what is wrong, with file, line and remedy.
     """
@@ -77,20 +78,25 @@ def read_dataset(folder: Path | str) -> Dataset:
     except tomllib.TOMLDecodeError as error:
         raise BadInput(f"{path}: {error}; correct the TOML") from error
     head = _Section(f"{path}, [dataset]", _table(content, "dataset", path))
-    signals = tuple(
-        _signal(name, _Section(_place(path, text, f"[signals.{name}]"), values))
+    _Section(str(path), content).refuse_unknown(_KEYS)
+    head.refuse_unknown(_DATASET_KEYS)
+    written = {
+        name: _signal(name, _Section(_place(path, text, f"[signals.{name}]"), values))
         for name, values in _table(content, "signals", path).items()
-    )
+    }
     rows = content.get("records")
     if not isinstance(rows, list) or not rows:
         raise BadInput(f"{path}: there are no records; add one [[records]] section per log or table")
     sections = [_Section(_place(path, text, "[[records]]", i), values) for i, values in enumerate(rows)]
+    kinds = [_kind(section) for section in sections]
+    pairs = list(zip(sections, kinds, strict=True))
     return Dataset(
         name=head.text("name"),
         description=head.text("description", "-"),
         system=head.text("system", "-"),
-        signals=signals,
-        records=tuple(_record(path.parent, section, signals) for section in sections),
+        signals=tuple(_in_si(signal) for signal in written.values()),
+        records=tuple(_record(path.parent, section, written) for section, kind in pairs if kind == TABLE),
+        skipped=tuple(f"{section.text('file')} ({kind})" for section, kind in pairs if kind != TABLE),
     )
 
 
@@ -114,7 +120,7 @@ def _signal(name: str, section: _Section) -> MeasuredSignal:
     return MeasuredSignal(
         name=name,
         role=section.text("role", among=("input", "output")),
-        unit=section.text("unit", among=UNITS),
+        unit=section.text("unit", among=tuple(SI)),
         quantity=section.text("quantity", name),
         variable=section.text("variable", name),
         noise=section.optional_number("noise"),
@@ -122,22 +128,35 @@ def _signal(name: str, section: _Section) -> MeasuredSignal:
     )
 
 
-def _record(folder: Path, section: _Section, signals: tuple[MeasuredSignal, ...]) -> MeasuredRecord:
+def _in_si(signal: MeasuredSignal) -> MeasuredSignal:
+    unit, factor = SI[signal.unit]
+    noise, resolution = (None if v is None else factor * v for v in (signal.noise, signal.resolution))
+    return replace(signal, unit=unit, noise=noise, resolution=resolution)
+
+
+def _kind(section: _Section) -> str:
+    """What a record holds, once its keys are known to be."""
     if not isinstance(section.values, dict):
         raise BadInput(f"{section.place}: a record is a section; write [[records]] with file, columns and kind")
     section.refuse_unknown(_RECORD_KEYS)
-    kind = section.text("kind")
-    if kind != TABLE:
-        raise BadInput(f'{section.place}: records of kind "{kind}" cannot be read; this version reads "{TABLE}" only')
+    return section.text("kind", among=(TABLE, *LOGS))
+
+
+def _record(folder: Path, section: _Section, signals: dict[str, MeasuredSignal]) -> MeasuredRecord:
+    """A table; the command's numbers are in the unit of its signal, the gain in those of both."""
     source = section.text("file")
-    test = SineTest(
-        section.number("offset"),
-        section.number("amplitude"),
-        input=_signal_of_role(section, "input", signals),
-        output=_signal_of_role(section, "output", signals),
-    )
+    command, output = (_signal_of_role(section, role, tuple(signals.values())) for role in ("input", "output"))
+    to_si, from_command = SI[signals[output].unit][1], SI[signals[command].unit][1]
+    offset, amplitude = (from_command * section.number(key) for key in ("offset", "amplitude"))
+    test = SineTest(offset, amplitude, input=command, output=output)
     use = section.text("use", "fit", among=("fit", "validate"))
-    return MeasuredRecord(source, kind, use, _response(folder / source, section, test))
+    columns = section.values.get("columns")
+    if not isinstance(columns, list) or any(name not in columns for name in TABLE_COLUMNS):
+        raise BadInput(f"{section.place}: columns must name {', '.join(TABLE_COLUMNS)}, in the order of the file")
+    names, origin = tuple(str(name) for name in columns), section.text("origin", f"measured, {source}")
+    scale = to_si / from_command
+    response = read_response(folder / source, names, test, section.place, scale=scale, origin=origin)
+    return MeasuredRecord(source, TABLE, use, response)
 
 
 def _signal_of_role(section: _Section, role: str, signals: tuple[MeasuredSignal, ...]) -> str:
@@ -151,18 +170,3 @@ def _signal_of_role(section: _Section, role: str, signals: tuple[MeasuredSignal,
             f"give one signal that role, or name it in the record: {role} = ..."
         )
     return names[0]
-
-
-def _response(path: Path, section: _Section, test: SineTest) -> FrequencyResponse:
-    """One table of frequency, magnitude and phase."""
-    columns = section.values.get("columns")
-    if not isinstance(columns, list) or any(name not in columns for name in TABLE_COLUMNS):
-        raise BadInput(f"{section.place}: columns must name {', '.join(TABLE_COLUMNS)}, in the order of the file")
-    values, lines = read_table(path, tuple(str(name) for name in columns), section.place)
-    frequency, magnitude, phase = (values[:, columns.index(name)] for name in TABLE_COLUMNS)
-    steps = np.diff(frequency, prepend=0.0)
-    if np.any(steps <= 0):
-        where = f"{path}, line {lines[int(np.argmax(steps <= 0))]}"
-        raise BadInput(f"{where}: frequencies must be positive and increase; sort the rows, drop repeated ones")
-    unwrapped = np.unwrap(np.radians(phase))
-    return FrequencyResponse(frequency, 10 ** (magnitude / 20), unwrapped, test, origin=f"measured, {path.name}")

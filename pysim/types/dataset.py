@@ -16,7 +16,7 @@ class MeasuredSignal:
     Args:
         name: the column's name.
         role: "input" | "output".
-        unit: of the column.
+        unit: SI unit, "1" or "%", whatever the file was written in.
         quantity: what it is, in words.
         variable: the model variable it stands for.
         noise: standard deviation of the measurement noise, in `unit`, or None where not known.
@@ -51,13 +51,17 @@ class MeasuredRecord:
 
 @dataclass(frozen=True)
 class Dataset:
-    """All measurements of one system. Signals are named by their columns; see `MeasuredSignal.variable`."""
+    """All measurements of one system. Signals are named by their columns; see `MeasuredSignal.variable`.
+
+    `skipped` names the records that are there and were not read, each with its kind.
+    """
 
     name: str
     description: str
     system: str
     signals: tuple[MeasuredSignal, ...]
     records: tuple[MeasuredRecord, ...]
+    skipped: tuple[str, ...] = ()
 
     def signal(self, name: str) -> MeasuredSignal:
         """The signal of that column name."""

@@ -100,6 +100,13 @@ def test_the_reference_frequency_is_the_callers(runs: list[Experiment]) -> None:
         assert result.reference_hz == reference_hz
 
 
+def test_what_was_not_read_stands_in_the_note(runs: list[Experiment]) -> None:
+    data = replace(linear.dataset(), skipped=("step.txt (step)",))
+    assert compare(linear.model(), data).note.endswith("Not compared, being logs over time: step.txt (step).")
+    with pytest.raises(BadInput, match=r"no frequency responses \(not read: step\.txt \(step\)\)"):
+        compare(linear.model(), replace(data, records=()))
+
+
 def test_a_missing_reference_frequency_is_known_before_the_first_run(runs: list[Experiment]) -> None:
     with pytest.raises(BadInput, match=r"relative to 0\.7 Hz need that frequency"):
         compare(linear.model(), linear.dataset(), reference_hz=0.7)

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from pysim.io import read_dataset
+from pysim.io.units import SI
 from pysim.types import BadInput
 
 TOML = """[dataset]
@@ -92,7 +93,13 @@ def test_reading_changes_nothing(folder: Path) -> None:
         ("amplitude = 10\n", "amplitude = true\n", "line 26: amplitude = True is no finite number"),
         ("amplitude = 5.0", "amplitude = -5.0", "amplitude must be positive"),
         ('use = "validate"', 'use = "test"', "line 26: use = 'test' is not known; use one of fit, validate"),
-        ('kind = "frequency-response-table"', 'kind = "chirp"', 'line 18: records of kind "chirp" cannot be read'),
+        (
+            'kind = "frequency-response-table"',
+            'kind = "wobble"',
+            "line 18: kind = 'wobble' is not known; use one of freq",
+        ),
+        ('system = "pump"', 'sistem = "pump"', r"\[dataset\]: the key 'sistem' is not known; use name, description"),
+        ("[dataset]", "[extra]\nx = 1\n\n[dataset]", r"dataset\.toml: the key 'extra' is not known; use dataset, sig"),
         (
             '"magnitude_db", "phase_deg"]',
             '"magnitude_db"]',
@@ -133,3 +140,85 @@ def test_a_record_may_choose_among_outputs(folder: Path) -> None:
     text = TOML.replace("[[records]]\n", extra, 1).replace('file = "sub', 'output = "angle"\nfile = "sub')
     (folder / "dataset.toml").write_text(text, encoding="utf-8")
     assert [response.test.output for response in read_dataset(folder).responses()] == ["u", "angle"]
+
+
+SPEC_EXAMPLE = """[dataset]
+name = "bench-a"
+description = "stepped sine and stochastic tests, no load"
+system = "pump"
+
+[signals.alphaCMD]
+role = "input"
+unit = "%"
+
+[signals.alphaPercent]
+role = "output"
+unit = "%"
+noise = 0.1
+resolution = 0.0586
+
+[signals.u]
+role = "output"
+unit = "1"
+variable = "u"
+
+[[records]]
+file = "frequency_response/O+25_A10/0.5Hz.txt"
+columns = ["time", "alphaCMD", "alphaPercent"]
+kind = "frequency-response"
+offset = 25.0
+amplitude = 10.0
+frequency = 0.5
+use = "fit"
+
+[[records]]
+file = "stochastic/Tp1.0s.txt"
+columns = ["time", "alphaCMD", "alphaPercent", "u"]
+kind = "stochastic"
+use = "validate"
+"""
+
+
+def test_logs_over_time_are_skipped_and_named(tmp_path: Path) -> None:
+    (tmp_path / "dataset.toml").write_text(SPEC_EXAMPLE, encoding="utf-8")
+    data = read_dataset(tmp_path)
+    assert data.responses() == ()
+    assert data.skipped == (
+        "frequency_response/O+25_A10/0.5Hz.txt (frequency-response)",
+        "stochastic/Tp1.0s.txt (stochastic)",
+    )
+
+
+def test_a_log_does_not_keep_the_tables_from_being_read(folder: Path) -> None:
+    log = '\n[[records]]\nfile = "step.txt"\ncolumns = ["time", "cmd", "angle"]\nkind = "step"\nuse = "fit"\n'
+    (folder / "dataset.toml").write_text(TOML + log, encoding="utf-8")
+    data = read_dataset(folder)
+    assert len(data.responses()) == 2
+    assert data.skipped == ("step.txt (step)",)
+
+
+def test_units_of_the_bench_become_si(folder: Path) -> None:
+    text = TOML.replace('unit = "%"', 'unit = "bar"', 1).replace('unit = "%"', 'unit = "l/min"', 1)
+    (folder / "dataset.toml").write_text(text, encoding="utf-8")
+    data = read_dataset(folder)
+    assert (data.signal("cmd").unit, data.signal("angle").unit) == ("Pa", "m3/s")
+    assert data.signal("angle").noise == pytest.approx(0.1 / 60000)
+    first = data.responses()[0]
+    assert (first.test.offset, first.test.amplitude) == (pytest.approx(25e5), pytest.approx(5e5))
+    np.testing.assert_allclose(first.gain, np.array([1.0, 0.5, 0.1]) / 60000 / 1e5)
+
+
+@pytest.mark.parametrize(
+    ("unit", "si", "value"),
+    [("rpm", "rad/s", 2 * np.pi / 60), ("deg", "rad", np.pi / 180), ("MPa", "Pa", 1e6), ("kN", "N", 1e3)]
+    + [(same, same, 1.0) for same in ("%/s", "V/s", "m2", "%")],
+)
+def test_one_of_a_unit_in_si(unit: str, si: str, value: float) -> None:
+    assert SI[unit] == (si, pytest.approx(value))
+
+
+def test_what_stands_for_the_measurements_is_named(folder: Path) -> None:
+    text = TOML.replace('use = "fit"', 'use = "fit"\norigin = "transfer function, thesis Table 4.1"')
+    (folder / "dataset.toml").write_text(text, encoding="utf-8")
+    origins = [response.origin for response in read_dataset(folder).responses()]
+    assert origins == ["transfer function, thesis Table 4.1", "measured, sub/reordered.txt"]

@@ -1,0 +1,35 @@
+"""Units that test benches write, in SI. Everything behind pysim.io is in SI units, "1" or "%"."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from types import MappingProxyType
+
+# unit -> SI unit and how many of them it is; "%" stays what it is
+SI: Mapping[str, tuple[str, float]] = MappingProxyType(
+    {unit: (unit, 1.0) for unit in ("1", "%", "%/s", "s", "Hz", "rad", "rad/s", "m", "m/s", "m2", "m3", "m3/s")}
+    | {unit: (unit, 1.0) for unit in ("Pa", "Pa/s", "N", "N.m", "kg", "V", "V/s", "A", "W")}
+    | {
+        "ms": ("s", 1e-3),
+        "deg": ("rad", math.pi / 180),
+        "deg/s": ("rad/s", math.pi / 180),
+        "rpm": ("rad/s", math.pi / 30),
+        "mm": ("m", 1e-3),
+        "mm/s": ("m/s", 1e-3),
+        "mm2": ("m2", 1e-6),
+        "cm2": ("m2", 1e-4),
+        "cm3": ("m3", 1e-6),
+        "l": ("m3", 1e-3),
+        "l/min": ("m3/s", 1e-3 / 60),
+        "kPa": ("Pa", 1e3),
+        "MPa": ("Pa", 1e6),
+        "bar": ("Pa", 1e5),
+        "bar/s": ("Pa/s", 1e5),
+        "kN": ("N", 1e3),
+        "kN.m": ("N.m", 1e3),
+        "mV": ("V", 1e-3),
+        "mA": ("A", 1e-3),
+        "kW": ("W", 1e3),
+    }
+)
