@@ -4,6 +4,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from fmu_build.errors import BuildError
+from fmu_build.front.class_lookup import ClassLookup, FoundClass
 from fmu_build.front.flat_model import FlatModel, Role
 from fmu_build.front.redeclaration import refuse_lost_redeclarations
 from fmu_build.front.session import compile_class
@@ -28,7 +29,11 @@ def load(class_name: str, libraries: Sequence[Path], overrides: Mapping[str, flo
 
     paths = [Path(library) for library in libraries]
     source = find_class(class_name, paths)
-    refuse_lost_redeclarations(source, paths)
+    classes = ClassLookup(paths)
+    written = classes.full(class_name)
+    if written is not None:
+        _check_is_model(written)
+        refuse_lost_redeclarations(written, classes)
     dae, flat = compile_class(source, paths, overrides)
     model = to_flat_model(
         dae,
@@ -41,6 +46,13 @@ def load(class_name: str, libraries: Sequence[Path], overrides: Mapping[str, flo
     )
     _check_overrides(model, overrides)
     return model
+
+
+def _check_is_model(found: FoundClass) -> None:
+    written = found.text
+    what = "partial " if "partial" in written.prefixes else ""
+    if what or written.kind not in ("model", "block", "class"):
+        raise found.error(f"{found.full_name} is a {what}{written.kind}; name a model or a block", written.offset)
 
 
 def _check_overrides(model: FlatModel, overrides: Mapping[str, float | str]) -> None:

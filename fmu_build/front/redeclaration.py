@@ -1,173 +1,142 @@
 """Refuses redeclarations that rumoca 0.10.2 would drop without a word.
 
-It follows `redeclare X part` only into the class that declares `part` itself: through a class that merely inherits the
-part, or into a part of a part, the redeclaration is lost and the model silently stays what it was. (`redeclare model
-X = Y` is followed everywhere.)
+It follows `redeclare X part` only in the modification of a component, or of the very class that declares `part`.
+Through a base class that merely inherits the part, inside another modification, as an element of its own or behind
+`constrainedby`, the redeclaration is lost and the model silently stays what it was. `redeclare model X = Y` is
+followed through bases and as an element too, but not inside another modification; `redeclare model extends X` ends
+rumoca's process.
 """
 
-import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
-from pathlib import Path
 
-from fmu_build.errors import BuildError
-from fmu_build.front.source import CLASS_KINDS, ClassSource, find_class
-
-KINDS = frozenset(CLASS_KINDS.split("|"))
-PREFIXES = frozenset(
-    ("each", "final", "replaceable", "redeclare", "inner", "outer", "parameter", "constant", "input", "output", "flow")
+from fmu_build.front.class_lookup import ClassLookup, FoundClass
+from fmu_build.front.declarations import (
+    CLASS_KINDS,
+    PREFIXES,
+    Declaration,
+    Kind,
+    Token,
+    behind_brackets,
+    dotted_name,
 )
-NAME = re.compile(r"[A-Za-z_]\w*$")
-Statement = Sequence[str]
 
 
 @dataclass(frozen=True)
 class Redeclaration:
-    """`redeclare ... part` in the modification of a base class or of a component."""
+    """`redeclare class_name part` or `redeclare model part = class_name` in a modification."""
 
     part: str
-    is_class: bool  # `redeclare model part = ...`
+    class_name: str
+    is_class: bool
     is_nested: bool  # inside the modification of a part
+    offset: int
 
 
-class _Lookup:
-    """Classes by name, each read once."""
-
-    def __init__(self, libraries: Sequence[Path]) -> None:
-        self._libraries = libraries
-        self._found: dict[str, ClassSource | None] = {}
-
-    def resolve(self, name: str, scope: str) -> ClassSource | None:
-        """From the innermost enclosing package outwards; None for built-in types and for what is no class."""
-        if not name or name in ("Real", "Integer", "Boolean", "String"):
-            return None
-        enclosing = scope.split(".")
-        candidates = (".".join([*enclosing[:count], name]) for count in range(len(enclosing), -1, -1))
-        return next((found for found in map(self._read, candidates) if found is not None), None)
-
-    def _read(self, full_name: str) -> ClassSource | None:
-        if full_name not in self._found:
-            try:
-                self._found[full_name] = find_class(full_name, self._libraries)
-            except BuildError:
-                self._found[full_name] = None
-        return self._found[full_name]
-
-
-def refuse_lost_redeclarations(source: ClassSource, libraries: Sequence[Path]) -> None:
-    """Look through the class, its bases and the classes of its parts.
+def refuse_lost_redeclarations(source: FoundClass, classes: ClassLookup) -> None:
+    """Look through the class, its bases, the classes of its parts, and those they are redeclared to.
 
     Raises:
-        BuildError: a redeclaration would be lost; says which class to extend instead.
+        BuildError: a redeclaration would be lost; says what to write instead.
     """
-    classes = _Lookup(libraries)
-    seen = {source.name}
+    seen = {source.full_name}
     waiting = [source]
     while waiting:
         here = waiting.pop()
-        for statement in _statements(here.tokens):
-            used = classes.resolve(_class_of(statement), here.name)
-            for found in _redeclarations(statement):
-                _check(found, statement, used, here, classes)
-            if used is not None and used.name not in seen:
-                seen.add(used.name)
+        for used in _checked(here, classes):
+            if used.full_name not in seen:
+                seen.add(used.full_name)
                 waiting.append(used)
 
 
+def _checked(here: FoundClass, classes: ClassLookup) -> Iterator[FoundClass]:
+    """Check each declaration of a class; yields the classes it uses."""
+    for declaration in here.text.declarations:
+        _check_element(declaration, here)
+        if declaration.kind not in (Kind.EXTENDS, Kind.COMPONENT) and "redeclare" not in declaration.prefixes:
+            continue
+        used = classes.resolve(declaration.class_name, here)
+        if used is not None:
+            yield used
+        for found in _redeclarations(declaration.modification):
+            _check(found, declaration, used, here, classes)
+            replacement = classes.resolve(found.class_name, here) if found.class_name else None
+            if replacement is not None:
+                yield replacement
+
+
+def _check_element(declaration: Declaration, here: FoundClass) -> None:
+    is_followed = declaration.kind is Kind.CLASS and not here.text.classes[declaration.declared[0]].is_extension
+    if "redeclare" in declaration.prefixes and not is_followed:
+        name = ", ".join(declaration.declared)
+        raise here.error(
+            f"the compiler cannot redeclare {name} as an element of its own; write it in the extends clause, as in "
+            f"extends Base(redeclare ... {name})",
+            declaration.offset,
+        )
+    for found in _redeclarations(declaration.constraint):
+        raise here.error(
+            f"the compiler cannot redeclare {found.part} behind constrainedby; write it in the modification of "
+            f"{', '.join(declaration.declared)} itself",
+            found.offset,
+        )
+
+
 def _check(
-    found: Redeclaration, statement: Statement, used: ClassSource | None, here: ClassSource, classes: _Lookup
+    found: Redeclaration, declaration: Declaration, used: FoundClass | None, here: FoundClass, classes: ClassLookup
 ) -> None:
-    if found.is_nested and not found.is_class:
-        raise BuildError(
+    if found.is_nested:
+        raise here.error(
             f"the compiler cannot redeclare {found.part} inside a part of another part; write a class of that part "
             f"with {found.part} redeclared, and use it here",
-            here.file,
-            here.line,
+            found.offset,
         )
-    if used is None or found.is_nested:
-        return
-    owner = _owner(found.part, used, classes)
+    if used is None:
+        raise here.error(
+            f"{declaration.class_name} is not found, so it is not certain that {found.part} can be redeclared; "
+            "give the class its full name",
+            found.offset,
+        )
+    owner = _owner(found.part, used, classes, set())
     if owner is None:
-        raise BuildError(f"{used.name} has no replaceable part {found.part} to redeclare", here.file, here.line)
-    if owner.name != used.name and _is_base(statement) and not found.is_class:
-        raise BuildError(
-            f"the compiler cannot redeclare {found.part} through {used.name}, which only inherits it; extend "
-            f"{owner.name} instead, with the modifications that {used.name} makes",
-            here.file,
-            here.line,
+        raise here.error(f"{used.full_name} has no replaceable part {found.part} to redeclare", found.offset)
+    if owner.full_name != used.full_name and declaration.kind is Kind.EXTENDS and not found.is_class:
+        raise here.error(
+            f"the compiler cannot redeclare {found.part} through {used.full_name}, which only inherits it; extend "
+            f"{owner.full_name} instead, with the modifications that {used.full_name} makes",
+            found.offset,
         )
 
 
-def _owner(part: str, used: ClassSource, classes: _Lookup) -> ClassSource | None:
-    """The class that declares `part`: `used` or one of its bases."""
-    for statement in _statements(used.tokens):
-        if "replaceable" in statement and part in statement:
-            return used
-    for statement in _statements(used.tokens):
-        base = classes.resolve(_class_of(statement), used.name) if _is_base(statement) else None
-        owner = _owner(part, base, classes) if base is not None else None
+def _owner(part: str, used: FoundClass, classes: ClassLookup, seen: set[str]) -> FoundClass | None:
+    """The class that declares `part` replaceable: `used` or one of its bases."""
+    if used.full_name in seen:
+        return None
+    seen.add(used.full_name)
+    if any(part in element.declared and "replaceable" in element.prefixes for element in used.text.declarations):
+        return used
+    for element in used.of_kind(Kind.EXTENDS):
+        base = classes.resolve(element.class_name, used)
+        owner = _owner(part, base, classes, seen) if base is not None else None
         if owner is not None:
             return owner
     return None
 
 
-def _statements(tokens: Sequence[str]) -> Iterator[Statement]:
-    """Declarations and equations: the tokens between semicolons, without a class header before the first one."""
-    begin, depth = 0, 0
-    for at, token in enumerate(tokens):
-        depth += (token in "([{") - (token in ")]}")
-        if token == ";" and depth == 0:
-            yield _without_header(tokens[begin:at])
-            begin = at + 1
-
-
-def _without_header(statement: Statement) -> Statement:
-    """`model M "text" extends A(...)` -> `extends A(...)`; a short class `model M = A(...)` stays."""
-    start = next((at for at, token in enumerate(statement) if token in KINDS or token == "partial"), None)
-    if start != 0 or "=" in statement[:5]:
-        return statement
-    rest = statement[statement.index(next(token for token in statement if token in KINDS)) + 2 :]
-    while rest and rest[0].startswith('"'):
-        rest = rest[1:]
-    return rest
-
-
-def _is_base(statement: Statement) -> bool:
-    return statement[0] == "extends" or _is_short_class(statement) if statement else False
-
-
-def _is_short_class(statement: Statement) -> bool:
-    return len(statement) > 3 and statement[0] in KINDS and statement[2] == "="
-
-
-def _class_of(statement: Statement) -> str:
-    """The dotted class name a declaration begins with, or an empty text."""
-    at = 3 if _is_short_class(statement) else 1 if _is_base(statement) else 0
-    while at < len(statement) and statement[at] in PREFIXES:
-        at += 1
-    return _dotted(statement, at)[0]
-
-
-def _dotted(tokens: Sequence[str], at: int) -> tuple[str, int]:
-    """The dotted name at a place, and the place behind it."""
-    parts: list[str] = []
-    while at < len(tokens) and NAME.match(tokens[at]):
-        parts.append(tokens[at])
-        at += 1
-        if at >= len(tokens) or tokens[at] != ".":
-            break
-        at += 1
-    return ".".join(parts), at
-
-
-def _redeclarations(statement: Statement) -> Iterator[Redeclaration]:
+def _redeclarations(tokens: tuple[Token, ...]) -> Iterator[Redeclaration]:
     depth = 0
-    for at, token in enumerate(statement):
+    for at, (token, offset) in enumerate(tokens):
         depth += (token in "([{") - (token in ")]}")
-        if token == "redeclare" and depth > 0:
-            name = at + 1
-            while statement[name] in PREFIXES:
-                name += 1
-            is_class = statement[name] in KINDS
-            part = statement[name + 1] if is_class else _dotted(statement, _dotted(statement, name)[1])[0]
-            yield Redeclaration(part, is_class, is_nested=depth > 1)
+        if token == "redeclare":
+            yield _redeclaration(tokens, at + 1, depth > 1, offset)
+
+
+def _redeclaration(tokens: tuple[Token, ...], at: int, is_nested: bool, offset: int) -> Redeclaration:
+    while at < len(tokens) and tokens[at][0] in PREFIXES:
+        at += 1
+    if at < len(tokens) and tokens[at][0] in CLASS_KINDS:
+        part, behind = dotted_name(tokens, at + 1)
+        return Redeclaration(part, dotted_name(tokens, behind + 1)[0], True, is_nested, offset)
+    class_name, behind = dotted_name(tokens, at)
+    part = dotted_name(tokens, behind_brackets(tokens, behind))[0]
+    return Redeclaration(part, class_name, False, is_nested, offset)

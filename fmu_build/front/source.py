@@ -24,7 +24,6 @@ class ClassSource:
     is_single_file: bool
     description: str
     annotation: tuple[str, ...]  # tokens between the annotation's parentheses
-    tokens: tuple[str, ...]  # the class as written, up to its `end`
 
     @property
     def span(self) -> Span:
@@ -63,15 +62,15 @@ def find_class(name: str, libraries: Sequence[Path]) -> ClassSource:
         if library.is_dir() and not (library / "package.mo").is_file():
             raise BuildError(f"{library} is no Modelica library: it has no package.mo")
         if library.is_dir() and library.name == parts[0]:
-            file, inside = _file_in_library(library, parts[1:])
+            file, inside = file_in_library(library, parts[1:])
             return _read(name, file, inside or [parts[-1]], False)
-        if library.is_file() and re.search(rf"\b(?:{CLASS_KINDS})\s+{re.escape(parts[0])}\b", _load(library)):
+        if library.is_file() and re.search(rf"\b(?:{CLASS_KINDS})\s+{re.escape(parts[0])}\b", read_text(library)):
             return _read(name, library, parts, True)
     where = ", ".join(str(library) for library in libraries) or "no library"
     raise BuildError(f"class {name} is not in {where}; give its full name, and its library or file")
 
 
-def _file_in_library(library: Path, parts: list[str]) -> tuple[Path, list[str]]:
+def file_in_library(library: Path, parts: list[str]) -> tuple[Path, list[str]]:
     """The file that holds the class, and the names to follow inside it."""
     folder = library
     for depth, part in enumerate(parts):
@@ -84,7 +83,7 @@ def _file_in_library(library: Path, parts: list[str]) -> tuple[Path, list[str]]:
     return folder / "package.mo", [folder.name]
 
 
-def _load(file: Path) -> str:
+def read_text(file: Path) -> str:
     try:
         return file.read_text(encoding="utf-8-sig")
     except (OSError, UnicodeDecodeError) as failure:
@@ -92,7 +91,7 @@ def _load(file: Path) -> str:
 
 
 def _read(name: str, file: Path, path: list[str], is_single_file: bool) -> ClassSource:
-    text = _load(file)
+    text = read_text(file)
     tokens = tokenise(text)
     begin, inside, end = 0, 0, len(tokens)
     for part in path:
@@ -104,7 +103,7 @@ def _read(name: str, file: Path, path: list[str], is_single_file: bool) -> Class
     line = text.count("\n", 0, tokens[begin][1]) + 1
     words = [token for token, _ in tokens[begin:end]]
     description = "".join(_text(word) for word in words[2:3] if word.startswith('"'))
-    return ClassSource(name, file, line, text, is_single_file, description, _own_annotation(words), tuple(words))
+    return ClassSource(name, file, line, text, is_single_file, description, _own_annotation(words))
 
 
 def _class_range(tokens: Sequence[tuple[str, int]], name: str, begin: int, end: int) -> tuple[int, int] | None:

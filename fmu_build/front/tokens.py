@@ -4,7 +4,7 @@ import re
 from functools import lru_cache
 
 TOKEN = re.compile(
-    r'"(?:\\.|[^"\\])*"|//[^\n]*|/\*.*?\*/|[A-Za-z_]\w*|\'[^\']*\'|\d[\d.]*(?:[eE][+-]?\d+)?|\S', re.DOTALL
+    r'"(?:\\.|[^"\\])*"|//[^\n]*|/\*.*?\*/|[A-Za-z_]\w*|\'(?:\\.|[^\'\\])*\'|\d[\d.]*(?:[eE][+-]?\d+)?|\S', re.DOTALL
 )
 
 

@@ -84,6 +84,15 @@ def test_unknown_class_and_library(library, tmp_path):
         load("X", [tmp_path / "none"])
 
 
+def test_what_is_no_model_is_refused_by_its_kind(library, write):
+    with pytest.raises(BuildError, match="L is a package; name a model"):
+        load("L", [library])
+    file = write("model M\n  Real x = time;\nend M;\npartial model P\n  Real x;\nend P;")
+    with pytest.raises(BuildError, match="P is a partial model; name a model") as caught:
+        load("P", [file])
+    assert caught.value.line == 4
+
+
 @pytest.mark.parametrize(
     ("text", "line", "message"),
     [

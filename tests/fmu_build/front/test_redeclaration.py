@@ -1,4 +1,4 @@
-"""Redeclarations the compiler would drop are refused; those it follows change the model."""
+"""Redeclarations the compiler would drop are refused at their own line; those it follows change the model."""
 
 from pathlib import Path
 
@@ -21,44 +21,102 @@ package L
     slot.x = x; part.x = x; der(x) = slot.f + part.f;
   end Cart;
   model Heavy extends Cart; end Heavy;
+  model 'Heavy one' extends Cart; end 'Heavy one';
+  model Other extends Cart; replaceable Nothing second(x = slot.x) "not slot"; end Other;
   model Train Heavy cart; end Train;
+  model Yard replaceable Cart cart; end Yard;
+  model Sprung extends Cart(redeclare Spring slot(k = 4)); end Sprung;
+  model Bad extends Heavy(
+    redeclare Spring slot); end Bad;
+  model Choices
+    replaceable Nothing slot constrainedby Slot annotation(choices(choice(redeclare Spring slot "as a spring")));
+    Real x(start = 1, fixed = true);
+  equation
+    slot.x = x; der(x) = slot.f;
+  end Choices;
+  package Carts model C extends Heavy; end C; end Carts;
+  package More extends Carts; end More;
   %s
 end L;
 """
+OWN_LINE = LIBRARY[: LIBRARY.index("%s")].count("\n") + 1
+THROUGH_BASE = "extend L.Cart instead"
+NESTED = "inside a part of another part"
+ELEMENT = "write it in the extends clause"
 
 
-def parameters(model: str, folder: Path) -> set[str]:
+def stiffnesses(model: str, folder: Path) -> dict[str, float]:
+    """Springs of the compiled model L.M."""
     file = folder / "L.mo"
     file.write_text(LIBRARY % model, encoding="utf-8")
     flat = load("L.M", [file])
-    return {variable.name for variable in flat.variables if variable.name.endswith(".k")}
+    return {v.name: v.binding.value for v in flat.variables if v.name.split(".")[-1] == "k"}
 
 
 @pytest.mark.parametrize(
     ("model", "expected"),
     [
-        ("model M extends Cart(redeclare Spring slot); end M;", "slot.k"),
-        ("model M extends Cart(redeclare Spring slot(k = 5)); end M;", "slot.k"),
-        ("model M extends Heavy(redeclare model Part = Spring); end M;", "part.k"),
-        ("model M Heavy a(redeclare Spring slot); end M;", "a.slot.k"),
+        ("model M extends Cart(redeclare Spring slot); end M;", {"slot.k": 2}),
+        ("model M extends Cart(redeclare Spring slot(k = 5)); end M;", {"slot.k": 5}),
+        ('model M extends Cart(redeclare /* \' */ L.Spring slot "a \\"redeclare"); end M;', {"slot.k": 2}),
+        ("model M public extends Cart(redeclare Spring slot); end M;", {"slot.k": 2}),
+        ("model M import Q = L; extends Q.Cart(redeclare Q.Spring slot); end M;", {"slot.k": 2}),
+        ("model M extends Heavy(redeclare model Part = Spring); end M;", {"part.k": 2}),
+        ("model M Heavy a(redeclare model Part = Spring); end M;", {"a.part.k": 2}),
+        ("model M extends Cart; redeclare model Part = Spring; end M;", {"part.k": 2}),
+        ("model M extends Heavy; redeclare model Part = Spring(k = 6); end M;", {"part.k": 6}),
+        ("model M Heavy a(redeclare Spring slot); end M;", {"a.slot.k": 2}),
+        ("model M Real y = a.x; protected Heavy a(redeclare Spring slot); end M;", {"a.slot.k": 2}),
+        ("model M parameter Boolean on = true; Heavy a(redeclare Spring slot) if on; end M;", {"a.slot.k": 2}),
+        ("model N = Cart(redeclare Spring slot); model M N n; end M;", {"n.slot.k": 2}),
+        ("model M extends Yard(redeclare Sprung cart); end M;", {"cart.slot.k": 4}),
+        ("model M extends Choices(redeclare Spring slot); end M;", {"slot.k": 2}),
+        ("model M extends Choices; end M;", {}),
     ],
 )
-def test_followed(model: str, expected: str, tmp_path: Path) -> None:
-    assert parameters(model, tmp_path) == {expected}
+def test_followed(model: str, expected: dict[str, float], tmp_path: Path) -> None:
+    assert stiffnesses(model, tmp_path) == expected
 
 
 @pytest.mark.parametrize(
     ("model", "message"),
     [
-        ("model M extends Heavy(redeclare Spring slot); end M;", "extend L.Cart instead"),
-        ("model M = Heavy(redeclare Spring slot);", "extend L.Cart instead"),
-        ("model N extends Heavy(redeclare Spring slot); end N; model M N n; end M;", "extend L.Cart instead"),
-        ("model M extends Train(cart(redeclare Spring slot)); end M;", "inside a part of another part"),
+        ("model M extends Heavy(redeclare Spring slot); end M;", THROUGH_BASE),
+        ("model M extends Heavy(slot(x(start = 3)), redeclare Spring slot); end M;", THROUGH_BASE),
+        ("model M public extends Heavy(redeclare Spring slot); end M;", THROUGH_BASE),
+        ("model M protected Real y = 1; public extends Heavy(redeclare Spring slot); end M;", THROUGH_BASE),
+        ("model M equation if y > 1 then y = q; end if; public extends Heavy(redeclare Spring slot); end M;",
+         THROUGH_BASE),
+        ("encapsulated model M extends .L.Heavy(redeclare L.Spring slot); end M;", THROUGH_BASE),
+        ("model M import Q = L; extends Q.Heavy(redeclare Spring slot); end M;", THROUGH_BASE),
+        ("model M import L.Carts.*; extends C(redeclare Spring slot); end M;", THROUGH_BASE),
+        ("model M import L.Carts.{C}; extends C(redeclare Spring slot); end M;", THROUGH_BASE),
+        ("model M extends More.C(redeclare Spring slot); end M;", THROUGH_BASE),
+        ("model M extends 'Heavy one'(redeclare Spring slot); end M;", THROUGH_BASE),
+        ("model M extends Other(redeclare Spring slot); end M;", THROUGH_BASE),
+        ("model N = Heavy(redeclare Spring slot); model M extends N; end M;", THROUGH_BASE),
+        ("model N extends Heavy(redeclare Spring slot); end N; model M N n; end M;", THROUGH_BASE),
+        ("model M model N extends Heavy(redeclare Spring slot); end N; N n; end M;", THROUGH_BASE),
+        ("model M extends Train(cart(redeclare Spring slot)); end M;", NESTED),
+        ("model M Train a(cart(redeclare Spring slot)); end M;", NESTED),
+        ("model M Train a(cart(redeclare model Part = Spring)); end M;", NESTED),
+        ("model M extends Yard(redeclare Cart cart(redeclare Spring slot)); end M;", NESTED),
+        ("model M replaceable Cart a constrainedby Cart(redeclare Spring slot); end M;", "behind constrainedby"),
+        ("model M extends Cart; redeclare Spring slot; end M;", ELEMENT),
+        ("model M extends Cart; redeclare replaceable Spring slot; end M;", ELEMENT),
+        ("model M extends Cart; redeclare model extends Part end Part; end M;", ELEMENT),
         ("model M extends Cart(redeclare Spring brake); end M;", "no replaceable part brake"),
         ("model M extends Cart(redeclare model Brake = Spring); end M;", "no replaceable part Brake"),
+        ("model M extends Unknown(redeclare Spring slot); end M;", "Unknown is not found"),
     ],
-)
+)  # fmt: skip
 def test_refused(model: str, message: str, tmp_path: Path) -> None:
     with pytest.raises(BuildError, match=message) as caught:
-        parameters(model, tmp_path)
-    assert caught.value.line is not None
+        stiffnesses(model, tmp_path)
+    assert (caught.value.file, caught.value.line) == (tmp_path / "L.mo", OWN_LINE)
+
+
+def test_the_line_is_that_of_the_redeclaration_wherever_it_is_used(tmp_path: Path) -> None:
+    with pytest.raises(BuildError, match=THROUGH_BASE) as caught:
+        stiffnesses("model M extends Yard(redeclare Bad cart); end M;", tmp_path)
+    assert LIBRARY.splitlines()[caught.value.line - 1].strip() == "redeclare Spring slot); end Bad;"
