@@ -13,6 +13,7 @@ from validation.findings import Finding
 from validation.pump import pump_model
 from validation.read_csv import read_csv
 from validation.thesis import Difference, differences, write_dataset
+from validation.thesis.explanation import TOLERANCE_DB, TOLERANCE_DEG
 
 LIMITS = (0.05, 0.05, 0.3, 0.3)
 # With the locked set, V_0 - A_p x_p of Eq. 3.5 reaches zero inside this test's stroke: the thesis' equations end there,
@@ -61,7 +62,7 @@ def _locked_set_fails_on_the_mean_phase(locked: Comparison) -> Iterator[Finding]
 def _explained(comparison: Comparison, table: str) -> Iterator[Finding]:
     """What Table 4.4 cannot explain of the difference from the thesis' own table."""
     rows = [row for row in differences(comparison, table) if (comparison.label, *_size(row)) not in UNDEFINED]
-    for numbers, unit, limit in ((slice(0, 2), "dB", 0.05), (slice(2, 4), "deg", 0.3)):
+    for numbers, unit, limit in ((slice(0, 2), "dB", TOLERANCE_DB), (slice(2, 4), "deg", TOLERANCE_DEG)):
         worst = max(max(row.excess[numbers]) for row in rows)
         title = f"{comparison.label} set: difference from thesis Table {table} beyond the misfit of Table 4.4"
         yield Finding(title, worst, limit, unit)

@@ -1,5 +1,6 @@
 """Table 4.1 as data set, and the other tables against the criteria they were judged by."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -12,6 +13,7 @@ from validation.pump_frequency.case import reference_responses
 from validation.read_csv import read_csv
 from validation.thesis import (
     FREQUENCIES_HZ,
+    Difference,
     differences,
     explain,
     measured_responses,
@@ -93,3 +95,18 @@ def test_the_words_name_the_verdicts_that_differ() -> None:
     assert "25/10, 75/5, 75/10, 75/20." in words
     assert "5 to 10 deg here, 21 to 37 deg in Table 4.8" in words
     assert explain((), "4.8") == []
+    smallest, largest = (f(row.values[1] for row in published_deviations("4.4")) for f in (min, max))
+    assert f"and {smallest:.2f} to {largest:.2f} dB away" in words
+    assert "can explain every difference" in words
+    assert "Assumption: both comparisons are at the same frequencies" in words
+
+
+def test_the_words_name_the_tests_that_the_misfit_does_not_explain() -> None:
+    words = " ".join(explain(differences(independent_comparison("locked"), "4.8"), "4.8"))
+    assert "does not explain the difference" in words
+    assert "can explain every difference" not in words
+    # 25/5 by hand: |ours - printed| - misfit - rounding, beyond the tolerance in the mean phase alone
+    row = Difference(25.0, 5.0, (0.5, 1.0, 9.0, 30.0), (0.4, 0.9, 3.0, 28.0), (0.2, 0.3, 4.0, 25.0), False, False)
+    fine = replace(row, offset=50.0, ours=(0.5, 1.0, 7.3, 30.0))
+    (sentence,) = (line for line in explain((row, fine), "4.7") if line.startswith("Is that all"))
+    assert "1 of 2 tests differ by more: 25/5 (by 0.00 dB, 1.9 deg)." in sentence
