@@ -100,7 +100,9 @@ def initial_influence(model: OdeModel) -> Influence:
     inner = _held_inner(model, layout)
     inner |= _implicit(s, layout, "q", model.residual, s.q)
     inner |= _implicit(s, layout, "i", model.initial_residual, s.i)
-    inner |= _explicit(s, layout, "x", model.start_x)
+    starts_x = direct_influence(s, model.start_x)
+    reinitialised = direct_influence(s, ca.substitute(model.updates_x, s.e[0], ca.SX(1)))
+    inner |= {layout.bit("x", k): starts_x[k] | reinitialised[k] for k in range(s.x.numel())}
     sources = column([delay.source for delay in model.delays])
     inner |= _explicit(s, layout, "v", sources)
     starts = direct_influence(s, model.start_d)

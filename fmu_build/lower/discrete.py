@@ -16,7 +16,7 @@ from fmu_build.lower.ode_model import Check
 from fmu_build.lower.parameters import explicit
 from fmu_build.lower.scope import ScalarVariable, Scope
 from fmu_build.lower.sorting import blocks
-from fmu_build.lower.values import Scalar, Value, choose, scalars
+from fmu_build.lower.values import Scalar, Value, choose, column, scalars
 
 
 @dataclass(frozen=True)
@@ -29,6 +29,15 @@ class Updates:
     states: list[Scalar]
     checks: list[Check]
     terminations: list[Check]
+
+    def changed_at_start(self, scope: Scope, initial: Scalar) -> set[int]:
+        """Hashes of the states and discrete variables that the event of initialisation may change."""
+        symbols = [v.symbol for v in (*scope.states, *scope.discretes)]
+        if not symbols:
+            return set()
+        before = [*(v.symbol for v in scope.states), *scope.pre_discretes]
+        after = ca.substitute(column([*self.states, *self.discretes]), initial, ca.SX(1))
+        return {s.element_hash() for k, s in enumerate(symbols) if not ca.is_equal(after[k], before[k])}
 
 
 class DiscretePart:

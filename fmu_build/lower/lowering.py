@@ -39,6 +39,7 @@ def lower(flat: FlatModel) -> OdeModel:
     numbers = _numbers(parameters, calculated)
     shown = (*flat.variables, *events.hidden_variables)
     places = place_variables(shown, scope, parameters, calculated, solved, derivatives, start, evaluator)
+    places.calculate(updates.changed_at_start(scope, events.initial))
     symbols = Symbols(
         t=scope.time,
         x=column(v.symbol for v in scope.states),

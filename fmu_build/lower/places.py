@@ -1,7 +1,7 @@
 """Decides in which vector each variable is kept; variables with one and the same value share their place."""
 
-from collections.abc import Sequence
-from dataclasses import dataclass, field
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass, field, replace
 
 import casadi as ca
 
@@ -23,6 +23,18 @@ class Places:
 
     entries: list[Entry] = field(default_factory=list)
     outputs: list[Scalar] = field(default_factory=list)
+
+    def calculate(self, changed: Collection[int]) -> None:
+        """Take "exact" from the states and discrete variables, by hash, that hold another value once initialised.
+
+        They begin the initialisation with their start value nevertheless, which pre() gives there.
+        """
+        self.entries = [
+            replace(entry, initial="calculated")
+            if entry.vector in ("x", "d") and entry.variable.symbol.element_hash() in changed
+            else entry
+            for entry in self.entries
+        ]
 
 
 def place_variables(

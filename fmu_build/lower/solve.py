@@ -5,7 +5,9 @@ from dataclasses import dataclass, field
 
 import casadi as ca
 
+from fmu_build.errors import BuildError
 from fmu_build.lower.equations import Definition, ScalarEquation
+from fmu_build.lower.singular import is_singular
 from fmu_build.lower.values import Scalar, column
 
 # Larger linear systems go to the run time, whose Newton solves them with pivoting in one step.
@@ -26,7 +28,12 @@ def solve_block(equations: Sequence[ScalarEquation], unknowns: Sequence[Scalar],
 
     Unknowns that an equation gives with a constant coefficient are eliminated first (tearing): this never divides by
     something that may become zero. A linear rest of up to three is solved by Cramer's rule.
+
+    Raises:
+        BuildError: the equations contradict or repeat each other for whatever values of the variables in them.
     """
+    if is_singular(equations, unknowns):
+        raise _contradictory(equations)
     rest = _Rest([equation.residual for equation in equations], list(unknowns), list(keep))
     eliminated: list[Definition] = []
     while len(rest.unknowns) > 1 and (pivot := rest.pivot()) is not None:
@@ -34,6 +41,17 @@ def solve_block(equations: Sequence[ScalarEquation], unknowns: Sequence[Scalar],
     solution = _solve_rest(rest)
     solution.definitions += reversed(eliminated)
     return solution
+
+
+def _contradictory(equations: Sequence[ScalarEquation]) -> BuildError:
+    span = next((e.span for e in equations if e.span.line is not None), equations[0].span)
+    lines = sorted({e.span.line for e in equations if e.span.line is not None})
+    return BuildError(
+        f"{len(equations)} equations (lines {', '.join(map(str, lines))}) contradict or repeat each other: the system "
+        "is singular; take one out and say something else in its place",
+        span.file,
+        span.line,
+    )
 
 
 class _Rest:

@@ -35,6 +35,25 @@ def test_elsewhen_is_not_active_beside_the_branch_before():
     assert (run.at("a"), run.at("b")) == (1, 1)
 
 
+def test_only_what_the_initial_event_leaves_alone_is_exact():
+    model = body("""
+        discrete Real set(start = -1); discrete Real follow(start = 2); discrete Real kept(start = 3);
+        Real x(start = 0, fixed = true); Real y(start = 0, fixed = true); equation der(x) = 1; der(y) = 1;
+        when initial() then set = pre(set) + 8; reinit(y, 5); end when;
+        when {x > 1, initial()} then follow = 4; end when;
+        when x > 2 then kept = set; reinit(x, 0); elsewhen sample(0, 1) then kept = 1; end when;""")
+    found = {v.name: (v.initial, v.start) for v in model.variables if v.vector in ("x", "d")}
+    assert found == {
+        "set": ("calculated", -1),
+        "follow": ("calculated", 2),
+        "kept": ("exact", 3),
+        "x": ("exact", 0),
+        "y": ("calculated", 0),
+    }
+    run = Runner(model).run(0.5)
+    assert (run.at("set"), run.at("follow"), run.at("y")) == (7, 4, pytest.approx(5.5))
+
+
 def test_elsewhen_with_reinit_in_the_second_branch_only():
     model = body("""
         Real x(start = 0, fixed = true); discrete Real a(start = 0); equation der(x) = 1;

@@ -10,6 +10,13 @@ from tests.fmu_build.lower.compiling import body
     ("text", "line", "message"),
     [
         ("Real x; Real y; Real z;\nequation\nx = 1;\nx = time;\ny = z;", 4, "singular"),
+        ("Real x; Real y;\nequation\nx + y = 1;\nx + y = 2;", 4, "contradict or repeat"),
+        ("Real x; Real y; Real z;\nequation\nx + z = y;\n2*x = time + z;\n3*x = y + time;", 4, "contradict or repeat"),
+        (
+            "parameter Real a = 2; Real x; Real y;\nequation\na*x + sin(a)*y = 1;\n2*a*x + 2*sin(a)*y = time;",
+            4,
+            "contradict or repeat",
+        ),
         ("input Real u; Real x; Real v;\nequation\nder(x) = v;\nx = u;", 5, "derivative of the input u"),
         (
             "Real x(start = 0, fixed = true);\ninitial equation\nx = 1;\nequation\nder(x) = 1;",
