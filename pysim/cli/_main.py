@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import argparse
+import contextlib
+import os
 import sys
 import traceback
 from collections.abc import Sequence
@@ -35,7 +37,12 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 def _guarded(args: argparse.Namespace) -> int:
     try:
-        return int(_COMMANDS[args.command].run(args))
+        code = int(_COMMANDS[args.command].run(args))
+        sys.stdout.flush()  # here, where a reader that went away can still be dealt with
+        return code
+    except BrokenPipeError:  # `pysim ... | head` has seen enough
+        _silence()
+        return WRONG_USE
     except KeyboardInterrupt:
         print("pysim: stopped", file=sys.stderr)
         return WRONG_USE
@@ -46,6 +53,12 @@ def _guarded(args: argparse.Namespace) -> int:
         traceback.print_exc()
         print(f"pysim {args.command}: this is our mistake, please report the lines above", file=sys.stderr)
         return OUR_BUG
+
+
+def _silence() -> None:
+    """Send what is still to be printed nowhere, or Python would complain when it ends."""
+    with contextlib.suppress(OSError, ValueError):  # a standard output that has no file behind it
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def _is_users(error: Exception) -> bool:

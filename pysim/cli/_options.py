@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import argparse
+import math
+import sys
 import tomllib
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from pysim.types import Model
+    from pysim.types import Model, Variable
 
 
 def add_parameters(parser: argparse.ArgumentParser) -> None:
@@ -36,7 +38,17 @@ def read_parameters(args: argparse.Namespace, model: Model) -> dict[str, float]:
         variable = model[name]
         if variable.causality != "parameter":
             raise BadInput(f"{name} of {model.path.name} has the causality {variable.causality}; set parameters only")
+        _warn_beyond(variable, values[name], model)
     return values
+
+
+def _warn_beyond(variable: Variable, value: float, model: Model) -> None:
+    """Say that a value is outside its bounds; no error, because published parameter sets lie there too."""
+    low = -math.inf if variable.min is None else variable.min
+    high = math.inf if variable.max is None else variable.max
+    if not low <= value <= high:
+        text = f"{variable.name} = {value:g} of {model.path.name} is outside its bounds, {low:g} to {high:g}"
+        print(f"pysim: warning: {text} [{variable.unit}]", file=sys.stderr)
 
 
 def _from_file(path: Path) -> dict[str, float]:
@@ -64,17 +76,3 @@ def _flat(table: dict[str, object], prefix: str, path: Path) -> dict[str, float]
         else:
             raise BadInput(f"--parameters {path}: {prefix + key} = {value!r} is no number; write NAME = VALUE")
     return values
-
-
-def prepare_folder(folder: Path) -> Path:
-    """Make the output folder now, so that a place we cannot write to is known before the work is done."""
-    from pysim.types import BadInput
-
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        probe = folder / ".pysim-probe"
-        probe.touch()
-        probe.unlink()
-    except OSError as error:
-        raise BadInput(f"--output {folder}: cannot write there ({error.strerror}); choose another folder") from error
-    return folder

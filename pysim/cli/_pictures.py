@@ -12,18 +12,19 @@ if TYPE_CHECKING:
 
 def write_pictures(comparisons: Sequence[Comparison], folder: Path) -> dict[str, bytes]:
     """Write deviations.png and a Bode plot per offset; return caption -> SVG for the report."""
+    from pysim.io import write_file
     from pysim.plot import bode_figure, deviation_figure, render
 
     figures: dict[str, tuple[str, float | None]] = {
         "deviations.png": ("Deviation of every test, criterion by criterion; hollow: beyond the limit.", None)
     }
     for offset in sorted({test.measured.test.offset for test in comparisons[0].tests}):
-        caption = f"Offset {offset:g} percent: measured and simulated responses; grey: largest deviation allowed."
+        caption = f"Offset {offset:g} {unit}: {name}, and simulated; grey: largest deviation allowed."
         figures[f"bode_O{offset:+g}.png"] = (caption, offset)
     pictures = {}
     for name, (caption, at) in figures.items():
         figure = deviation_figure(comparisons) if at is None else bode_figure(comparisons, at)
-        (folder / name).write_bytes(render(figure, "png"))
+        write_file(folder / name, render(figure, "png"))
         figure.set_layout_engine("none")  # what the first drawing found is good for the second, and costs as much
         pictures[caption] = render(figure, "svg")
     return pictures

@@ -9,6 +9,14 @@ from types import TracebackType
 _WIDTH = 30
 
 
+def announce_compilation() -> None:
+    """Say why the first run on a machine takes its time."""
+    from pysim.simulate import is_compiled
+
+    if not is_compiled():
+        print("Compiling the simulation loop, once on this machine, some 15 s ...", file=sys.stderr)
+
+
 class ProgressBar:
     """One line that is drawn over; silent where standard error is no terminal, but for its last state."""
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import json
-import shlex
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -25,10 +24,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Print the table; 0 when every test passes, 1 when one does not."""
-    from pysim.cli._options import prepare_folder, read_parameters
-    from pysim.cli._progress import ProgressBar
+    from pysim.cli._options import read_parameters
+    from pysim.cli._outputs import prepare_file, prepare_folder
+    from pysim.cli._progress import ProgressBar, announce_compilation
     from pysim.diagnose import compare
-    from pysim.io import read_dataset, read_model
+    from pysim.io import read_dataset, read_model, write_file
     from pysim.report import comparison_data, comparison_text
 
     dataset, model = read_dataset(args.data), read_model(args.model)
@@ -36,26 +36,29 @@ def run(args: argparse.Namespace) -> int:
     if args.output:
         prepare_folder(args.output)
     if args.json:
-        prepare_folder(args.json.parent)
+        prepare_file(args.json, "--json")
+    announce_compilation()
     with ProgressBar("stepped sines") as progress:
         comparison = compare(model, dataset, overrides=overrides, label=args.model.stem, progress=progress)
     print(comparison_text(comparison))
     if args.json:
-        args.json.write_text(json.dumps(comparison_data([comparison]), indent=1, allow_nan=False), encoding="utf-8")
+        write_file(args.json, json.dumps(comparison_data([comparison]), indent=1, allow_nan=False))
     if args.output:
         _write_report(args, comparison)
     return 0 if comparison.passes else 1
 
 
 def _write_report(args: argparse.Namespace, comparison: Comparison) -> None:
+    from pysim.cli._outputs import command_line
     from pysim.cli._pictures import write_pictures
+    from pysim.io import write_file
     from pysim.report import comparison_page
 
-    redo = shlex.join(
-        ["pysim", "compare", str(args.model), "--data", str(args.data), "--output", str(args.output)]
+    redo = command_line(
+        ["compare", str(args.model), "--data", str(args.data), "--output", str(args.output)]
         + [word for name, value in comparison.overrides.items() for word in ("--set", f"{name}={value!r}")]
     )
     pictures = write_pictures([comparison], args.output)
     text = comparison_page("A model against its measurements", [comparison], pictures=pictures, redo=redo)
-    (args.output / "report.html").write_text(text, encoding="utf-8")
+    write_file(args.output / "report.html", text)
     print(f"Report: {args.output / 'report.html'}")

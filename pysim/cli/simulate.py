@@ -1,53 +1,83 @@
-"""Run an FMU and write what it did as a csv file."""
+"""Run an FMU and write what it did as .csv or .npz."""
 
 from __future__ import annotations
 
 import argparse
+import json
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from pysim.types import Model, Record
+    from pysim.types import Experiment, Model, Record
+
+_STOP = 1.0  # s, where neither the command line nor the FMU says it
+_ROWS = 500  # rows of a run, where the command line does not say it
+_MOST_ROWS = 10_000_000  # of a run; more is a slip of the keyboard, and would fill the memory
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The words behind `pysim simulate`."""
+    from pysim.cli._inputs import add_inputs
     from pysim.cli._options import add_parameters
 
     parser.add_argument("model", metavar="MODEL.fmu", type=Path)
-    parser.add_argument("--stop", metavar="SECONDS", type=float, default=1.0, help="end of the run (1)")
+    parser.add_argument("--stop", metavar="SECONDS", type=float, help="end of the run (the FMU's own, else 1)")
     parser.add_argument("--step", metavar="SECONDS", type=float, help="time between rows (a 500th of the run)")
     parser.add_argument("--record", metavar="NAME", action="append", default=[], help="variable; all outputs if none")
+    add_inputs(parser)
     add_parameters(parser)
-    parser.add_argument("--output", metavar="FILE.csv", type=Path, help="file to write; standard output if none")
+    parser.add_argument(
+        "--solver", choices=("rodas", "rk45"), default="rodas", help="for stiff models or for others (rodas)"
+    )
+    parser.add_argument(
+        "--output", metavar="FILE", type=Path, help=".csv or .npz to write; else csv to standard output"
+    )
+    parser.add_argument("--json", metavar="FILE", type=Path, help="write record and statistics here")
 
 
 def run(args: argparse.Namespace) -> int:
-    """Simulate with the inputs at their start values; 1 when the run stops early."""
-    import numpy as np
-
-    from pysim.cli._options import read_parameters
+    """Simulate; 1 when the run stops early, with what was reached written all the same."""
+    from pysim.cli._outputs import prepare_file
+    from pysim.cli._progress import announce_compilation
     from pysim.io import read_model
-    from pysim.simulate import simulate
-    from pysim.types import BadInput, Experiment, Outcome
+    from pysim.simulate import Rk45, Rodas, simulate
+    from pysim.types import Outcome
 
     model = read_model(args.model)
-    step = args.stop / 500 if args.step is None else args.step
-    if not (0 < step <= args.stop < float("inf")):
-        raise BadInput(f"--stop {args.stop:g} --step {step:g}: the step must be positive and not beyond the stop")
-    times = np.append(np.arange(0.0, args.stop - step / 2, step), args.stop)
-    experiment = Experiment(times, _recorded(model, args.record), overrides=read_parameters(args, model))
-    record = simulate(model, experiment, check=False)
-    text = _as_csv(record)
+    experiment = _experiment(args, model)
     if args.output:
-        args.output.write_text(text, encoding="utf-8")
-    else:
-        sys.stdout.write(text)
+        prepare_file(args.output, "--output", (".csv", ".npz"))
+    if args.json:
+        prepare_file(args.json, "--json")
+    announce_compilation()
+    record = simulate(model, experiment, solver=Rodas() if args.solver == "rodas" else Rk45(), check=False)
+    _write(args, record)
     if record.outcome is not Outcome.DONE:
         print(f"pysim simulate: {model.name} stopped early: {record.message}", file=sys.stderr)
         return 1
     return 0
+
+
+def _experiment(args: argparse.Namespace, model: Model) -> Experiment:
+    import numpy as np
+
+    from pysim.cli._inputs import rate_inputs, read_inputs
+    from pysim.cli._options import read_parameters
+    from pysim.types import BadInput, Experiment
+
+    stop = model.stop_time or _STOP if args.stop is None else args.stop
+    step = stop / _ROWS if args.step is None else args.step
+    if not (0 < step <= stop < float("inf")):
+        raise BadInput(f"--stop {stop:g} --step {step:g}: the step must be positive and not beyond the stop")
+    if stop / step > _MOST_ROWS:
+        raise BadInput(
+            f"--stop {stop:g} --step {step:g}: {stop / step:.3g} rows are more than {_MOST_ROWS:,}; widen the step"
+        )
+    times = np.append(np.arange(0.0, stop - step / 2, step), stop)
+    inputs = read_inputs(args, model)
+    recorded = _recorded(model, args.record)
+    return Experiment(times, recorded, inputs, read_parameters(args, model), rates=rate_inputs(model, inputs))
 
 
 def _recorded(model: Model, names: list[str]) -> tuple[str, ...]:
@@ -56,7 +86,12 @@ def _recorded(model: Model, names: list[str]) -> tuple[str, ...]:
     return tuple(names) or outputs or model.abilities.states
 
 
-def _as_csv(record: Record) -> str:
-    head = ",".join(["time [s]", *(f"{name} [{unit}]" for name, unit in zip(record.names, record.units, strict=True))])
-    rows = (",".join(repr(float(x)) for x in (t, *row)) for t, row in zip(record.time, record.values, strict=True))
-    return "\n".join([head, *rows, ""])
+def _write(args: argparse.Namespace, record: Record) -> None:
+    from pysim.io import record_data, record_text, write_file, write_record
+
+    if args.json:
+        write_file(args.json, json.dumps(record_data(record), indent=1, allow_nan=False))
+    if args.output:
+        write_record(record, args.output)
+    else:
+        sys.stdout.write(record_text(record))

@@ -7,18 +7,22 @@ import os
 import shutil
 import tempfile
 import zipfile
+import zlib
 from functools import lru_cache
 from pathlib import Path, PurePosixPath, PureWindowsPath
 
 from pysim.io.cache import cache_folder
 from pysim.types import BadInput
 
+# What zipfile raises for a damaged archive, for a compression it does not know, and for one with a password
+DAMAGED = (zipfile.BadZipFile, zlib.error, EOFError, NotImplementedError, RuntimeError)
+
 
 def extracted(path: Path) -> Path:
     """The folder with the unpacked FMU. The same content is unpacked once per machine.
 
     Raises:
-        BadInput: not a zip archive, or a member that would land outside the folder.
+        BadInput: not a zip archive, one that is damaged or encrypted, or a member that would land outside the folder.
     """
     stat = path.stat()
     return _extracted(path.resolve(), stat.st_mtime_ns, stat.st_size)
@@ -41,8 +45,8 @@ def _unpack(path: Path, folder: Path) -> None:
                 _check_member(path, member.filename)
             archive.extractall(partial)
         os.replace(partial, folder)
-    except zipfile.BadZipFile as error:
-        raise BadInput(f"{path} is not an FMU: {error}; export it again") from error
+    except DAMAGED as error:
+        raise BadInput(f"{path} is not an FMU that can be unpacked: {error}; export it again") from error
     except OSError:
         if not folder.is_dir():  # else another process was faster
             raise

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from fmpy.model_description import ModelDescription, ModelVariable, Unknown, read_model_description
 
+from pysim.io.archive import DAMAGED
 from pysim.types import Abilities, BadInput, Model, Variable
 
 
@@ -22,8 +23,8 @@ def read_model(path: Path | str) -> Model:
         raise BadInput(f"no FMU at {path}")
     try:
         description = read_model_description(str(path), validate=False)
-    except (zipfile.BadZipFile, KeyError) as error:
-        raise BadInput(f"{path} is not an FMU: {error}") from error
+    except (*DAMAGED, KeyError) as error:
+        raise BadInput(f"{path} is not an FMU: {error}; export it again") from error
     except Exception as error:  # FMPy raises bare exceptions for whatever it cannot read
         raise BadInput(f"{path}: its modelDescription.xml cannot be read: {error}") from error
     if description.fmiMajorVersion not in (2, 3):
@@ -34,7 +35,12 @@ def read_model(path: Path | str) -> Model:
         token=description.guid,
         variables=tuple(_variable(v) for v in description.modelVariables),
         abilities=_abilities(description, path),
+        stop_time=_stop_time(description),
     )
+
+
+def _stop_time(d: ModelDescription) -> float | None:
+    return _number(d.defaultExperiment.stopTime) if d.defaultExperiment is not None else None
 
 
 def _variable(v: ModelVariable) -> Variable:

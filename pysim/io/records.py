@@ -5,15 +5,15 @@ from __future__ import annotations
 import csv
 import io
 import json
-import os
+import math
 import re
-import tempfile
 import zipfile
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from pysim.io.files import write_file
 from pysim.types import BadInput, Outcome, Record
 
 _HEADING = re.compile(r"(?P<name>.*) \[(?P<unit>[^\[\]]*)\]")
@@ -33,7 +33,7 @@ def write_record(record: Record, path: Path | str) -> None:
     if form is None:
         raise BadInput(f"{path}: records are written as .csv or .npz; change the suffix")
     try:
-        _replace(path, form[0](record))
+        write_file(path, form[0](record))
     except OSError as error:
         raise BadInput(f"{path}: cannot write there ({error.strerror}); choose another folder") from error
 
@@ -50,24 +50,27 @@ def read_record(path: Path | str) -> Record:
         raise BadInput(f"{path}: records are read from .csv or .npz; change the suffix")
     try:
         return form[1](path)
-    except BadInput:
-        raise
+    except BadInput as error:
+        raise error if str(path) in str(error) else BadInput(f"{path}: {error}") from error
     except OSError as error:
         raise BadInput(f"{path}: cannot be read ({error.strerror})") from error
     except (KeyError, EOFError, ValueError, zipfile.BadZipFile) as error:
         raise BadInput(f"{path} is not a record: {error}; write it with write_record") from error
 
 
-def _replace(path: Path, content: bytes) -> None:
-    """Write beside the target and rename."""
-    handle, partial = tempfile.mkstemp(dir=path.parent, prefix=path.name)
-    try:
-        with os.fdopen(handle, "wb") as file:
-            file.write(content)
-        os.replace(partial, path)
-    except BaseException:
-        os.unlink(partial)
-        raise
+def record_text(record: Record) -> str:
+    """A record as a .csv holds it."""
+    return _as_csv(record).decode()
+
+
+def record_data(record: Record) -> dict[str, Any]:
+    """A record for JSON: what it says of itself, `time` (n_t) and a row (n_t) per name in `signals`.
+
+    JSON knows no infinity and no NaN; they become null.
+    """
+    columns = zip(record.names, record.values.T.tolist(), strict=True)
+    signals = {name: [x if math.isfinite(x) else None for x in column] for name, column in columns}
+    return {**_description(record), "time": record.time.tolist(), "signals": signals}
 
 
 def _description(record: Record) -> dict[str, Any]:

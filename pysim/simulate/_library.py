@@ -203,13 +203,23 @@ def open_library(model: Model) -> Iterator[Library]:
     """The model's shared library, loaded for the length of the block.
 
     Raises:
-        BadInput: no model exchange, or no binary for this machine.
+        BadInput: no model exchange, no binary for this machine, or an FMU that cannot be instantiated.
     """
     library = Library(model)
     try:
+        _try_instance(library)
         yield library
     finally:
         library.close()
+
+
+def _try_instance(library: Library) -> None:
+    """Make the first instance now, so that an FMU nobody can instantiate is one error and not one per run."""
+    try:
+        with library.instance():
+            pass
+    except CallFailed as error:
+        raise BadInput(f"{library.model.path.name}: {error}; export it again") from error
 
 
 def _check_binary(model: Model, folder: Path) -> None:

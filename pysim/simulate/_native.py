@@ -37,6 +37,11 @@ def _source_key() -> str:
     return digest.hexdigest()[:16]
 
 
+def is_compiled() -> bool:
+    """Whether this machine holds the machine code already; making it takes some 15 s, once."""
+    return any((cache_folder("native") / _source_key()).rglob("*.nbi"))
+
+
 def entry(function: Callable[..., Any]) -> Callable[..., Any]:
     """Compile a function that Python calls, once per machine.
 

@@ -56,6 +56,7 @@ class Model:
     token: str  # guid or instantiationToken: changes with the model's content
     variables: tuple[Variable, ...] = field(repr=False)
     abilities: Abilities = field(repr=False)
+    stop_time: float | None = None  # s, of the FMU's own default experiment
 
     @cached_property
     def _by_name(self) -> dict[str, Variable]:

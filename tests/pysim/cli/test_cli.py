@@ -1,9 +1,12 @@
 """The commands: exit codes, one-line errors, and what they leave behind. The FMU is the linear stand-in."""
 
+import argparse
 import json
+import shlex
 import subprocess
 import sys
 from collections.abc import Sequence
+from dataclasses import replace
 from importlib import import_module
 from pathlib import Path
 from types import SimpleNamespace
@@ -12,7 +15,10 @@ from typing import Any
 import numpy as np
 import pytest
 
+import pysim.cli
 from pysim.cli import main
+from pysim.cli._options import read_parameters
+from pysim.cli._outputs import command_line
 from pysim.types import BadInput, Experiment, Record
 from tests.pysim import comparisons as linear
 
@@ -148,15 +154,51 @@ def test_commands_start_without_heavy_imports() -> None:
     assert subprocess.run([sys.executable, "-c", script], check=False).returncode == 0
 
 
-def test_simulate_writes_the_outputs(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    def simulate(_: Any, experiment: Experiment, **__: Any) -> Record:
-        return Record(experiment.times, experiment.times[:, None] * 2, experiment.record, ("%",))
+def test_numbers_outside_the_bounds_are_said_and_used(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    bounded = replace(linear.model()["k"], min=-0.01, max=0.01)
+    model = replace(linear.model(), variables=(*linear.model().variables[:2], bounded))
+    args = argparse.Namespace(parameters=None, set=["k=0.02"])
+    assert read_parameters(args, model) == {"k": 0.02}
+    assert "k = 0.02 of linear.fmu is outside its bounds, -0.01 to 0.01" in capsys.readouterr().err
+    args.set = ["k=0.01"]
+    assert read_parameters(args, model) == {"k": 0.01}
+    assert capsys.readouterr().err == ""
 
-    monkeypatch.setattr("pysim.io.read_model", lambda path: linear.model())
-    monkeypatch.setattr("pysim.simulate.simulate", simulate)
-    file = tmp_path / "out.csv"
-    assert main(["simulate", "linear.fmu", "--stop", "0.3", "--step", "0.1", "--output", str(file)]) == 0
-    assert file.read_text().startswith("time [s],angle [%]\n")
-    rows = np.loadtxt(file, delimiter=",", skiprows=1)
-    np.testing.assert_allclose(rows, [[0, 0], [0.1, 0.2], [0.2, 0.4], [0.3, 0.6]], atol=1e-12)
-    assert main(["simulate", "linear.fmu", "--stop", "-1"]) == 2
+
+@pytest.mark.parametrize("option", ["--output", "--json"])
+def test_a_place_that_cannot_be_written_is_known_before_the_runs(
+    folder: Path, option: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(import_module("pysim.diagnose.compare"), "simulate_many", None)  # a run would be our bug
+    words = ["compare", "linear.fmu", "--data", str(folder), option, str(folder / "dataset.toml" / "x")]
+    assert main(words) == 2
+    error = capsys.readouterr().err
+    assert f"{option} {folder / 'dataset.toml' / 'x'}: cannot write there" in error
+    assert error.count("\n") == 1
+
+
+def test_a_reader_that_went_away_ends_the_command_quietly() -> None:
+    script = (
+        "import sys; from types import SimpleNamespace; from pysim.cli import _main\n"
+        "run = lambda args: print('x' * 10_000_000) or 0\n"
+        "_main._COMMANDS = {'demo': SimpleNamespace(run=run, add_arguments=lambda p: None, __doc__='Print.')}\n"
+        "sys.exit(_main.main(['demo']))\n"
+    )
+    with subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+        assert process.stdout is not None
+        assert process.stderr is not None
+        process.stdout.read(5)
+        process.stdout.close()
+        assert process.stderr.read() == b""
+    assert process.returncode == 2
+
+
+def test_the_line_to_redo_is_quoted_and_starts_where_it_works(monkeypatch: pytest.MonkeyPatch) -> None:
+    root = Path(pysim.cli.__file__).parents[2]
+    monkeypatch.setattr(sys, "prefix", "/usr")
+    assert command_line(["demo", "--output", "my results"]) == "pysim demo --output 'my results'"
+    monkeypatch.setattr(sys, "prefix", str(root / ".venv"))
+    monkeypatch.chdir(root)
+    assert command_line(["demo"]) == "python3 run.py pysim demo"
+    monkeypatch.chdir(root / "tests")
+    assert shlex.split(command_line(["demo"])) == ["python3", str(root / "run.py"), "pysim", "demo"]

@@ -4,7 +4,7 @@ from pathlib import Path
 import pytest
 
 from pysim.io import archive as module
-from pysim.io import extracted
+from pysim.io import extracted, read_model
 from pysim.types import BadInput
 
 
@@ -59,3 +59,38 @@ def test_broken_archive_is_bad_input_and_leaves_nothing(tmp_path, own_cache):
     with pytest.raises(BadInput, match=r"broken\.fmu is not an FMU"):
         extracted(path)
     assert list(own_cache.iterdir()) == []
+
+
+def damaged(path: Path, method: int, change) -> Path:
+    """An archive of one member whose headers or content were changed."""
+    with zipfile.ZipFile(path, "w", method) as archive:
+        archive.writestr("data", "12345678" * 200)
+    content = bytearray(path.read_bytes())
+    change(content)
+    path.write_bytes(content)
+    return path
+
+
+def other_compression(content: bytearray) -> None:
+    for header, at in ((b"PK\x03\x04", 8), (b"PK\x01\x02", 10)):
+        content[content.index(header) + at] = 99
+
+
+def encrypted(content: bytearray) -> None:
+    for header, at in ((b"PK\x03\x04", 6), (b"PK\x01\x02", 8)):
+        content[content.index(header) + at] |= 1
+
+
+def broken_stream(content: bytearray) -> None:
+    start = 30 + len("data")
+    content[start : start + 4] = b"\xff\xff\xff\xff"
+
+
+@pytest.mark.parametrize("change", [other_compression, encrypted, broken_stream])
+def test_damaged_archive_is_bad_input_and_leaves_nothing(tmp_path, own_cache, change):
+    path = damaged(tmp_path / "damaged.fmu", zipfile.ZIP_DEFLATED, change)
+    with pytest.raises(BadInput, match=r"damaged\.fmu is not an FMU that can be unpacked: .*; export it again"):
+        extracted(path)
+    assert list(own_cache.iterdir()) == []
+    with pytest.raises(BadInput, match=r"damaged\.fmu"):
+        read_model(path)

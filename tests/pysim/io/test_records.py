@@ -4,7 +4,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
-from pysim.io import read_record, write_record
+from pysim.io import read_record, record_data, record_text, write_record
 from pysim.types import BadInput, Outcome, Record
 
 _numbers = st.floats(allow_nan=False, allow_infinity=False)
@@ -87,3 +87,20 @@ def test_wrong_places_and_forms_are_refused(tmp_path):
     (tmp_path / "r.npz").write_bytes(b"no")
     with pytest.raises(BadInput, match="not a record"):
         read_record(tmp_path / "r.npz")
+
+
+def test_json_has_a_row_per_name_and_no_infinity():
+    data = record_data(record(np.array([[1.0, np.nan], [3.0, np.inf]]), origin="simulated pump"))
+    assert data["signals"] == {"a[0,1].b": [1.0, 3.0], "a[1,1].b": [None, None]}
+    assert (data["time"], data["units"], data["origin"]) == ([0.0, 1 / 3], ["bar", "bar"], "simulated pump")
+
+
+def test_text_is_what_the_file_holds(tmp_path):
+    write_record(_STOPPED, tmp_path / "r.csv")
+    assert (tmp_path / "r.csv").read_text() == record_text(_STOPPED)
+
+
+def test_times_that_do_not_increase_are_said_with_the_file(tmp_path):
+    (tmp_path / "r.csv").write_text("time [s],alpha [deg]\n0,1\n0,2\n")
+    with pytest.raises(BadInput, match=r"r\.csv: record: times must be finite and increase"):
+        read_record(tmp_path / "r.csv")

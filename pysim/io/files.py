@@ -1,0 +1,28 @@
+"""Write a file whole or not at all."""
+
+from __future__ import annotations
+
+import os
+import uuid
+from pathlib import Path
+
+
+def write_file(path: Path, content: bytes | str) -> None:
+    """Write beside the target and rename, so that nobody ever sees half a file; text becomes UTF-8.
+
+    A target that is no regular file, such as /dev/null, is written to as it is.
+
+    Raises:
+        OSError: the place cannot be written; what was there before is still there.
+    """
+    data = content.encode() if isinstance(content, str) else content
+    path = path.resolve()
+    if path.exists() and not path.is_file():
+        path.write_bytes(data)
+        return
+    partial = path.with_name(f"{path.name}.{uuid.uuid4().hex[:8]}.part")
+    try:
+        partial.write_bytes(data)
+        os.replace(partial, path)
+    finally:
+        partial.unlink(missing_ok=True)
