@@ -14,6 +14,10 @@ CLASSES: Mapping[str, str] = MappingProxyType(
     {"free": "HydraulicTestBench.Pump.FreeGreyBox", "locked": "HydraulicTestBench.Pump.LockedGreyBox"}
 )
 
+SOURCES: Mapping[str, str] = MappingProxyType(
+    {"free": "free grey-box set, thesis Table 4.6", "locked": "locked grey-box set, thesis Table 4.5"}
+)
+
 
 def pump_model(parameter_set: str, *, fmi: int = 2, output: Path | None = None) -> Model:
     """The pump with one of the thesis' parameter sets.

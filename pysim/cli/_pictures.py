@@ -18,8 +18,11 @@ def write_pictures(comparisons: Sequence[Comparison], folder: Path) -> dict[str,
     figures: dict[str, tuple[str, float | None]] = {
         "deviations.png": ("Deviation of every test, criterion by criterion; hollow: beyond the limit.", None)
     }
-    for offset in sorted({test.measured.test.offset for test in comparisons[0].tests}):
-        caption = f"Offset {offset:g} {unit}: {name}, and simulated; grey: largest deviation allowed."
+    first = comparisons[0]
+    for offset in sorted({test.measured.test.offset for test in first.tests}):
+        caption = (
+            f"Offset {offset:g} {first.command_unit}: {first.measured_name}, and simulated; grey: what is allowed."
+        )
         figures[f"bode_O{offset:+g}.png"] = (caption, offset)
     pictures = {}
     for name, (caption, at) in figures.items():

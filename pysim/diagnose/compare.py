@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 
+from pysim.diagnose.conditions import conditions, parameters
 from pysim.identify import (
     THESIS_REFERENCE_HZ,
     SteadyRun,
@@ -41,6 +42,7 @@ def compare(
     *,
     overrides: Mapping[str, float] | None = None,
     label: str = "",
+    about: str = "",
     reference_hz: float | None = THESIS_REFERENCE_HZ,
     plan: SteppedSine | None = None,
     solver: Solver | None = None,
@@ -55,6 +57,7 @@ def compare(
         dataset: its frequency responses are used.
         overrides: parameters to set first, in the variables' units.
         label: name of the parameter set, for tables and plots.
+        about: what that set is and where its values are from.
         reference_hz: whose gain counts as 0 dB on both sides (Eq. 2.12); None compares absolute gains.
         plan: how the tests are run; a run that has not settled is repeated with longer settling.
         solver: of pysim.simulate; SOLVER where None.
@@ -98,6 +101,9 @@ def compare(
         tests=tuple(_judge(m, t, runs, plan, reference_hz) for m, t in zip(responses, tests, strict=True)),
         overrides=overrides or {},
         reference_hz=reference_hz,
+        command_unit=dataset.signal(responses[0].test.input).unit,
+        conditions=conditions(model, plan, solver, about),
+        parameters=parameters(model, overrides or {}),
     )
 
 

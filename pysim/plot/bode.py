@@ -29,7 +29,7 @@ _MAX_DB, _MAX_DEG = FREQUENCY_CRITERIA[1].limit, FREQUENCY_CRITERIA[3].limit
 
 
 def bode_figure(comparisons: Sequence[Comparison], offset: float) -> Figure:
-    """Magnitude (dB, relative to 0.1 Hz) above phase (deg) over frequency (Hz); a column per amplitude.
+    """Magnitude (dB, relative to the reference frequency) above phase (deg) over frequency; a column per amplitude.
 
     Args:
         comparisons: parameter sets against one data set, each in a colour of its own.
@@ -46,8 +46,10 @@ def bode_figure(comparisons: Sequence[Comparison], offset: float) -> Figure:
     handles: dict[str, Any] = {}
     for column in range(count):
         tests = [(comparison.label, tests[column]) for comparison, tests in zip(comparisons, columns, strict=True)]
-        _draw_column(axes[0, column], axes[1, column], tests, handles)
-    axes[0, 0].set_ylabel("Magnitude relative to 0.1 Hz (dB)", fontsize=TEXT)
+        _draw_column(axes[0, column], axes[1, column], tests, handles, comparisons[0])
+    reference_hz = comparisons[0].reference_hz
+    relative = "" if reference_hz is None else f" relative to {reference_hz:g} Hz"
+    axes[0, 0].set_ylabel(f"Magnitude{relative} (dB)", fontsize=TEXT)
     axes[1, 0].set_ylabel("Phase (deg)", fontsize=TEXT)
     axes[1, 0].yaxis.set_major_locator(MultipleLocator(45.0))
     legend_above(figure, list(handles.values()), list(handles))
@@ -55,16 +57,23 @@ def bode_figure(comparisons: Sequence[Comparison], offset: float) -> Figure:
 
 
 def _draw_column(
-    top: Axes, bottom: Axes, tests: Sequence[tuple[str, ResponseComparison]], handles: dict[str, Any]
+    top: Axes,
+    bottom: Axes,
+    tests: Sequence[tuple[str, ResponseComparison]],
+    handles: dict[str, Any],
+    comparison: Comparison,
 ) -> None:
     """One test: the measured response with its band, then every parameter set."""
     measured = tests[0][1].measured
-    f = measured.frequency
-    for axes, values, limit in ((top, magnitude_db(measured), _MAX_DB), (bottom, _degrees(measured), _MAX_DEG)):
+    f, reference_hz, unit = measured.frequency, comparison.reference_hz, comparison.command_unit
+    for axes, values, limit in (
+        (top, magnitude_db(measured, reference_hz), _MAX_DB),
+        (bottom, _degrees(measured), _MAX_DEG),
+    ):
         quiet(axes)
         band = axes.fill_between(f, values - limit, values + limit, color=BAND, alpha=0.6, linewidth=0)
         (line,) = axes.plot(f, values, color=MEASURED, linewidth=1.0, marker=".", markersize=5)
-        handles.setdefault("measured (or what stands for it)", line)
+        handles.setdefault(comparison.measured_name, line)
         handles.setdefault(f"±{_MAX_DB:g} dB, ±{_MAX_DEG:g} deg (Table 1.3)", band)
     for i, (label, test) in enumerate(tests):
         if test.simulated is None:
@@ -74,10 +83,12 @@ def _draw_column(
             "linestyle": DASHES[i % len(DASHES)],
             "linewidth": 1.7,
         }
-        (line,) = top.plot(f, magnitude_db(test.simulated), **look)
-        bottom.plot(f, _degrees(test.simulated), **look)
+        (line,) = top.plot(f, magnitude_db(test.simulated, reference_hz), **look)
+        bottom.plot(f, _degrees(test.simulated, measured), **look)
         handles.setdefault(label, line)
-    top.set_title(f"offset {measured.test.offset:g} %, amplitude {measured.test.amplitude:g} %", fontsize=TEXT)
+    top.set_title(
+        f"offset {measured.test.offset:g} {unit}, amplitude {measured.test.amplitude:g} {unit}", fontsize=TEXT
+    )
     _write_verdicts(top, tests)
     frequency_axis(bottom, f[0], f[-1])
     bottom.set_xlabel("Frequency (Hz)", fontsize=TEXT)
@@ -95,5 +106,7 @@ def _write_verdicts(axes: Axes, tests: Sequence[tuple[str, ResponseComparison]])
         axes.annotate(words, (0, 0), **place, color=COLOURS[i % len(COLOURS)], fontsize=SMALL)  # type: ignore[arg-type]
 
 
-def _degrees(response: FrequencyResponse) -> Any:
-    return np.degrees(response.phase)
+def _degrees(response: FrequencyResponse, beside: FrequencyResponse | None = None) -> Any:
+    """Phase in degrees; in the same turn as the other's at the lowest frequency."""
+    turns = 0.0 if beside is None else np.round((response.phase[0] - beside.phase[0]) / (2 * np.pi))
+    return np.degrees(response.phase) - 360 * turns

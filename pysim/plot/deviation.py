@@ -39,7 +39,7 @@ def deviation_figure(comparisons: Sequence[Comparison]) -> Figure:
         _draw_limit(panel, criterion, max(float(np.nanmax(_values(c, column), initial=0.0)) for c in comparisons))
     axes[0].set_yticks(range(len(tests)), [f"{test.offset:g} / {test.amplitude:g}" for test in tests])
     axes[0].invert_yaxis()
-    axes[0].set_ylabel("Offset / amplitude (%)", fontsize=TEXT)
+    axes[0].set_ylabel(f"Offset / amplitude ({comparisons[0].command_unit})", fontsize=TEXT)
     legend_above(figure, handles, [c.label for c in comparisons])
     return figure
 

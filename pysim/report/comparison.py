@@ -32,20 +32,27 @@ def comparison_page(
     models = "; ".join(f"{comparison.label}: {comparison.model}" for comparison in comparisons)
     parts = [heading("Verdict"), items(f"{c.label}: {verdict_text(c)}" for c in comparisons)]
     parts += [paragraph(first.note, note=True), heading("What was done"), *_method(comparisons)]
+    parts += [_conditions(comparisons), _parameters(comparisons)]
     for comparison in comparisons:
         parts += [heading(f"Test by test: {comparison.label}"), comparison_table(comparison)]
         parts += [paragraph(first.note, note=True)]
     parts += [heading("Pictures"), *(picture(svg, caption) for caption, svg in pictures.items())]
     parts += [*remarks, heading("Do it again"), commands(redo)]
-    return page(title, f"{models}; measurements: {first.dataset}.", parts)
+    return page(title, f"{models}; held against: {first.dataset}, {first.measured_name}.", parts)
 
 
 def comparison_table(comparison: Comparison) -> str:
     """A row per test, with what is beyond its limit marked."""
-    head = ["offset %", "amplitude %", *(f"{c.name.replace(' deviation', '')} ({c.unit})" for c in FREQUENCY_CRITERIA)]
+    unit = comparison.command_unit
+    head = [
+        f"offset {unit}",
+        f"amplitude {unit}",
+        *(f"{c.name.replace(' deviation', '')} ({c.unit})" for c in FREQUENCY_CRITERIA),
+    ]
     limits = [cell("limit"), cell(""), *(cell(f"{c.limit:g}") for c in FREQUENCY_CRITERIA), cell("")]
     rows = [_row(test) for test in comparison.tests]
-    caption = f"{comparison.label}: deviation from {comparison.dataset}, limits of {FREQUENCY_CRITERIA[0].source}"
+    source = FREQUENCY_CRITERIA[0].source
+    caption = f"{comparison.label}: absolute deviation from {comparison.measured_name}, limits of {source}"
     return table(caption, [*head, "verdict"], [*rows, limits])
 
 
@@ -61,19 +68,42 @@ def _row(test: ResponseComparison) -> list[str]:
 
 
 def _method(comparisons: Sequence[Comparison]) -> list[str]:
-    f = comparisons[0].tests[0].measured.frequency
+    first = comparisons[0]
+    f = first.tests[0].measured.frequency
+    relative = "" if first.reference_hz is None else f" relative to that at {first.reference_hz:g} Hz"
     runs = sum(test.measured.frequency.size for c in comparisons for test in c.tests)
     lines = [
         f"{len(comparisons[0].tests)} stepped-sine tests of {f.size} frequencies, {f[0]:g} to {f[-1]:g} Hz, were run "
-        f"through the FMU for each parameter set, {runs} runs in all: rest, ramp to the offset, hold, then a sine from "
-        "t = 2 s (thesis Section 2.1.1).",
+        f"through the FMU for each parameter set, {runs} runs in all: rest, ramp to the offset, hold, then a sine "
+        "(thesis Section 2.1.1). Runs that had not settled were repeated with longer settling.",
         "A sine was fitted by least squares to the last whole periods, after the transients (Section 2.2). Its "
-        "amplitude relative to that at 0.1 Hz is the magnitude, its phase against the command the phase (Section 2.3).",
-        "Deviations are simulated minus measured, averaged and at their largest over the frequencies (Eq. 2.27, 2.28). "
-        "A test passes when all four are within Table 1.3.",
+        f"amplitude{relative} is the magnitude, its phase against the command the phase (Section 2.3).",
+        f"The model is held against: {first.measured_name}. Deviations are the absolute values of the differences, "
+        "their average and their largest over the frequencies (Eq. 2.27, 2.28), so that errors of both signs do not "
+        "cancel. A test passes when all four are within Table 1.3.",
     ]
     for comparison in comparisons:
         if comparison.overrides:
             values = ", ".join(f"{name} = {value:g}" for name, value in comparison.overrides.items())
             lines.append(f"Set beforehand for {comparison.label}: {values}.")
     return [items(lines)]
+
+
+def _conditions(comparisons: Sequence[Comparison]) -> str:
+    """What it takes to repeat the runs, a column per parameter set."""
+    names = list(dict.fromkeys(name for c in comparisons for name in c.conditions))
+    rows = [[cell(name), *(cell(c.conditions.get(name, "-"), "words") for c in comparisons)] for name in names]
+    return table("Conditions of the runs", ["", *(c.label for c in comparisons)], rows)
+
+
+def _parameters(comparisons: Sequence[Comparison]) -> str:
+    """Every parameter in force, a column per parameter set; values that differ between the sets are marked."""
+    units = {name: unit for c in comparisons for name, (_, unit) in c.parameters.items()}
+    rows = []
+    for name, unit in units.items():
+        values = [f"{c.parameters[name][0]:.10g}" if name in c.parameters else "-" for c in comparisons]
+        kind = "differs" if len(set(values)) > 1 else ""
+        rows.append([cell(name), cell(unit), *(cell(value, kind) for value in values)])
+    return table(
+        "Parameters in force; bold: not the same in all sets", ["", "unit", *(c.label for c in comparisons)], rows
+    )

@@ -24,6 +24,7 @@ th, td { padding: .18rem .45rem; text-align: right; border-bottom: 1px solid var
 td { white-space: nowrap; } th { font-weight: 600; vertical-align: bottom; min-width: 2.6rem; }
 td.beyond { background: var(--mark); color: var(--fail); }
 td.fail { color: var(--fail); font-weight: 600; } td.pass { color: var(--pass); }
+td.words { white-space: normal; text-align: left; } td.differs { font-weight: 600; }
 figure { margin: 1.2rem 0; } figure img { width: 100%; height: auto; background: #fff; border-radius: 4px; }
 figcaption { color: var(--quiet); font-size: .9rem; }
 pre { background: color-mix(in srgb, var(--line) 40%, transparent); padding: .7rem .9rem; overflow-x: auto; }
@@ -70,7 +71,7 @@ def commands(text: str) -> str:
 
 
 def cell(text: str, kind: str = "") -> str:
-    """One cell; kind is "", "pass", "fail" or "beyond"."""
+    """One cell; kind is "", "pass", "fail", "beyond", "differs" or "words", which may break into lines."""
     return f'<td class="{kind}">{escape(text)}</td>' if kind else f"<td>{escape(text)}</td>"
 
 

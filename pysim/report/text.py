@@ -14,7 +14,7 @@ _DIGITS = (2, 2, 1, 1)
 def comparison_text(comparison: Comparison) -> str:
     """A row per test with the four numbers of Table 1.3 and the verdict; * marks what is beyond its limit."""
     lines = [
-        f"{comparison.label}: {comparison.model} against {comparison.dataset}",
+        f"{comparison.label}: {comparison.model} against {comparison.dataset} ({comparison.measured_name})",
         "  offset  amplitude" + "".join(f"{name:>10}" for name in _HEAD) + "   verdict",
     ]
     lines += [_row(test) for test in comparison.tests]
@@ -27,10 +27,12 @@ def comparison_text(comparison: Comparison) -> str:
 
 
 def verdict_text(comparison: Comparison) -> str:
-    """How many tests pass, in one sentence."""
+    """How many tests pass, in one sentence; rows with the same measured response count as one test."""
     passed, count = sum(test.passes for test in comparison.tests), len(comparison.tests)
-    copies = f"; {comparison.independent} of the measured responses are independent"
-    return f"{passed} of {count} tests pass{copies if comparison.independent < count else ''}."
+    independent = comparison.independent
+    if independent == count:
+        return f"{passed} of {count} tests pass."
+    return f"{comparison.independent_passes} of {independent} independent tests pass ({passed} of {count} rows)."
 
 
 def _row(test: ResponseComparison) -> str:

@@ -46,6 +46,7 @@ class Comparison:
         note: what the data set says of itself; belongs beside every verdict.
         tests: one per measured response, in the data set's order.
         reference_hz: where magnitudes count as 0 dB, on both sides; None where gains are compared as they are.
+        command_unit: of the tests' offsets and amplitudes.
         conditions: what else it takes to repeat the runs, in words: FMU token, solver, settling, versions.
         parameters: every parameter of the model in these runs, name -> (value, unit).
     """
@@ -57,6 +58,7 @@ class Comparison:
     tests: tuple[ResponseComparison, ...]
     overrides: Mapping[str, float] = field(default_factory=dict)
     reference_hz: float | None = 0.1
+    command_unit: str = "%"
     conditions: Mapping[str, str] = field(default_factory=dict)
     parameters: Mapping[str, tuple[float, str]] = field(default_factory=dict)
 
@@ -68,6 +70,13 @@ class Comparison:
     def passes(self) -> bool:
         """Whether there are tests and every one passes."""
         return bool(self.tests) and all(test.passes for test in self.tests)
+
+    @property
+    def measured_name(self) -> str:
+        """What the model is held against, in words: the responses' origin, their common part where they differ."""
+        origins = list(dict.fromkeys(test.measured.origin for test in self.tests))
+        kinds = list(dict.fromkeys(origin.partition(",")[0] for origin in origins))
+        return origins[0] if len(origins) == 1 else ", ".join(kinds)
 
     @property
     def independent(self) -> int:

@@ -59,7 +59,7 @@ def test_compare_passes_and_writes_what_was_asked_for(folder: Path, capsys: pyte
     words = ["compare", "linear.fmu", "--data", str(folder), "--output", str(out), "--json", str(numbers)]
     assert main(words) == 0
     text = capsys.readouterr().out
-    assert "4 of 4 tests pass" in text
+    assert "(4 of 4 rows)" in text
     assert "Take it with care." in text
     assert json.loads(numbers.read_text())["parameter_sets"][0]["passes"] is True
     assert sorted(path.name for path in out.iterdir()) == [
@@ -73,7 +73,7 @@ def test_compare_passes_and_writes_what_was_asked_for(folder: Path, capsys: pyte
 
 def test_a_failed_criterion_is_exit_1(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["compare", "linear.fmu", "--data", str(folder), "--set", "k=0.02"]) == 1
-    assert "0 of 4 tests pass" in capsys.readouterr().out
+    assert "(0 of 4 rows)" in capsys.readouterr().out
 
 
 def test_parameters_from_a_file_yield_to_set(folder: Path) -> None:

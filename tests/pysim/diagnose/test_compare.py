@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from pysim.diagnose import compare
+from pysim.simulate import Rk4
 from pysim.types import BadInput, Experiment, Record
 from tests.pysim import comparisons as linear
 
@@ -98,6 +99,18 @@ def test_the_reference_frequency_is_the_callers(runs: list[Experiment]) -> None:
         values = [deviation.value for deviation in result.tests[0].deviations]
         np.testing.assert_allclose(values, [expected.mean(), expected.max(), 0.0, 0.0], atol=1e-9)
         assert result.reference_hz == reference_hz
+
+
+def test_the_result_holds_what_it_takes_to_repeat_it(runs: list[Experiment]) -> None:
+    result = compare(linear.model(), linear.dataset(), overrides={"k": 0.5}, about="Table 9", solver=Rk4(step=1e-3))
+    assert dict(result.parameters) == {"k": (0.5, "1")}
+    assert result.conditions["parameter set"] == "Table 9"
+    assert result.conditions["FMU"] == "linear.fmu, FMI 2, token 0"
+    assert result.conditions["solver"] == repr(Rk4(step=1e-3))
+    assert result.conditions["fit"] == "1 whole periods of 24 points"
+    assert "0.5 s of the sine" in result.conditions["settling"]
+    again = compare(linear.model(), linear.dataset(), overrides={"k": 0.5}, about="Table 9", solver=Rk4(step=1e-3))
+    assert dict(again.conditions) == dict(result.conditions)
 
 
 def test_what_was_not_read_stands_in_the_note(runs: list[Experiment]) -> None:

@@ -2,6 +2,7 @@
 
 import subprocess
 import sys
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -31,6 +32,22 @@ def test_bode_has_a_column_per_amplitude_and_a_curve_per_response() -> None:
     np.testing.assert_allclose(curves(figure, 2)[0], np.degrees(test.measured.phase))
     band = figure.axes[0].collections[0].get_paths()[0].get_extents()
     assert (band.y1, band.y0) == pytest.approx((measured.max() + 2.0, measured.min() - 2.0))
+
+
+def test_bode_names_what_stands_for_the_measurements_and_takes_off_whole_turns() -> None:
+    one = comparison("A")
+    tests = tuple(
+        replace(
+            t, measured=replace(t.measured, phase=t.measured.phase + 2 * np.pi, origin="transfer function, Table 9")
+        )
+        for t in one.tests
+    )
+    figure = bode_figure([replace(one, tests=tests, reference_hz=None, command_unit="V")], 50.0)
+    assert figure.legends[0].get_texts()[0].get_text() == "transfer function, Table 9"
+    reference, simulated = curves(figure, 2)
+    np.testing.assert_allclose(simulated, reference, atol=1e-9)
+    assert figure.axes[0].get_ylabel() == "Magnitude (dB)"
+    assert figure.axes[0].get_title() == "offset 50 V, amplitude 5 V"
 
 
 def test_bode_leaves_out_what_did_not_run() -> None:

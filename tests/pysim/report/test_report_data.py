@@ -1,7 +1,9 @@
 """The JSON form."""
 
 import json
+from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from pysim.report import comparison_data
@@ -24,3 +26,14 @@ def test_everything_is_there_and_finite() -> None:
     assert ran["frequency_hz"] == list(FREQUENCIES)
     assert ran["measured"]["magnitude_db"][0] == 0.0
     assert ran["simulated"]["gain"][1] == pytest.approx(ran["measured"]["gain"][1] * 10 ** (3 / 20))
+
+
+def test_what_it_takes_to_do_it_again_is_there() -> None:
+    one = replace(comparison("A"), conditions={"solver": "Rk4"}, parameters={"k": (2.5, "1")}, reference_hz=None)
+    data = comparison_data([one])
+    (only,) = data["parameter_sets"]
+    assert (only["conditions"], only["parameters"]) == ({"solver": "Rk4"}, {"k": {"value": 2.5, "unit": "1"}})
+    assert (only["independent"], only["independent_passed"], data["measured"]) == (1, 1, "measured")
+    test = only["tests"][0]
+    assert test["measured"]["magnitude_db"] == pytest.approx([20 * np.log10(g) for g in test["measured"]["gain"]])
+    assert comparison_data([one]) == data

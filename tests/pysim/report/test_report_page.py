@@ -2,6 +2,7 @@
 
 import base64
 import re
+from dataclasses import replace
 from html.parser import HTMLParser
 
 from pysim.report import comparison_page, paragraph, picture
@@ -46,10 +47,33 @@ def test_page_is_whole_and_needs_no_network() -> None:
     page = checked(html)
     assert [address for address in page.addresses if not address.startswith("data:")] == []
     assert "url(" not in html
-    for words in ("Title & all", "4 of 4 tests pass", "0 of 4 tests pass", "B <odd>", "at 5 Hz: stopped", "pysim demo"):
+    for words in ("Title & all", "(4 of 4 rows)", "(0 of 4 rows)", "B <odd>", "at 5 Hz: stopped", "pysim demo"):
         assert words in page.text
     assert page.text.count("Take it <with> care.") == 3  # beside the verdicts, and below each table
     assert "Set beforehand for A: k = 2.5." in page.text
+
+
+def test_the_page_says_what_it_takes_to_do_it_again() -> None:
+    free = replace(
+        comparison("free"),
+        conditions={"solver": "Rodas(rtol=1e-05)"},
+        parameters={"K_p": (42.445, "1"), "rho": (875.0, "kg/m3")},
+    )
+    locked = replace(free, label="locked", parameters={"K_p": (40.0, "1"), "rho": (875.0, "kg/m3")})
+    html = comparison_page("t", [free, locked], pictures={}, redo="")
+    checked(html)
+    assert '<tr><td>K_p</td><td>1</td><td class="differs">42.445</td><td class="differs">40</td></tr>' in html
+    assert "<tr><td>rho</td><td>kg/m3</td><td>875</td><td>875</td></tr>" in html
+    assert html.count("Rodas(rtol=1e-05)") == 2
+
+
+def test_what_stands_for_the_measurements_is_named() -> None:
+    one = comparison("A")
+    tests = tuple(replace(t, measured=replace(t.measured, origin="transfer function, Table 9")) for t in one.tests)
+    text = checked(comparison_page("t", [replace(one, tests=tests)], pictures={}, redo="")).text
+    assert "The model is held against: transfer function, Table 9." in text
+    assert "absolute deviation from transfer function, Table 9" in text
+    assert "measured" not in text.replace("not measured", "")
 
 
 def test_what_is_beyond_a_limit_is_marked() -> None:

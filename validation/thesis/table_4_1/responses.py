@@ -44,6 +44,7 @@ kind = "frequency-response-table"
 offset = {offset}
 amplitude = {amplitude}
 use = "fit"
+origin = "{origin}"
 """
 
 
@@ -60,7 +61,7 @@ def _response(row: dict[str, str], frequencies: np.ndarray) -> FrequencyResponse
     b0, a4, a3, a2, a1, a0 = (float(row[k]) for k in ("b0_1e6", "a4", "a3", "a2_1e3", "a1_1e6", "a0_1e6"))
     function = TransferFunction((b0 * 1e6,), (1.0, a4, a3, a2 * 1e3, a1 * 1e6, a0 * 1e6))
     test = SineTest(float(row["offset_percent"]), float(row["amplitude_percent"]), "alphaCMD", "alphaPercent")
-    return function.response(frequencies, test, origin="thesis Table 4.1")
+    return function.response(frequencies, test, origin="transfer function, thesis Table 4.1")
 
 
 def write_dataset(folder: Path, frequencies: Sequence[float] = FREQUENCIES_HZ) -> Path:
@@ -80,6 +81,6 @@ def write_dataset(folder: Path, frequencies: Sequence[float] = FREQUENCIES_HZ) -
         rows = zip(response.frequency, magnitude_db(response, None), np.degrees(response.phase), strict=True)
         lines = [f"{f:g},{magnitude:.9f},{phase:.9f}" for f, magnitude, phase in rows]
         (folder / name).write_text("\n".join(["frequency_hz,magnitude_db,phase_deg", *lines, ""]), encoding="utf-8")
-        records.append(_RECORD.format(file=name, offset=test.offset, amplitude=test.amplitude))
+        records.append(_RECORD.format(file=name, offset=test.offset, amplitude=test.amplitude, origin=response.origin))
     (folder / "dataset.toml").write_text(_HEAD + "".join(records), encoding="utf-8")
     return folder
