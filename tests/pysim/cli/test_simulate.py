@@ -93,3 +93,11 @@ def test_wrong_use_is_one_line(
     assert len(error) == 1
     assert message in error[0]
     assert list(tmp_path.iterdir()) == []
+
+
+def test_an_fmu_of_another_guid_is_one_line_and_exit_2(
+    fmu: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = edited(fmu, tmp_path / "other.fmu", 'guid="oscillator"', 'guid="{other}"')
+    assert main(["simulate", path]) == 2
+    assert "other.fmu: the FMU could not be instantiated" in capsys.readouterr().err

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from pysim.io import read_model
-from pysim.simulate import Rk4, Rk45, Rodas, simulate
+from pysim.simulate import Rk4, Rk45, Rodas, simulate, simulate_many
 from pysim.simulate._library import open_library
 from pysim.simulate._run import run
 from pysim.types import BadInput, Experiment, Outcome
@@ -84,3 +84,13 @@ def test_a_failed_run_leaves_nothing_behind(fixture_model, fmi, cause):
         record = run(library, good, Rk45())
     assert record.message == ""
     np.testing.assert_array_equal(record.values, simulate(model, good).values)
+
+
+@pytest.mark.parametrize("fmi", [2, 3])
+def test_an_fmu_that_cannot_be_instantiated_is_one_error_before_the_runs(fixture_model, fmi):
+    model = dataclasses.replace(fixture_model(OSCILLATOR, fmi), token="of another build")
+    experiment = Experiment(np.ones(1), ("x",))
+    with pytest.raises(BadInput, match=r"oscillator_\d\.fmu: the FMU could not be instantiated.*; export it again"):
+        simulate_many(model, [experiment] * 3)
+    with pytest.raises(BadInput, match="could not be instantiated"):
+        simulate(model, experiment, check=False)

@@ -1,0 +1,82 @@
+"""A finished FMU is compared on a machine that can build none: everything that builds FMUs is blocked."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from tests.pysim.simulate.fixture_fmus import OSCILLATOR, build
+
+ROOT = Path(__file__).parents[3]
+
+DATASET = """[dataset]
+name = "oscillator"
+description = "closed form"
+system = "oscillator"
+
+[signals.u]
+role = "input"
+unit = "N"
+quantity = "force"
+
+[signals.x]
+role = "output"
+unit = "m"
+quantity = "way"
+
+[[records]]
+file = "response.csv"
+columns = ["frequency_hz", "magnitude_db", "phase_deg"]
+kind = "frequency-response-table"
+offset = 4.0
+amplitude = 1.0
+use = "validate"
+"""
+
+SCRIPT = """
+import sys
+
+BLOCKED = {"rumoca", "casadi", "ziglang", "fmu_build"}
+
+
+class Blocker:
+    def find_spec(self, name, path=None, target=None):
+        if name.partition(".")[0] in BLOCKED:
+            raise ImportError(f"{name} is blocked")
+
+
+sys.meta_path.insert(0, Blocker())
+from pysim.cli import main
+
+try:
+    import casadi
+except ImportError:
+    sys.exit(main(sys.argv[1:]))
+sys.exit("nothing is blocked")
+"""
+
+
+@pytest.fixture
+def data(tmp_path: Path) -> Path:
+    """x / u = 1 / (w^2 - omega^2 + 2 i D w omega) with w = 20 rad/s and D = 1, as a measured table."""
+    frequency = np.array([0.1, 1.0, 3.0, 6.0])
+    g = 1 / (20 + 2j * np.pi * frequency) ** 2
+    rows = np.column_stack([frequency, 20 * np.log10(abs(g)), np.degrees(np.unwrap(np.angle(g)))])
+    np.savetxt(tmp_path / "response.csv", rows, delimiter=",")
+    (tmp_path / "dataset.toml").write_text(DATASET)
+    return tmp_path
+
+
+@pytest.mark.parametrize(("parameter", "code"), [("w=20", 0), ("w=10", 1)])
+def test_compare_needs_nothing_of_the_builder(data: Path, parameter: str, code: int) -> None:
+    fmu, numbers = build(OSCILLATOR, 2, data), data / "numbers.json"
+    words = ["compare", str(fmu), "--data", str(data), "--set", parameter, "--set", "D=1", "--json", str(numbers)]
+    done = subprocess.run([sys.executable, "-c", SCRIPT, *words], cwd=ROOT, capture_output=True, text=True, check=False)
+    assert done.returncode == code, done.stderr
+    (test,) = json.loads(numbers.read_text())["parameter_sets"][0]["tests"]
+    assert test["passes"] is (code == 0)
+    if code == 0:
+        assert max(test["deviations"].values()) < 0.1
