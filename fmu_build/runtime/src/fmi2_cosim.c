@@ -26,11 +26,8 @@ fmi2Status fmi2DoStep(fmi2Component c, fmi2Real currentCommunicationPoint, fmi2R
     (void)noSetFMUStatePriorToCurrentPoint;
     Instance *s = fmi2_enter_cosim(c, PHASE_STEP, here);
     if (!s) return fmi2Error;
-    Fmi2Front *front = s->front;
     StepResult result;
     Status status = cosim_step(s, here, currentCommunicationPoint, communicationStepSize, &result);
-    front->last_successful_time = result.time;
-    front->terminated = result.terminate;
     if (status == STATUS_DISCARD) set_phase(s, PHASE_STEP_FAILED);
     if (status <= STATUS_WARNING && result.terminate) status = STATUS_DISCARD; /* how FMI 2 reports the end */
     return (fmi2Status)status;
@@ -61,7 +58,7 @@ fmi2Status fmi2GetRealStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Rea
     Instance *s = fmi2_enter_cosim(c, IN_STATUS, here);
     if (!s || !fmi2_no_null(s, here, value)) return fmi2Error;
     if (kind != fmi2LastSuccessfulTime) return no_status(s, here);
-    *value = ((const Fmi2Front *)s->front)->last_successful_time;
+    *value = *s->t; /* a step that failed was undone */
     return fmi2OK;
 }
 
@@ -70,7 +67,7 @@ fmi2Status fmi2GetBooleanStatus(fmi2Component c, const fmi2StatusKind kind, fmi2
     Instance *s = fmi2_enter_cosim(c, IN_STATUS, here);
     if (!s || !fmi2_no_null(s, here, value)) return fmi2Error;
     if (kind != fmi2Terminated) return no_status(s, here);
-    *value = ((const Fmi2Front *)s->front)->terminated ? fmi2True : fmi2False;
+    *value = s->memory->is_terminated ? fmi2True : fmi2False;
     return fmi2OK;
 }
 

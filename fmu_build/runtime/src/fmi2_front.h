@@ -19,12 +19,10 @@ enum {
     IN_STATUS = PHASE_STEP | PHASE_STEP_FAILED | PHASE_TERMINATED
 };
 
-/* The importer's callback, and what the status functions report. */
+/* The importer's callback. */
 typedef struct {
     fmi2CallbackLogger logger;
     fmi2ComponentEnvironment environment;
-    double last_successful_time;
-    bool terminated;
 } Fmi2Front;
 
 /* The instance, or null (logged if there is one) where `function` must not be called. */

@@ -52,7 +52,7 @@ static bool furnish(Instance *s, fmi2String name, const fmi2CallbackFunctions *f
     }
     s->log.environment = front;
     s->log.sink = front->logger ? send_message : NULL;
-    for (int k = 0; k < LOG_CATEGORIES; k++) s->log.enabled[k] = k != LOG_EVENTS || logging;
+    log_begin(&s->log, logging);
     return true;
 }
 

@@ -34,7 +34,7 @@ static bool furnish(Instance *s, fmi3String name, const Fmi3Front *front, bool l
     memcpy(s->log.instance_name, name, strlen(name) + 1);
     s->log.environment = s->front;
     s->log.sink = front->log_message ? send_message : NULL;
-    for (int k = 0; k < LOG_CATEGORIES; k++) s->log.enabled[k] = logging || k == LOG_ERROR;
+    log_begin(&s->log, logging);
     return true;
 }
 

@@ -24,6 +24,10 @@ void log_message(Instance *s, LogCategory category, const char *format, ...) {
                 message);
 }
 
+void log_begin(Log *log, bool debug) {
+    for (int k = 0; k < LOG_CATEGORIES; k++) log->enabled[k] = k != LOG_EVENTS || debug;
+}
+
 static int find_category(const char *name) {
     for (int k = 0; name && k < LOG_CATEGORIES; k++)
         if (strcmp(name, category_names[k]) == 0) return k;

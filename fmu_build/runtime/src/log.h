@@ -22,6 +22,9 @@ typedef struct {
 
 struct Instance;
 
+/* The categories of a new instance: all, but events only where the importer switches debug logging on. */
+void log_begin(Log *log, bool debug);
+
 /* Sends a printf-style message. Errors are sent whatever is enabled, as FMI demands. */
 #if defined(__MINGW32__) && !defined(__clang__)
 __attribute__((format(gnu_printf, 3, 4))) /* its plain printf format is Microsoft's, without %zu */

@@ -71,8 +71,9 @@ Status variable_get(Instance *s, const char *function, uint32_t reference, Scala
     const Status status = bring_up_to_date(s, function, v);
     if (status != STATUS_OK) return status;
     *value = values_of(s, v->vector)[v->index];
-    if (!isnan(*value) || v->vector != VECTOR_W) return STATUS_OK;
-    log_message(s, LOG_DISCARD, "%s: %s is not a number at time %.16g s.", function, v->name, *s->t);
+    if (isfinite(*value) || v->vector != VECTOR_W) return STATUS_OK; /* evaluate_derivatives looks at dx itself */
+    log_message(s, LOG_DISCARD, "%s: %s is %s at time %.16g s.", function, v->name,
+                isnan(*value) ? "not a number" : "infinite", *s->t);
     return STATUS_DISCARD;
 }
 

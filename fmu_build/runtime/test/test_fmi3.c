@@ -124,6 +124,29 @@ static void the_importer_stops_a_step(void) {
     fmi3FreeInstance(c);
 }
 
+/* Without debug logging an importer hears of failed assertions all the same, and not of events. */
+static void what_matters_is_always_said(void) {
+    for (int debug = 0; debug <= 1; debug++) {
+        fmi3Instance c = fmi3InstantiateModelExchange("ball", model.token, NULL, false, debug, NULL, keep_message);
+        const fmi3ValueReference vr[] = {reference("g"), reference("h")};
+        bool event, end;
+        CHECK(c && fmi3SetFloat64(c, vr, 2, (double[]){1000.0, 20.0}, 2) == fmi3OK);
+        CHECK(fmi3EnterInitializationMode(c, false, 0.0, 0.0, false, 0.0) == fmi3OK);
+        CHECK(fmi3ExitInitializationMode(c) == fmi3OK);
+        update(c);
+        CHECK(fmi3EnterContinuousTimeMode(c) == fmi3OK);
+        CHECK(fmi3SetContinuousStates(c, (double[]){10.0, -150.0}, 2) == fmi3OK);
+        last_message[0] = '\0';
+        CHECK(fmi3CompletedIntegratorStep(c, true, &event, &end) == fmi3Warning);
+        CHECK(strstr(last_message, "faster than 100 m/s"));
+        CHECK(fmi3SetContinuousStates(c, (double[]){-1e-3, -1.0}, 2) == fmi3OK && fmi3EnterEventMode(c) == fmi3OK);
+        last_message[0] = '\0';
+        update(c);
+        CHECK(bounces(c) == 1 && (strstr(last_message, "Event at") != NULL) == debug);
+        fmi3FreeInstance(c);
+    }
+}
+
 static void model_exchange_gives_sizes_and_values(void) {
     fmi3Instance c = fmi3InstantiateModelExchange("ball", model.token, NULL, false, true, NULL, keep_message);
     size_t n_x = 0, n_z = 0;
@@ -152,6 +175,7 @@ int main(void) {
     without_early_return_the_step_is_finished();
     without_event_mode_it_is_not_entered();
     the_importer_stops_a_step();
+    what_matters_is_always_said();
     model_exchange_gives_sizes_and_values();
     return 0;
 }

@@ -51,6 +51,37 @@ static void impossible_points_are_discarded(int kind) {
     fmi2FreeInstance(c);
 }
 
+/* One value that does not exist is no reason to withhold the others. */
+static void infinite_outputs_are_discarded(void) {
+    fmi2Component c = instantiate(fmi2ModelExchange);
+    const fmi2ValueReference vr = reference("reciprocal");
+    double x = 0.75, dx, value;
+    initialise_from(c, 0.0, 0.0);
+    handle_event(c);
+    CHECK(fmi2SetContinuousStates(c, &x, 1) == fmi2OK);
+    CHECK(fmi2GetReal(c, &vr, 1, &value) == fmi2Discard && logged("fmi2GetReal: reciprocal is infinite at time 0 s."));
+    CHECK(fmi2GetDerivatives(c, &dx, 1) == fmi2OK && get(c, "q") == 1.0);
+    x = 0.8;
+    CHECK(fmi2SetContinuousStates(c, &x, 1) == fmi2OK);
+    CHECK_NEAR(get(c, "reciprocal"), 20.0, 1e-12);
+    fmi2FreeInstance(c);
+}
+
+/* What the status functions say belongs to the state, not to the last step that was tried. */
+static void a_restored_state_brings_its_status(void) {
+    fmi2Component c = instantiate(fmi2CoSimulation);
+    fmi2FMUstate before = NULL;
+    double time = -1.0;
+    initialise_from(c, 0.0, 1e-8);
+    CHECK(fmi2DoStep(c, 0.0, 0.1, fmi2True) == fmi2OK && fmi2GetFMUstate(c, &before) == fmi2OK);
+    CHECK(fmi2DoStep(c, 0.1, 0.3, fmi2False) == fmi2OK);
+    CHECK(fmi2GetRealStatus(c, fmi2LastSuccessfulTime, &time) == fmi2OK && time == 0.4);
+    CHECK(fmi2SetFMUstate(c, before) == fmi2OK);
+    CHECK(fmi2GetRealStatus(c, fmi2LastSuccessfulTime, &time) == fmi2OK && time == 0.1);
+    CHECK(fmi2FreeFMUstate(c, &before) == fmi2OK);
+    fmi2FreeInstance(c);
+}
+
 static void calls_out_of_order_are_errors(void) {
     fmi2Component c = instantiate(fmi2CoSimulation);
     double x = 0.0;
@@ -110,6 +141,8 @@ int main(void) {
     impossible_steps_are_undone(NO_SOLUTION);
     impossible_points_are_discarded(NOT_A_NUMBER);
     impossible_points_are_discarded(NO_SOLUTION);
+    infinite_outputs_are_discarded();
+    a_restored_state_brings_its_status();
     calls_out_of_order_are_errors();
     wrong_arguments_are_errors();
     nothing_goes_beyond_the_stop_time();

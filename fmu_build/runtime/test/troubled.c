@@ -1,5 +1,5 @@
 /* A model that can be asked for trouble: 1: discrete equations that never rest; 2: a derivative that is not a number
-   where x < 0.5; 3: a non-linear equation without a solution where x < 0.5. */
+   where x < 0.5; 3: a non-linear equation without a solution where x < 0.5. The output reciprocal is 1/(x - 0.75). */
 #include "model_by_hand.h"
 
 enum { QUIET, RESTLESS, NOT_A_NUMBER, NO_SOLUTION };
@@ -23,7 +23,7 @@ FUNCTION(residual) {
 }
 
 FUNCTION(outputs) {
-    if (res[0]) res[0][0] = arg[ARG_Q][0];
+    if (res[0]) res[0][0] = arg[ARG_Q][0], res[0][1] = 1.0 / (arg[ARG_X][0] - 0.75);
 }
 
 FUNCTION(update) {
@@ -43,6 +43,7 @@ static const ModelVariable variables[] = {
     {"trouble", 0, VECTOR_P, TYPE_INTEGER, PARAMETER, TUNABLE, INITIAL_EXACT},
     {"d", 0, VECTOR_D, TYPE_REAL, LOCAL, DISCRETE, INITIAL_EXACT},
     {"q", 0, VECTOR_W, TYPE_REAL, OUTPUT, CONTINUOUS, INITIAL_CALCULATED},
+    {"reciprocal", 1, VECTOR_W, TYPE_REAL, OUTPUT, CONTINUOUS, INITIAL_CALCULATED},
     {"der(x)", 0, VECTOR_DX, TYPE_REAL, LOCAL, CONTINUOUS, INITIAL_CALCULATED},
 };
 static const double start_x[] = {1.0}, start_p[] = {0.0}, start_d[] = {0.0}, nominal_x[] = {1.0};
@@ -54,7 +55,7 @@ const Model model = {
     .n_p = 1,
     .n_d = 1,
     .n_q = 1,
-    .n_w = 1,
+    .n_w = 2,
     .n_variables = LENGTH(variables),
     .variables = variables,
     .start_x = start_x,
