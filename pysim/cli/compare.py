@@ -18,8 +18,16 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("model", metavar="MODEL.fmu", type=Path)
     parser.add_argument("--data", metavar="FOLDER", type=Path, required=True, help="data set with a dataset.toml")
     add_parameters(parser)
+    parser.add_argument(
+        "--reference-hz", metavar="HZ", type=_reference, default=0.1, help="whose gain is 0 dB; none: absolute (0.1)"
+    )
     parser.add_argument("--json", metavar="FILE", type=Path, help="write all numbers here")
     parser.add_argument("--output", metavar="DIR", type=Path, help="write report.html and the plots here")
+
+
+def _reference(text: str) -> float | None:
+    """A frequency in Hz, or None."""
+    return None if text == "none" else float(text)
 
 
 def run(args: argparse.Namespace) -> int:
@@ -39,7 +47,14 @@ def run(args: argparse.Namespace) -> int:
         prepare_file(args.json, "--json")
     announce_compilation()
     with ProgressBar("stepped sines") as progress:
-        comparison = compare(model, dataset, overrides=overrides, label=args.model.stem, progress=progress)
+        comparison = compare(
+            model,
+            dataset,
+            overrides=overrides,
+            label=args.model.stem,
+            reference_hz=args.reference_hz,
+            progress=progress,
+        )
     print(comparison_text(comparison))
     if args.json:
         write_file(args.json, json.dumps(comparison_data([comparison]), indent=1, allow_nan=False))
@@ -56,6 +71,7 @@ def _write_report(args: argparse.Namespace, comparison: Comparison) -> None:
 
     redo = command_line(
         ["compare", str(args.model), "--data", str(args.data), "--output", str(args.output)]
+        + ["--reference-hz", "none" if args.reference_hz is None else f"{args.reference_hz:g}"]
         + [word for name, value in comparison.overrides.items() for word in ("--set", f"{name}={value!r}")]
     )
     pictures = write_pictures([comparison], args.output)

@@ -16,6 +16,7 @@ from pysim.types import Experiment, Outcome, Record, SineTest
 TOLERANCE = 0.01
 # A fitted amplitude below this share of the output's size is rounding, not motion.
 _ROUNDING = 1e-9
+_UNSETTLED = "the output has not settled"
 
 
 @dataclass(frozen=True)
@@ -57,9 +58,6 @@ def run_until_settled(
                 results[i] = replace(results[i], trouble=f"{_UNSETTLED} after {settled_for:g} s of the sine")
         waiting, plan = again, plan.settling_twice_as_long()
     return tuple(results[i] for i in range(len(tests)))
-
-
-_UNSETTLED = "the output has not settled"
 
 
 def _recorded_earlier(experiment: Experiment, frequency: float, plan: SteppedSine) -> Experiment:

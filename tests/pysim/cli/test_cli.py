@@ -71,6 +71,17 @@ def test_compare_passes_and_writes_what_was_asked_for(folder: Path, capsys: pyte
     assert "pysim compare linear.fmu" in (out / "report.html").read_text(encoding="utf-8")
 
 
+def test_the_reference_frequency_can_be_chosen(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    numbers = folder / "numbers.json"
+    words = ["compare", "linear.fmu", "--data", str(folder), "--json", str(numbers), "--reference-hz"]
+    for text, value in (("1", 1.0), ("none", None)):
+        assert main([*words, text]) == 0
+        assert json.loads(numbers.read_text(encoding="utf-8"))["reference_hz"] == value
+    capsys.readouterr()
+    assert main([*words, "0.7"]) == 2
+    assert "relative to 0.7 Hz need that frequency" in capsys.readouterr().err
+
+
 def test_a_failed_criterion_is_exit_1(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["compare", "linear.fmu", "--data", str(folder), "--set", "k=0.02"]) == 1
     assert "(0 of 4 rows)" in capsys.readouterr().out
