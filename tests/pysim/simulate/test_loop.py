@@ -11,13 +11,6 @@ from pysim.types import Experiment, Outcome, Signal, SimulationError
 from tests.pysim.simulate.fixture_fmus import BALL, CLOCK, FOLLOWER, FRAGILE, OSCILLATOR, STIFF
 
 
-def steps(times, values) -> Signal:
-    """A staircase."""
-    cubics = np.zeros((len(times), 4))
-    cubics[:, 0] = values
-    return Signal(np.array(times, float), cubics, np.zeros((len(times), 0, 4)))
-
-
 def ramps(times, rates, first=0.0) -> Signal:
     """Straight lines that join."""
     cubics = np.zeros((len(times), 4))
@@ -60,7 +53,7 @@ def test_model_may_end_the_run(fixture_model):
 
 
 def test_input_jump_is_an_event_and_enters_sharply(fixture_model):
-    staircase = steps([0.0, 0.37, 1.1], [1.0, -2.0, 5.0])
+    staircase = Signal.steps([0.0, 0.37, 1.1], [1.0, -2.0, 5.0])
     record = simulate(
         fixture_model(FOLLOWER), Experiment(np.array([0.37, 1.1, 2.0]), ("x", "events", "u_seen"), {"u": staircase})
     )
@@ -95,7 +88,7 @@ def test_fixed_steps_lie_on_a_grid_that_does_not_drift(fixture_model):
 
 
 def test_run_may_start_anywhere(fixture_model):
-    signal = steps([0.0, 6.0], [1.0, 3.0])
+    signal = Signal.steps([0.0, 6.0], [1.0, 3.0])
     experiment = Experiment(np.array([5.0, 5.5, 7.0]), ("time", "x"), {"u": signal}, start=5.0)
     record = simulate(fixture_model(FOLLOWER), experiment)
     np.testing.assert_allclose(record["x"], [0.0, 0.5, 4.0], rtol=1e-14)
