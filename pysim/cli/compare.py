@@ -27,7 +27,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def _reference(text: str) -> float | None:
     """A frequency in Hz, or None."""
-    return None if text == "none" else float(text)
+    try:
+        return None if text == "none" else float(text)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text!r} is no frequency; write a number in Hz, or none") from None
 
 
 def run(args: argparse.Namespace) -> int:
