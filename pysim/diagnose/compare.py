@@ -111,7 +111,7 @@ def _note(dataset: Dataset) -> str:
     """What the data set says of itself, and what of it was left out."""
     if not dataset.skipped:
         return dataset.description
-    return f"{dataset.description} Not compared, being logs over time: {', '.join(dataset.skipped)}."
+    return f"{dataset.description} Not compared, being logs over time: {', '.join(dataset.skipped)}.".removeprefix("- ")
 
 
 def _model_test(model: Model, dataset: Dataset, test: SineTest) -> SineTest:
