@@ -23,7 +23,7 @@ def read_parameters(args: argparse.Namespace, model: Model) -> dict[str, float]:
     """Parameters of the model from both options.
 
     Raises:
-        BadInput: a file that cannot be read, no number, or a name the model does not have.
+        BadInput: a file that cannot be read, no finite number, or a name the model does not have.
     """
     from pysim.types import BadInput
 
@@ -38,6 +38,8 @@ def read_parameters(args: argparse.Namespace, model: Model) -> dict[str, float]:
         variable = model[name]
         if variable.causality != "parameter":
             raise BadInput(f"{name} of {model.path.name} has the causality {variable.causality}; set parameters only")
+        if not math.isfinite(values[name]):
+            raise BadInput(f"{name} = {values[name]}: write a finite number in the parameter's unit, {variable.unit}")
         _warn_beyond(variable, values[name], model)
     return values
 

@@ -7,12 +7,12 @@ import io
 import json
 import math
 import re
-import zipfile
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from pysim.io.archive import DAMAGED
 from pysim.io.files import write_file
 from pysim.types import BadInput, Outcome, Record
 
@@ -54,7 +54,7 @@ def read_record(path: Path | str) -> Record:
         raise error if str(path) in str(error) else BadInput(f"{path}: {error}") from error
     except OSError as error:
         raise BadInput(f"{path}: cannot be read ({error.strerror})") from error
-    except (KeyError, EOFError, ValueError, zipfile.BadZipFile) as error:
+    except (*DAMAGED, KeyError, TypeError, ValueError) as error:
         raise BadInput(f"{path} is not a record: {error}; write it with write_record") from error
 
 

@@ -1,3 +1,5 @@
+import contextlib
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -104,3 +106,13 @@ def test_times_that_do_not_increase_are_said_with_the_file(tmp_path):
     (tmp_path / "r.csv").write_text("time [s],alpha [deg]\n0,1\n0,2\n")
     with pytest.raises(BadInput, match=r"r\.csv: record: times must be finite and increase"):
         read_record(tmp_path / "r.csv")
+
+
+def test_damaged_npz_is_refused_whatever_the_damage(tmp_path):
+    path = tmp_path / "r.npz"
+    write_record(_STOPPED, path)
+    whole = path.read_bytes()
+    for at in range(0, len(whole), 7):
+        path.write_bytes(whole[:at] + bytes([whole[at] ^ 0x55]) + whole[at + 1 :])
+        with contextlib.suppress(BadInput):  # nothing else may be raised; damage to what nobody reads goes unnoticed
+            assert read_record(path).names == _STOPPED.names
