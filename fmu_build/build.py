@@ -33,7 +33,7 @@ def build(
     """Compile a Modelica class to an FMU for model exchange and co-simulation.
 
     Args:
-        class_name: full name, such as "HydraulicTestBench.Examples.PumpAngle".
+        class_name: full name, such as "HydraulicTestBench.Examples.TimeResponse".
         output: file to write; None leaves the FMU in the cache and gives its place there.
         libraries: directories with a package.mo, or single .mo files, beside our own library.
         fmi: 2 or 3.

@@ -13,7 +13,7 @@ from fmu_build.errors import BuildError
 DONE, WRONG_USE, OUR_BUG = 0, 2, 3
 
 _EPILOG = """Example:
-  fmu-build HydraulicTestBench.Examples.PumpAngle -o pump.fmu --set parameters.K_P=12
+  fmu-build HydraulicTestBench.Examples.TimeResponse -o pump.fmu --set pump.K_p=12
 
 Platforms: x86_64-linux, x86_64-windows, x86_64-darwin, aarch64-linux, aarch64-darwin, host, all.
 The first build for a platform compiles the C library's start-up code: seconds, for Windows some minutes."""
@@ -34,7 +34,7 @@ def main(argv: Sequence[str] | None = None) -> int:
             libraries=[Path(library) for library in arguments.library],
             fmi=arguments.fmi,
             platforms=arguments.platform or ["host"],
-            overrides=dict(_setting(text) for text in arguments.set),
+            overrides=_settings(arguments.set),
             use_cache=not arguments.no_cache,
         )
     except BuildError as error:
@@ -70,15 +70,27 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
+def _settings(texts: Sequence[str]) -> dict[str, float | str]:
+    values: dict[str, float | str] = {}
+    for text in texts:
+        name, value = _setting(text)
+        if name in values:
+            raise BuildError(f"--set {text}: {name} is set twice; give it once.")
+        values[name] = value
+    return values
+
+
 def _setting(text: str) -> tuple[str, float | str]:
-    """ "a.b=3" -> ("a.b", 3.0); what is no number is Modelica text, such as true."""
+    """ "a.b=3" -> ("a.b", 3), fit for Integer and Real alike; what is no number is Modelica text, such as true."""
     name, equals, value = (part.strip() for part in text.partition("="))
     if not name or not equals or not value:
-        raise BuildError(f'--set {text}: expected NAME=VALUE, such as "--set parameters.K_P=12".')
-    try:
-        return name, float(value)
-    except ValueError:
-        return name, value
+        raise BuildError(f'--set {text}: expected NAME=VALUE, such as "--set pump.K_p=12".')
+    for number in (int, float):
+        try:
+            return name, number(value)
+        except ValueError:
+            continue
+    return name, value
 
 
 def _report_our_bug(error: Exception) -> int:

@@ -5,7 +5,7 @@ from pathlib import Path
 
 from fmu_build.errors import BuildError
 from fmu_build.front.class_lookup import ClassLookup, FoundClass
-from fmu_build.front.flat_model import FlatModel, Role
+from fmu_build.front.flat_model import FlatModel, Role, Scalar
 from fmu_build.front.redeclaration import refuse_lost_redeclarations
 from fmu_build.front.session import compile_class
 from fmu_build.front.source import find_class
@@ -19,7 +19,7 @@ def load(class_name: str, libraries: Sequence[Path], overrides: Mapping[str, flo
     """Compile a Modelica class to one flat system of equations.
 
     Args:
-        class_name: full name, such as `HydraulicTestBench.Examples.PumpAngle`.
+        class_name: full name, such as `HydraulicTestBench.Examples.TimeResponse`.
         libraries: directories with a package.mo, or single .mo files.
         overrides: parameter values by name inside the class, in SI units; a text is taken as Modelica.
     Raises:
@@ -45,6 +45,7 @@ def load(class_name: str, libraries: Sequence[Path], overrides: Mapping[str, flo
         description=source.description,
     )
     _check_overrides(model, overrides)
+    _check_no_texts(model)
     return model
 
 
@@ -62,4 +63,15 @@ def _check_overrides(model: FlatModel, overrides: Mapping[str, float | str]) -> 
         if name not in parameters:
             raise BuildError(
                 f"{model.name} has no parameter {name} that could be set", model.span.file, model.span.line
+            )
+
+
+def _check_no_texts(model: FlatModel) -> None:
+    for variable in model.variables:
+        is_fixed = variable.role in (Role.CONSTANT, Role.STRUCTURAL, Role.PARAMETER)
+        if variable.scalar is Scalar.STRING and not is_fixed:
+            raise BuildError(
+                f"{variable.name} is a String variable, which is not supported; make it a parameter or a constant",
+                variable.span.file,
+                variable.span.line,
             )

@@ -6,36 +6,68 @@ import sys
 import tempfile
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from itertools import accumulate
+from math import isfinite
 from pathlib import Path
 from typing import Any
 
 from fmu_build.errors import BuildError
 from fmu_build.front.source import ClassSource
+from fmu_build.front.tokens import tokenise
 
 WRAPPER = "OverridesOfThisBuild"
+Override = float | str  # a number, or Modelica text
+_NOISE = re.compile(r"^(?:[a-z]+ failed: )?(?:\S+ (?:could not be compiled|failed in \w+): )?")
 PLACE = re.compile(r"\[([^\[\]\n]+?\.mo):(\d+):\d+\]")
 
 
 def compile_class(
-    source: ClassSource, libraries: Sequence[Path], overrides: Mapping[str, float | str]
+    source: ClassSource, libraries: Sequence[Path], overrides: Mapping[str, Override]
 ) -> tuple[dict[str, Any], dict[str, Any]]:
-    """rumoca's DAE form and flat form of the class, with `overrides` as modifications."""
+    """rumoca's DAE form and flat form of the class, with `overrides` as modifications.
+
+    Raises:
+        BuildError: the class cannot be compiled, or only without the overrides, which are then to blame.
+    """
+    modification = _modification(overrides)
+    try:
+        return _compile(source, libraries, modification)
+    except BuildError as failure:
+        if not overrides:
+            raise
+        _compile(source, libraries, "")  # where this fails too, the model is at fault
+        raise BuildError(
+            f"{source.name} does not compile with the values set, {modification}: {failure.message}"
+        ) from None
+
+
+def _compile(
+    source: ClassSource, libraries: Sequence[Path], modification: str
+) -> tuple[dict[str, Any], dict[str, Any]]:
     roots = [str(library) for library in libraries if library.is_dir()]
     text = source.text if source.is_single_file else ""
     name = source.name
-    if overrides or not source.is_single_file:
+    if modification or not source.is_single_file:
         name = WRAPPER
-        text += f"\nmodel {WRAPPER}\n  extends {source.name}{_modification(overrides)};\nend {WRAPPER};\n"
-    file_name = str(source.file) if source.is_single_file else f"{WRAPPER}.mo"
+        text += f"\nmodel {WRAPPER}\n  extends {source.name}{modification};\nend {WRAPPER};\n"
+    file_name = _stand_in(source) if source.is_single_file else f"{WRAPPER}.mo"
     rumoca = _import_rumoca()
     with _quiet_stderr():
         try:
             model = rumoca.Session(roots=roots).loads(text, model=name, filename=file_name)
-            return model.to_dict("dae"), model.to_dict("flat")
+            dae, flat = model.to_dict("dae"), model.to_dict("flat")
         except BaseException as failure:  # a panic in rumoca is no Exception
             if isinstance(failure, KeyboardInterrupt | SystemExit):
                 raise
             raise _explain(failure, source, libraries, rumoca) from None
+    for known in dae["source_map"]["files"]:  # [number, name, text]
+        known[1] = str(source.file) if known[1] == _stand_in(source) else known[1]
+    return dae, flat
+
+
+def _stand_in(source: ClassSource) -> str:
+    """A name in a folder that does not exist: rumoca also reads all other .mo files of a real one."""
+    return f"FolderOfThisBuild/{source.file.name}"
 
 
 def _import_rumoca() -> Any:
@@ -48,21 +80,34 @@ def _import_rumoca() -> Any:
     return rumoca
 
 
-def _modification(overrides: Mapping[str, float | str]) -> str:
+def _modification(overrides: Mapping[str, Override]) -> str:
     """`{"a.b": 1}` -> `(a(b = 1))`."""
-    if not overrides:
-        return ""
     parts = []
     for name, value in overrides.items():
         *outer, last = name.split(".")
-        text = (
-            str(value).lower() if isinstance(value, bool) else value if isinstance(value, str) else repr(float(value))
-        )
-        inner = f"{last} = {text}"
+        inner = f"{last} = {_value_text(name, value)}"
         for part in reversed(outer):
             inner = f"{part}({inner})"
         parts.append(inner)
-    return f"({', '.join(parts)})"
+    return f"({', '.join(parts)})" if parts else ""
+
+
+def _value_text(name: str, value: Override) -> str:
+    """A value as Modelica text; a text has to be one expression, so that it cannot change more than the value."""
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, str):
+        words = [word for word, _ in tokenise(value)]
+        depths = [0, *accumulate((word in "([{") - (word in ")]}") for word in words)]
+        is_balanced = min(depths) == depths[-1] == 0
+        is_cut = any(word in ";\"'" or (word == "," and depth == 0) for word, depth in zip(words, depths, strict=False))
+        has_comment = "".join("".join(words).split()) != "".join(value.split())
+        if not words or not is_balanced or is_cut or has_comment:
+            raise BuildError(f"the value set for {name}, {value}, is no single Modelica expression")
+        return value
+    if not isfinite(value):
+        raise BuildError(f"the value set for {name} is {value}; give a finite number")
+    return str(value) if isinstance(value, int) else repr(float(value))
 
 
 def _explain(failure: BaseException, source: ClassSource, libraries: Sequence[Path], rumoca: Any) -> BuildError:
@@ -70,19 +115,34 @@ def _explain(failure: BaseException, source: ClassSource, libraries: Sequence[Pa
     syntax = _syntax_error(text, source, libraries, rumoca)
     if syntax is not None:
         return syntax
-    message = " ".join(text.split("\nRelated failures")[0].split())
-    for noise in ("todae failed: ", f"{WRAPPER} could not be compiled: ", f"{WRAPPER} failed in ToDae: "):
-        message = message.replace(noise, "")
+    message = _NOISE.sub("", " ".join(text.split("\nRelated failures")[0].split()))
     message = message.replace(WRAPPER, source.name)
     if type(failure).__name__ == "PanicException":
         detail = re.search(r'detail: "([^"]*)"', text)
         message = detail.group(1) if detail else f"the Modelica compiler failed: {message}"
+    message = _in_plain_words(message)
     place = PLACE.search(text)
+    message = PLACE.sub("", message).strip()
     if place and WRAPPER not in place.group(1):
-        return BuildError(message.replace(place.group(0), "").strip(), Path(place.group(1)), int(place.group(2)))
-    if place:
-        return BuildError(f"a value set for {source.name} does not fit: {message.replace(place.group(0), '').strip()}")
+        file = source.file if place.group(1) == _stand_in(source) else Path(place.group(1))
+        return BuildError(message, file, int(place.group(2)))
     return BuildError(message, source.file, source.line)
+
+
+def _in_plain_words(message: str) -> str:
+    count = re.search(r"unbalanced model: (\d+) equations?, (\d+) unknowns?", message)
+    if count:
+        equations, unknowns = int(count.group(1)), int(count.group(2))
+        cure = "add" if equations < unknowns else "remove"
+        return (
+            f"unbalanced model: {equations} equations for {unknowns} unknowns; "
+            f"{cure} {abs(equations - unknowns)}, or make a variable an input or a parameter"
+        )
+    if "der(...) must name a coordinate" in message:
+        return (
+            "der() of an input, or of another variable that is no state, is not supported; write its equation instead"
+        )
+    return message
 
 
 def _syntax_error(text: str, source: ClassSource, libraries: Sequence[Path], rumoca: Any) -> BuildError | None:

@@ -5,7 +5,9 @@ from pathlib import Path
 import pytest
 
 from fmu_build import cli
+from fmu_build.build import bundled_library
 from fmu_build.errors import BuildError
+from fmu_build.front import load
 
 
 @pytest.fixture
@@ -49,6 +51,7 @@ def test_defaults(calls):
         (["A", "--fmi", "4"], "--fmi"),
         (["A", "--set", "a"], "NAME=VALUE"),
         (["A", "--set", "=3"], "NAME=VALUE"),
+        (["A", "--set", "a=1", "--set", "a=2"], "a is set twice"),
         (["A", "--nonsense"], "--nonsense"),
     ],
 )
@@ -61,6 +64,16 @@ def test_wrong_use(calls, capsys, command, message):
 def test_help_is_no_mistake(capsys):
     assert cli.main(["--help"]) == 0
     assert "x86_64-windows" in capsys.readouterr().out
+
+
+def test_the_example_of_the_help_can_be_built(calls, capsys):
+    cli.main(["--help"])
+    line = next(line for line in capsys.readouterr().out.splitlines() if line.startswith("  fmu-build "))
+    assert cli.main(line.split()[1:]) == 0
+    [(class_name, _, options)] = calls
+    flat = load(class_name, [bundled_library()], options["overrides"])
+    values = {variable.name: variable.binding for variable in flat.variables}
+    assert {name: values[name].value for name in options["overrides"]} == options["overrides"]
 
 
 def fail_with(monkeypatch, error):

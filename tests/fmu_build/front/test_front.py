@@ -99,6 +99,8 @@ def test_what_is_no_model_is_refused_by_its_kind(library, write):
         ("model M\n  Real x\nequation\n  der(x) = 1;\nend M;", 2, "syntax error: unexpected `x`"),
         ("model M\n  Real x;\n  Real y;\nequation\n  der(x) = 1;\nend M;", 1, "unbalanced"),
         ("model M\n  input Real u;\n  Real y;\nequation\n  y = der(u);\nend M;", 1, "der"),
+        ('model M\n  Real x = time;\n  String s = "a";\nend M;', 3, "s is a String variable"),
+        ("model M\n  Real x;\n  Real y;\nequation\n  x = 1;\nend M;", 1, "1 equations for 2 unknowns; add 1"),
         ("model M\n  Real x[2];\nequation\n  x = {1, 2, 3};\nend M;", 4, "dimension"),
         (
             'model M\n  function f input Real x; output Real y; external "C" y = g(x); end f;\n'
@@ -170,3 +172,41 @@ def test_the_same_text_gives_the_same_model(library):
     first, second = (load("L.Sub.Tank", [library]) for _ in range(2))
     assert [v.name for v in first.variables] == [v.name for v in second.variables]
     assert [e.span for e in first.equations] == [e.span for e in second.equations]
+
+
+SIZED = """
+    model M
+      parameter Integer n = 2;
+      Real v[n] = fill(time, n);
+    end M;
+    """
+
+
+def test_neighbours_of_a_single_file_are_not_read(write):
+    write("model Broken Real", "Before.mo")
+    write("model M Real other = 1; end M;", "Z.mo")
+    file = write(SIZED)
+    flat = load("M", [file])
+    assert [variable.name for variable in flat.variables] == ["n", "v"]
+    assert {equation.span.file for equation in flat.equations} == {file}
+
+
+@pytest.mark.parametrize("value", [3, "3", "1 + 2"])
+def test_an_integer_parameter_can_be_set(write, value):
+    flat = load("M", [write(SIZED)], {"n": value})
+    assert [variable.dimensions for variable in flat.variables if variable.name == "v"] == [(3,)]
+
+
+@pytest.mark.parametrize(
+    ("value", "message"),
+    [
+        (3.5, r"values set, \(n = 3.5\): .*expected `Integer`"),
+        ("q", r"values set, \(n = q\): unresolved"),
+        (float("nan"), "n is nan"),
+        *((text, "no single Modelica expression") for text in ("3;", "(3", "3)", "3, v = 4", "3 // v", '"3', "")),
+    ],
+)
+def test_a_wrong_value_is_blamed_on_the_value(write, value, message):
+    with pytest.raises(BuildError, match=message) as caught:
+        load("M", [write(SIZED)], {"n": value})
+    assert caught.value.file is None
