@@ -84,7 +84,11 @@ class Parameters:
             return [None] * size
         expression = binding or variable.start
         if expression is None:
-            return [ca.SX(0)] * size
+            raise BuildError(
+                f"{variable.name} has no value; give one in the model, or with --set {variable.name}=",
+                variable.span.file,
+                variable.span.line,
+            )
         values = scalars(self._evaluator.value(expression, Frame(False)))
         return list(values) if len(values) == size else [values[0]] * size
 

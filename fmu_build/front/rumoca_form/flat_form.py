@@ -38,6 +38,12 @@ class FlatForm:
         """An attribute of a variable as written, None where it is not."""
         return self._flat["variables"].get(variable, {}).get(name)
 
+    def is_start_written(self, variable: str) -> bool:
+        """rumoca gives a variable without a start one of zero, at the place of the declared name itself."""
+        start = self.attribute(variable, "start")
+        literal = start.get("Literal") if isinstance(start, dict) else None
+        return start is not None and (literal is None or literal["span"] != self.attribute(variable, "source_span"))
+
     def is_final(self, variable: str) -> bool:
         return bool(self._flat["variable_final_flags"].get(variable, False))
 

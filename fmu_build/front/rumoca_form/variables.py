@@ -36,11 +36,15 @@ def convert_variable(
     def expression(key: str) -> Expression | None:
         return None if attributes[key] is None else arena.expression(attributes[key])
 
+    role = _role(form, flat)
+    is_start_written = flat.attribute(name, "start") is not None
+    if role is Role.PARAMETER:
+        is_start_written = flat.is_start_written(name)
     return FlatVariable(
         name=name,
         scalar=scalar,
         dimensions=tuple(value_type["dimensions"]),
-        role=_role(form, flat),
+        role=role,
         span=span,
         is_input=attributes["causality"] == "input",
         is_output=attributes["causality"] == "output",
@@ -48,7 +52,7 @@ def convert_variable(
         is_protected=bool(flat.attribute(name, "is_protected")),
         binding=expression("binding"),
         # rumoca invents a start of zero where the model is silent.
-        start=None if flat.attribute(name, "start") is None else expression("start"),
+        start=expression("start") if is_start_written else None,
         fixed=None if attributes["fixed"] is None else tuple(attributes["fixed"]),
         min=expression("min"),
         max=expression("max"),
