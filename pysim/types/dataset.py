@@ -38,15 +38,22 @@ class MeasuredRecord:
 
     Args:
         source: where it came from, relative to the data set.
-        kind: "frequency-response" | "chirp" | "stochastic" | "step" | "other" | "frequency-response-table".
+        kind: "frequency-response" | "chirp" | "stochastic" | "step" | "multisine" | "other" |
+            "frequency-response-table".
         use: "fit" | "validate".
         data: signals over time, or a response over frequency.
+        offset: what the command was meant to swing around, in the input's unit, or None where not told.
+        amplitude: the same of its swing.
+        frequency: Hz, of a stepped sine; None for all else.
     """
 
     source: str
     kind: str
     use: str
     data: Record | FrequencyResponse
+    offset: float | None = None
+    amplitude: float | None = None
+    frequency: float | None = None
 
 
 @dataclass(frozen=True)
