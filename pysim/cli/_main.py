@@ -23,16 +23,21 @@ def main(argv: Sequence[str] | None = None) -> int:
     Returns:
         0 done, 1 the answer is no, 2 wrong use, 3 our bug.
     """
+    try:
+        args = argument_parser().parse_args(argv)
+    except SystemExit as end:  # argparse has said what is wrong, or shown the help
+        return int(end.code or 0)
+    return _guarded(args)
+
+
+def argument_parser() -> argparse.ArgumentParser:
+    """Every command with its options."""
     parser = argparse.ArgumentParser(prog="pysim", description="Simulate FMUs and compare them with a test bench.")
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
     for name, module in _COMMANDS.items():
         help_text = (module.__doc__ or "").strip().splitlines()[0]
         module.add_arguments(commands.add_parser(name, help=help_text, description=help_text))
-    try:
-        args = parser.parse_args(argv)
-    except SystemExit as end:  # argparse has said what is wrong, or shown the help
-        return int(end.code or 0)
-    return _guarded(args)
+    return parser
 
 
 def _guarded(args: argparse.Namespace) -> int:

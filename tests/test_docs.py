@@ -1,0 +1,161 @@
+"""What the pages in docs/ show works as it stands: their Python runs, their command lines parse, their links lead
+somewhere."""
+
+import re
+import shlex
+import sys
+import traceback
+from collections.abc import Iterator
+from importlib import import_module
+from pathlib import Path
+
+import pytest
+
+from pysim.cli._main import argument_parser
+
+ROOT = Path(__file__).parents[1]
+PAGES = sorted((ROOT / "docs").glob("*.md"))
+RUNNER = ("python3", "run.py")
+
+
+def blocks(text: str) -> Iterator[tuple[str, int, str]]:
+    """Every fenced block: its language ("" where none is told), the line its content starts at, the content."""
+    for match in re.finditer(r"^```([^\n`]*)\n(.*?)^```[ \t]*$", text, re.DOTALL | re.MULTILINE):
+        yield match[1].strip(), text.count("\n", 0, match.start()) + 2, match[2]
+
+
+def run_python(page: Path) -> None:
+    """Run the page's Python blocks one after the other in one namespace; a failure names the page and the line."""
+    namespace: dict[str, object] = {"__name__": "__main__"}
+    for language, line, source in blocks(page.read_text(encoding="utf-8")):
+        if language != "python":
+            continue
+        padded = "\n" * (line - 1) + source  # so that tracebacks count the page's lines
+        try:
+            exec(compile(padded, str(page), "exec"), namespace)
+        except Exception as error:
+            inside = [f.lineno for f in traceback.extract_tb(error.__traceback__) if f.filename == str(page)]
+            at = inside[-1] if inside else getattr(error, "lineno", line)
+            raise AssertionError(f"{page.name}, line {at}: {type(error).__name__}: {error}") from error
+
+
+def command_lines(text: str) -> Iterator[tuple[int, list[str]]]:
+    """Every command of ours in a shell block or one without language: its line and its words."""
+    for language, first, content in blocks(text):
+        if language not in ("", "sh", "console"):
+            continue
+        for match in re.finditer(r"(?:\\\n|[^\n])+", content):  # a line goes on behind a backslash
+            words = match[0].replace("\\\n", " ").removeprefix("$ ").strip()
+            if words.startswith(("pysim ", "fmu-build ", "python3 run.py ")):
+                yield first + content.count("\n", 0, match.start()), shlex.split(words, comments=True)
+
+
+def parse(words: list[str]) -> None:
+    """Let the command's own parser read the words.
+
+    Raises:
+        AssertionError: a command that is not there. SystemExit: words that its parser refuses.
+    """
+    if tuple(words[:2]) == RUNNER:
+        run = import_module("run")
+        assert words[2] in run.COMMANDS | run.CHECKS, f"run.py has no command {words[2]}"
+        words = {"demo": ["pysim", "demo"]}.get(words[2], [words[2]]) + words[3:]
+    if words[0] == "pysim":
+        argument_parser().parse_args(words[1:])
+    elif words[0] == "fmu-build":
+        import_module("fmu_build.cli")._parser().parse_args(words[1:])
+    elif words[0] == "validate":
+        cases = import_module("validation.registry").CASES
+        unknown = [word for word in words[1:] if word not in (*cases, "--all", "--list")]
+        assert not unknown, f"there is no case {unknown}"
+
+
+def anchors(text: str) -> set[str]:
+    """What a link to a heading of the page can name."""
+    heads = re.findall(r"^#+ +(.+?) *$", re.sub(r"^```.*?^```", "", text, flags=re.DOTALL | re.MULTILINE), re.MULTILINE)
+    return {re.sub(r"[^\w\- ]", "", head.lower()).replace(" ", "-") for head in heads}
+
+
+def dead_links(page: Path) -> list[str]:
+    """Links to files or headings that are not there; those to the web are not looked at."""
+    dead = []
+    for link in re.findall(r"\]\(([^)\s]+)\)", page.read_text(encoding="utf-8")):
+        if re.match(r"[a-z]+:", link):
+            continue
+        name, _, anchor = link.partition("#")
+        target = page.parent / name if name else page
+        if not target.exists() or (anchor and anchor not in anchors(target.read_text(encoding="utf-8"))):
+            dead.append(link)
+    return dead
+
+
+def page_name(page: Path) -> str:
+    return page.name
+
+
+@pytest.mark.parametrize("page", PAGES, ids=page_name)
+def test_python_runs(page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    run_python(page)
+
+
+@pytest.mark.parametrize("page", [ROOT / "README.md", *PAGES], ids=page_name)
+def test_command_lines_parse(page: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    for line, words in command_lines(page.read_text(encoding="utf-8")):
+        try:
+            parse(words)
+        except (SystemExit, AssertionError) as error:
+            pytest.fail(f"{page.name}, line {line}: {shlex.join(words)}: {error} {capsys.readouterr().err}")
+
+
+@pytest.mark.parametrize("page", [ROOT / "README.md", *PAGES], ids=page_name)
+def test_links_lead_somewhere(page: Path) -> None:
+    assert dead_links(page) == []
+
+
+def test_every_page_is_reached_from_the_overview() -> None:
+    overview = (ROOT / "docs" / "methods.md").read_text(encoding="utf-8")
+    assert [page.name for page in PAGES if page.name != "methods.md" and f"({page.name}" not in overview] == []
+
+
+PAGE = """# A page: of mine
+
+Words `pysim nonsense`.
+
+```python
+a = 1
+```
+
+```python
+assert a == 1
+assert a == 2, "not two"
+```
+
+```sh
+pysim simulate a.fmu \\
+  --nonsense
+pysim simulate a.fmu --set tau=1 --output b.csv   # a remark
+```
+
+[here](#a-page-of-mine) [there](other.md) [web](https://example.org) [gone](#nowhere)
+"""
+
+
+def test_the_guard_sees_what_it_is_to_see(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    page = tmp_path / "page.md"
+    page.write_text(PAGE, encoding="utf-8")
+    with pytest.raises(AssertionError, match=r"page.md, line 11: AssertionError: not two"):
+        run_python(page)
+    page.write_text(PAGE.replace("a = 1", "a = = 1"), encoding="utf-8")
+    with pytest.raises(AssertionError, match=r"page.md, line 6: SyntaxError"):
+        run_python(page)
+    (first, bad), (second, good) = command_lines(PAGE)
+    assert (first, bad[-1], second, good[-1]) == (15, "--nonsense", 17, "b.csv")
+    with pytest.raises(SystemExit):
+        parse(bad)
+    parse(good)
+    with pytest.raises(AssertionError, match="no command nonsense"):
+        parse([*RUNNER, "nonsense"])
+    assert dead_links(page) == ["other.md", "#nowhere"]
+    assert "unrecognized arguments" in capsys.readouterr().err
+    assert "pysim.cli._main" in sys.modules
