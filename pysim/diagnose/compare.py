@@ -72,9 +72,9 @@ def compare(
     """
     responses = dataset.responses()
     if not responses:
-        skipped = f" (not read: {', '.join(dataset.skipped)})" if dataset.skipped else ""
+        logs = f" ({len(dataset.logs())} logs over time)" if dataset.logs() else ""
         raise BadInput(
-            f"data set {dataset.name!r} holds no frequency responses{skipped}; "
+            f"data set {dataset.name!r} holds no frequency responses{logs}; "
             'add records of the kind "frequency-response-table"'
         )
     if reference_hz is not None:
@@ -109,9 +109,12 @@ def compare(
 
 def _note(dataset: Dataset) -> str:
     """What the data set says of itself, and what of it was left out."""
-    if not dataset.skipped:
+    logs = [record.source for record in dataset.logs()]
+    if not logs:
         return dataset.description
-    return f"{dataset.description} Not compared, being logs over time: {', '.join(dataset.skipped)}.".removeprefix("- ")
+    more = ", ..." if len(logs) > 3 else ""
+    which = f"{len(logs)} logs over time ({', '.join(logs[:3])}{more})"
+    return f"{dataset.description} Not compared: {which}.".removeprefix("- ")
 
 
 def _model_test(model: Model, dataset: Dataset, test: SineTest) -> SineTest:

@@ -8,13 +8,16 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from pysim.io.text_block import dialect, read_block
 from pysim.types import BadInput
 
 Array = NDArray[np.float64]
 
 
 def read_text(path: Path, wanted_by: str) -> str:
-    """A whole file as text, UTF-8 or Latin-1, with or without a byte order mark.
+    """A whole file as text, UTF-8 or Latin-1, with or without a byte order mark; lines end with a newline alone.
+
+    UTF-16, which Windows programs call Unicode, is known by its mark.
 
     Args:
         wanted_by: what named the file, for the message.
@@ -27,9 +30,10 @@ def read_text(path: Path, wanted_by: str) -> str:
         reason = error.strerror or type(error).__name__
         raise BadInput(f"{wanted_by}: cannot read {path} ({reason}); correct the name or put the file there") from error
     try:
-        return raw.decode("utf-8-sig")
+        text = raw.decode("utf-16" if raw[:2] in (b"\xff\xfe", b"\xfe\xff") else "utf-8-sig")
     except UnicodeDecodeError:
-        return raw.decode("latin-1")
+        text = raw.decode("latin-1")
+    return text.replace("\r\n", "\n").replace("\r", "\n")
 
 
 def read_table(path: Path, columns: tuple[str, ...], wanted_by: str) -> tuple[Array, NDArray[np.intp]]:
@@ -46,30 +50,35 @@ def read_table(path: Path, columns: tuple[str, ...], wanted_by: str) -> tuple[Ar
     Raises:
         BadInput: no rows, a row of another width, text where a number belongs, or a number that is not finite.
     """
-    rows: list[list[float]] = []
-    lines: list[int] = []
-    for line, text in enumerate(read_text(path, wanted_by).splitlines(), start=1):
-        if not text.strip() or text.lstrip().startswith("#"):
-            continue
-        fields = _split(text.strip())
-        if not rows and _is_header(fields, len(columns)):
-            continue
-        rows.append(_row(fields, columns, f"{path}, line {line}"))
-        lines.append(line)
-    if not rows:
+    lines = read_text(path, wanted_by).split("\n")
+    first = next((i for i, line in enumerate(lines) if _is_row(line, len(columns))), None)
+    if first is None:
         raise BadInput(f"{path} holds no numbers; it needs rows of {', '.join(columns)}")
-    return np.array(rows), np.array(lines, dtype=np.intp)
+    values = read_block(lines[first:], len(columns))
+    if values is not None and values.shape[0] == len(lines) - first:
+        return values, np.arange(first + 1, len(lines) + 1)
+    wanted = [i for i in range(first, len(lines)) if not _is_skipped(lines[i])]
+    if values is None:
+        values = np.array([_row(_split(lines[i].strip()), columns, f"{path}, line {i + 1}") for i in wanted])
+    return values, np.array(wanted, dtype=np.intp) + 1
+
+
+def _is_skipped(line: str) -> bool:
+    """Empty lines and comments."""
+    line = line.lstrip()
+    return not line or line.startswith("#")
+
+
+def _is_row(line: str, width: int) -> bool:
+    """Whether a line is the first row of numbers: neither skipped nor a header."""
+    return not _is_skipped(line) and not _is_header(_split(line.strip()), width)
 
 
 def _split(text: str) -> list[str]:
-    """Fields of one line, decimal commas turned into points. A comma at the edge of a word separates."""
-    for separator in ("\t", ";"):
-        if separator in text:
-            return [field.strip().replace(",", ".") for field in text.split(separator)]
-    words = text.split()
-    if "," in text and (len(words) == 1 or any(word.startswith(",") or word.endswith(",") for word in words)):
-        return [field.strip() for field in text.split(",")]
-    return [word.replace(",", ".") for word in words]
+    """Fields of one line, decimal commas turned into points."""
+    separator, decimal = dialect(text)
+    fields = [field.strip() for field in text.split(separator)]
+    return [field.replace(",", ".") for field in fields] if decimal else fields
 
 
 def _is_header(fields: list[str], width: int) -> bool:

@@ -58,17 +58,13 @@ class MeasuredRecord:
 
 @dataclass(frozen=True)
 class Dataset:
-    """All measurements of one system. Signals are named by their columns; see `MeasuredSignal.variable`.
-
-    `skipped` names the records that are there and were not read, each with its kind.
-    """
+    """All measurements of one system. Signals are named by their columns; see `MeasuredSignal.variable`."""
 
     name: str
     description: str
     system: str
     signals: tuple[MeasuredSignal, ...]
     records: tuple[MeasuredRecord, ...]
-    skipped: tuple[str, ...] = ()
 
     def signal(self, name: str) -> MeasuredSignal:
         """The signal of that column name."""
@@ -82,3 +78,12 @@ class Dataset:
     def responses(self) -> tuple[FrequencyResponse, ...]:
         """Every measured frequency response, in the order of the records."""
         return tuple(record.data for record in self.records if isinstance(record.data, FrequencyResponse))
+
+    def logs(self) -> tuple[MeasuredRecord, ...]:
+        """Every record over time, in order."""
+        return tuple(record for record in self.records if isinstance(record.data, Record))
+
+    def columns(self, record: MeasuredRecord, role: str) -> tuple[str, ...]:
+        """Names of a log's columns that are "input" or "output", in its order."""
+        names = record.data.names if isinstance(record.data, Record) else ()
+        return tuple(name for name in names if self.signal(name).role == role)

@@ -10,7 +10,7 @@ import pytest
 
 from pysim.diagnose import compare
 from pysim.simulate import Rk4
-from pysim.types import BadInput, Experiment, Record
+from pysim.types import BadInput, Experiment, MeasuredRecord, Record
 from tests.pysim import comparisons as linear
 
 
@@ -113,11 +113,14 @@ def test_the_result_holds_what_it_takes_to_repeat_it(runs: list[Experiment]) -> 
     assert dict(again.conditions) == dict(result.conditions)
 
 
-def test_what_was_not_read_stands_in_the_note(runs: list[Experiment]) -> None:
-    data = replace(linear.dataset(), skipped=("step.txt (step)",))
-    assert compare(linear.model(), data).note.endswith("Not compared, being logs over time: step.txt (step).")
-    with pytest.raises(BadInput, match=r"no frequency responses \(not read: step\.txt \(step\)\)"):
-        compare(linear.model(), replace(data, records=()))
+def test_what_is_not_compared_stands_in_the_note(runs: list[Experiment]) -> None:
+    data = linear.dataset()
+    log = Record(np.arange(2.0), np.zeros((2, 2)), ("cmd", "angle"), ("%", "%"))
+    logs = tuple(MeasuredRecord(f"{i}.txt", "other", "fit", log) for i in range(4))
+    data = replace(data, records=logs + data.records)
+    assert compare(linear.model(), data).note.endswith("Not compared: 4 logs over time (0.txt, 1.txt, 2.txt, ...).")
+    with pytest.raises(BadInput, match=r"no frequency responses \(4 logs over time\)"):
+        compare(linear.model(), replace(data, records=logs))
 
 
 def test_a_missing_reference_frequency_is_known_before_the_first_run(runs: list[Experiment]) -> None:

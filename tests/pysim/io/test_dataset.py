@@ -1,4 +1,4 @@
-"""Data sets of frequency-response tables: what is read, and what is refused where."""
+"""Data sets: what dataset.toml has to say, what tables of frequency responses become, what is refused where."""
 
 from pathlib import Path
 
@@ -65,6 +65,10 @@ def test_reads_gain_phase_and_who_is_who(folder: Path) -> None:
     assert (first.test.offset, first.test.amplitude, first.test.input, first.test.output) == (25.0, 5.0, "cmd", "angle")
     np.testing.assert_allclose([second.frequency[0], second.gain[0], second.phase[0]], [0.5, 10.0, -np.pi / 18])
     assert [record.use for record in data.records] == ["fit", "validate"]
+    assert [(record.offset, record.amplitude, record.frequency) for record in data.records] == [
+        (25.0, 5.0, None),
+        (-50.0, 10.0, None),
+    ]
 
 
 def test_reading_changes_nothing(folder: Path) -> None:
@@ -88,6 +92,9 @@ def test_reading_changes_nothing(folder: Path) -> None:
         ('role = "input"', 'role = "output"', r"line 18: a response needs one input, and 0 signals"),
         ('unit = "%"', 'unit = "percent"', "line 6: unit = 'percent' is not known"),
         ("noise = 0.1", "noise = nan", "line 12: noise = nan is no finite number"),
+        ("noise = 0.1", "noise = -0.1", "line 12: noise cannot be negative, got -0.1"),
+        ("[signals.cmd]", "[signals.time]", "line 6: time is the clock of every log, in s, and no signal"),
+        ('file = "sub/reordered.txt"', 'file = ""', "line 26: file is missing or no text"),
         ("offset = 25.0\n", "", "line 18: offset is missing"),
         ("offset = 25.0", "ofset = 25.0", "line 18: the key 'ofset' is not known"),
         ("amplitude = 10\n", "amplitude = true\n", "line 26: amplitude = True is no finite number"),
@@ -140,61 +147,6 @@ def test_a_record_may_choose_among_outputs(folder: Path) -> None:
     text = TOML.replace("[[records]]\n", extra, 1).replace('file = "sub', 'output = "angle"\nfile = "sub')
     (folder / "dataset.toml").write_text(text, encoding="utf-8")
     assert [response.test.output for response in read_dataset(folder).responses()] == ["u", "angle"]
-
-
-SPEC_EXAMPLE = """[dataset]
-name = "bench-a"
-description = "stepped sine and stochastic tests, no load"
-system = "pump"
-
-[signals.alphaCMD]
-role = "input"
-unit = "%"
-
-[signals.alphaPercent]
-role = "output"
-unit = "%"
-noise = 0.1
-resolution = 0.0586
-
-[signals.u]
-role = "output"
-unit = "1"
-variable = "u"
-
-[[records]]
-file = "frequency_response/O+25_A10/0.5Hz.txt"
-columns = ["time", "alphaCMD", "alphaPercent"]
-kind = "frequency-response"
-offset = 25.0
-amplitude = 10.0
-frequency = 0.5
-use = "fit"
-
-[[records]]
-file = "stochastic/Tp1.0s.txt"
-columns = ["time", "alphaCMD", "alphaPercent", "u"]
-kind = "stochastic"
-use = "validate"
-"""
-
-
-def test_logs_over_time_are_skipped_and_named(tmp_path: Path) -> None:
-    (tmp_path / "dataset.toml").write_text(SPEC_EXAMPLE, encoding="utf-8")
-    data = read_dataset(tmp_path)
-    assert data.responses() == ()
-    assert data.skipped == (
-        "frequency_response/O+25_A10/0.5Hz.txt (frequency-response)",
-        "stochastic/Tp1.0s.txt (stochastic)",
-    )
-
-
-def test_a_log_does_not_keep_the_tables_from_being_read(folder: Path) -> None:
-    log = '\n[[records]]\nfile = "step.txt"\ncolumns = ["time", "cmd", "angle"]\nkind = "step"\nuse = "fit"\n'
-    (folder / "dataset.toml").write_text(TOML + log, encoding="utf-8")
-    data = read_dataset(folder)
-    assert len(data.responses()) == 2
-    assert data.skipped == ("step.txt (step)",)
 
 
 def test_units_of_the_bench_become_si(folder: Path) -> None:

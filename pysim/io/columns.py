@@ -1,0 +1,71 @@
+"""Columns of numbers from a file; its suffix chooses the form."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pysim.io.text_table import read_table
+from pysim.types import BadInput
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Columns:
+    """Rows of a file and where each stands.
+
+    Args:
+        path: the file.
+        names: (n_c) of the columns.
+        values: (n_r, n_c), finite, in the units of the file.
+        numbers: (n_r,) where each row stands in the file, from 1.
+        counted: what is counted, "line" or "row".
+    """
+
+    path: Path
+    names: tuple[str, ...]
+    values: Array
+    numbers: NDArray[np.intp]
+    counted: str = "line"
+
+    def place(self, row: int) -> str:
+        """File and line of a row, for messages."""
+        return f"{self.path}, {self.counted} {self.numbers[row]}"
+
+    def __getitem__(self, name: str) -> Array:
+        """The column of that name, (n_r,)."""
+        return self.values[:, self.names.index(name)]
+
+
+def read_columns(path: Path, names: tuple[str, ...], wanted_by: str) -> Columns:
+    """The named columns of a file.
+
+    Args:
+        names: of a text file's columns, in its order.
+        wanted_by: what named the file, for messages.
+    Raises:
+        BadInput: what is wrong, with file, line and remedy.
+    """
+    values, lines = read_table(path, names, wanted_by)
+    return Columns(path, names, values, lines)
+
+
+def refuse_standing_time(columns: Columns) -> None:
+    """Time must increase from row to row.
+
+    Raises:
+        BadInput: it stands still or runs backwards, with the line.
+    """
+    steps = np.diff(columns["time"])
+    if np.any(steps <= 0):
+        row = int(np.argmax(steps <= 0)) + 1
+        time, before = columns["time"][row], columns["time"][row - 1]
+        how = "stands still at" if time == before else f"runs backwards from {before:.10g} s to"
+        raise BadInput(
+            f"{columns.place(row)}: time {how} {time:.10g} s; "
+            "remove the repeated rows, or give each test a log of its own"
+        )

@@ -1,0 +1,125 @@
+"""A log over time as a record in SI units."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+
+import numpy as np
+
+from pysim.io.columns import Columns, read_columns, refuse_standing_time
+from pysim.io.toml_section import Section
+from pysim.io.units import SI
+from pysim.types import BadInput, MeasuredRecord, MeasuredSignal, Record
+
+TIME = "time"
+
+# What each kind of log must say of its test, so that its command is known between the samples.
+LOGS: Mapping[str, tuple[str, ...]] = {
+    "frequency-response": ("offset", "amplitude", "frequency"),
+    "chirp": ("offset", "amplitude"),
+    "stochastic": (),
+    "step": (),
+    "multisine": (),
+    "other": (),
+}
+_ROUNDING = 1e-6  # of a sampling rate that was computed from printed times
+
+
+def read_log(folder: Path, section: Section, kind: str, signals: Mapping[str, MeasuredSignal]) -> MeasuredRecord:
+    """One log.
+
+    Args:
+        folder: what its file is relative to.
+        section: what dataset.toml says of it.
+        kind: one of LOGS.
+        signals: by their names, in the units of the files.
+    Raises:
+        BadInput: what is wrong, with file, line and remedy.
+    """
+    source, names = section.text("file"), section.texts("columns")
+    _check_columns(section, names, signals)
+    command = _command(section, names, signals)
+    use = section.text("use", "fit", among=("fit", "validate"))
+    test = _test(section, kind, SI[signals[command].unit][1] if command else 1.0)
+    columns = read_columns(folder / source, names, section.place)
+    refuse_standing_time(columns)
+    if test["frequency"] is not None:
+        _check_sampling(section, columns, test["frequency"])
+    origin = section.text("origin", f"measured, {source}")
+    return MeasuredRecord(source, kind, use, in_si(columns, signals, origin), **test)
+
+
+def in_si(columns: Columns, signals: Mapping[str, MeasuredSignal], origin: str) -> Record:
+    """The columns beside time as a record, each in the SI unit of its signal.
+
+    Raises:
+        BadInput: a single row.
+    """
+    if columns.values.shape[0] < 2:
+        raise BadInput(f"{columns.place(0)}: the log holds a single row; a record over time needs two or more")
+    names = tuple(name for name in columns.names if name != TIME)
+    units = [SI[signals[name].unit] for name in names]
+    order = [columns.names.index(name) for name in names]
+    values = columns.values[:, order] * np.array([factor for _, factor in units])
+    return Record(columns[TIME], values, names, tuple(unit for unit, _ in units), origin=origin)
+
+
+def _check_columns(section: Section, names: tuple[str, ...], signals: Mapping[str, MeasuredSignal]) -> None:
+    """Time, at least one input and one output, and nothing that has no signal."""
+    if TIME not in names:
+        raise BadInput(f'{section.place}: columns names no "{TIME}"; name the column that holds it in s')
+    for name in names:
+        if name != TIME and name not in signals:
+            raise BadInput(
+                f"{section.place}: the column {name!r} is no signal; add [signals.{name}] with role and unit, "
+                f"or correct the name to one of {', '.join((TIME, *signals))}"
+            )
+    for role in ("input", "output"):
+        if not any(signals[name].role == role for name in names if name != TIME):
+            raise BadInput(
+                f"{section.place}: none of the columns {', '.join(names)} is an {role}; "
+                f'log one too, or give its signal role = "{role}"'
+            )
+
+
+def _command(section: Section, names: tuple[str, ...], signals: Mapping[str, MeasuredSignal]) -> str | None:
+    """The input that offset and amplitude speak of; None where the record says nothing of them."""
+    inputs = tuple(name for name in names if name != TIME and signals[name].role == "input")
+    if "input" in section.values:
+        return section.text("input", among=inputs)
+    if len(inputs) > 1 and any(key in section.values for key in ("offset", "amplitude")):
+        raise BadInput(
+            f"{section.place}: offset and amplitude of which input, {' or '.join(inputs)}? Say it: input = ..."
+        )
+    return inputs[0] if len(inputs) == 1 else None
+
+
+def _test(section: Section, kind: str, to_si: float) -> dict[str, float | None]:
+    """Offset and amplitude in SI units or %, and the frequency in Hz, as far as told."""
+    for key in LOGS[kind]:
+        if key not in section.values:
+            raise BadInput(f'{section.place}: {key} is missing, and kind = "{kind}" needs it; write {key} = a number')
+    if "frequency" in section.values and kind != "frequency-response":
+        raise BadInput(
+            f'{section.place}: frequency belongs to kind = "frequency-response", and this is "{kind}"; '
+            "remove it, or correct the kind"
+        )
+    offset, amplitude = section.optional_number("offset"), section.positive("amplitude")
+    return {
+        "offset": None if offset is None else to_si * offset,
+        "amplitude": None if amplitude is None else to_si * amplitude,
+        "frequency": section.positive("frequency"),
+    }
+
+
+def _check_sampling(section: Section, columns: Columns, frequency: float) -> None:
+    """A sine above half the sampling rate looks like another one."""
+    if columns.values.shape[0] < 2:
+        return
+    rate = 1 / float(np.median(np.diff(columns[TIME])))
+    if frequency > 0.5 * rate * (1 + _ROUNDING):
+        raise BadInput(
+            f"{section.place}: frequency = {frequency:g} Hz is above half the sampling rate of {columns.path}, "
+            f"{rate:.4g} Hz; correct the frequency, or log faster"
+        )

@@ -1,0 +1,51 @@
+"""A measured frequency response that exists as a table."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+
+from pysim.io.response_table import TABLE_COLUMNS, read_response
+from pysim.io.toml_section import Section
+from pysim.io.units import SI
+from pysim.types import BadInput, MeasuredRecord, MeasuredSignal, SineTest
+
+TABLE = "frequency-response-table"
+
+
+def read_measured_table(folder: Path, section: Section, signals: Mapping[str, MeasuredSignal]) -> MeasuredRecord:
+    """A table; the command's numbers are in the unit of its signal, the gain in those of both.
+
+    Args:
+        folder: what its file is relative to.
+        section: what dataset.toml says of it.
+        signals: by their names, in the units of the files.
+    Raises:
+        BadInput: what is wrong, with file, line and remedy.
+    """
+    source = section.text("file")
+    command, output = (_signal_of_role(section, role, tuple(signals.values())) for role in ("input", "output"))
+    to_si, from_command = SI[signals[output].unit][1], SI[signals[command].unit][1]
+    offset, amplitude = (from_command * section.number(key) for key in ("offset", "amplitude"))
+    test = SineTest(offset, amplitude, input=command, output=output)
+    use = section.text("use", "fit", among=("fit", "validate"))
+    names = section.texts("columns")
+    if any(name not in names for name in TABLE_COLUMNS):
+        raise BadInput(f"{section.place}: columns must name {', '.join(TABLE_COLUMNS)}, in the order of the file")
+    origin = section.text("origin", f"measured, {source}")
+    scale = to_si / from_command
+    response = read_response(folder / source, names, test, section.place, scale=scale, origin=origin)
+    return MeasuredRecord(source, TABLE, use, response, offset=offset, amplitude=amplitude)
+
+
+def _signal_of_role(section: Section, role: str, signals: tuple[MeasuredSignal, ...]) -> str:
+    """The record's own choice, or the only signal of that role."""
+    names = tuple(signal.name for signal in signals if signal.role == role)
+    if role in section.values:
+        return section.text(role, among=names)
+    if len(names) != 1:
+        raise BadInput(
+            f'{section.place}: a response needs one {role}, and {len(names)} signals have role = "{role}"; '
+            f"give one signal that role, or name it in the record: {role} = ..."
+        )
+    return names[0]

@@ -1,0 +1,148 @@
+"""One table of a TOML file with the place it stands at, so that every complaint names file and line."""
+
+from __future__ import annotations
+
+import math
+import tomllib
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from pysim.io.text_table import read_text
+from pysim.types import BadInput
+
+
+@dataclass(frozen=True)
+class Section:
+    """A table and where it begins.
+
+    Args:
+        place: the file and the line, for messages.
+        values: what it holds.
+    """
+
+    place: str
+    values: dict[str, Any]
+
+    def text(self, key: str, default: str | None = None, *, among: tuple[str, ...] = ()) -> str:
+        """A string, one of `among` where that is not empty."""
+        value = self.values.get(key, default)
+        if not isinstance(value, str) or not value:
+            raise BadInput(f'{self.place}: {key} is missing or no text; write {key} = "..."')
+        if among and value not in among:
+            raise BadInput(f"{self.place}: {key} = {value!r} is not known; use one of {', '.join(among)}")
+        return value
+
+    def number(self, key: str) -> float:
+        """A finite number that must be there."""
+        value = self.optional_number(key)
+        if value is None:
+            raise BadInput(f"{self.place}: {key} is missing; write {key} = and a number")
+        return value
+
+    def optional_number(self, key: str) -> float | None:
+        """A finite number, or None where the key is absent."""
+        value = self.values.get(key)
+        if value is None:
+            return None
+        if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
+            raise BadInput(f"{self.place}: {key} = {value!r} is no finite number; write {key} = and a number")
+        return float(value)
+
+    def positive(self, key: str) -> float | None:
+        """A number above zero, or None where the key is absent."""
+        value = self.optional_number(key)
+        if value is not None and value <= 0:
+            raise BadInput(f"{self.place}: {key} must be positive, got {value:g}; correct it")
+        return value
+
+    def not_negative(self, key: str) -> float | None:
+        """A number from zero on, or None where the key is absent."""
+        value = self.optional_number(key)
+        if value is not None and value < 0:
+            raise BadInput(f"{self.place}: {key} cannot be negative, got {value:g}; correct it")
+        return value
+
+    def texts(self, key: str) -> tuple[str, ...]:
+        """A row of different strings that must be there."""
+        values = self.values.get(key)
+        if not isinstance(values, list) or not values or any(not isinstance(v, str) or not v for v in values):
+            raise BadInput(f'{self.place}: {key} is missing or no row of texts; write {key} = ["...", "..."]')
+        for value in values:
+            if values.count(value) > 1:
+                raise BadInput(f"{self.place}: {key} names {value!r} {values.count(value)} times; name it once")
+        return tuple(values)
+
+    def refuse_unknown(self, keys: tuple[str, ...]) -> None:
+        """A misspelt key would be a silent default."""
+        for key in self.values:
+            if key not in keys:
+                raise BadInput(f"{self.place}: the key {key!r} is not known; use {', '.join(keys)}")
+
+
+@dataclass(frozen=True)
+class TomlFile:
+    """A TOML file that gives out its tables with their places.
+
+    Args:
+        path: where it stands.
+        whole: everything in it.
+        headers: line number and text of every line that begins a table; the parser does not tell.
+    """
+
+    path: Path
+    whole: Section
+    headers: tuple[tuple[int, str], ...]
+
+    def table(self, key: str) -> Section:
+        """[key], which must be there."""
+        return Section(f"{self.path}, [{key}]", self._content(key))
+
+    def tables(self, key: str) -> dict[str, Section]:
+        """Every [key.name], by its name."""
+        return {
+            name: self._section(values, f"[{key}.{name}]", 0, f"{key}.{name}")
+            for name, values in self._content(key).items()
+        }
+
+    def rows(self, key: str, each: str) -> tuple[Section, ...]:
+        """Every [[key]], in order; there must be one.
+
+        Args:
+            each: what one of them is, for the message.
+        """
+        rows = self.whole.values.get(key)
+        if not isinstance(rows, list) or not rows:
+            raise BadInput(f"{self.path}: there are no {key}; add one [[{key}]] section per {each}")
+        return tuple(self._section(values, f"[[{key}]]", i, key) for i, values in enumerate(rows))
+
+    def _content(self, key: str) -> dict[str, Any]:
+        table = self.whole.values.get(key)
+        if not isinstance(table, dict) or not table:
+            raise BadInput(f"{self.path}: the section [{key}] is missing; add it")
+        return table
+
+    def _section(self, values: Any, header: str, nth: int, name: str) -> Section:
+        places = [number for number, line in self.headers if line.startswith(header)]
+        place = f"{self.path}, line {places[nth]}" if nth < len(places) else f"{self.path}, {header}"
+        if not isinstance(values, dict):
+            raise BadInput(f"{place}: {name} is no section; begin it with {header}")
+        return Section(place, values)
+
+
+def read_toml(path: Path, wanted_by: str) -> TomlFile:
+    """A TOML file.
+
+    Args:
+        wanted_by: what it is, for messages.
+    Raises:
+        BadInput: it cannot be read or is no TOML, with the line.
+    """
+    text = read_text(path, wanted_by)
+    try:
+        content = tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise BadInput(f"{path}: {error}; correct the TOML") from error
+    lines = ((number, line.replace('"', "").strip()) for number, line in enumerate(text.split("\n"), 1))
+    headers = tuple((number, line) for number, line in lines if line.startswith("["))
+    return TomlFile(path, Section(str(path), content), headers)

@@ -1,0 +1,196 @@
+"""Logs over time: what they become, and what is refused with file and line."""
+
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from pysim.io import read_dataset
+from pysim.types import BadInput, Dataset
+
+TOML = """[dataset]
+name = "logs"
+
+[signals.p]
+role = "input"
+unit = "bar"
+
+[signals.speed]
+role = "output"
+unit = "rpm"
+variable = "shaft.w"
+noise = 3
+
+[signals.u]
+role = "output"
+unit = "1"
+
+[[records]]
+file = "sine.txt"
+columns = ["time", "speed", "p"]
+kind = "frequency-response"
+offset = 20
+amplitude = 5.0
+frequency = 2.0
+use = "fit"
+
+[[records]]
+file = "wave.txt"
+columns = ["p", "time", "u", "speed"]
+kind = "stochastic"
+use = "validate"
+"""
+SINE = "t n p\n0.0 60 20\n0.1 30 21\n0.2 -60 22.5\n"
+WAVE = "1;-0.5;0;3\n2;0;0,25;6\n"
+
+
+def files(folder: Path, toml: str = TOML, sine: str = SINE, wave: str = WAVE) -> Path:
+    for name, text in (("dataset.toml", toml), ("sine.txt", sine), ("wave.txt", wave)):
+        (folder / name).write_text(text, encoding="utf-8")
+    return folder
+
+
+def test_columns_become_signals_in_si(tmp_path: Path) -> None:
+    data = read_dataset(files(tmp_path))
+    sine, wave = data.logs()
+    assert (sine.source, sine.kind, sine.use) == ("sine.txt", "frequency-response", "fit")
+    assert (wave.source, wave.kind, wave.use) == ("wave.txt", "stochastic", "validate")
+    assert (sine.data.names, sine.data.units) == (("speed", "p"), ("rad/s", "Pa"))
+    np.testing.assert_array_equal(sine.data.time, [0.0, 0.1, 0.2])
+    np.testing.assert_allclose(sine.data["speed"], [2 * np.pi, np.pi, -2 * np.pi])
+    np.testing.assert_allclose(sine.data["p"], [20e5, 21e5, 22.5e5])
+    assert (wave.data.names, wave.data.units) == (("p", "u", "speed"), ("Pa", "1", "rad/s"))
+    np.testing.assert_allclose(wave.data.time, [-0.5, 0.0])
+    np.testing.assert_allclose(wave.data.values, [[1e5, 0.0, 0.1 * np.pi], [2e5, 0.25, 0.2 * np.pi]])
+    assert wave.data.origin == "measured, wave.txt"
+    assert data.responses() == ()
+
+
+def test_a_record_tells_what_its_test_was_meant_to_be(tmp_path: Path) -> None:
+    sine, wave = read_dataset(files(tmp_path)).logs()
+    assert (sine.offset, sine.amplitude, sine.frequency) == (20e5, 5e5, 2.0)
+    assert (wave.offset, wave.amplitude, wave.frequency) == (None, None, None)
+
+
+def test_the_data_set_tells_inputs_from_outputs(tmp_path: Path) -> None:
+    data = read_dataset(files(tmp_path))
+    assert data.columns(data.records[1], "input") == ("p",)
+    assert data.columns(data.records[1], "output") == ("u", "speed")
+
+
+def test_the_description_itself_may_be_named(tmp_path: Path) -> None:
+    assert read_dataset(files(tmp_path) / "dataset.toml").name == "logs"
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ('"time", "speed", "p"]', '"speed", "p"]', r'toml, line 18: columns names no "time"'),
+        ('"time", "speed", "p"]', '"time", "speed", "q"]', r"line 18: the column 'q' is no signal; add \[signals\.q\]"),
+        ('"time", "speed", "p"]', '"time", "p", "p"]', "line 18: columns names 'p' 2 times; name it once"),
+        ('"time", "speed", "p"]', '"time", "speed", "u"]', "line 18: none of the columns time, speed, u is an input"),
+        ('"time", "speed", "p"]', '"time", "p"]', "line 18: none of the columns time, p is an output"),
+        ('["time", "speed", "p"]', '"time"', "line 18: columns is missing or no row of texts"),
+        ('["time", "speed", "p"]', "[1, 2, 3]", "line 18: columns is missing or no row of texts"),
+        ("frequency = 2.0\n", "", 'line 18: frequency is missing, and kind = "frequency-response" needs it'),
+        ("offset = 20\n", "", "line 18: offset is missing"),
+        ("amplitude = 5.0\n", "", "line 18: amplitude is missing"),
+        ("amplitude = 5.0", "amplitude = -5.0", "line 18: amplitude must be positive, got -5"),
+        ("frequency = 2.0", "frequency = 0", "line 18: frequency must be positive, got 0"),
+        ("frequency = 2.0", "frequency = 5.1", r"line 18: frequency = 5\.1 Hz is above half .*sine\.txt, 10 Hz"),
+        ('kind = "stochastic"', 'kind = "chirp"', 'line 27: offset is missing, and kind = "chirp" needs it'),
+        ('kind = "stochastic"', 'kind = "step"\nfrequency = 1', "line 27: frequency belongs to kind"),
+        ('kind = "stochastic"\n', "", "line 27: kind is missing"),
+        ('"wave.txt"', '"waves.txt"', r"line 27: cannot read .*waves\.txt \(No such file"),
+        ('role = "output"\nunit = "1"', 'unit = "1"', "line 14: role is missing"),
+        ('unit = "1"', 'unit = "one"', "line 14: unit = 'one' is not known; use one of 1, %"),
+        ('["p", "time", "u", "speed"]', '["p", "time", "u", "speed", "x"]', "line 27: the column 'x' is no signal"),
+    ],
+)
+def test_refuses_faults_in_the_description(tmp_path: Path, old: str, new: str, words: str) -> None:
+    assert TOML.count(old) == 1
+    with pytest.raises(BadInput, match=words):
+        read_dataset(files(tmp_path, TOML.replace(old, new)))
+
+
+def test_a_sine_at_half_the_sampling_rate_is_the_fastest(tmp_path: Path) -> None:
+    assert read_dataset(files(tmp_path, TOML.replace("frequency = 2.0", "frequency = 5.0"))).records[0].frequency == 5.0
+
+
+def test_a_log_named_twice_is_refused(tmp_path: Path) -> None:
+    again = TOML[TOML.index("[[records]]") : TOML.rindex("[[records]]")]
+    with pytest.raises(BadInput, match=r"line 33: sine\.txt is the record of line 18 already; name each file once"):
+        read_dataset(files(tmp_path, TOML + "\n" + again))
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("", r"sine\.txt holds no numbers; it needs rows of time, speed, p"),
+        ("time speed p\n# nothing came\n", r"sine\.txt holds no numbers"),
+        ("t n p\n0 1 2\n", r"sine\.txt, line 2: the log holds a single row"),
+        ("0 1 2\n0.1 1\n", r"sine\.txt, line 2: 2 columns where 3 belong \(time, speed, p\)"),
+        ("0 1 2\n0.1 1 2 3\n", r"line 2: 4 columns where 3 belong"),
+        ("t n p\n0 1 2\n0.1 open 2\n", r"sine\.txt, line 3: 'open' is no number for speed"),
+        ("0 1 2\n0.1 NaN 2\n", "line 2: speed is NaN, which is not finite"),
+        ("0 1 2\n0.1 1 -inf\n", "line 2: p is -inf, which is not finite"),
+        ("0 1 2\n0.1 1 1e999\n", "line 2: p is 1e999, which is not finite"),
+        ("0 1 2\n\n0.1 1 2\n# again\n0.1 1 2\n", r"sine\.txt, line 5: time stands still at 0\.1 s"),
+        ("t n p\n0 1 2\n0.1 1 2\n0 1 2\n", r"sine\.txt, line 4: time runs backwards from 0\.1 s to 0 s"),
+    ],
+)
+def test_refuses_faults_in_a_log(tmp_path: Path, text: str, words: str) -> None:
+    with pytest.raises(BadInput, match=words):
+        read_dataset(files(tmp_path, sine=text))
+
+
+def test_which_input_the_numbers_speak_of_must_be_clear(tmp_path: Path) -> None:
+    two = TOML.replace('[signals.u]\nrole = "output"', '[signals.u]\nrole = "input"')
+    two = two.replace('columns = ["time", "speed", "p"]', 'columns = ["time", "speed", "p", "u"]')
+    sine = "0 0 20 1\n0.1 0 20 1\n"
+    with pytest.raises(BadInput, match="line 18: offset and amplitude of which input, p or u"):
+        read_dataset(files(tmp_path, two, sine))
+    for name, factor in (("p", 1e5), ("u", 1.0)):
+        toml = two.replace("offset = 20", f'input = "{name}"\noffset = 20')
+        record = read_dataset(files(tmp_path, toml, sine)).records[0]
+        assert (record.offset, record.amplitude) == (20 * factor, 5 * factor)
+
+
+def test_reading_neither_writes_nor_needs_to(tmp_path: Path) -> None:
+    folder = files(tmp_path)
+    paths = [folder, *sorted(folder.iterdir())]
+    for path in reversed(paths):
+        path.chmod(0o555 if path.is_dir() else 0o444)
+    before = [(p.stat().st_mtime_ns, p.stat().st_mode, p.read_bytes() if p.is_file() else b"") for p in paths]
+    try:
+        read_dataset(folder)
+        after = [(p.stat().st_mtime_ns, p.stat().st_mode, p.read_bytes() if p.is_file() else b"") for p in paths]
+        assert before == after
+        assert [folder, *sorted(folder.iterdir())] == paths
+    finally:
+        folder.chmod(0o755)
+
+
+@pytest.mark.parametrize("dialect", ["\t", ";decimal comma"])
+def test_half_a_million_rows_are_read_in_a_second(tmp_path: Path, dialect: str) -> None:
+    n = 500_000
+    values = np.random.default_rng(4).integers(-99999, 99999, size=(n, 2)) / 1000
+    rows = [f"{0.004 * i:.3f}\t{a:.3f}\t{b:.3f}" for i, (a, b) in enumerate(values.tolist())]
+    text = "time\tspeed\tp\n" + "\n".join(rows) + "\n"
+    if dialect != "\t":
+        text = text.replace("\t", ";").replace(".", ",")
+    folder = files(tmp_path, sine=text)
+    data, seconds = _fastest(folder)
+    np.testing.assert_allclose(data.logs()[0].data["p"], 1e5 * values[:, 1], rtol=1e-15)
+    assert seconds < 1.0
+
+
+def _fastest(folder: Path) -> tuple[Dataset, float]:
+    """The data set, and the best time of three, for a machine that does other work too."""
+    seconds = []
+    for _ in range(3):
+        start = time.perf_counter()
+        data = read_dataset(folder)
+        seconds.append(time.perf_counter() - start)
+    return data, min(seconds)
