@@ -14,12 +14,13 @@ ROOT = Path(__file__).parents[1]
 _DATA = {"pysim.types"}
 _FILES = _DATA | {"pysim.io"}
 _RUNS = _FILES | {"pysim.simulate"}
-_FITS = _RUNS | {"pysim.identify"}
+_FITS = _RUNS | {"pysim.excitation", "pysim.identify"}
 ALLOWED = {
     "pysim.types": set(),
+    "pysim.excitation": _DATA,
     "pysim.io": _DATA,
     "pysim.simulate": _FILES,
-    "pysim.identify": _RUNS,
+    "pysim.identify": _RUNS | {"pysim.excitation"},
     "pysim.diagnose": _FITS,
     "pysim.plot": _FITS,
     "pysim.report": _FITS,
@@ -28,7 +29,7 @@ ALLOWED = {
     "fmu_build": set(),
 }
 # Packages whose outside world is limited too.
-OUTSIDE = {"pysim.types": {"numpy"}, "pysim.io": {"numpy", "fmpy"}}
+OUTSIDE = {"pysim.types": {"numpy"}, "pysim.excitation": {"numpy"}, "pysim.io": {"numpy", "fmpy"}}
 MAIN = {Path("pysim/__main__.py"): {"pysim.cli"}}
 
 

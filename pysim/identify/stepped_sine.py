@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from pysim.excitation import LeadIn, SteppedSineCommand
 from pysim.types import BadInput, Experiment, Signal, SineTest
 
 
@@ -74,14 +75,8 @@ def command(test: SineTest, frequency: float, plan: SteppedSine) -> Signal:
 
     Source: thesis Eq. 2.1 and Section 2.1.1, steps 1 and 2. The ramp down of step 3 follows after the measurement.
     """
-    starts = np.array([0.0, plan.rest, plan.rest + plan.ramp, plan.onset])
-    cubics = np.zeros((4, 4))
-    cubics[1, 1] = test.offset / plan.ramp
-    cubics[2:, 0] = test.offset
-    sines = np.zeros((4, 1, 4))
-    sines[3, 0] = test.amplitude, 0.0, 2 * math.pi * frequency, 0.0
-    keep = np.append(np.diff(starts) > 0, True)  # a rest or hold of no length is no piece
-    return Signal(starts[keep], cubics[keep], sines[keep])
+    lead = LeadIn(plan.rest, plan.ramp, plan.hold)
+    return SteppedSineCommand(test.offset, test.amplitude, frequency, math.inf, lead).signal()
 
 
 def stepped_sine(
