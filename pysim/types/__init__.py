@@ -1,5 +1,6 @@
 """The only things that cross folders: frozen, checked once, numpy and the standard library only."""
 
+from pysim.types.best_linear_approximation import BestLinearApproximation, Distortion, Level, MultisineTest
 from pysim.types.comparison import Comparison, ResponseComparison
 from pysim.types.criterion import Criterion, Deviation
 from pysim.types.dataset import Dataset, MeasuredRecord, MeasuredSignal
@@ -14,15 +15,19 @@ from pysim.types.sine_test import SineTest
 __all__ = [
     "Abilities",
     "BadInput",
+    "BestLinearApproximation",
     "Comparison",
     "Criterion",
     "Dataset",
     "Deviation",
+    "Distortion",
     "Experiment",
     "FrequencyResponse",
+    "Level",
     "MeasuredRecord",
     "MeasuredSignal",
     "Model",
+    "MultisineTest",
     "Outcome",
     "Record",
     "ResponseComparison",
