@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple, Protocol
 
-from pysim.simulate._method import ExplicitMethod, RosenbrockMethod
+from pysim.simulate._method import Method
 from pysim.types import BadInput
 
 
@@ -22,7 +22,7 @@ class Control(NamedTuple):
 class Solver(Protocol):
     """Frozen settings of one way to step. A new one of a known family is a file with its coefficients."""
 
-    def method(self) -> ExplicitMethod | RosenbrockMethod:
+    def method(self) -> Method:
         """The coefficients."""
         ...
 

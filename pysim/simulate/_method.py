@@ -1,4 +1,4 @@
-"""Methods as data: coefficients of the two families, and which native function steps with them."""
+"""Methods as data: coefficients of the families, and which native function steps with them."""
 
 from __future__ import annotations
 
@@ -7,13 +7,14 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from pysim.simulate._esdirk import attempt_esdirk
 from pysim.simulate._explicit import attempt_explicit
 from pysim.simulate._native import doubles, native
 from pysim.simulate._rosenbrock import attempt_rosenbrock
 
 Array = NDArray[np.float64]
 
-EXPLICIT, ROSENBROCK = range(2)
+EXPLICIT, ROSENBROCK, ESDIRK = range(3)
 
 METHOD = np.dtype(
     [
@@ -21,9 +22,9 @@ METHOD = np.dtype(
         ("stages", np.int64),  # s
         ("terms", np.int64),  # d
         ("error_order", np.float64),
-        ("end_in_error", np.int64),
+        ("end_in_error", np.int64),  # 1: an attempt fills dx_new itself
         ("gamma", np.float64),
-        *((name, np.int64) for name in ("a", "b", "c", "error", "dense", "coupling", "slope")),  # addresses
+        *((name, np.int64) for name in ("a", "b", "c", "error", "dense", "coupling", "slope", "predict")),  # addresses
     ]
 )
 
@@ -62,14 +63,37 @@ class RosenbrockMethod(NamedTuple):
     dense: Array  # (s + 1, d) weights of theta^1 ... theta^d in x(t + theta h) - x; the last row is zero
 
 
-def method_arrays(method: ExplicitMethod | RosenbrockMethod) -> dict[str, Any]:
+class EsdirkMethod(NamedTuple):
+    """Diagonally implicit, with s stages: X_i = x + h sum_j a_ij k_j, k_i = f(t + c_i h, X_i).
+
+    The first stage is explicit, every other one has gamma on its diagonal; the last one is the end of the step.
+    """
+
+    order: int
+    error_order: int
+    gamma: float
+    a: Array  # (s, s) lower triangle
+    b: Array  # (s,) the last row of a
+    c: Array  # (s,)
+    predict: Array  # (s, s) strictly lower triangle: k_i from the stages before it, where Newton starts
+    error: Array  # (s + 1,) weights of the estimate, times h; the last one is zero
+    dense: Array  # (s + 1, d) weights of theta^1 ... theta^d in (x(t + theta h) - x) / h; the last row is zero
+
+
+Method = ExplicitMethod | RosenbrockMethod | EsdirkMethod
+
+_FAMILIES = {ExplicitMethod: EXPLICIT, RosenbrockMethod: ROSENBROCK, EsdirkMethod: ESDIRK}
+
+
+def method_arrays(method: Method) -> dict[str, Any]:
     """What METHOD points to."""
+    family = _FAMILIES[type(method)]
     return {
         **{name: value for name, value in method._asdict().items() if name != "order"},
-        "family": EXPLICIT if isinstance(method, ExplicitMethod) else ROSENBROCK,
+        "family": family,
         "stages": method.b.size,
         "terms": method.dense.shape[1],
-        "end_in_error": int(method.error[-1] != 0.0),
+        "end_in_error": int(method.error[-1] != 0.0 or family == ESDIRK),
     }
 
 
@@ -78,6 +102,8 @@ def attempt_step(job: Any, h: float) -> tuple[int, float]:
     """One step of length h (s) from run.t: fills k and x_new (dx_new if it enters the error); status and error norm."""
     if job.method.family == EXPLICIT:
         return attempt_explicit(job, h)
+    if job.method.family == ESDIRK:
+        return attempt_esdirk(job, h)
     return attempt_rosenbrock(job, h)
 
 
@@ -86,7 +112,7 @@ def dense_coefficients(job: Any, h: float) -> None:
     """Fill work.dense with the interpolant over the step just taken."""
     work, method = job.work, job.method
     n, terms = work.n, method.terms
-    scale = h if method.family == EXPLICIT else 1.0
+    scale = 1.0 if method.family == ROSENBROCK else h
     k, weights, dense = doubles(work.k), doubles(method.dense), doubles(work.dense)
     for j in range(terms * n):
         dense[j] = 0.0

@@ -13,7 +13,7 @@ from pysim.simulate._inputs import break_arrays, input_arrays
 from pysim.simulate._job import Job
 from pysim.simulate._library import CallFailed, Instance, Library, open_library
 from pysim.simulate._loop import integrate
-from pysim.simulate._method import RosenbrockMethod, method_arrays
+from pysim.simulate._method import ExplicitMethod, method_arrays
 from pysim.simulate._state import RUNNING, work_arrays
 from pysim.simulate.rk45 import Rk45
 from pysim.types import Experiment, Model, Outcome, Record, SimulationError
@@ -91,7 +91,7 @@ def _prepare(instance: Instance, experiment: Experiment, solver: Solver) -> Job:
 
 def _new_job(instance: Instance, solver: Solver) -> Job:
     abilities, method, job = instance.model.abilities, solver.method(), Job(solver)
-    implicit = isinstance(method, RosenbrockMethod)
+    implicit = not isinstance(method, ExplicitMethod)
     n, m, terms = len(abilities.states), abilities.event_indicators, method.dense.shape[1]
     job.put("method", method_arrays(method))
     job.put("control", solver.control()._asdict())

@@ -37,6 +37,7 @@ RUN = np.dtype(
         ("status", np.int64),  # worst status of an FMI function so far
         ("crowd", np.int64),  # events since time last moved on
         ("jacobian_at", np.float64),  # s, where the Jacobian was taken; NaN where it was not
+        ("matrix_step", np.float64),  # s, step for which it was factorised; 0 where it was not
         *((name, np.int64) for name in STATISTICS),
     ]
 )
@@ -63,6 +64,8 @@ WORK = np.dtype(
         ("matrix", np.int64),  # (n, n) factorised
         ("pivots", np.int64),  # (n,) of int64
         ("slope", np.int64),  # (n,) partial derivative of dx by time
+        ("stages", np.int64),  # (s, n) states of the stages, where those are unknowns
+        ("right", np.int64),  # (n,) what is known of such a stage
         ("has_directional", np.int64),
         ("ones", np.int64),  # (n,) seed of a directional derivative
         ("derivative_references", np.int64),  # (n,) of uint32
@@ -96,5 +99,7 @@ def work_arrays(n: int, m: int, stages: int, terms: int, implicit: bool) -> dict
         "matrix": np.zeros(square),
         "pivots": np.zeros(n, dtype=np.int64),
         "slope": np.zeros(n),
+        "stages": np.zeros((stages, n)),
+        "right": np.zeros(n),
         "ones": np.ones(n),
     }

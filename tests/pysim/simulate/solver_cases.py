@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from pysim.simulate import Rk4, Rk45, Rodas, Solver
+from pysim.simulate import Esdirk, Rk4, Rk45, Rodas, Solver
 
 
 @dataclass(frozen=True)
@@ -26,5 +26,6 @@ class SolverCase:
 SOLVERS = {
     "Rk4": SolverCase(Rk4, 0.05, 4, fixed=True),
     "Rk45": SolverCase(lambda tolerance: Rk45(tolerance, tolerance), 1e-6, 5),
+    "Esdirk": SolverCase(lambda tolerance: Esdirk(tolerance, tolerance), 1e-6, 4),
     "Rodas": SolverCase(lambda tolerance: Rodas(tolerance, tolerance), 1e-6, 5),
 }

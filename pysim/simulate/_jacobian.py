@@ -1,0 +1,64 @@
+"""Derivatives of dx by the states at any point: exact where the FMU offers them, else by differences."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from pysim.simulate._fmu_calls import OK, WARNING, get_directional
+from pysim.simulate._native import doubles, longs, native
+from pysim.simulate._point import copy, evaluate, set_point
+
+_ROOT_EPS = 1.4901161193847656e-08
+
+
+@native
+def take_jacobian(job: Any, t: float, x: int, dx: int) -> int:
+    """Fill work.jacobian at time t (s), states x and their derivative dx (addresses); the worst status.
+
+    The FMU is left at that point only where it offers directional derivatives; work.error, and without them x_try and
+    slope, change.
+    """
+    job.run.jacobians += 1
+    if job.work.has_directional == 0:
+        return _by_differences(job, t, x, dx)
+    status = set_point(job, t, x)
+    return status if status > WARNING else max(status, jacobian_here(job))
+
+
+@native
+def jacobian_here(job: Any) -> int:
+    """Fill work.jacobian at the point last set, one directional derivative per group of states."""
+    work, n, status = job.work, job.work.n, OK
+    first, members, pattern = longs(work.group_first), longs(work.group_members), doubles(work.pattern)
+    jacobian, column = doubles(work.jacobian), doubles(work.error)
+    for g in range(work.groups):
+        knowns, count = work.group_references + 4 * first[g], first[g + 1] - first[g]
+        status = max(
+            status, get_directional(job.fmu, work.derivative_references, n, knowns, count, work.ones, work.error)
+        )
+        if status > WARNING:
+            return status
+        for place in range(first[g], first[g + 1]):
+            start = members[place] * n
+            for i in range(n):
+                jacobian[start + i] = column[i] if pattern[start + i] != 0.0 else 0.0
+    return status
+
+
+@native
+def _by_differences(job: Any, t: float, x: int, dx: int) -> int:
+    """One-sided differences, each state moved by the root of the rounding error."""
+    work, n, status = job.work, job.work.n, OK
+    moved, rate, nominal = doubles(work.slope), doubles(dx), doubles(work.nominal)
+    copy(x, work.slope, n)
+    for j in range(n):
+        before = moved[j]
+        moved[j] = before + _ROOT_EPS * max(abs(before), 1e-3 * abs(nominal[j]))
+        column = doubles(work.jacobian + 8 * n * j)
+        status = max(status, evaluate(job, t, work.slope, work.jacobian + 8 * n * j))
+        if status > WARNING:
+            return status
+        for i in range(n):
+            column[i] = (column[i] - rate[i]) / (moved[j] - before)
+        moved[j] = before
+    return status
