@@ -2,16 +2,25 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
+from pysim.io.parquet_table import read_parquet
+from pysim.io.tdms_table import read_tdms
 from pysim.io.text_table import read_table
 from pysim.types import BadInput
 
 Array = NDArray[np.float64]
+
+# Files that name their columns themselves; all others are text.
+_BY_NAME: Mapping[str, Callable[[Path, tuple[str, ...], str], list[Array]]] = {
+    ".parquet": read_parquet,
+    ".tdms": read_tdms,
+}
 
 
 @dataclass(frozen=True)
@@ -45,11 +54,17 @@ def read_columns(path: Path, names: tuple[str, ...], wanted_by: str) -> Columns:
     """The named columns of a file.
 
     Args:
-        names: of a text file's columns, in its order.
+        names: of a text file's columns, in its order; of a .parquet or .tdms file those that are wanted.
         wanted_by: what named the file, for messages.
     Raises:
-        BadInput: what is wrong, with file, line and remedy.
+        BadInput: what is wrong, with file, line (row) and remedy.
     """
+    by_name = _BY_NAME.get(path.suffix.lower())
+    if by_name is not None:
+        columns = by_name(path, names, wanted_by)
+        if not columns[0].size:
+            raise BadInput(f"{path} holds no numbers; it needs rows of {', '.join(names)}")
+        return Columns(path, names, np.column_stack(columns), np.arange(1, columns[0].size + 1), "row")
     values, lines = read_table(path, names, wanted_by)
     return Columns(path, names, values, lines)
 

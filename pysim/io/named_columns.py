@@ -1,0 +1,75 @@
+"""Columns of files that name them themselves: what is there, and numbers from what was found."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from importlib import import_module
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pysim.types import BadInput
+
+Array = NDArray[np.float64]
+_SECOND = np.timedelta64(1, "s")
+
+
+def optional_package(module: str, wanted_by: str, package: str) -> ModuleType:
+    """A package that not everybody needs.
+
+    Args:
+        module: to import.
+        wanted_by: why it is needed, for the message.
+        package: what pip calls it.
+    Raises:
+        BadInput: it is not installed.
+    """
+    try:
+        return import_module(module)
+    except ImportError as error:
+        raise BadInput(f"{wanted_by}, and the package to read it is missing; run: pip install {package}") from error
+
+
+def refuse_missing(path: Path, names: Sequence[str], present: Sequence[str], wanted_by: str) -> None:
+    """Every name must stand in the file, once.
+
+    Raises:
+        BadInput: the first one that does not, and what is there.
+    """
+    for name in names:
+        count = list(present).count(name)
+        if count != 1:
+            found = f"{count} columns named {name!r}" if count else f"no column {name!r}"
+            raise BadInput(f"{wanted_by}: {path} has {found}; name one of {', '.join(present)}")
+
+
+def as_numbers(path: Path, name: str, cells: NDArray[Any]) -> Array:
+    """Finite numbers (n_r,) from the cells of a column; moments become seconds since the first one.
+
+    Raises:
+        BadInput: a cell that is empty, text or not finite, with its row.
+    """
+    if cells.dtype.kind == "M":
+        cells = cells - cells[:1].repeat(cells.size)
+    if cells.dtype.kind == "m":
+        values = np.where(np.isnat(cells), np.nan, cells / _SECOND)
+    elif cells.dtype.kind in "fiub":
+        values = cells.astype(np.float64)
+    else:
+        values = np.array([_number(path, name, row, cell) for row, cell in enumerate(cells.tolist(), 1)])
+    wrong = np.flatnonzero(~np.isfinite(values))
+    if wrong.size:
+        what = "empty or not a number" if math.isnan(values[wrong[0]]) else "not finite"
+        raise BadInput(f"{path}, row {wrong[0] + 1}: {name} is {what}; correct it or remove the row")
+    return values
+
+
+def _number(path: Path, name: str, row: int, cell: object) -> float:
+    try:
+        return float(cell)  # type: ignore[arg-type]
+    except (TypeError, ValueError):
+        raise BadInput(f"{path}, row {row}: {cell!r} is no number for {name}; correct it or remove the row") from None

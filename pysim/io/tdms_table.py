@@ -1,0 +1,73 @@
+"""Channels of a LabVIEW TDMS file, by name."""
+
+from __future__ import annotations
+
+import struct
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pysim.io.named_columns import as_numbers, optional_package, refuse_missing
+from pysim.types import BadInput
+
+Array = NDArray[np.float64]
+_TIME = "time"
+
+
+def read_tdms(path: Path, names: tuple[str, ...], wanted_by: str) -> list[Array]:
+    """The named channels, (n_r,) each: by the channel's own name, or "group/channel" where two groups have it.
+
+    Waveforms carry no channel of times but a start and an increment; the column "time" then follows from those.
+
+    Args:
+        wanted_by: what named the file, for messages.
+    Raises:
+        BadInput: the package is missing, no TDMS file, a channel that is not there or holds no numbers, channels of
+            different lengths, or no time.
+    """
+    tdms = optional_package("nptdms", f"{wanted_by}: {path} is a TDMS file", "npTDMS")
+    try:
+        file = tdms.TdmsFile.read(path)
+    except (OSError, ValueError, KeyError, EOFError, struct.error) as error:
+        raise BadInput(f"{wanted_by}: cannot read {path} as TDMS ({error}); correct the name or the file") from error
+    channels = [channel for group in file.groups() for channel in group.channels()]
+    if not channels:
+        raise BadInput(f"{wanted_by}: cannot read {path} as TDMS (it has no channels); correct the name or the file")
+    present = [channel.name for channel in channels]
+    full = [f"{channel.group_name}/{channel.name}" for channel in channels]
+    clock = _TIME not in present and _TIME in names
+    wanted = tuple(name for name in names if not (clock and name == _TIME))
+    refuse_missing(path, wanted, [*present, *(name for name in full if name in wanted)], wanted_by)
+    chosen = {name: channels[full.index(name) if name in full else present.index(name)] for name in wanted}
+    columns = {name: as_numbers(path, name, np.asarray(channel[:])) for name, channel in chosen.items()}
+    if clock:
+        columns[_TIME] = _common_clock(path, chosen)
+    _refuse_different_lengths(path, columns)
+    return [columns[name] for name in names]
+
+
+def _common_clock(path: Path, channels: dict[str, Any]) -> Array:
+    """Times (n_r,) in s of waveforms that were sampled together."""
+    clocks = {}
+    for name, channel in channels.items():
+        try:
+            clocks[name] = np.asarray(channel.time_track(), dtype=np.float64)
+        except KeyError as error:
+            raise BadInput(
+                f'{path}: it has neither a channel "time" nor the sampling interval of {name} (wf_increment); '
+                "write waveforms, or a channel of times in s"
+            ) from error
+    first = next(iter(clocks))
+    for name, clock in clocks.items():
+        if clock.shape == clocks[first].shape and not np.array_equal(clock, clocks[first]):
+            raise BadInput(f"{path}: {first} and {name} were sampled at different times; make each a record of its own")
+    return clocks[first]
+
+
+def _refuse_different_lengths(path: Path, columns: dict[str, Array]) -> None:
+    sizes = {name: column.size for name, column in columns.items()}
+    if len(set(sizes.values())) > 1:
+        found = ", ".join(f"{name} {size}" for name, size in sizes.items())
+        raise BadInput(f"{path}: channels of different lengths ({found} rows); give each rate a record of its own")

@@ -1,0 +1,167 @@
+"""Parquet and TDMS files: the same numbers as from text, by the columns' names, and what is refused."""
+
+import datetime
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pyarrow as pa
+import pytest
+from nptdms import ChannelObject, TdmsWriter
+from pyarrow import parquet
+
+from pysim.io import read_dataset
+from pysim.io.columns import read_columns
+from pysim.types import BadInput
+
+TIME = [0.0, 0.5, 1.0]
+SPEED = [1.0, -2.5, 3e-3]
+NAMES = ("speed", "time")
+START = datetime.datetime(2026, 3, 1, 8)
+
+
+def as_parquet(path: Path, **columns: Any) -> Path:
+    parquet.write_table(pa.table(columns), path)
+    return path
+
+
+def as_tdms(path: Path, **columns: Any) -> Path:
+    return write_channels(path, [ChannelObject("log", name, np.array(values)) for name, values in columns.items()])
+
+
+def write_channels(path: Path, channels: list[ChannelObject]) -> Path:
+    with TdmsWriter(path) as writer:
+        writer.write_segment(channels)
+    return path
+
+
+BOTH = pytest.mark.parametrize(("write", "suffix"), [(as_parquet, "parquet"), (as_tdms, "tdms")])
+Write = Callable[..., Path]
+
+
+@BOTH
+def test_columns_are_found_by_name(tmp_path: Path, write: Write, suffix: str) -> None:
+    path = write(tmp_path / f"log.{suffix}", time=TIME, torque=[7, 8, 9], speed=SPEED)
+    columns = read_columns(path, NAMES, "test")
+    np.testing.assert_array_equal(columns.values, np.column_stack([SPEED, TIME]))
+    assert columns.place(2) == f"{path}, row 3"
+
+
+@BOTH
+def test_integers_and_stamps_become_numbers(tmp_path: Path, write: Write, suffix: str) -> None:
+    moments = np.datetime64(START) + np.array([0, 500_000, 1_000_000], dtype="timedelta64[us]")
+    path = write(tmp_path / f"log.{suffix}", time=moments, speed=np.array([1, -2, 3], dtype=np.int16))
+    columns = read_columns(path, NAMES, "test")
+    np.testing.assert_array_equal(columns["time"], TIME)
+    np.testing.assert_array_equal(columns["speed"], [1.0, -2.0, 3.0])
+
+
+@BOTH
+@pytest.mark.parametrize(
+    ("speed", "words"),
+    [
+        ([1.0, np.nan, 2.0], r"log\.\w+, row 2: speed is empty or not a number"),
+        ([1.0, 2.0, np.inf], r"log\.\w+, row 3: speed is not finite"),
+        (["1", "x", "2"], r"log\.\w+, row 2: 'x' is no number for speed"),
+    ],
+)
+def test_faulty_cells_are_named_with_their_row(
+    tmp_path: Path, write: Write, suffix: str, speed: list[Any], words: str
+) -> None:
+    path = write(tmp_path / f"log.{suffix}", time=TIME, speed=speed)
+    with pytest.raises(BadInput, match=words):
+        read_columns(path, NAMES, "test")
+
+
+@BOTH
+def test_a_missing_column_and_a_missing_file(tmp_path: Path, write: Write, suffix: str) -> None:
+    path = write(tmp_path / f"log.{suffix}", time=TIME, n=SPEED)
+    with pytest.raises(BadInput, match=r"line 4: .*log\.\w+ has no column 'speed'; name one of time, n"):
+        read_columns(path, NAMES, "dataset.toml, line 4")
+    with pytest.raises(BadInput, match=r"line 4: cannot read .*none\.\w+ as"):
+        read_columns(tmp_path / f"none.{suffix}", NAMES, "dataset.toml, line 4")
+    (tmp_path / f"text.{suffix}").write_text("0 1\n1 2\n")
+    with pytest.raises(BadInput, match=r"line 4: cannot read .*text\.\w+ as"):
+        read_columns(tmp_path / f"text.{suffix}", NAMES, "dataset.toml, line 4")
+
+
+@BOTH
+def test_an_empty_log_is_refused(tmp_path: Path, write: Write, suffix: str) -> None:
+    path = write(tmp_path / f"log.{suffix}", time=np.zeros(0), speed=np.zeros(0))
+    with pytest.raises(BadInput, match="holds no numbers; it needs rows of speed, time"):
+        read_columns(path, NAMES, "test")
+
+
+@pytest.mark.parametrize(
+    ("suffix", "module", "package"), [("parquet", "pyarrow", "pyarrow"), ("tdms", "nptdms", "npTDMS")]
+)
+def test_a_missing_package_is_one_sentence(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, suffix: str, module: str, package: str
+) -> None:
+    monkeypatch.setitem(__import__("sys").modules, module, None)
+    with pytest.raises(BadInput, match=f"line 4: .*is missing; run: pip install {package}$"):
+        read_columns(tmp_path / f"log.{suffix}", NAMES, "dataset.toml, line 4")
+
+
+def waveform(group: str, name: str, values: list[float], increment: float = 0.5) -> ChannelObject:
+    properties = {"wf_start_time": START, "wf_start_offset": 0.0, "wf_increment": increment, "wf_samples": len(values)}
+    return ChannelObject(group, name, np.array(values), properties=properties)
+
+
+def test_waveforms_carry_their_clock(tmp_path: Path) -> None:
+    path = write_channels(tmp_path / "log.tdms", [waveform("a", "speed", SPEED), waveform("a", "p", TIME)])
+    columns = read_columns(path, ("time", "p", "speed"), "test")
+    np.testing.assert_array_equal(columns.values, np.column_stack([TIME, TIME, SPEED]))
+
+
+def test_a_channel_of_two_groups_needs_its_group(tmp_path: Path) -> None:
+    path = write_channels(tmp_path / "log.tdms", [waveform("a", "speed", SPEED), waveform("b", "speed", TIME)])
+    with pytest.raises(BadInput, match="has 2 columns named 'speed'"):
+        read_columns(path, NAMES, "test")
+    np.testing.assert_array_equal(read_columns(path, ("time", "b/speed"), "test").values[:, 1], TIME)
+
+
+@pytest.mark.parametrize(
+    ("channels", "words"),
+    [
+        (
+            [waveform("a", "speed", SPEED), waveform("a", "p", SPEED, 0.1)],
+            "speed and p were sampled at different times",
+        ),
+        (
+            [waveform("a", "speed", SPEED), waveform("a", "p", [1.0])],
+            r"different lengths \(speed 3, p 1, time 3 rows\)",
+        ),
+        (
+            [ChannelObject("a", "speed", np.array(SPEED)), waveform("a", "p", SPEED)],
+            r'neither a channel "time" nor the sampling interval of speed \(wf_increment\)',
+        ),
+    ],
+)
+def test_channels_that_do_not_belong_together(tmp_path: Path, channels: list[ChannelObject], words: str) -> None:
+    path = write_channels(tmp_path / "log.tdms", channels)
+    with pytest.raises(BadInput, match=words):
+        read_columns(path, ("speed", "p", "time"), "test")
+
+
+@BOTH
+def test_a_data_set_of_such_files(tmp_path: Path, write: Write, suffix: str) -> None:
+    write(tmp_path / f"log.{suffix}", command=[1, 2, 3], time=TIME, speed=[60.0, 30.0, 15.0])
+    (tmp_path / "dataset.toml").write_text(
+        '[dataset]\nname = "x"\n[signals.command]\nrole = "input"\nunit = "V"\n[signals.speed]\nrole = "output"\n'
+        f'unit = "rpm"\n[[records]]\nfile = "log.{suffix}"\ncolumns = ["time", "command", "speed"]\nkind = "other"\n'
+    )
+    record = read_dataset(tmp_path).logs()[0].data
+    assert (record.names, record.units) == (("command", "speed"), ("V", "rad/s"))
+    np.testing.assert_allclose(record["speed"], np.pi * np.array([2.0, 1.0, 0.5]))
+
+
+def test_standing_time_is_named_by_row(tmp_path: Path) -> None:
+    as_parquet(tmp_path / "log.parquet", command=[1, 2, 3], time=[0.0, 1.0, 1.0], speed=SPEED)
+    (tmp_path / "dataset.toml").write_text(
+        '[dataset]\nname = "x"\n[signals.command]\nrole = "input"\nunit = "V"\n[signals.speed]\nrole = "output"\n'
+        'unit = "rpm"\n[[records]]\nfile = "log.parquet"\ncolumns = ["time", "command", "speed"]\nkind = "other"\n'
+    )
+    with pytest.raises(BadInput, match=r"log\.parquet, row 3: time stands still at 1 s"):
+        read_dataset(tmp_path)
