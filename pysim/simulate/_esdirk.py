@@ -6,10 +6,10 @@ from typing import Any
 
 import numpy as np
 
+from pysim.simulate._blocks import factorise_sparse, solve_one
 from pysim.simulate._explicit import combine
 from pysim.simulate._fmu_calls import OK, WARNING
 from pysim.simulate._jacobian import take_jacobian
-from pysim.simulate._linear import factorise, solve
 from pysim.simulate._native import doubles, native
 from pysim.simulate._point import copy, error_norm, evaluate
 
@@ -31,7 +31,7 @@ def attempt_esdirk(job: Any, h: float) -> tuple[int, float]:
         if status > WARNING:
             return status, np.nan
         run.jacobian_at, run.matrix_step = run.t, 0.0
-    if run.matrix_step != h and not prepare_matrix(job, h, work.matrix, work.pivots):
+    if run.matrix_step != h and not factorise_stage(job, h * method.gamma):
         run.matrix_step = 0.0
         return status, np.nan
     run.matrix_step = h
@@ -52,14 +52,14 @@ def attempt_esdirk(job: Any, h: float) -> tuple[int, float]:
 
 
 @native
-def prepare_matrix(job: Any, h: float, matrix: int, pivots: int) -> bool:
-    """Factorise I - h gamma J, J in work.jacobian; False if it is singular or not finite."""
-    n, jacobian, m, scale = job.work.n, doubles(job.work.jacobian), doubles(matrix), h * job.method.gamma
+def factorise_stage(job: Any, reach: float) -> bool:
+    """Factorise I - reach J, J in work.jacobian; False if it is singular or not finite."""
+    n, jacobian, matrix = job.work.n, doubles(job.work.jacobian), doubles(job.work.matrix)
     for i in range(n * n):
-        m[i] = -scale * jacobian[i]
+        matrix[i] = -reach * jacobian[i]
     for i in range(n):
-        m[i * n + i] += 1.0
-    return factorise(matrix, pivots, n)
+        matrix[i * n + i] += 1.0
+    return factorise_sparse(job.work.matrix, job.work.pivots, n)
 
 
 @native
@@ -86,7 +86,7 @@ def _stage(job: Any, i: int, h: float) -> tuple[int, bool]:
             return status, False
         for r in range(n):
             change[r] = right[r] + reach * k[r] - x[r]
-        solve(work.matrix, work.pivots, work.error, n)
+        solve_one(work.matrix, work.pivots, work.error, n)
         for r in range(n):
             x[r] += change[r]
         size = error_norm(job, work.error, work.x, work.stages + place)

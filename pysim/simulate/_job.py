@@ -13,6 +13,7 @@ from pysim.simulate._inputs import BREAKS, INPUTS
 from pysim.simulate._method import METHOD
 from pysim.simulate._recording import ROWS
 from pysim.simulate._state import CONTROL, RUN, SCRATCH, STATISTICS, WORK
+from pysim.simulate._variation import VARIATION
 
 JOB = np.dtype(
     [
@@ -24,6 +25,7 @@ JOB = np.dtype(
         ("run", RUN),
         ("work", WORK),
         ("rows", ROWS),
+        ("variation", VARIATION),
     ]
 )
 

@@ -44,12 +44,12 @@ def _begin(job: Any) -> int:
     run.status = max(run.status, get_states(job.fmu, work.x, work.n))
     run.status = max(run.status, get_nominals(job.fmu, work.nominal, work.n))
     if run.status <= WARNING:
-        code = _resume(job)
+        code = resume(job)
     return _finish_point(job) if code == RUNNING else code
 
 
 @native
-def _resume(job: Any) -> int:
+def resume(job: Any) -> int:
     """Start afresh at run.t, where something changed: derivatives, indicators, and a first step that suits them."""
     run, work = job.run, job.work
     status = evaluate(job, run.t, work.x, work.dx)
@@ -128,5 +128,5 @@ def _arrive(job: Any, t_new: float, event: bool) -> int:
         run.horizon = doubles(job.breaks.times)[run.segment]
     code = handle_event(job) if event else RUNNING
     if code == RUNNING and (event or restart):
-        code = _resume(job)
+        code = resume(job)
     return _finish_point(job) if code == RUNNING else code

@@ -93,7 +93,7 @@ def _convert(kind: int, buffer: int, i: int) -> float:
 
 
 @native
-def _read_row(job: Any) -> int:
+def read_row(job: Any) -> int:
     """Read one row at the point last set."""
     rows = job.rows
     first, places, row = longs(rows.first), longs(rows.places), doubles(rows.values + 8 * rows.next * rows.columns)
@@ -117,7 +117,7 @@ def record_inside(job: Any, h: float, t_end: float) -> int:
         interpolate(job, (t - job.run.t) / h)
         status = set_point(job, t, job.work.x_try)
         if status <= WARNING:
-            status = _read_row(job)
+            status = read_row(job)
         if status > WARNING:
             return status
     return OK
@@ -130,4 +130,4 @@ def record_here(job: Any) -> int:
     if rows.next >= rows.count or doubles(rows.times)[rows.next] > job.run.t:
         return OK
     status = set_point(job, job.run.t, job.work.x)
-    return status if status > WARNING else _read_row(job)
+    return status if status > WARNING else read_row(job)

@@ -53,29 +53,38 @@ def run(
         with library.instance() as instance:
             return _run_instance(instance, experiment, solver, stopped)
     except CallFailed as error:
-        return _record(
+        return make_record(
             library.model, experiment, np.zeros((0, len(experiment.record))), Outcome.MODEL_ERROR, str(error), {}
         )
 
 
 def _run_instance(instance: Instance, experiment: Experiment, solver: Solver, stopped: Callable[[], bool]) -> Record:
+    initialise(instance, experiment, solver)
+    job, code = prepare(instance, experiment, solver), RUNNING
+    while code == RUNNING and not stopped():
+        code = integrate(job.record, _BUDGET)
+    instance.status = int(job.number("run", "status"))
+    outcome = list(Outcome)[code]
+    message = "" if outcome is Outcome.DONE else explain(job, outcome) + instance.mailbox.text()
+    values = job.array("rows", "values")[: job.number("rows", "next")]
+    return make_record(instance.model, experiment, values, outcome, message, job.statistics())
+
+
+def initialise(instance: Instance, experiment: Experiment, solver: Solver) -> None:
+    """Take an instance that is as new into event mode at the experiment's start.
+
+    Raises:
+        CallFailed: the FMU refused.
+    """
     control = solver.control()
     start = np.array(experiment.start)
     starts = {name: float(signal.value(start)) for name, signal in experiment.inputs.items()}
     starts |= {name: float(experiment.inputs[of].derivative(start)) for name, of in experiment.rates.items()}
     tolerance = control.rtol if control.step == 0.0 else None
     instance.initialise({**experiment.overrides, **starts}, experiment.start, float(experiment.times[-1]), tolerance)
-    job, code = _prepare(instance, experiment, solver), RUNNING
-    while code == RUNNING and not stopped():
-        code = integrate(job.record, _BUDGET)
-    instance.status = int(job.number("run", "status"))
-    outcome = list(Outcome)[code]
-    message = "" if outcome is Outcome.DONE else _explain(job, outcome) + instance.mailbox.text()
-    values = job.array("rows", "values")[: job.number("rows", "next")]
-    return _record(instance.model, experiment, values, outcome, message, job.statistics())
 
 
-def _prepare(instance: Instance, experiment: Experiment, solver: Solver) -> Job:
+def prepare(instance: Instance, experiment: Experiment, solver: Solver) -> Job:
     """Everything native code needs for this run; what depends on model and solver alone is still there."""
     if instance.job is None or instance.job.solver is not solver:
         instance.job = _new_job(instance, solver)
@@ -99,14 +108,16 @@ def _new_job(instance: Instance, solver: Solver) -> Job:
     return job
 
 
-def _explain(job: Job, outcome: Outcome) -> str:
+def explain(job: Job, outcome: Outcome) -> str:
+    """How a run ended, where, and what the FMU returned there."""
     status = _STATUS.get(int(job.number("run", "status")))
     return f"{outcome.value} at {job.number('run', 't'):g} s" + (f" ({status})" if status else "")
 
 
-def _record(
+def make_record(
     model: Model, experiment: Experiment, values: np.ndarray, outcome: Outcome, message: str, statistics: dict[str, int]
 ) -> Record:
+    """The record of a run, as far as it came: values (n_t, n_y)."""
     return Record(
         time=experiment.times[: len(values)],
         values=values,
