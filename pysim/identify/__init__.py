@@ -10,6 +10,8 @@ from pysim.identify.accuracy import (
     time_deviations,
 )
 from pysim.identify.frequency_response import THESIS_REFERENCE_HZ, frequency_response, magnitude_db
+from pysim.identify.logged_command import logged_command
+from pysim.identify.logged_wave import LoggedWave, logged_wave
 from pysim.identify.settling import SteadyRun, run_until_settled
 from pysim.identify.sine_fit import SineFit, sine_fit
 from pysim.identify.stepped_sine import SteppedSine, command, stepped_sine
@@ -19,6 +21,7 @@ __all__ = [
     "FREQUENCY_CRITERIA",
     "THESIS_REFERENCE_HZ",
     "TIME_CRITERIA",
+    "LoggedWave",
     "SineFit",
     "SteadyRun",
     "SteppedSine",
@@ -26,6 +29,8 @@ __all__ = [
     "command",
     "frequency_deviations",
     "frequency_response",
+    "logged_command",
+    "logged_wave",
     "magnitude_db",
     "max_deviation",
     "mean_deviation",

@@ -1,0 +1,145 @@
+"""Least-squares fits of sines and chirps, and where they start from."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import least_squares
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Wave:
+    """offset + amplitude sin(phase + omega s + kappa/2 s^2), s = t - origin; rad and s."""
+
+    offset: float
+    amplitude: float
+    phase: float
+    omega: float
+    kappa: float
+    origin: float
+
+    def angle(self, t: Array | float) -> Array:
+        """rad at times t (n,)."""
+        s = np.asarray(t) - self.origin
+        return np.asarray(self.phase + (self.omega + 0.5 * self.kappa * s) * s)
+
+    def omega_at(self, t: Array | float) -> Array:
+        """rad/s at times t (n,)."""
+        return np.asarray(self.omega + self.kappa * (np.asarray(t) - self.origin))
+
+    def value(self, t: Array) -> Array:
+        """At times t (n,)."""
+        return self.offset + self.amplitude * np.sin(self.angle(t))
+
+    def fastest(self, t: Array) -> float:
+        """Largest angular frequency over times t (n,)."""
+        return float(np.max(np.abs(self.omega_at(t[[0, -1]]))))
+
+
+def fit_sine(t: Array, y: Array, omega: float) -> Wave:
+    """Least squares of known angular frequency; times and values (n,)."""
+    origin = float(t[t.size // 2])
+    angle = omega * (t - origin)
+    c, *_ = np.linalg.lstsq(np.column_stack([np.sin(angle), np.cos(angle), np.ones_like(angle)]), y, rcond=None)
+    return Wave(float(c[2]), float(np.hypot(c[0], c[1])), float(np.arctan2(c[1], c[0])), omega, 0.0, origin)
+
+
+def sine_start(t: Array, y: Array, omega: float, step: float) -> tuple[Wave, slice]:
+    """The stretch of a period that is most a sine, and its fit; the whole log where it is not longer than that.
+
+    Args:
+        t, y: (n,).
+        omega: rad/s.
+        step: rounding of y.
+    """
+    dt = float(np.median(np.diff(t)))
+    count = max(round(2 * np.pi / omega / dt), 8)
+    best, inside, record = fit_sine(t, y, omega), slice(0, t.size), -1.0
+    for first in range(0, t.size - count + 1, max(count // 4, 1)):
+        window = slice(first, first + count)
+        wave = fit_sine(t[window], y[window], omega)
+        residual = float(np.sqrt(np.mean((y[window] - wave.value(t[window])) ** 2)))
+        score = wave.amplitude / (residual + step + 1e-12 * wave.amplitude + 1e-300)
+        if score > record:
+            best, inside, record = wave, window, score
+    return best, inside
+
+
+def fit_chirp(t: Array, y: Array, start: Wave) -> Wave:
+    """Non-linear least squares of all five numbers from a start whose phase is within a quarter turn everywhere."""
+    middle, half = 0.5 * (t[0] + t[-1]), 0.5 * (t[-1] - t[0])
+    s = (t - middle) / half
+
+    def wave_of(p: Array) -> tuple[Array, Array]:
+        angle = (p[3] + p[4] * s) * s
+        return np.sin(angle), np.cos(angle)
+
+    def residuals(p: Array) -> Array:
+        sin, cos = wave_of(p)
+        return p[0] + p[1] * sin + p[2] * cos - y
+
+    def slopes(p: Array) -> Array:
+        sin, cos = wave_of(p)
+        turn = p[1] * cos - p[2] * sin
+        return np.column_stack([np.ones_like(s), sin, cos, turn * s, turn * s * s])
+
+    phase = float(start.angle(middle))
+    first = [
+        start.offset,
+        start.amplitude * np.cos(phase),
+        start.amplitude * np.sin(phase),
+        float(start.omega_at(middle)) * half,
+        0.5 * start.kappa * half**2,
+    ]
+    p = least_squares(residuals, first, slopes, method="lm", xtol=1e-14, ftol=1e-14, gtol=1e-14).x
+    return Wave(
+        float(p[0]),
+        float(np.hypot(p[1], p[2])),
+        float(np.arctan2(p[2], p[1])),
+        float(p[3] / half),
+        float(2 * p[4] / half**2),
+        float(middle),
+    )
+
+
+def chirp_start(t: Array, y: Array) -> tuple[Wave, slice] | None:
+    """A chirp through the times at which the values pass their median; None where they do so less than six times.
+
+    A lead-in from zero and a ramp back may add a passage each, which the quadratic through the others shows.
+    """
+    offset = float(np.median(y))
+    amplitude = float(np.median(np.abs(y - offset))) * np.sqrt(2)  # of a sine, half the samples are within sin 45 deg
+    times, upwards = _passages(t, y - offset, 0.3 * amplitude)
+    if times.size < 6:
+        return None
+    half_turns = np.arange(times.size) * np.pi
+    origin = float(times[times.size // 2])
+    good = np.ones(times.size, dtype=bool)
+    for _ in range(5):
+        c = np.polyfit(times[good] - origin, half_turns[good], 2)
+        error = np.abs(np.polyval(c, times - origin) - half_turns)
+        good = error <= max(6 * float(np.median(error)), 0.05)
+    first, last = np.flatnonzero(good)[[0, -1]]
+    phase = float(c[2]) + (0.0 if upwards[0] else np.pi)
+    wave = Wave(offset, amplitude, phase, float(c[1]), float(2 * c[0]), origin)
+    return wave, slice(int(np.searchsorted(t, times[first])), int(np.searchsorted(t, times[last])) + 1)
+
+
+def _passages(t: Array, y: Array, threshold: float) -> tuple[Array, NDArray[np.bool_]]:
+    """When y passes from beyond the threshold on one side to beyond it on the other: the time of zero, and whether
+    upwards; between both, noise may pass zero several times, and the middle of them is taken."""
+    beyond = np.flatnonzero(np.abs(y) > threshold)
+    side = y[beyond] > 0
+    turns = np.flatnonzero(side[1:] != side[:-1])
+    times = []
+    for k in turns:
+        i, j = beyond[k], beyond[k + 1]
+        part = slice(i, j + 1)
+        change = i + np.flatnonzero(np.signbit(y[part][1:]) != np.signbit(y[part][:-1]))
+        zeros = t[change] - y[change] * (t[change + 1] - t[change]) / (y[change + 1] - y[change])
+        times.append(float(np.mean(zeros[[0, -1]])))
+    return np.array(times), side[turns + 1]

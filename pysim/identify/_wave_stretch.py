@@ -1,0 +1,161 @@
+"""Which part of a log is a wave."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pysim.identify._wave_fit import Wave
+from pysim.types import BadInput, Record
+
+Array = NDArray[np.float64]
+Fit = Callable[[Array, Array, Wave], Wave]
+
+# A sample off the wave is a disturbance of the log where none of so many behind it is off too; else the wave ends.
+_ALONE = 4
+# Samples further off than this many standard deviations do not count in a fit.
+_OUTLIER = 6.0
+_ROUNDS = 20
+
+
+@dataclass(frozen=True)
+class Log:
+    """One logged column, and how finely it was written.
+
+    Args:
+        time, values: (n,).
+        step: smallest difference of two values: the rounding of the file or the step of a converter.
+        jitter: standard deviation of the times about an even spacing, s: their rounding; 0 where they are not meant to
+            be evenly spaced.
+    """
+
+    time: Array
+    values: Array
+    step: float
+    jitter: float
+
+    @classmethod
+    def of(cls, record: Record, column: str) -> Log:
+        """A column of a record.
+
+        Raises:
+            BadInput: no such column, fewer than eight samples, or one value throughout.
+        """
+        t, y = record.time, record[column]
+        levels = np.unique(y)
+        if t.size < 8 or levels.size < 2:
+            raise BadInput(
+                f"{record.origin or 'record'}: {column} has {t.size} samples of {levels.size} values; no wave"
+            )
+        gaps = np.diff(levels)
+        step = float(np.min(gaps[gaps > 1e-12 * (levels[-1] - levels[0])]))
+        k = np.arange(t.size)
+        uneven = t - np.polyval(np.polyfit(k, t, 1), k)
+        jitter = float(np.std(uneven))
+        return cls(t, y, step, jitter if jitter < 0.1 * (t[-1] - t[0]) / t.size else 0.0)
+
+
+@dataclass(frozen=True)
+class Stretch:
+    """A wave and the samples that follow it.
+
+    Args:
+        start: s; its first sample, or where a hold before it meets the wave.
+        residual: root mean square of what it leaves over there.
+        tolerance: how far off a sample may be and still belong to it.
+        is_noise: whether what is left over has no memory from one sample to the next.
+    """
+
+    wave: Wave
+    inside: slice
+    start: float
+    residual: float
+    tolerance: float
+    is_noise: bool
+
+
+def grow(log: Log, start: tuple[Wave, slice], fit: Fit) -> Stretch:
+    """Fit, take in the neighbours that follow the wave, and fit again until none does."""
+    wave, inside = start
+    for _ in range(_ROUNDS):
+        wave = _trimmed(log, inside, wave, fit)
+        error = np.abs(log.values - wave.value(log.time))
+        tolerance = _tolerance(log, wave, error[inside])
+        grown = _neighbours(error <= tolerance, inside)
+        if grown == inside:
+            break
+        inside = grown
+    start_time = float(log.time[inside.start])
+    for _ in range(_ROUNDS if inside.start > 0 else 0):  # samples of the hold may lie near the wave, and bend it
+        start_time = _onset(log, wave, inside, tolerance)
+        cut = slice(int(np.searchsorted(log.time, start_time - 1e-9)), inside.stop)
+        if cut == inside:
+            break
+        inside = cut
+        wave = _trimmed(log, inside, wave, fit)
+    left_over = (log.values - wave.value(log.time))[inside]
+    rms = float(np.sqrt(np.mean(left_over**2)))
+    memory = float(left_over[1:] @ left_over[:-1]) / max(float(left_over @ left_over), 1e-300)
+    return Stretch(wave, inside, start_time, rms, tolerance, abs(memory) < 5 / np.sqrt(left_over.size))
+
+
+def _onset(log: Log, wave: Wave, inside: slice, tolerance: float) -> float:
+    """Where a hold at the wave's offset ends: the last passage through the offset up to which the samples hold still.
+
+    The stretch's first sample where the wave passes no offset near it: it then starts with a jump.
+    """
+    t = log.time[inside]
+    still = np.abs(log.values[inside] - wave.offset) <= tolerance
+    held = t.size if still.all() else int(np.argmin(still))
+    dt = float(np.median(np.diff(log.time)))
+    fine = np.arange(t[0] - 1.01 * dt, t[min(held, t.size - 1)] + 0.5 * dt, 0.1 * dt)
+    half_turns = np.floor(wave.angle(fine) / np.pi)
+    passages = np.flatnonzero(half_turns[1:] > half_turns[:-1])
+    if passages.size == 0:
+        return float(t[0])
+    at = float(fine[passages[-1]])
+    target = half_turns[passages[-1] + 1] * np.pi
+    for _ in range(20):  # Newton: the phase is a parabola, and rises here
+        at += float((target - wave.angle(at)) / wave.omega_at(at))
+    return at
+
+
+def _trimmed(log: Log, inside: slice, wave: Wave, fit: Fit) -> Wave:
+    """Fit all samples of the stretch, then once more without the outliers."""
+    t, y = log.time[inside], log.values[inside]
+    wave = fit(t, y, wave)
+    error = np.abs(y - wave.value(t))
+    keep = error <= _OUTLIER * 1.4826 * np.median(error) + log.step
+    return wave if keep.all() or keep.sum() < 8 else fit(t[keep], y[keep], wave)
+
+
+def _tolerance(log: Log, wave: Wave, error: Array) -> float:
+    spread = _OUTLIER * 1.4826 * float(np.median(error))
+    late = 3 * wave.amplitude * wave.fastest(log.time) * log.jitter
+    return max(spread, log.step + late, 1e-9 * wave.amplitude)
+
+
+def _neighbours(good: NDArray[np.bool_], inside: slice) -> slice:
+    """The stretch, longer on both sides by the good samples and lone bad ones among them."""
+    stop = inside.stop + _reach(good[inside.stop :])
+    start = inside.start - _reach(good[: inside.start][::-1])
+    return slice(start, stop)
+
+
+def _reach(good: NDArray[np.bool_]) -> int:
+    """How many of a row belong: those before the first bad one that has another, or the row's end, close behind."""
+    bad = np.append(np.flatnonzero(~good), good.size)
+    crowded = np.diff(bad, append=bad[-1]) <= _ALONE
+    return int(bad[np.argmax(crowded)])
+
+
+def wander(values: Array, dead_band: float) -> float:
+    """How far a row (n,) goes to and fro beside its way from first to last; moves within the dead band do not count."""
+    position, path = float(values[0]), 0.0
+    for value in values:
+        moved = max(float(value) - position - dead_band, 0.0) + min(float(value) - position + dead_band, 0.0)
+        position, path = position + moved, path + abs(moved)
+    return path - abs(position - float(values[0]))

@@ -1,0 +1,61 @@
+"""Commands as functions of time, from their logs."""
+
+import numpy as np
+import pytest
+from scipy.interpolate import CubicSpline
+
+from pysim.excitation import Chirp, SteppedSineCommand, StochasticWave
+from pysim.excitation import PiersonMoskowitz as Sea
+from pysim.identify import logged_command
+from pysim.types import BadInput, FrequencyResponse, MeasuredRecord, SineTest
+from tests.pysim.identify.logs import log
+
+
+@pytest.mark.parametrize(
+    ("test", "kind"),
+    [
+        (SteppedSineCommand(25.0, 10.0, 30.0, periods=36), "frequency-response"),
+        (Chirp(50.0, 10.0, 0.1, 30.0, 30.0), "chirp"),
+    ],
+    ids=["sine", "chirp"],
+)
+def test_the_whole_command_comes_back_with_its_rate(test: SteppedSineCommand | Chirp, kind: str) -> None:
+    f = test.frequency if isinstance(test, SteppedSineCommand) else None
+    signal = logged_command(log(test, kind, frequency=f, first=0.0, last=test.duration), "cmd")
+    t = np.random.default_rng(1).uniform(0.0, test.duration, 5000)
+    true = test.signal()
+    corner = 0.004  # straight lines between samples cut the lead-in's corners, at one sample each
+    corners = np.array([0.5, 1.0, test.end, test.duration])
+    away = np.min(np.abs(t[:, None] - corners), axis=1) > corner
+    np.testing.assert_allclose(signal.value(t)[away], true.value(t)[away], atol=3e-5)
+    inside = (t > 2.0) & (t < test.end - corner)
+    np.testing.assert_allclose(signal.derivative(t)[inside], true.derivative(t)[inside], atol=3e-5 * 2 * np.pi * 30)
+    jumps, _ = signal.breaks()
+    assert not jumps[np.abs(signal.starts - test.end) > 2 * corner].any()
+
+
+def test_a_wave_alone_is_one_piece_and_holds_its_first_value_before() -> None:
+    signal = logged_command(
+        log(SteppedSineCommand(25.0, 10.0, 1.0, periods=3), "frequency-response", frequency=1.0), "cmd"
+    )
+    assert signal.starts.tolist() == [2.0]
+    assert signal.value(np.array([0.0, 2.25])) == pytest.approx([25.0, 35.0], abs=1e-5)
+
+
+@pytest.mark.parametrize("kind", ["stochastic", "step", "multisine", "other"])
+def test_anything_else_runs_by_the_natural_spline(kind: str) -> None:
+    record = log(StochasticWave(Sea(100.0, 1.0), 10.0, seed=3), kind)
+    signal = logged_command(record, "cmd")
+    spline = CubicSpline(record.data.time, record.data["cmd"], bc_type="natural")  # type: ignore[union-attr,index]
+    t = np.linspace(2.0, 11.9, 3001)
+    np.testing.assert_allclose(signal.value(t), spline(t), atol=1e-9)
+    np.testing.assert_allclose(signal.derivative(t), spline(t, 1), atol=1e-6)
+
+
+def test_refuses_tables_and_unknown_columns() -> None:
+    record = log(Chirp(50.0, 10.0, 0.1, 30.0, 30.0), "chirp")
+    with pytest.raises(BadInput, match="no signal 'alphaCMD'"):
+        logged_command(record, "alphaCMD")
+    table = FrequencyResponse([1.0], [1.0], [0.0], SineTest(0.0, 1.0, "u", "y"), "measured")  # type: ignore[arg-type]
+    with pytest.raises(BadInput, match="only a log over time"):
+        logged_command(MeasuredRecord("a.txt", "frequency-response-table", "fit", table), "cmd")
