@@ -7,16 +7,24 @@ from pysim.io.files import write_file
 from pysim.io.fmu import read_model
 from pysim.io.records import read_record, record_data, record_text, write_record
 from pysim.io.signals import read_signal
+from pysim.io.thesis_folder import read_thesis_folder
+from pysim.io.toml_section import Section, TomlFile, read_toml
+from pysim.io.write_dataset import write_dataset
 
 __all__ = [
+    "Section",
+    "TomlFile",
     "cache_folder",
     "extracted",
     "read_dataset",
     "read_model",
     "read_record",
     "read_signal",
+    "read_thesis_folder",
+    "read_toml",
     "record_data",
     "record_text",
+    "write_dataset",
     "write_file",
     "write_record",
 ]

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
 from pathlib import Path
 
 from pysim.io.measured_log import LOGS, TIME, read_log
 from pysim.io.measured_table import TABLE, read_measured_table
 from pysim.io.toml_section import Section, read_toml
-from pysim.io.units import SI
+from pysim.io.units import SI, signal_in_si
 from pysim.types import BadInput, Dataset, MeasuredRecord, MeasuredSignal
 
 _KEYS = ("dataset", "signals", "records")
@@ -41,7 +40,7 @@ def read_dataset(folder: Path | str) -> Dataset:
         name=head.text("name"),
         description=head.text("description", "-"),
         system=head.text("system", "-"),
-        signals=tuple(_in_si(signal) for signal in written.values()),
+        signals=tuple(signal_in_si(signal) for signal in written.values()),
         records=tuple(
             _record(toml.path.parent, section, kind, written) for section, kind in zip(sections, kinds, strict=True)
         ),
@@ -61,12 +60,6 @@ def _signal(name: str, section: Section) -> MeasuredSignal:
         noise=section.not_negative("noise"),
         resolution=section.not_negative("resolution"),
     )
-
-
-def _in_si(signal: MeasuredSignal) -> MeasuredSignal:
-    unit, factor = SI[signal.unit]
-    noise, resolution = (None if v is None else factor * v for v in (signal.noise, signal.resolution))
-    return replace(signal, unit=unit, noise=noise, resolution=resolution)
 
 
 def _kind(section: Section) -> str:

@@ -45,7 +45,7 @@ def read_log(folder: Path, section: Section, kind: str, signals: Mapping[str, Me
     columns = read_columns(folder / source, names, section.place)
     refuse_standing_time(columns)
     if test["frequency"] is not None:
-        _check_sampling(section, columns, test["frequency"])
+        refuse_fast_sine(section.place, columns, test["frequency"])
     origin = section.text("origin", f"measured, {source}")
     return MeasuredRecord(source, kind, use, in_si(columns, signals, origin), **test)
 
@@ -63,6 +63,25 @@ def in_si(columns: Columns, signals: Mapping[str, MeasuredSignal], origin: str) 
     order = [columns.names.index(name) for name in names]
     values = columns.values[:, order] * np.array([factor for _, factor in units])
     return Record(columns[TIME], values, names, tuple(unit for unit, _ in units), origin=origin)
+
+
+def refuse_fast_sine(place: str, columns: Columns, frequency: float) -> None:
+    """A sine above half the sampling rate looks like another one.
+
+    Args:
+        place: what says that it is this frequency, for the message.
+        frequency: Hz.
+    Raises:
+        BadInput: it is above.
+    """
+    if columns.values.shape[0] < 2:
+        return
+    rate = 1 / float(np.median(np.diff(columns[TIME])))
+    if frequency > 0.5 * rate * (1 + _ROUNDING):
+        raise BadInput(
+            f"{place}: frequency = {frequency:g} Hz is above half the sampling rate of {columns.path}, "
+            f"{rate:.4g} Hz; correct the frequency, or log faster"
+        )
 
 
 def _check_columns(section: Section, names: tuple[str, ...], signals: Mapping[str, MeasuredSignal]) -> None:
@@ -111,15 +130,3 @@ def _test(section: Section, kind: str, to_si: float) -> dict[str, float | None]:
         "amplitude": None if amplitude is None else to_si * amplitude,
         "frequency": section.positive("frequency"),
     }
-
-
-def _check_sampling(section: Section, columns: Columns, frequency: float) -> None:
-    """A sine above half the sampling rate looks like another one."""
-    if columns.values.shape[0] < 2:
-        return
-    rate = 1 / float(np.median(np.diff(columns[TIME])))
-    if frequency > 0.5 * rate * (1 + _ROUNDING):
-        raise BadInput(
-            f"{section.place}: frequency = {frequency:g} Hz is above half the sampling rate of {columns.path}, "
-            f"{rate:.4g} Hz; correct the frequency, or log faster"
-        )

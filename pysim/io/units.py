@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from dataclasses import replace
 from types import MappingProxyType
+
+from pysim.types import MeasuredSignal
 
 # unit -> SI unit and how many of them it is; "%" stays what it is
 SI: Mapping[str, tuple[str, float]] = MappingProxyType(
@@ -33,3 +36,10 @@ SI: Mapping[str, tuple[str, float]] = MappingProxyType(
         "kW": ("W", 1e3),
     }
 )
+
+
+def signal_in_si(signal: MeasuredSignal) -> MeasuredSignal:
+    """A signal that was described in the unit of its files, with unit, noise and resolution in SI."""
+    unit, factor = SI[signal.unit]
+    noise, resolution = (None if v is None else factor * v for v in (signal.noise, signal.resolution))
+    return replace(signal, unit=unit, noise=noise, resolution=resolution)

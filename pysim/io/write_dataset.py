@@ -1,0 +1,165 @@
+"""Write a data set as a test bench leaves it: text logs and the dataset.toml that says what they are."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Mapping
+from pathlib import Path, PurePosixPath, PureWindowsPath
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pysim.io.files import write_file
+from pysim.io.response_table import TABLE_COLUMNS
+from pysim.io.units import SI
+from pysim.types import BadInput, Dataset, FrequencyResponse, MeasuredRecord, MeasuredSignal, Record
+
+Array = NDArray[np.float64]
+
+_DIGITS = 7  # of the largest value, where neither noise nor resolution says how many mean anything
+_FINER = 100.0  # how far rounding stays below noise and resolution
+_TIME_SHARE = 1e-4  # of a sampling interval: how far a printed time may be from the true one
+
+
+def write_dataset(folder: Path | str, dataset: Dataset, *, units: Mapping[str, str] | None = None) -> Path:
+    """Write a data set that `read_dataset` reads back to the printed digits.
+
+    Values are printed to a hundredth of the signal's noise or resolution, whichever is smaller, or to seven digits of
+    its largest value where it has neither.
+
+    Args:
+        folder: made here; must be empty or not there. Records go to the files they name as their source.
+        units: signal -> unit in the files; the SI unit where not told.
+    Returns:
+        the path of dataset.toml.
+    Raises:
+        BadInput: a folder that holds something, a source outside of it or twice, a unit of another kind, or a place
+            that cannot be written.
+    """
+    folder, units = Path(folder), dict(units or {})
+    for signal in dataset.signals:
+        _check_unit(signal, units.setdefault(signal.name, signal.unit))
+    _check_sources(dataset)
+    digits = {signal.name: _digits(signal, dataset, SI[units[signal.name]][1]) for signal in dataset.signals}
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        if any(folder.iterdir()):
+            raise BadInput(
+                f"{folder} holds files already; choose a new folder, so that no old log stays among new ones"
+            )
+        for record in dataset.records:
+            path = folder / record.source
+            path.parent.mkdir(parents=True, exist_ok=True)
+            write_file(path, _content(record, units, digits))
+        write_file(folder / "dataset.toml", _description(dataset, units))
+    except OSError as error:
+        raise BadInput(f"{folder}: cannot write there ({error.strerror or error}); choose another folder") from error
+    return folder / "dataset.toml"
+
+
+def _check_unit(signal: MeasuredSignal, unit: str) -> None:
+    if unit not in SI or SI[unit][0] != signal.unit:
+        kin = ", ".join(name for name, (si, _) in SI.items() if si == signal.unit)
+        raise BadInput(f"signal {signal.name} is in {signal.unit} and cannot be written in {unit!r}; use one of {kin}")
+
+
+def _check_sources(dataset: Dataset) -> None:
+    seen = set()
+    for record in dataset.records:
+        path = PurePosixPath(record.source)
+        if path.is_absolute() or ".." in path.parts or PureWindowsPath(record.source).drive or not path.name:
+            raise BadInput(f"record {record.source!r} would be written outside the data set; give it a relative name")
+        if path in seen or path == PurePosixPath("dataset.toml"):
+            raise BadInput(f"record {record.source!r} has the name of another file; give each its own")
+        seen.add(path)
+
+
+def _digits(signal: MeasuredSignal, dataset: Dataset, to_si: float) -> int:
+    """Decimals worth printing, in a unit that is `to_si` SI units."""
+    steps = [step for step in (signal.noise, signal.resolution) if step]
+    if steps:
+        return max(0, math.ceil(-math.log10(min(steps) / to_si / _FINER)))
+    logs = [record.data for record in dataset.logs() if isinstance(record.data, Record)]
+    largest = max((float(np.abs(log[signal.name]).max()) for log in logs if signal.name in log.names), default=0.0)
+    return max(0, _DIGITS - 1 - math.floor(math.log10(largest / to_si))) if largest else _DIGITS
+
+
+def _content(record: MeasuredRecord, units: Mapping[str, str], digits: Mapping[str, int]) -> str:
+    if isinstance(record.data, FrequencyResponse):
+        return _table(record.data, units)
+    log = record.data
+    columns = [log.time, *(log[name] / SI[units[name]][1] for name in log.names)]
+    heads = ["time_s", *(name + _suffix(units[name]) for name in log.names)]
+    decimals = [_time_digits(log.time), *(digits[name] for name in log.names)]
+    form = "\t".join(f"%.{count}f" for count in decimals)
+    rows = (form % row for row in zip(*(column.tolist() for column in columns), strict=True))
+    return "\n".join(["\t".join(heads), *rows]) + "\n"
+
+
+def _time_digits(time: Array) -> int:
+    """Decimals, four or more, that tell every sampling interval."""
+    allowed = _TIME_SHARE * float(np.diff(time).min()) if time.size > 1 else 1.0
+    return next(d for d in range(4, 16) if d == 15 or np.abs(np.round(time, d) - time).max() <= allowed)
+
+
+def _suffix(unit: str) -> str:
+    """A unit as part of a column's name."""
+    word = unit.replace("%", "pct").replace("/", "_per_").replace(".", "")
+    return "" if unit == "1" else f"_{word}"
+
+
+def _table(response: FrequencyResponse, units: Mapping[str, str]) -> str:
+    scale = SI[units[response.test.output]][1] / SI[units[response.test.input]][1]
+    columns = response.frequency, 20 * np.log10(response.gain / scale), np.degrees(response.phase)
+    rows = (f"{f!r}\t{db!r}\t{deg!r}" for f, db, deg in zip(*(column.tolist() for column in columns), strict=True))
+    return "\n".join(["\t".join(TABLE_COLUMNS), *rows]) + "\n"
+
+
+def _description(dataset: Dataset, units: Mapping[str, str]) -> str:
+    """dataset.toml."""
+    about = {"name": dataset.name, "description": dataset.description, "system": dataset.system}
+    parts = [_section("[dataset]", about)]
+    for signal in dataset.signals:
+        to_si = SI[units[signal.name]][1]
+        about = {"role": signal.role, "unit": units[signal.name], "quantity": signal.quantity or signal.name}
+        about |= {} if signal.variable == signal.name else {"variable": signal.variable}
+        noise, resolution = (None if v is None else _tidy(v / to_si) for v in (signal.noise, signal.resolution))
+        parts.append(_section(f"[signals.{_key(signal.name)}]", about | {"noise": noise, "resolution": resolution}))
+    parts += [_section("[[records]]", _about(record, dataset, units)) for record in dataset.records]
+    return "\n".join(parts)
+
+
+def _about(record: MeasuredRecord, dataset: Dataset, units: Mapping[str, str]) -> dict[str, object]:
+    """The keys of a record."""
+    data = record.data
+    columns = list(TABLE_COLUMNS) if isinstance(data, FrequencyResponse) else ["time", *data.names]
+    about: dict[str, object] = {"file": record.source, "columns": columns, "kind": record.kind}
+    command = next(iter(dataset.columns(record, "input")), "")
+    numbers = {"offset": record.offset, "amplitude": record.amplitude}
+    if isinstance(data, FrequencyResponse):
+        about |= {"input": data.test.input, "output": data.test.output}
+        command = data.test.input
+        numbers = {"offset": data.test.offset, "amplitude": data.test.amplitude}
+    to_si = SI[units[command]][1] if command else 1.0
+    about |= {key: None if value is None else _tidy(value / to_si) for key, value in numbers.items()}
+    about |= {"frequency": record.frequency, "use": record.use}
+    usual = f"measured, {record.source}"
+    return about | {"origin": data.origin if data.origin not in ("", usual) else None}
+
+
+def _section(header: str, values: Mapping[str, object]) -> str:
+    """One TOML table; JSON writes texts, numbers and rows of texts as TOML does."""
+    lines = [f"{key} = {json.dumps(value, ensure_ascii=False)}" for key, value in values.items() if value is not None]
+    return "\n".join([header, *lines]) + "\n"
+
+
+def _key(name: str) -> str:
+    """A name as a TOML key."""
+    bare = name.isascii() and name.replace("_", "").replace("-", "").isalnum()
+    return name if bare else json.dumps(name, ensure_ascii=False)
+
+
+def _tidy(value: float) -> float:
+    """Without the last digits that a change of units leaves."""
+    return float(f"{value:.12g}")

@@ -1,0 +1,121 @@
+"""What is written is read back to the printed digits."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from pysim.io import read_dataset, write_dataset
+from pysim.types import BadInput, Dataset, FrequencyResponse, MeasuredRecord, MeasuredSignal, Record, SineTest
+
+SIGNALS = (
+    MeasuredSignal("cmd", "input", "%", "command", "alphaCMD"),
+    MeasuredSignal("p A", "output", "Pa", "pressure", "chamber.p", noise=2e3, resolution=5e3),
+    MeasuredSignal("w", "output", "rad/s", "speed", "w", noise=0.01),
+)
+UNITS = {"p A": "bar", "w": "rpm"}
+
+
+def dataset(values: np.ndarray, time: np.ndarray) -> Dataset:
+    log = Record(time, values, ("cmd", "p A", "w"), ("%", "Pa", "rad/s"), origin="measured, sub/log.txt")
+    part = Record(time, values[:, [2, 0]], ("w", "cmd"), ("rad/s", "%"), origin="virtual bench")
+    f = np.array([0.1, 1.0, 10.0])
+    response = FrequencyResponse(
+        f, np.array([1e3, 2e3, 1e-2]), np.array([-0.1, -3.0, -6.5]), SineTest(5.0, 2.0, "cmd", "p A"), "a table"
+    )
+    records = (
+        MeasuredRecord("sub/log.txt", "frequency-response", "fit", log, 25.0, 0.1, 3.7),
+        MeasuredRecord("w.txt", "other", "validate", part),
+        MeasuredRecord("tables/one.csv", "frequency-response-table", "fit", response, 5.0, 2.0),
+    )
+    return Dataset("written", 'with "quotes" and °C', "pump", SIGNALS, records)
+
+
+def written(folder: Path, data: Dataset) -> Dataset:
+    return read_dataset(write_dataset(folder, data, units=UNITS))
+
+
+TIME = np.arange(50) / 70
+VALUES = np.random.default_rng(1).normal(size=(50, 3)) * [40.0, 3e6, 10.0]
+
+
+def test_everything_comes_back(tmp_path: Path) -> None:
+    data = dataset(VALUES, TIME)
+    back = written(tmp_path / "new", data)
+    assert (back.name, back.description, back.system) == (data.name, data.description, data.system)
+    for new, old in zip(back.signals, data.signals, strict=True):
+        assert replace(new, noise=None, resolution=None) == replace(old, noise=None, resolution=None)
+        assert (new.noise, new.resolution) == (pytest.approx(old.noise), pytest.approx(old.resolution))
+    for new, old in zip(back.records, data.records, strict=True):
+        assert (new.source, new.kind, new.use, new.frequency) == (old.source, old.kind, old.use, old.frequency)
+        assert (new.offset, new.amplitude) == (pytest.approx(old.offset), pytest.approx(old.amplitude))
+    log, part, response = (record.data for record in back.records)
+    assert (log.names, log.units, log.origin) == (("cmd", "p A", "w"), ("%", "Pa", "rad/s"), "measured, sub/log.txt")
+    assert (part.names, part.origin) == (("w", "cmd"), "virtual bench")
+    # noise and resolution over a hundred; seven digits of the command, which reaches some 100 percent
+    np.testing.assert_allclose(log["p A"], VALUES[:, 1], atol=2e3 / 100 / 2)
+    np.testing.assert_allclose(log["w"], VALUES[:, 2], atol=0.01 / 100 / 2)
+    np.testing.assert_allclose(part["cmd"], VALUES[:, 0], atol=0.5e-4)
+    np.testing.assert_allclose(log.time, TIME, atol=1e-4 / 70)
+    np.testing.assert_allclose(response.gain, data.responses()[0].gain, rtol=1e-12)
+    np.testing.assert_allclose(response.phase, data.responses()[0].phase, rtol=1e-12)
+
+
+def test_what_was_read_is_written_the_same_again(tmp_path: Path) -> None:
+    once = written(tmp_path / "a", dataset(VALUES, TIME))
+    twice = written(tmp_path / "b", once)
+    files = [path.relative_to(tmp_path / "a") for path in (tmp_path / "a").rglob("*.*")]
+    assert len(files) == 4
+    for path in files:
+        assert (tmp_path / "a" / path).read_text("utf-8") == (tmp_path / "b" / path).read_text("utf-8")
+    for new, old in zip(twice.logs(), once.logs(), strict=True):
+        np.testing.assert_array_equal(new.data.values, old.data.values)
+        np.testing.assert_array_equal(new.data.time, old.data.time)
+
+
+def test_logs_look_like_those_of_a_bench(tmp_path: Path) -> None:
+    written(tmp_path / "new", dataset(np.array([[1.0, 2.5e5, 0.0], [99.5, 0.0, np.pi]]), np.array([2.0, 2.004])))
+    lines = (tmp_path / "new" / "sub" / "log.txt").read_text().splitlines()
+    assert lines == [
+        "time_s\tcmd_pct\tp A_bar\tw_rpm",
+        "2.0000\t1.00000\t2.5000\t0.0000",
+        "2.0040\t99.50000\t0.0000\t30.0000",
+    ]
+
+
+@settings(max_examples=30, deadline=None)
+@given(st.lists(st.floats(-1e9, 1e9).filter(lambda x: x == 0 or abs(x) > 1e-9), min_size=2, max_size=6))
+def test_seven_digits_of_anything(tmp_path_factory: pytest.TempPathFactory, values: list[float]) -> None:
+    column = np.array(values)
+    signals = (SIGNALS[0], MeasuredSignal("y", "output", "Pa", "", "y"))
+    log = Record(np.arange(column.size), np.column_stack([column, column]), ("cmd", "y"), ("%", "Pa"))
+    data = Dataset("x", "-", "-", signals, (MeasuredRecord("x.txt", "other", "fit", log),))
+    folder = tmp_path_factory.mktemp("set") / "new"
+    back = read_dataset(write_dataset(folder, data, units={"y": "bar"})).logs()[0].data
+    np.testing.assert_allclose(back.values, log.values, atol=1e-6 * np.abs(column).max())
+
+
+@pytest.mark.parametrize("source", ["../out.txt", "/tmp/out.txt", "C:\\out.txt", "a/../../b.txt", "dataset.toml", "."])
+def test_nothing_is_written_elsewhere(tmp_path: Path, source: str) -> None:
+    data = dataset(VALUES, TIME)
+    with pytest.raises(BadInput, match=r"record .* (outside the data set|the name of another file)"):
+        write_dataset(tmp_path / "new", replace(data, records=(replace(data.records[0], source=source),)))
+    assert not (tmp_path / "new").exists()
+
+
+def test_refuses_twice_the_same_file_other_units_and_old_files(tmp_path: Path) -> None:
+    data = dataset(VALUES, TIME)
+    with pytest.raises(BadInput, match=r"record 'w\.txt' has the name of another file"):
+        write_dataset(tmp_path / "new", replace(data, records=(data.records[1],) * 2))
+    with pytest.raises(
+        BadInput, match=r"signal w is in rad/s and cannot be written in 'bar'; use one of rad/s, deg/s, rpm"
+    ):
+        write_dataset(tmp_path / "new", data, units={"w": "bar"})
+    (tmp_path / "old.txt").write_text("")
+    with pytest.raises(BadInput, match="holds files already"):
+        write_dataset(tmp_path, data)
+    with pytest.raises(BadInput, match="cannot write there"):
+        write_dataset(tmp_path / "old.txt", data)
