@@ -86,16 +86,24 @@ class Distortion(Level):
     """A level found as power on a line less the noise expected there.
 
     Args:
-        ratio: (n,) that power over the expected noise: F distributed about 1 where nothing but noise is there.
-        degrees, noise_degrees: (n,) of that distribution.
-        shared, noise_shared: neighbouring lines that share data in numerator and denominator; 1 where none do.
+        power, noise: (n,) both, gain unit squared.
+        degrees, noise_degrees: (n,) their degrees of freedom, counted in real numbers.
+        shared, noise_shared: neighbouring lines whose estimates share data; 1 where none do.
     """
 
-    ratio: Array
+    power: Array
+    noise: Array
     degrees: Array
     noise_degrees: Array
     shared: float = 1.0
     noise_shared: float = 1.0
+
+    @property
+    def ratio(self) -> Array:
+        """(n,) power over noise: F distributed about 1 where nothing but noise is there."""
+        with np.errstate(divide="ignore", invalid="ignore"):
+            nothing = np.where(self.power > 0, np.inf, 1.0)
+            return np.asarray(np.where(self.noise > 0, self.power / self.noise, nothing))
 
 
 @dataclass(frozen=True)

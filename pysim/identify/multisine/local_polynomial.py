@@ -1,0 +1,155 @@
+"""The local polynomial method for any broadband signal, periodic or not."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pysim.identify.multisine.linear_part import gain_from_responses
+from pysim.identify.multisine.local_fit import LocalFit, local_fit, powers, windows
+from pysim.identify.multisine.periods import sampling_interval
+from pysim.identify.multisine.statistics import plain_level
+from pysim.types import BadInput, BestLinearApproximation, MultisineTest, Record
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+_CHUNK = 4096  # windows solved at once, so that long records fit into memory
+_EXCITED = 1e-2  # share of the highest input amplitude, smoothed, down to which the band reaches: 40 dB
+
+
+@dataclass(frozen=True)
+class LocalPolynomial:
+    """Gain and transient as polynomials over 2 half_width + 1 lines around each line.
+
+    Every line costs 2 (order + 1) unknowns; what is left, q = 2 half_width + 1 - 2 (order + 1), are the complex degrees
+    of freedom of the noise. A wide window lowers the variance of the gain; its bias grows as half_width^(order + 1)
+    divided by the record's length to the same power.
+
+    Args:
+        order: R; even orders are better by one power in the middle of a window.
+        half_width: n, in lines.
+    Raises:
+        BadInput: a window that leaves no degree of freedom.
+    """
+
+    order: int = 2
+    half_width: int = 6
+
+    def __post_init__(self) -> None:
+        if self.order < 0 or self.degrees < 1:
+            raise BadInput(
+                f"local polynomial: order {self.order} needs a half width of at least {self.order + 1} lines, "
+                f"got {self.half_width}"
+            )
+
+    @property
+    def degrees(self) -> int:
+        """q, counted in complex numbers."""
+        return 2 * self.half_width + 1 - 2 * (self.order + 1)
+
+
+def local_polynomial_approximation(
+    record: Record,
+    columns: Sequence[str],
+    *,
+    band: tuple[float, float] | None = None,
+    settings: LocalPolynomial | None = None,
+) -> BestLinearApproximation:
+    """The gain from one record of any length and excitation, free of leakage to the order of the polynomials.
+
+    Y(k + r) = (sum_s g_s r^s) U(k + r) + sum_s t_s r^s + V(k + r), solved for r = -n ... n around every line k; the
+    gain is g_0, the transients of plant and noise are t_0. Noise and stochastic distortion cannot be told apart without
+    periods: `total` holds both.
+
+    Args:
+        record: equidistant samples.
+        columns: names of input and output and, where the input is measured with noise or stands in a loop, of a known
+            command; the gain is then the ratio of the responses to it.
+        band: Hz, lowest and highest line; where the input is within 40 dB of its highest line by default.
+        settings: order and width.
+    Returns:
+        a gain per line of the record's spectrum; estimates less than 2 half_width lines apart share data.
+    Raises:
+        BadInput: samples that are not equidistant, too few lines in the band, or an input that does not excite them.
+    Source: Pintelon, Schoukens, Vandersteen and Barbé, Estimation of nonparametric noise and FRF models for
+    multivariable systems, Part I: theory, Mechanical Systems and Signal Processing 24 (2010), 573-595.
+    """
+    settings = settings or LocalPolynomial()
+    step = sampling_interval(record)
+    length = record.time.size * step
+    names = tuple(columns)
+    if len(names) not in (2, 3):
+        raise BadInput(f"local polynomial: name the columns of input and output (and reference), got {names}")
+    lines = _spectra(np.column_stack([record[name] for name in names]))
+    numbers, has_reference = np.arange(1, lines.shape[0] + 1), len(names) == 3
+    drive = lines[:, 2 if has_reference else 0]
+    chosen = _band(np.abs(drive), numbers / length, band, settings)
+    fit = _solve(drive, lines[:, :2] if has_reference else lines[:, 1:2], chosen, settings)
+    gain, error, to_input = gain_from_responses(fit.coefficients[:, 0], fit.residual)
+    variance = error * fit.gram[:, 0, 0].real / to_input
+    at = windows(numbers[chosen] - 1, numbers - 1, 2 * settings.half_width + 1)
+    amplitude = np.sqrt(np.mean(np.abs(lines[at, 0]) ** 2, axis=1))
+    frequency, degrees = numbers[chosen] / length, np.full(gain.size, 2.0 * settings.degrees)
+    units = tuple(record.units[record.names.index(name)] for name in names)
+    rms, offset = float(np.std(record[names[0]])), float(np.mean(record[names[0]]))
+    return BestLinearApproximation(
+        frequency,
+        gain,
+        variance,
+        degrees,
+        None,
+        MultisineTest(names[0], names[1], units[0], units[1], offset, rms, length, 1, 1),
+        f"local polynomial: order {settings.order} over {2 * settings.half_width + 1} lines",
+        record.origin,
+        amplitude,
+        float(np.mean(record[names[1]])),
+        float(error[0]) / 4,  # a mean is half a line of a cosine: its variance is a quarter of the lowest line's
+        plain_level(frequency, error / amplitude**2, degrees),
+    )
+
+
+def _spectra(values: Array) -> Complex:
+    """Complex amplitudes (n_l, n_s) of the lines above zero and below the Nyquist frequency."""
+    n = values.shape[0]
+    spectrum = np.fft.rfft(values - values.mean(axis=0), axis=0) * (2 / n)
+    return np.asarray(spectrum[1 : (n - 1) // 2 + 1], dtype=np.complex128)
+
+
+def _solve(drive: Complex, answers: Complex, chosen: NDArray[np.intp], settings: LocalPolynomial) -> LocalFit:
+    """The windows around the chosen positions, some thousand at a time."""
+    positions = np.arange(drive.size)
+    parts = []
+    for first in range(0, chosen.size, _CHUNK):
+        centres = chosen[first : first + _CHUNK]
+        at = windows(centres, positions, 2 * settings.half_width + 1)
+        x = powers((positions[at] - centres[:, None]).astype(np.float64), settings.order)
+        regressors = np.concatenate([x * drive[at][..., None], x], axis=2)
+        parts.append(local_fit(regressors, answers[at]))
+    return LocalFit(
+        np.concatenate([part.coefficients for part in parts]),
+        np.concatenate([part.gram for part in parts]),
+        np.concatenate([part.residual for part in parts]),
+        parts[0].degrees,
+    )
+
+
+def _band(
+    amplitude: Array, frequency: Array, band: tuple[float, float] | None, settings: LocalPolynomial
+) -> NDArray[np.intp]:
+    """Positions of the lines to estimate."""
+    if band is None:
+        width = 2 * settings.half_width + 1
+        smooth = np.sqrt(np.convolve(amplitude**2, np.full(width, 1 / width), mode="same"))
+        high = np.flatnonzero(smooth >= _EXCITED * smooth.max())
+        if high.size == 0 or not smooth.max() > 0:
+            raise BadInput("local polynomial: the input stands still; name the column that was excited")
+        chosen = np.arange(high[0], high[-1] + 1)
+    else:
+        chosen = np.flatnonzero((frequency >= band[0] * (1 - 1e-9)) & (frequency <= band[1] * (1 + 1e-9)))
+    if chosen.size < 1 or amplitude.size < 2 * settings.half_width + 1:
+        raise BadInput("local polynomial: no lines in the band; widen it, or record longer")
+    return np.asarray(chosen, dtype=np.intp)

@@ -1,0 +1,140 @@
+"""Spectra of the steady state over the harmonics of one period, with the covariance of their noise."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pysim.identify.multisine.local_fit import local_fit, powers, windows
+from pysim.identify.multisine.periods import Periods
+from pysim.types import BadInput
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+# What double precision leaves of a signal, relative to its largest line; no noise is taken to be smaller.
+_ROUNDING = 1e-13
+
+
+@dataclass(frozen=True)
+class SteadySpectra:
+    """Amplitudes X of x(t) = Re sum_k X_k exp(j 2 pi k t / period), averaged over the periods of each realisation.
+
+    Args:
+        values: (M, n_l, n_s) at the harmonics 1, 2, ..., n_l.
+        noise: (n_l, n_s, n_s) covariance E[e e^H] of one realisation's values, or None where there is one period only.
+        degrees: (n_l,) complex degrees of freedom of `noise`.
+        span: harmonics over which estimates of the noise share data; 1 where they do not.
+        means: (M, P, n_s) of every period.
+        periods: what they were made from.
+    """
+
+    values: Complex
+    noise: Complex | None
+    degrees: Array
+    span: float
+    means: Array
+    periods: Periods
+
+    @property
+    def frequency(self) -> Array:
+        """(n_l,) Hz."""
+        return np.arange(1, self.values.shape[1] + 1) / self.periods.period
+
+
+class Transient(Protocol):
+    """How what is left of the start is kept out of the spectra."""
+
+    def spectra(self, periods: Periods) -> SteadySpectra:
+        """The steady state's spectra."""
+        ...
+
+
+@dataclass(frozen=True)
+class DropPeriods:
+    """Leave out the first periods and take the rest for steady; the noise is how the rest differ from each other.
+
+    Right where the transient is over by then, wasteful where it is not. Source: Pintelon and Schoukens, System
+    Identification: A Frequency Domain Approach, 2nd edition, Eq. 2-31 to 2-33.
+    """
+
+    count: int = 1
+
+    def spectra(self, periods: Periods) -> SteadySpectra:
+        """(P - count) periods; without a noise estimate where one is left."""
+        kept = periods.without_first(self.count)
+        m, p = kept.values.shape[:2]
+        lines = _amplitudes(kept.values, axis=2)  # (M, P, n_l, n_s)
+        mean = lines.mean(axis=1)
+        means = kept.values.mean(axis=2)
+        n_l = mean.shape[1]
+        if p == 1:
+            return SteadySpectra(mean, None, np.zeros(n_l), 1.0, means, kept)
+        left = lines - mean[:, None]
+        noise = np.einsum("mpki,mpkj->kij", left, np.conj(left)) / (m * (p - 1)) / p
+        return SteadySpectra(mean, _floored(noise, mean), np.full(n_l, m * (p - 1.0)), 1.0, means, kept)
+
+
+@dataclass(frozen=True)
+class LocalTransient:
+    """Estimate the transient, and the noise, on the lines between the harmonics, where nothing else is.
+
+    The spectrum of all P periods together has P - 1 such lines between two harmonics. A transient's spectrum is smooth,
+    so a polynomial through the lines around a harmonic tells what the transient adds to it; what the polynomial leaves
+    over is noise. No period is lost. Needs two periods, and a window that is narrow against the resonances.
+
+    Args:
+        order: of the polynomial.
+        lines: in a window; lines - order - 1 are the complex degrees of freedom of the noise, per realisation.
+    Raises:
+        BadInput: fewer lines than unknowns.
+    Source: Pintelon, Barbé, Vandersteen, Schoukens, Improved (non-)parametric identification of dynamic systems
+    excited by periodic signals, Mechanical Systems and Signal Processing 25 (2011), 2683-2704.
+    """
+
+    order: int = 2
+    lines: int = 10
+
+    def __post_init__(self) -> None:
+        if self.order < 0 or self.lines < self.order + 2:
+            raise BadInput(
+                f"transient: order {self.order} needs at least {self.order + 2} lines in a window, got {self.lines}"
+            )
+
+    def spectra(self, periods: Periods) -> SteadySpectra:
+        """All periods, with the transient taken off."""
+        m, p, n, n_s = periods.values.shape
+        if p < 2:
+            raise BadInput("transient: one period does not tell the transient from the response; record two or more")
+        whole = _amplitudes(periods.values.reshape(m, p * n, n_s), axis=1)  # (M, lines of P periods, n_s)
+        numbers = np.arange(1, whole.shape[1] + 1)
+        between = numbers[numbers % p != 0]
+        harmonics = p * np.arange(1, (n - 1) // 2 + 1)
+        at = windows(harmonics, between, self.lines)
+        distance = (between[at] - harmonics[:, None]).astype(np.float64)
+        stacked = np.moveaxis(whole[:, between - 1], 0, 1).reshape(between.size, m * n_s)
+        fit = local_fit(powers(distance, self.order), stacked[at])
+        transient = np.moveaxis(fit.coefficients[:, 0].reshape(-1, m, n_s), 1, 0)
+        values = whole[:, harmonics - 1] - transient
+        per_realisation = fit.residual.reshape(-1, m, n_s, m, n_s)
+        one = np.einsum("kmimj->kij", per_realisation) / m
+        noise = one * (1 + fit.gram[:, 0, 0].real)[:, None, None]
+        degrees = np.full(harmonics.size, float(m * fit.degrees))
+        span = self.lines / (p - 1)
+        return SteadySpectra(values, _floored(noise, values), degrees, span, periods.values.mean(axis=2), periods)
+
+
+def _amplitudes(values: Array, axis: int) -> Complex:
+    """Complex amplitudes of the lines above zero and below the Nyquist frequency."""
+    n = values.shape[axis]
+    spectrum = np.fft.rfft(values, axis=axis) * (2 / n)
+    return np.asarray(np.take(spectrum, np.arange(1, (n - 1) // 2 + 1), axis=axis), dtype=np.complex128)
+
+
+def _floored(noise: Complex, values: Complex) -> Complex:
+    """The covariance with what rounding adds."""
+    floor = (_ROUNDING * np.abs(values).max(axis=(0, 1))) ** 2
+    return noise + np.diag(floor)
