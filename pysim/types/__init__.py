@@ -6,6 +6,17 @@ from pysim.types.criterion import Criterion, Deviation
 from pysim.types.dataset import Dataset, MeasuredRecord, MeasuredSignal
 from pysim.types.errors import BadInput
 from pysim.types.experiment import Experiment
+from pysim.types.fit import (
+    Combination,
+    Direction,
+    Estimate,
+    Fit,
+    FitOutcome,
+    Harmonics,
+    RecordFit,
+    ResponseFit,
+    Start,
+)
 from pysim.types.frequency_response import FrequencyResponse
 from pysim.types.model import Abilities, Model, Variable
 from pysim.types.record import Outcome, Record, SimulationError
@@ -16,13 +27,19 @@ __all__ = [
     "Abilities",
     "BadInput",
     "BestLinearApproximation",
+    "Combination",
     "Comparison",
     "Criterion",
     "Dataset",
     "Deviation",
+    "Direction",
     "Distortion",
+    "Estimate",
     "Experiment",
+    "Fit",
+    "FitOutcome",
     "FrequencyResponse",
+    "Harmonics",
     "Level",
     "MeasuredRecord",
     "MeasuredSignal",
@@ -30,9 +47,12 @@ __all__ = [
     "MultisineTest",
     "Outcome",
     "Record",
+    "RecordFit",
     "ResponseComparison",
+    "ResponseFit",
     "Signal",
     "SimulationError",
     "SineTest",
+    "Start",
     "Variable",
 ]
