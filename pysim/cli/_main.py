@@ -9,10 +9,10 @@ import sys
 import traceback
 from collections.abc import Sequence
 
-from pysim.cli import compare, demo, simulate
+from pysim.cli import compare, demo, signal, simulate
 
 DONE, NO, WRONG_USE, OUR_BUG = 0, 1, 2, 3
-_COMMANDS = {"compare": compare, "demo": demo, "simulate": simulate}
+_COMMANDS = {"compare": compare, "demo": demo, "signal": signal, "simulate": simulate}
 
 
 def main(argv: Sequence[str] | None = None) -> int:

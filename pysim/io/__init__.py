@@ -6,7 +6,7 @@ from pysim.io.dataset import read_dataset
 from pysim.io.files import write_file
 from pysim.io.fmu import read_model
 from pysim.io.records import read_record, record_data, record_text, write_record
-from pysim.io.signals import read_signal
+from pysim.io.signals import read_signal, write_signal
 from pysim.io.thesis_folder import read_thesis_folder
 from pysim.io.toml_section import Section, TomlFile, read_toml
 from pysim.io.write_dataset import write_dataset
@@ -27,4 +27,5 @@ __all__ = [
     "write_dataset",
     "write_file",
     "write_record",
+    "write_signal",
 ]

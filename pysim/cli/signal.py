@@ -1,0 +1,173 @@
+"""Make a test signal: a file any bench can play, and a picture of it."""
+
+from __future__ import annotations
+
+import argparse
+import math
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from pysim.excitation import Excitation, LeadIn
+
+_KINDS = {
+    "stepped-sine": "one sine around an offset (thesis Eq. 2.1)",
+    "chirp": "a sine of linearly changing frequency (thesis Eq. 2.2)",
+    "stochastic": "a wave with the Pierson-Moskowitz spectrum (thesis Appendix A)",
+    "step": "a step from one level to another",
+    "multisine": "a periodic sum of sines with random phases",
+}
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The words behind `pysim signal`."""
+    kinds = parser.add_subparsers(dest="kind", required=True, metavar="KIND")
+    for kind, what in _KINDS.items():
+        one = kinds.add_parser(kind, help=what, description=what)
+        _add_settings(one, kind)
+        _add_common(one)
+
+
+def _add_settings(parser: argparse.ArgumentParser, kind: str) -> None:
+    """What only this kind of signal has."""
+
+    def number(name: str, what: str, default: float | None = None) -> None:
+        words = what if default is None else f"{what} ({default:g})"
+        parser.add_argument(name, type=float, required=default is None, default=default, help=words)
+
+    if kind in ("stepped-sine", "chirp"):
+        number("--amplitude", "of the sine, in the command's unit")
+    if kind == "stepped-sine":
+        number("--frequency", "Hz")
+        number("--periods", "how many", 10.0)
+    elif kind == "chirp":
+        number("--start-hz", "frequency at its start", 0.1)
+        number("--stop-hz", "frequency at its end", 30.0)
+        number("--sweep", "s from the one to the other")
+    elif kind == "stochastic":
+        number("--height", "significant height, in the command's unit")
+        number("--peak-period", "s")
+        number("--length", "s of the wave", 30.0)
+        parser.add_argument("--components", type=int, default=100, help="how many sines (100)")
+        parser.add_argument("--even", action="store_true", help="evenly spaced frequencies, as in the thesis")
+    elif kind == "step":
+        number("--height", "of the step, either sign, in the command's unit")
+        number("--length", "s at each level")
+        parser.add_argument("--back", action="store_true", help="step back again")
+    else:
+        _add_multisine(parser, number)
+    if kind in ("stochastic", "multisine"):
+        parser.add_argument("--seed", type=int, default=0, help="of the random phases (0)")
+
+
+def _add_multisine(parser: argparse.ArgumentParser, number: Callable[..., None]) -> None:
+    number("--period", "s; its inverse is the distance of the lines")
+    number("--low-hz", "lowest line", 0.1)
+    number("--high-hz", "highest line", 30.0)
+    level = parser.add_mutually_exclusive_group(required=True)
+    level.add_argument("--rms", type=float, help="level without the offset, in the command's unit")
+    level.add_argument("--peak", type=float, help="largest deviation from the offset, in the command's unit")
+    parser.add_argument("--lines", choices=("full", "odd", "random-odd"), default="random-odd", help="(random-odd)")
+    parser.add_argument("--group", type=int, default=4, help="odd lines, of which one is left out at random (4)")
+    parser.add_argument("--grid-seed", type=int, default=0, help="which lines are left out (0)")
+    number("--periods", "how many", 3.0)
+
+
+def _add_common(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--offset", type=float, default=0.0, help="what the command is around, in its unit (0)")
+    for name, what in (
+        ("rest", "s at zero before"),
+        ("ramp", "s to the offset"),
+        ("hold", "s there"),
+        ("ramp-down", "s back to zero"),
+    ):
+        default = 1.0 if name == "hold" else 0.5
+        parser.add_argument(f"--{name}", type=float, default=default, metavar="SECONDS", help=f"{what} ({default:g})")
+    parser.add_argument("--unit", default="%", help="of the command, for header and picture (%%)")
+    parser.add_argument("--sampling", metavar="HZ", type=float, default=1000.0, help="rows per second (1000)")
+    parser.add_argument("-o", "--file", metavar="FILE.csv", type=Path, required=True, help="time, value and rate")
+    parser.add_argument("--output", metavar="DIR", type=Path, help="write the picture and report.html here")
+
+
+def run(args: argparse.Namespace) -> int:
+    """Write the file, and say what is in it."""
+    from pysim.cli._outputs import prepare_file, prepare_folder
+    from pysim.io import write_signal
+
+    test = _excitation(args)
+    prepare_file(args.file, "-o", (".csv",))
+    if args.output:
+        prepare_folder(args.output)
+    write_signal(
+        test.signal(), args.file, duration=test.duration, unit=args.unit, sampling_hz=args.sampling, title=_title(args)
+    )
+    print(f"{args.file}: {_KINDS[args.kind]}")
+    for line in _facts(test, args):
+        print(f"  {line}")
+    if args.output:
+        _write_report(args, test)
+    return 0
+
+
+def _excitation(args: argparse.Namespace) -> Excitation:
+    from pysim import excitation as make
+
+    lead = _lead(args)
+    if args.kind == "stepped-sine":
+        return make.SteppedSineCommand(args.offset, args.amplitude, args.frequency, args.periods, lead)
+    if args.kind == "chirp":
+        return make.Chirp(args.offset, args.amplitude, args.start_hz, args.stop_hz, args.sweep, lead)
+    if args.kind == "step":
+        return make.Step(args.offset, args.height, args.length, args.back, lead)
+    if args.kind == "stochastic":
+        spectrum = make.PiersonMoskowitz(args.height, args.peak_period)
+        many, offset, scatter = args.components, args.offset, not args.even
+        return make.StochasticWave(spectrum, args.length, args.seed, many, offset, scatter=scatter, lead=lead)
+    grid = make.LineGrid(args.period, args.low_hz, args.high_hz, args.lines, args.group, args.grid_seed)
+    level = {"rms": args.rms, "peak": args.peak}
+    return make.Multisine(grid, args.seed, **level, offset=args.offset, periods=args.periods, lead=lead)
+
+
+def _lead(args: argparse.Namespace) -> LeadIn:
+    from pysim.excitation import LeadIn
+
+    return LeadIn(args.rest, args.ramp, args.hold, args.ramp_down)
+
+
+def _title(args: argparse.Namespace) -> str:
+    """The settings in one line, so that the file tells what it is."""
+    skip = {"command", "kind", "file", "output"}
+    settings = (f"{key} {value}" for key, value in vars(args).items() if key not in skip and value is not None)
+    return f"{args.kind}: {', '.join(settings)}"
+
+
+def _facts(test: Excitation, args: argparse.Namespace) -> list[str]:
+    """What a person at the bench wants to know before it is played."""
+    import numpy as np
+
+    t = np.arange(math.floor((test.end - test.onset) * args.sampling)) / args.sampling + test.onset
+    value, rate = test.signal().value(t), test.signal().derivative(t)
+    unit = args.unit
+    return [
+        f"excitation from {test.onset:g} to {test.end:g} s, {test.duration:g} s in all",
+        f"mean {value.mean():.4g} {unit}, rms about it {value.std():.4g} {unit}, "
+        f"from {value.min():.4g} to {value.max():.4g} {unit}",
+        f"fastest {np.abs(rate).max():.4g} {unit}/s",
+    ]
+
+
+def _write_report(args: argparse.Namespace, test: Excitation) -> None:
+    from pysim.io import write_file
+    from pysim.plot import excitation_figure, render
+    from pysim.report import heading, items, page, paragraph, picture
+
+    figure = excitation_figure(test, args.unit)
+    name = args.kind.replace("-", "_")
+    write_file(args.output / f"{name}.png", render(figure, "png"))
+    svg = render(figure, "svg")
+    write_file(args.output / f"{name}.svg", svg)
+    caption = "The command over time, the excitation proper shaded, and its spectrum."
+    parts = [heading("What is played"), items(_facts(test, args)), paragraph(_title(args)), picture(svg, caption)]
+    write_file(args.output / "report.html", page(f"Test signal: {args.kind}", _KINDS[args.kind], parts))
+    print(f"Report: {args.output / 'report.html'}")

@@ -1,0 +1,70 @@
+"""`pysim signal`: the file holds the signal that was asked for."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from pysim.cli import main
+from pysim.excitation import Chirp, Excitation, LeadIn, LineGrid, Multisine, PiersonMoskowitz, Step, StochasticWave
+from pysim.excitation import SteppedSineCommand as Sine
+from pysim.io import read_signal
+
+SEA = PiersonMoskowitz(100.0, 1.0)
+CASES: list[tuple[str, Excitation]] = [
+    ("stepped-sine --offset 50 --amplitude 10 --frequency 5 --periods 7", Sine(50.0, 10.0, 5.0, 7.0)),
+    ("chirp --offset -50 --amplitude 10 --sweep 10", Chirp(-50.0, 10.0, 0.1, 30.0, 10.0)),
+    ("step --offset 20 --height 10 --length 2 --back --ramp-down 0", Step(20, 10, 2, True, LeadIn(ramp_down=0.0))),
+    ("stochastic --height 100 --peak-period 1 --seed 4", StochasticWave(SEA, 30.0, 4)),
+    (
+        "stochastic --height 100 --peak-period 1 --even --components 20 --length 10",
+        StochasticWave(SEA, 10.0, 0, 20, scatter=False),
+    ),
+    ("multisine --period 5 --rms 5 --offset 50", Multisine(LineGrid(5.0, 0.1, 30.0), 0, rms=5.0, offset=50.0)),
+    (
+        "multisine --period 5 --peak 9 --lines odd --low-hz 1 --high-hz 10 --seed 3 --hold 2",
+        Multisine(LineGrid(5.0, 1.0, 10.0, "odd"), 3, peak=9.0, lead=LeadIn(hold=2.0)),
+    ),
+]
+
+
+@pytest.mark.parametrize(("words", "test"), CASES, ids=[words for words, _ in CASES])
+def test_the_file_is_the_signal(words: str, test: Excitation, tmp_path: Path, capsys: pytest.CaptureFixture) -> None:
+    path = tmp_path / "s.csv"
+    assert main(["signal", *words.split(), "-o", str(path)]) == 0
+    signal = read_signal(path, "test")
+    t = np.arange(round(test.duration * 1000) + 1) / 1000
+    np.testing.assert_allclose(signal.value(t), test.signal().value(t), atol=1e-8)
+    assert signal.starts[-1] == pytest.approx(test.duration, abs=1e-3)
+    out = capsys.readouterr().out
+    assert f"excitation from {test.onset:g} to {test.end:g} s" in out
+    values = test.signal().value(t[(t >= test.onset) & (t < test.end)])
+    assert f"to {values.max():.4g} %" in out
+
+
+def test_output_writes_picture_and_page(tmp_path: Path) -> None:
+    words = ["signal", "chirp", "--amplitude", "5", "--sweep", "5", "--unit", "V", "-o", str(tmp_path / "s.csv")]
+    assert main([*words, "--output", str(tmp_path / "r")]) == 0
+    assert (tmp_path / "s.csv").read_text().startswith("# chirp: amplitude 5.0")
+    assert (tmp_path / "r" / "chirp.png").read_bytes().startswith(b"\x89PNG")
+    assert "excitation from 2 to 7 s" in (tmp_path / "r" / "report.html").read_text()
+    assert "value [V]" in (tmp_path / "s.csv").read_text()
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        ("chirp --amplitude 0 --sweep 5 -o s.csv", "the amplitude is 0"),
+        ("chirp --amplitude 1 --sweep 5 -o s.txt", "write one of .csv"),
+        ("chirp --amplitude 1 -o s.csv", "--sweep"),
+        ("multisine --period 5 -o s.csv", "one of the arguments --rms --peak"),
+        ("stepped-sine --amplitude 1 --frequency 1 --periods inf -o s.csv", "rows; between 2"),
+    ],
+)
+def test_wrong_use(
+    words: str, message: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert main(["signal", *words.split()]) == 2
+    assert message in capsys.readouterr().err
+    assert not (tmp_path / "s.csv").exists()

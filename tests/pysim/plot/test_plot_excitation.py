@@ -1,0 +1,57 @@
+"""The picture of a test signal shows its numbers."""
+
+import numpy as np
+import pytest
+
+from pysim.excitation import Chirp, LineGrid, Multisine, PiersonMoskowitz, SteppedSineCommand, StochasticWave
+from pysim.plot import excitation_figure
+
+
+def curve(figure, axes: int, line: int = 0) -> np.ndarray:
+    return np.asarray(figure.axes[axes].get_lines()[line].get_xydata())
+
+
+def test_time_course_is_the_command() -> None:
+    test = Chirp(50.0, 10.0, 0.1, 30.0, 30.0)
+    figure = excitation_figure(test, "%")
+    t, y = curve(figure, 0).T
+    np.testing.assert_allclose(y, test.signal().value(t))
+    assert (t[0], t[-1]) == (0.0, test.duration)
+    assert figure.axes[0].get_ylabel() == "Command (%)"
+
+
+def test_density_of_a_chirp_is_that_of_its_sweep() -> None:
+    # A sweep spends 1/rate s per Hz: the power spectral density is A^2/2 per (stop - start).
+    f, density = curve(excitation_figure(Chirp(50.0, 10.0, 0.5, 30.0, 200.0), "%"), 1).T
+    middle = (f > 3) & (f < 25)
+    assert np.sqrt(np.mean(density[middle] ** 2)) == pytest.approx(np.sqrt(100 / 2 / 29.5), rel=0.01)
+
+
+def test_density_of_a_wave_follows_its_spectrum() -> None:
+    test = StochasticWave(PiersonMoskowitz(100.0, 1.0), 600.0, seed=2, components=500)
+    figure = excitation_figure(test, "%")
+    f, density = curve(figure, 1).T
+    _, theory = curve(figure, 1, 1).T
+    assert np.sum(density**2) * (f[1] - f[0]) == pytest.approx(25.0**2, rel=0.15)
+    bands = [(0.7, 1.0), (1.0, 1.5), (1.5, 3.0)]
+    for low, high in bands:
+        inside = (f > low) & (f < high)
+        assert np.mean(density[inside] ** 2) == pytest.approx(np.mean(theory[inside] ** 2), rel=0.3)
+
+
+def test_lines_of_a_multisine_are_drawn_with_those_left_out() -> None:
+    test = Multisine(LineGrid(10.0, 0.1, 5.0), seed=1, rms=5.0)
+    figure = excitation_figure(test, "%")
+    segments = np.array(figure.axes[1].collections[0].get_segments())
+    np.testing.assert_allclose(segments[:, 1, 0], test.grid.excited / 10.0)
+    np.testing.assert_allclose(segments[:, 1, 1], test.waves()[:, 0])
+    np.testing.assert_allclose(curve(figure, 1, 1)[:, 0], test.grid.odd_detection / 10.0)
+    labels = [text.get_text() for text in figure.legends[0].get_texts()]
+    assert labels == [f"{test.grid.excited.size} excited lines", "25 even lines left out", "6 odd lines left out"]
+
+
+def test_a_command_without_an_end_is_drawn_for_a_minute() -> None:
+    figure = excitation_figure(SteppedSineCommand(50.0, 10.0, 1.0, periods=np.inf), "%")
+    assert curve(figure, 0)[-1, 0] == 62.0
+    f, density = curve(figure, 1).T
+    assert f[np.argmax(density)] == pytest.approx(1.0, abs=0.02)
