@@ -44,10 +44,10 @@ def read_log(folder: Path, section: Section, kind: str, signals: Mapping[str, Me
     test = _test(section, kind, SI[signals[command].unit][1] if command else 1.0)
     columns = read_columns(folder / source, names, section.place)
     refuse_standing_time(columns)
-    if test["frequency"] is not None:
-        refuse_fast_sine(section.place, columns, test["frequency"])
+    if test[2] is not None:
+        refuse_fast_sine(section.place, columns, test[2])
     origin = section.text("origin", f"measured, {source}")
-    return MeasuredRecord(source, kind, use, in_si(columns, signals, origin), **test)
+    return MeasuredRecord(source, kind, use, in_si(columns, signals, origin), *test, command=command or "")
 
 
 def in_si(columns: Columns, signals: Mapping[str, MeasuredSignal], origin: str) -> Record:
@@ -114,7 +114,7 @@ def _command(section: Section, names: tuple[str, ...], signals: Mapping[str, Mea
     return inputs[0] if len(inputs) == 1 else None
 
 
-def _test(section: Section, kind: str, to_si: float) -> dict[str, float | None]:
+def _test(section: Section, kind: str, to_si: float) -> tuple[float | None, float | None, float | None]:
     """Offset and amplitude in SI units or %, and the frequency in Hz, as far as told."""
     for key in LOGS[kind]:
         if key not in section.values:
@@ -125,8 +125,5 @@ def _test(section: Section, kind: str, to_si: float) -> dict[str, float | None]:
             "remove it, or correct the kind"
         )
     offset, amplitude = section.optional_number("offset"), section.positive("amplitude")
-    return {
-        "offset": None if offset is None else to_si * offset,
-        "amplitude": None if amplitude is None else to_si * amplitude,
-        "frequency": section.positive("frequency"),
-    }
+    offset, amplitude = (None if value is None else to_si * value for value in (offset, amplitude))
+    return offset, amplitude, section.positive("frequency")

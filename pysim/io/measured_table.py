@@ -35,7 +35,7 @@ def read_measured_table(folder: Path, section: Section, signals: Mapping[str, Me
     origin = section.text("origin", f"measured, {source}")
     scale = to_si / from_command
     response = read_response(folder / source, names, test, section.place, scale=scale, origin=origin)
-    return MeasuredRecord(source, TABLE, use, response, offset=offset, amplitude=amplitude)
+    return MeasuredRecord(source, TABLE, use, response, offset, amplitude, command=command)
 
 
 def _signal_of_role(section: Section, role: str, signals: tuple[MeasuredSignal, ...]) -> str:

@@ -50,7 +50,7 @@ def read_table(path: Path, columns: tuple[str, ...], wanted_by: str) -> tuple[Ar
     Raises:
         BadInput: no rows, a row of another width, text where a number belongs, or a number that is not finite.
     """
-    lines = read_text(path, wanted_by).split("\n")
+    lines = read_text(path, wanted_by).rstrip().split("\n")
     first = next((i for i, line in enumerate(lines) if _is_row(line, len(columns))), None)
     if first is None:
         raise BadInput(f"{path} holds no numbers; it needs rows of {', '.join(columns)}")

@@ -114,9 +114,8 @@ def _record(folder: Path, log: _Named, signals: dict[str, MeasuredSignal]) -> Me
     if offset is None or amplitude is None:
         offset, amplitude = _swing(log, columns, command.name)
     to_si = SI[command.unit][1]
-    return MeasuredRecord(
-        source, "frequency-response", "fit", data, to_si * offset, to_si * amplitude, frequency=log.frequency
-    )
+    test = to_si * offset, to_si * amplitude, log.frequency
+    return MeasuredRecord(source, "frequency-response", "fit", data, *test, command=command.name)
 
 
 def _swing(log: _Named, columns: Columns, command: str) -> tuple[float, float]:

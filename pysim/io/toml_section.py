@@ -45,7 +45,7 @@ class Section:
         value = self.values.get(key)
         if value is None:
             return None
-        if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
+        if not _is_number(value):
             raise BadInput(f"{self.place}: {key} = {value!r} is no finite number; write {key} = and a number")
         return float(value)
 
@@ -73,11 +73,51 @@ class Section:
                 raise BadInput(f"{self.place}: {key} names {value!r} {values.count(value)} times; name it once")
         return tuple(values)
 
+    def numbers(self, key: str) -> tuple[float, ...]:
+        """A row of finite numbers that must be there."""
+        values = self.values.get(key)
+        if not isinstance(values, list) or not values or not all(_is_number(value) for value in values):
+            raise BadInput(f"{self.place}: {key} is missing or no row of numbers; write {key} = [1.0, 2.0]")
+        return tuple(float(value) for value in values)
+
+    def pairs(self, key: str) -> tuple[tuple[float, float], ...]:
+        """A row of pairs of finite numbers that must be there."""
+        values = self.values.get(key)
+        rows = values if isinstance(values, list) else []
+        if not rows or not all(isinstance(r, list) and len(r) == 2 and all(map(_is_number, r)) for r in rows):
+            raise BadInput(f"{self.place}: {key} is missing or no row of pairs; write {key} = [[1.0, 2.0], [3.0, 4.0]]")
+        return tuple((float(first), float(second)) for first, second in rows)
+
+    def integer(self, key: str, default: int | None = None) -> int:
+        """A whole number; one that must be there where there is no default."""
+        value = self.values.get(key, default)
+        if isinstance(value, bool) or not isinstance(value, int):
+            raise BadInput(f"{self.place}: {key} is missing or no whole number; write {key} = 1")
+        return value
+
+    def flag(self, key: str, default: bool) -> bool:
+        """true or false."""
+        value = self.values.get(key, default)
+        if not isinstance(value, bool):
+            raise BadInput(f"{self.place}: {key} = {value!r} is neither true nor false; write one of them")
+        return value
+
+    def inner(self, key: str) -> Section:
+        """A table within this one, empty where the key is absent."""
+        value = self.values.get(key, {})
+        if not isinstance(value, dict):
+            raise BadInput(f"{self.place}: {key} = {value!r} is no table; write {key} = {{ name = value }}")
+        return Section(f"{self.place}, {key}", value)
+
     def refuse_unknown(self, keys: tuple[str, ...]) -> None:
         """A misspelt key would be a silent default."""
         for key in self.values:
             if key not in keys:
                 raise BadInput(f"{self.place}: the key {key!r} is not known; use {', '.join(keys)}")
+
+
+def _is_number(value: object) -> bool:
+    return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
 
 
 @dataclass(frozen=True)
@@ -96,7 +136,11 @@ class TomlFile:
 
     def table(self, key: str) -> Section:
         """[key], which must be there."""
-        return Section(f"{self.path}, [{key}]", self._content(key))
+        return self._section(self._content(key), f"[{key}]", 0, key)
+
+    def optional_table(self, key: str) -> Section:
+        """[key], empty where it is not there."""
+        return self.table(key) if key in self.whole.values else Section(f"{self.path}, [{key}]", {})
 
     def tables(self, key: str) -> dict[str, Section]:
         """Every [key.name], by its name."""

@@ -135,7 +135,9 @@ def _about(record: MeasuredRecord, dataset: Dataset, units: Mapping[str, str]) -
     data = record.data
     columns = list(TABLE_COLUMNS) if isinstance(data, FrequencyResponse) else ["time", *data.names]
     about: dict[str, object] = {"file": record.source, "columns": columns, "kind": record.kind}
-    command = next(iter(dataset.columns(record, "input")), "")
+    inputs = dataset.columns(record, "input")
+    command = record.command or next(iter(inputs), "")
+    about |= {"input": command} if len(inputs) > 1 and record.command else {}
     numbers = {"offset": record.offset, "amplitude": record.amplitude}
     if isinstance(data, FrequencyResponse):
         about |= {"input": data.test.input, "output": data.test.output}

@@ -45,6 +45,7 @@ class MeasuredRecord:
         offset: what the command was meant to swing around, in the input's unit, or None where not told.
         amplitude: the same of its swing.
         frequency: Hz, of a stepped sine; None for all else.
+        command: name of the input that the three speak of; empty where a log has several inputs and does not say.
     """
 
     source: str
@@ -54,6 +55,7 @@ class MeasuredRecord:
     offset: float | None = None
     amplitude: float | None = None
     frequency: float | None = None
+    command: str = ""
 
 
 @dataclass(frozen=True)

@@ -105,7 +105,11 @@ def test_reading_changes_nothing(folder: Path) -> None:
             'kind = "wobble"',
             "line 18: kind = 'wobble' is not known; use one of freq",
         ),
-        ('system = "pump"', 'sistem = "pump"', r"\[dataset\]: the key 'sistem' is not known; use name, description"),
+        (
+            'system = "pump"',
+            'sistem = "pump"',
+            r"dataset\.toml, line 1: the key 'sistem' is not known; use name, description",
+        ),
         ("[dataset]", "[extra]\nx = 1\n\n[dataset]", r"dataset\.toml: the key 'extra' is not known; use dataset, sig"),
         (
             '"magnitude_db", "phase_deg"]',

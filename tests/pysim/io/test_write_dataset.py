@@ -64,6 +64,14 @@ def test_everything_comes_back(tmp_path: Path) -> None:
     np.testing.assert_allclose(response.phase, data.responses()[0].phase, rtol=1e-12)
 
 
+def test_the_input_that_numbers_speak_of_comes_back(tmp_path: Path) -> None:
+    data = dataset(VALUES, TIME)
+    signals = (SIGNALS[0], SIGNALS[1], replace(SIGNALS[2], role="input"))
+    record = replace(data.records[0], command="w", offset=np.pi, amplitude=2 * np.pi)
+    back = written(tmp_path / "new", replace(data, signals=signals, records=(record,))).records[0]
+    assert (back.command, back.offset, back.amplitude) == ("w", pytest.approx(np.pi), pytest.approx(2 * np.pi))
+
+
 def test_what_was_read_is_written_the_same_again(tmp_path: Path) -> None:
     once = written(tmp_path / "a", dataset(VALUES, TIME))
     twice = written(tmp_path / "b", once)
