@@ -1,7 +1,8 @@
-"""A rational transfer function and its frequency response (thesis Eq. 2.14, 4.1)."""
+"""A rational transfer function with dead time, and its frequency response (thesis Eq. 2.14, 4.1)."""
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,28 +11,34 @@ from numpy.typing import NDArray
 from pysim.types import BadInput, FrequencyResponse, SineTest
 
 Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
 
 
 @dataclass(frozen=True)
 class TransferFunction:
-    """G(s) = numerator(s) / denominator(s), s in rad/s.
+    """G(s) = numerator(s) / denominator(s) exp(-dead_time s), s in rad/s.
 
     Args:
         numerator: coefficients from the highest power of s down.
         denominator: the same; the first is not zero.
+        dead_time: s, not negative.
     """
 
     numerator: tuple[float, ...]
     denominator: tuple[float, ...]
+    dead_time: float = 0.0
 
     def __post_init__(self) -> None:
         if not self.numerator or not self.denominator or self.denominator[0] == 0:
             raise BadInput("transfer function: needs a numerator and a denominator whose first coefficient is not zero")
+        if not (self.dead_time >= 0 and math.isfinite(self.dead_time)):
+            raise BadInput(f"transfer function: the dead time must be zero or positive seconds, got {self.dead_time}")
 
-    def at(self, frequency: Array) -> NDArray[np.complex128]:
+    def at(self, frequency: Array) -> Complex:
         """G(j 2 pi f) at the frequencies (n_f,) in Hz."""
         s = 2j * np.pi * np.asarray(frequency, dtype=np.float64)
-        return np.asarray(np.polyval(self.numerator, s) / np.polyval(self.denominator, s), dtype=np.complex128)
+        rational = np.polyval(self.numerator, s) / np.polyval(self.denominator, s)
+        return np.asarray(rational * np.exp(-self.dead_time * s), dtype=np.complex128)
 
     def response(self, frequency: Array, test: SineTest, *, origin: str = "transfer function") -> FrequencyResponse:
         """Gain and unwrapped phase at frequencies (n_f,) in Hz, standing for the response of one stepped-sine test.
@@ -41,7 +48,33 @@ class TransferFunction:
         frequency = np.asarray(frequency, dtype=np.float64)
         phase = _phase(self.numerator, frequency) - _phase(self.denominator, frequency)
         gain = np.abs(self.at(frequency))
-        return FrequencyResponse(frequency, gain, phase, test, origin)
+        return FrequencyResponse(frequency, gain, phase - 2 * np.pi * frequency * self.dead_time, test, origin)
+
+    @property
+    def poles(self) -> Complex:
+        """Roots of the denominator (n_p,), rad/s, by rising magnitude."""
+        return _roots(self.denominator)
+
+    @property
+    def zeros(self) -> Complex:
+        """Roots of the numerator (n_z,), rad/s, by rising magnitude; leading coefficients of zero have none."""
+        return _roots(self.numerator)
+
+    @property
+    def gain(self) -> float:
+        """G(0): infinite with an integrator, output unit per input unit."""
+        return self.numerator[-1] / self.denominator[-1] if self.denominator[-1] else math.inf
+
+    @property
+    def stable(self) -> bool:
+        """Whether every pole is left of the imaginary axis."""
+        return bool(np.all(self.poles.real < 0))
+
+
+def _roots(coefficients: tuple[float, ...]) -> Complex:
+    """Sorted by magnitude, of a conjugate pair the one below the axis first."""
+    roots = np.asarray(np.roots(coefficients), dtype=np.complex128)
+    return roots[np.lexsort((roots.imag, np.abs(roots)))]
 
 
 def _phase(coefficients: tuple[float, ...], frequency: Array) -> Array:

@@ -39,3 +39,24 @@ def test_agrees_with_the_unwrapped_angle_on_a_fine_grid() -> None:
 def test_refuses_a_denominator_of_nothing() -> None:
     with pytest.raises(BadInput, match="first coefficient"):
         TransferFunction((1.0,), (0.0, 1.0))
+
+
+def test_dead_time_turns_the_phase_and_leaves_the_gain() -> None:
+    f = np.array([0.1, 1.0, 30.0])
+    lag, delayed = TransferFunction((3.0,), (0.05, 1.0)), TransferFunction((3.0,), (0.05, 1.0), dead_time=0.04)
+    np.testing.assert_allclose(delayed.at(f), lag.at(f) * np.exp(-2j * np.pi * f * 0.04))
+    before, after = (function.response(f, TEST) for function in (lag, delayed))
+    np.testing.assert_allclose(after.gain, before.gain)
+    np.testing.assert_allclose(after.phase, before.phase - 2 * np.pi * f * 0.04)  # far beyond half a turn, unwrapped
+    with pytest.raises(BadInput, match="dead time"):
+        TransferFunction((1.0,), (1.0,), dead_time=-0.01)
+
+
+def test_poles_zeros_gain_and_stability() -> None:
+    function = TransferFunction((2.0, 6.0), (1.0, 6.0, 25.0))  # zero -3; poles -3 +- 4j
+    np.testing.assert_allclose(function.poles, [-3 - 4j, -3 + 4j])
+    np.testing.assert_allclose(function.zeros, [-3])
+    assert (function.gain, function.stable) == (6 / 25, True)
+    integrator = TransferFunction((1.0,), (1.0, 0.0))
+    assert (integrator.gain, integrator.stable) == (np.inf, False)
+    assert TransferFunction((1.0,), (2.0,)).poles.size == 0

@@ -1,0 +1,50 @@
+"""Poles and zeros that lie so close together that the data cannot tell them apart."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import stats
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+_LEVEL = 0.95
+_CLOSE = 1e-3  # relative distance at which a pair cancels whatever the noise
+
+
+def cancellations(poles: Complex, zeros: Complex, pole_spread: Complex, zero_spread: Complex) -> list[tuple[int, int]]:
+    """Pairs (pole, zero) that count as one root each, of conjugates those above the axis.
+
+    A pair cancels where the two differ by a thousandth of their size, or where their distance is within the 95 percent
+    region of what noise does to it (Wald's test) and no larger than the pole itself.
+
+    Args:
+        poles, zeros: (n_p,) and (n_z,) rad/s.
+        pole_spread, zero_spread: (n_p, r) and (n_z, r) complex factors of their joint covariance.
+    """
+    candidates = []
+    for i, pole in enumerate(poles):
+        for j, zero in enumerate(zeros):
+            if pole.imag < 0 or zero.imag < 0 or (pole.imag == 0) != (zero.imag == 0):
+                continue
+            apart = abs(pole - zero)
+            with np.errstate(invalid="ignore"):  # neither may be determined
+                noise = pole_spread[i] - zero_spread[j]
+            if apart <= _CLOSE * abs(pole) or (apart <= abs(pole) and _within_noise(pole - zero, noise)):
+                candidates.append((apart, i, j))
+    taken: list[tuple[int, int]] = []
+    for _, i, j in sorted(candidates):
+        if all(i != k and j != n for k, n in taken):
+            taken.append((i, j))
+    return taken
+
+
+def _within_noise(distance: complex, spread: Complex) -> bool:
+    """Whether the distance is one that noise makes in 95 of 100 cases."""
+    rows = np.vstack([spread.real, spread.imag]) if distance.imag or np.any(spread.imag) else spread.real[None, :]
+    if not np.isfinite(rows).all():
+        return True
+    gap = np.array([distance.real, distance.imag])[: rows.shape[0]]
+    size = float(gap @ np.linalg.pinv(rows @ rows.T) @ gap)
+    return size < float(stats.chi2.ppf(_LEVEL, rows.shape[0])) and bool(np.any(rows))

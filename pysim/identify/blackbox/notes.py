@@ -1,0 +1,63 @@
+"""What to know before using a fitted transfer function, in words."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from pysim.identify.blackbox.refine import Minimum
+from pysim.identify.blackbox.result import TransferFunctionFit
+
+
+def notes_on(fit: TransferFunctionFit, minimum: Minimum) -> list[str]:
+    """Sentences; none for a fit that is what was asked for."""
+    return [*_quality(fit, minimum), *_bounds(fit, minimum), *_excess(fit, fit.cancelling)]
+
+
+def _quality(fit: TransferFunctionFit, minimum: Minimum) -> list[str]:
+    notes = []
+    if not minimum.converged:
+        notes.append(f"The search gave up after {minimum.evaluations} evaluations; the result may not be the best.")
+    if fit.noise_known and fit.scatter > 1:
+        notes.append(
+            f"The residuals are {np.sqrt(fit.scatter):.2g} times what the noise explains: the structure does not hold "
+            "all of the response, or the system is not linear. Intervals are widened by that factor, which covers "
+            "random deviations and not a wrong structure."
+        )
+    return notes
+
+
+def _bounds(fit: TransferFunctionFit, minimum: Minimum) -> list[str]:
+    notes, structure = [], fit.structure
+    if structure.dead_time_max is not None and minimum.at_bound[-1]:
+        middle = (structure.dead_time + structure.dead_time_max) / 2
+        end = "smallest" if fit.function.dead_time < middle else "largest"
+        notes.append(
+            f"The dead time ended at the {end} that was allowed, {fit.function.dead_time:.4g} s, and counts as known."
+        )
+    if structure.stable and bool(np.any(minimum.at_bound[: structure.poles])):
+        notes.append(
+            "A pole ended at the edge of stability: without that condition the data ask for an unstable one, or for an "
+            "integrator. It counts as known there, so the intervals are too narrow."
+        )
+    unstable = sum(pole.value.real >= 0 for pole in fit.poles)
+    if unstable:
+        notes.append(f"{unstable} of {len(fit.poles)} poles are not left of the imaginary axis: not stable.")
+    return notes
+
+
+def _excess(fit: TransferFunctionFit, pairs: Sequence[tuple[int, int]]) -> list[str]:
+    notes = []
+    if fit.undetermined:
+        notes.append(
+            f"The data do not determine {', '.join(fit.undetermined)}: other values give the same response. Ask for "
+            "fewer poles and zeros."
+        )
+    for i, j in pairs:
+        pole, zero = fit.poles[i], fit.zeros[j]
+        notes.append(
+            f"The pole at {pole.frequency_hz:.4g} Hz and the zero at {zero.frequency_hz:.4g} Hz cannot be told apart "
+            "and cancel: the data support fewer of both."
+        )
+    return notes

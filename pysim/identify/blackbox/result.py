@@ -1,0 +1,190 @@
+"""A fitted transfer function with its doubt."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import stats
+
+from pysim.identify.blackbox.response import ComplexResponse
+from pysim.identify.blackbox.structure import Structure
+from pysim.identify.transfer_function import TransferFunction
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """A number with its standard deviation and interval, all in `unit`; infinite where the data do not determine it."""
+
+    name: str
+    value: float
+    deviation: float
+    low: float
+    high: float
+    unit: str
+
+
+@dataclass(frozen=True)
+class Root:
+    """A pole or zero: its value in rad/s and the covariance (2, 2) of its real and imaginary part, (rad/s)^2."""
+
+    value: complex
+    covariance: Array
+
+    @property
+    def frequency_hz(self) -> float:
+        """Distance from the origin: of a pair, its natural frequency."""
+        return abs(self.value) / (2 * np.pi)
+
+    @property
+    def frequency_deviation_hz(self) -> float:
+        """Standard deviation of `frequency_hz`."""
+        return self._along(np.array([self.value.real, self.value.imag]) / max(abs(self.value), 1e-300)) / (2 * np.pi)
+
+    @property
+    def damping(self) -> float:
+        """Damping ratio: 1 for a real root left of the axis, negative right of it."""
+        return -self.value.real / abs(self.value) if self.value else 0.0
+
+    @property
+    def damping_deviation(self) -> float:
+        """Standard deviation of `damping`; 0 for a real root."""
+        size = max(abs(self.value), 1e-300)
+        return self._along(self.value.imag / size**3 * np.array([-self.value.imag, self.value.real]))
+
+    def _along(self, slope: Array) -> float:
+        with np.errstate(invalid="ignore"):
+            variance = float(slope @ np.where(slope[:, None] * slope == 0, 0.0, self.covariance) @ slope)
+        return float(np.sqrt(max(variance, 0.0))) if np.isfinite(variance) else np.inf
+
+
+@dataclass(frozen=True)
+class TransferFunctionFit:
+    """What a fit to a frequency response found.
+
+    Args:
+        function: with a monic denominator.
+        structure: what was asked for.
+        data: what it was fitted to.
+        weights: "covariance", "uniform" or "relative".
+        names: (n_p) of the estimated numbers: b_m ... b0, a_(n-1) ... a0, dead_time.
+        spread: (n_p, r); spread @ spread.T is their covariance.
+        undetermined: names that the data do not determine.
+        poles, zeros: with their covariances, rad/s, by rising magnitude.
+        cancelling: pairs (pole, zero) by place that the data cannot tell apart.
+        standardised: (n_f, 2) residuals of real and imaginary part in standard deviations, measured minus fitted.
+        misfit: weighted sum of squares.
+        freedom: measured numbers less estimated ones.
+        noise_known: whether the weights are the noise itself, so that `misfit` should be near `freedom`.
+        scatter: the factor on the noise that the covariance holds: 1, or what the residuals say.
+        converged: whether the search ended because nothing was left to gain.
+        notes: what to know before using the result, in words.
+    """
+
+    function: TransferFunction
+    structure: Structure
+    data: ComplexResponse
+    weights: str
+    names: tuple[str, ...]
+    spread: Array
+    undetermined: tuple[str, ...]
+    poles: tuple[Root, ...]
+    zeros: tuple[Root, ...]
+    cancelling: tuple[tuple[int, int], ...]
+    standardised: Array
+    misfit: float
+    freedom: int
+    noise_known: bool
+    scatter: float
+    converged: bool
+    notes: tuple[str, ...] = ()
+
+    @property
+    def covariance(self) -> Array:
+        """Of the estimated numbers, (n_p, n_p), in the order of `names`, SI units."""
+        return self.spread @ self.spread.T
+
+    @property
+    def values(self) -> Array:
+        """The estimated numbers (n_p,), in the order of `names`."""
+        coefficients = [*self.function.numerator, *self.function.denominator[1:]]
+        return np.array(coefficients + [self.function.dead_time] * self.structure.delayed)
+
+    @cached_property
+    def model(self) -> Complex:
+        """Fitted complex gain (n_f,) at the measured frequencies."""
+        return self.function.at(self.data.frequency)
+
+    @property
+    def fit_percent(self) -> float:
+        """See `fit_percent`."""
+        return fit_percent(self.data.values, self.model)
+
+    @property
+    def explains(self) -> float:
+        """The probability that noise alone makes a misfit as large as this; not a number where noise is not known."""
+        return float(stats.chi2.sf(self.misfit, self.freedom)) if self.noise_known else np.nan
+
+    def estimates(self, level: float = 0.95) -> tuple[Estimate, ...]:
+        """Every coefficient and the dead time with its interval at the level, to first order in the noise."""
+        deviations = np.sqrt(np.sum(self.spread**2, axis=1))
+        return tuple(
+            self._estimate(name, float(value), float(deviation), "s" if name == "dead_time" else "", level)
+            for name, value, deviation in zip(self.names, self.values, deviations, strict=True)
+        )
+
+    def gain(self, level: float = 0.95) -> Estimate:
+        """G(0) with its interval, output unit per input unit; infinite with an integrator."""
+        b0, a0 = self.function.numerator[-1], self.function.denominator[-1]
+        if a0 == 0:
+            return Estimate("gain", np.inf, np.inf, -np.inf, np.inf, "")
+        slope = np.zeros(len(self.names))
+        slope[len(self.function.numerator) - 1] = 1 / a0
+        if self.structure.poles:
+            slope[self.names.index("a0")] = -b0 / a0**2
+        touched = bool({"b0", "a0"} & set(self.undetermined))
+        deviation = np.inf if touched else float(np.linalg.norm(slope @ self.spread))
+        return self._estimate("gain", b0 / a0, deviation, "", level)
+
+    def band(self, frequency: Array, level: float = 0.95) -> tuple[Array, Array]:
+        """Half widths of the fitted curve's interval at frequencies (n,) in Hz: relative gain (n,) and phase (n,) rad.
+
+        A pointwise interval of the curve itself, not of new measurements.
+        """
+        s = 2j * np.pi * np.asarray(frequency, dtype=np.float64)
+        m, n = len(self.function.numerator), self.structure.poles
+        over = s[:, None] ** np.arange(m - 1, -1, -1) / np.polyval(self.function.numerator, s)[:, None]
+        under = -(s[:, None] ** np.arange(n - 1, -1, -1)) / np.polyval(self.function.denominator, s)[:, None]
+        late = -s[:, None] if self.structure.delayed else np.empty((s.size, 0))
+        logarithm = np.column_stack([over, under, late]) @ self.spread  # d ln G
+        q = self.quantile(level)
+        return q * np.linalg.norm(logarithm.real, axis=1), q * np.linalg.norm(logarithm.imag, axis=1)
+
+    def quantile(self, level: float) -> float:
+        """Half width of an interval in standard deviations: normal where the noise is known, Student's t elsewhere."""
+        tail = 0.5 + level / 2
+        known = self.noise_known and self.scatter == 1.0
+        return float(stats.norm.ppf(tail) if known or self.freedom == 0 else stats.t.ppf(tail, self.freedom))
+
+    def _estimate(self, name: str, value: float, deviation: float, unit: str, level: float) -> Estimate:
+        if name in self.undetermined:
+            deviation = np.inf
+        half = self.quantile(level) * deviation
+        return Estimate(name, value, deviation, value - half, value + half, unit)
+
+
+def fit_percent(measured: Complex, fitted: Complex) -> float:
+    """100 (1 - |measured - fitted| / |measured - mean(measured)|), Euclidean norms over the complex gains (n_f,).
+
+    This is the NRMSE measure that MATLAB's `compare` and `tfest` quote, for frequency-response data taken over the
+    complex gains, unweighted: 100 is perfect, 0 no better than one constant gain. It says little about frequencies
+    where the gain is small.
+    """
+    spread = float(np.linalg.norm(measured - np.mean(measured)))
+    error = float(np.linalg.norm(measured - fitted))
+    return 100 * (1 - error / spread) if spread > 0 else (100.0 if error == 0 else -np.inf)

@@ -1,0 +1,67 @@
+"""Poles and zeros of a minimum, each with its doubt."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pysim.identify.blackbox import sections
+from pysim.identify.blackbox.cancellation import cancellations
+from pysim.identify.blackbox.objective import Problem
+from pysim.identify.blackbox.refine import Minimum
+from pysim.identify.blackbox.result import Root
+from pysim.identify.blackbox.uncertainty import Spread, zero_slopes
+from pysim.identify.transfer_function import TransferFunction
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+
+@dataclass(frozen=True)
+class Roots:
+    """Poles and zeros by rising magnitude, and the pairs (pole, zero) of them that cancel."""
+
+    poles: tuple[Root, ...]
+    zeros: tuple[Root, ...]
+    cancelling: tuple[tuple[int, int], ...]
+
+
+def roots_of(problem: Problem, minimum: Minimum, function: TransferFunction, doubt: Spread, variance: float) -> Roots:
+    """Of the fitted function.
+
+    Args:
+        doubt: for data of unit scatter.
+        variance: the factor on its covariance.
+    """
+    poles = problem.scale * sections.to_poles(minimum.unknowns[: problem.structure.poles])
+    order = np.lexsort((poles.imag, np.abs(poles)))
+    zeros, count = function.zeros, len(function.numerator)
+    first = count - 1 - function.zeros.size  # leading coefficients of zero have no root
+    slopes = zero_slopes(np.array(function.numerator[first:]), zeros)
+    with np.errstate(invalid="ignore"):
+        pole_rows, zero_rows = doubt.poles[order], slopes @ doubt.coefficients[first:count]
+        noise = np.sqrt(variance) if np.isfinite(variance) else 1.0
+        pole_spread, zero_spread = (_known(doubt, rows, noise) for rows in (pole_rows, zero_rows))
+    return Roots(
+        _with_doubt(poles[order], pole_spread),
+        _with_doubt(zeros, zero_spread),
+        tuple(cancellations(poles[order], zeros, pole_spread, zero_spread)),
+    )
+
+
+def _known(doubt: Spread, rows: Complex, noise: float) -> Complex:
+    """Factors (n, r) of roots with these slopes (n, q); not finite where the data do not determine the root."""
+    spread = np.asarray(noise * doubt.of(rows), dtype=np.complex128)
+    spread[doubt.touched(rows)] = np.inf
+    return spread
+
+
+def _with_doubt(values: Complex, spread: Complex) -> tuple[Root, ...]:
+    roots = []
+    for value, row in zip(values, spread, strict=True):
+        pair = np.vstack([row.real, row.imag])
+        covariance = pair @ pair.T if np.isfinite(pair).all() else np.full((2, 2), np.inf)
+        roots.append(Root(complex(value), covariance))
+    return tuple(roots)

@@ -1,0 +1,36 @@
+"""What is said about a fit, and that a clean one is left alone. Stability is tested with the fit."""
+
+import numpy as np
+
+from pysim.identify.blackbox import Structure, fit_transfer_function
+from tests.pysim.identify.blackbox.systems import exact, from_roots, noisy, pairs
+
+F = np.geomspace(0.2, 20, 30)
+SYSTEM = from_roots([], pairs(-5 + 30j), 900.0, dead_time=0.03)
+
+
+def notes(data, structure: Structure) -> str:
+    return " ".join(fit_transfer_function(data, structure).notes)
+
+
+def test_nothing_to_say_of_what_was_asked_for() -> None:
+    assert notes(noisy(SYSTEM, F, 0.01, seed=1), Structure(2, dead_time_max=0.1)) == ""
+
+
+def test_residuals_beyond_the_noise() -> None:
+    data = noisy(from_roots([-10.0], pairs(-5 + 30j, -3 + 70j), 4e5), F, 0.01, seed=1)
+    fit = fit_transfer_function(data, Structure(2))
+    assert fit.scatter > 10
+    assert "times what the noise explains" in fit.notes[0]
+    assert fit.explains < 1e-9
+
+
+def test_dead_time_at_either_end() -> None:
+    assert "ended at the largest that was allowed, 0.02 s" in notes(exact(SYSTEM, F), Structure(2, dead_time_max=0.02))
+    early = Structure(2, dead_time=0.04, dead_time_max=0.1)
+    assert "ended at the smallest that was allowed, 0.04 s" in notes(exact(SYSTEM, F), early)
+
+
+def test_what_is_not_determined() -> None:
+    plain = from_roots([], pairs(-5 + 30j), 900.0)
+    assert "do not determine b0, a2, a1, a0" in notes(exact(plain, F), Structure(3, 1))
