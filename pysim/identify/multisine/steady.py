@@ -115,14 +115,12 @@ class LocalTransient:
         harmonics = p * np.arange(1, (n - 1) // 2 + 1)
         at = windows(harmonics, between, self.lines)
         distance = (between[at] - harmonics[:, None]).astype(np.float64)
-        stacked = np.moveaxis(whole[:, between - 1], 0, 1).reshape(between.size, m * n_s)
-        fit = local_fit(powers(distance, self.order), stacked[at])
-        transient = np.moveaxis(fit.coefficients[:, 0].reshape(-1, m, n_s), 1, 0)
-        values = whole[:, harmonics - 1] - transient
-        per_realisation = fit.residual.reshape(-1, m, n_s, m, n_s)
-        one = np.einsum("kmimj->kij", per_realisation) / m
-        noise = one * (1 + fit.gram[:, 0, 0].real)[:, None, None]
-        degrees = np.full(harmonics.size, float(m * fit.degrees))
+        regressors = powers(distance, self.order)
+        fits = [local_fit(regressors, one[between - 1][at]) for one in whole]
+        values = whole[:, harmonics - 1] - np.stack([fit.coefficients[:, 0] for fit in fits])
+        residual = np.mean([fit.residual for fit in fits], axis=0)
+        noise = residual * (1 + fits[0].gram[:, 0, 0].real)[:, None, None]
+        degrees = np.full(harmonics.size, float(m * fits[0].degrees))
         span = self.lines / (p - 1)
         return SteadySpectra(values, _floored(noise, values), degrees, span, periods.values.mean(axis=2), periods)
 

@@ -83,7 +83,7 @@ def record(periods: Periods) -> Record:
 
 
 def line_noise(noise: float, periods: int, n: int = N) -> float:
-    """E|.|^2 of a line's complex amplitude by white noise, over that many periods: each line has 4 sigma^2 / samples."""
+    """E|.|^2 of a line's complex amplitude by white noise, over that many periods: 4 sigma^2 / samples."""
     return 4 * noise**2 / (n * periods)
 
 
@@ -100,8 +100,8 @@ def cubic_gain(lines: np.ndarray, strength: float, amplitude: np.ndarray | float
 def product_power(lines: np.ndarray, degree: int, amplitude: float = AMPLITUDE) -> dict[int, float]:
     """Harmonic -> E|amplitude|^2 of those products in u^degree that do not keep the phase of a line.
 
-    u = sum over +-k of (A/2) e^{j(...)}: every multiset of `degree` signed lines without a line and its mirror image has
-    a phase of its own, so powers add. Multisets that are one line after mirror images cancel are the gain's.
+    u = sum over +-k of (A/2) e^{j(...)}: every multiset of `degree` signed lines without a line and its mirror image
+    has a phase of its own, so powers add. Multisets that are one line after mirror images cancel are the gain's.
     """
     signed = [int(s) for s in np.concatenate([lines, -np.asarray(lines)])]
     classes: dict[tuple[int, ...], float] = defaultdict(float)
