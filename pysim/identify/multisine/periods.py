@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from pysim.identify.multisine.stretch import periodic_stretch
 from pysim.types import BadInput, Record
 
 Array = NDArray[np.float64]
@@ -57,7 +58,12 @@ class Periods:
 
 
 def periods_of(
-    records: Sequence[Record], period: float, columns: Sequence[str], *, start: float | None = None
+    records: Sequence[Record],
+    period: float,
+    columns: Sequence[str],
+    *,
+    start: float | None = None,
+    count: int | None = None,
 ) -> Periods:
     """Cut records into periods.
 
@@ -66,25 +72,34 @@ def periods_of(
         period: s, a whole number of samples.
         columns: names of input and output and, where the input is measured with noise, of the command behind it, which
             is known exactly.
-        start: s; what is before it is left out.
-    Returns:
-        the last whole periods of every record, as many as the shortest one has.
+        start: s; where the first period begins. Where it is not given, the part in which the command repeats itself is
+            found in the command, and its last whole periods are taken; a record of less than two periods is taken as it
+            ends.
+        count: periods of each record; as many as the shortest one has when not given.
     Raises:
-        BadInput: times that are not equidistant, a period that is no whole number of samples, less than one period.
+        BadInput: times that are not equidistant, a period that is no whole number of samples, fewer periods than asked
+            for, or a command that does not repeat itself.
     """
     if not records:
         raise BadInput("multisine: there is no record; give one per realisation")
     names = tuple(columns)
+    if len(names) not in (2, 3):
+        raise BadInput(f"multisine: name the columns of input and output (and reference), got {names}")
     cuts = [_cut(record, period, names, start) for record in records]
     samples = {cut.shape[1] for cut in cuts}
     if len(samples) > 1:
         raise BadInput(
             f"multisine: the records have {sorted(samples)} samples per period; log all of them at the same rate"
         )
-    count = min(cut.shape[0] for cut in cuts)
+    fewest = min(cut.shape[0] for cut in cuts)
+    count = fewest if count is None else count
+    if not 1 <= count <= fewest:
+        raise BadInput(f"multisine: {count} periods are asked for and {fewest} are there; record longer")
     first = records[0]
     units = tuple(first.units[first.names.index(name)] for name in names)
-    return Periods(np.stack([cut[-count:] for cut in cuts]), names, units, period, first.origin)
+    return Periods(
+        np.stack([cut[-count:] if start is None else cut[:count] for cut in cuts]), names, units, period, first.origin
+    )
 
 
 def sampling_interval(record: Record) -> float:
@@ -108,23 +123,27 @@ def sampling_interval(record: Record) -> float:
 
 
 def _cut(record: Record, period: float, names: tuple[str, ...], start: float | None) -> Array:
-    """(P, N, n_s) of one record."""
+    """(P, N, n_s) of one record: from the start on, or up to the end of what repeats itself."""
     step = sampling_interval(record)
     columns = np.column_stack([record[name] for name in names])
-    if start is not None:
-        columns = columns[record.time >= start - 0.5 * step]
+    where = record.origin or "a record"
     if not period > 0:
         raise BadInput(f"multisine: the period is {period} s; give a positive time")
     size = round(period / step)
+    if start is not None:
+        columns = columns[record.time >= start - 0.5 * step]
+    elif size > 3 and columns.shape[0] >= 2 * size:
+        columns = columns[periodic_stretch(columns[:, -1 if len(names) == 3 else 0], size)]
     count = columns.shape[0] // size if size > 3 else 0
     if count < 1:
         raise BadInput(
-            f"multisine: {record.origin or 'a record'} holds {columns.shape[0] * step:g} s, less than one period of "
-            f"{period:g} s; record longer, or give the right period"
+            f"multisine: {where} holds {columns.shape[0] * step:g} s, less than one period of {period:g} s; record "
+            "longer, or give the right period"
         )
     if abs(period / step - size) * count > _DRIFT:
         raise BadInput(
-            f"multisine: a period of {period:g} s is {period / step:.6g} samples of {step:.6g} s in "
-            f"{record.origin or 'a record'}; choose a period of whole samples, as {size * step:.6g} s, or resample it"
+            f"multisine: a period of {period:g} s is {period / step:.6g} samples of {step:.6g} s in {where}; choose a "
+            f"period of whole samples, as {size * step:.6g} s, or resample it yourself"
         )
-    return columns[-count * size :].reshape(count, size, len(names))
+    kept = columns[: count * size] if start is not None else columns[-count * size :]
+    return kept.reshape(count, size, len(names))

@@ -8,7 +8,13 @@ from pysim.types import BadInput, Record
 
 
 def log(time: np.ndarray, origin: str = "a.txt") -> Record:
-    return Record(time, np.column_stack([np.sin(time), time, -time]), ("u", "y", "r"), ("%", "bar", "1"), origin=origin)
+    return Record(
+        time,
+        np.column_stack([np.sin(np.pi * time), time, -np.sin(np.pi * time)]),
+        ("u", "y", "r"),
+        ("%", "bar", "1"),
+        origin=origin,
+    )
 
 
 def test_the_last_whole_periods_are_kept() -> None:
@@ -22,13 +28,30 @@ def test_the_last_whole_periods_are_kept() -> None:
 def test_a_start_and_a_reference() -> None:
     periods = periods_of([log(np.arange(1000) * 0.01)], 2.0, ("u", "y", "r"), start=5.0)
     assert periods.values.shape == (1, 2, 200, 3)
-    np.testing.assert_allclose(periods.values[0, 0, 0], [np.sin(6.0), 6.0, -6.0])
+    np.testing.assert_allclose(periods.values[0, 0, 0], [np.sin(5 * np.pi), 5.0, np.sin(5 * np.pi)], atol=1e-9)
+    assert periods_of([log(np.arange(1000) * 0.01)], 2.0, ("u", "y"), start=1.0, count=3).values.shape[1] == 3
     assert periods.without_first(1).values.shape == (1, 1, 200, 3)
+
+
+def test_lead_in_and_way_back_are_left_out() -> None:
+    """Rest, ramp, hold, three periods and a part, and a ramp to zero: the last three periods before that ramp."""
+    rng = np.random.default_rng(0)
+    wave = rng.standard_normal(200)
+    u = np.concatenate([np.zeros(450), np.linspace(0, 50, 50), np.full(500, 50), 50 + np.tile(wave, 4)[120:]])
+    u = np.concatenate([u, np.linspace(u[-1], 0, 60), np.zeros(100)])
+    u = u + 0.01 * rng.standard_normal(u.size)
+    time = 0.01 * np.arange(u.size)
+    record = Record(time, np.column_stack([u, time]), ("u", "y"), ("%", "1"))
+    periods = periods_of([record], 2.0, ("u", "y"))
+    assert periods.values.shape[:3] == (1, 3, 200)
+    np.testing.assert_allclose(periods.values[0, :, :, 0], np.tile(50 + wave, (3, 1)), atol=0.06)
+    with pytest.raises(BadInput, match="does not repeat itself"):
+        periods_of([record], 1.7, ("u", "y"))
 
 
 def test_rounded_times_of_a_log_are_no_reason_to_refuse() -> None:
     time = np.round(np.arange(1000) / 300, 5)
-    assert periods_of([log(time)], 1.0, ("u", "y")).values.shape == (1, 3, 300, 2)
+    assert periods_of([log(time)], 1.0, ("u", "y"), start=0.0).values.shape == (1, 3, 300, 2)
 
 
 @pytest.mark.parametrize(
@@ -37,7 +60,7 @@ def test_rounded_times_of_a_log_are_no_reason_to_refuse() -> None:
         (np.arange(1000) * 0.01 + np.where(np.arange(1000) > 500, 0.004, 0), 2.0, "not sampled at equal intervals"),
         (np.delete(np.arange(1000) * 0.01, 400), 2.0, "not sampled at equal intervals"),
         (np.arange(1000) * 0.01, 20.0, "less than one period"),
-        (np.arange(1000) * 0.01, 2.003, "choose a period of whole samples, as 2 s"),
+        (np.arange(1000) * 0.01, 2.001, "choose a period of whole samples, as 2 s"),
         (np.arange(1000) * 0.01, -1.0, "positive"),
         (np.arange(4) * 0.01, 0.02, "4 samples"),
     ],
@@ -52,6 +75,10 @@ def test_refuses_records_that_do_not_fit_together() -> None:
         periods_of([log(np.arange(1000) * 0.01), log(np.arange(1000) * 0.02)], 2.0, ("u", "y"))
     with pytest.raises(BadInput, match="no record"):
         periods_of([], 2.0, ("u", "y"))
+    with pytest.raises(BadInput, match="6 periods are asked for and 5"):
+        periods_of([log(np.arange(1000) * 0.01)], 2.0, ("u", "y"), count=6)
+    with pytest.raises(BadInput, match="name the columns"):
+        periods_of([log(np.arange(1000) * 0.01)], 2.0, ("u",))
     with pytest.raises(BadInput, match="no signal 'z'"):
         periods_of([log(np.arange(1000) * 0.01)], 2.0, ("u", "z"))
 
