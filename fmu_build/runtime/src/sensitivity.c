@@ -96,7 +96,7 @@ static void negate(double *values, size_t n) {
 
 static bool all_in(const Instance *s, const uint32_t *references, size_t n, Vector vector) {
     for (size_t k = 0; k < n; k++)
-        if (s->model->variables[references[k]].vector != vector) return false;
+        if (references[k] >= s->model->n_variables || s->model->variables[references[k]].vector != vector) return false;
     return true;
 }
 
@@ -104,11 +104,12 @@ static bool all_in(const Instance *s, const uint32_t *references, size_t n, Vect
 static Status jacobian_times(Instance *s, const Partials *partials, const double *seed, double *change) {
     const ModelVariable *variables = s->model->variables;
     if (evaluate_jacobian(s) != STATUS_OK) return STATUS_DISCARD;
-    for (size_t i = 0; i < partials->n_unknowns; i++) change[i] = 0.0;
-    for (size_t j = 0; j < partials->n_knowns; j++) {
-        const double *column = s->jacobian.xx + variables[partials->knowns[j]].index * s->model->n_x;
-        for (size_t i = 0; i < partials->n_unknowns; i++)
-            change[i] += column[variables[partials->unknowns[i]].index] * seed[j];
+    for (size_t i = 0; i < partials->n_unknowns; i++) {
+        const double *row = s->jacobian.xx + variables[partials->unknowns[i]].index;
+        double sum = 0.0;
+        for (size_t j = 0; j < partials->n_knowns; j++)
+            sum += row[variables[partials->knowns[j]].index * s->model->n_x] * seed[j];
+        change[i] = sum;
     }
     return STATUS_OK;
 }
@@ -157,14 +158,15 @@ Status directional_derivative(Instance *s, const char *function, const Partials 
     DerivativeWork *w = &s->derivative;
     const Entries seeds = {w->seed_x, w->seed_u, w->seed_p, NULL, NULL};
     const Entries results = {w->seed_x, w->seed_u, w->seed_p, w->out_dx, w->out_w};
-    Status status = check_references(s, function, partials->knowns, partials->n_knowns, &seeds, "a known");
-    if (status == STATUS_OK)
+    const bool is_jacobian = all_in(s, partials->knowns, partials->n_knowns, VECTOR_X) &&
+                             all_in(s, partials->unknowns, partials->n_unknowns, VECTOR_DX);
+    Status status = STATUS_OK;
+    if (!is_jacobian) status = check_references(s, function, partials->knowns, partials->n_knowns, &seeds, "a known");
+    if (!is_jacobian && status == STATUS_OK)
         status = check_references(s, function, partials->unknowns, partials->n_unknowns, &results, "an unknown");
     if (status == STATUS_OK) status = prepare(s, function);
     if (status != STATUS_OK) return status;
-    if (all_in(s, partials->knowns, partials->n_knowns, VECTOR_X) &&
-        all_in(s, partials->unknowns, partials->n_unknowns, VECTOR_DX))
-        return jacobian_times(s, partials, seed, change);
+    if (is_jacobian) return jacobian_times(s, partials, seed, change);
     add_seeds(s, partials->knowns, partials->n_knowns, &seeds, seed);
     status = tangents(s, any_in(s, partials->unknowns, partials->n_unknowns, VECTOR_W));
     if (status == STATUS_OK) read_results(s, partials->unknowns, partials->n_unknowns, &results, change);
