@@ -9,6 +9,7 @@ import numpy as np
 from pysim.simulate._fmu_calls import OK, WARNING
 from pysim.simulate._native import doubles, native
 from pysim.simulate._point import copy, error_norm, evaluate
+from pysim.simulate._vector import add_rows
 
 
 @native
@@ -36,23 +37,13 @@ def attempt_explicit(job: Any, h: float) -> tuple[int, float]:
 @native
 def combine(job: Any, weights: int, count: int, scale: float, result: int) -> None:
     """result = x + scale sum_i weights_i k_i over the first `count` stages."""
-    work, n = job.work, job.work.n
-    w, k, y = doubles(weights), doubles(work.k), doubles(result)
-    copy(work.x, result, n)
-    for i in range(count):
-        weight = scale * w[i]
-        if weight != 0.0:
-            for j in range(n):
-                y[j] += weight * k[i * n + j]
+    add_rows(job.work.x, job.work.k, weights, count, scale, result, job.work.n)
 
 
 @native
 def _estimate(job: Any, h: float) -> None:
-    work, n = job.work, job.work.n
-    weights, k, error = doubles(job.method.error), doubles(work.k), doubles(work.error)
-    for j in range(n):
+    work, method = job.work, job.method
+    error = doubles(work.error)
+    for j in range(work.n):
         error[j] = 0.0
-    for i in range(job.method.stages + job.method.end_in_error):
-        weight = h * weights[i]
-        for j in range(n):
-            error[j] += weight * k[i * n + j]
+    add_rows(work.error, work.k, method.error, method.stages + method.end_in_error, h, work.error, work.n)

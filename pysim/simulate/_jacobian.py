@@ -27,21 +27,24 @@ def take_jacobian(job: Any, t: float, x: int, dx: int) -> int:
 
 @native
 def jacobian_here(job: Any) -> int:
-    """Fill work.jacobian at the point last set, one directional derivative per group of states."""
-    work, n, status = job.work, job.work.n, OK
-    first, members, pattern = longs(work.group_first), longs(work.group_members), doubles(work.pattern)
+    """Fill work.jacobian at the point last set, one directional derivative per group of states.
+
+    Of a group's derivatives only those are asked for that depend on one of its states; the rest of the Jacobian is
+    zero from the start of the run.
+    """
+    work, status = job.work, OK
+    first, entries, places = longs(work.group_first), longs(work.entry_first), longs(work.entry_places)
     jacobian, column = doubles(work.jacobian), doubles(work.error)
     for g in range(work.groups):
-        knowns, count = work.group_references + 4 * first[g], first[g + 1] - first[g]
-        status = max(
-            status, get_directional(job.fmu, work.derivative_references, n, knowns, count, work.ones, work.error)
-        )
-        if status > WARNING:
-            return status
-        for place in range(first[g], first[g + 1]):
-            start = members[place] * n
-            for i in range(n):
-                jacobian[start + i] = column[i] if pattern[start + i] != 0.0 else 0.0
+        start, size = entries[g], entries[g + 1] - entries[g]
+        if size > 0:
+            knowns, count = work.group_references + 4 * first[g], first[g + 1] - first[g]
+            unknowns = work.entry_references + 4 * start
+            status = max(status, get_directional(job.fmu, unknowns, size, knowns, count, work.ones, work.error))
+            if status > WARNING:
+                return status
+            for i in range(size):
+                jacobian[places[start + i]] = column[i]
     return status
 
 

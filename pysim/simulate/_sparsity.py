@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from pysim.simulate._elimination import elimination_arrays
 from pysim.types import Abilities, Model
 
 
@@ -38,17 +39,23 @@ def dependency_pattern(abilities: Abilities) -> np.ndarray:
 
 
 def jacobian_arrays(model: Model) -> dict[str, Any]:
-    """What WORK needs to take the Jacobian of a model, in groups; the same for every run."""
+    """What WORK needs to take the Jacobian of a model, in groups, and to solve with it; the same for every run."""
     abilities = model.abilities
+    pattern, groups = dependency_pattern(abilities), column_groups(abilities)
     references = np.array([model[name].reference for name in abilities.states], dtype=np.uint32)
-    groups = column_groups(abilities)
+    rates = np.array([model[name].reference for name in abilities.derivatives], dtype=np.uint32)
     members = np.array([state for group in groups for state in group], dtype=np.int64)
+    entries = [[(row, state) for state in group for row in np.flatnonzero(pattern[:, state])] for group in groups]
+    rows, columns = np.array([entry for group in entries for entry in group], dtype=np.int64).reshape(-1, 2).T
     return {
         "has_directional": abilities.directional_derivatives,
-        "derivative_references": np.array([model[name].reference for name in abilities.derivatives], dtype=np.uint32),
+        "derivative_references": rates,
         "groups": len(groups),
         "group_first": np.cumsum([0, *map(len, groups)], dtype=np.int64),
         "group_members": members,
         "group_references": references[members],
-        "pattern": np.ascontiguousarray(dependency_pattern(abilities).T, dtype=np.float64),
+        "entry_first": np.cumsum([0, *map(len, entries)], dtype=np.int64),
+        "entry_references": rates[rows],
+        "entry_places": columns * len(rates) + rows,
+        **elimination_arrays(pattern),
     }

@@ -38,6 +38,7 @@ RUN = np.dtype(
         ("crowd", np.int64),  # events since time last moved on
         ("jacobian_at", np.float64),  # s, where the Jacobian was taken; NaN where it was not
         ("matrix_step", np.float64),  # s, step for which it was factorised; 0 where it was not
+        ("is_sparse", np.int64),  # 1: the factors last made are those of `_elimination`
         *((name, np.int64) for name in STATISTICS),
     ]
 )
@@ -73,7 +74,23 @@ WORK = np.dtype(
         ("group_first", np.int64),  # (groups + 1,) of int64, group g owns the members group_first[g]:group_first[g + 1]
         ("group_members", np.int64),  # (n,) of int64, numbers of states
         ("group_references", np.int64),  # (n,) of uint32, of the members
-        ("pattern", np.int64),  # (n, n) row j: 1 where a derivative depends on state j
+        # Group g yields the entries entry_first[g]:entry_first[g + 1], those that may differ from zero.
+        ("entry_first", np.int64),  # (groups + 1,) of int64
+        ("entry_references", np.int64),  # of uint32, of the derivatives
+        ("entry_places", np.int64),  # of int64, in `jacobian`
+        # Sparse elimination: entries (n_e,) row after row, rows and columns in the order of elimination.
+        ("sparse", np.int64),  # 0: dense elimination only, and nothing of what follows
+        ("entries", np.int64),  # n_e
+        ("sources", np.int64),  # (n_e,) of int64, place in `jacobian`
+        ("states", np.int64),  # (n,) of int64, state of a row
+        ("row_first", np.int64),  # (n + 1,) of int64, row r owns the entries row_first[r]:row_first[r + 1]
+        ("diagonal", np.int64),  # (n,) of int64, entry on the diagonal
+        ("places", np.int64),  # (n_e,) of int64, column
+        ("columns", np.int64),  # (n_e,) of int64, state of the column
+        ("targets", np.int64),  # of int64, entries that elimination changes, one after the other
+        ("factors", np.int64),  # (n, n), of which the first n_e are used
+        ("pivot_values", np.int64),  # (n,)
+        ("probe", np.int64),  # (n,)
     ]
 )
 
@@ -101,5 +118,7 @@ def work_arrays(n: int, m: int, stages: int, terms: int, implicit: bool) -> dict
         "slope": np.zeros(n),
         "stages": np.zeros((stages, n)),
         "right": np.zeros(n),
+        **{name: np.zeros(n) for name in ("pivot_values", "probe")},
+        "factors": np.zeros(square),
         "ones": np.ones(n),
     }
