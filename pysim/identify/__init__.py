@@ -9,7 +9,13 @@ from pysim.identify.accuracy import (
     response_difference,
     time_deviations,
 )
-from pysim.identify.frequency_response import THESIS_REFERENCE_HZ, frequency_response, magnitude_db
+from pysim.identify.frequency_response import (
+    THESIS_REFERENCE_HZ,
+    frequency_response,
+    magnitude_db,
+    standard_deviations,
+)
+from pysim.identify.frf import MeasuredResponse, SinePoint, Window, measured_responses, sine_point
 from pysim.identify.logged_command import logged_command
 from pysim.identify.logged_wave import LoggedWave, logged_wave
 from pysim.identify.settling import SteadyRun, run_until_settled
@@ -22,10 +28,13 @@ __all__ = [
     "THESIS_REFERENCE_HZ",
     "TIME_CRITERIA",
     "LoggedWave",
+    "MeasuredResponse",
     "SineFit",
+    "SinePoint",
     "SteadyRun",
     "SteppedSine",
     "TransferFunction",
+    "Window",
     "command",
     "frequency_deviations",
     "frequency_response",
@@ -34,9 +43,12 @@ __all__ = [
     "magnitude_db",
     "max_deviation",
     "mean_deviation",
+    "measured_responses",
     "response_difference",
     "run_until_settled",
     "sine_fit",
+    "sine_point",
+    "standard_deviations",
     "stepped_sine",
     "time_deviations",
 ]

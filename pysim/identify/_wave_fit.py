@@ -8,7 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import least_squares
 
+from pysim.identify._near_orthogonal import near_orthogonal_fit
+
 Array = NDArray[np.float64]
+
+_WHOLE = 0.01  # of the amplitude: a log that is nowhere further from one sine has no lead-in
 
 
 @dataclass(frozen=True)
@@ -44,12 +48,13 @@ def fit_sine(t: Array, y: Array, omega: float) -> Wave:
     """Least squares of known angular frequency; times and values (n,)."""
     origin = float(t[t.size // 2])
     angle = omega * (t - origin)
-    c, *_ = np.linalg.lstsq(np.column_stack([np.sin(angle), np.cos(angle), np.ones_like(angle)]), y, rcond=None)
+    matrix = np.column_stack([np.sin(angle), np.cos(angle), np.ones_like(angle)])
+    c = near_orthogonal_fit(matrix, y)
     return Wave(float(c[2]), float(np.hypot(c[0], c[1])), float(np.arctan2(c[1], c[0])), omega, 0.0, origin)
 
 
 def sine_start(t: Array, y: Array, omega: float, step: float) -> tuple[Wave, slice]:
-    """The stretch of a period that is most a sine, and its fit; the whole log where it is not longer than that.
+    """The stretch of a period that is most a sine, and its fit; the whole log where it is one, or not longer.
 
     Args:
         t, y: (n,).
@@ -59,6 +64,8 @@ def sine_start(t: Array, y: Array, omega: float, step: float) -> tuple[Wave, sli
     dt = float(np.median(np.diff(t)))
     count = max(round(2 * np.pi / omega / dt), 8)
     best, inside, record = fit_sine(t, y, omega), slice(0, t.size), -1.0
+    if np.max(np.abs(y - best.value(t))) <= max(2 * step, _WHOLE * best.amplitude):
+        return best, inside
     for first in range(0, t.size - count + 1, max(count // 4, 1)):
         window = slice(first, first + count)
         wave = fit_sine(t[window], y[window], omega)

@@ -27,7 +27,7 @@ class Log:
 
     Args:
         time, values: (n,).
-        step: smallest difference of two values: the rounding of the file or the step of a converter.
+        step: of the values: the rounding of the file or the step of a converter; 0 where there is none to be seen.
         jitter: standard deviation of the times about an even spacing, s: their rounding; 0 where they are not meant to
             be evenly spaced.
     """
@@ -45,17 +45,29 @@ class Log:
             BadInput: no such column, fewer than eight samples, or one value throughout.
         """
         t, y = record.time, record[column]
-        levels = np.unique(y)
-        if t.size < 8 or levels.size < 2:
-            raise BadInput(
-                f"{record.origin or 'record'}: {column} has {t.size} samples of {levels.size} values; no wave"
-            )
-        gaps = np.diff(levels)
-        step = float(np.min(gaps[gaps > 1e-12 * (levels[-1] - levels[0])]))
+        if t.size < 8 or np.ptp(y) == 0:
+            moved = f"has {t.size} samples and moves by {np.ptp(y):g}"
+            raise BadInput(f"{record.origin or 'record'}: {column} {moved}; there is no wave in it")
         k = np.arange(t.size)
         uneven = t - np.polyval(np.polyfit(k, t, 1), k)
         jitter = float(np.std(uneven))
-        return cls(t, y, step, jitter if jitter < 0.1 * (t[-1] - t[0]) / t.size else 0.0)
+        return cls(t, y, _step(y), jitter if jitter < 0.1 * (t[-1] - t[0]) / t.size else 0.0)
+
+
+def _step(values: Array) -> float:
+    """The lattice that values (n,) lie on: equal gaps of a converter, else the last decimal that was written."""
+    gaps = np.diff(np.unique(values))
+    reach = float(np.sum(gaps))
+    gaps = gaps[gaps > 1e-9 * reach]
+    least = float(np.min(gaps))
+    multiples = gaps / least
+    if least < 0.1 * reach and np.max(np.abs(multiples - np.round(multiples))) < 0.05:
+        return least
+    for decimal in 10.0 ** np.arange(10):
+        scaled = values * decimal
+        if np.max(np.abs(scaled - np.round(scaled))) < 1e-6 + 1e-15 * np.max(np.abs(scaled)):
+            return float(1 / decimal)
+    return 0.0
 
 
 @dataclass(frozen=True)

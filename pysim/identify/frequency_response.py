@@ -66,12 +66,37 @@ def magnitude_db(response: FrequencyResponse, reference_hz: float | None = THESI
     Source: thesis Eq. 2.12.
     """
     magnitude = 20 * np.log10(response.gain)
-    if reference_hz is None:
-        return magnitude
+    return magnitude if reference_hz is None else magnitude - magnitude[_reference(response, reference_hz)]
+
+
+def standard_deviations(
+    response: FrequencyResponse, reference_hz: float | None = THESIS_REFERENCE_HZ
+) -> tuple[Array, Array]:
+    """Of `magnitude_db` in dB and of the phase in degrees, (n_f,) each, to first order.
+
+    Relative to a reference, the doubt of the reference adds to that of every other point and leaves none of its own.
+
+    Raises:
+        BadInput: the response has no covariance, or was not taken at the reference frequency.
+    """
+    if response.covariance is None:
+        raise BadInput(
+            f"{response.origin}, {response.test.label}: its doubt is not known; measure it, or fit it to logs"
+        )
+    relative = response.covariance[:, 0, 0] / (response.gain * response.test.amplitude) ** 2
+    phase = np.degrees(np.sqrt(response.covariance[:, 1, 1]))
+    if reference_hz is not None:
+        at = _reference(response, reference_hz)
+        relative = np.where(np.arange(relative.size) == at, 0.0, relative + relative[at])
+    return 20 / np.log(10) * np.sqrt(relative), phase
+
+
+def _reference(response: FrequencyResponse, reference_hz: float) -> int:
+    """Place of the reference frequency."""
     at = np.flatnonzero(np.isclose(response.frequency, reference_hz, rtol=1e-6))
     if at.size == 0:
         raise BadInput(
             f"{response.origin}, {response.test.label}: magnitudes relative to {reference_hz:g} Hz need that "
             f"frequency; the lowest one here is {response.frequency[0]:g} Hz: add it, or choose reference_hz"
         )
-    return magnitude - magnitude[at[0]]
+    return int(at[0])

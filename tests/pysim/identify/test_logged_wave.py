@@ -66,6 +66,13 @@ def test_intervals_cover_the_truth() -> None:
     assert (np.abs(hits / 200 - 0.95) < 3.3 * np.sqrt(0.95 * 0.05 / 200)).all()
 
 
+def test_a_commensurate_sampling_is_not_taken_for_a_converter() -> None:
+    sine = SteppedSineCommand(50.0, 10.0, 25.0, periods=30)  # ten samples a period, the same ones in each
+    wave = logged_wave(log(sine, "frequency-response", frequency=25.0), "cmd")
+    assert np.sqrt(wave.covariance[0, 0]) < 1e-6
+    assert error(wave, sine) < 1e-5
+
+
 def test_a_disturbed_sample_is_passed_over() -> None:
     record = log(CHIRP, "chirp")
     values = np.array(record.data.values)  # type: ignore[union-attr]
@@ -104,7 +111,7 @@ def test_refuses_a_clipped_sine_and_a_triangle() -> None:
 
 def test_refuses_a_log_without_motion_or_without_time() -> None:
     still = Record(np.arange(20) / 250, np.full((20, 1), 3.0), ("cmd",), ("%",), origin="measured")
-    refused(MeasuredRecord("a.txt", "chirp", "fit", still), "20 samples of 1 values")
+    refused(MeasuredRecord("a.txt", "chirp", "fit", still), "20 samples and moves by 0")
     table = FrequencyResponse([1.0], [1.0], [0.0], SineTest(0.0, 1.0, "u", "y"), "measured")  # type: ignore[arg-type]
     refused(MeasuredRecord("a.txt", "chirp", "fit", table), "over frequency")
 

@@ -1,0 +1,96 @@
+"""One log against the closed form of its system."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from pysim.identify import Window, sine_point
+from pysim.types import BadInput, MeasuredRecord, Record
+from tests.pysim.identify.frf.systems import coloured, log, response, white
+
+
+def error(point, frequency: float) -> np.ndarray:
+    """Gain and phase minus the truth."""
+    truth = response(frequency)
+    return np.array([point.gain - abs(truth), np.angle(np.exp(1j * (point.phase - np.angle(truth))))])
+
+
+@pytest.mark.parametrize("frequency", [0.5, 3.7, 25.0, 30.0])
+def test_is_exact_without_noise(frequency: float) -> None:
+    point = sine_point(log(frequency), "cmd", "y")
+    np.testing.assert_allclose(error(point, frequency), 0.0, atol=2e-6)  # the command is rounded to 1e-5
+    assert point.mean == pytest.approx(45.0, abs=1e-6)
+    assert not point.distorted
+
+
+def test_command_counts_as_it_was_logged_not_as_it_was_meant() -> None:
+    point = sine_point(log(3.0, amplitude=8.0, told=(50.0, 10.0)), "cmd", "y")
+    np.testing.assert_allclose(error(point, 3.0), 0.0, atol=2e-6)
+    assert point.command.amplitude == pytest.approx(8.0, abs=1e-5)
+
+
+@pytest.mark.parametrize(("make", "declared"), [(white, None), (white, 0.5), (coloured, None)])
+def test_intervals_cover_the_truth(make, declared: float | None) -> None:
+    hits, runs = np.zeros(3), 120
+    for seed in range(runs):
+        point = sine_point(log(5.0, noise=make(1100, 0.5, seed)), "cmd", "y", noise=declared)
+        off = [*error(point, 5.0), point.mean - 45.0]
+        hits += np.abs(off) < 1.96 * np.sqrt(np.diag(point.covariance))
+    assert (np.abs(hits / runs - 0.95) < 0.06).all()  # three standard deviations of a binomial
+
+
+def test_harmonics_are_found_and_do_not_spoil_the_sine() -> None:
+    point = sine_point(log(4.0, add=0.05, noise=white(2000, 0.05, 3)), "cmd", "y")
+    assert point.distorted
+    assert point.harmonics[1] == pytest.approx(0.05, abs=4 * point.harmonics_noise)
+    assert np.max(np.delete(point.harmonics, 1)) < 5 * point.harmonics_noise
+    np.testing.assert_allclose(error(point, 4.0), 0.0, atol=4 * np.sqrt(point.covariance[0, 0]))
+    assert point.noise.deviation == pytest.approx(0.05, rel=0.1)
+
+
+def test_noise_is_seldom_called_a_harmonic() -> None:
+    wrong = sum(sine_point(log(4.0, noise=white(2000, 0.5, seed)), "cmd", "y").distorted for seed in range(80))
+    assert wrong <= 1  # one in a thousand expected
+
+
+def test_whole_periods_behind_the_transients_are_fitted() -> None:
+    assert sine_point(log(4.0, periods=10.6), "cmd", "y").periods == 8  # half a second is two periods
+    assert sine_point(log(0.5, periods=3.0), "cmd", "y").periods == 2
+    assert sine_point(log(4.0, periods=10.0), "cmd", "y", window=Window(0.0, 0.0)).periods == 10
+
+
+def test_says_when_transients_may_be_in_it_and_when_it_is_not_steady() -> None:
+    short = sine_point(log(0.5, periods=1.4), "cmd", "y")
+    assert short.periods == 1
+    assert any("begins 0.8 s after the sine" in remark for remark in short.remarks)
+    record = log(4.0, periods=20.0, noise=white(2000, 0.01, 5))
+    assert isinstance(record.data, Record)
+    assert sine_point(record, "cmd", "y").remarks == ()
+    values = np.array(record.data.values)
+    values[:, 1] = 45 + (values[:, 1] - 45) * np.linspace(1.0, 1.02, values.shape[0])
+    growing = replace(record, data=replace(record.data, values=values))
+    assert any("changes by" in remark for remark in sine_point(growing, "cmd", "y").remarks)
+
+
+def test_says_when_residuals_have_a_memory() -> None:
+    point = sine_point(log(5.0, noise=coloured(1100, 0.5, 1)), "cmd", "y")
+    assert any("memory" in remark for remark in point.remarks)
+    naive = 2 * point.noise.deviation**2 / 875 / 100
+    assert point.covariance[0, 0] > 2 * naive
+
+
+def refused(record: MeasuredRecord, words: str) -> None:
+    with pytest.raises(BadInput, match=words):
+        sine_point(record, "cmd", "y")
+
+
+def test_refuses_what_gives_no_response() -> None:
+    refused(log(0.5, periods=0.8), r"holds 0\.8 periods of 0\.5 Hz")
+    record = log(4.0)
+    assert isinstance(record.data, Record)
+    values = np.array(record.data.values)
+    values[:, 1] = 3.0
+    refused(replace(record, data=replace(record.data, values=values)), "does not move at 4 Hz")
+    with pytest.raises(BadInput, match="must not be negative"):
+        Window(-1.0)
