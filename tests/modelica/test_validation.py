@@ -26,6 +26,7 @@ def validated(name: str, stop: float, points: int = 401) -> Run:
         ("DeadTimeSine", 0.2, 0.1, 3e-6),  # (omega tau)^7 / 100800 = 1.1e-6, solver beside it
         ("LinkageRates", 1.0, 0.0, 1e-6),
         ("CommandRate", 0.2, 0.1, 125.7 * 3e-4),  # (omega T)^3 = 2.5e-4
+        ("CoastDown", 3.0, 0.0, 50 * 1e-6),  # solver at 1e-8
     ],
 )
 def test_error_stays_within_its_reason(name: str, stop: float, after: float, tolerance: float) -> None:
