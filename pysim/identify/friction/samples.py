@@ -1,0 +1,160 @@
+"""Friction torque and speed, point by point, from the torque balance of the shaft (thesis Eq. 5.41)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pysim.identify.friction.filtering import local_slope, sampling_rate, settling_time, zero_phase
+from pysim.identify.friction.pulses import PulseIntervals, pulse_intervals
+from pysim.identify.friction.shaft import ShaftTest
+from pysim.types import BadInput
+
+Array = NDArray[np.float64]
+
+SHORTEST = 0.05  # s; pulses are counted at least this long, or the timing noise of single ones rules the acceleration
+MOST_CHANGE = 1.5  # largest ratio of neighbouring speeds: beyond it the shaft may have stood still in between
+OVERSAMPLING = 6  # rows kept per period of the low-pass; three times what its band needs
+HALF_WIDTH = 2  # neighbours on each side for the acceleration
+
+
+@dataclass(frozen=True)
+class FrictionSamples:
+    """What was seen of the friction, in the order of time.
+
+    time (n,) s; speed (n,) rad/s, mean over the sample; change (n,) rad/s, by which the speed changed during it;
+    torque (n,) N.m, T_f of Eq. 5.41; sigma (n,) N.m, its standard deviation by the noise, up to a common factor;
+    acceleration (n,) rad/s2; dropped: how many samples were left out, by reason.
+    """
+
+    time: Array
+    speed: Array
+    change: Array
+    torque: Array
+    sigma: Array
+    acceleration: Array
+    dropped: tuple[tuple[str, int], ...] = ()
+
+
+def filtered_samples(test: ShaftTest, inertia: float, *, cutoff_hz: float = 5.0) -> FrictionSamples:
+    """Speed and torque through the zero-phase filter, acceleration by local slopes, row by row of the log.
+
+    Rows between which the filter lets nothing happen are left out: `OVERSAMPLING` per period of the cutoff stay.
+
+    As the thesis did it. The held speed of a pulse sensor is taken for the speed itself, late by half to one and a
+    half of the time between pulses: near standstill that is wrong by more than friction changes.
+
+    Args:
+        inertia: kg.m2.
+        cutoff_hz: of the low-pass.
+    Raises:
+        BadInput: an uneven log, one shorter than the filter's ends, or a cutoff it does not allow.
+    Source: thesis Section 5.5, Eq. 5.41.
+    """
+    columns = np.column_stack([test.speed, test.torque])
+    speed, torque = zero_phase(test.time, columns, cutoff_hz).T
+    _, acceleration, _ = local_slope(test.time, speed, half_width=HALF_WIDTH)
+    edge = settling_time(cutoff_hz)
+    inner = (test.time >= test.time[0] + edge) & (test.time <= test.time[-1] - edge)
+    kept = np.flatnonzero(inner)[:: max(1, int(sampling_rate(test.time) / (OVERSAMPLING * cutoff_hz)))]
+    if inner.sum() < 10:
+        raise BadInput(
+            f"{test.name}: {np.ptp(test.time):g} s are too short for a cutoff of {cutoff_hz:g} Hz; "
+            f"log more than {2 * edge:g} s, or raise the cutoff"
+        )
+    friction = torque - inertia * acceleration
+    one = np.ones(test.time.size)
+    dropped = (("ends of the filter", int((~inner).sum())),)
+    return _kept(FrictionSamples(test.time, speed, 0 * one, friction, one, acceleration, dropped), kept)
+
+
+def pulse_samples(test: ShaftTest, inertia: float, *, pulses: int = 10) -> FrictionSamples:
+    """One sample per pulse interval: over it the mean speed is known exactly, and so is the mean of the torque.
+
+    Where pulses are close, several are taken together. Both sides of Eq. 5.41 are averaged over the same time, which
+    filters without delay; the acceleration is the local slope over neighbouring intervals. Left out are intervals
+    with a reversal, the first and last between two reversals, and those whose neighbours differ by more than the
+    factor `MOST_CHANGE`: the shaft may have stood still in them.
+
+    Args:
+        inertia: kg.m2.
+        pulses: per revolution.
+    Raises:
+        BadInput: a log in which no interval is left.
+    Source: thesis Eq. 5.1, 5.41. Differs: the thesis filters the held speed.
+    """
+    found = _grouped(pulse_intervals(test.time, test.speed, pulses=pulses, noise=test.speed_noise or 0.0))
+    middle, length = (found.start + found.end) / 2, found.end - found.start
+    slope, gain, smooth = np.zeros(middle.size), np.zeros(middle.size), found.speed.copy()
+    steady = _steady(found)
+    for run in np.unique(found.run):
+        rows = np.flatnonzero(found.run == run)
+        if rows.size < 2 * HALF_WIDTH + 1:
+            steady[rows] = False
+            continue
+        smooth[rows], slope[rows], gain[rows] = local_slope(middle[rows], found.speed[rows], half_width=HALF_WIDTH)
+    keep = found.whole & steady
+    if not keep.any():
+        raise BadInput(f"{test.name}: no pulse interval with a steady speed on both sides; turn the shaft more slowly")
+    jitter = _timing_noise((found.speed - smooth)[keep], found.speed[keep], length[keep])
+    mean, noise = _mean_torque(test, found.start, found.end)
+    speed_noise = jitter * np.abs(found.speed) / length
+    sigma = np.hypot(noise, inertia * gain * speed_noise)
+    reasons = (
+        ("reversal inside, or the log's start", int((~found.whole).sum())),
+        ("next to a standstill or reversal", int((found.whole & ~steady).sum())),
+    )
+    torque = mean - inertia * slope
+    every = FrictionSamples(middle, found.speed, slope * length, torque, sigma, slope, reasons)
+    return _kept(every, np.flatnonzero(keep))
+
+
+def _kept(samples: FrictionSamples, rows: NDArray[np.intp]) -> FrictionSamples:
+    """Those rows alone."""
+    columns = ("time", "speed", "change", "torque", "sigma", "acceleration")
+    return replace(samples, **{name: getattr(samples, name)[rows] for name in columns})
+
+
+def _grouped(found: PulseIntervals) -> PulseIntervals:
+    """Neighbours in the same direction together until they last `SHORTEST` seconds."""
+    slots = np.floor(np.cumsum(np.minimum(found.end - found.start, SHORTEST)) / SHORTEST * (1 - 1e-9))
+    alone = (found.end - found.start >= SHORTEST) | ~found.whole
+    fresh = (np.diff(slots) > 0) | (np.diff(found.run) != 0) | alone[1:] | alone[:-1]
+    first = np.append(0, np.flatnonzero(fresh) + 1)
+    last = np.append(first[1:], found.run.size) - 1
+    length = found.end - found.start
+    speed = np.add.reduceat(found.speed * length, first) / np.add.reduceat(length, first)
+    return PulseIntervals(found.start[first], found.end[last], speed, found.whole[first], found.run[first])
+
+
+def _steady(found: PulseIntervals) -> NDArray[np.bool_]:
+    """Whether both neighbours are there, in the same direction, whole, and of nearly the same speed."""
+    size = np.abs(found.speed)
+    ratio = np.maximum(size[1:] / size[:-1], size[:-1] / size[1:])
+    alike = (ratio <= MOST_CHANGE) & (found.run[1:] == found.run[:-1]) & found.whole[1:] & found.whole[:-1]
+    return np.append(False, alike) & np.append(alike, False)
+
+
+def _timing_noise(difference: Array, speed: Array, length: Array) -> float:
+    """Standard deviation of an interval's length, s, from how far its speed is off the local curve."""
+    left = 1 - 17 / 35  # share of the variance a quadratic through five points leaves in the middle
+    return 1.4826 * float(np.median(np.abs(difference) * length / np.abs(speed))) / np.sqrt(left)
+
+
+def _mean_torque(test: ShaftTest, start: Array, end: Array) -> tuple[Array, Array]:
+    """Mean of the torque from start to end, straight lines between samples, and its standard deviation."""
+    step = np.diff(test.time)
+    integral = np.append(0.0, np.cumsum(step * (test.torque[1:] + test.torque[:-1]) / 2))
+
+    def up_to(t: Array) -> Array:
+        k = np.clip(np.searchsorted(test.time, t, side="right") - 1, 0, step.size - 1)
+        s = t - test.time[k]
+        return integral[k] + s * (test.torque[k] + s / (2 * step[k]) * (test.torque[k + 1] - test.torque[k]))
+
+    noise = test.torque_noise
+    if noise is None:  # what is left of second differences of white noise
+        noise = float(np.median(np.abs(np.diff(test.torque, 2)))) * 1.4826 / np.sqrt(6)
+    count = np.maximum((end - start) / np.median(step), 1.0)
+    return (up_to(end) - up_to(start)) / (end - start), noise / np.sqrt(count)
