@@ -9,10 +9,19 @@ import sys
 import traceback
 from collections.abc import Sequence
 
-from pysim.cli import compare, demo, signal, simulate
+from pysim.cli import bench, blackbox, compare, demo, frf, multisine, signal, simulate
 
 DONE, NO, WRONG_USE, OUR_BUG = 0, 1, 2, 3
-_COMMANDS = {"compare": compare, "demo": demo, "signal": signal, "simulate": simulate}
+_COMMANDS = {
+    "bench": bench,
+    "blackbox": blackbox,
+    "compare": compare,
+    "demo": demo,
+    "frf": frf,
+    "multisine": multisine,
+    "signal": signal,
+    "simulate": simulate,
+}
 
 
 def main(argv: Sequence[str] | None = None) -> int:

@@ -1,9 +1,21 @@
 """Figures from what was measured and simulated; nothing is shown or written here."""
 
+from pysim.plot.blackbox import blackbox_figure
 from pysim.plot.bode import bode_figure
 from pysim.plot.deviation import deviation_figure
 from pysim.plot.excitation import excitation_figure
+from pysim.plot.frf import frf_figure
+from pysim.plot.multisine import multisine_figure
 from pysim.plot.render import render
 from pysim.plot.time_response import time_response_figure
 
-__all__ = ["bode_figure", "deviation_figure", "excitation_figure", "render", "time_response_figure"]
+__all__ = [
+    "blackbox_figure",
+    "bode_figure",
+    "deviation_figure",
+    "excitation_figure",
+    "frf_figure",
+    "multisine_figure",
+    "render",
+    "time_response_figure",
+]

@@ -1,5 +1,6 @@
 """Continuous-time transfer functions from frequency responses (thesis Section 2.4, Appendix B)."""
 
+from pysim.identify.blackbox.dataset import FittedResponse, fit_dataset
 from pysim.identify.blackbox.fit import fit_transfer_function
 from pysim.identify.blackbox.orders import Candidate, OrderSuggestion, suggest_orders
 from pysim.identify.blackbox.response import WEIGHTS, ComplexResponse, complex_response
@@ -13,11 +14,13 @@ __all__ = [
     "Candidate",
     "ComplexResponse",
     "Estimate",
+    "FittedResponse",
     "OrderSuggestion",
     "Root",
     "Structure",
     "TransferFunctionFit",
     "complex_response",
+    "fit_dataset",
     "fit_percent",
     "fit_transfer_function",
     "from_thesis_row",

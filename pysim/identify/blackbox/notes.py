@@ -43,7 +43,10 @@ def _bounds(fit: TransferFunctionFit, minimum: Minimum) -> list[str]:
         )
     unstable = sum(pole.value.real >= 0 for pole in fit.poles)
     if unstable:
-        notes.append(f"{unstable} of {len(fit.poles)} poles are not left of the imaginary axis: not stable.")
+        notes.append(
+            f"{unstable} of {len(fit.poles)} poles are not left of the imaginary axis: not stable. A system that "
+            "answers steadily is; ask for a stable fit."
+        )
     return notes
 
 

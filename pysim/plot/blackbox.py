@@ -1,0 +1,154 @@
+"""A fitted transfer function beside its data: Bode plot, residuals, pole-zero map."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.patches import Ellipse
+from matplotlib.ticker import MultipleLocator
+from numpy.typing import NDArray
+
+from pysim.identify.blackbox import FittedResponse, Root, TransferFunctionFit
+from pysim.plot.style import COLOURS, LIMIT, MEASURED, SMALL, TEXT, frequency_axis, new_figure, quiet
+
+Array = NDArray[np.float64]
+
+_LEVEL = 0.95
+_ONE, _TWO = 1.959964, 2.447747  # half width of a 95 percent region of one number and of two, standard deviations
+_FAR = 20.0  # times the highest measured frequency: roots beyond are not drawn
+_FIT, _ZERO = COLOURS[0], COLOURS[1]
+
+
+def blackbox_figure(fitted: FittedResponse) -> Figure:
+    """Gain (dB), phase (deg) and residuals over frequency on the left; poles and zeros on the right.
+
+    Shaded: the 95 percent interval of the fitted curve. Bars: that of the measured points where their noise is known.
+    Ellipses and bars in the map: the 95 percent region of each pole and zero.
+    """
+    fit = fitted.fit
+    figure = new_figure(9.6, 6.4)
+    grid = figure.add_gridspec(3, 2, width_ratios=(1.45, 1), height_ratios=(1.25, 1.25, 0.9))
+    left = [figure.add_subplot(grid[0, 0])]
+    left += [figure.add_subplot(grid[row, 0], sharex=left[0]) for row in (1, 2)]
+    handles = _draw_bode(left[0], left[1], fitted)
+    _draw_residuals(left[2], fit)
+    for axes in left[:2]:
+        axes.tick_params(labelbottom=False)
+    frequency_axis(left[2], 0.94 * float(fit.data.frequency[0]), 1.06 * float(fit.data.frequency[-1]))
+    left[2].set_xlabel("Frequency (Hz)", fontsize=TEXT)
+    figure.align_ylabels(left)
+    _draw_map(figure.add_subplot(grid[:, 1]), fit)
+    figure.legend(handles.values(), handles.keys(), loc="outside upper left", ncols=3, frameon=False, fontsize=TEXT)
+    return figure
+
+
+def _draw_bode(top: Axes, bottom: Axes, fitted: FittedResponse) -> dict[str, Any]:
+    fit, measured = fitted.fit, fitted.measured
+    f = measured.frequency
+    dense = np.geomspace(f[0], f[-1], 400)
+    curve = fit.function.response(dense, measured.test)
+    at = fit.function.response(f, measured.test)
+    gain_width, phase_width = fit.band(dense, _LEVEL)
+    turns = 2 * np.pi * np.round((at.phase[0] - measured.phase[0]) / (2 * np.pi))
+    decibel, degrees = 20 * np.log10(curve.gain), np.degrees(curve.phase - turns)
+    widths = (20 / np.log(10) * gain_width, np.degrees(phase_width))
+    points = (20 * np.log10(measured.gain), np.degrees(measured.phase))
+    handles: dict[str, Any] = {}
+    names = ("Gain (dB)", "Phase (deg)")
+    for axes, values, width, data, bars, name in zip(
+        (top, bottom), (decibel, degrees), widths, points, _bars(fit), names, strict=True
+    ):
+        quiet(axes)
+        band = axes.fill_between(dense, values - width, values + width, color=_FIT, alpha=0.25, linewidth=0)
+        (line,) = axes.plot(dense, values, color=_FIT, linewidth=1.4)
+        dots = axes.errorbar(f, data, yerr=bars, color=MEASURED, fmt="o", markersize=3.2, elinewidth=0.9, capsize=1.5)
+        axes.set_ylabel(name, fontsize=TEXT)
+        handles = {measured.origin: dots, f"fitted: {fit.structure.label}": line, "its 95 % interval": band}
+    bottom.yaxis.set_major_locator(MultipleLocator(45.0))
+    top.set_title(f"{fitted.label}, fit {fit.fit_percent:.2f} %", fontsize=TEXT, loc="left")
+    return handles
+
+
+def _bars(fit: TransferFunctionFit) -> tuple[Array | None, Array | None]:
+    """Half widths of the measured points' intervals in dB and deg, from the covariance of real and imaginary part."""
+    if fit.data.covariance is None:
+        return None, None
+    values = fit.data.values
+    along = np.stack([values.real, values.imag], axis=1) / np.abs(values)[:, None]
+    across = np.stack([-along[:, 1], along[:, 0]], axis=1)
+    sizes = [
+        _ONE * np.sqrt(np.einsum("fi,fij,fj->f", d, fit.data.covariance, d)) / np.abs(values) for d in (along, across)
+    ]
+    return 20 / np.log(10) * sizes[0], np.degrees(sizes[1])
+
+
+def _draw_residuals(axes: Axes, fit: TransferFunctionFit) -> None:
+    """Real and imaginary part in standard deviations, with the lines that one in twenty is beyond."""
+    quiet(axes)
+    f = fit.data.frequency
+    axes.axhline(0, color=LIMIT, linewidth=0.8)
+    for side in (-_ONE, _ONE):
+        axes.axhline(side, color=LIMIT, linewidth=0.8, linestyle=(0, (4, 3)))
+    axes.plot(f, fit.standardised[:, 0], "o", color=_FIT, markersize=3.5, label="real part")
+    axes.plot(f, fit.standardised[:, 1], "^", color=_ZERO, markersize=3.5, label="imaginary part")
+    most = max(3.0, 1.15 * float(np.max(np.abs(fit.standardised))))
+    axes.set_ylim(-most, 1.35 * most)
+    axes.set_ylabel("Residual\n(std. dev.)", fontsize=TEXT)
+    axes.legend(loc="upper left", ncols=2, frameon=False, fontsize=SMALL, borderaxespad=0.1, handletextpad=0.2)
+
+
+def _draw_map(axes: Axes, fit: TransferFunctionFit) -> None:
+    """The plane of s in rad/s; roots far beyond the measured frequencies are told in words instead."""
+    quiet(axes)
+    axes.axhline(0, color=LIMIT, linewidth=0.8)
+    axes.axvline(0, color=LIMIT, linewidth=0.8)
+    reach = _FAR * 2 * np.pi * float(fit.data.frequency[-1])
+    drawn, words = [], []
+    for roots, marker, colour, name in ((fit.poles, "x", _FIT, "pole"), (fit.zeros, "o", _ZERO, "zero")):
+        near = [root.value for root in roots if abs(root.value) <= reach]
+        drawn += near
+        words += [f"{name} at {_number(r.value)}" for r in roots if abs(r.value) > reach and r.value.imag >= 0]
+        look: dict[str, Any] = {"color": colour, "markersize": 7, "fillstyle": "none", "linestyle": "none"}
+        if near:
+            axes.plot(np.real(near), np.imag(near), marker, label=name, **look)
+        for root in roots:
+            _draw_doubt(axes, root, fit.quantile(_LEVEL) / 1.959964, colour, reach)
+    axes.set_xlabel("Real part (rad/s)", fontsize=TEXT)
+    axes.set_ylabel("Imaginary part (rad/s)", fontsize=TEXT)
+    axes.set_title("poles and zeros with 95 % regions", fontsize=TEXT, loc="left")
+    _limit(axes, drawn)
+    if words:
+        axes.text(0.02, 0.98, "not shown: " + ",\n".join(words), transform=axes.transAxes, va="top", fontsize=SMALL)
+    if drawn:
+        axes.legend(loc="lower left", frameon=False, fontsize=SMALL)
+
+
+def _number(value: complex) -> str:
+    return f"{value.real:.3g}" if value.imag == 0 else f"{value.real:.3g} ± {value.imag:.3g}j"
+
+
+def _limit(axes: Axes, values: list[complex]) -> None:
+    """All roots, with the imaginary axis in sight."""
+    real, imag = np.array([v.real for v in values] or [-1.0]), np.array([v.imag for v in values] or [0.0])
+    size = max(float(np.max(np.abs(real))), float(np.max(np.abs(imag))), 1e-9)
+    axes.set_xlim(min(1.3 * float(np.min(real)), -0.1 * size), max(1.3 * float(np.max(real)), 0.12 * size))
+    high = max(1.2 * float(np.max(np.abs(imag))), 0.3 * size)
+    axes.set_ylim(-high, high)
+
+
+def _draw_doubt(axes: Axes, root: Root, widened: float, colour: str, reach: float) -> None:
+    """An ellipse, or a bar for a real root; nothing for what the data do not determine."""
+    if not np.isfinite(root.covariance).all() or abs(root.value) > reach:
+        return
+    if root.value.imag == 0:
+        half = _ONE * widened * float(np.sqrt(root.covariance[0, 0]))
+        axes.plot([root.value.real - half, root.value.real + half], [0, 0], color=colour, linewidth=2.4, alpha=0.45)
+        return
+    sizes, directions = np.linalg.eigh(root.covariance)
+    width, height = 2 * _TWO * widened * np.sqrt(np.maximum(sizes, 0))
+    angle = float(np.degrees(np.arctan2(directions[1, 0], directions[0, 0])))
+    centre = (root.value.real, root.value.imag)
+    axes.add_patch(Ellipse(centre, width, height, angle=angle, facecolor=colour, alpha=0.25, edgecolor=colour))
