@@ -43,14 +43,21 @@ def _check_input(model: Model, variable: Variable) -> None:
 
 
 def _check_override(model: Model, variable: Variable, value: float) -> None:
-    name, place = variable.name, model.path.name
+    why = _objection(model, variable, value)
+    if why:
+        raise BadInput(f"{model.path.name}: {variable.name} {why}")
+
+
+def _objection(model: Model, variable: Variable, value: float) -> str:
+    """Why a variable must not be set to a value, as the end of a sentence; empty if it may be."""
     if variable.type not in settable_types(model):
-        raise BadInput(f"{place}: {name} is {variable.type} and cannot be set to a number")
+        return f"is {variable.type} and cannot be set to a number"
     fixed = variable.causality not in ("parameter", "input") and variable.start is None
     if fixed or variable.variability == "constant" or variable.causality == "structuralParameter":
         kind = "constant" if variable.variability == "constant" else variable.causality
-        raise BadInput(f"{place}: {name} ({kind}) cannot be set; override parameters, inputs or start values")
+        return f"({kind}) cannot be set; override parameters, inputs or start values"
     if not math.isfinite(value):
-        raise BadInput(f"{place}: {name} cannot be set to {value}; give a finite number")
+        return f"cannot be set to {value}; give a finite number"
     if variable.type not in ("Real", "Float64", "Float32") and value != round(value):
-        raise BadInput(f"{place}: {name} is {variable.type} and cannot be set to {value}; give a whole number")
+        return f"is {variable.type} and cannot be set to {value}; give a whole number"
+    return ""

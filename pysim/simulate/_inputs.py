@@ -38,12 +38,16 @@ BREAKS = np.dtype(
 )
 
 
+_NONE: dict[str, Any] = {"count": 0}
+_NO_JUMP = np.zeros(1, dtype=np.int64)
+
+
 def input_arrays(model: Model, experiment: Experiment) -> dict[str, Any]:
     """What INPUTS points to."""
     driven = [(name, signal, 0) for name, signal in experiment.inputs.items()]
     driven += [(name, experiment.inputs[of], 1) for name, of in experiment.rates.items()]
     if not driven:
-        return {"count": 0}
+        return _NONE
     signals = [signal for _, signal, _ in driven]
     present = [signal.sines[..., 0] != 0 for signal in signals]
     pieces = _offsets([signal.starts.size for signal in signals])
@@ -68,6 +72,8 @@ def _offsets(sizes: Any) -> NDArray[np.int64]:
 def break_arrays(experiment: Experiment) -> dict[str, Any]:
     """What BREAKS points to: times after the start at which an input jumps or kinks, up to the end of the run."""
     end = float(experiment.times[-1])
+    if not experiment.inputs:
+        return {"count": 1, "times": np.array([end]), "jumps": _NO_JUMP}
     found: dict[float, int] = {end: 0}
     for name, signal in experiment.inputs.items():
         jumps, kinks = signal.breaks()

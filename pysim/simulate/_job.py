@@ -12,7 +12,7 @@ from pysim.simulate._fmu_calls import FMU
 from pysim.simulate._inputs import BREAKS, INPUTS
 from pysim.simulate._method import METHOD
 from pysim.simulate._recording import ROWS
-from pysim.simulate._state import CONTROL, RUN, SCRATCH, STATISTICS, WORK
+from pysim.simulate._state import CONTROL, RUN, STATISTICS, WORK
 from pysim.simulate._variation import VARIATION
 
 JOB = np.dtype(
@@ -31,6 +31,9 @@ JOB = np.dtype(
 
 _FIELDS = {section: JOB[section].names or () for section in JOB.names or ()}
 
+_FRESH = np.zeros((), dtype=RUN)  # a run that has not begun
+_FRESH["segment"], _FRESH["jacobian_at"] = -1, np.nan
+
 
 class Job:
     """One run, and then the next. Native code gets `record` (1,) of JOB."""
@@ -39,15 +42,31 @@ class Job:
         self.solver = solver
         self.record = np.zeros(1, dtype=JOB)
         self._arrays: dict[tuple[str, str], np.ndarray] = {}
+        self._given: dict[str, Mapping[str, Any]] = {}
 
     def restart(self, start: float, end: float) -> None:
         """Forget the run before; times in s. What `put` was given stays."""
-        for name in SCRATCH:
-            self._arrays["work", name].fill(0.0)
-        self.put("run", {"start": start, "end": end, "t": start, "segment": -1, "jacobian_at": np.nan})
+        self._arrays["work", "scratch"].fill(0.0)
+        self.record["run"] = _FRESH
+        self.change("run", {"start": start, "end": end, "t": start})
+
+    def keep(self, section: str, values: Mapping[str, Any]) -> None:
+        """As `put`, unless these very values were put there last."""
+        if self._given.get(section) is not values:
+            self.put(section, values)
+
+    def change(self, section: str, values: Mapping[str, Any]) -> None:
+        """Fill the fields of a section that `values` names; the others stay."""
+        fields = self.record[section]
+        for name, value in values.items():
+            if isinstance(value, np.ndarray):
+                self._arrays[section, name] = value
+                value = _address(value)
+            fields[name] = value
 
     def put(self, section: str, values: Mapping[str, Any]) -> None:
         """Fill a section, zero where `values` is silent; an array is kept alive and its address stored."""
+        self._given[section] = values
         row = []
         for name in _FIELDS[section]:
             value = values.get(name, 0)
@@ -67,7 +86,8 @@ class Job:
 
     def statistics(self) -> dict[str, int]:
         """Counts of the run so far."""
-        return {name: int(self.number("run", name)) for name in STATISTICS}
+        run = self.record["run"][0]
+        return {name: int(run[name]) for name in STATISTICS}
 
 
 def _address(array: np.ndarray) -> int:

@@ -64,7 +64,7 @@ class Instance:
         self._alive, self._can_reset = False, True
         self._rows: dict[tuple[str, ...], dict[str, Any]] = {}
         version = self.model.abilities.fmi
-        self._addresses = {
+        self._addresses: dict[str, Any] = {
             "version": version,
             "needs_completed_step": self.model.abilities.needs_completed_step,
             "answers": np.zeros(4),
@@ -76,8 +76,10 @@ class Instance:
         return ctypes.cast(getattr(self.fmu.dll, function), ctypes.c_void_p).value or 0
 
     def addresses(self) -> dict[str, Any]:
-        """What native code needs to call this instance."""
-        return {**self._addresses, "instance": self.fmu.component}
+        """What native code needs to call this instance; the same object as long as nothing changes."""
+        if self._addresses.get("instance") != self.fmu.component:
+            self._addresses = {**self._addresses, "instance": self.fmu.component}
+        return self._addresses
 
     def rows(self, names: tuple[str, ...]) -> dict[str, Any]:
         """What native code needs to read these variables."""

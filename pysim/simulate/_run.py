@@ -18,6 +18,8 @@ from pysim.simulate._state import RUNNING, work_arrays
 from pysim.simulate.rk45 import Rk45
 from pysim.types import Experiment, Model, Outcome, Record, SimulationError
 
+_OUTCOMES = tuple(Outcome)  # by the codes of `_state`
+
 _BUDGET = 20_000  # steps between two looks at the world outside: some 20 ms
 
 _STATUS = {DISCARD: "the model discards the point", ERROR: "an FMI function failed", FATAL: "a fatal FMI error"}
@@ -64,7 +66,7 @@ def _run_instance(instance: Instance, experiment: Experiment, solver: Solver, st
     while code == RUNNING and not stopped():
         code = integrate(job.record, _BUDGET)
     instance.status = int(job.number("run", "status"))
-    outcome = list(Outcome)[code]
+    outcome = _OUTCOMES[code]
     message = "" if outcome is Outcome.DONE else explain(job, outcome) + instance.mailbox.text()
     values = job.array("rows", "values")[: job.number("rows", "next")]
     return make_record(instance.model, experiment, values, outcome, message, job.statistics())
@@ -77,11 +79,13 @@ def initialise(instance: Instance, experiment: Experiment, solver: Solver) -> No
         CallFailed: the FMU refused.
     """
     control = solver.control()
-    start = np.array(experiment.start)
-    starts = {name: float(signal.value(start)) for name, signal in experiment.inputs.items()}
-    starts |= {name: float(experiment.inputs[of].derivative(start)) for name, of in experiment.rates.items()}
+    values = dict(experiment.overrides)
+    if experiment.inputs:
+        start = np.array(experiment.start)
+        values |= {name: float(signal.value(start)) for name, signal in experiment.inputs.items()}
+        values |= {name: float(experiment.inputs[of].derivative(start)) for name, of in experiment.rates.items()}
     tolerance = control.rtol if control.step == 0.0 else None
-    instance.initialise({**experiment.overrides, **starts}, experiment.start, float(experiment.times[-1]), tolerance)
+    instance.initialise(values, experiment.start, float(experiment.times[-1]), tolerance)
 
 
 def prepare(instance: Instance, experiment: Experiment, solver: Solver) -> Job:
@@ -91,10 +95,11 @@ def prepare(instance: Instance, experiment: Experiment, solver: Solver) -> Job:
     job, names, times = instance.job, experiment.record, experiment.times
     values = np.zeros((times.size, len(names)))
     job.restart(experiment.start, float(times[-1]))
-    job.put("fmu", instance.addresses())
-    job.put("inputs", input_arrays(instance.model, experiment))
+    job.keep("fmu", instance.addresses())
+    job.keep("inputs", input_arrays(instance.model, experiment))
     job.put("breaks", break_arrays(experiment))
-    job.put("rows", {**instance.rows(names), "count": times.size, "times": times, "values": values})
+    job.keep("rows", instance.rows(names))
+    job.change("rows", {"count": times.size, "next": 0, "times": times, "values": values})
     return job
 
 

@@ -48,6 +48,7 @@ WORK = np.dtype(
     [
         ("n", np.int64),
         ("m", np.int64),
+        ("scratch", np.int64),  # what must not tell a run of the one before, in one piece
         ("x", np.int64),  # (n,) at run.t
         ("dx", np.int64),  # (n,) derivative there
         ("x_new", np.int64),  # (n,) at the end of the step
@@ -95,30 +96,40 @@ WORK = np.dtype(
 )
 
 
-# Arrays of WORK that must not tell a run of the one before.
-SCRATCH = ("x", "dx", "x_new", "x_try", "error", "k", "dense", "z", "z_new", "z_try", "z_low", "jacobian", "slope")
-
-
 def work_arrays(n: int, m: int, stages: int, terms: int, implicit: bool) -> dict[str, Any]:
     """What WORK points to, for n states and m event indicators."""
-    k = np.zeros((stages + 1, n))
     square = (n, n) if implicit else (0, 0)
+    scratch = _scratch(
+        {
+            **dict.fromkeys(("x", "dx", "x_new", "x_try", "error", "slope"), (n,)),
+            "k": (stages + 1, n),
+            "dense": (terms, n),
+            **dict.fromkeys(("z", "z_new", "z_try", "z_low"), (m,)),
+            "jacobian": square,
+        }
+    )
     return {
         "n": n,
         "m": m,
-        **{name: np.zeros(n) for name in ("x", "dx", "x_new", "x_try", "error")},
-        "k": k,
-        "dx_new": k[stages],
-        "dense": np.zeros((terms, n)),
+        **scratch,
+        "dx_new": scratch["k"][stages],
         "nominal": np.ones(n),
-        **{name: np.zeros(m) for name in ("z", "z_new", "z_try", "z_low")},
-        "jacobian": np.zeros(square),
         "matrix": np.zeros(square),
         "pivots": np.zeros(n, dtype=np.int64),
-        "slope": np.zeros(n),
         "stages": np.zeros((stages, n)),
         "right": np.zeros(n),
         **{name: np.zeros(n) for name in ("pivot_values", "probe")},
         "factors": np.zeros(square),
         "ones": np.ones(n),
     }
+
+
+def _scratch(shapes: dict[str, tuple[int, ...]]) -> dict[str, Any]:
+    """Arrays of these shapes, zero, one after the other in `scratch`, which clears them all at once."""
+    ends = np.cumsum([0, *(int(np.prod(shape)) for shape in shapes.values())])
+    scratch = np.zeros(ends[-1])
+    views = {
+        name: scratch[first:last].reshape(shape)
+        for (name, shape), first, last in zip(shapes.items(), ends[:-1], ends[1:], strict=True)
+    }
+    return {"scratch": scratch, **views}
