@@ -19,6 +19,14 @@ def add_parameters(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--parameters", metavar="FILE.toml", type=Path, help="lines NAME = VALUE; --set goes before")
 
 
+def reference_hz(text: str) -> float | None:
+    """Of `--reference-hz`: a frequency in Hz, or None."""
+    try:
+        return None if text == "none" else float(text)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text!r} is no frequency; write a number in Hz, or none") from None
+
+
 def read_parameters(args: argparse.Namespace, model: Model) -> dict[str, float]:
     """Parameters of the model from both options.
 

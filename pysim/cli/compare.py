@@ -13,24 +13,16 @@ if TYPE_CHECKING:
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The words behind `pysim compare`."""
-    from pysim.cli._options import add_parameters
+    from pysim.cli._options import add_parameters, reference_hz
 
     parser.add_argument("model", metavar="MODEL.fmu", type=Path)
     parser.add_argument("--data", metavar="FOLDER", type=Path, required=True, help="data set with a dataset.toml")
     add_parameters(parser)
     parser.add_argument(
-        "--reference-hz", metavar="HZ", type=_reference, default=0.1, help="whose gain is 0 dB; none: absolute (0.1)"
+        "--reference-hz", metavar="HZ", type=reference_hz, default=0.1, help="whose gain is 0 dB; none: absolute (0.1)"
     )
     parser.add_argument("--json", metavar="FILE", type=Path, help="write all numbers here")
     parser.add_argument("--output", metavar="DIR", type=Path, help="write report.html and the plots here")
-
-
-def _reference(text: str) -> float | None:
-    """A frequency in Hz, or None."""
-    try:
-        return None if text == "none" else float(text)
-    except ValueError:
-        raise argparse.ArgumentTypeError(f"{text!r} is no frequency; write a number in Hz, or none") from None
 
 
 def run(args: argparse.Namespace) -> int:

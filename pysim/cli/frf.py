@@ -1,0 +1,74 @@
+"""Frequency responses from the stepped-sine logs of a data set."""
+
+from __future__ import annotations
+
+import argparse
+import json
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from pysim.identify import MeasuredResponse
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The words behind `pysim frf`."""
+    from pysim.cli._options import reference_hz
+
+    parser.add_argument("dataset", metavar="DATASET", type=Path, help="folder with a dataset.toml")
+    parser.add_argument("--signal", metavar="NAME", help="the responding signal, where the logs hold several")
+    parser.add_argument(
+        "--reference-hz", metavar="HZ", type=reference_hz, default=0.1, help="whose gain is 0 dB; none: absolute (0.1)"
+    )
+    parser.add_argument(
+        "--settle", metavar="SECONDS", type=float, default=0.5, help="left out after the sine starts, at least (0.5)"
+    )
+    parser.add_argument(
+        "--settle-periods", metavar="N", type=float, default=1.0, help="the same, in periods of the sine (1)"
+    )
+    parser.add_argument("--json", metavar="FILE", type=Path, help="write all numbers here")
+    parser.add_argument("--output", metavar="DIR", type=Path, help="write report.html and the plots here")
+
+
+def run(args: argparse.Namespace) -> int:
+    """Print a table per offset and amplitude."""
+    from pysim.cli._outputs import prepare_file, prepare_folder
+    from pysim.identify import Window, measured_responses
+    from pysim.io import read_dataset, write_file
+    from pysim.report.frf import frf_data, frf_text
+
+    window = Window(args.settle_periods, args.settle)
+    if args.output:
+        prepare_folder(args.output)
+    if args.json:
+        prepare_file(args.json, "--json")
+    dataset = read_dataset(args.dataset)
+    responses = measured_responses(dataset, output=args.signal, window=window)
+    print(frf_text(responses, args.reference_hz))
+    if args.json:
+        data = frf_data(responses, args.reference_hz, dataset=dataset.name)
+        write_file(args.json, json.dumps(data, indent=1, allow_nan=False))
+    if args.output:
+        _write_report(args, dataset.name, responses)
+    return 0
+
+
+def _write_report(args: argparse.Namespace, name: str, responses: Sequence[MeasuredResponse]) -> None:
+    from pysim.cli._outputs import command_line
+    from pysim.io import write_file
+    from pysim.plot import frf_figure, render
+    from pysim.report.frf import frf_page
+
+    figure = frf_figure(responses, args.reference_hz)
+    write_file(args.output / "frf.png", render(figure, "png"))
+    svg = render(figure, "svg")
+    write_file(args.output / "frf.svg", svg)
+    pictures = {"Magnitude, phase and harmonics; bars: 95 percent intervals; filled: beyond the noise.": svg}
+    reference = "none" if args.reference_hz is None else f"{args.reference_hz:g}"
+    words = ["frf", str(args.dataset), "--reference-hz", reference, "--output", str(args.output)]
+    words += ["--settle", f"{args.settle:g}", "--settle-periods", f"{args.settle_periods:g}"]
+    words += ["--signal", args.signal] if args.signal else []
+    text = frf_page(responses, args.reference_hz, dataset=name, pictures=pictures, redo=command_line(words))
+    write_file(args.output / "report.html", text)
+    print(f"Report: {args.output / 'report.html'}")
