@@ -20,12 +20,13 @@ ALLOWED = {
     "pysim.excitation": _DATA,
     "pysim.io": _DATA,
     "pysim.simulate": _FILES,
+    "pysim.bench": _RUNS | {"pysim.excitation"},
     "pysim.identify": _RUNS | {"pysim.excitation"},
     "pysim.diagnose": _FITS,
     "pysim.plot": _FITS,
     "pysim.report": _FITS,
-    "pysim.cli": _FITS | {"pysim.diagnose", "pysim.plot", "pysim.report", "fmu_build", "validation"},
-    "validation": _FITS | {"pysim.diagnose", "pysim.plot", "pysim.report", "fmu_build"},
+    "pysim.cli": _FITS | {"pysim.bench", "pysim.diagnose", "pysim.plot", "pysim.report", "fmu_build", "validation"},
+    "validation": _FITS | {"pysim.bench", "pysim.diagnose", "pysim.plot", "pysim.report", "fmu_build"},
     "fmu_build": set(),
 }
 # Packages whose outside world is limited too.

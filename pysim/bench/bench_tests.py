@@ -1,0 +1,218 @@
+"""The tests of a plan: each becomes runs, a command with the file it is logged to."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from typing import Protocol
+
+from pysim.excitation import Chirp, Excitation, LeadIn, Multisine, Step, SteppedSineCommand, StochasticWave
+from pysim.types import BadInput
+
+
+@dataclass(frozen=True)
+class Run:
+    """One test as it is driven and logged.
+
+    Args:
+        source: file of the log, relative to the data set.
+        kind, use: as in `MeasuredRecord`.
+        input: name of the commanded signal.
+        outputs: names of the measured signals.
+        command: in the input's SI unit.
+        log_from: s of the test at which the log starts; it ends with the excitation.
+        offset, amplitude, frequency: what the log says of itself, in the input's SI unit and Hz.
+    """
+
+    source: str
+    kind: str
+    use: str
+    input: str
+    outputs: tuple[str, ...]
+    command: Excitation
+    log_from: float
+    offset: float | None = None
+    amplitude: float | None = None
+    frequency: float | None = None
+
+
+class BenchTest(Protocol):
+    """What every kind of test offers."""
+
+    @property
+    def input(self) -> str:
+        """The commanded signal."""
+        ...
+
+    @property
+    def outputs(self) -> tuple[str, ...]:
+        """The measured signals."""
+        ...
+
+    def runs(self, unit: float) -> Iterator[Run]:
+        """Its runs; files are named by numbers in a unit that is `unit` of the input's SI units."""
+        ...
+
+
+@dataclass(frozen=True)
+class SteppedSines:
+    """Stepped sines: every frequency at every offset and amplitude (thesis Section 2.1.1).
+
+    Args:
+        input, outputs: signal names.
+        points: (offset, amplitude) in the input's SI unit.
+        frequencies: Hz.
+        periods: whole periods at least.
+        least: s of sine at least.
+        most: s of sine at most, but for one period.
+        lead: how the command comes to its offset; the log starts with the sine.
+        folder: of the logs.
+        use: "fit" | "validate".
+    """
+
+    input: str
+    outputs: tuple[str, ...]
+    points: tuple[tuple[float, float], ...]
+    frequencies: tuple[float, ...]
+    periods: int = 3
+    least: float = 1.2
+    most: float = 20.0
+    lead: LeadIn = field(default_factory=LeadIn)
+    folder: str = "frequency_response"
+    use: str = "fit"
+
+    def __post_init__(self) -> None:
+        if not self.points or not self.frequencies:
+            raise BadInput("stepped sines: give at least one pair of offset and amplitude, and one frequency")
+        if min(self.frequencies) <= 0 or self.periods < 1 or not 0 <= self.least <= self.most:
+            raise BadInput("stepped sines: frequencies and periods must be positive, and most not less than least")
+
+    def runs(self, unit: float) -> Iterator[Run]:
+        """A run per point and frequency."""
+        for offset, amplitude in self.points:
+            point = f"{self.folder}/{_point(offset, amplitude, unit)}"
+            for frequency in self.frequencies:
+                command = SteppedSineCommand(offset, amplitude, frequency, self.periods_of(frequency), self.lead)
+                yield Run(
+                    f"{point}/{frequency:g}Hz.txt",
+                    "frequency-response",
+                    self.use,
+                    self.input,
+                    self.outputs,
+                    command,
+                    command.onset,
+                    offset,
+                    amplitude,
+                    frequency,
+                )
+
+    def periods_of(self, frequency: float) -> int:
+        """Whole periods at that frequency, Hz."""
+        wanted = max(self.periods, math.ceil(self.least * frequency - 1e-9))
+        return max(1, min(wanted, math.floor(self.most * frequency + 1e-9)))
+
+
+@dataclass(frozen=True)
+class ChirpTest:
+    """A chirp; the log starts with the sweep."""
+
+    input: str
+    outputs: tuple[str, ...]
+    command: Chirp
+    name: str = ""
+    folder: str = "chirp"
+    use: str = "fit"
+
+    def runs(self, unit: float) -> Iterator[Run]:
+        """One run."""
+        offset, amplitude = self.command.offset, self.command.amplitude
+        source = f"{self.folder}/{self.name or _point(offset, amplitude, unit)}.txt"
+        start = self.command.onset
+        yield Run(source, "chirp", self.use, self.input, self.outputs, self.command, start, offset, amplitude)
+
+
+@dataclass(frozen=True)
+class WaveTest:
+    """A stochastic wave; the log starts at rest at the offset, before the wave does."""
+
+    input: str
+    outputs: tuple[str, ...]
+    command: StochasticWave
+    name: str = ""
+    folder: str = "stochastic"
+    use: str = "fit"
+
+    def runs(self, unit: float) -> Iterator[Run]:
+        """One run."""
+        source = f"{self.folder}/{self.name or f'Tp{self.command.spectrum.peak_period:g}s'}.txt"
+        yield Run(source, "stochastic", self.use, self.input, self.outputs, self.command, _at_offset(self.command.lead))
+
+
+@dataclass(frozen=True)
+class StepTest:
+    """A step; the log starts at rest at the offset."""
+
+    input: str
+    outputs: tuple[str, ...]
+    command: Step
+    name: str = ""
+    folder: str = "step"
+    use: str = "fit"
+
+    def runs(self, unit: float) -> Iterator[Run]:
+        """One run."""
+        offset, height = self.command.offset, self.command.height
+        source = f"{self.folder}/{self.name or f'O{offset / unit:+g}_H{height / unit:+g}'}.txt"
+        start = _at_offset(self.command.lead)
+        yield Run(source, "step", self.use, self.input, self.outputs, self.command, start, offset)
+
+
+@dataclass(frozen=True)
+class MultisineTest:
+    """A multisine with as many realisations of its phases as asked for; the log starts with the first period.
+
+    Args:
+        input, outputs: signal names.
+        command: the first realisation.
+        realisations: how many, each a run of its own.
+    """
+
+    input: str
+    outputs: tuple[str, ...]
+    command: Multisine
+    realisations: int = 1
+    name: str = ""
+    folder: str = "multisine"
+    use: str = "fit"
+
+    def __post_init__(self) -> None:
+        if self.realisations < 1:
+            raise BadInput(f"multisine: {self.realisations} realisations; give one or more")
+
+    def runs(self, unit: float) -> Iterator[Run]:
+        """A run per realisation."""
+        name = self.name or f"O{self.command.offset / unit:+g}"
+        for number in range(self.realisations):
+            command = self.command.realisation(number)
+            source = f"{self.folder}/{name}_R{number + 1}.txt"
+            yield Run(
+                source,
+                "multisine",
+                self.use,
+                self.input,
+                self.outputs,
+                command,
+                command.onset,
+                command.offset,
+            )
+
+
+def _point(offset: float, amplitude: float, unit: float) -> str:
+    """Offset and amplitude as in the names of the thesis' folders."""
+    return f"O{offset / unit:+g}_A{amplitude / unit:g}"
+
+
+def _at_offset(lead: LeadIn) -> float:
+    """When the command has come to its offset, s."""
+    return lead.rest + lead.ramp

@@ -1,0 +1,70 @@
+"""What a bench is to do: signals, how they are measured and logged, and the tests."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from pysim.bench.bench_tests import BenchTest, Run
+from pysim.bench.logger import Logger
+from pysim.bench.sensor import Sensor
+from pysim.types import BadInput
+
+
+@dataclass(frozen=True)
+class Plan:
+    """A test plan; numbers in SI units or %.
+
+    Args:
+        name, description, system: of the data set.
+        sensors: one per signal, inputs too.
+        tests: in the order in which they are run.
+        logger: of all logs.
+        inputs: values of the model's inputs that no test drives, in their units.
+        units: signal -> (unit in the files, how many SI units that is); the SI unit where not told.
+    Raises:
+        BadInput: no test, a signal named twice, a test of an unknown signal or of one in the wrong role, or two tests
+            that would write the same file.
+    """
+
+    name: str
+    description: str
+    system: str
+    sensors: tuple[Sensor, ...]
+    tests: tuple[BenchTest, ...]
+    logger: Logger
+    inputs: Mapping[str, float] = field(default_factory=dict)
+    units: Mapping[str, tuple[str, float]] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        names = [sensor.signal.name for sensor in self.sensors]
+        for name in names:
+            if names.count(name) > 1:
+                raise BadInput(f"plan {self.name!r}: the signal {name!r} stands there twice; name each once")
+        if not self.tests:
+            raise BadInput(f"plan {self.name!r} has no tests; add one")
+        for test in self.tests:
+            self._check(test)
+        sources = [run.source for run in self.runs()]
+        for source in sources:
+            if sources.count(source) > 1:
+                raise BadInput(f"plan {self.name!r}: two tests are logged to {source}; give one of them another name")
+
+    def _check(self, test: BenchTest) -> None:
+        if not test.outputs:
+            raise BadInput(f"plan {self.name!r}: a test measures nothing; name one output or more")
+        for role, names in (("input", (test.input,)), ("output", test.outputs)):
+            known = [sensor.signal.name for sensor in self.sensors if sensor.signal.role == role]
+            for name in names:
+                if name not in known:
+                    raise BadInput(
+                        f"plan {self.name!r}: {name!r} is no signal with the role {role}; use {', '.join(known)}"
+                    )
+
+    def sensor(self, name: str) -> Sensor:
+        """The sensor of that signal."""
+        return next(sensor for sensor in self.sensors if sensor.signal.name == name)
+
+    def runs(self) -> tuple[Run, ...]:
+        """Every run of every test, in order."""
+        return tuple(run for test in self.tests for run in test.runs(self.units.get(test.input, ("", 1.0))[1]))

@@ -1,0 +1,198 @@
+"""A test plan from a TOML file, or one that comes with the package."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import fields
+from pathlib import Path
+from typing import Any
+
+from pysim.bench.bench_tests import BenchTest, ChirpTest, MultisineTest, SteppedSines, StepTest, WaveTest
+from pysim.bench.logger import Logger
+from pysim.bench.plan import Plan
+from pysim.bench.sensor import Sensor
+from pysim.excitation import Chirp, LeadIn, LineGrid, Multisine, PiersonMoskowitz, Step, StochasticWave
+from pysim.io import Section, read_toml
+from pysim.io.units import SI, signal_in_si
+from pysim.types import BadInput, MeasuredSignal
+
+_PLANS = Path(__file__).parent / "plans"
+_KEYS = ("plan", "signals", "logging", "inputs", "lead", "tests")
+_LEAD = tuple(field.name for field in fields(LeadIn))
+_COMMON = ("kind", "input", "outputs", "use", "folder", "lead")
+
+
+def named_plans() -> tuple[str, ...]:
+    """Names of the plans that come with the package."""
+    return tuple(sorted(path.stem for path in _PLANS.glob("*.toml")))
+
+
+def read_plan(source: Path | str) -> Plan:
+    """A plan.
+
+    Args:
+        source: a TOML file, or the name of a plan that comes with the package.
+    Returns:
+        everything in SI units or %; the file's numbers are in the units of its signals.
+    Raises:
+        BadInput: what is wrong, with file, line and remedy.
+    """
+    path = _PLANS / f"{source}.toml" if str(source) in named_plans() else Path(source)
+    toml = read_toml(path, f"plan (a file, or one of {', '.join(named_plans())})")
+    toml.whole.refuse_unknown(_KEYS)
+    head = toml.table("plan")
+    head.refuse_unknown(("name", "description", "system"))
+    sections = toml.tables("signals")
+    signals = {name: _signal(name, section) for name, section in sections.items()}
+    lead = _lead(toml.optional_table("lead"), LeadIn())
+    inputs = toml.optional_table("inputs")
+    return Plan(
+        name=head.text("name"),
+        description=head.text("description", "-"),
+        system=head.text("system", "-"),
+        sensors=tuple(_sensor(signals[name], section) for name, section in sections.items()),
+        tests=tuple(_test(section, signals, lead) for section in toml.rows("tests", "test")),
+        logger=_logger(toml.table("logging")),
+        inputs={name: inputs.number(name) for name in inputs.values},
+        units={name: (signal.unit, SI[signal.unit][1]) for name, signal in signals.items()},
+    )
+
+
+def _signal(name: str, section: Section) -> MeasuredSignal:
+    """In the unit of the file."""
+    section.refuse_unknown(("role", "unit", "quantity", "variable", "noise", "resolution", "low", "high", "rate"))
+    return MeasuredSignal(
+        name=name,
+        role=section.text("role", among=("input", "output")),
+        unit=section.text("unit", among=tuple(SI)),
+        quantity=section.text("quantity", name),
+        variable=section.text("variable", name),
+        noise=section.not_negative("noise"),
+        resolution=section.positive("resolution"),
+    )
+
+
+def _sensor(signal: MeasuredSignal, section: Section) -> Sensor:
+    to_si = SI[signal.unit][1]
+    low, high = (section.optional_number(key) for key in ("low", "high"))
+    low, high = (None if value is None else to_si * value for value in (low, high))
+    return _told(section, lambda: Sensor(signal_in_si(signal), low, high, section.positive("rate")))
+
+
+def _logger(section: Section) -> Logger:
+    """One rate for all logs, or rates by the number of measured signals."""
+    section.refuse_unknown(("rate", "rates", "jitter", "tick"))
+    if ("rate" in section.values) == ("rates" in section.values):
+        raise BadInput(f"{section.place}: give rate = Hz, or rates = [[signals, Hz], ...], one of them")
+    rates = section.pairs("rates") if "rates" in section.values else ((1, section.number("rate")),)
+    jitter, tick = (section.not_negative(key) or 0.0 for key in ("jitter", "tick"))
+    return _told(section, lambda: Logger(tuple((int(count), rate) for count, rate in rates), jitter, tick))
+
+
+def _lead(section: Section, usual: LeadIn) -> LeadIn:
+    section.refuse_unknown(_LEAD)
+    told = {name: section.optional_number(name) for name in _LEAD}
+    durations = {name: getattr(usual, name) if value is None else value for name, value in told.items()}
+    return _told(section, lambda: LeadIn(**durations))
+
+
+def _test(section: Section, signals: Mapping[str, MeasuredSignal], lead: LeadIn) -> BenchTest:
+    kind = section.text("kind", among=tuple(_KINDS))
+    keys, make = _KINDS[kind]
+    section.refuse_unknown((*_COMMON, *keys))
+    inputs = tuple(signal.name for signal in signals.values() if signal.role == "input")
+    if len(inputs) != 1 and "input" not in section.values:
+        raise BadInput(f"{section.place}: {len(inputs)} signals are inputs; say which one is driven: input = ...")
+    driven = section.text("input", inputs[0] if inputs else None, among=inputs)
+    common: dict[str, Any] = {"input": driven, "outputs": section.texts("outputs")}
+    common |= {"use": section.text("use", "fit", among=("fit", "validate"))}
+    common |= {"folder": section.text("folder")} if "folder" in section.values else {}
+    own_lead = _lead(section.inner("lead"), lead)
+    return _told(section, lambda: make(section, SI[signals[driven].unit][1], own_lead, common))
+
+
+def _told(section: Section, make: Callable[[], Any]) -> Any:
+    """What a value object refuses is said with its place in the file."""
+    try:
+        return make()
+    except BadInput as error:
+        raise error if section.place in str(error) else BadInput(f"{section.place}: {error}") from error
+
+
+def _sines(section: Section, unit: float, lead: LeadIn, common: dict[str, Any]) -> BenchTest:
+    points = tuple((unit * offset, unit * amplitude) for offset, amplitude in section.pairs("points"))
+    limits: dict[str, Any] = {key: section.number(key) for key in ("least", "most") if key in section.values}
+    periods = section.integer("periods", 3)
+    return SteppedSines(
+        points=points, frequencies=section.numbers("frequencies"), periods=periods, lead=lead, **limits, **common
+    )
+
+
+def _chirp(section: Section, unit: float, lead: LeadIn, common: dict[str, Any]) -> BenchTest:
+    offset, amplitude = (unit * section.number(key) for key in ("offset", "amplitude"))
+    start, stop, sweep = (section.number(key) for key in ("start_hz", "stop_hz", "sweep"))
+    return ChirpTest(command=Chirp(offset, amplitude, start, stop, sweep, lead), name=_name(section), **common)
+
+
+def _wave(section: Section, unit: float, lead: LeadIn, common: dict[str, Any]) -> BenchTest:
+    band = section.numbers("band_hz") if "band_hz" in section.values else None
+    if band is not None and len(band) != 2:
+        raise BadInput(f"{section.place}: band_hz needs two numbers, lowest and highest frequency")
+    command = StochasticWave(
+        PiersonMoskowitz(unit * section.number("significant_height"), section.number("peak_period")),
+        section.number("length"),
+        section.integer("seed"),
+        section.integer("components", 100),
+        unit * (section.optional_number("offset") or 0.0),
+        None if band is None else (band[0], band[1]),
+        section.flag("scatter", True),
+        lead,
+    )
+    return WaveTest(command=command, name=_name(section), **common)
+
+
+def _step(section: Section, unit: float, lead: LeadIn, common: dict[str, Any]) -> BenchTest:
+    offset, height = (unit * section.number(key) for key in ("offset", "height"))
+    command = Step(offset, height, section.number("length"), section.flag("back", False), lead)
+    return StepTest(command=command, name=_name(section), **common)
+
+
+def _multisine(section: Section, unit: float, lead: LeadIn, common: dict[str, Any]) -> BenchTest:
+    period, low, high = (section.number(key) for key in ("period", "low_hz", "high_hz"))
+    grid = LineGrid(
+        period, low, high, section.text("lines", "random-odd"), section.integer("group", 4), section.integer("seed")
+    )
+    rms, peak = (section.optional_number(key) for key in ("rms", "peak"))
+    command = Multisine(
+        grid,
+        section.integer("seed"),
+        None if rms is None else unit * rms,
+        None if peak is None else unit * peak,
+        offset=unit * (section.optional_number("offset") or 0.0),
+        periods=section.integer("periods", 3),
+        lead=lead,
+    )
+    return MultisineTest(
+        command=command, realisations=section.integer("realisations", 1), name=_name(section), **common
+    )
+
+
+def _name(section: Section) -> str:
+    return section.text("name") if "name" in section.values else ""
+
+
+_LINES = ("lines", "group", "seed", "periods", "realisations")
+_Make = Callable[[Section, float, LeadIn, dict[str, Any]], BenchTest]
+_KINDS: Mapping[str, tuple[tuple[str, ...], _Make]] = {
+    "frequency-response": (("points", "frequencies", "periods", "least", "most"), _sines),
+    "chirp": (("name", "offset", "amplitude", "start_hz", "stop_hz", "sweep"), _chirp),
+    "stochastic": (
+        ("name", "significant_height", "peak_period", "length", "seed", "components", "offset", "band_hz", "scatter"),
+        _wave,
+    ),
+    "step": (("name", "offset", "height", "length", "back"), _step),
+    "multisine": (
+        (*("name", "offset", "rms", "peak", "period", "low_hz", "high_hz"), *_LINES),
+        _multisine,
+    ),
+}
