@@ -3,10 +3,28 @@
 from pysim.simulate._base import Solver
 from pysim.simulate._many import simulate_many
 from pysim.simulate._native import is_compiled
+from pysim.simulate._orbit import Orbit
 from pysim.simulate._run import simulate
 from pysim.simulate.esdirk import Esdirk
+from pysim.simulate.periodic import Periodic, periodic_many
 from pysim.simulate.rk4 import Rk4
 from pysim.simulate.rk45 import Rk45
 from pysim.simulate.rodas import Rodas
+from pysim.simulate.sensitivities import Sensitivities, sensitivities, sensitivities_many
 
-__all__ = ["Esdirk", "Rk4", "Rk45", "Rodas", "Solver", "is_compiled", "simulate", "simulate_many"]
+__all__ = [
+    "Esdirk",
+    "Orbit",
+    "Periodic",
+    "Rk4",
+    "Rk45",
+    "Rodas",
+    "Sensitivities",
+    "Solver",
+    "is_compiled",
+    "periodic_many",
+    "sensitivities",
+    "sensitivities_many",
+    "simulate",
+    "simulate_many",
+]

@@ -19,7 +19,7 @@ from pysim.simulate._esdirk import factorise_stage
 from pysim.simulate._fmu_calls import ERROR, OK, WARNING, get_directional
 from pysim.simulate._jacobian import take_jacobian
 from pysim.simulate._native import doubles, longs, native
-from pysim.simulate._point import copy, set_point
+from pysim.simulate._point import copy
 
 # Addresses; n states, s stages, c columns: first those of the start states (n or none), then one per parameter, then
 # zeros that fill the last vector of the processor.
@@ -45,6 +45,8 @@ VARIATION = np.dtype(
         ("unknown_references", np.int64),  # (unknowns,) of uint32
         ("state_references", np.int64),  # (n,) of uint32
         ("gradient", np.int64),  # (unknowns,) their derivatives by one state or parameter
+        ("low", np.int64),  # (n,) least and
+        ("high", np.int64),  # (n,) largest value of each state so far
     ]
 )
 
@@ -137,10 +139,20 @@ def _add_forcing(job: Any, target: int, factor: float) -> None:
 
 
 @native
+def note_range(job: Any) -> None:
+    """Widen low and high to the states at run.t."""
+    x, low, high = doubles(job.work.x), doubles(job.variation.low), doubles(job.variation.high)
+    for i in range(job.work.n):
+        low[i] = min(low[i], x[i])
+        high[i] = max(high[i], x[i])
+
+
+@native
 def end_variation(job: Any) -> None:
     """Make the end of the step the current point."""
     v, size = job.variation, job.work.n * job.variation.columns
     copy(v.inside, v.s, size)  # the last stage
+    job.run.jacobian_at = job.run.t
     copy(v.k + 8 * size * (job.method.stages - 1), v.k, size)
 
 

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
+
 from pysim.simulate._events import crossed, handle_event, settle
 from pysim.simulate._fmu_calls import WARNING, completed_step, get_indicators, get_nominals, get_states
 from pysim.simulate._loop import resume
@@ -13,9 +15,16 @@ from pysim.simulate._point import copy, set_point
 from pysim.simulate._recording import interpolate, read_row
 from pysim.simulate._state import DONE, MODEL_ERROR, NOT_FINITE, RUNNING, TERMINATED, TOO_MANY_STEPS
 from pysim.simulate._stepping import accepted_step, next_target
-from pysim.simulate._variation import begin_variation, end_variation, record_variation, vary_inside, vary_step
+from pysim.simulate._variation import (
+    begin_variation,
+    end_variation,
+    note_range,
+    record_variation,
+    vary_inside,
+    vary_step,
+)
 
-EVENT = 7  # how a run may end besides the outcomes: at an event, which is not differentiated
+EVENT = 100  # how a run may end besides the outcomes: at an event, which is not differentiated
 
 
 @entry
@@ -35,7 +44,11 @@ def _begin(job: Any) -> int:
     """First event iteration unless the FMU is past it, states, derivatives, and S."""
     run, work, v = job.run, job.work, job.variation
     run.segment, run.horizon = 0, doubles(job.breaks.times)[0]
-    code = settle(job) if v.rewind == 0 else RUNNING
+    code = RUNNING
+    if v.rewind == 0:
+        code = settle(job)
+    else:
+        run.next_event = np.inf
     if code != RUNNING:
         return code
     if v.start == 0:
@@ -54,7 +67,7 @@ def _begin(job: Any) -> int:
 def _restart(job: Any) -> int:
     """Start afresh at run.t: derivatives, first step, K."""
     code = resume(job)
-    if code == RUNNING:
+    if code == RUNNING and job.variation.columns > 0:
         job.run.status = max(job.run.status, begin_variation(job))
         code = RUNNING if job.run.status <= WARNING else MODEL_ERROR
     return code
@@ -72,7 +85,7 @@ def _advance(job: Any) -> int:
     status = get_indicators(fmu, work.z_new, work.m)
     if status <= WARNING and crossed(job, work.z, work.z_new):
         return EVENT
-    if status <= WARNING:
+    if status <= WARNING and job.variation.columns > 0:
         status = vary_step(job, h)
     if status <= WARNING:
         status = _record_inside(job, h, t_new)
@@ -118,11 +131,11 @@ def _arrive(job: Any, t_new: float) -> int:
     """Make the end of the step the current point, pass a break of the inputs there, record."""
     fmu, run, work = job.fmu, job.run, job.work
     run.t = t_new
-    run.jacobian_at = t_new
     copy(work.x_new, work.x, work.n)
     copy(work.dx_new, work.dx, work.n)
     copy(work.z_new, work.z, work.m)
-    end_variation(job)
+    if job.variation.columns > 0:
+        end_variation(job)
     if fmu.terminate != 0:
         return TERMINATED
     if fmu.event != 0 or run.t >= run.next_event:
@@ -160,6 +173,7 @@ def _finish_point(job: Any) -> int:
         run.status = max(run.status, status)
         if status > WARNING:
             return MODEL_ERROR
+    note_range(job)
     if not _finite(job):
         return NOT_FINITE
     if run.t >= run.end:

@@ -1,0 +1,167 @@
+"""Which derivatives an FMU really gives: asked and compared with differences once, before they are relied on."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pysim.simulate._base import Solver
+from pysim.simulate._check import check_experiment
+from pysim.simulate._library import CallFailed, Instance, Library
+from pysim.simulate._run import initialise
+from pysim.simulate._varied import Directions, Varied, vary
+from pysim.types import BadInput, Experiment, Model, Outcome, Variable
+
+Array = NDArray[np.float64]
+
+START_STEP = 1e-5  # of a parameter: what moves it to see the start states move
+_WRONG = 0.02  # share by which a derivative and its difference may not differ
+_NOISE = 1e-13  # rounding, of the size of what adds up to a derivative
+
+
+@dataclass(frozen=True)
+class Offer:
+    """What can be had exactly.
+
+    Args:
+        parameters: names whose columns the FMU gives.
+        starts: those of them that are start values of states.
+        outputs: whether it gives the derivatives of what is recorded.
+    """
+
+    parameters: tuple[str, ...]
+    starts: frozenset[str]
+    outputs: bool
+
+    def directions(self, *, states: bool) -> Directions:
+        """All of it as directions of a run."""
+        return Directions(self.parameters, self.starts, states, self.outputs)
+
+
+def check_names(function: str, parameters: Sequence[str]) -> tuple[str, ...]:
+    """The names as a tuple, none of them twice.
+
+    Raises:
+        BadInput: one is, or they are a text.
+    """
+    if isinstance(parameters, str):
+        raise BadInput(f"{function}: parameters is the text {parameters!r}; write a tuple of names, ({parameters!r},)")
+    names = tuple(parameters)
+    for name in names:
+        if names.count(name) > 1:
+            raise BadInput(f"{function}: {name} is asked for twice; name each parameter once")
+    return names
+
+
+def check_parameters(function: str, model: Model, experiments: Sequence[Experiment], names: Sequence[str]) -> None:
+    """Check the experiments, and that each can be differentiated by each name.
+
+    Raises:
+        BadInput: as `simulate`, or a name that is not real, cannot be set, is driven, or has no value.
+    """
+    for name in names:
+        if model[name].type not in ("Real", "Float64"):
+            raise BadInput(f"{function}: {name} is {model[name].type}; a derivative needs a real parameter")
+    for count, experiment in enumerate(experiments):
+        check_experiment(model, experiment)
+        values = {name: value_of(model, experiment, name) for name in names}
+        if count == 0 or any(name in experiment.inputs or name in experiment.rates for name in names):
+            check_experiment(model, experiment.override(**values))
+
+
+def size_of(variable: Variable, value: float) -> float:
+    """By what a change of a parameter is measured: its value, else its nominal value or its range."""
+    span = variable.max - variable.min if variable.max is not None and variable.min is not None else 0.0
+    return abs(value) or abs(variable.nominal or 0.0) or abs(span) or 1.0
+
+
+def value_of(model: Model, experiment: Experiment, name: str) -> float:
+    """The value a parameter has in an experiment.
+
+    Raises:
+        BadInput: neither the experiment nor the FMU gives one.
+    """
+    value = experiment.overrides.get(name, model[name].start)
+    if value is None:
+        raise BadInput(f"{model.path.name}: {name} has no value to differentiate at; give it one in the overrides")
+    return float(value)
+
+
+def both_sides(model: Model, experiment: Experiment, name: str, share: float) -> tuple[Experiment, Experiment, float]:
+    """The experiment with the parameter moved up and down by a share of its size, within its bounds; their distance."""
+    variable, value = model[name], value_of(model, experiment, name)
+    step = share * size_of(variable, value)
+    up = value + step if variable.max is None else min(value + step, max(variable.max, value))
+    down = value - step if variable.min is None else max(value - step, min(variable.min, value))
+    if not up > down:
+        raise BadInput(f"{model.path.name}: {name} cannot be moved from {value}: its min and max leave no room")
+    return experiment.override(**{name: up}), experiment.override(**{name: down}), up - down
+
+
+def probe(library: Library, experiment: Experiment, solver: Solver, parameters: Sequence[str]) -> Offer:
+    """Ask the FMU, at the experiment's start, for every derivative that is wanted.
+
+    A column that it refuses, or that is not what a difference shows, is not part of the offer.
+    """
+    model = library.model
+    once = replace(experiment, times=np.array([experiment.start]))
+    first = at_start(library, once, solver, Directions())
+    if first is None or not model.abilities.directional_derivatives:
+        return Offer((), frozenset(), first is not None and model.abilities.directional_derivatives)
+    starts = frozenset(n for n in parameters if n in model.abilities.states or _is_start(model[n]))
+    nominal = np.array([model[name].nominal or 1.0 for name in model.abilities.states])
+    point = first.states + 1e-3 * np.maximum(np.abs(first.states), np.abs(nominal))
+    given = tuple(n for n in parameters if n in starts or _agrees(library, once, solver, n, point))
+    return Offer(given, starts & set(given), True)
+
+
+def probe_each(
+    library: Library, experiments: Sequence[Experiment], solver: Solver, parameters: Sequence[str]
+) -> dict[tuple[str, ...], Offer]:
+    """The offer for each choice of variables to record."""
+    offers: dict[tuple[str, ...], Offer] = {}
+    for experiment in experiments:
+        if experiment.record not in offers:
+            offers[experiment.record] = probe(library, experiment, solver, parameters)
+    return offers
+
+
+def _is_start(variable: Variable) -> bool:
+    return variable.causality not in ("parameter", "input")
+
+
+def at_start(
+    library: Library, experiment: Experiment, solver: Solver, directions: Directions, start: Array | None = None
+) -> Varied | None:
+    """The run's first point; None where the FMU refuses."""
+    try:
+        with library.instance() as instance:
+            return _begin(instance, experiment, solver, directions, start)
+    except CallFailed:
+        return None
+
+
+def _begin(
+    instance: Instance, experiment: Experiment, solver: Solver, directions: Directions, start: Array | None
+) -> Varied | None:
+    initialise(instance, experiment, solver)
+    varied = vary(instance, experiment, solver, directions, start=start)
+    return varied if varied.record.outcome is Outcome.DONE else None
+
+
+def _agrees(library: Library, experiment: Experiment, solver: Solver, name: str, point: Array) -> bool:
+    """Whether the FMU's derivative by a parameter is the one that a central difference shows, at those states."""
+    exact = at_start(library, experiment, solver, Directions((name,), outputs=False), point)
+    if exact is None:
+        return False
+    up, down, distance = both_sides(library.model, experiment, name, START_STEP)
+    sides = [at_start(library, side, solver, Directions(outputs=False), point) for side in (up, down)]
+    if sides[0] is None or sides[1] is None:
+        return True  # nothing to compare with
+    numeric = (sides[0].rates - sides[1].rates) / distance
+    size = np.maximum(np.abs(numeric), np.abs(exact.forcing[0]))
+    noise = _NOISE * exact.terms / distance
+    return bool(np.all(np.abs(numeric - exact.forcing[0]) <= _WRONG * size + noise))
