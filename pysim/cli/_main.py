@@ -9,7 +9,7 @@ import sys
 import traceback
 from collections.abc import Sequence
 
-from pysim.cli import bench, blackbox, compare, demo, frf, multisine, signal, simulate
+from pysim.cli import bench, blackbox, compare, demo, frf, friction, multisine, signal, simulate
 
 DONE, NO, WRONG_USE, OUR_BUG = 0, 1, 2, 3
 _COMMANDS = {
@@ -18,6 +18,7 @@ _COMMANDS = {
     "compare": compare,
     "demo": demo,
     "frf": frf,
+    "friction": friction,
     "multisine": multisine,
     "signal": signal,
     "simulate": simulate,

@@ -5,6 +5,7 @@ from pysim.plot.bode import bode_figure
 from pysim.plot.deviation import deviation_figure
 from pysim.plot.excitation import excitation_figure
 from pysim.plot.frf import frf_figure
+from pysim.plot.friction import friction_figure
 from pysim.plot.multisine import multisine_figure
 from pysim.plot.render import render
 from pysim.plot.time_response import time_response_figure
@@ -15,6 +16,7 @@ __all__ = [
     "deviation_figure",
     "excitation_figure",
     "frf_figure",
+    "friction_figure",
     "multisine_figure",
     "render",
     "time_response_figure",

@@ -2,6 +2,7 @@
 
 from pysim.report.comparison import comparison_page, comparison_table
 from pysim.report.data import comparison_data
+from pysim.report.friction import friction_data, friction_page, friction_table, friction_text
 from pysim.report.page import cell, commands, heading, items, page, paragraph, picture, table
 from pysim.report.text import comparison_text, verdict_text
 
@@ -12,6 +13,10 @@ __all__ = [
     "comparison_page",
     "comparison_table",
     "comparison_text",
+    "friction_data",
+    "friction_page",
+    "friction_table",
+    "friction_text",
     "heading",
     "items",
     "page",
