@@ -1,0 +1,186 @@
+"""Find the best linear approximation from multisine logs, with noise, even and odd distortion beside it."""
+
+from __future__ import annotations
+
+import argparse
+import json
+from collections.abc import Mapping
+from fnmatch import fnmatch
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from pysim.types import BestLinearApproximation, Dataset, MeasuredRecord, Record
+
+_METHODS = ("auto", "robust", "fast", "smooth", "arbitrary")
+_KINDS = ("multisine", "other")
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The words behind `pysim multisine`."""
+    parser.add_argument("data", metavar="DATASET", type=Path, help="data set, or records as .csv or .npz", nargs="+")
+    parser.add_argument("--period", metavar="SECONDS", type=float, help="of the multisine; none: any broadband signal")
+    parser.add_argument("--input", metavar="NAME", help="what excites; the only input by default")
+    parser.add_argument("--output", metavar="DIR", type=Path, help="write report.html and the plots here")
+    parser.add_argument("--signal", metavar="NAME", help="the responding signal, where the logs hold several")
+    parser.add_argument("--reference", metavar="NAME", help="known command, where the input is measured or in a loop")
+    parser.add_argument("--records", metavar="PATTERN", default="*", help="only logs of this name, as multisine/*.txt")
+    parser.add_argument("--start", metavar="SECONDS", type=float, help="first period (found in the command)")
+    parser.add_argument("--periods", metavar="N", type=int, help="how many of each log (all)")
+    parser.add_argument(
+        "--method",
+        choices=_METHODS,
+        default="auto",
+        help="robust: several realisations; fast: lines left free; smooth: local polynomial over periods; arbitrary: "
+        "local polynomial without periods (what the logs allow)",
+    )
+    parser.add_argument("--drop", metavar="N", type=int, help="leave out periods, in place of estimating the transient")
+    parser.add_argument("--band", metavar="HZ", type=float, nargs=2, help="lowest and highest line, without a period")
+    parser.add_argument("--json", metavar="FILE", type=Path, help="write all numbers here")
+
+
+def run(args: argparse.Namespace) -> int:
+    """Print what was found for each working point."""
+    from pysim.cli._outputs import prepare_file, prepare_folder
+    from pysim.io import write_file
+    from pysim.report.multisine import multisine_data, multisine_text
+
+    groups, columns = _read(args)
+    if args.output:
+        prepare_folder(args.output)
+    if args.json:
+        prepare_file(args.json, "--json")
+    found = _analyse(args, groups, columns)
+    print("\n\n".join(multisine_text(name, bla) for name, bla in found.items()))
+    if args.json:
+        data = [multisine_data(name, bla) for name, bla in found.items()]
+        write_file(args.json, json.dumps({"approximations": data}, indent=1, allow_nan=False))
+    if args.output:
+        _write_report(args, found)
+    return 0
+
+
+def _read(args: argparse.Namespace) -> tuple[dict[str, list[Record]], tuple[str, ...]]:
+    """Records of each working point, and the columns to use."""
+    from pysim.io import read_dataset, read_record
+    from pysim.types import BadInput
+
+    if len(args.data) == 1 and args.data[0].suffix.lower() not in (".csv", ".npz"):
+        dataset = read_dataset(args.data[0])
+        logs = [log for log in dataset.logs() if fnmatch(log.source, args.records)]
+        logs = [log for log in logs if log.kind in _KINDS] if args.records == "*" else logs
+        if not logs:
+            raise BadInput(
+                f"{args.data[0]}: no log of kind {' or '.join(_KINDS)} fits --records {args.records}; name the logs"
+            )
+        columns = tuple(_column(args, dataset, logs[0], role) for role in ("input", "output"))
+        groups: dict[str, list[Record]] = {}
+        for log in logs:
+            groups.setdefault(_working_point(dataset, log, columns[0]), []).append(_named(log))
+    else:
+        if not (args.input and args.signal):
+            raise BadInput("multisine: records do not tell what is input; write --input NAME --signal NAME")
+        columns = (args.input, args.signal)
+        groups = {"all records": [read_record(path) for path in args.data]}
+    return groups, columns if args.reference is None else (*columns, args.reference)
+
+
+def _column(args: argparse.Namespace, dataset: Dataset, log: MeasuredRecord, role: str) -> str:
+    """The one asked for, or the only one of that role."""
+    from pysim.types import BadInput
+
+    option, wanted = ("--input", args.input) if role == "input" else ("--signal", args.signal)
+    if wanted:
+        return str(wanted)
+    names = dataset.columns(log, role)
+    if len(names) != 1:
+        raise BadInput(f"{log.source}: its {role}s are {', '.join(names) or 'none'}; choose one with {option} NAME")
+    return names[0]
+
+
+def _working_point(dataset: Dataset, log: MeasuredRecord, command: str) -> str:
+    """What logs have in common that are realisations of one test."""
+    unit = dataset.signal(command).unit
+    words = [
+        f"{word} {x:g} {unit}" for word, x in (("offset", log.offset), ("amplitude", log.amplitude)) if x is not None
+    ]
+    return ", ".join(words) or dataset.name
+
+
+def _named(log: MeasuredRecord) -> Record:
+    """The record, with the log's name in what it says of itself."""
+    from dataclasses import replace
+
+    from pysim.types import Record
+
+    assert isinstance(log.data, Record)
+    return replace(log.data, origin=log.source)
+
+
+def _analyse(
+    args: argparse.Namespace, groups: Mapping[str, list[Record]], columns: tuple[str, ...]
+) -> dict[str, BestLinearApproximation]:
+    from pysim.types import BadInput
+
+    found = {}
+    for name, records in groups.items():
+        if args.period is not None and args.method != "arbitrary":
+            found[name] = _periodic(args, records, columns)
+            continue
+        if args.method not in ("auto", "arbitrary"):
+            raise BadInput(f"--method {args.method}: needs the period of the multisine; write --period SECONDS")
+        for record in records:
+            label = name if len(records) == 1 else f"{name}, {record.origin}"
+            found[label] = _arbitrary(args, record, columns)
+    return found
+
+
+def _periodic(args: argparse.Namespace, records: list[Record], columns: tuple[str, ...]) -> BestLinearApproximation:
+    from pysim.identify import multisine
+
+    methods = {
+        "auto": multisine.best_linear_approximation,
+        "robust": multisine.robust_approximation,
+        "fast": multisine.fast_approximation,
+        "smooth": multisine.smooth_approximation,
+    }
+    periods = multisine.periods_of(records, args.period, columns, start=args.start, count=args.periods)
+    transient = None if args.drop is None else multisine.DropPeriods(args.drop)
+    return methods[args.method](periods, transient=transient)
+
+
+def _arbitrary(args: argparse.Namespace, record: Record, columns: tuple[str, ...]) -> BestLinearApproximation:
+    from pysim.identify.multisine import local_polynomial_approximation
+
+    band = None if args.band is None else (args.band[0], args.band[1])
+    return local_polynomial_approximation(record, columns, band=band)
+
+
+def _write_report(args: argparse.Namespace, found: Mapping[str, BestLinearApproximation]) -> None:
+    from pysim.cli._outputs import command_line
+    from pysim.io import write_file
+    from pysim.plot import multisine_figure, render
+    from pysim.report.multisine import multisine_page
+
+    pictures = {}
+    for i, (name, bla) in enumerate(found.items(), start=1):
+        figure = multisine_figure([bla], [name])
+        write_file(args.output / f"multisine_{i}.png", render(figure, "png"))
+        svg = render(figure, "svg")
+        write_file(args.output / f"multisine_{i}.svg", svg)
+        pictures[f"{name}: gain with its 95 percent band, and the levels beside it; points are single lines."] = svg
+    title = f"Best linear approximation of {args.data[0].name}"
+    text = multisine_page(title, found, pictures=pictures, redo=command_line(_words(args)))
+    write_file(args.output / "report.html", text)
+
+
+def _words(args: argparse.Namespace) -> list[str]:
+    """The command line again."""
+    words = ["multisine", *(str(path) for path in args.data), "--method", args.method]
+    for name in ("period", "input", "signal", "reference", "start", "periods", "drop", "output"):
+        value = getattr(args, name)
+        if value is not None:
+            words += [f"--{name}", str(value)]
+    if args.band is not None:
+        words += ["--band", *(f"{x:g}" for x in args.band)]
+    return words + (["--records", args.records] if args.records != "*" else [])
