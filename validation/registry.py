@@ -29,6 +29,8 @@ CASES: Mapping[str, Case] = MappingProxyType(
         "pump-time": Case("validation.pump_time.case", "FMU against the independent simulation over time, ME and CS"),
         "demo-table": Case("validation.demo_table.case", "the demo against the independent result and the thesis"),
         "native-loop": Case("validation.benchmarks.native_loop", "time and accuracy against FMPy's CVODE loop"),
+        "blackbox-coverage": Case("validation.blackbox.case", "Table 4.1 comes back; 95 % intervals hold the truth"),
+        "friction": Case("validation.friction.case", "thesis Table 6.2 found again from ten pulses per revolution"),
         "wine": Case("validation.wine.case", "the Windows binary under Wine against the binary of this machine"),
     }
 )

@@ -1,0 +1,61 @@
+"""`pysim blackbox`: exit codes, refusals, and what it leaves behind."""
+
+import json
+import shlex
+from pathlib import Path
+
+import pytest
+
+from pysim.cli import main
+from validation.thesis import write_dataset
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.setattr("pysim.plot.render", lambda figure, form: b"drawn")  # slow, and tested where it lives
+    return write_dataset(tmp_path / "data")
+
+
+def test_a_row_of_the_thesis_comes_back(folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    numbers, out = tmp_path / "n.json", tmp_path / "out"
+    words = ["blackbox", str(folder), "--poles", "5", "--test=-25/10", "--json", str(numbers), "--output", str(out)]
+    assert main(words) == 0
+    printed = capsys.readouterr().out
+    assert "O-25 A10: 5 poles, no zeros" in printed
+    (one,) = json.loads(numbers.read_text())["responses"]
+    assert one["denominator"] == pytest.approx([1, 208, 88674, 12347e3, 1452e6, 69731e6], rel=1e-6)
+    assert {p.name for p in out.iterdir()} == {"report.html", "blackbox_O-25_A10.png", "blackbox_O-25_A10.svg"}
+
+
+def test_the_report_says_how_to_do_it_again(folder: Path, tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    words = ["blackbox", str(folder), "--poles", "2", "--zeros", "1", "--dead-time-max", "0.02", "--stable"]
+    words += ["--weights", "relative", "--test=25/5", "--output", str(out)]
+    assert main(words) == 0
+    line = next(x for x in (out / "report.html").read_text().splitlines() if "pysim blackbox" in x)
+    again = shlex.split(line[line.index("blackbox") :].replace("</pre>", ""))
+    (out / "report.html").unlink()
+    assert main(again[: again.index(str(out)) + 1]) == 0
+    assert "pysim blackbox" in (out / "report.html").read_text()
+
+
+def test_orders(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["blackbox", str(folder), "--poles", "3", "--orders", "suggest", "--test", "50/20"]) == 0
+    assert "<- suggested" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("words", "says"),
+    [
+        (["--poles", "5", "--test", "7/7"], "no test 7/7"),
+        (["--poles", "-1"], "structure: "),
+        (["--poles", "3", "--zeros", "1", "--orders", "suggest"], "leave them out"),
+        (["--poles", "0", "--orders", "suggest"], "nothing to compare"),
+        (["--poles", "5", "--weights", "covariance"], "has no covariance"),
+        (["--poles", "5", "--test", "x"], "offset/amplitude"),
+        ([], "--poles"),
+    ],
+)
+def test_wrong_use(folder: Path, words: list[str], says: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["blackbox", str(folder), *words]) == 2
+    assert says in capsys.readouterr().err

@@ -1,0 +1,1 @@
+"""Black-box transfer functions: printed ones come back, and their intervals hold what they say."""
