@@ -1,0 +1,128 @@
+"""`pysim multisine` on records and data sets of a system with a known gain and a known square."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from pysim.cli import main
+from pysim.io import write_record
+from pysim.types import Record
+from tests.pysim.identify.multisine.systems import ODD, PERIOD, N, gain, multisine, through, with_free_lines
+
+FREE = with_free_lines(ODD, seed=11)
+NAMES = ["--input", "u", "--signal", "y"]
+
+
+def log(seed: int) -> Record:
+    """Rest, then three and a half periods around an offset, then a way back; the square shows on even lines."""
+    rng = np.random.default_rng(seed)
+    wave = multisine(FREE, rng)
+    answer = through(wave) + 0.05 * through(wave) ** 2
+    body = np.tile(np.stack([wave, answer], -1), (4, 1))[N // 2 :]
+    lead, back = np.zeros((300, 2)), np.linspace(body[-1], 0, 100)
+    values = np.concatenate([lead, body, back]) + 0.003 * rng.standard_normal((body.shape[0] + 400, 2)) * [0, 1]
+    return Record(PERIOD / N * np.arange(values.shape[0]), values, ("u", "y"), ("%", "%"))
+
+
+@pytest.fixture
+def records(tmp_path: Path) -> list[str]:
+    paths = [tmp_path / f"r{i}.npz" for i in range(3)]
+    for i, path in enumerate(paths):
+        write_record(log(i), path)
+    return [str(path) for path in paths]
+
+
+def test_several_records_are_realisations(
+    records: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    out, numbers = tmp_path / "out", tmp_path / "x.json"
+    words = [
+        "multisine",
+        *records,
+        "--period",
+        "2",
+        *NAMES,
+        "--drop",
+        "0",
+        "--json",
+        str(numbers),
+        "--output",
+        str(out),
+    ]
+    assert main(words) == 0
+    data = json.loads(numbers.read_text())["approximations"][0]
+    assert data["method"].startswith("robust")
+    assert (data["test"]["realisations"], data["test"]["periods"]) == (3, 3)
+    found = np.array(data["gain_real"]) + 1j * np.array(data["gain_imag"])
+    np.testing.assert_allclose(found, gain(FREE), atol=6 * np.sqrt(np.max(data["variance"])))
+    np.testing.assert_allclose(data["frequency_hz"], FREE / PERIOD)
+    assert data["levels"]["even"]["p_value"] < 1e-6
+    assert "Distortion even is there" in capsys.readouterr().out
+    assert {path.name for path in out.iterdir()} == {"report.html", "multisine_1.png", "multisine_1.svg"}
+    report = (out / "report.html").read_text()
+    assert "Distortion even is there" in report
+    assert "--period 2.0" in report
+
+
+def test_one_record_takes_the_fast_method(records: list[str], capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["multisine", records[0], "--period", "2", *NAMES, "--periods", "2"]) == 0
+    out = capsys.readouterr().out
+    assert "fast: from lines left free" in out
+    assert "of 2 period(s)" in out
+
+
+def test_without_a_period_any_signal_will_do(records: list[str], capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["multisine", records[0], *NAMES, "--band", "1", "20"]) == 0
+    assert "local polynomial" in capsys.readouterr().out
+
+
+def data_set(folder: Path) -> Path:
+    rows = []
+    for amplitude in (5, 10):
+        for i in range(2):
+            name = f"a{amplitude}_{i}.txt"
+            record = log(i)
+            lines = [f"{t:.6f}\t{u:.8f}\t{y:.8f}" for t, (u, y) in zip(record.time, record.values, strict=True)]
+            (folder / name).write_text("\n".join(lines) + "\n")
+            rows.append(
+                f'[[records]]\nfile = "{name}"\ncolumns = ["time", "u", "y"]\nkind = "other"\noffset = 0\n'
+                f"amplitude = {amplitude}\n"
+            )
+    signals = "".join(
+        f'[signals.{name}]\nrole = "{role}"\nunit = "%"\n\n' for name, role in (("u", "input"), ("y", "output"))
+    )
+    (folder / "dataset.toml").write_text('[dataset]\nname = "known"\n\n' + signals + "\n".join(rows))
+    return folder
+
+
+def test_a_data_set_has_a_result_per_working_point(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    folder, numbers = data_set(tmp_path), tmp_path / "x.json"
+    assert main(["multisine", str(folder), "--period", "2", "--json", str(numbers)]) == 0
+    found = json.loads(numbers.read_text())["approximations"]
+    assert [f["name"] for f in found] == ["offset 0 %, amplitude 5 %", "offset 0 %, amplitude 10 %"]
+    assert [f["test"]["realisations"] for f in found] == [2, 2]
+    assert main(["multisine", str(folder), "--period", "2", "--records", "a5_0*", "--json", str(numbers)]) == 0
+    assert json.loads(numbers.read_text())["approximations"][0]["test"]["realisations"] == 1
+    capsys.readouterr()
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["--period", "2"], "--input NAME --signal NAME"),
+        ([*NAMES, "--period", "1.7"], "does not repeat itself"),
+        ([*NAMES, "--method", "robust"], "write --period SECONDS"),
+        (["--input", "u", "--signal", "z", "--period", "2"], "no signal 'z'"),
+        ([*NAMES, "--period", "2", "--periods", "9"], "9 periods are asked for"),
+    ],
+)
+def test_wrong_use(records: list[str], words: list[str], message: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["multisine", records[0], *words]) == 2
+    assert message in capsys.readouterr().err
+
+
+def test_a_data_set_without_such_logs(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["multisine", str(data_set(tmp_path)), "--period", "2", "--records", "b*"]) == 2
+    assert "name the logs" in capsys.readouterr().err

@@ -1,0 +1,54 @@
+"""Text, data and page say what the approximation holds, and no more than it can know."""
+
+import json
+
+import numpy as np
+
+from pysim.identify.multisine import DropPeriods, fast_approximation, robust_approximation, smooth_approximation
+from pysim.report.multisine import multisine_data, multisine_page, multisine_text, verdicts
+from tests.pysim.identify.multisine.systems import FULL, ODD, measure, with_free_lines
+
+FREE = with_free_lines(ODD, seed=11)
+SQUARE = fast_approximation(
+    measure(FREE, realisations=1, periods=4, noise=0.01, seed=8, respond=lambda u: u + 0.1 * u**2),
+    transient=DropPeriods(0),
+)
+
+
+def test_verdicts_name_what_is_there_and_what_is_not_seen() -> None:
+    done, even, odd, worst = verdicts(SQUARE)
+    assert "1 realisation(s) of 4 period(s) of 2 s" in done
+    assert even.startswith("Distortion even is there (p < 1e-6)")
+    assert odd.startswith("Distortion odd is not seen")
+    assert worst.startswith("Worst at ")
+    linear = verdicts(smooth_approximation(measure(FULL, realisations=1, periods=4, noise=0.01, seed=1), width=11))
+    assert "even and odd together, is not seen" in linear[1]
+    alone = verdicts(robust_approximation(measure(FREE, realisations=3, periods=1, noise=0.01, seed=2)))
+    assert alone[1].startswith("Without a second period")
+
+
+def test_text_has_a_row_per_frequency_and_a_dash_below_the_noise() -> None:
+    lines = multisine_text("bench", SQUARE).splitlines()
+    assert lines[0] == "bench: fast: from lines left free"
+    assert " ".join(lines[5].split()) == "Hz gain dB ± dB phase deg ± deg noise dB distortion dB even dB odd dB"
+    assert lines[6].split()[0] == "0.5"
+    assert lines[6].split()[-1] == "-"
+    assert float(lines[6].split()[1]) == round(20 * np.log10(abs(SQUARE.gain[0])), 2)
+
+
+def test_data_is_complete_and_json() -> None:
+    data = multisine_data("bench", SQUARE)
+    again = json.loads(json.dumps(data, allow_nan=False))
+    np.testing.assert_allclose(np.array(again["gain_real"]) + 1j * np.array(again["gain_imag"]), SQUARE.gain)
+    assert SQUARE.even is not None
+    np.testing.assert_allclose(again["levels"]["even"]["variance"], SQUARE.even.variance)
+    assert again["levels"]["even"]["p_value"] < 1e-6 < again["levels"]["odd"]["p_value"]
+    assert again["test"]["input"] == "u"
+    single = multisine_data("x", robust_approximation(measure(FREE, realisations=3, periods=1, noise=0.1, seed=2)))
+    assert single["levels"]["noise"] is None
+
+
+def test_page_holds_tables_pictures_and_the_command() -> None:
+    page = multisine_page("A title", {"bench": SQUARE}, pictures={"A caption": b"<svg/>"}, redo="pysim multisine x")
+    for words in ("A title", "bench, fast", "A caption", "pysim multisine x", "Distortion even is there", "<table>"):
+        assert words in page
