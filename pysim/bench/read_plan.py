@@ -39,8 +39,8 @@ def read_plan(source: Path | str) -> Plan:
     """
     path = _PLANS / f"{source}.toml" if str(source) in named_plans() else Path(source)
     toml = read_toml(path, f"plan (a file, or one of {', '.join(named_plans())})")
-    toml.whole.refuse_unknown(_KEYS)
     head = toml.table("plan")
+    toml.whole.refuse_unknown(_KEYS)
     head.refuse_unknown(("name", "description", "system"))
     sections = toml.tables("signals")
     signals = {name: _signal(name, section) for name, section in sections.items()}

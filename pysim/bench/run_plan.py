@@ -18,7 +18,7 @@ from pysim.types import BadInput, Dataset, Experiment, MeasuredRecord, Model, Ou
 
 Array = NDArray[np.float64]
 
-# The pump's records are within 0.0007 percent and 2e-6 of spool stroke of those at 1e-7: a hundredth of the usual noise.
+# The pump's records are within 0.0007 percent and 2e-6 of the stroke of those at 1e-7: a hundredth of the noise.
 SOLVER = Rodas(rtol=1e-6, atol=1e-6)
 
 

@@ -1,0 +1,73 @@
+"""What a plan refuses, and how long its sines last."""
+
+import pytest
+
+from pysim.bench import ChirpTest, Logger, MultisineTest, Plan, Sensor, SteppedSines, StepTest, Truth, truth_data
+from pysim.excitation import Chirp, LineGrid, Multisine, Step
+from pysim.types import BadInput, Dataset, MeasuredSignal
+
+COMMAND = Sensor(MeasuredSignal("u", "input", "Pa", "", "u"))
+ANSWER = Sensor(MeasuredSignal("y", "output", "m", "", "y"))
+LOGGER = Logger(((1, 100.0),))
+CHIRP = ChirpTest("u", ("y",), Chirp(2e5, 1e5, 0.1, 10, 5))
+
+
+def plan(*tests: object, sensors: tuple[Sensor, ...] = (COMMAND, ANSWER)) -> Plan:
+    return Plan("p", "-", "-", sensors, tests, LOGGER, units={"u": ("bar", 1e5)})  # type: ignore[arg-type]
+
+
+def test_files_are_named_in_the_files_units() -> None:
+    step = StepTest("u", ("y",), Step(1e5, -2e5, 1.0))
+    wave = MultisineTest("u", ("y",), Multisine(LineGrid(1.0, 1, 10), 1, rms=1e5, offset=3e5))
+    sines = SteppedSines("u", ("y",), ((1e5, 5e4),), (0.5,))
+    sources = [run.source for run in plan(CHIRP, step, wave, sines).runs()]
+    assert sources == [
+        "chirp/O+2_A1.txt",
+        "step/O+1_H-2.txt",
+        "multisine/O+3_R1.txt",
+        "frequency_response/O+1_A0.5/0.5Hz.txt",
+    ]
+
+
+@pytest.mark.parametrize(
+    ("frequency", "periods"), [(0.01, 1), (0.1, 2), (0.5, 3), (2, 3), (4, 5), (6, 8), (10, 12), (13, 16), (30, 36)]
+)
+def test_whole_periods_between_least_and_most(frequency: float, periods: int) -> None:
+    # three periods, 1.2 s at least, 20 s at most, one period in any case
+    assert SteppedSines("u", ("y",), ((0.0, 1.0),), (frequency,)).periods_of(frequency) == periods
+
+
+@pytest.mark.parametrize(
+    ("make", "words"),
+    [
+        (lambda: plan(), "plan 'p' has no tests"),
+        (lambda: plan(CHIRP, CHIRP), r"two tests are logged to chirp/O\+2_A1\.txt"),
+        (lambda: plan(CHIRP, sensors=(COMMAND, ANSWER, ANSWER)), "the signal 'y' stands there twice"),
+        (lambda: plan(ChirpTest("y", ("y",), CHIRP.command)), "'y' is no signal with the role input; use u"),
+        (lambda: plan(ChirpTest("u", ("u",), CHIRP.command)), "'u' is no signal with the role output; use y"),
+        (lambda: plan(ChirpTest("u", (), CHIRP.command)), "a test measures nothing"),
+        (lambda: SteppedSines("u", ("y",), (), (1.0,)), "at least one pair of offset and amplitude"),
+        (lambda: SteppedSines("u", ("y",), ((0, 1),), (1.0,), most=1.0), "most not less than least"),
+    ],
+)
+def test_refuses_what_cannot_be_driven(make: object, words: str) -> None:
+    with pytest.raises(BadInput, match=words):
+        make()  # type: ignore[operator]
+
+
+def test_the_truth_as_data() -> None:
+    nothing = Dataset("p", "-", "-", (), ())
+    truth = Truth("M", "{1}", {"k": 2.0}, {"k": "N/m"}, {"y": 0.1}, {"y": None}, "p", 3, nothing, "none", {})
+    assert truth_data(truth) == {
+        "effect": "none",
+        "strength": {},
+        "parameters": {"k": 2.0},
+        "parameter_units": {"k": "N/m"},
+        "noise": {"y": 0.1},
+        "resolution": {"y": None},
+        "units": "SI",
+        "model": "M",
+        "token": "{1}",
+        "plan": "p",
+        "seed": 3,
+    }
