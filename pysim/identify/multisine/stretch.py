@@ -9,32 +9,50 @@ from pysim.types import BadInput
 
 Array = NDArray[np.float64]
 
-# How far a command may be from itself one period ago: of its own range, and of the typical difference (its noise).
-_OF_RANGE = 2e-3
+# How far a command may be from itself one period ago: of its whole range (steps of a quantiser among it), and of the
+# typical difference (its noise). All are tried, because a small wave may sit on a large offset.
+_OF_RANGE = (1e-9, 1e-6, 1e-5, 1e-4, 2e-4, 5e-4, 1e-3, 2e-3)
 _OF_TYPICAL = 8.0
 # Mean square of that difference, of the command's variance, where it repeats itself; 2 where it does not.
 _REPEATED = 0.3
+# Parts that repeat themselves as well as this, in comparison with the best one, are taken for equally good.
+_AS_GOOD = 4.0
+_ROUNDING = 1e-6
 
 
 def periodic_stretch(command: Array, size: int) -> slice:
     """The part of a command (n_t,) that repeats itself after `size` samples: without lead-in, hold and way back.
 
-    Of several such parts it is the one with the most motion in it; a hold has none.
+    Of parts that repeat themselves equally well it is the longest one; a hold has no motion that could repeat itself.
 
     Raises:
         BadInput: it repeats itself nowhere.
     """
     difference = np.abs(command[size:] - command[:-size])
-    near = difference <= max(_OF_RANGE * float(np.ptp(command)), _OF_TYPICAL * float(np.median(difference)))
-    edges = np.flatnonzero(np.diff(np.concatenate([[False], near, [False]])))
-    parts = [slice(first, last + size) for first, last in edges.reshape(-1, 2).tolist()]
-    best = max(
-        parts, key=lambda part: float(np.sum((command[part] - np.mean(command[part])) ** 2)), default=slice(0, 0)
-    )
-    apart = difference[best.start : best.stop - size]
-    if apart.size < size or np.mean(apart**2) > _REPEATED * np.var(command[best]):
+    limits = [share * float(np.ptp(command)) for share in _OF_RANGE] + [_OF_TYPICAL * float(np.median(difference))]
+    parts = {_part(command, difference, size, limit) for limit in limits}
+    rated = [(_unlikeness(command, difference, size, part), part) for part in parts if part[1] - part[0] >= 2 * size]
+    good = [(unlike, part) for unlike, part in rated if unlike <= _REPEATED]
+    if not good:
         raise BadInput(
             f"multisine: the command does not repeat itself over two periods of {size} samples; correct the period, or "
             "say where the periods start"
         )
-    return best
+    best = min(good)[0]
+    first, last = max(
+        (part for unlike, part in good if unlike <= _AS_GOOD * best + _ROUNDING), key=lambda part: part[1] - part[0]
+    )
+    return slice(first, last)
+
+
+def _part(command: Array, difference: Array, size: int, limit: float) -> tuple[int, int]:
+    """First and last of the run below the limit that has the most motion in it."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], difference <= limit, [False]])))
+    runs = [(first, last + size) for first, last in edges.reshape(-1, 2).tolist()]
+    return max(runs, key=lambda run: float(np.var(command[slice(*run)])) * (run[1] - run[0]), default=(0, 0))
+
+
+def _unlikeness(command: Array, difference: Array, size: int, part: tuple[int, int]) -> float:
+    """Mean square of the difference between a part's periods, of its variance."""
+    variance = float(np.var(command[slice(*part)]))
+    return float(np.mean(difference[part[0] : part[1] - size] ** 2)) / variance if variance > 0 else np.inf

@@ -19,6 +19,18 @@ def test_found(noise: float, hold: int) -> None:
     assert abs(found.stop - (30 + hold + 340)) <= 2
 
 
+@pytest.mark.parametrize("quantum", [0.0, 0.0244])
+def test_a_small_wave_on_a_large_offset(quantum: float) -> None:
+    """0.3 around 50, also in the steps of a 12-bit converter of 0 to 100."""
+    wave = 0.1 * WAVE + 1e-5 * np.random.default_rng(3).standard_normal((4, 100))
+    command = np.concatenate([np.linspace(0, 50, 60), np.full(250, 50.0), 50 + wave.ravel(), np.linspace(50, 0, 40)])
+    if quantum:
+        command = quantum * np.round(command / quantum)
+    found = periodic_stretch(command, 100)
+    assert abs(found.start - 310) <= 3
+    assert abs(found.stop - 710) <= 3
+
+
 def test_refuses_another_period_and_no_period() -> None:
     with pytest.raises(BadInput, match="does not repeat itself"):
         periodic_stretch(np.tile(WAVE, 4), 130)
