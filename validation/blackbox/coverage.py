@@ -2,18 +2,29 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy import stats
 
 from pysim.identify import TransferFunction, frequency_response
-from pysim.identify.blackbox import ComplexResponse, Structure, complex_response, fit_transfer_function
+from pysim.identify.blackbox import (
+    ComplexResponse,
+    Root,
+    Structure,
+    TransferFunctionFit,
+    complex_response,
+    fit_transfer_function,
+)
 from pysim.types import Record, SineTest
 from validation.thesis import FREQUENCIES_HZ
 
 Array = NDArray[np.float64]
+
+T = TypeVar("T")
 
 LEVEL = 0.95
 
@@ -88,13 +99,43 @@ def coverage(
         noise_known: weigh by the covariance of the sine fits; else uniformly, with the noise from the residuals.
     """
     rng = np.random.default_rng(seed)
-    truth = [*function.numerator, *function.denominator[1:]] + [function.dead_time] * structure.delayed
-    inside, names = np.zeros(len(truth), dtype=np.int64), tuple[str, ...]()
+    truth = _true_numbers(function, structure)
+    inside = dict.fromkeys(truth, 0)
     for _ in range(runs):
-        fit = fit_transfer_function(
-            log.response(function, test, rng), structure, weights="covariance" if noise_known else "uniform"
-        )
-        estimates = fit.estimates(LEVEL)
-        names = tuple(e.name for e in estimates)
-        inside += [e.low <= value <= e.high for e, value in zip(estimates, truth, strict=True)]
-    return Coverage(f"{test.label}, {structure.label}", names, inside, runs)
+        response = log.response(function, test, rng)
+        fit = fit_transfer_function(response, structure, weights="covariance" if noise_known else "uniform")
+        for name, (low, high) in _intervals(fit).items():
+            inside[name] += low <= truth[name] <= high
+    return Coverage(f"{test.label}, {structure.label}", tuple(inside), np.array(list(inside.values())), runs)
+
+
+def _true_numbers(function: TransferFunction, structure: Structure) -> dict[str, float]:
+    """By the names of `_intervals`."""
+    m, n = len(function.numerator), len(function.denominator) - 1
+    truth = {f"b{m - 1 - k}": b for k, b in enumerate(function.numerator)}
+    truth |= {f"a{n - 1 - k}": a for k, a in enumerate(function.denominator[1:])}
+    truth |= {"dead_time": function.dead_time} if structure.delayed else {}
+    truth["gain"] = function.gain
+    for i, pole in enumerate(function.poles):
+        truth |= _of_pole(i, Root(complex(pole), np.zeros((2, 2))), 0.0, lambda low, high: (low + high) / 2)
+    return truth
+
+
+def _intervals(fit: TransferFunctionFit) -> dict[str, tuple[float, float]]:
+    """Of every coefficient, the dead time, the gain, and of each pole above or on the real axis size and damping."""
+    found = {e.name: (e.low, e.high) for e in (*fit.estimates(LEVEL), fit.gain(LEVEL))}
+    for i, pole in enumerate(fit.poles):
+        found |= _of_pole(i, pole, fit.quantile(LEVEL), lambda low, high: (low, high))
+    return found
+
+
+def _of_pole(i: int, pole: Root, quantile: float, as_wanted: Callable[[float, float], T]) -> dict[str, T]:
+    """Size, and of a pair damping; nothing for the one below the axis."""
+    if pole.value.imag < 0:
+        return {}
+    size, half = pole.frequency_hz, quantile * pole.frequency_deviation_hz
+    numbers = {f"pole {i} Hz": as_wanted(size - half, size + half)}
+    if pole.value.imag > 0:
+        half = quantile * pole.damping_deviation
+        numbers[f"pole {i} damping"] = as_wanted(pole.damping - half, pole.damping + half)
+    return numbers

@@ -5,7 +5,7 @@ from matplotlib.figure import Figure
 
 from pysim.identify.blackbox import Structure, fit_dataset
 from pysim.plot import blackbox_figure
-from tests.pysim.identify.blackbox.test_dataset import F, dataset, log, table
+from tests.pysim.identify.blackbox.logs import F, dataset, log, table
 
 
 def lines(figure: Figure, axes: int) -> list[np.ndarray]:

@@ -7,7 +7,7 @@ import pytest
 
 from pysim.identify.blackbox import Structure, fit_dataset
 from pysim.report.blackbox import blackbox_data, blackbox_page, blackbox_text
-from tests.pysim.identify.blackbox.test_dataset import F, dataset, log, table
+from tests.pysim.identify.blackbox.logs import F, dataset, log, table
 
 
 @pytest.fixture(scope="module")

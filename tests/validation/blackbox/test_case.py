@@ -41,7 +41,8 @@ def test_a_drawn_response_is_the_true_one_within_its_covariance() -> None:
 def test_coverage_counts_and_is_judged() -> None:
     test, row = printed_rows("4.1")[10]
     found = coverage(from_thesis_row(row), THESIS_STRUCTURE, test, runs=12, seed=1)
-    assert found.names == ("b0", "a4", "a3", "a2", "a1", "a0")
+    assert found.names[:7] == ("b0", "a4", "a3", "a2", "a1", "a0", "gain")
+    assert found.names[7:] == ("pole 0 Hz", "pole 2 Hz", "pole 2 damping", "pole 4 Hz", "pole 4 damping")
     assert np.all(found.inside >= 8)
     wrong = from_thesis_row({**row, "a0": 1.02 * row["a0"], "b0": 1.02 * row["b0"]})
     other = coverage(wrong, THESIS_STRUCTURE, test, runs=12, seed=1)
