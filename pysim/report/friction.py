@@ -26,8 +26,12 @@ def friction_text(fit: FrictionFit) -> str:
     for name, unit in zip(FRICTION_NAMES, FRICTION_UNITS, strict=True):
         value = "-" if name in fit.bounded else f"{fit.parameters[name]:.4f}"
         lines.append(f"  {name:<9}{value:>10}   {_interval(fit, name)} {unit:<6} {_MEANING[name]}")
-    lines.append(f"  residual {fit.rms:.3g} N.m, {fit.residuals.size} samples worth {fit.effective:.0f} independent ones")
-    return "\n".join([*lines, *(row for remark in remarks(fit) for row in textwrap.wrap(remark, 78))])
+    lines.append(
+        f"  residual {fit.rms:.3g} N.m, {fit.residuals.size} samples worth {fit.effective:.0f} independent ones"
+    )
+    return "\n".join(
+        [*lines, *(row for remark in remarks(fit) for row in textwrap.wrap(remark, 78, break_on_hyphens=False))]
+    )
 
 
 def remarks(fit: FrictionFit) -> tuple[str, ...]:
@@ -39,8 +43,8 @@ def remarks(fit: FrictionFit) -> tuple[str, ...]:
     if "r" in fit.bounded and low > 0:
         texts.append(
             f"The steepness r is bounded, not measured: above {low:.3g} s/rad (95 percent, one-sided) every value fits "
-            f"alike. Where a number is needed take {fit.parameters['r']:.3g}; to measure it, log speeds down to a tenth "
-            "of 1/r, with a sensor that resolves them."
+            f"alike. Where a number is needed take {fit.parameters['r']:.3g}. To measure it, log speeds of about 1/r "
+            "and below, with a sensor that resolves them."
         )
     elif "r" in fit.bounded:
         end = "anything" if math.isinf(high) else f"at most {high:.3g} s/rad"
@@ -92,7 +96,11 @@ def friction_page(
     parts += [picture(svg, caption) for caption, svg in pictures.items()]
     parts += [heading("How it was found"), items(_method(fit))]
     if thesis is not None:
-        parts += [heading("The same log by filter and Eq. 6.1"), friction_table(thesis), paragraph(_beside(), note=True)]
+        parts += [
+            heading("The same log by filter and Eq. 6.1"),
+            friction_table(thesis),
+            paragraph(_beside(), note=True),
+        ]
     return page("Friction torque of the shaft over its speed", about, [*parts, heading("Do it again"), commands(redo)])
 
 
@@ -131,19 +139,19 @@ def _dropped(fit: FrictionFit) -> dict[str, int]:
 def _method(fit: FrictionFit) -> list[str]:
     fastest = max(float(np.abs(s.acceleration).max()) for s in fit.samples)
     return [
-        "Friction is what the torque balance leaves over, T_f = T_s - T_L - J dw/dt (thesis Eq. 5.41); the acceleration "
-        f"is the local slope of the speed, up to {fastest:.3g} rad/s2 here.",
+        "Friction is what the torque balance leaves over, T_f = T_s - T_L - J dw/dt (thesis Eq. 5.41); the "
+        f"acceleration is the local slope of the speed, up to {fastest:.3g} rad/s2 here.",
         "Least squares, each sample weighted by its noise."
         if fit.weighted
         else "Least squares, every sample alike (thesis Eq. 6.1).",
         "Intervals take into account that residuals follow each other: a sandwich covariance with Bartlett's weights, "
-        "Student's distribution with the effective number of samples. The interval of r is that of its likelihood profile.",
+        "Student's distribution with the effective number of samples. The interval of r is that of its profile.",
     ]
 
 
 def _beside() -> str:
     return (
-        "As the thesis did it: the held speed of the pulse sensor, low-passed and differentiated. The reading is late by "
-        "half to one and a half of the time between pulses, so near standstill torque and speed do not belong together: "
-        "the steepness found this way is that of the filter, and the intervals do not know it."
+        "As the thesis did it: the held speed of the pulse sensor, low-passed and differentiated. The reading is late "
+        "by half to one and a half of the time between pulses, so near standstill torque and speed do not belong "
+        "together: the steepness found this way is that of the filter, and the intervals do not know it."
     )

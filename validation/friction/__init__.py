@@ -1,0 +1,1 @@
+"""Friction of a simulated shaft, found again from ten pulses per revolution."""
