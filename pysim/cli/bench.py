@@ -104,6 +104,8 @@ def _check_places(args: argparse.Namespace) -> None:
 
 
 def _summary(args: argparse.Namespace, plan: Plan, dataset: Dataset) -> str:
-    rows = sum(record.data.time.size for record in dataset.logs())  # type: ignore[union-attr]
+    from pysim.types import Record
+
+    rows = sum(record.data.time.size for record in dataset.records if isinstance(record.data, Record))
     told = f"; truth in {args.truth}" if args.truth else ""
     return f"{plan.name}: {len(dataset.records)} logs, {rows} rows in {args.output}{told}"

@@ -1,0 +1,19 @@
+"""What a data set holds, and what about it should be looked at before anything is fitted."""
+
+from pysim.identify.data_check.check import DataCheck, RecordCheck, check_dataset
+from pysim.identify.data_check.clipping import clipped
+from pysim.identify.data_check.clock import Clock, clock
+from pysim.identify.data_check.folding import share_near_nyquist
+from pysim.identify.data_check.swing import Swing, swing
+
+__all__ = [
+    "Clock",
+    "DataCheck",
+    "RecordCheck",
+    "Swing",
+    "check_dataset",
+    "clipped",
+    "clock",
+    "share_near_nyquist",
+    "swing",
+]

@@ -1,0 +1,143 @@
+"""Look at every log of a data set."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from pysim.identify.data_check.clipping import clipped
+from pysim.identify.data_check.clock import Clock, clock
+from pysim.identify.data_check.folding import share_near_nyquist
+from pysim.identify.data_check.swing import swing
+from pysim.types import BadInput, Dataset, FrequencyResponse, MeasuredRecord, MeasuredSignal, Record
+
+_PERIODS = 2.0  # whole ones that a sine fit needs after the transients are cut off
+_DRIFT = 0.02  # periods that command and told frequency may come apart over a log
+_OFF = 0.01  # of the told amplitude: how far offset and amplitude of the command may be from what was told
+_IMPURE = 0.02  # of the sine: what may be left over of the command
+_JITTER = 0.05  # of the sampling interval
+_HARMONIC = 3  # a symmetric nonlinearity answers there
+_FOLDED = 0.01  # of a signal's variance close to half the sampling rate
+_ROUNDING = 1e-6
+
+
+@dataclass(frozen=True)
+class RecordCheck:
+    """One record.
+
+    Args:
+        source, kind, use: as in `MeasuredRecord`.
+        signals: what was logged, or input and output of a table.
+        rows: samples, or frequencies of a table.
+        clock: of a log; None for a table.
+        offset, amplitude, frequency: as told.
+        warnings: sentences on what should be looked at.
+    """
+
+    source: str
+    kind: str
+    use: str
+    signals: tuple[str, ...]
+    rows: int
+    clock: Clock | None
+    offset: float | None
+    amplitude: float | None
+    frequency: float | None
+    warnings: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class DataCheck:
+    """A data set and what was found; `records` in its order."""
+
+    dataset: Dataset
+    records: tuple[RecordCheck, ...]
+
+    @property
+    def warnings(self) -> tuple[tuple[str, str], ...]:
+        """(source, sentence) of every warning."""
+        return tuple((record.source, text) for record in self.records for text in record.warnings)
+
+
+def check_dataset(dataset: Dataset) -> DataCheck:
+    """What a data set holds, with warnings that are no errors.
+
+    Looked for: gaps and uneven sampling; a command that differs from what the record says, in frequency, offset,
+    amplitude or shape; fewer than two periods; harmonics beyond half the sampling rate, or much power close to it;
+    signals that stand at a limit.
+    """
+    limits = {signal.name: _extremes(dataset, signal.name) for signal in dataset.signals}
+    return DataCheck(dataset, tuple(_check(dataset, record, limits) for record in dataset.records))
+
+
+def _extremes(dataset: Dataset, name: str) -> tuple[float, float]:
+    """Smallest and largest value over all logs."""
+    columns = [r.data[name] for r in dataset.records if isinstance(r.data, Record) and name in r.data.names]
+    return min((float(c.min()) for c in columns), default=0.0), max((float(c.max()) for c in columns), default=0.0)
+
+
+def _check(dataset: Dataset, record: MeasuredRecord, limits: dict[str, tuple[float, float]]) -> RecordCheck:
+    told = {"offset": record.offset, "amplitude": record.amplitude, "frequency": record.frequency}
+    about = {"source": record.source, "kind": record.kind, "use": record.use}
+    data = record.data
+    if isinstance(data, FrequencyResponse):
+        signals = (data.test.input, data.test.output)
+        return RecordCheck(**about, signals=signals, rows=data.frequency.size, clock=None, **told, warnings=())
+    base = clock(data.time)
+    warnings = tuple(_warnings(dataset, record, data, base, limits))
+    return RecordCheck(**about, signals=data.names, rows=data.time.size, clock=base, **told, warnings=warnings)
+
+
+def _warnings(
+    dataset: Dataset, record: MeasuredRecord, log: Record, base: Clock, limits: dict[str, tuple[float, float]]
+) -> Iterator[str]:
+    yield from _of_clock(base)
+    if record.frequency is not None and record.command:
+        yield from _of_sine(record, log, base, dataset.signal(record.command))
+    for name in log.names:
+        signal = dataset.signal(name)
+        count = clipped(log[name], *limits[name]) if signal.role == "output" else 0
+        if count:
+            low, high = limits[name]
+            yield f"{count} samples of {name} stand at its smallest or largest value ({low:g}, {high:g}): clipped?"
+        noise = math.hypot(signal.noise or 0.0, (signal.resolution or 0.0) / math.sqrt(12))
+        share = share_near_nyquist(log[name], noise) if record.kind in ("chirp", "stochastic", "multisine") else 0.0
+        if share > _FOLDED:
+            yield (
+                f"{100 * share:.0f} percent of the variance of {name} lie above 80 percent of half the sampling rate: "
+                "faster parts fold back"
+            )
+
+
+def _of_clock(base: Clock) -> Iterator[str]:
+    if base.gaps:
+        start, length = max(base.gaps, key=lambda gap: gap[1])
+        yield f"{len(base.gaps)} gaps in time, the longest of {length:.3g} s after {start:.6g} s"
+    if base.jitter > _JITTER:
+        yield f"uneven sampling: the intervals vary by {100 * base.jitter:.0f} percent"
+
+
+def _of_sine(record: MeasuredRecord, log: Record, base: Clock, command: MeasuredSignal) -> Iterator[str]:
+    """A stepped sine against what the record says of it."""
+    told = float(record.frequency or 0.0)
+    periods = told * base.duration
+    if periods < _PERIODS - _ROUNDING:
+        yield f"{periods:.2g} periods of {told:g} Hz: too few for a fit without the transient; two are the least"
+    if _HARMONIC * told > 0.5 * base.rate:
+        yield f"aliasing: {_HARMONIC} x {told:g} Hz is beyond half the sampling rate, {base.rate:.4g} Hz, and folds back"
+    try:
+        found = swing(log.time, log[command.name], told)
+    except BadInput as error:
+        yield f"no sine can be fitted to {command.name}: {error}"
+        return
+    if abs(found.frequency - told) * base.duration > _DRIFT and found.impurity < 1:
+        yield f"{command.name} swings at {found.frequency:.5g} Hz, not at {told:g} Hz"
+    if found.impurity > _IMPURE:
+        yield f"{command.name} is no pure sine: {100 * found.impurity:.0f} percent are left over"
+    for what, wanted, got in (
+        ("offset", record.offset, found.offset),
+        ("amplitude", record.amplitude, found.amplitude),
+    ):
+        if wanted is not None and abs(got - wanted) > _OFF * float(record.amplitude or abs(wanted) or 1.0):
+            yield f"{what} of the logged {command.name} is {got:.5g}, not {wanted:g} {command.unit} as told"

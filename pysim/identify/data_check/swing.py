@@ -1,0 +1,75 @@
+"""What the logged command of a stepped sine really did."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pysim.identify.sine_fit import sine_fit
+
+Array = NDArray[np.float64]
+
+_PAD = 8  # times the length of the log: how finely the spectrum is searched
+_ROUNDS = 20  # of the refinement, which converges quadratically
+
+
+@dataclass(frozen=True)
+class Swing:
+    """A sine read off a log.
+
+    Args:
+        frequency: Hz.
+        amplitude, offset: in the signal's unit.
+        impurity: what the sine leaves over, as root mean square over that of the sine.
+    """
+
+    frequency: float
+    amplitude: float
+    offset: float
+    impurity: float
+
+
+def swing(time: Array, values: Array, frequency: float) -> Swing:
+    """The sine closest to a log (n_t,), its frequency free.
+
+    Args:
+        time: s.
+        frequency: Hz, what it is thought to be; another one is looked for where that leaves much over.
+    """
+    told = _refined(time, values, frequency)
+    if told.impurity < 0.1:
+        return told
+    found = _refined(time, values, _strongest(time, values))
+    return found if found.impurity < told.impurity else told
+
+
+def _strongest(time: Array, values: Array) -> float:
+    """Frequency of the strongest line, Hz; times need not be equidistant by more than jitter."""
+    step = float(np.median(np.diff(time)))
+    even = np.interp(np.arange(time[0], time[-1], step), time, values)
+    spectrum = np.abs(np.fft.rfft((even - even.mean()) * np.hanning(even.size), _PAD * even.size))
+    return max(float(np.argmax(spectrum)), 1.0) / (_PAD * even.size * step)
+
+
+def _refined(time: Array, values: Array, frequency: float) -> Swing:
+    """Gauss-Newton on the frequency, amplitude, phase and offset solved for at each."""
+    middle = 0.5 * (time[0] + time[-1])
+    duration, first, s = float(time[-1] - time[0]), frequency, time - middle
+    for _ in range(_ROUNDS):
+        angle = 2 * math.pi * frequency * s
+        columns = np.column_stack([np.sin(angle), np.cos(angle), np.ones_like(s)])
+        (a, b, _), *_ = np.linalg.lstsq(columns, values, rcond=None)
+        slope = 2 * math.pi * s * (a * columns[:, 1] - b * columns[:, 0])
+        change = np.linalg.lstsq(np.column_stack([columns, slope]), values, rcond=None)[0][3]
+        change = float(np.clip(change, -0.25 / duration, 0.25 / duration))
+        if not abs(frequency + change - first) < 1 / duration or frequency + change <= 0:
+            break
+        frequency += change
+        if abs(change) * duration < 1e-9:
+            break
+    fit = sine_fit(time, values, frequency)
+    impurity = fit.residual / (fit.amplitude / math.sqrt(2)) if fit.amplitude > 0 else math.inf
+    return Swing(frequency, fit.amplitude, fit.offset, impurity)

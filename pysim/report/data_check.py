@@ -1,0 +1,143 @@
+"""What a data set holds: for a terminal, for JSON and for the page."""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Mapping
+from itertools import groupby
+from typing import Any
+
+from pysim.identify.data_check import DataCheck, RecordCheck
+from pysim.report.page import cell, commands, heading, items, page, paragraph, picture, table
+
+_WIDTH = 100
+_SHOWN = 20  # warnings in the terminal; all of them stand in JSON and report
+
+
+def data_check_text(check: DataCheck) -> str:
+    """Signals, records by kind and operating point, and warnings."""
+    dataset = check.dataset
+    lines = [f"{dataset.name} (system {dataset.system}): {dataset.description}", "signals"]
+    width = max(len(signal.name) for signal in dataset.signals)
+    for signal, words in zip(dataset.signals, _signals(check), strict=True):
+        lines.append(f"  {signal.name:<{width}}  {', '.join(words[1:])}")
+    for kind, records in _by_kind(check).items():
+        lines += [f"{kind}: {len(records)} records", *(f"  {line}" for line in _points(records))]
+    warnings = check.warnings
+    lines.append(f"{len(warnings)} warnings" + (":" if warnings else ", ready to use"))
+    for source, text in warnings[:_SHOWN]:
+        lines += textwrap.wrap(f"{source}: {text}", _WIDTH, initial_indent="  ", subsequent_indent="    ")
+    if len(warnings) > _SHOWN:
+        lines.append(f"  and {len(warnings) - _SHOWN} more")
+    return "\n".join(lines)
+
+
+def data_check_data(check: DataCheck) -> dict[str, Any]:
+    """Everything for JSON; SI units or %."""
+    dataset = check.dataset
+    about = {"name": dataset.name, "description": dataset.description, "system": dataset.system}
+    keys = ("name", "role", "unit", "quantity", "variable", "noise", "resolution")
+    return {
+        **about,
+        "units": "SI",
+        "signals": [{key: getattr(signal, key) for key in keys} for signal in dataset.signals],
+        "records": [_record(record) for record in check.records],
+        "warnings": len(check.warnings),
+    }
+
+
+def data_check_page(check: DataCheck, *, pictures: Mapping[str, bytes], redo: str) -> str:
+    """A self-contained HTML page.
+
+    Args:
+        pictures: caption -> SVG.
+        redo: the command line that makes this page again.
+    """
+    warnings = check.warnings
+    verdict = f"{len(warnings)} warnings." if warnings else "Nothing stands out; the data set is ready to use."
+    parts = [heading("Verdict"), paragraph(f"{len(check.records)} records were read. {verdict}", note=bool(warnings))]
+    parts.append(items(f"{source}: {text}" for source, text in warnings))
+    rows = [[cell(words[0], "words"), *(cell(word, "words") for word in words[1:])] for words in _signals(check)]
+    head = ["", "role", "unit", "quantity", "model variable", "noise", "resolution"]
+    parts += [heading("Signals"), table("In SI units or %", head, rows)]
+    parts += [heading("Pictures"), *(picture(svg, caption) for caption, svg in pictures.items())]
+    head = ["file", "kind", "use", "rows", "duration s", "rate Hz", "jitter %", "offset", "amplitude", "Hz", "warnings"]
+    body = [_row(record) for record in check.records]
+    parts += [heading("Records"), table("Offset and amplitude in the input's SI unit or %", head, body)]
+    parts += [heading("Do it again"), commands(redo)]
+    return page(f"Data set {check.dataset.name}", f"{check.dataset.description}; system {check.dataset.system}.", parts)
+
+
+def _signals(check: DataCheck) -> list[list[str]]:
+    """Name, role, unit, quantity, variable, noise and resolution of every signal, in words."""
+    rows = []
+    for signal in check.dataset.signals:
+        noise, step = (
+            f"no {what} told" if value is None else f"{what} {value:.3g} {signal.unit}"
+            for what, value in (("noise", signal.noise), ("resolution", signal.resolution))
+        )
+        rows.append([signal.name, signal.role, signal.unit, signal.quantity, f"is {signal.variable}", noise, step])
+    return rows
+
+
+def _by_kind(check: DataCheck) -> dict[str, list[RecordCheck]]:
+    kinds: dict[str, list[RecordCheck]] = {}
+    for record in check.records:
+        kinds.setdefault(record.kind, []).append(record)
+    return kinds
+
+
+def _points(records: list[RecordCheck]) -> list[str]:
+    """A line per operating point of stepped sines, and one per other record."""
+    lines = []
+    sines = [record for record in records if record.frequency is not None]
+    for (offset, amplitude), group in groupby(sines, key=lambda r: (r.offset, r.amplitude)):
+        members = list(group)
+        frequencies = ", ".join(f"{f:g}" for f in sorted(r.frequency for r in members if r.frequency is not None))
+        point = f"offset {offset:g}, amplitude {amplitude:g}"
+        lines.append(f"{point}: {frequencies} Hz; {_times(members)}")
+    lines += [f"{record.source}: {_times([record])}" for record in records if record.frequency is None]
+    return [part for line in lines for part in textwrap.wrap(line, _WIDTH, subsequent_indent="    ")]
+
+
+def _times(records: list[RecordCheck]) -> str:
+    """Durations, rates, signals and use of some records."""
+    use = ", ".join(dict.fromkeys(record.use for record in records))
+    signals = "; ".join(dict.fromkeys(", ".join(record.signals) for record in records))
+    clocks = [record.clock for record in records if record.clock]
+    if not clocks:
+        return f"{sum(record.rows for record in records)} rows; {signals}; {use}"
+    jitter = max(base.jitter for base in clocks)
+    uneven = f" (jitter {100 * jitter:.2g} %)" if jitter > 1e-4 else ""
+    return (
+        f"{_span([base.duration for base in clocks])} s at {_span([base.rate for base in clocks])} Hz{uneven}; "
+        f"{signals}; {use}"
+    )
+
+
+def _span(values: list[float]) -> str:
+    low, high = (f"{value:.4g}" for value in (min(values), max(values)))
+    return low if low == high else f"{low} to {high}"
+
+
+def _record(record: RecordCheck) -> dict[str, Any]:
+    base = record.clock
+    keys = ("source", "kind", "use", "rows", "offset", "amplitude", "frequency")
+    about: dict[str, Any] = {key: getattr(record, key) for key in keys}
+    about |= {"signals": list(record.signals), "warnings": list(record.warnings), "clock": None}
+    if base is not None:
+        gaps = [{"after_s": start, "length_s": length} for start, length in base.gaps]
+        about["clock"] = {"start_s": base.start, "duration_s": base.duration, "rate_hz": base.rate}
+        about["clock"] |= {"jitter": base.jitter, "gaps": gaps}
+    return about
+
+
+def _row(record: RecordCheck) -> list[str]:
+    base = record.clock
+    clock = ["-", "-", "-"]
+    if base is not None:
+        clock = [f"{base.duration:.4g}", f"{base.rate:.4g}", f"{100 * base.jitter:.2g}"]
+    told = ["-" if v is None else f"{v:g}" for v in (record.offset, record.amplitude, record.frequency)]
+    count = len(record.warnings)
+    words = [record.source, record.kind, record.use, str(record.rows), *clock, *told]
+    return [*(cell(word) for word in words), cell(str(count), "beyond" if count else "")]
