@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from pysim.simulate._blocks import factorise_sparse, solve_one
+from pysim.simulate._elimination import factorise_shifted, solve_shifted
 from pysim.simulate._explicit import combine
 from pysim.simulate._fmu_calls import OK, WARNING
 from pysim.simulate._jacobian import take_jacobian
@@ -31,7 +31,7 @@ def attempt_esdirk(job: Any, h: float) -> tuple[int, float]:
         if status > WARNING:
             return status, np.nan
         run.jacobian_at, run.matrix_step = run.t, 0.0
-    if run.matrix_step != h and not factorise_stage(job, h * method.gamma):
+    if run.matrix_step != h and not factorise_shifted(job, 1.0 / (h * method.gamma)):
         run.matrix_step = 0.0
         return status, np.nan
     run.matrix_step = h
@@ -52,17 +52,6 @@ def attempt_esdirk(job: Any, h: float) -> tuple[int, float]:
 
 
 @native
-def factorise_stage(job: Any, reach: float) -> bool:
-    """Factorise I - reach J, J in work.jacobian; False if it is singular or not finite."""
-    n, jacobian, matrix = job.work.n, doubles(job.work.jacobian), doubles(job.work.matrix)
-    for i in range(n * n):
-        matrix[i] = -reach * jacobian[i]
-    for i in range(n):
-        matrix[i * n + i] += 1.0
-    return factorise_sparse(job.work.matrix, job.work.pivots, n)
-
-
-@native
 def _stage(job: Any, i: int, h: float) -> tuple[int, bool]:
     """Solve X = x + h sum_{j<i} a_ij k_j + h gamma f(t + c_i h, X) for row i of stages; the status, and whether found.
 
@@ -79,14 +68,14 @@ def _stage(job: Any, i: int, h: float) -> tuple[int, bool]:
         doubles(work.right),
         doubles(work.error),
     )
-    before, status = 0.0, OK
+    before, status, shift = 0.0, OK, 1.0 / reach
     for count in range(_ITERATIONS):
         status = max(status, evaluate(job, t, work.stages + place, work.k + place))
         if status > WARNING:
             return status, False
         for r in range(n):
-            change[r] = right[r] + reach * k[r] - x[r]
-        solve_one(work.matrix, work.pivots, work.error, n)
+            change[r] = (right[r] - x[r]) * shift + k[r]
+        solve_shifted(job, work.error)
         for r in range(n):
             x[r] += change[r]
         size = error_norm(job, work.error, work.x, work.stages + place)
@@ -96,7 +85,7 @@ def _stage(job: Any, i: int, h: float) -> tuple[int, bool]:
         before = size
         if size <= 1e-3 * _ENOUGH or (count > 0 and size * ratio <= (1.0 - ratio) * _ENOUGH):
             for r in range(n):
-                k[r] = (x[r] - right[r]) / reach
+                k[r] = (x[r] - right[r]) * shift
             return status, True
         if count > 0 and ratio > _SLOWEST:
             return status, False

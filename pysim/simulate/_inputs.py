@@ -76,6 +76,8 @@ def break_arrays(experiment: Experiment) -> dict[str, Any]:
         return {"count": 1, "times": np.array([end]), "jumps": _NO_JUMP}
     found: dict[float, int] = {end: 0}
     for name, signal in experiment.inputs.items():
+        if not np.any((signal.starts > experiment.start) & (signal.starts < end)):
+            continue
         jumps, kinks = signal.breaks()
         if name in experiment.rates.values():
             jumps = jumps | kinks  # the input that carries the rate jumps where the signal kinks

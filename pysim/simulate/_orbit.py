@@ -123,7 +123,7 @@ def _shoot(plan: Plan, experiment: Experiment, guess: Array | None, stopped: Sto
             settling = replace(experiment, times=times)
             varied = vary(instance, settling, plan.solver, Directions(outputs=False), stopped=stopped)
             if not varied.done:
-                trouble = "an event happened" if varied.event else varied.record.message
+                trouble = "an event happened" if varied.event else varied.message
                 return Found(None, 0, trouble, varied.event)
             guess = varied.states
             instance.renew()
@@ -137,8 +137,9 @@ def _from_shot(plan: Plan, experiment: Experiment, shot: Shot, iterations: int, 
     rows = varied.rows[:points]
     if not plan.offer.outputs and shot.mismatch > _TIGHT_MISMATCH:
         return _again(plan, experiment, shot, stopped)
-    values = varied.record.values[:points] + rows[:, :, :n] @ shot.step
-    record = replace(varied.record, time=experiment.times[:-1], values=values)
+    values = varied.values[:points] + rows[:, :, :n] @ shot.step
+    period = replace(experiment, times=experiment.times[:-1])
+    record = varied._replace(values=values).record(plan.library.model, period)
     columns = np.full((points, len(experiment.record), len(plan.parameters)), np.nan)
     by = np.full((n, len(plan.parameters)), np.nan)
     exact = rows[:, :, n:] + rows[:, :, :n] @ shot.by

@@ -14,12 +14,13 @@ from typing import Any
 
 import numpy as np
 
-from pysim.simulate._blocks import add_row, solve_rows
-from pysim.simulate._esdirk import factorise_stage
+from pysim.simulate._blocks import add_row, solve_shifted_rows
+from pysim.simulate._elimination import factorise_shifted
 from pysim.simulate._fmu_calls import ERROR, OK, WARNING, get_directional
 from pysim.simulate._jacobian import take_jacobian
 from pysim.simulate._native import doubles, longs, native
 from pysim.simulate._point import copy
+from pysim.simulate._vector import add_rows
 
 # Addresses; n states, s stages, c columns: first those of the start states (n or none), then one per parameter, then
 # zeros that fill the last vector of the processor.
@@ -37,6 +38,7 @@ VARIATION = np.dtype(
         ("k", np.int64),  # (s, n, c)
         ("right", np.int64),  # (n, c)
         ("inside", np.int64),  # (n, c) within a step
+        ("weights", np.int64),  # (s,)
         ("forcing", np.int64),  # (n_p, n) F
         ("rows", np.int64),  # (n_t, n_y, c) derivatives of what is recorded
         ("kinds", np.int64),  # (n_y,) of int64: number of the state a variable is, or one of the kinds below
@@ -91,27 +93,24 @@ def vary_step(job: Any, h: float) -> int:
 
 @native
 def _vary_stage(job: Any, i: int, h: float) -> int:
-    v, work, method, n, width = job.variation, job.work, job.method, job.work.n, job.variation.columns
-    a, reach, size = doubles(method.a + 8 * method.stages * i), h * method.gamma, 8 * n * width
-    t, place = job.run.t + doubles(method.c)[i] * h, 8 * n * i
+    v, work, method, size = job.variation, job.work, job.method, job.work.n * job.variation.columns
+    shift = 1.0 / (h * method.gamma)
+    t, place = job.run.t + doubles(method.c)[i] * h, 8 * work.n * i
     status = take_jacobian(job, t, work.stages + place, work.k + place)
     if status <= WARNING:
         status = max(status, _forcing(job))
     if status > WARNING:
         return status
-    if not factorise_stage(job, reach):
+    if not factorise_shifted(job, shift):
         return ERROR
-    copy(v.s, v.right, n * width)
-    for j in range(i):
-        if a[j] != 0.0:
-            add_row(v.right, v.k + size * j, h * a[j], n * width)
-    copy(v.right, v.inside, n * width)
-    _add_forcing(job, v.inside, reach)
-    solve_rows(work.matrix, work.pivots, v.inside, n, width)
-    known, solved, k = doubles(v.right), doubles(v.inside), doubles(v.k + size * i)
-    inverse = 1.0 / reach
-    for r in range(n * width):
-        k[r] = (solved[r] - known[r]) * inverse
+    add_rows(v.s, v.k, method.a + 8 * method.stages * i, i, h, v.right, size)
+    known, solved, k = doubles(v.right), doubles(v.inside), doubles(v.k + 8 * size * i)
+    for r in range(size):
+        solved[r] = shift * known[r]
+    _add_forcing(job, v.inside, 1.0)
+    solve_shifted_rows(job, v.inside, v.columns)
+    for r in range(size):
+        k[r] = (solved[r] - known[r]) * shift
     return status
 
 
@@ -160,14 +159,13 @@ def end_variation(job: Any) -> None:
 def vary_inside(job: Any, theta: float, h: float, target: int) -> None:
     """target (n, c) = S at the share theta of the step, by the interpolant of the step itself."""
     v, method, size = job.variation, job.method, job.work.n * job.variation.columns
-    weights = doubles(method.dense)
-    copy(v.s, target, size)
+    dense, weights = doubles(method.dense), doubles(v.weights)
     for i in range(method.stages):
         weight = 0.0
         for p in range(method.terms - 1, -1, -1):
-            weight = theta * (weights[i * method.terms + p] + weight)
-        if weight != 0.0:
-            add_row(target, v.k + 8 * size * i, h * weight, size)
+            weight = theta * (dense[i * method.terms + p] + weight)
+        weights[i] = weight
+    add_rows(v.s, v.k, v.weights, method.stages, h, target, size)
 
 
 @native

@@ -4,24 +4,27 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from pysim.simulate._base import Solver
+from pysim.simulate._blocks import VECTOR
 from pysim.simulate._job import Job
 from pysim.simulate._library import Instance
 from pysim.simulate._run import explain, make_record, prepare
 from pysim.simulate._state import RUNNING
 from pysim.simulate._variation import ASKED, FIXED
 from pysim.simulate._variation_loop import EVENT, integrate_variations
+from pysim.simulate.esdirk import Esdirk
 from pysim.types import Experiment, Model, Outcome, Record
 
 Array = NDArray[np.float64]
 
+_OUTCOMES = tuple(Outcome)
 _BUDGET = 2_000  # steps between two looks at the world outside: some 50 ms
-_VECTOR = 4  # doubles; rows are filled up to a multiple
+_STAGES = Esdirk().method().b.size
 _REALS = frozenset({"Real", "Float64"})
 
 
@@ -42,41 +45,31 @@ class Directions:
     outputs: bool = True
 
 
-@dataclass(frozen=True)
-class Varied:
-    """A run and its derivatives.
+class Varied(NamedTuple):
+    """A run and its derivatives."""
 
-    Args:
-        record: the run; one that met an event ends there.
-        event: whether it did.
-        rows: (n_t, n_y, n_s + n_p) derivatives of the recorded values.
-        states: (n_x,) at the end.
-        by: (n_x, n_s + n_p) their derivatives.
-        low, high: (n_x,) least and largest value of each state, at the steps.
-        nominal: (n_x,) nominal values of the states.
-        rates: (n_x,) derivatives of the states at the end, and
-        forcing: (n_p, n_x) those by the parameters, where the run did not leave its start.
-        terms: (n_x,) size of what adds up to the derivatives there.
-        rewindable: whether the instance can go back to the start without being initialised again.
-    """
-
-    record: Record
-    event: bool
-    rows: Array
-    states: Array
-    by: Array
-    low: Array
-    high: Array
-    nominal: Array
-    rates: Array
-    forcing: Array
-    terms: Array
-    rewindable: bool
+    outcome: Outcome  # DONE also for a run that ended at an event
+    event: bool  # whether it did
+    message: str
+    values: Array  # (n_t, n_y) what was recorded
+    rows: Array  # (n_t, n_y, n_s + n_p) derivatives of that
+    states: Array  # (n_x,) at the end
+    by: Array  # (n_x, n_s + n_p) their derivatives
+    low: Array  # (n_x,) least and
+    high: Array  # (n_x,) largest value of each state at the steps
+    nominal: Array  # (n_x,) of the states
+    statistics: dict[str, int]  # counts of the run
+    rewindable: bool  # whether the instance can go back to the start without being initialised again
+    job: Job  # as the run left it, until the instance's next run
 
     @property
     def done(self) -> bool:
         """Whether the run came to its end, with all that is derived from it."""
-        return self.record.outcome is Outcome.DONE and not self.event
+        return self.outcome is Outcome.DONE and not self.event
+
+    def record(self, model: Model, experiment: Experiment) -> Record:
+        """The run as others know it."""
+        return make_record(model, experiment, self.values, self.outcome, self.message, self.statistics)
 
 
 def vary(
@@ -99,12 +92,19 @@ def vary(
         directions: of the derivatives.
         start: (n_x,) states to start from; those of the FMU where None.
         start_by: (n_x, n_p) how the start states depend on the parameters; not at all where None.
-        rewind: start again in continuous-time mode.
+        rewind: start again in continuous-time mode, the run before being of the same experiment and directions.
         stopped: asked now and then.
     """
-    job = prepare(instance, experiment, solver)
-    arrays = _arrays(instance.model, experiment, directions, start, start_by)
-    job.put("variation", {**arrays, "rewind": int(rewind)})
+    job = instance.job if rewind else None
+    if job is None:
+        job = prepare(instance, experiment, solver)
+        job.put("variation", _arrays(instance.model, experiment, directions, start_by))
+    else:
+        job.restart(experiment.start, float(experiment.times[-1]))
+        job.change("rows", {"next": 0})
+        job.array("variation", "low").fill(np.inf)
+        job.array("variation", "high").fill(-np.inf)
+    job.change("variation", {"rewind": int(rewind), "start": 0 if start is None else np.array(start, dtype=np.float64)})
     code = RUNNING
     while code == RUNNING and not stopped():
         code = integrate_variations(job.record, _BUDGET)
@@ -113,53 +113,48 @@ def vary(
 
 
 def _result(instance: Instance, experiment: Experiment, job: Job, code: int, directions: Directions) -> Varied:
-    event = code == EVENT
-    outcome = Outcome.DONE if event or code == RUNNING else list(Outcome)[code]
-    message = "" if outcome is Outcome.DONE else explain(job, outcome) + instance.mailbox.text()
-    count = job.number("rows", "next")
-    values = job.array("rows", "values")[:count]
-    states, rates = job.array("work", "x").copy(), job.array("work", "dx").copy()
-    used = job.array("work", "x").size * directions.states + len(directions.parameters)
+    event, run = code == EVENT, job.record["run"][0]
+    outcome = Outcome.DONE if event or code == RUNNING else _OUTCOMES[code]
+    count, states = job.number("rows", "next"), job.array("work", "x").copy()
+    used = states.size * directions.states + len(directions.parameters)
     return Varied(
-        record=make_record(instance.model, experiment, values, outcome, message, job.statistics()),
-        event=event,
-        rows=job.array("variation", "rows")[:count, :, :used],
-        states=states,
-        by=job.array("variation", "s")[:, :used].copy(),
-        low=job.array("variation", "low"),
-        high=job.array("variation", "high"),
-        nominal=np.abs(job.array("work", "nominal")),
-        rates=rates,
-        forcing=job.array("variation", "forcing"),
-        terms=np.abs(rates) + np.abs(job.array("work", "jacobian").T) @ np.abs(states),
-        rewindable=job.number("run", "events") == 0 and job.number("run", "next_event") >= experiment.times[-1],
+        outcome,
+        event,
+        "" if outcome is Outcome.DONE else explain(job, outcome) + instance.mailbox.text(),
+        job.array("rows", "values")[:count],
+        job.array("variation", "rows")[:count, :, :used],
+        states,
+        job.array("variation", "s")[:, :used],
+        job.array("variation", "low"),
+        job.array("variation", "high"),
+        np.abs(job.array("work", "nominal")),
+        job.statistics(),
+        run["events"] == 0 and run["next_event"] >= experiment.times[-1],
+        job,
     )
 
 
-def _arrays(
-    model: Model, experiment: Experiment, directions: Directions, start: Array | None, start_by: Array | None
-) -> dict[str, Any]:
+def _arrays(model: Model, experiment: Experiment, directions: Directions, start_by: Array | None) -> dict[str, Any]:
     """What VARIATION points to."""
     n, parameters = len(model.abilities.states), directions.parameters
     by_start = n if directions.states else 0
-    width = -(-(by_start + len(parameters)) // _VECTOR) * _VECTOR
+    width = -(-(by_start + len(parameters)) // VECTOR) * VECTOR
     first = np.zeros((n, width))
     first[:, :by_start] = np.eye(n, by_start)
     if start_by is not None:
         first[:, by_start : by_start + len(parameters)] = start_by
-    stages = 6
     return {
         "columns": width,
         "by_start": by_start,
         "parameters": len(parameters),
-        **({} if start is None else {"start": np.array(start, dtype=np.float64)}),
         "start_by": first,
         "seeds": np.array([model[name].reference for name in parameters], dtype=np.uint32),
         "seeded": np.array([name not in directions.starts for name in parameters], dtype=np.int64),
         "s": np.zeros((n, width)),
-        "k": np.zeros((stages, n, width)),
+        "k": np.zeros((_STAGES, n, width)),
         "right": np.zeros((n, width)),
         "inside": np.zeros((n, width)),
+        "weights": np.zeros(_STAGES),
         "forcing": np.zeros((len(parameters), n)),
         "rows": np.zeros((experiment.times.size, len(experiment.record), width)),
         "low": np.full(n, np.inf),

@@ -118,14 +118,15 @@ def _one(
     for column, name in enumerate(offer.parameters):
         columns[:, :, names.index(name)] = varied.rows[:, :, column]
     missing = [name for name in names if name not in offer.parameters]
-    if not missing or varied.record.outcome is not Outcome.DONE:
+    record = varied.record(library.model, experiment)
+    if not missing or record.outcome is not Outcome.DONE:
         message = "start values were differentiated by differences" if moved else ""
-        return Sensitivities(varied.record, names, columns, not moved, message)
+        return Sensitivities(record, names, columns, not moved, message)
     differences, failed = run_differences(library, experiment, solver, missing, stopped)
     for column, name in enumerate(missing):
         columns[:, :, names.index(name)] = differences[:, :, column]
     message = f"the FMU gives no derivative by {', '.join(missing)}"
-    return Sensitivities(_with_trouble(varied.record, failed), names, columns, False, message)
+    return Sensitivities(_with_trouble(record, failed), names, columns, False, message)
 
 
 def _exact_part(
