@@ -15,9 +15,10 @@ _OF_RANGE = (1e-9, 1e-6, 1e-5, 1e-4, 2e-4, 5e-4, 1e-3, 2e-3)
 _OF_TYPICAL = 8.0
 # Mean square of that difference, of the command's variance, where it repeats itself; 2 where it does not.
 _REPEATED = 0.3
-# Parts that repeat themselves as well as this, in comparison with the best one, are taken for equally good.
+# Parts that repeat themselves as well as this, in comparison with the best one or by themselves, are equally good: a
+# quantiser's steps may differ here and there.
 _AS_GOOD = 4.0
-_ROUNDING = 1e-6
+_GOOD = 3e-3
 
 
 def periodic_stretch(command: Array, size: int) -> slice:
@@ -40,7 +41,7 @@ def periodic_stretch(command: Array, size: int) -> slice:
         )
     best = min(good)[0]
     first, last = max(
-        (part for unlike, part in good if unlike <= _AS_GOOD * best + _ROUNDING), key=lambda part: part[1] - part[0]
+        (part for unlike, part in good if unlike <= _AS_GOOD * best + _GOOD), key=lambda part: part[1] - part[0]
     )
     return slice(first, last)
 
