@@ -8,6 +8,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from matplotlib.figure import Figure
+
     from pysim.identify.data_check import DataCheck
     from pysim.types import Dataset, MeasuredSignal
 
@@ -17,11 +21,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     actions = parser.add_subparsers(dest="action", required=True, metavar="ACTION")
     check = actions.add_parser("check", help="read a data set and print what it holds")
     check.add_argument("dataset", metavar="DATASET", type=Path, help="folder with a dataset.toml, or that file")
-    column = {"metavar": "NAME:UNIT", "action": "append", "default": []}
-    check.add_argument(
-        "--input", **column, help="second column of logs without a dataset.toml, whose names tell the frequency"
-    )
-    check.add_argument("--response", **column, help="the columns behind it, one by one")
+    for option, what in (
+        ("--input", "the command, second column of logs without a dataset.toml whose names tell their frequency"),
+        ("--response", "the columns behind it, one by one"),
+    ):
+        check.add_argument(option, metavar="NAME:UNIT", action="append", default=[], help=what)
     check.add_argument("--json", metavar="FILE", type=Path, help="write all numbers here")
     check.add_argument("--output", metavar="DIR", type=Path, help="write report.html and the plots here")
 
@@ -86,7 +90,7 @@ def _write_report(args: argparse.Namespace, check: DataCheck) -> None:
     from pysim.report.data_check import data_check_page
 
     logs = check.dataset.logs()
-    figures = {}
+    figures: dict[str, tuple[Callable[[Dataset], Figure], str]] = {}
     if any(record.frequency is not None for record in logs):
         figures["coverage"] = (coverage_figure, "Offsets, amplitudes and frequencies of the stepped sines.")
         figures["sines"] = (sine_logs_figure, "The last two periods of stepped sines: the command, and what answered.")

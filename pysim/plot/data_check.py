@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any, TypeVar
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -11,6 +12,8 @@ from matplotlib.lines import Line2D
 
 from pysim.plot.style import COLOURS, MEASURED, SMALL, TEXT, frequency_axis, legend_above, new_figure, quiet
 from pysim.types import BadInput, Dataset, MeasuredRecord, Record
+
+_T = TypeVar("_T")
 
 _COLUMNS = 6  # frequencies shown per operating point
 _ROWS = 8  # operating points, or records over time, per picture
@@ -32,11 +35,13 @@ def coverage_figure(dataset: Dataset) -> Figure:
     figure = new_figure(7.5, 1.3 + 0.28 * len(points))
     axes = figure.subplots()
     quiet(axes)
-    for use, face in (("fit", COLOURS[0]), ("validate", "white")):
+    handles: dict[str, Any] = {}
+    for use, label, face in (("fit", "to fit", COLOURS[0]), ("validate", "held out", "white")):
         chosen = [record for record in sines if record.use == use]
         rows = [points.index((record.offset, record.amplitude)) for record in chosen]
-        frequencies = [record.frequency for record in chosen]
-        axes.plot(frequencies, rows, "o", color=COLOURS[0], markerfacecolor=face, markersize=6)  # type: ignore[arg-type]
+        frequencies = np.array([record.frequency for record in chosen])
+        if chosen:
+            (handles[label],) = axes.plot(frequencies, rows, "o", color=COLOURS[0], markerfacecolor=face, markersize=6)
     told = [record.frequency for record in sines if record.frequency is not None]
     frequency_axis(axes, 0.8 * min(told), 1.25 * max(told))
     unit, factor = _shown(dataset, sines[0].command)
@@ -46,16 +51,12 @@ def coverage_figure(dataset: Dataset) -> Figure:
     axes.margins(y=0.5 / len(points))
     axes.set_ylabel(f"Offset / amplitude ({unit})", fontsize=TEXT)
     axes.set_xlabel("Frequency (Hz)", fontsize=TEXT)
-    handles = [
-        Line2D([], [], color=COLOURS[0], marker="o", linestyle="none", markerfacecolor=face)
-        for face in (COLOURS[0], "white")
-    ]
-    legend_above(figure, handles, ["to fit", "held out"])
+    legend_above(figure, list(handles.values()), list(handles))
     return figure
 
 
 def sine_logs_figure(dataset: Dataset) -> Figure:
-    """A row per offset and amplitude, a panel per frequency: the last two periods of the command and of the first output.
+    """A row per offset and amplitude, a panel per frequency: the last two periods of command and first output.
 
     At most eight rows and six columns, spread over what there is.
 
@@ -83,8 +84,9 @@ def sine_logs_figure(dataset: Dataset) -> Figure:
         unit, factor = _shown(dataset, sines[0].command)
         axes[i, 0].set_ylabel(f"{factor * (offset or 0):g} / {factor * (amplitude or 0):g} {unit}", fontsize=SMALL)
     figure.supxlabel("Last periods of the log", fontsize=TEXT)
-    first = next(iter(dataset.columns(sines[0], "output")))
-    _legend(figure, [sines[0].command, first])
+    figure.align_ylabels()
+    lines = [Line2D([], [], color=colour) for colour in (MEASURED, COLOURS[0])]
+    legend_above(figure, lines, [sines[0].command, dataset.columns(sines[0], "output")[0]])
     return figure
 
 
@@ -117,8 +119,9 @@ def time_logs_figure(dataset: Dataset) -> Figure:
             panel.set_title(f"{record.source}: {record.kind}, {record.use}", fontsize=SMALL, loc="left")
     for panel in axes[-1]:
         panel.set_xlabel("Time (s)", fontsize=TEXT)
-    handles = [Line2D([], [], color=_colour(dataset, name, names)) for name in names]
-    legend_above(figure, handles, names)
+    figure.align_ylabels()
+    lines = [Line2D([], [], color=_colour(dataset, name, names)) for name in names]
+    legend_above(figure, lines, names)
     return figure
 
 
@@ -159,12 +162,7 @@ def _draw_periods(panel: Axes, dataset: Dataset, record: MeasuredRecord) -> None
     panel.set_xlim(0, _PERIODS)
 
 
-def _legend(figure: Figure, names: Sequence[str]) -> None:
-    handles = [Line2D([], [], color=colour) for colour in (MEASURED, COLOURS[0])]
-    legend_above(figure, handles, names)
-
-
-def _spread(values: list, most: int) -> list:  # type: ignore[type-arg]
+def _spread(values: list[_T], most: int) -> list[_T]:
     """At most so many of the values, evenly spread, first and last among them."""
     if len(values) <= most:
         return values

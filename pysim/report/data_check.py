@@ -22,7 +22,7 @@ def data_check_text(check: DataCheck) -> str:
     for signal, words in zip(dataset.signals, _signals(check), strict=True):
         lines.append(f"  {signal.name:<{width}}  {', '.join(words[1:])}")
     for kind, records in _by_kind(check).items():
-        lines += [f"{kind}: {len(records)} records", *(f"  {line}" for line in _points(records))]
+        lines += [f"{kind}: {len(records)}", *(f"  {line}" for line in _points(records))]
     warnings = check.warnings
     lines.append(f"{len(warnings)} warnings" + (":" if warnings else ", ready to use"))
     for source, text in warnings[:_SHOWN]:
@@ -73,7 +73,7 @@ def _signals(check: DataCheck) -> list[list[str]]:
     rows = []
     for signal in check.dataset.signals:
         noise, step = (
-            f"no {what} told" if value is None else f"{what} {value:.3g} {signal.unit}"
+            f"no {what} told" if value is None else f"{what} {value:.3g} {signal.unit.removeprefix('1')}".rstrip()
             for what, value in (("noise", signal.noise), ("resolution", signal.resolution))
         )
         rows.append([signal.name, signal.role, signal.unit, signal.quantity, f"is {signal.variable}", noise, step])

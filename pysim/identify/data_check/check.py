@@ -78,15 +78,20 @@ def _extremes(dataset: Dataset, name: str) -> tuple[float, float]:
 
 
 def _check(dataset: Dataset, record: MeasuredRecord, limits: dict[str, tuple[float, float]]) -> RecordCheck:
-    told = {"offset": record.offset, "amplitude": record.amplitude, "frequency": record.frequency}
-    about = {"source": record.source, "kind": record.kind, "use": record.use}
     data = record.data
-    if isinstance(data, FrequencyResponse):
-        signals = (data.test.input, data.test.output)
-        return RecordCheck(**about, signals=signals, rows=data.frequency.size, clock=None, **told, warnings=())
-    base = clock(data.time)
-    warnings = tuple(_warnings(dataset, record, data, base, limits))
-    return RecordCheck(**about, signals=data.names, rows=data.time.size, clock=base, **told, warnings=warnings)
+    base = clock(data.time) if isinstance(data, Record) else None
+    return RecordCheck(
+        source=record.source,
+        kind=record.kind,
+        use=record.use,
+        signals=(data.test.input, data.test.output) if isinstance(data, FrequencyResponse) else data.names,
+        rows=data.frequency.size if isinstance(data, FrequencyResponse) else data.time.size,
+        clock=base,
+        offset=record.offset,
+        amplitude=record.amplitude,
+        frequency=record.frequency,
+        warnings=tuple(_warnings(dataset, record, data, base, limits)) if isinstance(data, Record) and base else (),
+    )
 
 
 def _warnings(
@@ -125,7 +130,8 @@ def _of_sine(record: MeasuredRecord, log: Record, base: Clock, command: Measured
     if periods < _PERIODS - _ROUNDING:
         yield f"{periods:.2g} periods of {told:g} Hz: too few for a fit without the transient; two are the least"
     if _HARMONIC * told > 0.5 * base.rate:
-        yield f"aliasing: {_HARMONIC} x {told:g} Hz is beyond half the sampling rate, {base.rate:.4g} Hz, and folds back"
+        beyond = f"{_HARMONIC} x {told:g} Hz is beyond half the sampling rate, {base.rate:.4g} Hz"
+        yield f"aliasing: {beyond}, and folds back"
     try:
         found = swing(log.time, log[command.name], told)
     except BadInput as error:
