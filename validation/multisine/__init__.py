@@ -1,0 +1,1 @@
+"""Best linear approximations against exact sums, textbook formulae and stepped sines."""
