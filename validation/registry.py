@@ -31,6 +31,8 @@ CASES: Mapping[str, Case] = MappingProxyType(
         "native-loop": Case("validation.benchmarks.native_loop", "time and accuracy against FMPy's CVODE loop"),
         "blackbox-coverage": Case("validation.blackbox.case", "Table 4.1 comes back; 95 % intervals hold the truth"),
         "friction": Case("validation.friction.case", "thesis Table 6.2 found again from ten pulses per revolution"),
+        "chirp": Case("validation.chirp.case", "one chirp against stepped sines on a model whose directions differ"),
+        "multisine": Case("validation.multisine.case", "gain, noise, even and odd distortion where theory knows them"),
         "wine": Case("validation.wine.case", "the Windows binary under Wine against the binary of this machine"),
     }
 )

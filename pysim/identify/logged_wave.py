@@ -56,6 +56,12 @@ class LoggedWave:
         """Hz at times (n,) in s."""
         return self.frequency + self.rate * (np.asarray(t, dtype=np.float64) - self.start)
 
+    def time_of(self, angle: Array) -> Array:
+        """When `angle` has the values (n,) in rad: s, on the branch where it grows."""
+        turns = (np.asarray(angle, dtype=np.float64) - self.phase) / (2 * np.pi)
+        root = np.sqrt(np.maximum(self.frequency**2 + 2 * self.rate * turns, 0.0))
+        return np.asarray(self.start + 2 * turns / (self.frequency + root))
+
     def value(self, t: Array) -> Array:
         """The command at times (n,) in s, in its unit."""
         return self.offset + self.amplitude * np.sin(self.angle(t))

@@ -7,9 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from pysim.identify._columns import declared_noise, the_column
 from pysim.identify.frf.sine_point import SinePoint, Window, sine_point
 from pysim.identify.logged_wave import STEPPED_SINE
-from pysim.types import BadInput, Dataset, FrequencyResponse, MeasuredRecord, Record, SineTest
+from pysim.types import BadInput, Dataset, FrequencyResponse, Record, SineTest
 
 
 @dataclass(frozen=True)
@@ -67,8 +68,8 @@ def measured_responses(
     for record in dataset.records:
         if record.kind != STEPPED_SINE or not isinstance(record.data, Record):
             continue
-        names = _column(dataset, record, "input", record.command or None), _column(dataset, record, "output", output)
-        point = sine_point(record, *names, window=window, noise=_noise(dataset, names[1]))
+        names = the_column(dataset, record, "input"), the_column(dataset, record, "output", output)
+        point = sine_point(record, *names, window=window, noise=declared_noise(dataset, names[1]))
         offset = _nominal(record.offset, point.command.offset)
         amplitude = _nominal(record.amplitude, point.command.amplitude)
         again = (offset, amplitude, *names, point.frequency)
@@ -79,26 +80,6 @@ def measured_responses(
             f'data set {dataset.name!r} has no log of kind "{STEPPED_SINE}"; give its stepped sines that kind'
         )
     return tuple(_response(dataset, *key, points) for key, points in groups.items())
-
-
-def _column(dataset: Dataset, record: MeasuredRecord, role: str, name: str | None) -> str:
-    """The column asked for, or the only one of that role in the log."""
-    assert isinstance(record.data, Record)
-    there = [s.name for s in dataset.signals if s.role == role and s.name in record.data.names]
-    if name is not None and name in there:
-        return name
-    if name is not None or len(there) != 1:
-        wanted = f"no {role} {name!r}" if name is not None else f"{len(there)} signals of role {role}"
-        raise BadInput(f"{record.source}: {wanted}; name one of {', '.join(there) or 'its signals'}")
-    return there[0]
-
-
-def _noise(dataset: Dataset, name: str) -> float | None:
-    """Standard deviation of the measurement as declared; rounding adds its own."""
-    signal = dataset.signal(name)
-    if signal.noise is None:
-        return None
-    return float(np.hypot(signal.noise, (signal.resolution or 0.0) / np.sqrt(12)))
 
 
 def _nominal(told: float | None, fitted: float) -> float:

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from pysim.identify import magnitude_db, measured_responses, standard_deviations
-from pysim.types import BadInput, MeasuredSignal
+from pysim.types import BadInput
 from tests.pysim.identify.frf.systems import dataset, log, response, white
 
 F = (0.1, 1.0, 5.0, 13.0, 25.0)
@@ -82,8 +82,12 @@ def test_refuses_what_cannot_be_told_apart() -> None:
     with pytest.raises(BadInput, match=r"0\.1Hz\.txt: no output 'z'; name one of y"):
         measured_responses(dataset(*logs()), output="z")
     both = dataset(*logs())
-    with pytest.raises(BadInput, match="2 signals of role output; name one of y, cmd"):
-        measured_responses(replace(both, signals=(*both.signals, MeasuredSignal("cmd", "output", "%", "", ""))))
+    swapped = tuple(replace(s, role="output") for s in both.signals)
+    with pytest.raises(BadInput, match="0 signals of role input"):
+        measured_responses(replace(both, signals=swapped))
+    swapped = tuple(replace(s, role="input") for s in both.signals)
+    with pytest.raises(BadInput, match="2 signals of role input; name one of cmd, y"):
+        measured_responses(replace(both, signals=swapped))
     (only,) = measured_responses(dataset(*logs()[:1]))
     bare = replace(only.response, covariance=None)
     with pytest.raises(BadInput, match="doubt is not known"):

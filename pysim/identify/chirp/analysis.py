@@ -1,0 +1,244 @@
+"""Chirp analysis: tops and bottoms of the answer against those of the command (thesis Eq. 2.15-2.21)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pysim.identify._columns import declared_noise, the_column
+from pysim.identify.chirp.branch import Branch, mean_branch
+from pysim.identify.chirp.cycle_fit import CycleFit, Extreme, Samples, fit_cycle
+from pysim.identify.logged_wave import CHIRP, LoggedWave, logged_wave
+from pysim.types import BadInput, Dataset, FrequencyResponse, MeasuredRecord, Record, SineTest
+
+Array = NDArray[np.float64]
+
+# An extreme that sticks out of the level by less than this many of its standard deviations is lost in noise.
+_SEEN = 4.0
+# So many lost ones in a row end the search: what comes behind is chance.
+_LOST = 6
+
+
+@dataclass(frozen=True)
+class ChirpAnalysis:
+    """What one chirp says.
+
+    Args:
+        source: the record's.
+        command: the chirp as it was logged.
+        level: what tops and bottoms count from, in the output's unit.
+        top, bottom: (n,) in pairs, each bottom next to its top.
+        mean: (n,) of each pair.
+        noise: standard deviation of the output about the local fits, in its unit.
+        input, output: names of the signals.
+        input_unit, output_unit: of them.
+        remarks: what a reader must know before trusting the numbers.
+    """
+
+    source: str
+    command: LoggedWave
+    level: float
+    top: Branch
+    bottom: Branch
+    mean: Branch
+    noise: float
+    input: str
+    output: str
+    input_unit: str
+    output_unit: str
+    remarks: tuple[str, ...]
+
+    @property
+    def response(self) -> FrequencyResponse:
+        """The mean as a frequency response; its covariance is scaled to the command's amplitude."""
+        n, amplitude = self.mean.frequency.size, self.command.amplitude
+        covariance = np.zeros((n, 3, 3))
+        covariance[:, 0, 0] = (self.mean.gain_deviation * amplitude) ** 2
+        covariance[:, 1, 1] = self.mean.phase_deviation**2
+        return FrequencyResponse(
+            frequency=self.mean.frequency,
+            gain=self.mean.gain,
+            phase=self.mean.phase,
+            test=SineTest(self.command.offset, amplitude, self.input, self.output),
+            origin=f"measured, chirp {self.source}",
+            covariance=covariance,
+        )
+
+
+def analyse_chirp(
+    record: MeasuredRecord, input_: str, output: str, *, level: float | None = None, noise: float | None = None
+) -> ChirpAnalysis:
+    """Find the tops and bottoms of the output and refer each to the one of the command that caused it.
+
+    Single samples are not looked at: around each extreme a turn of the output is fitted by harmonics of the command's
+    angle, the first of which may drift, and the fitted curve's extreme is taken. Which extreme of the command belongs
+    to it follows from the phase, tracked from the lowest frequency upwards.
+
+    Args:
+        record: of kind "chirp"; a log over time.
+        input_, output: names of the columns.
+        level: what tops and bottoms count from, in the output's unit; the command's offset by default, as in the
+            thesis, which takes output and command in one unit.
+        noise: standard deviation of the output's noise where it is known; else what the fits leave over.
+    Raises:
+        BadInput: a command that is no chirp, or an output without a pair of extremes.
+    Source: thesis Section 2.5. Differs: the level is taken off (Eq. 2.15 and 2.16 forget the offset); extremes of
+    fitted curves in place of highest samples.
+    """
+    if record.kind != CHIRP:
+        raise BadInput(f'{record.source}: its kind is "{record.kind}"; chirp analysis needs a "{CHIRP}"')
+    command = logged_wave(record, input_)
+    assert isinstance(record.data, Record)  # logged_wave has refused anything else
+    level = command.offset if level is None else level
+    samples = _samples(record.data, command, output)
+    pairs = list(_extremes(samples, command))
+    if not pairs:
+        raise BadInput(f"{record.source}: {output} shows no top or bottom within the sweep; record more periods")
+    fitted = np.array([[fit.squares, fit.freedom] for _, _, fit in pairs])
+    left_over = float(np.sqrt(np.median(fitted[:, 0] / fitted[:, 1])))
+    spread = left_over if noise is None else max(noise, left_over)
+    seen, remarks = _seen(pairs, level, spread, command)
+    top, bottom = _paired(seen, command, level, spread)
+    if top.frequency.size == 0:
+        raise BadInput(f"{record.source}: no pair of top and bottom of {output} rises above the noise; swing more")
+    _tell_edges(remarks, command, samples)
+    return ChirpAnalysis(
+        source=record.source,
+        command=command,
+        level=level,
+        top=top,
+        bottom=bottom,
+        mean=mean_branch(top, bottom),
+        noise=spread,
+        input=input_,
+        output=output,
+        input_unit=record.data.units[record.data.names.index(input_)],
+        output_unit=record.data.units[record.data.names.index(output)],
+        remarks=tuple(remarks),
+    )
+
+
+def chirp_responses(
+    dataset: Dataset, *, output: str | None = None, level: float | None = None
+) -> tuple[ChirpAnalysis, ...]:
+    """Analyse every log of kind "chirp".
+
+    Args:
+        output: the responding signal; may be left out where the logs hold a single one.
+        level: as for `analyse_chirp`.
+    Raises:
+        BadInput: no such logs, no input or output to be told apart, or a log that `analyse_chirp` refuses.
+    """
+    found = []
+    for record in dataset.records:
+        if record.kind == CHIRP and isinstance(record.data, Record):
+            input_, name = the_column(dataset, record, "input"), the_column(dataset, record, "output", output)
+            noise = declared_noise(dataset, name)
+            found.append(analyse_chirp(record, input_, name, level=level, noise=noise))
+    if not found:
+        raise BadInput(f'data set {dataset.name!r} has no log of kind "{CHIRP}"; give its chirps that kind')
+    return tuple(found)
+
+
+def _samples(data: Record, command: LoggedWave, output: str) -> Samples:
+    inside = (data.time >= command.start - 1e-9) & (data.time <= command.end + 1e-9)
+    time = data.time[inside]
+    angle = command.angle(time)
+    per_turn = 2 * np.pi / np.maximum(np.gradient(angle), 1e-9)
+    frequency = np.maximum(command.frequency_at(time), 1e-9)
+    return Samples(angle, data[output][inside], per_turn, abs(command.rate) / frequency**2)
+
+
+def _extremes(samples: Samples, command: LoggedWave) -> Iterator[tuple[int, Extreme, CycleFit]]:
+    """Number of the half turn of the command, and the output's extreme that belongs to it, from low frequency up.
+
+    The command's extremes are at the angles (number + 1/2) pi; even numbers are tops.
+    """
+    first = int(np.ceil(samples.angle[0] / np.pi - 0.5))
+    last = int(np.floor(samples.angle[-1] / np.pi - 0.5))
+    numbers = range(first, last + 1) if command.rate >= 0 else range(last, first - 1, -1)
+    phase = None
+    for number in numbers:
+        at = (number + 0.5) * np.pi
+        here = fit_cycle(samples, at - (phase or 0.0))
+        if here is None:
+            continue
+        # the window follows the answer: its phase there is the one between the two, up to whole turns
+        found = here.phase if phase is None else phase + float(np.angle(np.exp(1j * (here.phase - phase))))
+        if phase is None:
+            here = fit_cycle(samples, at - found) or here
+        phase = found
+        extreme = here.extreme(at - phase, 1 if number % 2 == 0 else -1)
+        if extreme is not None:
+            yield number, extreme, here
+
+
+def _seen(
+    found: list[tuple[int, Extreme, CycleFit]], level: float, noise: float, command: LoggedWave
+) -> tuple[dict[int, Extreme], list[str]]:
+    """Those that stick out of the noise, up to where too many in a row do not."""
+    seen: dict[int, Extreme] = {}
+    lost = 0
+    for number, extreme, _ in found:
+        height = (extreme.value - level) * (1 if number % 2 == 0 else -1)
+        if height > _SEEN * noise * extreme.value_deviation:
+            seen[number], lost = extreme, 0
+            continue
+        lost += 1
+        if lost == _LOST:
+            at = float(command.frequency_at(command.time_of(np.array([(number + 0.5) * np.pi])))[0])
+            return seen, [f"tops and bottoms are lost in noise from {at:.3g} Hz on"]
+    return seen, []
+
+
+def _paired(seen: dict[int, Extreme], command: LoggedWave, level: float, noise: float) -> tuple[Branch, Branch]:
+    """Tops and bottoms next to each other, each in one pair, from the lowest frequency up."""
+    step = 1 if command.rate >= 0 else -1
+    tops, bottoms, taken = [], [], None
+    for number in sorted(seen, reverse=step < 0):
+        if number == taken or number + step not in seen:
+            continue
+        taken = number + step
+        top, bottom = (number, taken) if number % 2 == 0 else (taken, number)
+        tops.append((top, seen[top]))
+        bottoms.append((bottom, seen[bottom]))
+    return _branch(tops, command, level, noise, 1), _branch(bottoms, command, level, noise, -1)
+
+
+def _branch(extremes: list[tuple[int, Extreme]], command: LoggedWave, level: float, noise: float, sign: int) -> Branch:
+    """Eq. 2.15 or 2.16 with the level taken off, and 2.18 or 2.19."""
+    angle = np.array([(number + 0.5) * np.pi for number, _ in extremes])
+    answered = np.array([extreme.angle for _, extreme in extremes])
+    caused = command.time_of(angle)
+    frequency = command.frequency_at(caused)
+    lag = command.time_of(answered) - caused
+    gain = sign * (np.array([e.value for _, e in extremes]) - level) / command.amplitude
+    turned = frequency / command.frequency_at(
+        caused + lag
+    )  # from the command's angle at the answer to that of Eq. 2.18
+    return Branch(
+        frequency=frequency,
+        gain=gain,
+        phase=-2 * np.pi * lag * frequency,
+        gain_deviation=noise / command.amplitude * np.array([e.value_deviation for _, e in extremes]),
+        phase_deviation=noise * turned * np.array([e.angle_deviation for _, e in extremes]),
+    )
+
+
+def _tell_edges(remarks: list[str], command: LoggedWave, samples: Samples) -> None:
+    """What the sweep itself makes doubtful."""
+    low = float(np.min(command.frequency_at(np.array([command.start, command.end]))))
+    turn = np.sqrt(max(low, 0.0) ** 2 + 2 * abs(command.rate))  # after one turn from the low end
+    if turn > 1.5 * low:
+        remarks.append(
+            f"below {turn:.2g} Hz the frequency changes by more than half within a period; the response there is not "
+            "a steady one"
+        )
+    fewest = float(samples.per_turn.min())
+    if fewest < 6:
+        remarks.append(
+            f"at the high end there are {fewest:.1f} samples per period; tops there lean on the sine's shape"
+        )

@@ -1,0 +1,151 @@
+"""The answer to a chirp, cycle by cycle, as a smooth function of the command's angle."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pysim.identify._near_orthogonal import near_orthogonal_fit
+
+Array = NDArray[np.float64]
+
+# Harmonics of the local fit: so many samples per period for each, and no more than these.
+_SAMPLES_EACH, _MOST, _LEAST = 6.0, 5, 2
+# Samples per number to be fitted, at least.
+_SURPLUS = 2.0
+# A fit spans a turn at least, and more where the frequency changes by no more than this share within it.
+_CHANGE, _MOST_TURNS = 0.1, 4.0
+_GRID = np.linspace(-0.5 * np.pi, 0.5 * np.pi, 91)
+
+
+@dataclass(frozen=True)
+class Samples:
+    """A log within its sweep.
+
+    Args:
+        angle: (n,) of the command, rad, increasing.
+        values: (n,) of the output.
+        per_turn: (n,) samples per period there.
+        change: (n,) share by which the frequency changes within a period there.
+    """
+
+    angle: Array
+    values: Array
+    per_turn: Array
+    change: Array
+
+
+@dataclass(frozen=True)
+class CycleFit:
+    """Harmonics of the command's angle whose first drifts linearly, around one angle.
+
+    Args:
+        centre: rad.
+        half: rad; the fit holds from centre - half to centre + half.
+        coefficients: constant, sin, cos, sin 2, cos 2, ..., and sin, cos times the distance from the centre / half.
+        inverse: (n_c, n_c) inverse of the normal matrix: covariance of the coefficients by unit noise.
+        squares: sum of squares that is left over.
+        freedom: samples less coefficients.
+    """
+
+    centre: float
+    half: float
+    coefficients: Array
+    inverse: Array
+    squares: float
+    freedom: int
+
+    @property
+    def phase(self) -> float:
+        """Of the first harmonic at the centre, against the command, in (-pi, pi]."""
+        _, sin, cos = self.coefficients[:3]
+        return float(np.arctan2(cos, sin))
+
+    def extreme(self, angle: float, sign: int) -> Extreme | None:
+        """The top (sign 1) or bottom (-1) within a quarter turn of an angle; None where the curve has none inside."""
+        grid = angle + _GRID
+        best = int(np.argmax(sign * (self._basis(grid, 0) @ self.coefficients)))
+        if best in (0, grid.size - 1):
+            return None
+        at = float(grid[best])
+        for _ in range(3):  # Newton on the slope; the grid is two degrees fine
+            slope, bend = (float(self._basis(np.array([at]), order)[0] @ self.coefficients) for order in (1, 2))
+            if sign * bend >= 0:
+                return None
+            at += float(np.clip(-slope / bend, -0.05, 0.05))
+        value, slope_of = (self._basis(np.array([at]), order)[0] for order in (0, 1))
+        return Extreme(
+            angle=at,
+            value=float(value @ self.coefficients),
+            value_deviation=float(np.sqrt(value @ self.inverse @ value)),
+            angle_deviation=float(np.sqrt(slope_of @ self.inverse @ slope_of)) / abs(bend),
+        )
+
+    def _basis(self, angle: Array, order: int) -> Array:
+        """The regressors' derivative of that order at angles (n,), (n, n_c)."""
+        return regressors(angle, self.centre, self.half, (self.coefficients.size - 3) // 2, order)
+
+
+@dataclass(frozen=True)
+class Extreme:
+    """A top or a bottom.
+
+    Args:
+        angle: of the command when it happens, rad.
+        value: of the output.
+        value_deviation, angle_deviation: standard deviations by noise of unit standard deviation.
+    """
+
+    angle: float
+    value: float
+    value_deviation: float
+    angle_deviation: float
+
+
+def fit_cycle(samples: Samples, centre: float) -> CycleFit | None:
+    """Fit a whole turn or more around an angle; None where the log does not reach so far."""
+    place = min(int(np.searchsorted(samples.angle, centre)), samples.angle.size - 1)
+    per_turn = float(samples.per_turn[place])
+    harmonics = int(np.clip(per_turn / _SAMPLES_EACH, _LEAST, _MOST)) if per_turn > 5 else 1
+    count = 2 * harmonics + 3
+    turns = float(np.clip(_CHANGE / max(float(samples.change[place]), 1e-12), 1.0, _MOST_TURNS))
+    half = np.pi * max(turns, _SURPLUS * count / per_turn)
+    slack = 2 * np.pi / per_turn
+    if samples.angle[0] > centre - half + slack or samples.angle[-1] < centre + half - slack:
+        return None
+    inside = slice(*np.searchsorted(samples.angle, [centre - half, centre + half]).tolist())
+    angle, values = samples.angle[inside], samples.values[inside]
+    if angle.size <= count:
+        return None
+    matrix = regressors(angle, centre, half, harmonics, 0)
+    coefficients = near_orthogonal_fit(matrix, values)
+    left_over = values - matrix @ coefficients
+    inverse = np.linalg.inv(matrix.T @ matrix)
+    return CycleFit(
+        centre,
+        half,
+        coefficients,
+        np.asarray(inverse, dtype=np.float64),
+        float(left_over @ left_over),
+        angle.size - count,
+    )
+
+
+def regressors(angle: Array, centre: float, half: float, harmonics: int, order: int) -> Array:
+    """(n, n_c): constant, sin and cos of each harmonic, drifting sin and cos; or their derivative of that order."""
+    number = np.arange(1, harmonics + 1)
+    turned = angle[:, None] * number + order * (np.pi / 2)
+    matrix = np.empty((angle.size, 2 * harmonics + 3))
+    matrix[:, 0] = 1.0 if order == 0 else 0.0
+    matrix[:, 1:-2:2] = number**order * np.sin(turned)
+    matrix[:, 2:-2:2] = number**order * np.cos(turned)
+    through = (angle - centre) / half
+    matrix[:, -2] = through * matrix[:, 1]
+    matrix[:, -1] = through * matrix[:, 2]
+    if order > 0:
+        before = angle + (order - 1) * (np.pi / 2)
+        matrix[:, -2] += order / half * np.sin(before)
+        matrix[:, -1] += order / half * np.cos(before)
+    return matrix

@@ -1,0 +1,116 @@
+"""Chirp analysis against the closed form of a linear system, whose tops and bottoms answer alike."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from pysim.identify.chirp import Branch, analyse_chirp, chirp_responses, sweep_error
+from pysim.types import BadInput, Dataset, MeasuredSignal
+from tests.pysim.identify.chirp.chirps import log, response
+
+SIGNALS = (MeasuredSignal("u", "input", "%", "", "u"), MeasuredSignal("y", "output", "%", "", "y", 0.3))
+
+
+def errors(branch: Branch, *, low: float = 0.0, high: float = 20.0, **system: float) -> np.ndarray:
+    """Magnitude (dB) and phase (deg) minus the truth, (2, n)."""
+    truth = response(branch.frequency, **system)
+    degrees = branch.phase_deg - np.degrees(np.angle(truth))
+    inside = (branch.frequency >= low) & (branch.frequency <= high)
+    return np.array([branch.magnitude_db - 20 * np.log10(np.abs(truth)), (degrees + 180) % 360 - 180])[:, inside]
+
+
+@pytest.mark.parametrize("down", [False, True], ids=["up", "down"])
+def test_a_slow_sweep_gives_the_closed_form(down: bool) -> None:
+    found = analyse_chirp(log(0.5, down=down), "u", "y")
+    assert np.max(np.abs(errors(found.mean)[0])) < 0.02
+    assert np.max(np.abs(errors(found.mean)[1])) < 0.25
+    for branch in (found.top, found.bottom):
+        assert np.max(np.abs(errors(branch)[0])) < 0.05
+    assert (np.diff(found.mean.frequency) > 0).all()
+    assert found.mean.frequency[0] < 1.3  # sqrt(2.5 rate) = 1.12 Hz is the first pair's second extreme
+
+
+@pytest.mark.parametrize(("rate", "damping"), [(0.5, 0.6), (1.0, 0.2), (0.5, 0.1)])
+def test_the_error_stays_below_that_of_the_sweep(rate: float, damping: float) -> None:
+    found = analyse_chirp(log(rate, damping=damping), "u", "y")
+    share = sweep_error(rate, 8.0, damping)
+    decibel, degrees = np.max(np.abs(errors(found.mean, low=2.0, damping=damping)), axis=1)
+    assert decibel < 20 * np.log10(1 + share)
+    assert degrees < np.degrees(share) + 0.2
+
+
+def test_a_lag_of_several_turns_is_followed() -> None:
+    found = analyse_chirp(log(0.5, delay=0.15), "u", "y")
+    assert found.mean.phase_deg[-1] < -1300  # 0.15 s at 25 Hz alone are 1350 degrees
+    unwrapped = np.unwrap(np.angle(response(np.linspace(0.01, 20, 4000), delay=0.15)))
+    at20 = np.interp(20.0, found.mean.frequency, found.mean.phase_deg)
+    assert at20 == pytest.approx(np.degrees(unwrapped[-1]), abs=1.5)
+
+
+def test_intervals_hold_what_noise_does() -> None:
+    inside = np.zeros(2)
+    total = 0
+    for seed in range(3):
+        found = analyse_chirp(log(1.0, noise=0.3, seed=seed), "u", "y", noise=0.3)
+        off = np.abs(errors(found.mean, low=2.0))
+        here = (found.mean.frequency >= 2.0) & (found.mean.frequency <= 20.0)
+        sigma = [found.mean.magnitude_deviation_db[here], np.degrees(found.mean.phase_deviation[here])]
+        inside += np.sum(off <= 1.96 * np.array(sigma), axis=1)
+        total += off.shape[1]
+    assert (inside / total >= 0.94).all()  # the doubts of a pair are bounded, not combined: more than 95 percent
+    for branch in (found.top, found.bottom):
+        off = errors(branch, low=2.0)
+        here = (branch.frequency >= 2.0) & (branch.frequency <= 20.0)
+        assert np.std(off[0] / branch.magnitude_deviation_db[here]) == pytest.approx(1.0, abs=0.25)
+        assert np.std(off[1] / np.degrees(branch.phase_deviation[here])) == pytest.approx(1.0, abs=0.25)
+
+
+def test_the_level_is_taken_off() -> None:
+    at_zero = analyse_chirp(log(2.0, offset=0.0), "u", "y")
+    raised = analyse_chirp(log(2.0, offset=70.0), "u", "y")
+    np.testing.assert_allclose(raised.mean.gain, at_zero.mean.gain, rtol=1e-4)
+    other = analyse_chirp(log(2.0, offset=70.0), "u", "y", level=69.0)
+    slow = other.top.frequency < 3
+    np.testing.assert_allclose(other.top.gain[slow], raised.top.gain[slow] + 0.1, atol=1e-4)
+    np.testing.assert_allclose(other.bottom.gain[slow], raised.bottom.gain[slow] - 0.1, atol=1e-4)
+
+
+def test_stops_where_tops_are_lost_in_noise() -> None:
+    found = analyse_chirp(log(1.0, natural_hz=2.0, noise=0.5, stop_hz=40.0), "u", "y")
+    assert any("lost in noise" in remark for remark in found.remarks)
+    assert 6.0 < found.mean.frequency[-1] < 35.0
+    assert np.max(np.abs(errors(found.mean, low=3.0, natural_hz=2.0)[0])) < 6.0
+
+
+def test_remarks_name_the_fast_start_and_the_few_samples() -> None:
+    found = analyse_chirp(log(1.0, sampling=125), "u", "y")
+    assert any(remark.startswith("below 1.4 Hz the frequency changes") for remark in found.remarks)
+    assert any("5.0 samples per period" in remark for remark in found.remarks)
+
+
+def test_the_mean_is_a_frequency_response() -> None:
+    found = analyse_chirp(log(2.0, noise=0.1), "u", "y")
+    response_ = found.response
+    np.testing.assert_allclose(response_.gain, np.sqrt(found.top.gain * found.bottom.gain))
+    np.testing.assert_allclose(response_.frequency, 0.5 * (found.top.frequency + found.bottom.frequency))
+    sigma = np.sqrt(response_.covariance[:, 0, 0]) / response_.test.amplitude
+    np.testing.assert_allclose(sigma, found.mean.gain_deviation)
+
+
+def test_every_chirp_of_a_data_set_is_analysed() -> None:
+    records = (log(2.0), replace(log(2.0), kind="other"), log(3.0))
+    found = chirp_responses(Dataset("d", "", "", SIGNALS, records))
+    assert [round(one.command.rate, 6) for one in found] == [2.0, 3.0]
+    assert found[0].noise >= 0.3  # as declared
+
+
+def test_refuses_what_is_no_chirp() -> None:
+    with pytest.raises(BadInput, match='its kind is "step"'):
+        analyse_chirp(replace(log(2.0), kind="step"), "u", "y")
+    with pytest.raises(BadInput, match='no log of kind "chirp"'):
+        chirp_responses(Dataset("d", "", "", SIGNALS, ()))
+    record = log(2.0, stop_hz=10.0)
+    noise = np.column_stack([record.data["u"], np.random.default_rng(0).standard_normal(record.data.time.size)])
+    with pytest.raises(BadInput, match="rises above the noise"):
+        analyse_chirp(replace(record, data=replace(record.data, values=noise)), "u", "y")

@@ -1,0 +1,1 @@
+"""One chirp against stepped sines on a model whose two directions differ."""
