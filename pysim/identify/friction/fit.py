@@ -24,7 +24,7 @@ FRICTION_BOUNDS: Mapping[str, tuple[float, float]] = MappingProxyType(
     {"r": (0.01, 1e3), "omega_0": (0.1, 200.0), "tau_c": (0.0, 500.0), "tau_s": (0.0, 500.0)}
 )
 _SIZES = np.array([10.0, 10.0, 10.0, 10.0])  # of the parameters, for the optimiser's steps
-_STARTS = tuple((r, omega_0) for r in (30.0, 1.0) for omega_0 in (2.0, 10.0, 40.0))
+_STARTS = ((30.0, 3.0), (30.0, 20.0), (1.0, 10.0))  # r and omega_0
 
 
 @dataclass(frozen=True)
@@ -97,7 +97,7 @@ def fit_friction(
 ) -> FrictionFit:
     """Fit the four parameters of Eq. 5.38.
 
-    Least squares from six starts. Filtered samples follow each other, so the covariance is that of correlated
+    Least squares from three starts. Filtered samples follow each other, so the covariance is that of correlated
     residuals (a sandwich, see `correlated`). The steepness is judged by its likelihood profile, corrected alike:
     where the misfit stays flat towards a bound, the data give the other end only (see `steepness`).
 
