@@ -13,6 +13,8 @@ from pysim.types import BadInput
 
 Array = NDArray[np.float64]
 
+_LABVIEW_END, _LABVIEW_LINES = "***End_of_Header***", 200
+
 
 def read_text(path: Path, wanted_by: str) -> str:
     """A whole file as text, UTF-8 or Latin-1, with or without a byte order mark; lines end with a newline alone.
@@ -40,7 +42,8 @@ def read_table(path: Path, columns: tuple[str, ...], wanted_by: str) -> tuple[Ar
     """Read rows of numbers below optional header lines.
 
     Columns are separated by tabs, semicolons, commas or blanks; a decimal comma is read where the separator is not a
-    comma. Lines that start with # and empty lines are skipped. Lines above the first row of numbers are the header.
+    comma. Lines that start with # and empty lines are skipped. Lines above the first row of numbers are the header, and
+    so is what a LabVIEW measurement file (.lvm) says to be.
 
     Args:
         columns: (n_c) names, in the order of the file.
@@ -51,7 +54,8 @@ def read_table(path: Path, columns: tuple[str, ...], wanted_by: str) -> tuple[Ar
         BadInput: no rows, a row of another width, text where a number belongs, or a number that is not finite.
     """
     lines = read_text(path, wanted_by).rstrip().split("\n")
-    first = next((i for i, line in enumerate(lines) if _is_row(line, len(columns))), None)
+    begin = _behind_labview_header(lines)
+    first = next((i for i in range(begin, len(lines)) if _is_row(lines[i], len(columns))), None)
     if first is None:
         raise BadInput(f"{path} holds no numbers; it needs rows of {', '.join(columns)}")
     values = read_block(lines[first:], len(columns))
@@ -61,6 +65,12 @@ def read_table(path: Path, columns: tuple[str, ...], wanted_by: str) -> tuple[Ar
     if values is None:
         values = np.array([_row(_split(lines[i].strip()), columns, f"{path}, line {i + 1}") for i in wanted])
     return values, np.array(wanted, dtype=np.intp) + 1
+
+
+def _behind_labview_header(lines: list[str]) -> int:
+    """Where the rows of a LabVIEW measurement file begin; its header holds numbers too."""
+    marked = (i + 1 for i, line in enumerate(lines[:_LABVIEW_LINES]) if line.startswith(_LABVIEW_END))
+    return max(marked, default=0)
 
 
 def _is_skipped(line: str) -> bool:

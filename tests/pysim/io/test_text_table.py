@@ -42,6 +42,17 @@ def test_line_numbers_count_headers_and_comments(tmp_path: Path) -> None:
     assert lines.tolist() == [2, 5]
 
 
+def test_headers_of_labview_are_skipped(tmp_path: Path) -> None:
+    text = (
+        "LabVIEW Measurement\t\nSeparator\tTab\n***End_of_Header***\t\n\nChannels\t2\t\nSamples\t2\t2\n"
+        "X0\t0.0E+0\t0.0E+0\nDelta_X\t0.004\t0.004\n***End_of_Header***\t\t\nX_Value\tcmd\talpha\tComment\n"
+        "0.000000\t25.0\t24.9\t\n0.004000\t25.5\t24.8\n"
+    )
+    values, lines = read_table(table(tmp_path, text), COLUMNS, "test")
+    assert values.tolist() == [[0.0, 25.0, 24.9], [0.004, 25.5, 24.8]]
+    assert lines.tolist() == [11, 12]
+
+
 def test_latin_1_is_read(tmp_path: Path) -> None:
     values, _ = read_table(table(tmp_path, "# Öltemperatur 40 °C\n1 2 3\n", "latin-1"), COLUMNS, "test")
     assert values.tolist() == [[1.0, 2.0, 3.0]]
