@@ -40,17 +40,17 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace) -> int:
-    """Print what was found for each working point."""
+    """Print what was found for each test."""
     from pysim.cli._outputs import prepare_file, prepare_folder
     from pysim.io import write_file
     from pysim.report.multisine import multisine_data, multisine_text
 
-    groups, columns = _read(args)
+    records, columns = _read(args)
     if args.output:
         prepare_folder(args.output)
     if args.json:
         prepare_file(args.json, "--json")
-    found = _analyse(args, groups, columns)
+    found = _analyse(args, records, columns)
     print("\n\n".join(multisine_text(name, bla) for name, bla in found.items()))
     if args.json:
         data = [multisine_data(name, bla) for name, bla in found.items()]
@@ -60,10 +60,12 @@ def run(args: argparse.Namespace) -> int:
     return 0
 
 
-def _read(args: argparse.Namespace) -> tuple[dict[str, list[Record]], tuple[str, ...]]:
-    """Records of each working point, and the columns to use."""
+def _read(args: argparse.Namespace) -> tuple[list[Record], tuple[str, ...]]:
+    """Records, each called by its file, and the columns to use."""
+    from dataclasses import replace
+
     from pysim.io import read_dataset, read_record
-    from pysim.types import BadInput
+    from pysim.types import BadInput, Record
 
     if len(args.data) == 1 and args.data[0].suffix.lower() not in (".csv", ".npz"):
         dataset = read_dataset(args.data[0])
@@ -74,15 +76,13 @@ def _read(args: argparse.Namespace) -> tuple[dict[str, list[Record]], tuple[str,
                 f"{args.data[0]}: no log of kind {' or '.join(_KINDS)} fits --records {args.records}; name the logs"
             )
         columns = tuple(_column(args, dataset, logs[0], role) for role in ("input", "output"))
-        groups: dict[str, list[Record]] = {}
-        for log in logs:
-            groups.setdefault(_working_point(dataset, log, columns[0]), []).append(_named(log))
+        records = [replace(log.data, origin=log.source) for log in logs if isinstance(log.data, Record)]
     else:
         if not (args.input and args.signal):
             raise BadInput("multisine: records do not tell what is input; write --input NAME --signal NAME")
         columns = (args.input, args.signal)
-        groups = {"all records": [read_record(path) for path in args.data]}
-    return groups, columns if args.reference is None else (*columns, args.reference)
+        records = [replace(read_record(path), origin=path.name) for path in args.data]
+    return records, columns if args.reference is None else (*columns, args.reference)
 
 
 def _column(args: argparse.Namespace, dataset: Dataset, log: MeasuredRecord, role: str) -> str:
@@ -98,44 +98,28 @@ def _column(args: argparse.Namespace, dataset: Dataset, log: MeasuredRecord, rol
     return names[0]
 
 
-def _working_point(dataset: Dataset, log: MeasuredRecord, command: str) -> str:
-    """What logs have in common that are realisations of one test."""
-    unit = dataset.signal(command).unit
-    words = [
-        f"{word} {x:g} {unit}" for word, x in (("offset", log.offset), ("amplitude", log.amplitude)) if x is not None
-    ]
-    return ", ".join(words) or dataset.name
-
-
-def _named(log: MeasuredRecord) -> Record:
-    """The record, with the log's name in what it says of itself."""
-    from dataclasses import replace
-
-    from pysim.types import Record
-
-    assert isinstance(log.data, Record)
-    return replace(log.data, origin=log.source)
-
-
 def _analyse(
-    args: argparse.Namespace, groups: Mapping[str, list[Record]], columns: tuple[str, ...]
+    args: argparse.Namespace, records: list[Record], columns: tuple[str, ...]
 ) -> dict[str, BestLinearApproximation]:
+    """A result per test, where the records are periodic, else one per record."""
     from pysim.types import BadInput
 
-    found = {}
-    for name, records in groups.items():
-        if args.period is not None and args.method != "arbitrary":
-            found[name] = _periodic(args, records, columns)
-            continue
+    if args.period is None or args.method == "arbitrary":
         if args.method not in ("auto", "arbitrary"):
             raise BadInput(f"--method {args.method}: needs the period of the multisine; write --period SECONDS")
-        for record in records:
-            label = name if len(records) == 1 else f"{name}, {record.origin}"
-            found[label] = _arbitrary(args, record, columns)
+        return {record.origin: _arbitrary(args, record, columns) for record in records}
+    found: dict[str, BestLinearApproximation] = {}
+    for bla in _periodic(args, records, columns):
+        test = bla.test
+        name = f"{test.input} around {test.offset:.4g} {test.input_unit}, rms {test.rms:.3g} {test.input_unit}"
+        found[name if name not in found else f"{name}, {bla.origin}"] = bla
     return found
 
 
-def _periodic(args: argparse.Namespace, records: list[Record], columns: tuple[str, ...]) -> BestLinearApproximation:
+def _periodic(
+    args: argparse.Namespace, records: list[Record], columns: tuple[str, ...]
+) -> list[BestLinearApproximation]:
+    """Realisations of the same test are put together."""
     from pysim.identify import multisine
 
     methods = {
@@ -144,9 +128,9 @@ def _periodic(args: argparse.Namespace, records: list[Record], columns: tuple[st
         "fast": multisine.fast_approximation,
         "smooth": multisine.smooth_approximation,
     }
-    periods = multisine.periods_of(records, args.period, columns, start=args.start, count=args.periods)
+    cuts = [multisine.periods_of([r], args.period, columns, start=args.start, count=args.periods) for r in records]
     transient = None if args.drop is None else multisine.DropPeriods(args.drop)
-    return methods[args.method](periods, transient=transient)
+    return [methods[args.method](periods, transient=transient) for periods in multisine.grouped_realisations(cuts)]
 
 
 def _arbitrary(args: argparse.Namespace, record: Record, columns: tuple[str, ...]) -> BestLinearApproximation:

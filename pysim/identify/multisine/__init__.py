@@ -7,6 +7,7 @@ from pysim.identify.multisine.approximation import (
     smooth_approximation,
 )
 from pysim.identify.multisine.conversion import as_frequency_response
+from pysim.identify.multisine.groups import grouped_realisations
 from pysim.identify.multisine.lines import Lines, excited_lines, find_excited, lines_of
 from pysim.identify.multisine.local_polynomial import LocalPolynomial, local_polynomial_approximation
 from pysim.identify.multisine.periods import Periods, periods_of
@@ -36,6 +37,7 @@ __all__ = [
     "find_excited",
     "gain_interval",
     "gain_radius",
+    "grouped_realisations",
     "lines_of",
     "local_polynomial_approximation",
     "periods_of",

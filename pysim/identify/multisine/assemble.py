@@ -16,6 +16,8 @@ Array = NDArray[np.float64]
 
 # Free lines whose mean stands for the distortion around an excited line.
 POOLED_LINES = 6
+# A mean below this share of the motion is what rounding leaves of zero.
+_ROUNDING = 1e-12
 
 
 def assemble(
@@ -91,4 +93,5 @@ def _test(spectra: SteadySpectra) -> MultisineTest:
     m, count = p.values.shape[:2]
     rms = float(np.sqrt(np.mean(np.sum(np.abs(spectra.values[:, :, 0]) ** 2, axis=1)) / 2))
     offset = float(spectra.means[:, :, 0].mean())
+    offset = 0.0 if abs(offset) < _ROUNDING * rms else offset
     return MultisineTest(p.names[0], p.names[1], p.units[0], p.units[1], offset, rms, p.period, m, count)

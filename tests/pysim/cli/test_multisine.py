@@ -15,10 +15,10 @@ FREE = with_free_lines(ODD, seed=11)
 NAMES = ["--input", "u", "--signal", "y"]
 
 
-def log(seed: int) -> Record:
+def log(seed: int, scale: float = 1.0) -> Record:
     """Rest, then three and a half periods around an offset, then a way back; the square shows on even lines."""
     rng = np.random.default_rng(seed)
-    wave = multisine(FREE, rng)
+    wave = scale * multisine(FREE, rng)
     answer = through(wave) + 0.05 * through(wave) ** 2
     body = np.tile(np.stack([wave, answer], -1), (4, 1))[N // 2 :]
     lead, back = np.zeros((300, 2)), np.linspace(body[-1], 0, 100)
@@ -83,7 +83,7 @@ def data_set(folder: Path) -> Path:
     for amplitude in (5, 10):
         for i in range(2):
             name = f"a{amplitude}_{i}.txt"
-            record = log(i)
+            record = log(i, amplitude / 5)
             lines = [f"{t:.6f}\t{u:.8f}\t{y:.8f}" for t, (u, y) in zip(record.time, record.values, strict=True)]
             (folder / name).write_text("\n".join(lines) + "\n")
             rows.append(
@@ -101,7 +101,7 @@ def test_a_data_set_has_a_result_per_working_point(tmp_path: Path, capsys: pytes
     folder, numbers = data_set(tmp_path), tmp_path / "x.json"
     assert main(["multisine", str(folder), "--period", "2", "--json", str(numbers)]) == 0
     found = json.loads(numbers.read_text())["approximations"]
-    assert [f["name"] for f in found] == ["offset 0 %, amplitude 5 %", "offset 0 %, amplitude 10 %"]
+    assert [f["name"] for f in found] == ["u around 0 %, rms 1.27 %", "u around 0 %, rms 2.55 %"]
     assert [f["test"]["realisations"] for f in found] == [2, 2]
     assert main(["multisine", str(folder), "--period", "2", "--records", "a5_0*", "--json", str(numbers)]) == 0
     assert json.loads(numbers.read_text())["approximations"][0]["test"]["realisations"] == 1

@@ -1,0 +1,62 @@
+"""Which records are realisations of the same test."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pysim.identify.multisine.lines import excited_lines
+from pysim.identify.multisine.periods import Periods
+
+Array = NDArray[np.float64]
+
+# Realisations have the same amplitudes by construction; what differs is noise and a converter's steps.
+_SAME_AMPLITUDES = 0.05
+_SAME_OFFSET = 0.1
+
+
+def grouped_realisations(records: Sequence[Periods]) -> tuple[Periods, ...]:
+    """Put records together that excite the same lines by the same amplitudes around the same offset.
+
+    Args:
+        records: of one realisation each, or of more that belong together.
+    Returns:
+        in the order in which each test appears first; of unequal numbers of periods the last ones are kept.
+    """
+    groups: list[list[Periods]] = []
+    for record in records:
+        for group in groups:
+            if _same_test(group[0], record):
+                group.append(record)
+                break
+        else:
+            groups.append([record])
+    return tuple(_joined(group) for group in groups)
+
+
+def _same_test(first: Periods, second: Periods) -> bool:
+    """Grid, spectrum and offset of the commands."""
+    if (first.names, first.period, first.values.shape[2]) != (second.names, second.period, second.values.shape[2]):
+        return False
+    lines, other = excited_lines(first).excited, excited_lines(second).excited
+    if not np.array_equal(lines, other):
+        return False
+    a, b = _command(first), _command(second)
+    one, two = (np.abs(np.fft.rfft(command)[lines]) for command in (a, b))
+    if np.linalg.norm(one - two) > _SAME_AMPLITUDES * np.linalg.norm(one):
+        return False
+    return abs(float(a.mean() - b.mean())) < _SAME_OFFSET * float(np.std(a))
+
+
+def _command(periods: Periods) -> Array:
+    """One period of the first realisation's command, (N,)."""
+    return np.asarray(periods.values[0, :, :, 2 if len(periods.names) == 3 else 0].mean(axis=0))
+
+
+def _joined(group: list[Periods]) -> Periods:
+    count = min(periods.values.shape[1] for periods in group)
+    values = np.concatenate([periods.values[:, -count:] for periods in group])
+    first = group[0]
+    return Periods(values, first.names, first.units, first.period, first.origin)
