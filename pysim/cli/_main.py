@@ -9,12 +9,13 @@ import sys
 import traceback
 from collections.abc import Sequence
 
-from pysim.cli import bench, blackbox, compare, data, demo, frf, friction, multisine, signal, simulate
+from pysim.cli import bench, blackbox, chirp, compare, data, demo, frf, friction, multisine, signal, simulate
 
 DONE, NO, WRONG_USE, OUR_BUG = 0, 1, 2, 3
 _COMMANDS = {
     "bench": bench,
     "blackbox": blackbox,
+    "chirp": chirp,
     "compare": compare,
     "data": data,
     "demo": demo,

@@ -7,6 +7,7 @@ from pysim.io.files import write_file
 from pysim.io.fmu import read_model
 from pysim.io.records import read_record, record_data, record_text, write_record
 from pysim.io.signals import read_signal, write_signal
+from pysim.io.single_log import read_single_log
 from pysim.io.thesis_folder import read_thesis_folder
 from pysim.io.toml_section import Section, TomlFile, read_toml
 from pysim.io.write_dataset import write_dataset
@@ -20,6 +21,7 @@ __all__ = [
     "read_model",
     "read_record",
     "read_signal",
+    "read_single_log",
     "read_thesis_folder",
     "read_toml",
     "record_data",

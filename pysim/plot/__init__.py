@@ -2,6 +2,7 @@
 
 from pysim.plot.blackbox import blackbox_figure
 from pysim.plot.bode import bode_figure
+from pysim.plot.chirp import chirp_figure
 from pysim.plot.deviation import deviation_figure
 from pysim.plot.excitation import excitation_figure
 from pysim.plot.frf import frf_figure
@@ -13,6 +14,7 @@ from pysim.plot.time_response import time_response_figure
 __all__ = [
     "blackbox_figure",
     "bode_figure",
+    "chirp_figure",
     "deviation_figure",
     "excitation_figure",
     "frf_figure",

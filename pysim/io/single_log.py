@@ -1,0 +1,47 @@
+"""One log without a dataset.toml: what it is, the caller tells."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+
+from pysim.io.columns import read_columns, refuse_standing_time
+from pysim.io.units import SI
+from pysim.types import BadInput, Dataset, MeasuredRecord, MeasuredSignal, Record
+
+_TIME = "time"
+
+
+def read_single_log(path: Path | str, kind: str, columns: Sequence[str], units: Sequence[str]) -> Dataset:
+    """A data set of a single log over time.
+
+    Args:
+        path: text, .parquet or .tdms.
+        kind: of test, as in `MeasuredRecord`.
+        columns: "time", then the command, then what responds; of a text file in its order.
+        units: of command and responses, as the file has them.
+    Returns:
+        in SI units or %.
+    Raises:
+        BadInput: columns or units that do not fit together, and what is wrong in the file, with its line.
+    """
+    path, names = Path(path), tuple(columns)
+    if len(names) < 3 or names[0] != _TIME or len(set(names)) != len(names):
+        raise BadInput(f"{path}: columns {', '.join(names)}: name time, the command and at least one response")
+    unknown = [unit for unit in units if unit not in SI]
+    if unknown or len(units) != len(names) - 1:
+        raise BadInput(
+            f"{path}: units {', '.join(units)}: give one for {', '.join(names[1:])} each, of {', '.join(SI)}"
+        )
+    table = read_columns(path, names, str(path))
+    refuse_standing_time(table)
+    in_si = [SI[unit] for unit in units]
+    signals = tuple(
+        MeasuredSignal(name, "output" if i else "input", unit, name, name)
+        for i, (name, (unit, _)) in enumerate(zip(names[1:], in_si, strict=True))
+    )
+    values = np.column_stack([table[name] * factor for name, (_, factor) in zip(names[1:], in_si, strict=True)])
+    data = Record(table[_TIME], values, names[1:], tuple(unit for unit, _ in in_si), origin=f"measured, {path.name}")
+    return Dataset(path.name, "", "", signals, (MeasuredRecord(path.name, kind, "fit", data),))
