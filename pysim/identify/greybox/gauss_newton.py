@@ -1,0 +1,160 @@
+"""Gauss-Newton within bounds, its steps held in by damping: for sums of squares."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import lsq_linear
+
+from pysim.identify.greybox.evaluation import Evaluation
+from pysim.identify.greybox.optimiser import Bounds, Proposal, State
+from pysim.types import BadInput, FitOutcome
+
+Array = NDArray[np.float64]
+
+# Share of the largest singular value below which a direction counts as not determined and is not walked along.
+_NEGLIGIBLE = 1e-6
+# A rejected step that promised less than this many times the tolerance is lost in the rounding of the simulation. That
+# is the end of the search, and a good one where a full step would gain no more than so many times the tolerance.
+_ROUNDING, _NEAR = 100.0, 10_000.0
+
+
+@dataclass(frozen=True)
+class GaussNewton:
+    """Levenberg-Marquardt steps inside a trust radius; bounds are kept exactly, by an active set.
+
+    Each step minimises |r + J p|^2 + damping |p|^2 within the bounds, with the smallest damping that keeps |p| inside
+    the radius. A direction the data do not determine has no slope, so the damping keeps the search from drifting along.
+
+    Args:
+        max_iterations: points to try.
+        tolerance: ends the search once a full step would lower half the sum of squares by less than this, times the
+            mean square residual where that is above one. With residuals in standard deviations 1e-4 is 0.014 of them.
+        radius: of the first step, in natural logarithms or shares of the scale.
+    Raises:
+        BadInput: a setting that is not positive.
+    Source: Nocedal and Wright 2006, Numerical Optimization, algorithm 4.1 and Section 10.3.
+    """
+
+    max_iterations: int = 100
+    tolerance: float = 1e-4
+    radius: float = 0.5
+    name: str = "gauss-newton"
+    smooth_only: bool = True
+
+    def __post_init__(self) -> None:
+        for setting in ("max_iterations", "tolerance", "radius"):
+            if not getattr(self, setting) > 0:
+                raise BadInput(f"gauss-newton: {setting} must be positive, got {getattr(self, setting)}")
+
+    def first(self, x: Array, bounds: Bounds) -> Array:
+        """Any point within the bounds will do."""
+        return np.clip(x, bounds.lower, bounds.upper)
+
+    def begin(self, start: Evaluation, bounds: Bounds, squares: bool) -> State:
+        """See Optimiser."""
+        return self._examined(State(start, memory={"radius": self.radius}), bounds)
+
+    def propose(self, state: State, bounds: Bounds) -> Proposal:
+        """See Optimiser."""
+        step = _Step.at(state.best, bounds)
+        p = step.within(state.memory["radius"])
+        return Proposal(np.clip(state.best.x + p, bounds.lower, bounds.upper), step.predicted(p))
+
+    def tell(self, state: State, proposal: Proposal, trial: Evaluation, bounds: Bounds) -> State:
+        """See Optimiser."""
+        length = float(np.linalg.norm(proposal.x - state.best.x))
+        actual = 0.5 * (state.best.cost - trial.cost) if trial.good else -math.inf
+        ratio = actual / proposal.predicted
+        radius = state.memory["radius"]
+        if ratio < 0.25:
+            radius = 0.25 * length
+        elif ratio > 0.75 and length > 0.8 * radius:
+            radius = 2 * radius
+        state = replace(state, tried=state.tried + 1, memory={"radius": radius})
+        if ratio > 1e-4:
+            return self._examined(replace(state, best=trial), bounds)
+        if proposal.predicted < _ROUNDING * self._small(state.best):
+            return self._lost(state, trial, bounds)
+        return self._counted(state)
+
+    def _lost(self, state: State, trial: Evaluation, bounds: Bounds) -> State:
+        """The end where even short steps gain nothing."""
+        gain = _Step.at(state.best, bounds).full_gain
+        if trial.good and gain < _NEAR * self._small(state.best):
+            return _ended(state, FitOutcome.CONVERGED, "to within the rounding of the simulation")
+        promised = f"a full step promises {2 * gain:.3g} off the sum of squares, and short ones gain nothing"
+        return _ended(state, FitOutcome.STALLED, trial.trouble or promised)
+
+    def _examined(self, state: State, bounds: Bounds) -> State:
+        """Whether a full step from here would still gain something."""
+        gain = _Step.at(state.best, bounds).full_gain
+        if gain <= self._small(state.best):
+            return _ended(state, FitOutcome.CONVERGED, f"a full step would lower the sum of squares by {2 * gain:.2g}")
+        return self._counted(state)
+
+    def _small(self, best: Evaluation) -> float:
+        return self.tolerance * max(1.0, best.cost / best.residual.size)
+
+    def _counted(self, state: State) -> State:
+        if state.tried < self.max_iterations:
+            return state
+        return _ended(state, FitOutcome.ITERATION_LIMIT, f"{state.tried} points were tried")
+
+
+def _ended(state: State, outcome: FitOutcome, message: str) -> State:
+    return replace(state, outcome=outcome, message=message)
+
+
+@dataclass(frozen=True)
+class _Step:
+    """The linearised problem at one point: triangle (n, n) and right side (n,) of its QR, and room to both bounds."""
+
+    triangle: Array
+    right: Array
+    low: Array
+    high: Array
+
+    @classmethod
+    def at(cls, point: Evaluation, bounds: Bounds) -> _Step:
+        rows = max(point.x.size - point.residual.size, 0)  # fewer residuals than parameters: add empty ones
+        q, r = np.linalg.qr(np.vstack([point.jacobian, np.zeros((rows, point.x.size))]))
+        residual = np.concatenate([point.residual, np.zeros(rows)])
+        low, high = np.minimum(bounds.lower - point.x, 0.0), np.maximum(bounds.upper - point.x, 0.0)
+        return cls(r, -q.T @ residual, low, high)
+
+    @property
+    def full_gain(self) -> float:
+        """By how much half the sum of squares falls over the step that nothing but the bounds holds in."""
+        return self.predicted(self.within(math.inf))
+
+    def within(self, radius: float) -> Array:
+        """The best step (n,) no longer than radius."""
+        floor = max((_NEGLIGIBLE * np.linalg.norm(self.triangle, 2)) ** 2, np.finfo(float).tiny)
+        p = self._damped(floor)
+        if np.linalg.norm(p) <= radius:
+            return p
+        low, high = math.log(floor), math.log(np.linalg.norm(self.triangle.T @ self.right) / radius + floor)
+        for _ in range(40):  # the length falls as the damping grows
+            middle = 0.5 * (low + high)
+            p = self._damped(math.exp(middle))
+            low, high = (middle, high) if np.linalg.norm(p) > radius else (low, middle)
+            if 0.9 * radius <= np.linalg.norm(p) <= radius:
+                break
+        return p
+
+    def _damped(self, damping: float) -> Array:
+        n = self.right.size
+        matrix = np.vstack([self.triangle, math.sqrt(damping) * np.eye(n)])
+        right = np.concatenate([self.right, np.zeros(n)])
+        free = np.linalg.lstsq(matrix, right, rcond=None)[0]
+        if np.all(free >= self.low) and np.all(free <= self.high):
+            return np.asarray(free)
+        return np.asarray(lsq_linear(matrix, right, (self.low, self.high), method="bvls", tol=1e-14).x)
+
+    def predicted(self, p: Array) -> float:
+        """By how much half the sum of squares falls over a step p (n,) if the model were linear."""
+        return float(0.5 * (self.right @ self.right - np.sum((self.right - self.triangle @ p) ** 2)))

@@ -1,0 +1,249 @@
+"""From the records of a data set to what the model is compared with."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pysim.identify.greybox.command import from_rest, rate_input
+from pysim.identify.greybox.log_target import LogTarget
+from pysim.identify.greybox.noise import signal_noise
+from pysim.identify.greybox.sine_log import Sine, SineLog, sine_log, steady_sine
+from pysim.identify.greybox.sine_target import SineTarget
+from pysim.identify.greybox.table_target import TableTarget
+from pysim.identify.greybox.target import Run, Target
+from pysim.identify.logged_command import logged_command
+from pysim.identify.logged_wave import logged_wave
+from pysim.simulate import Periodic
+from pysim.types import (
+    BadInput,
+    Dataset,
+    Experiment,
+    FrequencyResponse,
+    MeasuredRecord,
+    MeasuredSignal,
+    Model,
+    Record,
+    Signal,
+)
+
+if TYPE_CHECKING:
+    from pysim.identify.greybox.problem import Measurements, Treatment
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class _Setting:
+    """Everything that making one data set's targets needs."""
+
+    model: Model
+    dataset: Dataset
+    overrides: Mapping[str, float]
+    outputs: tuple[str, ...]
+    noise: Mapping[str, float]
+    treatment: Treatment
+
+    def columns(self, record: MeasuredRecord) -> tuple[tuple[str, ...], tuple[str, ...]]:
+        """Commands and compared outputs of a log."""
+        assert isinstance(record.data, Record)
+        names = record.data.names
+        commands = tuple(n for n in names if self.dataset.signal(n).role == "input")
+        outputs = tuple(n for n in names if n in self.outputs)
+        if not commands:
+            raise BadInput(f"{record.source}: no column is an input; name the command in the data set")
+        return commands, outputs
+
+    def variable(self, column: str) -> str:
+        """The model's name of a column, once both have the same unit."""
+        return checked_variable(self.model, self.dataset, column)
+
+    def experiment(
+        self, times: Array, outputs: tuple[str, ...], commands: Mapping[str, Signal], start: float
+    ) -> Experiment:
+        """A run of the model, everything by the model's names."""
+        names = tuple(self.variable(column) for column in outputs)
+        return Experiment(times, names, commands, self.overrides, start, rates=rates(self.model, commands))
+
+
+def rates(model: Model, commands: Mapping[str, Signal]) -> dict[str, str]:
+    """Inputs that take the exact rate of a driven one."""
+    pairs = ((rate_input(model, name), name) for name in commands)
+    return {rate: name for rate, name in pairs if rate is not None and rate not in commands}
+
+
+def checked_variable(model: Model, dataset: Dataset, column: str) -> str:
+    """The model's variable behind a column.
+
+    Raises:
+        BadInput: there is none, a command that is no input of the model, or units that differ.
+    """
+    signal = dataset.signal(column)
+    variable = model[signal.variable]
+    if signal.role == "input" and variable.causality != "input":
+        raise BadInput(f"{model.path.name}: {variable.name} is no input but a {variable.causality}; name the command")
+    if variable.unit != signal.unit:
+        raise BadInput(
+            f"signal {column!r} of data set {dataset.name!r} is in {signal.unit!r}, {variable.name} of "
+            f"{model.path.name} in {variable.unit!r}; give both the same unit"
+        )
+    return variable.name
+
+
+def build_targets(model: Model, data: Measurements, treatment: Treatment) -> tuple[list[Target], list[str]]:
+    """Targets in the order of the records, the stepped sines of a test together, and notes on what was assumed.
+
+    Raises:
+        BadInput: what cannot be compared, naming record or signal.
+    """
+    dataset = data.dataset
+    outputs = _compared(dataset, data.outputs)
+    noise, notes = _noise(dataset, outputs, data.noise)
+    setting = _Setting(model, dataset, data.overrides, outputs, noise, treatment)
+    targets: list[Target] = []
+    sines: dict[tuple[object, ...], list[MeasuredRecord]] = {}
+    for record in dataset.records:
+        if isinstance(record.data, FrequencyResponse):
+            if record.data.test.output in outputs:
+                targets.append(_table(setting, record, record.data))
+        elif not setting.columns(record)[1]:
+            notes.append(f"{record.source}: no column of it is compared")
+        elif record.kind == "frequency-response":
+            sines.setdefault(_test_of(record, setting), []).append(record)
+        else:
+            targets.append(_log(setting, record, record.data))
+    for group in sines.values():
+        targets.append(_sines(setting, group))
+    if any(isinstance(target, TableTarget) and not target.told for target in targets):
+        notes.append("tables without covariance: 20/90 dB and 1 degree are taken as standard deviations (Eq. 2.25)")
+    return targets, notes
+
+
+def _compared(dataset: Dataset, wanted: tuple[str, ...] | None) -> tuple[str, ...]:
+    measured = tuple(signal.name for signal in dataset.signals if signal.role == "output")
+    for name in wanted or ():
+        if name not in measured:
+            raise BadInput(f"data set {dataset.name!r} measures no output {name!r}; it has {', '.join(measured)}")
+    return measured if wanted is None else tuple(wanted)
+
+
+def _noise(
+    dataset: Dataset, outputs: tuple[str, ...], given: Mapping[str, float]
+) -> tuple[dict[str, float], list[str]]:
+    """Per column that stands in a log, its noise."""
+    for name in given:
+        dataset.signal(name)
+    sizes, notes = {}, []
+    for name in outputs:
+        logs = [r.data[name] for r in dataset.records if isinstance(r.data, Record) and name in r.data.names]
+        if logs:
+            sizes[name], note = signal_noise(dataset.signal(name), logs, given)
+            notes += [note] if note else []
+    return sizes, notes
+
+
+def _test_of(record: MeasuredRecord, setting: _Setting) -> tuple[object, ...]:
+    return (record.use, record.offset, record.amplitude, *setting.columns(record))
+
+
+def _cut(data: Record, names: tuple[str, ...]) -> Record:
+    places = [data.names.index(name) for name in names]
+    units = tuple(data.units[i] for i in places)
+    return Record(data.time, data.values[:, places], names, units, origin=data.origin)
+
+
+def _full_scale(signal: MeasuredSignal, values: Array) -> float:
+    """What counts as 100 percent: 100 %, 1, else the largest measured size."""
+    return {"%": 100.0, "1": 1.0}.get(signal.unit) or float(np.max(np.abs(values))) or 1.0
+
+
+def _log(setting: _Setting, record: MeasuredRecord, data: Record) -> LogTarget:
+    columns, outputs = setting.columns(record)
+    measured, start, rest = _cut(data, outputs), float(data.time[0]), setting.treatment.rest
+    commands, begin = {}, start
+    for column in columns:
+        name, signal = setting.variable(column), logged_command(record, column)
+        if rest is not None:
+            signal, first = from_rest(signal, start, float(setting.model[name].start or 0.0), rest)
+            begin = min(begin, first)
+        commands[name] = signal
+    experiment = setting.experiment(data.time, outputs, commands, begin)
+    return LogTarget(
+        source=record.source,
+        kind=record.kind,
+        use=record.use,
+        measured=measured,
+        noise=tuple(setting.noise[name] for name in outputs),
+        full_scale=tuple(_full_scale(setting.dataset.signal(n), measured[n]) for n in outputs),
+        run=Run(record.source, experiment),
+    )
+
+
+def _sines(setting: _Setting, group: list[MeasuredRecord]) -> SineTarget:
+    pairs = [_sine(setting, record) for record in group]
+    pairs.sort(key=lambda pair: pair[0].sine.frequency)
+    logs, runs = tuple(log for log, _ in pairs), tuple(run for _, run in pairs)
+    frequencies = np.array([log.sine.frequency for log in logs])
+    near = np.flatnonzero(np.isclose(frequencies, setting.treatment.reference_hz or -1.0, rtol=1e-3))
+    return SineTarget(group[0].use, logs, runs, int(near[0]) if near.size else None)
+
+
+def _sine(setting: _Setting, record: MeasuredRecord) -> tuple[SineLog, Run]:
+    assert isinstance(record.data, Record)
+    columns, outputs = setting.columns(record)
+    swinging = max(columns, key=lambda column: float(np.std(record.data[column])))  # the others stand still
+    sine = steady_sine(logged_wave(record, swinging))
+    noise = tuple(setting.noise[name] for name in outputs)
+    log = sine_log(record.source, _cut(record.data, outputs), sine, noise, setting.treatment.sine)
+    others = {c: Signal.constant(float(np.mean(record.data[c]))) for c in columns if c != swinging}
+    return log, _steady_run(setting, record.source, swinging, sine, outputs, others)
+
+
+def _table(setting: _Setting, record: MeasuredRecord, response: FrequencyResponse) -> TableTarget:
+    test, reference_hz = response.test, setting.treatment.reference_hz
+    near = np.flatnonzero(np.isclose(response.frequency, reference_hz or -1.0, rtol=1e-6))
+    if reference_hz is not None and not near.size:
+        raise BadInput(
+            f"{record.source}: magnitudes relative to {reference_hz:g} Hz need that frequency; the lowest one here "
+            f"is {response.frequency[0]:g} Hz: choose another reference_hz, or None"
+        )
+    sines = [Sine(test.offset, test.amplitude, f, 0.0, 0.0, math.inf) for f in response.frequency.tolist()]
+    runs = tuple(_steady_run(setting, record.source, test.input, sine, (test.output,), {}) for sine in sines)
+    return TableTarget(record.source, record.use, response, runs, int(near[0]) if near.size else None)
+
+
+def _steady_run(
+    setting: _Setting, source: str, column: str, sine: Sine, outputs: tuple[str, ...], others: Mapping[str, Signal]
+) -> Run:
+    """The orbit of a stepped sine, and the same test as a transient, both recorded over one period from phase zero."""
+    plan, period = setting.treatment.sine, 1 / sine.frequency
+    name = setting.variable(column)
+    swing = Signal(
+        np.zeros(1),
+        np.array([[sine.offset, 0.0, 0.0, 0.0]]),
+        np.array([[[sine.amplitude, 0.0, 2 * np.pi * sine.frequency, 0.0]]]),
+    )
+    rest, inputs = setting.treatment.rest, {setting.variable(c): signal for c, signal in others.items()}
+    approached, start = swing, 0.0
+    if rest is not None:
+        approached, start = from_rest(swing, 0.0, float(setting.model[name].start or 0.0), rest)
+    settling = max(plan.settle_periods, int(np.ceil(plan.settle_time / period - 1e-9)))
+    times = (settling + np.arange(plan.points) / plan.points) * period
+    transient = setting.experiment(times, outputs, {**inputs, name: approached}, start)
+    if setting.treatment.steady == "transient":
+        return Run(source, transient)
+    commands = {**inputs, name: swing}
+    orbit = Periodic(
+        period=period,
+        points=plan.points,
+        record=transient.record,
+        inputs=commands,
+        overrides=setting.overrides,
+        rates=rates(setting.model, commands),
+    )
+    return Run(source, transient, orbit)

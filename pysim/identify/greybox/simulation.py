@@ -1,0 +1,94 @@
+"""Run the model for every target at one point of the search, with slopes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pysim.identify.greybox.parameters import ParameterSpace
+from pysim.identify.greybox.target import Run, Simulated
+from pysim.identify.greybox.workers import Job, Result, Threads, Workers
+from pysim.simulate import Esdirk, Orbit, Periodic, Sensitivities
+from pysim.types import Experiment, Model, Outcome
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Simulation:
+    """Settings of the runs.
+
+    Args:
+        solver: of pysim.simulate, for runs over time and periodic ones.
+        workers: where the runs go; all cores of this machine by default.
+    """
+
+    solver: Esdirk = field(default_factory=lambda: Esdirk(rtol=1e-5, atol=1e-5))
+    workers: Workers = field(default_factory=Threads)
+
+
+@dataclass(frozen=True)
+class Answer:
+    """All runs at one point.
+
+    Args:
+        simulated: per run, in the order asked for; empty where one failed.
+        states: per run, the orbit's state (n_states,) to start the next search from, or None.
+        trouble: why a run failed; empty where all ran.
+    """
+
+    simulated: tuple[Simulated, ...]
+    states: tuple[Array | None, ...]
+    trouble: str = ""
+
+
+def simulate_runs(
+    model: Model,
+    space: ParameterSpace,
+    runs: Sequence[Run],
+    x: Array,
+    guesses: Sequence[Array | None],
+    simulation: Simulation,
+) -> Answer:
+    """Simulate every run at x (n,).
+
+    A stepped sine's orbit is sought first; where none is found the transient test takes its place. Any other run that
+    fails makes the whole point a bad one.
+
+    Args:
+        guesses: per run, a state to start an orbit's search from, or None.
+    """
+    jobs = [_job(space, run, x, place, guess) for place, (run, guess) in enumerate(zip(runs, guesses, strict=True))]
+    states: list[Array | None] = [None] * len(runs)
+    answers: dict[int, Simulated] = {}
+    again: list[Job] = []
+    for job, orbit in _results(model, [job for job in jobs if isinstance(job.run, Periodic)], simulation):
+        if isinstance(orbit, Orbit) and orbit.outcome is Outcome.DONE:
+            answers[job.place] = Simulated(orbit.record.values, orbit.by_parameter @ job.slopes)
+            states[job.place] = orbit.state
+        else:
+            again.append(_job(space, replace(runs[job.place], orbit=None), x, job.place, None))
+    for job, run in _results(model, [job for job in jobs if isinstance(job.run, Experiment)] + again, simulation):
+        if not isinstance(run, Sensitivities) or run.record.outcome is not Outcome.DONE:
+            trouble = f"{runs[job.place].record}: {run.record.outcome.value}. {run.record.message}"
+            return Answer((), (), trouble.strip())
+        answers[job.place] = Simulated(run.record.values, run.by_parameter @ job.slopes)
+    for job in jobs:
+        answer = answers[job.place]
+        if not (np.isfinite(answer.values).all() and np.isfinite(answer.slopes).all()):
+            return Answer((), (), f"{runs[job.place].record}: a value or a slope is not finite")
+    return Answer(tuple(answers[i] for i in range(len(runs))), tuple(states))
+
+
+def _results(model: Model, jobs: list[Job], simulation: Simulation) -> Iterator[tuple[Job, Result]]:
+    return zip(jobs, simulation.workers.run(model, jobs, simulation.solver), strict=True) if jobs else iter(())
+
+
+def _job(space: ParameterSpace, run: Run, x: Array, place: int, guess: Array | None) -> Job:
+    wanted = run.experiment if run.orbit is None else run.orbit
+    overrides: Mapping[str, float] = {**wanted.overrides, **space.overrides(x, run.record)}
+    names, slopes = space.chain(x, run.record)
+    return Job(place, replace(wanted, overrides=overrides), names, slopes, guess)

@@ -1,0 +1,147 @@
+"""One stepped-sine log, reduced once to the harmonics of its last whole periods."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pysim.identify.greybox.harmonics import harmonic_count, interpolation, regressors, to_complex
+from pysim.identify.logged_wave import LoggedWave
+from pysim.types import BadInput, Record
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class SinePlan:
+    """How a stepped-sine log is cut and compared.
+
+    Args:
+        settle_time: s of the sine that are left out, and
+        settle_periods: whole periods, whichever is longer.
+        harmonics: how many are compared, where the sampling tells them apart.
+        points: samples over one period of the model's orbit.
+    Raises:
+        BadInput: fewer than one harmonic, or too few points for the harmonics.
+    """
+
+    settle_time: float = 0.5
+    settle_periods: int = 1
+    harmonics: int = 5
+    points: int = 49
+
+    def __post_init__(self) -> None:
+        if self.harmonics < 1 or self.points < 4 * self.harmonics + 1:
+            raise BadInput(
+                f"sine plan: {self.harmonics} harmonics need at least one and {4 * self.harmonics + 1} points, "
+                f"got {self.points}"
+            )
+        if self.settle_time < 0 or self.settle_periods < 0:
+            raise BadInput("sine plan: what is left out for settling must not be negative")
+
+
+@dataclass(frozen=True)
+class Sine:
+    """offset + amplitude sin(2 pi frequency t + phase) from onset to end, s; frequency in Hz."""
+
+    offset: float
+    amplitude: float
+    frequency: float
+    phase: float
+    onset: float
+    end: float
+
+    def at(self, time: Array) -> Array:
+        """Phase (n_t,) in rad."""
+        return 2 * np.pi * self.frequency * time + self.phase
+
+
+def steady_sine(wave: LoggedWave) -> Sine:
+    """The sine of a log's command, in the log's time."""
+    phase = wave.phase - 2 * np.pi * wave.frequency * wave.start
+    if wave.amplitude < 0:
+        return Sine(wave.offset, -wave.amplitude, wave.frequency, phase + np.pi, wave.start, wave.end)
+    return Sine(wave.offset, wave.amplitude, wave.frequency, phase, wave.start, wave.end)
+
+
+@dataclass(frozen=True)
+class SineLog:
+    """The compared samples of one log and the projection onto their harmonics.
+
+    Args:
+        source: of the log.
+        sine: its command.
+        measured: the last whole periods, compared columns only.
+        noise: (n_y,) standard deviations, in the columns' units.
+        count: harmonics.
+        points: samples over one period of the model's orbit.
+    """
+
+    source: str
+    sine: Sine
+    measured: Record
+    noise: tuple[float, ...]
+    count: int
+    points: int
+    # every harmonic's size and phase in one: orthonormal columns (n_t, n_h) and the triangle (n_h, n_h) behind them
+    _factors: tuple[Array, Array] = field(init=False, repr=False)
+
+    def __post_init__(self) -> None:
+        q, r = np.linalg.qr(regressors(self.phase, self.count))
+        object.__setattr__(self, "_factors", (q, r))
+
+    @property
+    def phase(self) -> Array:
+        """Of the command at the samples, (n_t,) rad."""
+        return self.sine.at(self.measured.time)
+
+    @cached_property
+    def onto(self) -> Array:
+        """From a period of the model's orbit (points,) to uncorrelated harmonics of unit noise, (n_h, points)."""
+        return np.asarray(self._factors[0].T @ interpolation(self.phase, self.points))
+
+    @cached_property
+    def harmonics(self) -> Array:
+        """Measured, uncorrelated, in the columns' units, (n_h, n_y)."""
+        return np.asarray(self._factors[0].T @ self.measured.values)
+
+    def coefficients(self, uncorrelated: Array) -> NDArray[np.complex128]:
+        """(n_h, ...) as `harmonics` -> mean and complex harmonics (count + 1, ...)."""
+        return to_complex(np.linalg.solve(self._factors[1], uncorrelated))
+
+    def deviations(self) -> Array:
+        """Standard deviation of the size of mean and harmonics at unit noise, (count + 1,)."""
+        inverse = np.linalg.inv(self._factors[1])
+        variance = np.sum(inverse**2, axis=1)
+        return np.sqrt(np.concatenate([variance[:1], 0.5 * (variance[1::2] + variance[2::2])]))
+
+    def fundamental(self) -> Array:
+        """Rows (2, n_h) that take uncorrelated harmonics to the fundamental's sine and cosine parts."""
+        return np.asarray(np.linalg.inv(self._factors[1])[1:3])
+
+
+def sine_log(source: str, data: Record, sine: Sine, noise: tuple[float, ...], plan: SinePlan) -> SineLog:
+    """Cut the last whole periods after settling.
+
+    Raises:
+        BadInput: no whole period is left.
+    """
+    period = 1 / sine.frequency
+    gap = float(np.median(np.diff(data.time))) if data.time.size > 1 else 0.0
+    end, begin = min(data.time[-1], sine.end) + gap, max(sine.onset, data.time[0])
+    usable = end - begin - max(plan.settle_time, plan.settle_periods * period)
+    whole = int(np.floor(usable / period + 0.01))
+    if whole < 1:
+        raise BadInput(
+            f"{source}: {end - begin:.3g} s of a sine of {sine.frequency:g} Hz leave no whole period after "
+            f"{max(plan.settle_time, plan.settle_periods * period):.3g} s of settling; record longer, or settle shorter"
+        )
+    keep = (data.time > end - whole * period - 0.5 * gap) & (data.time < end - 0.5 * gap)
+    cut = Record(data.time[keep], data.values[keep], data.names, data.units, origin=data.origin)
+    count = harmonic_count(sine.frequency, 1 / gap, plan.harmonics)
+    if cut.time.size < 2 * count + 2:
+        raise BadInput(f"{source}: {cut.time.size} samples in {whole} periods are too few; record faster")
+    return SineLog(source, sine, cut, noise, count, plan.points)

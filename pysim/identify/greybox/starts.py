@@ -1,0 +1,48 @@
+"""Where searches begin: the start that was given, the model's own, and others drawn between the bounds."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.stats import qmc
+
+from pysim.identify.greybox.parameters import ParameterSpace
+from pysim.types import BadInput, Model
+
+Array = NDArray[np.float64]
+
+
+def starts(model: Model, space: ParameterSpace, count: int, seed: int | None) -> Mapping[str, Array]:
+    """Name -> start (n,) in the search's numbers.
+
+    The model's own start values are always among them where they lie within the bounds: a fit that starts from a bent
+    optimum may never leave it.
+
+    Args:
+        count: searches from starts drawn at random, besides the given and the nominal one.
+        seed: of the draw; needed where count is above zero.
+    Raises:
+        BadInput: no seed, or parameters without bounds to draw between.
+    """
+    found = {"given": space.to_search(space.start)}
+    nominal = np.array([model[name].start for name in space.variables], dtype=np.float64)
+    inside = np.all((nominal >= space.lower) & (nominal <= space.upper))
+    if inside and not np.array_equal(nominal, space.start):
+        found["nominal"] = space.to_search(nominal)
+    if count:
+        found |= _drawn(space, count, seed)
+    return found
+
+
+def _drawn(space: ParameterSpace, count: int, seed: int | None) -> dict[str, Array]:
+    """A Latin hypercube between the bounds, on the search's scale."""
+    if seed is None:
+        raise BadInput("fit: starts drawn at random need a seed; give one, so that the fit can be repeated")
+    lower, upper = space.bounds()
+    for key, low, high in zip(space.keys, lower, upper, strict=True):
+        if not np.isfinite(high - low):
+            raise BadInput(f"fit: {key} has no bounds to draw starts between; give lower and upper, or no --starts")
+    points = qmc.LatinHypercube(space.size, rng=np.random.default_rng(seed)).random(count)
+    return {f"drawn-{i}": row for i, row in enumerate(lower + points * (upper - lower), start=1)}

@@ -1,0 +1,172 @@
+"""Where the runs go: threads of this process, worker processes that may crash, or a cluster."""
+
+from __future__ import annotations
+
+import multiprocessing
+import os
+from collections.abc import Iterable, Sequence
+from concurrent.futures import ProcessPoolExecutor
+from concurrent.futures.process import BrokenProcessPool
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pysim.simulate import Esdirk, Orbit, Periodic, Sensitivities, periodic_many, sensitivities_many
+from pysim.types import BadInput, Experiment, Model, Outcome
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Job:
+    """One run.
+
+    Args:
+        place: of the run among those asked for.
+        run: a run over time, or an orbit.
+        names: variables whose slopes are wanted.
+        slopes: (n_v, n_x) of those variables by the search's numbers.
+        guess: state to start an orbit's search from, or None.
+    """
+
+    place: int
+    run: Experiment | Periodic
+    names: tuple[str, ...]
+    slopes: Array
+    guess: Array | None = None
+
+
+@dataclass(frozen=True)
+class Lost:
+    """Stands for the result of a run whose worker died."""
+
+    message: str
+    outcome: Outcome = Outcome.MODEL_ERROR
+
+    @property
+    def record(self) -> Lost:
+        """Itself: outcome and message are all there is."""
+        return self
+
+
+Result = Orbit | Sensitivities | Lost
+
+
+class Workers(Protocol):
+    """Runs jobs, in their order; a failed run is a result that says so."""
+
+    def run(self, model: Model, jobs: Sequence[Job], solver: Esdirk) -> Sequence[Result]:
+        """Orbits for jobs with a Periodic, runs with sensitivities for the others."""
+        ...
+
+
+@dataclass(frozen=True)
+class Threads:
+    """Threads of this process, all cores where `count` is None. An FMU that crashes takes the process with it."""
+
+    count: int | None = None
+
+    def run(self, model: Model, jobs: Sequence[Job], solver: Esdirk) -> Sequence[Result]:
+        """See Workers."""
+        return run_jobs(model, jobs, solver, self.count)
+
+
+@dataclass(frozen=True)
+class Processes:
+    """A process per core; an FMU that crashes ends its worker, and its run is a failed one.
+
+    Args:
+        count: processes; all cores where None.
+    """
+
+    count: int | None = None
+
+    def run(self, model: Model, jobs: Sequence[Job], solver: Esdirk) -> Sequence[Result]:
+        """Share the jobs out; where a worker dies, its jobs are tried again one by one to find the culprit."""
+        count = self.count or os.cpu_count() or 1
+        results: dict[int, Result] = {}
+        again: list[int] = []
+        chunks = _chunks(len(jobs), 4 * count)
+        with ProcessPoolExecutor(count, mp_context=multiprocessing.get_context("spawn")) as pool:
+            waiting = [pool.submit(run_jobs, model, [jobs[i] for i in chunk], solver, 1) for chunk in chunks]
+            for chunk, job in zip(chunks, waiting, strict=True):
+                try:
+                    results |= zip(chunk, job.result(), strict=True)
+                except BrokenProcessPool:
+                    again += chunk
+        for i in again:
+            with ProcessPoolExecutor(1, mp_context=multiprocessing.get_context("spawn")) as pool:
+                try:
+                    results[i] = pool.submit(run_jobs, model, [jobs[i]], solver, 1).result()[0]
+                except BrokenProcessPool:
+                    results[i] = Lost("the FMU crashed and took its worker process with it")
+        return [results[i] for i in range(len(jobs))]
+
+
+@dataclass(frozen=True)
+class Cluster:
+    """Whoever has `map(function, chunks)` and gives futures with `result()`, such as a Dask client.
+
+    The FMU's file has to be at the same path on every worker.
+
+    Args:
+        client: the client.
+        chunks: shares the jobs are cut into.
+    """
+
+    client: Any
+    chunks: int = 64
+
+    def run(self, model: Model, jobs: Sequence[Job], solver: Esdirk) -> Sequence[Result]:
+        """Share the jobs out; a share whose worker died is a row of failed runs."""
+        chunks = _chunks(len(jobs), self.chunks)
+        shares = [(model, [jobs[i] for i in chunk], solver) for chunk in chunks]
+        results: dict[int, Result] = {}
+        for chunk, future in zip(chunks, self.client.map(_run_share, shares, pure=False), strict=True):
+            try:
+                results |= zip(chunk, future.result(), strict=True)
+            except BadInput:
+                raise
+            except Exception as error:  # whatever a cluster raises when it loses a worker
+                results |= dict.fromkeys(chunk, Lost(f"the cluster lost this run ({error})"))
+        return [results[i] for i in range(len(jobs))]
+
+
+def run_jobs(model: Model, jobs: Sequence[Job], solver: Esdirk, workers: int | None) -> list[Result]:
+    """All jobs in threads of this process; jobs with the same variables go together."""
+    results: dict[int, Result] = {}
+    for names, places in _grouped((job.names, isinstance(job.run, Periodic)) for job in jobs).items():
+        group = [jobs[i] for i in places]
+        results |= zip(places, _run_group(model, group, names[0], solver, workers), strict=True)
+    return [results[i] for i in range(len(jobs))]
+
+
+def _run_group(
+    model: Model, jobs: Sequence[Job], names: tuple[str, ...], solver: Esdirk, workers: int | None
+) -> Sequence[Result]:
+    orbits = [job.run for job in jobs if isinstance(job.run, Periodic)]
+    if orbits:
+        guesses = [job.guess for job in jobs]
+        return periodic_many(model, orbits, names, guesses=guesses, solver=solver, workers=workers)
+    runs = [job.run for job in jobs if isinstance(job.run, Experiment)]
+    return sensitivities_many(model, runs, names, solver=solver, workers=workers)
+
+
+def _run_share(share: tuple[Model, list[Job], Esdirk]) -> list[Result]:
+    model, jobs, solver = share
+    return run_jobs(model, jobs, solver, 1)
+
+
+def _grouped(keys: Iterable[Any]) -> dict[Any, list[int]]:
+    groups: dict[Any, list[int]] = {}
+    for i, key in enumerate(keys):
+        groups.setdefault(key, []).append(i)
+    return groups
+
+
+def _chunks(count: int, most: int) -> list[list[int]]:
+    """Places 0 ... count - 1, dealt out so that each share has some of the slow ones."""
+    shares = max(1, min(count, most))
+    return [list(range(i, count, shares)) for i in range(shares) if i < count]

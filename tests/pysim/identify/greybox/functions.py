@@ -1,0 +1,63 @@
+"""Problems with known answers for optimisers: residuals as plain functions, no model behind them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pysim.identify.greybox.evaluation import Evaluate, Evaluation, bad_point
+from pysim.identify.greybox.parameters import ParameterSpace
+
+Array = NDArray[np.float64]
+
+
+def space(start: list[float], lower: list[float] | None = None, upper: list[float] | None = None) -> ParameterSpace:
+    """Linear parameters p0, p1, ... of scale 1."""
+    n = len(start)
+    names = tuple(f"p{i}" for i in range(n))
+    return ParameterSpace(
+        keys=names,
+        variables=names,
+        records=(None,) * n,
+        units=("1",) * n,
+        start=np.array(start, dtype=float),
+        lower=np.array(lower if lower is not None else [-np.inf] * n, dtype=float),
+        upper=np.array(upper if upper is not None else [np.inf] * n, dtype=float),
+        scale=np.ones(n),
+        log=np.zeros(n, dtype=bool),
+    )
+
+
+def evaluating(
+    residual: Callable[[Array], Array],
+    jacobian: Callable[[Array], Array],
+    *,
+    squares: bool = True,
+    bad: Callable[[Array], bool] = lambda x: False,
+) -> Evaluate:
+    """An objective without a model; points where `bad` says so cannot be simulated."""
+
+    def evaluate(x: Array, states: tuple[Array | None, ...] = ()) -> Evaluation:
+        if bad(x):
+            return bad_point(x, "does not run here")
+        r = residual(x)
+        cost = float(r @ r) if squares else float(np.sum(np.abs(r)))
+        return Evaluation(x, cost, r, jacobian(x))
+
+    return evaluate
+
+
+def linear(seed: int, rows: int, n: int) -> tuple[Array, Array]:
+    """A matrix (rows, n) and a right side (rows,) of normal numbers."""
+    rng = np.random.default_rng(seed)
+    return rng.normal(size=(rows, n)), rng.normal(size=rows)
+
+
+def rosenbrock(x: Array) -> Array:
+    return np.array([10 * (x[1] - x[0] ** 2), 1 - x[0]])
+
+
+def rosenbrock_slopes(x: Array) -> Array:
+    return np.array([[-20 * x[0], 10.0], [-1.0, 0.0]])

@@ -1,0 +1,87 @@
+import numpy as np
+import pytest
+from scipy.optimize import lsq_linear
+
+from pysim.identify.greybox.gauss_newton import GaussNewton
+from pysim.identify.greybox.search import search
+from pysim.types import BadInput, FitOutcome
+from tests.pysim.identify.greybox.functions import evaluating, linear, rosenbrock, rosenbrock_slopes, space
+
+
+def test_a_linear_problem_is_solved_as_by_least_squares() -> None:
+    a, b = linear(1, 30, 4)
+    s = space([0.0] * 4)
+    state = search(evaluating(lambda x: a @ x - b, lambda x: a), GaussNewton(tolerance=1e-14), s, s.start, squares=True)
+    assert state.outcome is FitOutcome.CONVERGED
+    assert state.best.x == pytest.approx(np.linalg.lstsq(a, b, rcond=None)[0], abs=1e-9)
+
+
+def test_bounds_are_kept_and_met_exactly() -> None:
+    a, b = linear(2, 30, 5)
+    low, high = [-0.02] * 5, [0.1] * 5
+    s = space([0.0] * 5, low, high)
+    state = search(evaluating(lambda x: a @ x - b, lambda x: a), GaussNewton(tolerance=1e-14), s, s.start, squares=True)
+    expected = lsq_linear(a, b, (low, high), tol=1e-14, method="bvls")
+    assert np.count_nonzero(expected.active_mask) >= 2
+    assert state.best.x == pytest.approx(expected.x, abs=1e-9)
+    at_bound = expected.active_mask != 0
+    assert np.all((state.best.x == low) | (state.best.x == high) | ~at_bound)
+
+
+def test_a_bent_valley_is_followed_to_its_end() -> None:
+    s = space([-1.2, 1.0])
+    evaluate = evaluating(rosenbrock, rosenbrock_slopes)
+    state = search(evaluate, GaussNewton(tolerance=1e-16), s, s.start, squares=True)
+    assert state.outcome is FitOutcome.CONVERGED
+    assert state.best.x == pytest.approx([1.0, 1.0], abs=1e-6)
+
+
+def test_a_bad_point_is_a_step_that_is_not_taken() -> None:
+    s = space([-1.2, 1.0])
+    met = []
+
+    def bad(x: np.ndarray) -> bool:
+        met.append(bool(x[1] < -1))
+        return met[-1]
+
+    evaluate = evaluating(rosenbrock, rosenbrock_slopes, bad=bad)
+    state = search(evaluate, GaussNewton(tolerance=1e-16, radius=8.0), s, s.start, squares=True)
+    assert any(met)
+    assert state.best.x == pytest.approx([1.0, 1.0], abs=1e-6)
+
+
+def test_a_start_that_cannot_be_simulated_is_an_outcome() -> None:
+    s = space([0.0, 0.0])
+    evaluate = evaluating(rosenbrock, rosenbrock_slopes, bad=lambda x: True)
+    state = search(evaluate, GaussNewton(), s, s.start, squares=True)
+    assert state.outcome is FitOutcome.NO_START
+    assert state.message == "does not run here"
+
+
+def test_nothing_is_walked_along_a_direction_without_slope() -> None:
+    """Only p0 + p1 matters: from (2, 0) the nearest point of p0 + p1 = 5 is (3.5, 1.5)."""
+    s = space([2.0, 0.0])
+    evaluate = evaluating(lambda x: np.array([x[0] + x[1] - 5.0]), lambda x: np.array([[1.0, 1.0]]))
+    state = search(evaluate, GaussNewton(tolerance=1e-20, radius=10.0), s, s.start, squares=True)
+    assert state.best.x == pytest.approx([3.5, 1.5], abs=1e-6)
+
+
+def test_it_says_when_the_limit_of_points_is_reached() -> None:
+    s = space([-1.2, 1.0])
+    evaluate = evaluating(rosenbrock, rosenbrock_slopes)
+    state = search(evaluate, GaussNewton(max_iterations=3, tolerance=1e-16), s, s.start, squares=True)
+    assert (state.outcome, state.tried) == (FitOutcome.ITERATION_LIMIT, 3)
+
+
+def test_a_slope_that_lies_ends_in_a_stall() -> None:
+    s = space([1.0])
+    evaluate = evaluating(lambda x: 10 * x * np.ones(1000), lambda x: -10 * np.ones((1000, 1)))
+    state = search(evaluate, GaussNewton(), s, s.start, squares=True)
+    assert state.outcome is FitOutcome.STALLED
+    assert state.best.x == pytest.approx([1.0])
+
+
+@pytest.mark.parametrize("setting", ["max_iterations", "tolerance", "radius"])
+def test_settings_must_be_positive(setting: str) -> None:
+    with pytest.raises(BadInput, match=setting):
+        GaussNewton(**{setting: 0})
