@@ -185,6 +185,8 @@ def _the_long_way(plan: Plan, experiment: Experiment, why: str, stopped: Stopped
     """Simulate until it repeats; derivatives are differences of runs of the same length."""
     solver = tight(plan.solver)
     settled = settle_down(plan.library, experiment, solver, stopped)
+    if not settled.trouble:  # what is left of a transient depends more on a parameter than its own size tells
+        settled = after(plan.library, experiment, solver, 2 * settled.periods, stopped)
     if settled.trouble:
         return _not_settled(plan, experiment, settled, why)
     shape = (experiment.times.size - 1, len(experiment.record), len(plan.parameters))

@@ -19,7 +19,7 @@ Array = NDArray[np.float64]
 _ITERATIONS = 15
 _HALVINGS = 4
 _WITHIN = 3.0  # tolerated errors of a step: what the choice of the steps alone moves the end of a period
-_FURTHEST = 1.0  # amplitudes that a correction may exceed the orbit by before it is shortened
+_FURTHEST = 10.0  # amplitudes: a longer correction is shortened to that
 
 
 @dataclass(frozen=True)
@@ -80,13 +80,11 @@ def shoot(
             return Found(None, count, "an event happened", event=True)
         shot = _examine(varied, start, solver, tolerance) if varied.done else None
         if shot is not None and shot.mismatch <= tolerance:
-            if shot.drift > tolerance:
-                return Found(None, count, "a state drifts from period to period, and nothing holds it")
-            return Found(shot, count)
+            return Found(None if shot.drift > tolerance else shot, count, _trouble(shot, tolerance))
         if shot is None or (before is not None and not shot.mismatch < before.mismatch):
             length *= 0.5
             if before is None or length < 0.5**_HALVINGS:
-                return Found(None, count, varied.message or "the corrections do not converge")
+                return Found(None, count, varied.message or _trouble(before, tolerance))
             start = before.start + length * before.step
         else:
             before, length = shot, min(1.0, _FURTHEST / shot.mismatch)
@@ -95,7 +93,14 @@ def shoot(
         if not rewind:
             instance.renew()
             initialise(instance, experiment, solver)
-    return Found(None, _ITERATIONS, "the corrections do not converge")
+    return Found(None, _ITERATIONS, _trouble(before, tolerance))
+
+
+def _trouble(shot: Shot | None, tolerance: float) -> str:
+    """Why there is no orbit, if there is none."""
+    if shot is not None and shot.drift > tolerance:
+        return "a state drifts from period to period, and nothing holds it"
+    return "the corrections do not converge"
 
 
 def _inverse(matrix: Array, least: float) -> Array | None:

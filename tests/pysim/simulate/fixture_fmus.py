@@ -50,7 +50,11 @@ class Fixture:
 
 
 OSCILLATOR = Fixture(
-    "oscillator", ("x", "v"), inputs=("u", "u_rate"), parameters=(("w", 2.0), ("D", 0.1)), outputs=("power", "y_rate")
+    "oscillator",
+    ("x", "v"),
+    inputs=("u", "u_rate"),
+    parameters=(("w", 2.0), ("D", 0.1), ("lie", 0.0)),
+    outputs=("power", "y_rate"),
 )
 BALL = Fixture(
     "ball", ("h", "v"), parameters=(("g", 9.81), ("e", 0.8)), outputs=("bounces",), indicators=1, starts=(1.0, 0.0)
@@ -60,6 +64,7 @@ STIFF = Fixture("stiff", ("x", "y"), parameters=(("rate", 1e5),), outputs=("miss
 FRAGILE = Fixture(
     "fragile", ("x",), parameters=(("manner", 0.0), ("refuse", 0.0)), outputs=("root",), starts=(1.0,), tangents=False
 )
+HOARDER = Fixture("hoarder", ("x",), inputs=("u",))
 FOLLOWER = Fixture("follower", ("x",), inputs=("u",), outputs=("events", "u_seen"))
 
 
@@ -134,7 +139,7 @@ def _library(source: str, folder: Path) -> Path:
 
 def build(fixture: Fixture, fmi: int, folder: Path) -> Path:
     """An FMU of that version in that folder."""
-    path = folder / f"{fixture.source}_{fmi}.fmu"
+    path = folder / f"{fixture.source}{'' if fixture.tangents else '_plain'}_{fmi}.fmu"
     if not path.exists():
         with zipfile.ZipFile(path, "w") as archive:
             archive.writestr("modelDescription.xml", _xml_2(fixture) if fmi == 2 else _xml_3(fixture))

@@ -1,0 +1,68 @@
+"""Small models in Modelica text, with closed forms, for what needs a compiled FMU with derivatives of outputs."""
+
+from pathlib import Path
+
+from fmu_build import build
+from pysim.io import read_model
+from pysim.types import Model
+
+LAG = """model Lag "T y' + y = K u"
+  parameter Real T(unit="s", min=1e-3) = 0.5;
+  parameter Real K = 2;
+  parameter Real y_start = 0.3;
+  input Real u(start=0);
+  output Real y(start=y_start, fixed=true);
+  output Real power;
+equation
+  T*der(y) + y = K*u;
+  power = K*u*y;
+end Lag;
+"""
+
+TANK = """model Tank "Two volumes joined by a linear resistance: their sum is nobody's to hold"
+  parameter Real C = 2;
+  parameter Real R = 0.5;
+  input Real q(start=0);
+  output Real p1(start=1, fixed=true);
+  output Real p2(start=1, fixed=true);
+equation
+  C*der(p1) = q - (p1 - p2)/R;
+  C*der(p2) = (p1 - p2)/R;
+end Tank;
+"""
+
+RELAY = """model Relay "A first-order lag behind a switch"
+  parameter Real T(unit="s") = 0.5;
+  input Real u(start=0);
+  output Real x(start=0, fixed=true);
+equation
+  T*der(x) + x = if u > 0 then 1 else -1;
+end Relay;
+"""
+
+LATE = """model Late "Feeds back what it was a while ago"
+  input Real u(start=0);
+  output Real x(start=0, fixed=true);
+equation
+  der(x) = u - delay(x, 0.2);
+end Late;
+"""
+
+DISCARDS = """model Discards "Fails where the input falls below -1"
+  input Real u(start=0);
+  output Real x(start=0, fixed=true);
+equation
+  der(x) = sqrt(1 + u) - x;
+end Discards;
+"""
+
+
+def text_model(text: str, folder: Path, *, fmi: int = 2) -> Model:
+    """The model of that text, compiled anew unless the folder holds it."""
+    name = text.split()[1]
+    output = folder / f"{name}_{fmi}.fmu"
+    if not output.exists():
+        library = folder / f"{name}.mo"
+        library.write_text(text, encoding="utf-8")
+        build(name, output, libraries=[library], fmi=fmi, use_cache=False)
+    return read_model(output)
