@@ -20,6 +20,7 @@ from pysim.identify.multisine.statistics import (
     variance_interval,
 )
 from pysim.identify.multisine.steady import DropPeriods, LocalTransient, SteadySpectra
+from pysim.identify.multisine.window_choice import WindowChoice, rank_local_polynomials
 
 __all__ = [
     "DropPeriods",
@@ -28,6 +29,7 @@ __all__ = [
     "LocalTransient",
     "Periods",
     "SteadySpectra",
+    "WindowChoice",
     "as_frequency_response",
     "best_linear_approximation",
     "difference_interval",
@@ -42,6 +44,7 @@ __all__ = [
     "local_polynomial_approximation",
     "periods_of",
     "pooled",
+    "rank_local_polynomials",
     "robust_approximation",
     "smooth_approximation",
     "variance_interval",

@@ -79,21 +79,14 @@ def local_polynomial_approximation(
     multivariable systems, Part I: theory, Mechanical Systems and Signal Processing 24 (2010), 573-595.
     """
     settings = settings or LocalPolynomial()
-    step = sampling_interval(record)
-    length = record.time.size * step
     names = tuple(columns)
-    if len(names) not in (2, 3):
-        raise BadInput(f"local polynomial: name the columns of input and output (and reference), got {names}")
-    lines = _spectra(np.column_stack([record[name] for name in names]))
-    numbers, has_reference = np.arange(1, lines.shape[0] + 1), len(names) == 3
-    drive = lines[:, 2 if has_reference else 0]
-    chosen = _band(np.abs(drive), numbers / length, band, settings)
-    fit = _solve(drive, lines[:, :2] if has_reference else lines[:, 1:2], chosen, settings)
+    spectra = prepare(record, names, band, settings)
+    fit = solve(spectra.drive, spectra.answers, spectra.chosen, settings)
     gain, error, to_input = gain_from_responses(fit.coefficients[:, 0], fit.residual)
     variance = error * fit.gram[:, 0, 0].real / to_input
-    at = windows(numbers[chosen] - 1, numbers - 1, 2 * settings.half_width + 1)
-    amplitude = np.sqrt(np.mean(np.abs(lines[at, 0]) ** 2, axis=1))
-    frequency, degrees = numbers[chosen] / length, np.full(gain.size, 2.0 * settings.degrees)
+    at = windows(spectra.chosen, np.arange(spectra.drive.size), 2 * settings.half_width + 1)
+    amplitude = np.sqrt(np.mean(np.abs(spectra.input[at]) ** 2, axis=1))
+    frequency, degrees = (spectra.chosen + 1) / spectra.length, np.full(gain.size, 2.0 * settings.degrees)
     units = tuple(record.units[record.names.index(name)] for name in names)
     rms, offset = float(np.std(record[names[0]])), float(np.mean(record[names[0]]))
     return BestLinearApproximation(
@@ -102,7 +95,7 @@ def local_polynomial_approximation(
         variance,
         degrees,
         None,
-        MultisineTest(names[0], names[1], units[0], units[1], offset, rms, length, 1, 1),
+        MultisineTest(names[0], names[1], units[0], units[1], offset, rms, spectra.length, 1, 1),
         f"local polynomial: order {settings.order} over {2 * settings.half_width + 1} lines",
         record.origin,
         amplitude,
@@ -112,6 +105,33 @@ def local_polynomial_approximation(
     )
 
 
+@dataclass(frozen=True)
+class WholeSpectra:
+    """A record's lines (n_l,) from one over its length (s) on: what drives, the input, the answers (n_l, n_y), and the
+    positions to estimate."""
+
+    drive: Complex
+    input: Complex
+    answers: Complex
+    chosen: NDArray[np.intp]
+    length: float
+
+
+def prepare(
+    record: Record, columns: Sequence[str], band: tuple[float, float] | None, settings: LocalPolynomial
+) -> WholeSpectra:
+    """Spectra of the columns and the band; arguments as `local_polynomial_approximation`."""
+    names = tuple(columns)
+    if len(names) not in (2, 3):
+        raise BadInput(f"local polynomial: name the columns of input and output (and reference), got {names}")
+    length = record.time.size * sampling_interval(record)
+    lines = _spectra(np.column_stack([record[name] for name in names]))
+    drive = lines[:, 2 if len(names) == 3 else 0]
+    frequency = np.arange(1, lines.shape[0] + 1) / length
+    chosen = _band(np.abs(drive), frequency, band, settings)
+    return WholeSpectra(drive, lines[:, 0], lines[:, :2] if len(names) == 3 else lines[:, 1:2], chosen, length)
+
+
 def _spectra(values: Array) -> Complex:
     """Complex amplitudes (n_l, n_s) of the lines above zero and below the Nyquist frequency."""
     n = values.shape[0]
@@ -119,7 +139,7 @@ def _spectra(values: Array) -> Complex:
     return np.asarray(spectrum[1 : (n - 1) // 2 + 1], dtype=np.complex128)
 
 
-def _solve(drive: Complex, answers: Complex, chosen: NDArray[np.intp], settings: LocalPolynomial) -> LocalFit:
+def solve(drive: Complex, answers: Complex, chosen: NDArray[np.intp], settings: LocalPolynomial) -> LocalFit:
     """The windows around the chosen positions, some thousand at a time."""
     positions = np.arange(drive.size)
     parts = []

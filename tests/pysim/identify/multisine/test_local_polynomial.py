@@ -6,7 +6,7 @@ from scipy import stats
 from scipy.signal import lfilter
 
 from pysim.identify.multisine import LocalPolynomial, gain_radius, local_polynomial_approximation
-from pysim.identify.multisine.local_polynomial import _solve
+from pysim.identify.multisine.local_polynomial import solve
 from pysim.types import BadInput, BestLinearApproximation, Record
 from tests.pysim.identify.multisine.systems import A, B
 
@@ -32,11 +32,11 @@ def test_exact_where_gain_and_transient_are_polynomials(order: int) -> None:
     k = np.arange(80) / 40
     g, t = (np.polyval(rng.standard_normal(order + 1) + 1j * rng.standard_normal(order + 1), k) for _ in range(2))
     u = rng.standard_normal(80) + 1j * rng.standard_normal(80)
-    fit = _solve(u, (g * u + t)[:, None], np.arange(80), LocalPolynomial(order, order + 3))
+    fit = solve(u, (g * u + t)[:, None], np.arange(80), LocalPolynomial(order, order + 3))
     np.testing.assert_allclose(fit.coefficients[:, 0, 0], g, atol=1e-9)
     np.testing.assert_allclose(fit.coefficients[:, order + 1, 0], t, atol=1e-9)
     np.testing.assert_allclose(fit.residual, 0.0, atol=1e-18)
-    wrong = _solve(u, ((g + 0.1 * k ** (order + 1)) * u)[:, None], np.arange(80), LocalPolynomial(order, order + 3))
+    wrong = solve(u, ((g + 0.1 * k ** (order + 1)) * u)[:, None], np.arange(80), LocalPolynomial(order, order + 3))
     assert np.max(wrong.residual.real) > 1e-12
 
 
