@@ -1,10 +1,5 @@
 #include "fmi2_front.h"
 
-Instance *fmi2_enter(fmi2Component c, unsigned phases, const char *function) {
-    Instance *s = c;
-    return s && instance_in_phase(s, phases, function) ? s : NULL;
-}
-
 Instance *fmi2_enter_exchange(fmi2Component c, unsigned phases, const char *function) {
     Instance *s = fmi2_enter(c, phases, function);
     if (!s || s->interface == MODEL_EXCHANGE) return s;

@@ -26,7 +26,10 @@ typedef struct {
 } Fmi2Front;
 
 /* The instance, or null (logged if there is one) where `function` must not be called. */
-Instance *fmi2_enter(fmi2Component c, unsigned phases, const char *function);
+static inline Instance *fmi2_enter(fmi2Component c, unsigned phases, const char *function) {
+    Instance *s = c;
+    return s && instance_in_phase(s, phases, function) ? s : NULL;
+}
 Instance *fmi2_enter_exchange(fmi2Component c, unsigned phases, const char *function);
 Instance *fmi2_enter_cosim(fmi2Component c, unsigned phases, const char *function);
 

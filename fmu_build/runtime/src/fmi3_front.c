@@ -1,10 +1,5 @@
 #include "fmi3_front.h"
 
-Instance *fmi3_enter(fmi3Instance instance, unsigned phases, const char *function) {
-    Instance *s = instance;
-    return s && instance_in_phase(s, phases, function) ? s : NULL;
-}
-
 static Instance *enter_interface(fmi3Instance instance, unsigned phases, const char *function, Interface interface) {
     Instance *s = fmi3_enter(instance, phases, function);
     if (!s || s->interface == interface) return s;

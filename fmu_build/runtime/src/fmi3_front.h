@@ -24,7 +24,10 @@ typedef struct {
 } Fmi3Front;
 
 /* The instance, or null (logged if there is one) where `function` must not be called. */
-Instance *fmi3_enter(fmi3Instance instance, unsigned phases, const char *function);
+static inline Instance *fmi3_enter(fmi3Instance instance, unsigned phases, const char *function) {
+    Instance *s = instance;
+    return s && instance_in_phase(s, phases, function) ? s : NULL;
+}
 Instance *fmi3_enter_exchange(fmi3Instance instance, unsigned phases, const char *function);
 Instance *fmi3_enter_cosim(fmi3Instance instance, unsigned phases, const char *function);
 

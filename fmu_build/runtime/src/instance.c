@@ -240,8 +240,7 @@ static const char *phase_name(uint32_t phase) {
     }
 }
 
-bool instance_in_phase(Instance *s, unsigned phases, const char *function) {
-    if (s->memory->phase & phases) return true;
+bool instance_refuse(Instance *s, const char *function) {
     log_message(s, LOG_ERROR, "%s: not allowed in state \"%s\".", function, phase_name(s->memory->phase));
     return false;
 }

@@ -146,8 +146,13 @@ void instance_free(Instance *s);
 /* Back to what instance_new gave; the log settings stay. */
 void instance_reset(Instance *s);
 
+/* Logs a call that is illegal in the present phase; false. */
+bool instance_refuse(Instance *s, const char *function);
+
 /* True if the instance is in one of `phases`; else logs the illegal call. */
-bool instance_in_phase(Instance *s, unsigned phases, const char *function);
+static inline bool instance_in_phase(Instance *s, unsigned phases, const char *function) {
+    return (s->memory->phase & phases) != 0 || instance_refuse(s, function);
+}
 
 static inline void set_phase(Instance *s, Phase phase) { s->memory->phase = (uint32_t)phase; }
 
