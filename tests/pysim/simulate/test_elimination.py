@@ -22,11 +22,14 @@ def _solve(jobs, shift, right):
     return good
 
 
-def solve(jacobian: np.ndarray, pattern: np.ndarray, shift: float, right: np.ndarray):
+def solve(
+    jacobian: np.ndarray, pattern: np.ndarray, shift: float, right: np.ndarray, nominal: np.ndarray | float = 1.0
+):
     """Solution of (shift I - J) x = right, and whether the sparse factors served for it; None where refused."""
     n, job = len(jacobian), Job(Rodas())
     job.put("work", {**work_arrays(n, 0, 1, 1, True), **elimination_arrays(pattern)})
     job.array("work", "jacobian")[:] = jacobian.T
+    job.array("work", "nominal")[:] = nominal
     x = right.copy()
     return (x if _solve(job.record, shift, x) else None), job.number("run", "is_sparse") == 1
 
@@ -39,7 +42,7 @@ def brush(rng, n: int) -> np.ndarray:
     return pattern[np.ix_(order, order)]
 
 
-@pytest.mark.parametrize("n", [4, 7, 12, 40])
+@pytest.mark.parametrize("n", [4, 12, 40])
 @pytest.mark.parametrize("scale", [1.0, 1e7])
 def test_same_solution_as_lapack_in_any_units(n, scale):
     rng = np.random.default_rng(n)
@@ -48,7 +51,7 @@ def test_same_solution_as_lapack_in_any_units(n, scale):
         units = scale ** rng.uniform(-1, 1, n)  # every state in another unit
         jacobian = np.where(pattern, rng.normal(size=(n, n)) - 3 * n * np.eye(n), 0.0) * np.outer(units, 1 / units)
         right = rng.normal(size=n) * units
-        solution, sparse = solve(jacobian, pattern, 2.0, right)
+        solution, sparse = solve(jacobian, pattern, 2.0, right, units)
         assert sparse == (n > 4)
         expected = np.linalg.solve((2.0 * np.eye(n) - jacobian) * np.outer(1 / units, units), right / units)
         np.testing.assert_allclose(solution / units, expected, rtol=1e-10, atol=1e-12 * np.abs(expected).max())
@@ -88,10 +91,16 @@ def test_fill_holds_every_entry_that_elimination_makes(flags):
         left[c + 1 :, c] = 0.0
 
 
-def test_a_chain_is_eliminated_without_fill():
+def test_a_chain_is_eliminated_from_many_places_at_once_with_little_fill():
     band = np.abs(np.subtract.outer(np.arange(30), np.arange(30))) <= 1
-    shuffled = band[np.ix_(*2 * [np.random.default_rng(2).permutation(30)])]
-    assert fill(shuffled, elimination_order(shuffled)).sum() == band.sum()
+    shuffle = np.random.default_rng(2).permutation(30)
+    shuffled = band[np.ix_(shuffle, shuffle)]
+    filled = fill(shuffled, elimination_order(shuffled))
+    assert filled.sum() <= 1.5 * band.sum()
+    waits = np.zeros(30, dtype=int)  # rows that must be done before this one, one after the other
+    for row in range(30):
+        waits[row] = max((waits[column] + 1 for column in np.flatnonzero(filled[row, :row])), default=0)
+    assert waits.max() <= 10
 
 
 def test_sparse_and_dense_elimination_give_the_same_run(fixture_model):
