@@ -33,6 +33,7 @@ CASES: Mapping[str, Case] = MappingProxyType(
         "friction": Case("validation.friction.case", "thesis Table 6.2 found again from ten pulses per revolution"),
         "chirp": Case("validation.chirp.case", "one chirp against stepped sines on a model whose directions differ"),
         "multisine": Case("validation.multisine.case", "gain, noise, even and odd distortion where theory knows them"),
+        "virtual-bench": Case("validation.virtual_bench.case", "the virtual bench against an independent plant's logs"),
         "wine": Case("validation.wine.case", "the Windows binary under Wine against the binary of this machine"),
     }
 )

@@ -24,7 +24,8 @@ def data_check_text(check: DataCheck) -> str:
     for kind, records in _by_kind(check).items():
         lines += [f"{kind}: {len(records)}", *(f"  {line}" for line in _points(records))]
     warnings = check.warnings
-    lines.append(f"{len(warnings)} warnings" + (":" if warnings else ", ready to use"))
+    count = "1 warning" if len(warnings) == 1 else f"{len(warnings)} warnings"
+    lines.append(count + (":" if warnings else ", ready to use"))
     for source, text in warnings[:_SHOWN]:
         lines += textwrap.wrap(f"{source}: {text}", _WIDTH, initial_indent="  ", subsequent_indent="    ")
     if len(warnings) > _SHOWN:
@@ -54,7 +55,8 @@ def data_check_page(check: DataCheck, *, pictures: Mapping[str, bytes], redo: st
         redo: the command line that makes this page again.
     """
     warnings = check.warnings
-    verdict = f"{len(warnings)} warnings." if warnings else "Nothing stands out; the data set is ready to use."
+    found = "One warning." if len(warnings) == 1 else f"{len(warnings)} warnings."
+    verdict = found if warnings else "Nothing stands out; the data set is ready to use."
     parts = [heading("Verdict"), paragraph(f"{len(check.records)} records were read. {verdict}", note=bool(warnings))]
     parts.append(items(f"{source}: {text}" for source, text in warnings))
     rows = [[cell(words[0], "words"), *(cell(word, "words") for word in words[1:])] for words in _signals(check)]

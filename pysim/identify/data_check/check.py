@@ -118,7 +118,8 @@ def _warnings(
 def _of_clock(base: Clock) -> Iterator[str]:
     if base.gaps:
         start, length = max(base.gaps, key=lambda gap: gap[1])
-        yield f"{len(base.gaps)} gaps in time, the longest of {length:.3g} s after {start:.6g} s"
+        count = f"{len(base.gaps)} gaps in time, the longest" if len(base.gaps) > 1 else "a gap in time,"
+        yield f"{count} of {length:.3g} s after {start:.6g} s"
     if base.jitter > _JITTER:
         yield f"uneven sampling: the intervals vary by {100 * base.jitter:.0f} percent"
 

@@ -60,7 +60,7 @@ def test_warnings_are_no_errors(folder: Path, capsys: pytest.CaptureFixture[str]
     description = folder / "dataset.toml"
     description.write_text(description.read_text().replace("frequency = 1.0", "frequency = 1.1", 1))
     assert main(["data", "check", str(description)]) == 0
-    assert "1 warnings:\n  O+25_A5/1Hz.txt: cmd swings at 1 Hz, not at 1.1 Hz" in capsys.readouterr().out
+    assert "1 warning:\n  O+25_A5/1Hz.txt: cmd swings at 1 Hz, not at 1.1 Hz" in capsys.readouterr().out
 
 
 def test_numbers_report_and_pictures(folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -1,0 +1,47 @@
+"""A data check in words and numbers: faults stand out, and long lists are cut in the terminal only."""
+
+import numpy as np
+
+from pysim.identify.data_check import check_dataset
+from pysim.report.data_check import data_check_data, data_check_page, data_check_text
+from pysim.types import Dataset, MeasuredRecord, MeasuredSignal, Record
+
+SIGNALS = (MeasuredSignal("cmd", "input", "1", "", "cmd", noise=0.5), MeasuredSignal("y", "output", "1", "<y>", "y"))
+
+
+def dataset(count: int) -> Dataset:
+    """Logs with a gap after 0.49 s each."""
+    time = np.delete(np.arange(200) / 100, range(50, 60))
+    log = Record(time, np.column_stack([np.sin(time), np.cos(time)]), ("cmd", "y"), ("1", "1"))
+    return Dataset(
+        "d", "words", "s", SIGNALS, tuple(MeasuredRecord(f"{k}.txt", "other", "fit", log) for k in range(count))
+    )
+
+
+def test_few_warnings_are_all_shown() -> None:
+    text = data_check_text(check_dataset(dataset(2)))
+    assert text.endswith(
+        "2 warnings:\n  0.txt: a gap in time, of 0.11 s after 0.49 s\n  1.txt: a gap in time, of 0.11 s after 0.49 s"
+    )
+    assert "  cmd  input, 1, , is cmd, noise 0.5, no resolution told" in text.splitlines()
+
+
+def test_many_warnings_are_cut_in_the_terminal_and_whole_elsewhere() -> None:
+    check = check_dataset(dataset(30))
+    assert data_check_text(check).endswith("  and 10 more")
+    data = data_check_data(check)
+    assert data["warnings"] == 30
+    assert data["records"][29]["clock"]["gaps"][0]["after_s"] == 0.49
+    page = data_check_page(check, pictures={"a picture": b"<svg/>"}, redo="pysim data check d")
+    assert page.count("a gap in time") == 30
+    assert "&lt;y&gt;" in page
+    assert "<y>" not in page
+    assert "30 warnings." in page
+
+
+def test_a_good_set_is_ready() -> None:
+    time = np.arange(200) / 100
+    log = Record(time, np.column_stack([np.sin(time), np.cos(time)]), ("cmd", "y"), ("1", "1"))
+    data = Dataset("d", "words", "s", SIGNALS, (MeasuredRecord("a.txt", "other", "fit", log),))
+    assert data_check_text(check_dataset(data)).endswith("0 warnings, ready to use")
+    assert "ready to use" in data_check_page(check_dataset(data), pictures={}, redo="x")
