@@ -80,7 +80,8 @@ def _roots(coefficients: tuple[float, ...]) -> Complex:
 def _phase(coefficients: tuple[float, ...], frequency: Array) -> Array:
     """The continuous phase of a polynomial along the imaginary axis, (n_f,) rad, within half a turn of 0 at 0 Hz."""
     omega = 2 * np.pi * np.append(0.0, frequency)
-    total = np.full(omega.shape, np.angle(coefficients[0]))
+    lead = next((c for c in coefficients if c), 1.0)
+    total = np.full(omega.shape, np.angle(lead))
     for root in np.roots(coefficients):  # j omega - root never crosses the imaginary axis, so no factor jumps
         turn = np.arctan2(omega - root.imag, abs(root.real))
         total = total + (turn if root.real <= 0 else np.pi - turn)

@@ -42,12 +42,13 @@ def fit_transfer_function(
     Source: thesis Eq. 2.14; starts after Sanathanan and Koerner, variable projection after Kaufman.
     """
     data = complex_response(response) if isinstance(response, FrequencyResponse) else response
-    if 2 * data.frequency.size < structure.parameters:
+    weights = weights or ("uniform" if data.covariance is None else "covariance")
+    spare = 0 if weights == "covariance" else 1  # the residuals have to tell the noise
+    if 2 * data.frequency.size < structure.parameters + spare:
         raise BadInput(
             f"black box: {structure.label} are {structure.parameters} numbers and {data.origin} has "
             f"{data.frequency.size} frequencies, two numbers each; ask for fewer poles and zeros"
         )
-    weights = weights or ("uniform" if data.covariance is None else "covariance")
     problem = Problem.of(data, structure, whitening(data, weights))
     minima = [refine(problem, start) for start in starts(problem, max(tries, 1))]
     return _result(data, weights, problem, min(minima, key=lambda minimum: minimum.point.cost))
@@ -71,7 +72,7 @@ def _result(data: ComplexResponse, weights: str, problem: Problem, minimum: Mini
         poles=roots.poles,
         zeros=roots.zeros,
         cancelling=roots.cancelling,
-        standardised=minimum.point.residual.reshape(-1, 2) / (np.sqrt(variance) if 0 < variance < np.inf else 1.0),
+        standardised=minimum.point.residual.reshape(-1, 2) / (np.sqrt(variance) if variance > 0 else 1.0),
         misfit=misfit,
         freedom=freedom,
         noise_known=known,
@@ -93,7 +94,7 @@ def _variance(misfit: float, freedom: int, known: bool) -> float:
     """The factor on the covariance: of the residuals, unless the noise is known and explains them."""
     if known and (freedom == 0 or stats.chi2.sf(misfit, freedom) >= UNLIKELY):
         return 1.0
-    return misfit / freedom if freedom else np.inf
+    return misfit / freedom
 
 
 def _names(structure: Structure) -> tuple[str, ...]:

@@ -12,9 +12,9 @@ from pysim.identify.blackbox.objective import Point, Problem
 
 Array = NDArray[np.float64]
 
-STABLE_MARGIN = 1e-9  # of the middle frequency: how far left of the imaginary axis a pole at the edge is kept
+STABLE_MARGIN = 1e-6  # of the scaled numbers of a section: keeps poles left of the axis in spite of rounding
 _TOLERANCE = 1e-11
-_EDGE = 1e-6
+_EDGE = 1e-6  # of a scaled number, or of one: nearer to a limit it stands there
 
 
 @dataclass(frozen=True)
@@ -66,7 +66,7 @@ def refine(problem: Problem, start: Array, *, most: int = 300) -> Minimum:
         gtol=_TOLERANCE,
         max_nfev=most,
     )
-    at_low, at_high = (np.abs(found.x - end) <= _EDGE * np.maximum(np.abs(found.x), _EDGE) for end in (low, high))
+    at_low, at_high = (np.abs(found.x - end) <= _EDGE * np.maximum(np.abs(found.x), 1) for end in (low, high))
     ended = np.where(at_low, low, np.where(at_high, high, found.x))  # the search stops a hair inside
     held = at_low | at_high
     return Minimum(ended, problem.evaluate(ended), held, bool(found.status > 0), int(found.nfev))

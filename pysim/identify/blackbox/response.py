@@ -49,6 +49,8 @@ class ComplexResponse:
             object.__setattr__(self, name, array)
         if n_f == 0 or self.frequency[0] <= 0 or np.any(np.diff(self.frequency) <= 0):
             raise BadInput("complex response: frequencies must be positive and increase")
+        if not np.any(self.values):
+            raise BadInput(f"complex response: {self.origin} is zero at every frequency; there is nothing to fit")
 
 
 def complex_response(response: FrequencyResponse) -> ComplexResponse:

@@ -42,8 +42,7 @@ def roots_of(problem: Problem, minimum: Minimum, function: TransferFunction, dou
     slopes = zero_slopes(np.array(function.numerator[first:]), zeros)
     with np.errstate(invalid="ignore"):
         pole_rows, zero_rows = doubt.poles[order], slopes @ doubt.coefficients[first:count]
-        noise = np.sqrt(variance) if np.isfinite(variance) else 1.0
-        pole_spread, zero_spread = (_known(doubt, rows, noise) for rows in (pole_rows, zero_rows))
+        pole_spread, zero_spread = (_known(doubt, rows, np.sqrt(variance)) for rows in (pole_rows, zero_rows))
     return Roots(
         _with_doubt(poles[order], pole_spread),
         _with_doubt(zeros, zero_spread),

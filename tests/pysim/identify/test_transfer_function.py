@@ -60,3 +60,10 @@ def test_poles_zeros_gain_and_stability() -> None:
     integrator = TransferFunction((1.0,), (1.0, 0.0))
     assert (integrator.gain, integrator.stable) == (np.inf, False)
     assert TransferFunction((1.0,), (2.0,)).poles.size == 0
+
+
+def test_leading_zeros_do_not_turn_the_phase() -> None:
+    f = np.array([0.1, 1.0])
+    plain, padded = (TransferFunction(b, (1.0, 1.0)).response(f, TEST) for b in ((-2.0,), (0.0, 0.0, -2.0)))
+    np.testing.assert_allclose(padded.phase, plain.phase)
+    assert TransferFunction((0.0, 1.0, 5.0), (1.0, 1.0)).zeros.tolist() == [-5.0]

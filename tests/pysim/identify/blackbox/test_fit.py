@@ -127,3 +127,33 @@ def test_a_response_of_gain_and_phase_gives_the_same() -> None:
 def test_refuses_more_unknowns_than_numbers() -> None:
     with pytest.raises(BadInput, match="ask for fewer poles and zeros"):
         fit_transfer_function(exact(SYSTEMS["integrator"], np.array([1.0, 2.0])), Structure(3, 2))
+
+
+def test_as_many_unknowns_as_numbers_need_the_noise_told() -> None:
+    function, frequency = from_roots([], [*pairs(-5 + 30j), -9.0], 8e3), np.array([1.0, 5.0])
+    fit = fit_transfer_function(noisy(function, frequency, 1e-6, seed=1), Structure(3))
+    np.testing.assert_allclose(fit.model, fit.data.values, rtol=1e-6)  # four numbers through two points
+    assert (fit.freedom, fit.scatter) == (0, 1.0)
+    with pytest.raises(BadInput, match="ask for fewer"):
+        fit_transfer_function(exact(function, frequency), Structure(3))
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("seed", range(25))
+def test_whatever_the_numbers_there_is_an_answer(seed: int) -> None:
+    """Noise alone, a constant, a double integrator, a delay: with structures that have nothing to do with them."""
+    rng = np.random.default_rng(seed)
+    frequency = np.geomspace(0.01, 200, int(rng.integers(8, 16)))
+    s = 2j * np.pi * frequency
+    kinds = (
+        rng.standard_normal(s.size) + 1j * rng.standard_normal(s.size),
+        np.ones_like(s),
+        1 / s**2,
+        np.exp(-0.1 * s),
+    )
+    top = 0.3 if rng.random() < 0.4 else None
+    structure = Structure(int(rng.integers(0, 6)), int(rng.integers(0, 5)), 0.0, top, bool(rng.random() < 0.5))
+    fit = fit_transfer_function(ComplexResponse(frequency, kinds[seed % 4]), structure, tries=2)
+    assert np.isfinite(fit.values).all()
+    assert all(e.low <= e.value <= e.high for e in (*fit.estimates(), fit.gain()))
+    assert fit.function.stable or not structure.stable

@@ -58,7 +58,13 @@ def test_refuses_weights_that_cannot_be(values: list[float], covariance: object,
 
 @pytest.mark.parametrize(
     ("frequency", "values", "words"),
-    [([1.0, 1.0], [1.0, 1.0], "increase"), ([1.0], [1.0, 2.0], "shape"), ([1.0], [np.nan], "finite"), ([], [], "pos")],
+    [
+        ([1.0, 1.0], [1.0, 1.0], "increase"),
+        ([1.0], [1.0, 2.0], "shape"),
+        ([1.0], [np.nan], "finite"),
+        ([], [], "pos"),
+        ([1.0], [0.0], "zero at every"),
+    ],
 )
 def test_refuses_damaged_responses(frequency: list[float], values: list[float], words: str) -> None:
     with pytest.raises(BadInput, match=words):
