@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass, fields
 from typing import NamedTuple, Protocol
 
 from pysim.simulate._method import Method
@@ -31,16 +32,33 @@ class Solver(Protocol):
         ...
 
 
-def adaptive(name: str, rtol: float, atol: float, max_step: float, max_steps: int) -> Control:
-    """A step rule that keeps the error of each step at its tolerance.
+@dataclass(frozen=True)
+class Adaptive:
+    """What every solver has whose steps follow from their error; a solver adds its `method`.
 
+    Args:
+        rtol: tolerated error of a step, of a state's magnitude.
+        atol: the same, of a state's nominal value.
+        max_step: s.
+        max_steps: the run stops after that many.
     Raises:
         BadInput: a setting that is not positive.
     """
-    for argument, value in (("rtol", rtol), ("atol", atol), ("max_step", max_step), ("max_steps", max_steps)):
-        if not value > 0:
-            raise BadInput(f"{name}: {argument} must be positive, got {value}")
-    return Control(0.0, rtol, atol, max_step, max_steps)
+
+    rtol: float = 1e-6
+    atol: float = 1e-6
+    max_step: float = math.inf
+    max_steps: int = 100_000_000
+
+    def __post_init__(self) -> None:
+        for argument in fields(self):
+            value = getattr(self, argument.name)
+            if not value > 0:
+                raise BadInput(f"{type(self).__name__}: {argument.name} must be positive, got {value}")
+
+    def control(self) -> Control:
+        """Error-controlled steps."""
+        return Control(0.0, self.rtol, self.atol, self.max_step, self.max_steps)
 
 
 def fixed(name: str, step: float, max_steps: int) -> Control:

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
 
-from pysim.simulate._base import Control, adaptive
+from pysim.simulate._base import Adaptive
 from pysim.simulate._method import ExplicitMethod
 
 # Tsitouras 2011, Runge-Kutta pairs of order 5(4) satisfying only the first column simplifying assumption, Table 1 and
@@ -56,28 +55,9 @@ _METHOD = ExplicitMethod(
 
 
 @dataclass(frozen=True)
-class Rk45:
-    """Six derivative calls per step, order 5, error estimate of order 4, interpolant of order 4.
-
-    Args:
-        rtol: tolerated error of a step, of a state's magnitude.
-        atol: the same, of a state's nominal value.
-        max_step: s.
-        max_steps: the run stops after that many.
-    """
-
-    rtol: float = 1e-6
-    atol: float = 1e-6
-    max_step: float = math.inf
-    max_steps: int = 100_000_000
-
-    def __post_init__(self) -> None:
-        self.control()
+class Rk45(Adaptive):
+    """Six derivative calls per step, order 5, error estimate of order 4, interpolant of order 4."""
 
     def method(self) -> ExplicitMethod:
         """Coefficients of the pair."""
         return _METHOD
-
-    def control(self) -> Control:
-        """Error-controlled steps."""
-        return adaptive("Rk45", self.rtol, self.atol, self.max_step, self.max_steps)

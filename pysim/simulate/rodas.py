@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from pysim.simulate._base import Control, adaptive
+from pysim.simulate._base import Adaptive
 from pysim.simulate._method import RosenbrockMethod
 
 # Rodas5P: Steinebach 2023, Construction of Rosenbrock-Wanner method Rodas5P, BIT Numerical Mathematics 63:27. Rows of
@@ -119,31 +118,13 @@ _METHOD = RosenbrockMethod(
 
 
 @dataclass(frozen=True)
-class Rodas:
+class Rodas(Adaptive):
     """Eight stages, order 5, error estimate and interpolant of order 4, L-stable.
 
     A step costs nine derivative calls, one of them for the slope in time, and the Jacobian: one directional derivative
     per state, or one derivative call per state where the FMU offers none.
-
-    Args:
-        rtol: tolerated error of a step, of a state's magnitude.
-        atol: the same, of a state's nominal value.
-        max_step: s.
-        max_steps: the run stops after that many.
     """
-
-    rtol: float = 1e-6
-    atol: float = 1e-6
-    max_step: float = math.inf
-    max_steps: int = 100_000_000
-
-    def __post_init__(self) -> None:
-        self.control()
 
     def method(self) -> RosenbrockMethod:
         """Coefficients of Rodas5P."""
         return _METHOD
-
-    def control(self) -> Control:
-        """Error-controlled steps."""
-        return adaptive("Rodas", self.rtol, self.atol, self.max_step, self.max_steps)
