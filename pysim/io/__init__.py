@@ -1,4 +1,4 @@
-"""Files in and out: .fmu, csv, npz."""
+"""Files in and out: .fmu, data sets and their logs, records."""
 
 from pysim.io.archive import extracted
 from pysim.io.cache import cache_folder

@@ -6,6 +6,8 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+import numpy as np
+
 from pysim.identify.data_check.clipping import clipped
 from pysim.identify.data_check.clock import Clock, clock
 from pysim.identify.data_check.folding import share_near_nyquist
@@ -100,6 +102,10 @@ def _warnings(
     yield from _of_clock(base)
     if record.frequency is not None and record.command:
         yield from _of_sine(record, log, base, dataset.signal(record.command))
+    elif record.kind == "chirp" and record.command:
+        values = log[record.command]
+        middle, half = 0.5 * float(values.max() + values.min()), 0.5 * float(np.ptp(values))
+        yield from _of_level(record, dataset.signal(record.command), middle, half)
     for name in log.names:
         signal = dataset.signal(name)
         count = clipped(log[name], *limits[name]) if signal.role == "output" else 0
@@ -142,9 +148,11 @@ def _of_sine(record: MeasuredRecord, log: Record, base: Clock, command: Measured
         yield f"{command.name} swings at {found.frequency:.5g} Hz, not at {told:g} Hz"
     if found.impurity > _IMPURE:
         yield f"{command.name} is no pure sine: {100 * found.impurity:.0f} percent are left over"
-    for what, wanted, got in (
-        ("offset", record.offset, found.offset),
-        ("amplitude", record.amplitude, found.amplitude),
-    ):
+    yield from _of_level(record, command, found.offset, found.amplitude)
+
+
+def _of_level(record: MeasuredRecord, command: MeasuredSignal, offset: float, amplitude: float) -> Iterator[str]:
+    """Offset and amplitude that were found against those that were told."""
+    for what, wanted, got in (("offset", record.offset, offset), ("amplitude", record.amplitude, amplitude)):
         if wanted is not None and abs(got - wanted) > _OFF * float(record.amplitude or abs(wanted) or 1.0):
             yield f"{what} of the logged {command.name} is {got:.5g}, not {wanted:g} {command.unit} as told"

@@ -59,6 +59,14 @@ def test_faults_of_a_sine_are_found(change: dict[str, object], words: str) -> No
     assert any(words in text for text in warnings), warnings
 
 
+def test_the_level_of_a_chirp_is_read_off_its_extremes() -> None:
+    sweep = 25 + 10 * np.sin(2 * np.pi * (0.5 + 5 * (TIME - 2)) * (TIME - 2))
+    assert found(sweep, kind="chirp", frequency=None) == ()
+    assert found(sweep, kind="chirp", frequency=None, amplitude=8.0) == (
+        "amplitude of the logged cmd is 9.9999, not 8 % as told",  # the tops fall between the samples
+    )
+
+
 def test_too_few_periods() -> None:
     short = TIME[:75]  # 0.3 s, one and a half periods
     assert any(text.startswith("1.5 periods of 5 Hz: too few") for text in found(time=short))
