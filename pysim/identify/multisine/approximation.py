@@ -73,12 +73,13 @@ def smooth_approximation(
 def best_linear_approximation(
     periods: Periods, *, excited: Harmonics | None = None, transient: Transient | None = None
 ) -> BestLinearApproximation:
-    """The method that these records allow: robust with several realisations, fast with odd lines left free, else the
-    local polynomial method."""
+    """The method that these records allow: robust with several realisations, fast with odd lines left free and two
+    periods, else the local polynomial method."""
     if periods.values.shape[0] > 1:
         return robust_approximation(periods, excited=excited, transient=transient)
     lines = lines_of(excited) if excited is not None else excited_lines(periods)
-    method = fast_approximation if lines.are_odd and lines.odd.size > 1 else smooth_approximation
+    parted = lines.are_odd and lines.odd.size > 1 and periods.values.shape[1] > 1
+    method = fast_approximation if parted else smooth_approximation
     return method(periods, excited=lines.excited, transient=transient)
 
 

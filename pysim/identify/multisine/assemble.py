@@ -40,11 +40,10 @@ def assemble(
             shared=part.shared,
             noise_shared=part.shared + shared - 1,
         )
-        even = on_free_lines(spectra, lines, lines.even, part.gain, amplitude)
-        odd = on_free_lines(spectra, lines, lines.odd, part.gain, amplitude)
-        if lines.are_odd and odd is None:
-            odd = on_lines
-        distortion = on_lines if even is None or not lines.are_odd else _sum(on_lines, even)
+        if lines.are_odd:  # else products of any number of lines may fall on any line
+            even = on_free_lines(spectra, lines, lines.even, part.gain, amplitude)
+            odd = on_free_lines(spectra, lines, lines.odd, part.gain, amplitude) or on_lines
+        distortion = on_lines if even is None else _sum(on_lines, even)
     mean, mean_variance = _mean(spectra)
     return BestLinearApproximation(
         frequency,
@@ -73,10 +72,12 @@ def _sum(on_lines: Distortion, even: Distortion) -> Level:
 
 
 def amplitude_of(spectra: SteadySpectra, lines: Lines) -> Array:
+    """Root mean square over the realisations of the input's amplitudes on the excited lines, (n_f,)."""
     return np.asarray(np.sqrt(np.mean(np.abs(spectra.values[:, lines.excited - 1, 0]) ** 2, axis=0)))
 
 
 def hertz(spectra: SteadySpectra, lines: Lines) -> Array:
+    """Frequencies of the excited lines, (n_f,) Hz."""
     return lines.excited / spectra.periods.period
 
 
