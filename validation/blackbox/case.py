@@ -20,6 +20,7 @@ from validation.read_csv import read_csv
 from validation.thesis import FREQUENCIES_HZ, published_deviations, write_dataset
 
 RUNS = 500
+LOUD = 3.0  # percent of full angle: more than half the smallest amplitude
 COEFFICIENT_LIMIT, POOLED_LIMIT, RARE = 0.1, 2.0, 1e-3  # percent; percent off 95; of a binomial test
 _TABLES = Path(__file__).parents[1] / "thesis"
 
@@ -69,6 +70,8 @@ def _coverage() -> Iterator[Finding]:
     alike, delayed = BenchLog(samples=500), replace(function, dead_time=0.005)
     unknown = coverage(function, THESIS_STRUCTURE, test, runs=RUNS, seed=100, log=alike, noise_known=False)
     yield from judged("noise from the residuals, row 50/10", [unknown])
+    loud = coverage(function, THESIS_STRUCTURE, test, runs=RUNS, seed=102, log=BenchLog(noise=LOUD))
+    yield from judged(f"noise {LOUD:g} % in place of 0.1 %, row 50/10", [loud])
     late = Structure(5, 0, dead_time_max=0.02)
     yield from judged("with 5 ms dead time, row 50/10", [coverage(delayed, late, test, runs=RUNS, seed=101)])
 
