@@ -36,7 +36,7 @@ def multisine_figure(approximations: Sequence[BestLinearApproximation], titles: 
     if not approximations or len(approximations) != len(titles):
         raise BadInput("multisine figure: give at least one approximation, and a title for each")
     count = len(approximations)
-    figure = new_figure(2.4 + 3.9 * count, 6.4)
+    figure = new_figure(max(8.0, 2.4 + 3.9 * count), 6.4)  # at least as wide as the legend
     axes = figure.subplots(2, count, sharex="col", sharey="row", squeeze=False, height_ratios=(2.2, 1))
     handles: dict[str, Any] = {}
     for column, (bla, title) in enumerate(zip(approximations, titles, strict=True)):
