@@ -58,13 +58,16 @@ def read_table(path: Path, columns: tuple[str, ...], wanted_by: str) -> tuple[Ar
     first = next((i for i in range(begin, len(lines)) if _is_row(lines[i], len(columns))), None)
     if first is None:
         raise BadInput(f"{path} holds no numbers; it needs rows of {', '.join(columns)}")
-    values = read_block(lines[first:], len(columns))
-    if values is not None and values.shape[0] == len(lines) - first:
-        return values, np.arange(first + 1, len(lines) + 1)
-    wanted = [i for i in range(first, len(lines)) if not _is_skipped(lines[i])]
-    if values is None:
-        values = np.array([_row(_split(lines[i].strip()), columns, f"{path}, line {i + 1}") for i in wanted])
-    return values, np.array(wanted, dtype=np.intp) + 1
+    body = lines[first:]
+    numbers = np.arange(first + 1, len(lines) + 1)
+    if any("#" in line or not line or line.isspace() for line in body):  # the usual log has no such lines
+        numbers = numbers[[not _is_skipped(line) for line in body]]
+        body = [lines[number - 1] for number in numbers]
+    values = read_block(body, len(columns))
+    if values is None or len(values) != len(body):
+        rows = zip(numbers.tolist(), body, strict=True)
+        values = np.array([_row(_split(line.strip()), columns, f"{path}, line {number}") for number, line in rows])
+    return values, numbers
 
 
 def _behind_labview_header(lines: list[str]) -> int:

@@ -173,13 +173,15 @@ def test_reading_neither_writes_nor_needs_to(tmp_path: Path) -> None:
         folder.chmod(0o755)
 
 
-@pytest.mark.parametrize("dialect", ["\t", ";decimal comma"])
+@pytest.mark.parametrize("dialect", ["\t", ";decimal comma", "with a pause"])
 def test_half_a_million_rows_are_read_in_a_second(tmp_path: Path, dialect: str) -> None:
     n = 500_000
     values = np.random.default_rng(4).integers(-99999, 99999, size=(n, 2)) / 1000
     rows = [f"{0.004 * i:.3f}\t{a:.3f}\t{b:.3f}" for i, (a, b) in enumerate(values.tolist())]
     text = "time\tspeed\tp\n" + "\n".join(rows) + "\n"
-    if dialect != "\t":
+    if dialect == "with a pause":
+        text = text.replace("\n1000.000\t", "\n# oil too warm\n\n1000.000\t")
+    if dialect == ";decimal comma":
         text = text.replace("\t", ";").replace(".", ",")
     folder = files(tmp_path, sine=text)
     data, seconds = _fastest(folder)
