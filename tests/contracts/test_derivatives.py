@@ -101,6 +101,21 @@ def test_seeds_add_up(point, fmu):
     np.testing.assert_allclose(together, total, rtol=1e-9, atol=1e-12 * np.abs(single).max(initial=1))
 
 
+def test_seeds_of_parameters_add_up_at_every_point(point, fmu):
+    """Those of dx alone take another way than those with an output among them."""
+    parameters = fmu.of(causality="parameter", variability="tunable")
+    unknowns = unknowns_of(fmu)
+    seed = np.random.default_rng(5).normal(size=len(parameters)) * (np.abs(point.instance.get(parameters)) + 1e-3)
+    for shift in (0.0, 1e-3):
+        point.move(point.values + shift * point.scale)
+        whole = point.instance.directional(unknowns, parameters, seed)
+        alone = point.instance.directional(fmu.derivatives, parameters, seed)
+        single = [point.instance.directional(fmu.derivatives, [p], [s]) for p, s in zip(parameters, seed, strict=True)]
+        size = 1e-12 * np.abs(single).max(initial=1, axis=0)
+        np.testing.assert_array_less(np.abs(np.sum(single, axis=0) - alone), size)
+        np.testing.assert_array_less(np.abs(whole[: len(fmu.derivatives)] - alone), size)
+
+
 @pytest.mark.parametrize("fmi", [3], indirect=True)
 def test_adjoint_derivatives_are_the_transpose(point, fmu):
     unknowns = unknowns_of(fmu)

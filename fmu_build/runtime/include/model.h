@@ -86,6 +86,7 @@ typedef struct {
                                         d dx/dt (n_x), d g/dt (n_q) */
     ModelFunction *forward;          /* tangents of dx (n_x), w (n_w), g (n_q); c follows p */
     ModelFunction *reverse;          /* weights of x (n_x), u (n_u), p (n_p), q (n_q), v (n_v); c follows p */
+    ModelFunction *by_parameters;    /* d dx/dp (n_x x n_p); c follows p; null where n_q > 0 */
 } Model;
 
 /* The one symbol the generated file defines. */

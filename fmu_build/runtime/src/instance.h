@@ -34,7 +34,8 @@ typedef enum {
     HAS_DX = 1 << 4,
     HAS_W = 1 << 5,
     HAS_Z = 1 << 6,
-    HAS_JACOBIAN = 1 << 7
+    HAS_JACOBIAN = 1 << 7,
+    HAS_BY_PARAMETERS = 1 << 8
 } Computed;
 
 /* One delay(): its history lies in a ring of DELAY_CAPACITY points. */
@@ -91,10 +92,10 @@ typedef struct {
     double *out_dx, *out_w, *out_g, *out_x, *out_u, *out_p, *out_q, *out_v;
 } DerivativeWork;
 
-/* Partial derivatives at one point, column-major: of the derivatives by x, while q follows, and by q; of the residuals
-   g by x, turned into -dq/dx, and by q, factored. */
+/* Partial derivatives at one point, column-major: of the derivatives by x, while q follows, by q, and by p where there is
+   no q; of the residuals g by x, turned into -dq/dx, and by q, factored. */
 typedef struct {
-    double *xx, *xq, *qx, *qq;
+    double *xx, *xq, *xp, *qx, *qq;
     int *pivot;
 } JacobianWork;
 

@@ -43,3 +43,12 @@ Status evaluate_jacobian(Instance *s) {
     if (evaluate_unknowns(s) != STATUS_OK) return STATUS_DISCARD;
     return linearise(s, NULL, NULL);
 }
+
+Status evaluate_by_parameters(Instance *s) {
+    double *res[] = {s->jacobian.xp};
+    if (is_computed(s, HAS_BY_PARAMETERS)) return STATUS_OK;
+    if (evaluate_unknowns(s) != STATUS_OK) return STATUS_DISCARD;
+    if (call_model(s, s->model->by_parameters, res) != STATUS_OK) return STATUS_DISCARD;
+    set_computed(s, HAS_BY_PARAMETERS);
+    return STATUS_OK;
+}

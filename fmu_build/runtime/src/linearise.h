@@ -5,6 +5,9 @@
 
 #include "instance.h"
 
+/* Brings jacobian.xp up to date, for a model that has `by_parameters`. */
+Status evaluate_by_parameters(Instance *s);
+
 /* Brings jacobian.xx up to date. Discard, with a log line, where the blocks are singular. */
 Status evaluate_jacobian(Instance *s);
 

@@ -100,12 +100,21 @@ static bool all_in(const Instance *s, const uint32_t *references, size_t n, Vect
     return true;
 }
 
-/* Derivatives by states, as an integrator asks for them state by state: all of them come from one Jacobian. */
-static Status jacobian_times(Instance *s, const Partials *partials, const double *seed, double *change) {
+static bool all_real_parameters(const Instance *s, const Partials *partials) {
+    for (size_t k = 0; k < partials->n_knowns; k++)
+        if (!all_in(s, partials->knowns + k, 1, VECTOR_P) ||
+            s->model->variables[partials->knowns[k]].type != TYPE_REAL)
+            return false;
+    return true;
+}
+
+/* Derivatives of dx by states or by parameters, as an integrator asks for them one by one: all come from one matrix. */
+static Status jacobian_times(Instance *s, bool by_states, const Partials *partials, const double *seed, double *change) {
     const ModelVariable *variables = s->model->variables;
-    if (evaluate_jacobian(s) != STATUS_OK) return STATUS_DISCARD;
+    const double *matrix = by_states ? s->jacobian.xx : s->jacobian.xp;
+    if ((by_states ? evaluate_jacobian(s) : evaluate_by_parameters(s)) != STATUS_OK) return STATUS_DISCARD;
     for (size_t i = 0; i < partials->n_unknowns; i++) {
-        const double *row = s->jacobian.xx + variables[partials->unknowns[i]].index;
+        const double *row = matrix + variables[partials->unknowns[i]].index;
         double sum = 0.0;
         for (size_t j = 0; j < partials->n_knowns; j++)
             sum += row[variables[partials->knowns[j]].index * s->model->n_x] * seed[j];
@@ -158,15 +167,16 @@ Status directional_derivative(Instance *s, const char *function, const Partials 
     DerivativeWork *w = &s->derivative;
     const Entries seeds = {w->seed_x, w->seed_u, w->seed_p, NULL, NULL};
     const Entries results = {w->seed_x, w->seed_u, w->seed_p, w->out_dx, w->out_w};
-    const bool is_jacobian = all_in(s, partials->knowns, partials->n_knowns, VECTOR_X) &&
-                             all_in(s, partials->unknowns, partials->n_unknowns, VECTOR_DX);
+    const bool of_dx = all_in(s, partials->unknowns, partials->n_unknowns, VECTOR_DX);
+    const bool by_states = of_dx && all_in(s, partials->knowns, partials->n_knowns, VECTOR_X);
+    const bool is_jacobian = by_states || (of_dx && s->model->by_parameters && all_real_parameters(s, partials));
     Status status = STATUS_OK;
     if (!is_jacobian) status = check_references(s, function, partials->knowns, partials->n_knowns, &seeds, "a known");
     if (!is_jacobian && status == STATUS_OK)
         status = check_references(s, function, partials->unknowns, partials->n_unknowns, &results, "an unknown");
     if (status == STATUS_OK) status = prepare(s, function);
     if (status != STATUS_OK) return status;
-    if (is_jacobian) return jacobian_times(s, partials, seed, change);
+    if (is_jacobian) return jacobian_times(s, by_states, partials, seed, change);
     add_seeds(s, partials->knowns, partials->n_knowns, &seeds, seed);
     status = tangents(s, any_in(s, partials->unknowns, partials->n_unknowns, VECTOR_W));
     if (status == STATUS_OK) read_results(s, partials->unknowns, partials->n_unknowns, &results, change);
