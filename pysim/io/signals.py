@@ -16,7 +16,7 @@ _COLUMNS = ("time", "value", "rate")
 _MOST_ROWS = 10_000_000
 
 
-def read_signal(path: Path, wanted_by: str) -> Signal:
+def read_signal(path: Path | str, wanted_by: str) -> Signal:
     """The signal a text file holds: time in s, value in the input's unit and, where a header names it so, its rate.
 
     With two columns straight lines join the samples, because they neither overshoot at a logged step nor invent
@@ -28,6 +28,7 @@ def read_signal(path: Path, wanted_by: str) -> Signal:
         BadInput: no such file, other columns, numbers that are not finite, fewer than two rows, or a time that does
             not increase; with the line.
     """
+    path = Path(path)
     names = _COLUMNS if _has_rate(read_text(path, wanted_by)) else _COLUMNS[:2]
     rows, lines = read_table(path, names, wanted_by)
     time = rows[:, 0]
