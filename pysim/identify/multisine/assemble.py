@@ -49,7 +49,7 @@ def assemble(
         frequency,
         part.gain,
         part.variance,
-        part.degrees,
+        part.variance_degrees,
         None if part.noise is None else part.noise * part.noise_weight,
         _test(spectra),
         method,

@@ -17,6 +17,11 @@ Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
 
+# Complex degrees of freedom that the variance of a gain shall have at least. Few realisations do not give them line by
+# line; then neighbouring lines are pooled, as the level is smoother than the gain.
+_ENOUGH = 6
+
+
 @dataclass(frozen=True)
 class LinearPart:
     """The gain on the excited lines.
@@ -24,8 +29,9 @@ class LinearPart:
     Args:
         gain: (n_f,) complex.
         variance: (n_f,) E|error|^2 of the gain.
+        variance_degrees: (n_f,) its degrees of freedom, counted in real numbers.
         power: (n_f,) of noise and distortion in one realisation, in gain unit squared.
-        degrees: (n_f,) of both, counted in real numbers.
+        degrees: (n_f,) those of `power`.
         noise: (n_f,) the noise in `power`, or None.
         noise_weight: (n_f,) the share of `noise` that is left in the gain's variance.
         shared: neighbouring lines whose `power` shares data.
@@ -33,6 +39,7 @@ class LinearPart:
 
     gain: Complex
     variance: Array
+    variance_degrees: Array
     power: Array
     degrees: Array
     noise: Array | None
@@ -42,6 +49,8 @@ class LinearPart:
 
 def over_realisations(spectra: SteadySpectra, lines: Lines) -> LinearPart:
     """The robust method: the mean over M realisations, and how they scatter about it.
+
+    Below seven realisations the gain's variance is a mean over as many neighbouring lines as make up for them.
 
     With a reference r the gain is the ratio of the responses of output and input to it, G_ry / G_ru: noise on the
     measured input, and feedback, then leave no bias.
@@ -53,8 +62,10 @@ def over_realisations(spectra: SteadySpectra, lines: Lines) -> LinearPart:
         raise BadInput("robust method: one realisation does not scatter; record two or more, or use another method")
     gain, scaled, noise = _gain(spectra, lines.excited)
     power = np.sum(np.abs(scaled) ** 2, axis=0) / (m - 1)
+    width = min(-(-_ENOUGH // (m - 1)) // 2 * 2 + 1, gain.size)
+    mean = power[windows(np.arange(gain.size), np.arange(gain.size), width)].mean(axis=1)
     degrees = np.full(gain.size, 2.0 * (m - 1))
-    return LinearPart(gain, power / m, power, degrees, noise, np.full(gain.size, 1.0 / m))
+    return LinearPart(gain, mean / m, width * degrees, power, degrees, noise, np.full(gain.size, 1.0 / m))
 
 
 def over_free_lines(spectra: SteadySpectra, lines: Lines, power: Array, degrees: Array) -> LinearPart:
@@ -66,7 +77,7 @@ def over_free_lines(spectra: SteadySpectra, lines: Lines, power: Array, degrees:
     """
     gain, _, noise = _gain(spectra, lines.excited)
     m = spectra.values.shape[0]
-    return LinearPart(gain, power / m, power, degrees, noise, np.full(gain.size, 1.0 / m))
+    return LinearPart(gain, power / m, degrees, power, degrees, noise, np.full(gain.size, 1.0 / m))
 
 
 def over_neighbours(spectra: SteadySpectra, lines: Lines, *, order: int = 2, width: int = 9) -> LinearPart:
@@ -96,7 +107,7 @@ def over_neighbours(spectra: SteadySpectra, lines: Lines, *, order: int = 2, wid
     if spectra.noise is not None:
         noise = noise_power(spectra.noise, lines.excited, gain)[at].mean(axis=1) / inside
     degrees = np.full(n_f, 2.0 * fit.degrees)
-    return LinearPart(gain, variance, power, degrees, noise, variance / power, float(width))
+    return LinearPart(gain, variance, degrees, power, degrees, noise, variance / power, float(width))
 
 
 def first_gain(spectra: SteadySpectra, lines: Lines) -> Complex:

@@ -44,12 +44,24 @@ def test_noise_power_picks_the_lines() -> None:
     np.testing.assert_allclose(found, SPECTRA.noise[[2, 6], 1, 1].real)
 
 
+@pytest.mark.parametrize(("realisations", "width"), [(2, 7), (3, 3), (4, 3), (7, 1), (20, 1)])
+def test_many_realisations_need_no_neighbours(realisations: int, width: int) -> None:
+    spectra = DropPeriods(0).spectra(measure(FULL, realisations=realisations, periods=2, noise=0.05, seed=1))
+    part = over_realisations(spectra, LINES)
+    np.testing.assert_allclose(part.variance_degrees, width * 2 * (realisations - 1))
+    assert np.mean(part.variance) == pytest.approx(np.mean(part.power) / realisations, rel=0.15)
+
+
 def test_all_methods_agree_on_a_linear_system() -> None:
     robust, smooth = over_realisations(SPECTRA, LINES), over_neighbours(SPECTRA, LINES, order=4, width=11)
     free = over_free_lines(SPECTRA, LINES, robust.power, robust.degrees)
     np.testing.assert_allclose(free.gain, robust.gain)
     np.testing.assert_allclose(first_gain(SPECTRA, LINES), robust.gain)
-    np.testing.assert_allclose(robust.variance, robust.power / 3)
+    middle = slice(1, -1)  # three realisations: means over three lines
+    neighbours = (robust.power[:-2] + robust.power[1:-1] + robust.power[2:]) / 3
+    np.testing.assert_allclose(robust.variance[middle], neighbours / 3)
+    np.testing.assert_allclose(robust.variance_degrees, 12)
+    np.testing.assert_allclose(robust.degrees, 4)
     for part in (robust, smooth):
         assert np.mean(np.abs(part.gain - gain(FULL)) ** 2 / part.variance) == pytest.approx(1.3, abs=0.8)
         assert part.noise is not None
