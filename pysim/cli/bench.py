@@ -99,6 +99,10 @@ def _check_places(args: argparse.Namespace) -> None:
             raise BadInput(
                 f"{option} {path}: inside the data set, whoever reads that would see it; choose a place outside"
             )
+    if args.truth and args.clean and args.truth.resolve().is_relative_to(args.clean.resolve()):
+        raise BadInput(
+            f"--truth {args.truth}: inside the folder of --clean, which must be new; choose a place beside it"
+        )
     if args.clean is not None and output.is_relative_to(args.clean.resolve()):
         raise BadInput(f"--clean {args.clean}: the data set would be inside it; choose a folder beside it")
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 
 from pysim.io.measured_log import LOGS, TIME, read_log
 from pysim.io.measured_table import TABLE, read_measured_table
@@ -72,7 +72,7 @@ def _refuse_repeated(sections: tuple[Section, ...]) -> None:
     """A log that is named twice would count twice."""
     seen: dict[tuple[str, ...], str] = {}
     for section in sections:
-        key = (section.text("file"), *section.texts("columns"))
+        key = (PurePosixPath(section.text("file")).as_posix(), *section.texts("columns"))
         if key in seen:
             raise BadInput(f"{section.place}: {key[0]} is the record of {seen[key]} already; name each file once")
         seen[key] = section.place.rpartition(", ")[2]

@@ -6,6 +6,7 @@ import math
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -63,6 +64,7 @@ def read_thesis_folder(folder: Path | str, signals: Sequence[MeasuredSignal]) ->
     logs = sorted((log for log in named if log), key=lambda log: (log.path.parent, log.frequency))
     if not logs:
         raise BadInput(f"{folder} holds no log with a frequency in its name; name the logs like 0.5Hz.txt")
+    _refuse_repeated(logs)
     left_out = [path.relative_to(folder).as_posix() for path, log in zip(paths, named, strict=True) if not log]
     note = f"; without a frequency in its name and left out: {', '.join(left_out)}" if left_out else ""
     return Dataset(
@@ -95,6 +97,17 @@ def _named(folder: Path, path: Path) -> _Named | None:
     points = _POINT.findall(f"{folder.resolve().name}/{path.relative_to(folder).as_posix()}")
     offset, amplitude = map(_number, points[-1]) if points else (None, None)
     return _Named(path, _number(found[-1]), offset, amplitude)
+
+
+def _refuse_repeated(logs: list[_Named]) -> None:
+    """Two logs of one frequency in one folder: a copy, or two tests that nothing tells apart."""
+    for one, other in pairwise(logs):
+        same = (one.path.parent, one.frequency, one.offset, one.amplitude)
+        if same == (other.path.parent, other.frequency, other.offset, other.amplitude):
+            raise BadInput(
+                f"{other.path}: {one.path.name} beside it is of {one.frequency:g} Hz too; remove one of them, or give "
+                "each test a folder of its own"
+            )
 
 
 def _number(text: str) -> float:

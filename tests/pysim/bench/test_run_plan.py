@@ -81,7 +81,8 @@ def test_records_say_what_they_are(data: BenchData) -> None:
 def test_the_truth_names_parameters_noise_and_effect(oscillator: Model, plan: Plan) -> None:
     short = replace(plan, tests=plan.tests[:1])
     truth = run_plan(oscillator, short, 5, parameters={"D": 0.3}, effect="x", strength={"F": 2.0}).truth
-    assert (dict(truth.parameters), truth.effect, dict(truth.strength)) == ({"w": 2.0, "D": 0.3}, "x", {"F": 2.0})
+    assert truth.parameters.items() >= {"w": 2.0, "D": 0.3}.items()
+    assert (truth.effect, dict(truth.strength)) == ("x", {"F": 2.0})
     assert truth.noise == {"force": None, "position": pytest.approx(2e-3), "v": None}
     assert (truth.plan, truth.seed, truth.token) == ("oscillator", 5, oscillator.token)
 

@@ -103,6 +103,7 @@ def test_the_description_itself_may_be_named(tmp_path: Path) -> None:
         ('kind = "stochastic"', 'kind = "chirp"', 'line 27: offset is missing, and kind = "chirp" needs it'),
         ('kind = "stochastic"', 'kind = "step"\nfrequency = 1', "line 27: frequency belongs to kind"),
         ('kind = "stochastic"\n', "", "line 27: kind is missing"),
+        ("[signals.u]", "[signals.speed]", r"dataset\.toml: .*line 14"),
         ('"wave.txt"', '"waves.txt"', r"line 27: cannot read .*waves\.txt \(No such file"),
         ('role = "output"\nunit = "1"', 'unit = "1"', "line 14: role is missing"),
         ('unit = "1"', 'unit = "one"', "line 14: unit = 'one' is not known; use one of 1, %"),
@@ -120,7 +121,7 @@ def test_a_sine_at_half_the_sampling_rate_is_the_fastest(tmp_path: Path) -> None
 
 
 def test_a_log_named_twice_is_refused(tmp_path: Path) -> None:
-    again = TOML[TOML.index("[[records]]") : TOML.rindex("[[records]]")]
+    again = TOML[TOML.index("[[records]]") : TOML.rindex("[[records]]")].replace("sine.txt", "./sine.txt")
     with pytest.raises(BadInput, match=r"line 33: sine\.txt is the record of line 18 already; name each file once"):
         read_dataset(files(tmp_path, TOML + "\n" + again))
 

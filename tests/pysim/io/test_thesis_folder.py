@@ -90,6 +90,15 @@ def test_refuses_signals_that_make_no_sense(tmp_path: Path, signals: tuple[Measu
         read_thesis_folder(tmp_path, signals)
 
 
+def test_two_logs_of_one_frequency_are_refused(tmp_path: Path) -> None:
+    sine(tmp_path / "a" / "1Hz.txt", 1.0)
+    sine(tmp_path / "b" / "1Hz.txt", 1.0)
+    assert len(read_thesis_folder(tmp_path, SIGNALS).records) == 2
+    sine(tmp_path / "b" / "copy of 1.0Hz.txt", 1.0)
+    with pytest.raises(BadInput, match=r"copy of 1\.0Hz\.txt: 1Hz\.txt beside it is of 1 Hz too"):
+        read_thesis_folder(tmp_path, SIGNALS)
+
+
 def test_refuses_faulty_folders_and_logs(tmp_path: Path) -> None:
     with pytest.raises(BadInput, match="is no folder that can be read"):
         read_thesis_folder(tmp_path / "none", SIGNALS)
