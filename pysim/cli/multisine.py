@@ -4,12 +4,16 @@ from __future__ import annotations
 
 import argparse
 import json
+import re
 from collections.abc import Mapping
 from fnmatch import fnmatch
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
     from pysim.types import BestLinearApproximation, Dataset, MeasuredRecord, Record
 
 _METHODS = ("auto", "robust", "fast", "smooth", "arbitrary")
@@ -35,6 +39,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "local polynomial without periods (what the logs allow)",
     )
     parser.add_argument("--drop", metavar="N", type=int, help="leave out periods, in place of estimating the transient")
+    parser.add_argument("--lines", metavar="LIST", help="excited harmonics, as 1,3,7-99:2 (found in the command)")
     parser.add_argument("--band", metavar="HZ", type=float, nargs=2, help="lowest and highest line, without a period")
     parser.add_argument("--json", metavar="FILE", type=Path, help="write all numbers here")
 
@@ -130,7 +135,25 @@ def _periodic(
     }
     cuts = [multisine.periods_of([r], args.period, columns, start=args.start, count=args.periods) for r in records]
     transient = None if args.drop is None else multisine.DropPeriods(args.drop)
-    return [methods[args.method](periods, transient=transient) for periods in multisine.grouped_realisations(cuts)]
+    excited = None if args.lines is None else _harmonics(args.lines)
+    tests = multisine.grouped_realisations(cuts, excited=excited)
+    return [methods[args.method](periods, excited=excited, transient=transient) for periods in tests]
+
+
+def _harmonics(text: str) -> NDArray[np.intp]:
+    """1,3,7-99:2 as numbers; the last of a range counts."""
+    import numpy as np
+
+    from pysim.types import BadInput
+
+    found: set[int] = set()
+    for part in text.split(","):
+        match = re.fullmatch(r"\s*(\d+)(?:-(\d+)(?::([1-9]\d*))?)?\s*", part)
+        if match is None:
+            raise BadInput(f"--lines {text}: {part!r} is no harmonic; write numbers and ranges, as 1,3,7-99:2")
+        first, last, step = match.groups()
+        found |= set(range(int(first), int(last or first) + 1, int(step or 1)))
+    return np.array(sorted(found), dtype=np.intp)
 
 
 def _arbitrary(args: argparse.Namespace, record: Record, columns: tuple[str, ...]) -> BestLinearApproximation:
@@ -161,7 +184,7 @@ def _write_report(args: argparse.Namespace, found: Mapping[str, BestLinearApprox
 def _words(args: argparse.Namespace) -> list[str]:
     """The command line again."""
     words = ["multisine", *(str(path) for path in args.data), "--method", args.method]
-    for name in ("period", "input", "signal", "reference", "start", "periods", "drop", "output"):
+    for name in ("period", "input", "signal", "reference", "start", "periods", "drop", "lines", "output"):
         value = getattr(args, name)
         if value is not None:
             words += [f"--{name}", str(value)]

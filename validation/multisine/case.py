@@ -47,6 +47,7 @@ def run() -> Iterator[Finding]:
     yield from _linear("robust method", [_robust(seed) for seed in range(_RUNS)])
     yield from _linear("fast method", [_fast(seed) for seed in range(_RUNS)])
     yield from _textbook_variance()
+    yield from _covered_cubic()
     yield from _cubic()
     yield from _square()
     pump = pump_model("free")
@@ -94,6 +95,19 @@ def _textbook_variance() -> Iterator[Finding]:
         title = f"cubic with noise, M = {m}, P = {p}, variance of the gain off (sigma_n^2 / P + sigma_S^2) / M by"
         yield Finding(f"{title}, as seen", abs(float(np.mean(errors)) / expected - 1), 0.07, "")
         yield Finding(f"{title}, as claimed", abs(float(np.mean(claimed)) / expected - 1), 0.07, "")
+
+
+def _covered_cubic() -> Iterator[Finding]:
+    """Intervals of a distorted gain, from few realisations and from one."""
+    strength, truth = 0.4, cubic_gain(0.4)
+    for name, m in (("robust method, M = 3", 3), ("robust method, M = 8", 8), ("fast method", 1)):
+        inside = []
+        for seed in range(_RUNS):
+            data = measured(lambda u: u + strength * u**3, realisations=m, periods=3, noise=0.1, seed=50_000 * m + seed)
+            bla = fast_approximation(data) if m == 1 else robust_approximation(data)
+            inside.append(np.mean(np.abs(bla.gain - truth) <= gain_radius(bla)))
+        title = f"cubic, {name}, {_RUNS} runs: coverage of the 95 percent circles is off by"
+        yield Finding(title, abs(float(np.mean(inside)) - 0.95), 0.02, "")
 
 
 def _cubic() -> Iterator[Finding]:

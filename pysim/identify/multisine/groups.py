@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from pysim.identify.multisine.lines import excited_lines
+from pysim.identify.multisine.lines import Harmonics, excited_lines
 from pysim.identify.multisine.periods import Periods
 
 Array = NDArray[np.float64]
@@ -17,18 +17,19 @@ _SAME_AMPLITUDES = 0.05
 _SAME_OFFSET = 0.1
 
 
-def grouped_realisations(records: Sequence[Periods]) -> tuple[Periods, ...]:
+def grouped_realisations(records: Sequence[Periods], *, excited: Harmonics | None = None) -> tuple[Periods, ...]:
     """Put records together that excite the same lines by the same amplitudes around the same offset.
 
     Args:
         records: of one realisation each, or of more that belong together.
+        excited: harmonics of all of them; found in each command's spectrum when not given.
     Returns:
         in the order in which each test appears first; of unequal numbers of periods the last ones are kept.
     """
     groups: list[list[Periods]] = []
     for record in records:
         for group in groups:
-            if _same_test(group[0], record):
+            if _same_test(group[0], record, excited):
                 group.append(record)
                 break
         else:
@@ -36,11 +37,11 @@ def grouped_realisations(records: Sequence[Periods]) -> tuple[Periods, ...]:
     return tuple(_joined(group) for group in groups)
 
 
-def _same_test(first: Periods, second: Periods) -> bool:
+def _same_test(first: Periods, second: Periods, excited: Harmonics | None) -> bool:
     """Grid, spectrum and offset of the commands."""
     if (first.names, first.period, first.values.shape[2]) != (second.names, second.period, second.values.shape[2]):
         return False
-    lines, other = excited_lines(first).excited, excited_lines(second).excited
+    lines, other = (excited_lines(p).excited if excited is None else excited for p in (first, second))
     if not np.array_equal(lines, other):
         return False
     a, b = _command(first), _command(second)

@@ -73,6 +73,17 @@ def test_one_record_takes_the_fast_method(records: list[str], capsys: pytest.Cap
     assert "of 2 period(s)" in out
 
 
+def test_lines_can_be_named(records: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    numbers = tmp_path / "x.json"
+    words = ["multisine", *records, "--period", "2", *NAMES, "--json", str(numbers), "--lines"]
+    assert main([*words, ",".join(str(k) for k in FREE)]) == 0
+    assert json.loads(numbers.read_text())["approximations"][0]["frequency_hz"] == (FREE / PERIOD).tolist()
+    assert main([*words, "1,95-99:4"]) == 0
+    assert json.loads(numbers.read_text())["approximations"][0]["frequency_hz"] == [0.5, 47.5, 49.5]
+    assert main([*words, "1,x"]) == 2
+    assert "'x' is no harmonic" in capsys.readouterr().err
+
+
 def test_without_a_period_any_signal_will_do(records: list[str], capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["multisine", records[0], *NAMES, "--band", "1", "20"]) == 0
     assert "local polynomial" in capsys.readouterr().out
