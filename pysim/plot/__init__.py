@@ -5,6 +5,12 @@ from pysim.plot.bode import bode_figure
 from pysim.plot.chirp import chirp_figure
 from pysim.plot.deviation import deviation_figure
 from pysim.plot.excitation import excitation_figure
+from pysim.plot.fit import (
+    fit_correlation_figure,
+    fit_harmonics_figure,
+    fit_parameters_figure,
+    fit_record_figure,
+)
 from pysim.plot.frf import frf_figure
 from pysim.plot.friction import friction_figure
 from pysim.plot.multisine import multisine_figure
@@ -17,6 +23,10 @@ __all__ = [
     "chirp_figure",
     "deviation_figure",
     "excitation_figure",
+    "fit_correlation_figure",
+    "fit_harmonics_figure",
+    "fit_parameters_figure",
+    "fit_record_figure",
     "frf_figure",
     "friction_figure",
     "multisine_figure",

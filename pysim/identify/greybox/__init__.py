@@ -7,6 +7,7 @@ from pysim.identify.greybox.interior_point import InteriorPoint
 from pysim.identify.greybox.objective import COMBINED, FREQUENCY, NOISE, OBJECTIVES, TIME, Objective
 from pysim.identify.greybox.parameters import Parameter, Tie
 from pysim.identify.greybox.problem import Measurements, Problem, Treatment, problem
+from pysim.identify.greybox.profile import Profile, profile
 from pysim.identify.greybox.search import Tried
 from pysim.identify.greybox.simulation import Simulation
 from pysim.identify.greybox.sine_log import SinePlan
@@ -27,6 +28,7 @@ __all__ = [
     "Parameter",
     "Problem",
     "Processes",
+    "Profile",
     "Rest",
     "Simulation",
     "SinePlan",
@@ -36,4 +38,5 @@ __all__ = [
     "Tried",
     "fit",
     "problem",
+    "profile",
 ]

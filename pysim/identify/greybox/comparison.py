@@ -87,7 +87,9 @@ def _log(target: LogTarget, simulated: Simulated) -> RecordFit:
         name: time_deviations(simulated.values[:, j], target.measured.values[:, j], target.full_scale[j])
         for j, name in enumerate(target.measured.names)
     }
-    return RecordFit("", target.source, target.kind, target.use, target.measured, model, target.noise, deviations)
+    return RecordFit(
+        target.dataset, target.source, target.kind, target.use, target.measured, model, target.noise, deviations
+    )
 
 
 def _sine(target: SineTarget, log: SineLog, simulated: Simulated) -> RecordFit:
@@ -98,7 +100,9 @@ def _sine(target: SineTarget, log: SineLog, simulated: Simulated) -> RecordFit:
         for j, name in enumerate(log.measured.names)
     )
     beside = replace(log.measured, values=values, origin="simulated")
-    return RecordFit("", log.source, target.kind, target.use, log.measured, beside, log.noise, {}, harmonics)
+    return RecordFit(
+        target.dataset, log.source, target.kind, target.use, log.measured, beside, log.noise, {}, harmonics
+    )
 
 
 def _responses(target: SineTarget, simulated: Sequence[Simulated], column: int) -> ResponseFit:
@@ -112,14 +116,14 @@ def _responses(target: SineTarget, simulated: Sequence[Simulated], column: int) 
     model = _beside(measured, target.response(simulated, column))
     reference = None if target.reference is None else float(frequency[target.reference])
     deviations = frequency_deviations(model, measured, reference_hz=reference)
-    return ResponseFit("", target.use, ResponseComparison(measured, model, deviations))
+    return ResponseFit(target.dataset, target.use, ResponseComparison(measured, model, deviations))
 
 
 def _table(target: TableTarget, simulated: Sequence[Simulated]) -> ResponseFit:
     model = _beside(target.measured, target.response(simulated))
     reference = None if target.reference is None else float(target.measured.frequency[target.reference])
     deviations = frequency_deviations(model, target.measured, reference_hz=reference)
-    return ResponseFit("", target.use, ResponseComparison(target.measured, model, deviations))
+    return ResponseFit(target.dataset, target.use, ResponseComparison(target.measured, model, deviations))
 
 
 def _beside(measured: FrequencyResponse, simulated: LogResponse) -> FrequencyResponse:

@@ -10,16 +10,18 @@ from numpy.typing import NDArray
 from scipy.optimize import lsq_linear
 
 from pysim.identify.greybox.evaluation import Evaluation
+from pysim.identify.greybox.identifiability import EXACT
 from pysim.identify.greybox.optimiser import Bounds, Proposal, State
 from pysim.types import BadInput, FitOutcome
 
 Array = NDArray[np.float64]
 
-# Share of the largest singular value below which a direction counts as not determined and is not walked along.
-_NEGLIGIBLE = 1e-6
-# A rejected step that promised less than this many times the tolerance is lost in the rounding of the simulation. That
-# is the end of the search, and a good one where a full step would gain no more than so many times the tolerance.
-_ROUNDING, _NEAR = 100.0, 10_000.0
+# Share of the cost within which two simulated costs cannot be told apart: step control jumps from point to point.
+_BLUR = 5e-5
+# So many steps are taken inside the blur, where the slope is the better guide, before the search ends.
+_BLIND = 3
+# It is a good end where a full step would gain no more than so many times the tolerance.
+_NEAR = 10_000.0
 
 
 @dataclass(frozen=True)
@@ -56,7 +58,7 @@ class GaussNewton:
 
     def begin(self, start: Evaluation, bounds: Bounds, squares: bool) -> State:
         """See Optimiser."""
-        return self._examined(State(start, memory={"radius": self.radius}), bounds)
+        return self._examined(State(start, memory={"radius": self.radius, "blind": 0.0}), bounds)
 
     def propose(self, state: State, bounds: Bounds) -> Proposal:
         """See Optimiser."""
@@ -69,25 +71,30 @@ class GaussNewton:
         length = float(np.linalg.norm(proposal.x - state.best.x))
         actual = 0.5 * (state.best.cost - trial.cost) if trial.good else -math.inf
         ratio = actual / proposal.predicted
-        radius = state.memory["radius"]
+        radius, blur = state.memory["radius"], _BLUR * state.best.cost
+        blind = proposal.predicted < blur and ratio <= 1e-4
+        if blind and actual > -blur:
+            steps = state.memory["blind"] + 1
+            state = replace(state, best=trial, tried=state.tried + 1, memory={**state.memory, "blind": steps})
+            return self._examined(state, bounds) if steps < _BLIND else self._lost(state, bounds)
         if ratio < 0.25:
             radius = 0.25 * length
         elif ratio > 0.75 and length > 0.8 * radius:
             radius = 2 * radius
-        state = replace(state, tried=state.tried + 1, memory={"radius": radius})
+        state = replace(state, tried=state.tried + 1, memory={**state.memory, "radius": radius})
         if ratio > 1e-4:
             return self._examined(replace(state, best=trial), bounds)
-        if proposal.predicted < _ROUNDING * self._small(state.best):
-            return self._lost(state, trial, bounds)
+        if radius < 1e-9:
+            return _ended(state, FitOutcome.STALLED, trial.trouble or f"the last step was {length:.1g} long")
         return self._counted(state)
 
-    def _lost(self, state: State, trial: Evaluation, bounds: Bounds) -> State:
-        """The end where even short steps gain nothing."""
+    def _lost(self, state: State, bounds: Bounds) -> State:
+        """The end where the slope promises something that cannot be seen any more."""
         gain = _Step.at(state.best, bounds).full_gain
-        if trial.good and gain < _NEAR * self._small(state.best):
+        if gain < _NEAR * self._small(state.best):
             return _ended(state, FitOutcome.CONVERGED, "to within the rounding of the simulation")
         promised = f"a full step promises {2 * gain:.3g} off the sum of squares, and short ones gain nothing"
-        return _ended(state, FitOutcome.STALLED, trial.trouble or promised)
+        return _ended(state, FitOutcome.STALLED, promised)
 
     def _examined(self, state: State, bounds: Bounds) -> State:
         """Whether a full step from here would still gain something."""
@@ -133,7 +140,7 @@ class _Step:
 
     def within(self, radius: float) -> Array:
         """The best step (n,) no longer than radius."""
-        floor = max((_NEGLIGIBLE * np.linalg.norm(self.triangle, 2)) ** 2, np.finfo(float).tiny)
+        floor = max((EXACT * np.linalg.norm(self.triangle, 2)) ** 2, np.finfo(float).tiny)
         p = self._damped(floor)
         if np.linalg.norm(p) <= radius:
             return p

@@ -13,9 +13,9 @@ from pysim.types import Direction
 
 Array = NDArray[np.float64]
 
-# A direction is exactly undetermined where its singular value is below this share of the largest: far above what
-# exact sensitivities leave of a true zero, and below anything a measurement could tell.
-EXACT = 1e-6
+# A direction is undetermined where its singular value is below this share of the largest: above what the sensitivities'
+# own error leaves of a true zero, and below what measurements tell apart.
+EXACT = 1e-5
 # Directions known to no better than this standard deviation (of ln s) are worth a sentence.
 LOOSE = 0.2
 _WHOLE = 0.02  # how near a ratio of exponents has to be to a small fraction to be called that fraction

@@ -19,13 +19,14 @@ class LogTarget:
     """Every sample of every compared signal.
 
     Args:
-        source, kind, use: of the log.
+        dataset, source, kind, use: of the log.
         measured: the compared columns.
         noise: (n_y,) standard deviations, in the columns' units.
         full_scale: (n_y,) what counts as 100 percent, in the columns' units.
         run: the model's run, recorded at the log's times.
     """
 
+    dataset: str
     source: str
     kind: str
     use: str

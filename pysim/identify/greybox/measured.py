@@ -174,6 +174,7 @@ def _log(setting: _Setting, record: MeasuredRecord, data: Record) -> LogTarget:
         commands[name] = signal
     experiment = setting.experiment(data.time, outputs, commands, begin)
     return LogTarget(
+        dataset=setting.dataset.name,
         source=record.source,
         kind=record.kind,
         use=record.use,
@@ -190,7 +191,7 @@ def _sines(setting: _Setting, group: list[MeasuredRecord]) -> SineTarget:
     logs, runs = tuple(log for log, _ in pairs), tuple(run for _, run in pairs)
     frequencies = np.array([log.sine.frequency for log in logs])
     near = np.flatnonzero(np.isclose(frequencies, setting.treatment.reference_hz or -1.0, rtol=1e-3))
-    return SineTarget(group[0].use, logs, runs, int(near[0]) if near.size else None)
+    return SineTarget(setting.dataset.name, group[0].use, logs, runs, int(near[0]) if near.size else None)
 
 
 def _sine(setting: _Setting, record: MeasuredRecord) -> tuple[SineLog, Run]:
@@ -214,7 +215,9 @@ def _table(setting: _Setting, record: MeasuredRecord, response: FrequencyRespons
         )
     sines = [Sine(test.offset, test.amplitude, f, 0.0, 0.0, math.inf) for f in response.frequency.tolist()]
     runs = tuple(_steady_run(setting, record.source, test.input, sine, (test.output,), {}) for sine in sines)
-    return TableTarget(record.source, record.use, response, runs, int(near[0]) if near.size else None)
+    return TableTarget(
+        setting.dataset.name, record.source, record.use, response, runs, int(near[0]) if near.size else None
+    )
 
 
 def _steady_run(

@@ -21,12 +21,13 @@ class SineTarget:
     """Logs at one offset and amplitude.
 
     Args:
-        use: of the logs.
+        dataset, use: of the logs.
         logs: by increasing frequency.
         runs: one per log, recorded at equidistant points over one period.
         reference: place of the log whose gain counts as 0 dB; None: gains as they are.
     """
 
+    dataset: str
     use: str
     logs: tuple[SineLog, ...]
     runs: tuple[Run, ...]

@@ -31,12 +31,13 @@ class TableTarget:
     """One response.
 
     Args:
-        source, use: of the table.
+        dataset, source, use: of the table.
         measured: the response; its test names columns.
         runs: one per frequency, recorded at equidistant points over one period.
         reference: place of the frequency whose gain counts as 0 dB; None: gains as they are.
     """
 
+    dataset: str
     source: str
     use: str
     measured: FrequencyResponse

@@ -18,6 +18,10 @@ from pysim.types import BadInput, Experiment, Model, Outcome
 
 Array = NDArray[np.float64]
 
+# What is left of an orbit's correction is the relative error of its slopes: small enough to see that a direction does
+# nothing at all.
+_MISMATCH = 1e-5
+
 
 @dataclass(frozen=True)
 class Job:
@@ -149,7 +153,7 @@ def _run_group(
     orbits = [job.run for job in jobs if isinstance(job.run, Periodic)]
     if orbits:
         guesses = [job.guess for job in jobs]
-        return periodic_many(model, orbits, names, guesses=guesses, solver=solver, workers=workers)
+        return periodic_many(model, orbits, names, guesses=guesses, solver=solver, mismatch=_MISMATCH, workers=workers)
     runs = [job.run for job in jobs if isinstance(job.run, Experiment)]
     return sensitivities_many(model, runs, names, solver=solver, workers=workers)
 

@@ -78,7 +78,7 @@ def test_a_slope_that_lies_ends_in_a_stall() -> None:
     evaluate = evaluating(lambda x: 10 * x * np.ones(1000), lambda x: -10 * np.ones((1000, 1)))
     state = search(evaluate, GaussNewton(), s, s.start, squares=True)
     assert state.outcome is FitOutcome.STALLED
-    assert state.best.x == pytest.approx([1.0])
+    assert state.best.x == pytest.approx([1.0], abs=1e-3)
 
 
 @pytest.mark.parametrize("setting", ["max_iterations", "tolerance", "radius"])

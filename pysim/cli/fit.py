@@ -1,0 +1,216 @@
+"""Fit parameters of an FMU to data sets, and say how well they are known."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from pysim.identify.greybox import Problem, Tried
+    from pysim.types import Fit
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The words behind `pysim fit`."""
+    parser.add_argument("model", metavar="MODEL.fmu", type=Path)
+    parser.add_argument("--data", metavar="DATASET", type=Path, action="append", required=True, help="folder; repeat")
+    parser.add_argument(
+        "--free", metavar="NAME,...", required=True, help="parameters to find, bounds as the model says"
+    )
+    parser.add_argument("--fix", metavar="NAME=VALUE", action="append", default=[], help="set a parameter, its unit")
+    parser.add_argument("--tie", metavar="A=[F*]B", action="append", default=[], help="let A follow the free B")
+    parser.add_argument("--start", metavar="NAME=VALUE", action="append", default=[], help="where a free one begins")
+    parser.add_argument(
+        "--bounds", metavar="NAME=LOW:HIGH", action="append", default=[], help="in place of the model's min and max"
+    )
+    parser.add_argument("--objective", choices=("noise", "time", "frequency", "combined"), default="noise")
+    parser.add_argument("--optimiser", choices=("gauss-newton", "interior-point"), help="gauss-newton for noise")
+    parser.add_argument("--signal", metavar="NAME", action="append", help="compare only this output; repeat")
+    parser.add_argument("--starts", metavar="N", type=int, default=0, help="more searches, drawn between the bounds")
+    parser.add_argument("--seed", metavar="S", type=int, help="of the draw")
+    parser.add_argument("--profile", metavar="NAME", action="append", default=[], help="exact interval; repeat")
+    parser.add_argument("--log", metavar="DIR", type=Path, help="log of the search; in --output by default")
+    parser.add_argument("--resume", action="store_true", help="go on where the log of a killed fit ends")
+    parser.add_argument("--isolate", action="store_true", help="worker processes: an FMU may crash")
+    parser.add_argument("--json", metavar="FILE", type=Path, help="write all numbers here")
+    parser.add_argument(
+        "--output", metavar="DIR", type=Path, help="write report.html, parameters.toml, plots, log here"
+    )
+
+
+def run(args: argparse.Namespace) -> int:
+    """Print the estimates; 0 when the search converged, 1 when it did not."""
+    from pysim.cli._outputs import prepare_file, prepare_folder
+    from pysim.cli._progress import announce_compilation
+    from pysim.identify.greybox import (
+        OBJECTIVES,
+        Effort,
+        GaussNewton,
+        InteriorPoint,
+        Processes,
+        Simulation,
+        fit,
+        profile,
+    )
+    from pysim.io import write_file
+    from pysim.report.fit import fit_data, fit_text
+
+    if args.output:
+        prepare_folder(args.output)
+    if args.json:
+        prepare_file(args.json, "--json")
+    problem = _problem(args)
+    simulation = Simulation(workers=Processes()) if args.isolate else Simulation()
+    log = args.log or (args.output / "log" if args.output else None)
+    optimiser = {"gauss-newton": GaussNewton(), "interior-point": InteriorPoint(), None: None}[args.optimiser]
+    announce_compilation()
+    result = fit(
+        problem,
+        objective=OBJECTIVES[args.objective],
+        optimiser=optimiser,
+        simulation=simulation,
+        effort=Effort(args.starts, args.seed, log, args.resume),
+        progress=_say,
+    )
+    print(fit_text(result))
+    profiles = [profile(problem, result, name, simulation=simulation) for name in args.profile]
+    for one in profiles:
+        print(f"Profile of {one.name}: 95 % from {one.interval[0]:.5g} to {one.interval[1]:.5g}")
+    if args.json:
+        data = fit_data(result) | {
+            "profiles": {p.name: {"interval": list(p.interval), "points": p.points.tolist()} for p in profiles}
+        }
+        write_file(args.json, json.dumps(data, indent=1, allow_nan=False))
+    if args.output:
+        _write_report(args, result)
+    return 0 if result.outcome.name == "CONVERGED" else 1
+
+
+def _say(tried: Tried) -> None:
+    print(f"\r{tried.search}: point {tried.tried}, cost {tried.best:.6g}   ", end="", file=sys.stderr, flush=True)
+
+
+def _problem(args: argparse.Namespace) -> Problem:
+    from pysim.identify.greybox import Measurements, Parameter, Tie, problem
+    from pysim.io import read_dataset, read_model
+
+    model = read_model(args.model)
+    starts, bounds = _numbers(args.start, "--start"), _bounds(args.bounds)
+    names = [name.strip() for name in args.free.split(",") if name.strip()]
+    _refuse_idle({**starts, **bounds}, names)
+    free = [Parameter(name, starts.get(name), *bounds.get(name, (None, None))) for name in names]
+    ties = [Tie(*_tie(text)) for text in args.tie]
+    data = [
+        Measurements(read_dataset(folder), outputs=tuple(args.signal) if args.signal else None) for folder in args.data
+    ]
+    return problem(model, data, free, fixed=_numbers(args.fix, "--fix"), ties=ties)
+
+
+def _refuse_idle(given: dict[str, object], names: list[str]) -> None:
+    from pysim.types import BadInput
+
+    for name in given:
+        if name not in names:
+            raise BadInput(f"{name} has a start or bounds but is not free; add it to --free, or use --fix")
+
+
+def _numbers(texts: list[str], option: str) -> dict[str, float]:
+    """NAME=VALUE each."""
+    from pysim.types import BadInput
+
+    values = {}
+    for text in texts:
+        name, _, value = text.partition("=")
+        try:
+            values[name.strip()] = float(value)
+        except ValueError:
+            raise BadInput(f"{option} {text}: write NAME=VALUE with a number in the parameter's unit") from None
+    return values
+
+
+def _bounds(texts: list[str]) -> dict[str, tuple[float, float]]:
+    from pysim.types import BadInput
+
+    values = {}
+    for text in texts:
+        name, _, both = text.partition("=")
+        try:
+            low, high = (float(word) for word in both.split(":"))
+        except ValueError:
+            raise BadInput(f"--bounds {text}: write NAME=LOW:HIGH with numbers in the parameter's unit") from None
+        values[name.strip()] = (low, high)
+    return values
+
+
+def _tie(text: str) -> tuple[str, str, float]:
+    """A=B or A=F*B."""
+    from pysim.types import BadInput
+
+    name, _, right = (part.strip() for part in text.partition("="))
+    factor, star, of = (part.strip() for part in right.rpartition("*"))
+    try:
+        number = float(factor) if star else 1.0
+    except ValueError:
+        number = None
+    if not name or not of or number is None:
+        raise BadInput(f"--tie {text}: write A=B or A=2.5*B")
+    return name, of, number
+
+
+def _write_report(args: argparse.Namespace, result: Fit) -> None:
+    from pysim.cli._outputs import command_line
+    from pysim.io import write_file
+    from pysim.report.fit import fit_page
+
+    lines = [f'"{name}" = {value!r}' for name, value in result.values.items() if "@" not in name]
+    write_file(args.output / "parameters.toml", "\n".join([*lines, ""]))
+    pictures = _pictures(result, args.output)
+    write_file(args.output / "report.html", fit_page(result, pictures=pictures, redo=command_line(_words(args))))
+    print(f"Report: {args.output / 'report.html'}; for --parameters: {args.output / 'parameters.toml'}")
+
+
+def _pictures(result: Fit, folder: Path) -> dict[str, bytes]:
+    """Written as PNG and SVG; caption -> SVG for the page."""
+    from pysim.io import write_file
+    from pysim.plot import (
+        fit_correlation_figure,
+        fit_harmonics_figure,
+        fit_parameters_figure,
+        fit_record_figure,
+        render,
+    )
+
+    figures = {"parameters": ("Parameters between their bounds.", fit_parameters_figure(result))}
+    figures["correlation"] = ("Correlations of the estimates.", fit_correlation_figure(result))
+    sines: dict[str, list] = {}
+    for i, record in enumerate(result.records):
+        if record.harmonics:
+            sines.setdefault(str(Path(record.source).parent), []).append(record)
+        else:
+            caption = f"{record.source} ({record.use}): measured, fitted, and what is left."
+            figures[f"record_{i}"] = (caption, fit_record_figure(record))
+    for i, (test, records) in enumerate(sines.items()):
+        caption = f"Stepped sines {test}: points measured, lines fitted; grey: 95 percent of noise."
+        figures[f"sines_{i}"] = (caption, fit_harmonics_figure(records, test))
+    pictures = {}
+    for name, (caption, figure) in figures.items():
+        write_file(folder / f"{name}.png", render(figure, "png"))
+        figure.set_layout_engine("none")  # found by the first drawing
+        pictures[caption] = render(figure, "svg")
+        write_file(folder / f"{name}.svg", pictures[caption])
+    return pictures
+
+
+def _words(args: argparse.Namespace) -> list[str]:
+    """The command line again, without --resume."""
+    words = ["fit", str(args.model), "--free", args.free, "--objective", args.objective]
+    for option in ("data", "fix", "tie", "start", "bounds", "signal", "profile"):
+        for value in getattr(args, option) or ():
+            words += [f"--{option}", str(value)]
+    for option in ("optimiser", "seed", "log", "json", "output"):
+        if getattr(args, option) is not None:
+            words += [f"--{option}", str(getattr(args, option))]
+    return words + (["--starts", str(args.starts)] if args.starts else []) + (["--isolate"] if args.isolate else [])

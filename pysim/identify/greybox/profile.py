@@ -1,0 +1,146 @@
+"""Profile likelihood: the interval of one parameter without any straight line in it."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import stats
+
+from pysim.identify.greybox.evaluation import evaluator
+from pysim.identify.greybox.gauss_newton import GaussNewton
+from pysim.identify.greybox.objective import NOISE
+from pysim.identify.greybox.parameters import ParameterSpace
+from pysim.identify.greybox.problem import Problem
+from pysim.identify.greybox.search import search
+from pysim.identify.greybox.simulation import Simulation
+from pysim.identify.greybox.uncertainty import LEVEL
+from pysim.types import BadInput, Fit
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Profile:
+    """How the least cost depends on one parameter.
+
+    Args:
+        name: of the parameter.
+        points: (n, 2) its value, and the smallest sum of squares over all other parameters, by increasing value.
+        interval: where that rises by the limit of the chi-squared distribution; a bound where it never does.
+    """
+
+    name: str
+    points: Array
+    interval: tuple[float, float]
+
+
+def profile(
+    problem: Problem,
+    fit: Fit,
+    name: str,
+    *,
+    simulation: Simulation | None = None,
+    level: float = LEVEL,
+    steps: int = 12,
+) -> Profile:
+    """Walk away from the optimum to both sides, with all other parameters fitted anew at every step.
+
+    Args:
+        problem: as it was fitted, by least squares.
+        fit: its optimum.
+        name: of a free parameter.
+        level: of the interval.
+        steps: at most, to either side.
+    Raises:
+        BadInput: not a free parameter, or the only one.
+    """
+    place = _place(problem.space, name)
+    limit = float(stats.chi2.ppf(level, 1)) * max(fit.misfit, 1.0) ** 2
+    walker = _Walker(problem, fit, place, simulation or Simulation())
+    rows = {fit[name].value: walker.best}
+    ends = tuple(_end(walker, fit, name, side, limit, steps, rows) for side in (-1, 1))
+    return Profile(name, np.array(sorted(rows.items())), (ends[0], ends[1]))
+
+
+def _place(space: ParameterSpace, name: str) -> int:
+    if name not in space.keys:
+        raise BadInput(f"profile: {name} is not free; free are {', '.join(space.keys)}")
+    if space.size < 2:
+        raise BadInput(f"profile: {name} is the only free parameter; its interval needs no profile")
+    return space.keys.index(name)
+
+
+_NAMES = ("keys", "variables", "records", "units")
+
+
+@dataclass
+class _Walker:
+    """Fits all other parameters with one held, starting from where the last such fit ended."""
+
+    problem: Problem
+    fit: Fit
+    place: int
+    simulation: Simulation
+
+    def __post_init__(self) -> None:
+        space = self.problem.space
+        self.best = self.fit.cost
+        self.others = np.array([self.fit.values[key] for i, key in enumerate(space.keys) if i != self.place])
+
+    def cost(self, value: float) -> float:
+        """The smallest sum of squares with the parameter held at value."""
+        space, keep = self.problem.space, [i for i in range(self.problem.space.size) if i != self.place]
+        rest = replace(
+            space,
+            **{
+                name: tuple(getattr(space, name)[i] for i in keep) for name in ("keys", "variables", "records", "units")
+            },
+            **{name: getattr(space, name)[keep] for name in ("lower", "upper", "scale", "log")},
+            start=self.others,
+            ties=tuple(tie for tie in space.ties if tie.of != space.keys[self.place]),
+            fixed={
+                **space.fixed,
+                space.variables[self.place]: value,
+                **{tie.name: tie.factor * value for tie in space.ties if tie.of == space.keys[self.place]},
+            },
+        )
+        evaluate = evaluator(replace(self.problem, space=rest), NOISE, self.simulation)
+        state = search(evaluate, GaussNewton(), rest, rest.to_search(self.others), squares=True)
+        if state.best.good:
+            self.others = rest.to_model(state.best.x)
+        return state.best.cost
+
+
+def _end(walker: _Walker, fit: Fit, name: str, side: int, limit: float, steps: int, rows: dict[float, float]) -> float:
+    """Where the cost has risen by the limit: by growing steps outwards, then by interpolation of its root."""
+    estimate = fit[name]
+    bound = estimate.lower if side < 0 else estimate.upper
+    start = walker.others.copy()
+    reach = estimate.std if math.isfinite(estimate.std) else 0.25 * abs(bound - estimate.value)
+    inside, low, end = estimate.value, 0.0, bound
+    for _ in range(steps):
+        value = inside + side * reach
+        value = max(value, bound) if side < 0 else min(value, bound)
+        if value == inside:
+            break
+        rise = walker.cost(value) - fit.cost
+        rows[value] = rise + fit.cost
+        if rise >= limit:
+            end = _between(inside, low, value, rise, limit)
+            break
+        inside, low, reach = value, max(rise, 0.0), 1.5 * reach
+        if value == bound:
+            break
+    walker.others = start
+    return end
+
+
+def _between(inside: float, low: float, outside: float, high: float, limit: float) -> float:
+    """The cost rises about as a square, so its root about as a line."""
+    a, b, c = math.sqrt(low), math.sqrt(high), math.sqrt(limit)
+    if not math.isfinite(high):
+        return outside
+    return inside + (outside - inside) * (c - a) / (b - a)

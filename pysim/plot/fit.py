@@ -1,0 +1,140 @@
+"""Figures of a fit: what each record leaves over, responses with harmonics, parameters with their doubt."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from pysim.plot.style import (
+    BAND,
+    COLOURS,
+    LIMIT,
+    MARKERS,
+    MEASURED,
+    SMALL,
+    TEXT,
+    frequency_axis,
+    legend_above,
+    new_figure,
+    quiet,
+)
+from pysim.types import BadInput, Estimate, Fit, RecordFit
+
+_MANY = 5000  # samples beyond which lines are drawn thin
+
+
+def fit_record_figure(record: RecordFit) -> Figure:
+    """Measured and simulated, and below them the residual in standard deviations of the noise; a column per signal."""
+    names = record.measured.names
+    figure = new_figure(1.0 + 5.4 * len(names), 4.6)
+    axes = figure.subplots(2, len(names), sharex=True, squeeze=False, height_ratios=(3, 2))
+    time, residual = record.measured.time, record.residual.values
+    for j, (name, unit) in enumerate(zip(names, record.measured.units, strict=True)):
+        top, low = axes[:, j]
+        width = 0.7 if time.size > _MANY else 1.2
+        (measured,) = top.plot(time, record.measured.values[:, j], color=MEASURED, linewidth=width)
+        (model,) = top.plot(time, record.simulated.values[:, j], color=COLOURS[1], linewidth=width, linestyle="--")
+        low.axhspan(-1.96, 1.96, color=BAND, linewidth=0)
+        low.plot(time, residual[:, j], color=COLOURS[0], linewidth=0, marker=".", markersize=1.5)
+        top.set_ylabel(f"{name} ({unit if unit != '1' else '-'})", fontsize=TEXT)
+        low.set_ylabel("Residual (noise s.d.)", fontsize=TEXT)
+        low.set_xlabel("Time (s)", fontsize=TEXT)
+        low.set_title(f"rms {record.rms[name]:.3f}", fontsize=SMALL, loc="right")
+        quiet(top)
+        quiet(low)
+    legend_above(figure, [measured, model], ["measured", "fitted model"])
+    return figure
+
+
+def fit_harmonics_figure(records: Sequence[RecordFit], title: str) -> Figure:
+    """Gain of the harmonics over the frequency of the test, and what is left in standard deviations.
+
+    Args:
+        records: stepped sines of one test.
+        title: of the figure.
+    Raises:
+        BadInput: a record without harmonics.
+    """
+    if not records or not all(record.harmonics for record in records):
+        raise BadInput("harmonics figure: needs records of stepped sines")
+    figure = new_figure(6.4, 5.2)
+    top, low = figure.subplots(2, 1, sharex=True, height_ratios=(3, 2))
+    rows = sorted((record.harmonics[0] for record in records), key=lambda h: h.frequency)
+    most = max(h.measured.size for h in rows)
+    handles, labels = [], []
+    for k in range(1, most):
+        own = [h for h in rows if h.measured.size > k]
+        f = np.array([h.frequency for h in own])
+        colour, marker = COLOURS[(k - 1) % len(COLOURS)], MARKERS[(k - 1) % len(MARKERS)]
+        measured = np.abs([h.measured[k] for h in own])
+        spread = np.array([h.std[k] for h in own])
+        (points,) = top.plot(f, measured, color=colour, marker=marker, markersize=4, linewidth=0)
+        top.vlines(f, np.maximum(measured - 1.96 * spread, 1e-6), measured + 1.96 * spread, color=colour, linewidth=0.8)
+        top.plot(f, np.abs([h.simulated[k] for h in own]), color=colour, linewidth=1.1)
+        left = np.abs([h.measured[k] - h.simulated[k] for h in own]) / (spread * np.sqrt(2))
+        low.plot(f, left, color=colour, marker=marker, markersize=4, linewidth=0)
+        handles.append(points)
+        labels.append("fundamental" if k == 1 else f"harmonic {k}")
+    low.axhspan(0, 1.73, color=BAND, linewidth=0)  # 95 percent of the sizes of complex normal errors
+    top.set_yscale("log")
+    top.set_ylabel(f"Amplitude of {rows[0].signal}", fontsize=TEXT)
+    low.set_ylabel("Left over (s.d.)", fontsize=TEXT)
+    low.set_xlabel("Frequency (Hz)", fontsize=TEXT)
+    for axes in (top, low):
+        quiet(axes)
+        frequency_axis(axes, rows[0].frequency * 0.9, rows[-1].frequency * 1.1)
+    top.set_title(title, fontsize=TEXT)
+    legend_above(figure, handles, labels)
+    return figure
+
+
+def fit_parameters_figure(fit: Fit) -> Figure:
+    """Each estimate with its 95 percent interval between its bounds; where a bound is infinite, around the estimate."""
+    figure = new_figure(6.4, 0.9 + 0.32 * len(fit.estimates))
+    axes = figure.subplots()
+    for row, estimate in enumerate(fit.estimates):
+        low, high = _range(estimate)
+        share = [(v - low) / (high - low) for v in (estimate.value, *estimate.interval, estimate.start)]
+        axes.plot([0, 1], [row, row], color=BAND, linewidth=5, solid_capstyle="butt")
+        axes.plot(np.clip(share[1:3], 0, 1), [row, row], color=COLOURS[0], linewidth=2.2)
+        axes.plot(share[0], row, color=COLOURS[0], marker="o", markersize=5)
+        axes.plot(np.clip(share[3], 0, 1), row, color=LIMIT, marker="|", markersize=9)
+    axes.set_yticks(range(len(fit.estimates)), [e.name for e in fit.estimates], fontsize=SMALL)
+    axes.set_xticks([0, 1], ["lower bound", "upper bound"])
+    axes.set_xlim(-0.03, 1.03)
+    axes.invert_yaxis()
+    quiet(axes)
+    handles = [axes.plot([], [], color=COLOURS[0], marker="o", linewidth=2.2)[0]]
+    handles.append(axes.plot([], [], color=LIMIT, marker="|", linewidth=0, markersize=9)[0])
+    legend_above(figure, handles, ["estimate, 95 % interval", "start"])
+    return figure
+
+
+def _range(estimate: Estimate) -> tuple[float, float]:
+    """What the axis of one parameter spans."""
+    finite = [v for v in (estimate.value, estimate.start, *estimate.interval) if np.isfinite(v)]
+    low = estimate.lower if np.isfinite(estimate.lower) else min(finite) - 0.1 * abs(min(finite)) - 1e-12
+    high = estimate.upper if np.isfinite(estimate.upper) else max(finite) + 0.1 * abs(max(finite)) + 1e-12
+    return low, high
+
+
+def fit_correlation_figure(fit: Fit) -> Figure:
+    """Correlations of the estimates as a field of numbers; hatched where the data determine none."""
+    names, matrix = [e.name for e in fit.estimates], fit.correlation
+    n = len(names)
+    figure = new_figure(1.6 + 0.46 * n, 1.1 + 0.4 * n)
+    axes = figure.subplots()
+    image = axes.imshow(matrix, cmap="RdBu_r", vmin=-1, vmax=1)
+    axes.set_facecolor(BAND)
+    for i in range(n):
+        for j in range(n):
+            if np.isfinite(matrix[i, j]):
+                colour = "white" if abs(matrix[i, j]) > 0.6 else "black"
+                axes.text(j, i, f"{matrix[i, j]:.2f}", ha="center", va="center", fontsize=6, color=colour)
+    axes.set_xticks(range(n), names, rotation=60, fontsize=SMALL)
+    axes.set_yticks(range(n), names, fontsize=SMALL)
+    bar = figure.colorbar(image, ax=axes, shrink=0.8)
+    bar.set_label("Correlation (grey: not determined)", fontsize=SMALL)
+    return figure
