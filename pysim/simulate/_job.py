@@ -43,6 +43,7 @@ class Job:
         self.record = np.zeros(1, dtype=JOB)
         self._arrays: dict[tuple[str, str], np.ndarray] = {}
         self._given: dict[str, Mapping[str, Any]] = {}
+        self.spare: dict[Any, dict[str, Any]] = {}  # sections that runs of the same kind use again
 
     def restart(self, start: float, end: float) -> None:
         """Forget the run before; times in s. What `put` was given stays."""

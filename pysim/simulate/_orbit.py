@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -70,11 +71,12 @@ class Plan:
     offer: Offer
     mismatch: float
 
+    @cached_property
     def directions(self) -> Directions:
         """Columns that come from the FMU, if it gives those of the outputs."""
         return self.offer.directions(states=True) if self.offer.outputs else Directions(states=True, outputs=False)
 
-    @property
+    @cached_property
     def missing(self) -> tuple[str, ...]:
         """Parameters whose columns have to be differences."""
         given = self.offer.parameters if self.offer.outputs else ()
@@ -128,7 +130,7 @@ def _shoot(plan: Plan, experiment: Experiment, guess: Array | None, stopped: Sto
             guess = varied.states
             instance.renew()
             initialise(instance, experiment, plan.solver)
-        return shoot(instance, experiment, plan.solver, plan.directions(), guess, plan.mismatch, stopped)
+        return shoot(instance, experiment, plan.solver, plan.directions, guess, plan.mismatch, stopped)
 
 
 def _from_shot(plan: Plan, experiment: Experiment, shot: Shot, iterations: int, stopped: Stopped) -> Orbit:
@@ -140,14 +142,19 @@ def _from_shot(plan: Plan, experiment: Experiment, shot: Shot, iterations: int, 
     values = varied.values[:points] + rows[:, :, :n] @ shot.step
     period = replace(experiment, times=experiment.times[:-1])
     record = varied._replace(values=values).record(plan.library.model, period)
-    columns = np.full((points, len(experiment.record), len(plan.parameters)), np.nan)
-    by = np.full((n, len(plan.parameters)), np.nan)
-    exact = rows[:, :, n:] + rows[:, :, :n] @ shot.by
-    for column, name in enumerate(plan.directions().parameters):
-        columns[:, :, plan.parameters.index(name)] = exact[:, :, column]
-        by[:, plan.parameters.index(name)] = shot.by[:, column]
+    columns, by = rows[:, :, n:] + rows[:, :, :n] @ shot.by, shot.by
+    if plan.missing:
+        places = [plan.parameters.index(name) for name in plan.directions.parameters]
+        columns, by = _spread(columns, places, len(plan.parameters)), _spread(by, places, len(plan.parameters))
     orbit = Orbit(record, plan.parameters, columns, shot.start + shot.step, by, iterations)
     return _with_differences(plan, experiment, orbit, stopped) if plan.missing else orbit
+
+
+def _spread(columns: Array, places: list[int], count: int) -> Array:
+    """The columns (..., n) at their places among that many, the others not a number."""
+    spread = np.full((*columns.shape[:-1], count), np.nan)
+    spread[..., places] = columns
+    return spread
 
 
 def _again(plan: Plan, experiment: Experiment, shot: Shot, stopped: Stopped) -> Orbit:

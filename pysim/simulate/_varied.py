@@ -98,13 +98,14 @@ def vary(
     job = instance.job if rewind else None
     if job is None:
         job = prepare(instance, experiment, solver)
-        job.put("variation", _arrays(instance.model, experiment, directions, start_by))
+        kind = (directions, experiment.record)
+        if kind not in job.spare:
+            job.spare[kind] = _arrays(instance.model, experiment.record, directions)
+        job.keep("variation", job.spare[kind])
     else:
         job.restart(experiment.start, float(experiment.times[-1]))
         job.change("rows", {"next": 0})
-        job.array("variation", "low").fill(np.inf)
-        job.array("variation", "high").fill(-np.inf)
-    job.change("variation", {"rewind": int(rewind), "start": 0 if start is None else np.array(start, dtype=np.float64)})
+    job.change("variation", _of_this_run(job, experiment, start, start_by, rewind))
     code = RUNNING
     while code == RUNNING and not stopped():
         code = integrate_variations(job.record, _BUDGET)
@@ -124,7 +125,7 @@ def _result(instance: Instance, experiment: Experiment, job: Job, code: int, dir
         job.array("rows", "values")[:count],
         job.array("variation", "rows")[:count, :, :used],
         states,
-        job.array("variation", "s")[:, :used],
+        job.array("variation", "s")[:, :used].copy(),
         job.array("variation", "low"),
         job.array("variation", "high"),
         np.abs(job.array("work", "nominal")),
@@ -134,20 +135,37 @@ def _result(instance: Instance, experiment: Experiment, job: Job, code: int, dir
     )
 
 
-def _arrays(model: Model, experiment: Experiment, directions: Directions, start_by: Array | None) -> dict[str, Any]:
-    """What VARIATION points to."""
+def _of_this_run(
+    job: Job, experiment: Experiment, start: Array | None, start_by: Array | None, rewind: bool
+) -> dict[str, Any]:
+    """The fields of VARIATION that are a run's own."""
+    n, width, by_start = (
+        job.array("work", "x").size,
+        job.number("variation", "columns"),
+        job.number("variation", "by_start"),
+    )
+    first = np.eye(n, width) if by_start else np.zeros((n, width))
+    if start_by is not None:
+        first[:, by_start : by_start + start_by.shape[1]] = start_by
+    return {
+        "rewind": int(rewind),
+        "start": 0 if start is None else np.array(start, dtype=np.float64),
+        "start_by": first,
+        "rows": np.zeros((experiment.times.size, len(experiment.record), width)),
+        "low": np.full(n, np.inf),
+        "high": np.full(n, -np.inf),
+    }
+
+
+def _arrays(model: Model, record: tuple[str, ...], directions: Directions) -> dict[str, Any]:
+    """What else VARIATION points to; the same for every run of a kind."""
     n, parameters = len(model.abilities.states), directions.parameters
     by_start = n if directions.states else 0
     width = -(-(by_start + len(parameters)) // VECTOR) * VECTOR
-    first = np.zeros((n, width))
-    first[:, :by_start] = np.eye(n, by_start)
-    if start_by is not None:
-        first[:, by_start : by_start + len(parameters)] = start_by
     return {
         "columns": width,
         "by_start": by_start,
         "parameters": len(parameters),
-        "start_by": first,
         "seeds": np.array([model[name].reference for name in parameters], dtype=np.uint32),
         "seeded": np.array([name not in directions.starts for name in parameters], dtype=np.int64),
         "s": np.zeros((n, width)),
@@ -156,10 +174,7 @@ def _arrays(model: Model, experiment: Experiment, directions: Directions, start_
         "inside": np.zeros((n, width)),
         "weights": np.zeros(_STAGES),
         "forcing": np.zeros((len(parameters), n)),
-        "rows": np.zeros((experiment.times.size, len(experiment.record), width)),
-        "low": np.full(n, np.inf),
-        "high": np.full(n, -np.inf),
-        **_recorded(model, experiment.record, directions, by_start, width),
+        **_recorded(model, record, directions, by_start, width),
     }
 
 
