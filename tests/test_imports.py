@@ -17,16 +17,18 @@ _RUNS = _FILES | {"pysim.simulate"}
 _FITS = _RUNS | {"pysim.excitation", "pysim.identify"}
 ALLOWED = {
     "pysim.types": set(),
+    "pysim.effects": _DATA,
     "pysim.excitation": _DATA,
     "pysim.io": _DATA,
     "pysim.simulate": _FILES,
     "pysim.bench": _RUNS | {"pysim.excitation"},
     "pysim.identify": _RUNS | {"pysim.excitation"},
-    "pysim.diagnose": _FITS,
+    "pysim.diagnose": _FITS | {"pysim.effects"},
     "pysim.plot": _FITS,
     "pysim.report": _FITS,
-    "pysim.cli": _FITS | {"pysim.bench", "pysim.diagnose", "pysim.plot", "pysim.report", "fmu_build", "validation"},
-    "validation": _FITS | {"pysim.bench", "pysim.diagnose", "pysim.plot", "pysim.report", "fmu_build"},
+    "pysim.cli": _FITS
+    | {"pysim.bench", "pysim.effects", "pysim.diagnose", "pysim.plot", "pysim.report", "fmu_build", "validation"},
+    "validation": _FITS | {"pysim.bench", "pysim.effects", "pysim.diagnose", "pysim.plot", "pysim.report", "fmu_build"},
     "fmu_build": set(),
 }
 # Packages whose outside world is limited too.

@@ -4,6 +4,7 @@ from pysim.types.best_linear_approximation import BestLinearApproximation, Disto
 from pysim.types.comparison import Comparison, ResponseComparison
 from pysim.types.criterion import Criterion, Deviation
 from pysim.types.dataset import Dataset, MeasuredRecord, MeasuredSignal
+from pysim.types.effect import Effect, EffectParameter
 from pysim.types.errors import BadInput
 from pysim.types.experiment import Experiment
 from pysim.types.fit import (
@@ -35,6 +36,8 @@ __all__ = [
     "Direction",
     "Distortion",
     "Estimate",
+    "Effect",
+    "EffectParameter",
     "Experiment",
     "Fit",
     "FitOutcome",

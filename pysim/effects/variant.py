@@ -1,0 +1,152 @@
+"""A model with effects in its slots, as Modelica text."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from pysim.effects._classes import ClassText
+from pysim.effects._library import Libraries
+from pysim.effects._tokens import tokenise
+from pysim.effects.catalogue import Pair, read_pairs
+from pysim.types import BadInput, Effect
+
+
+@dataclass(frozen=True)
+class Variant:
+    """A class to compile, and where each effect's parameters are in it.
+
+    Args:
+        class_name: of the class in `text`.
+        text: the Modelica class.
+        places: effect name -> the name ahead of its parameters' names in the compiled model.
+    """
+
+    class_name: str
+    text: str
+    places: dict[str, str]
+
+    def parameter(self, effect: str, name: str) -> str:
+        """Full name of an effect's parameter in the compiled model."""
+        return f"{self.places[effect]}.{name}"
+
+
+def variant(
+    base_class: str, effects: Sequence[Effect], libraries: Sequence[Path], *, name: str = "PumpVariant"
+) -> Variant:
+    """Extend a model by effects, all slots in one extends clause.
+
+    A base that only extends another with modifications is unrolled to the class that declares the slots, because the
+    compiler passes over a redeclaration of an inherited slot. Two or more effects of one slot are put together by a
+    pair of the libraries, in the order given.
+
+    Args:
+        base_class: full name, such as "HydraulicTestBench.Pump.FreeGreyBox".
+        effects: any, each once; none gives the base itself.
+        libraries: where the base, the effects and the pairs are.
+        name: of the new class.
+    Raises:
+        BadInput: an unknown base, a slot it does not have, an effect twice, or two in a slot that no pair serves.
+    """
+    names = [effect.name for effect in effects]
+    if len(set(names)) < len(names):
+        raise BadInput(f"variant of {base_class}: an effect is named twice among {', '.join(names)}; name each once")
+    slots = list(dict.fromkeys(effect.slot for effect in effects))
+    base, modifications = _unrolled(base_class, slots, Libraries(libraries))
+    pairs = read_pairs(*libraries) if len(slots) < len(effects) else ()
+    inner: list[str] = []
+    places: dict[str, str] = {}
+    for slot in slots:
+        filling = _filling(slot, [effect for effect in effects if effect.slot == slot], pairs, inner, places)
+        modifications = [*modifications, f"redeclare {filling} {slot}"]
+    bracket = "(\n    " + ",\n    ".join(modifications) + ")" if modifications else ""
+    about = ", ".join(names) or "no effect"
+    short = base_class.rpartition(".")[2]
+    lines = [f'model {name} "{short} with {about}"', *inner, f"  extends {base}{bracket};", f"end {name};", ""]
+    return Variant(name, "\n".join(lines), places)
+
+
+def variant_text(base_class: str, effects: Sequence[Effect], libraries: Sequence[Path]) -> str:
+    """The text alone of `variant`."""
+    return variant(base_class, effects, libraries).text
+
+
+def _filling(
+    slot: str, effects: Sequence[Effect], pairs: Sequence[Pair], inner: list[str], places: dict[str, str]
+) -> str:
+    """Class to put into the slot; classes it needs go to `inner`, where the effects' parameters are to `places`."""
+    if len(effects) == 1:
+        places[effects[0].name] = slot
+        return effects[0].class_name
+    own = next((p for p in pairs if p.slot == slot and set(p.of) == {e.name for e in effects}), None)
+    if own is not None:
+        places.update({effect.name: slot for effect in effects})
+        return own.class_name
+    pair = next((p for p in pairs if p.slot == slot and not p.of), None)
+    if pair is None:
+        both = " and ".join(effect.name for effect in effects)
+        raise BadInput(
+            f'{both} share the slot {slot}, and no class puts them together; write one annotated with pair="{slot}"'
+        )
+    first, place = effects[0].class_name, ""
+    for k, effect in enumerate(effects[1:], start=1):
+        name = f"{slot[0].upper()}{slot[1:]}{k}"
+        inner += [
+            f'  model {name} "{effects[k - 1].name if k == 1 else "the former"} and {effect.name}"',
+            f"    extends {pair.class_name}(",
+            f"      redeclare {first} first,",
+            f"      redeclare {effect.class_name} second);",
+            f"  end {name};",
+        ]
+        first = name
+    for k, effect in enumerate(reversed(effects)):
+        last = k == len(effects) - 1
+        place = ".".join([slot, *["first"] * (k - last), "first" if last else "second"])
+        places[effect.name] = place
+    return first
+
+
+def _unrolled(base_class: str, slots: Sequence[str], library: Libraries) -> tuple[str, list[str]]:
+    """The class that declares the slots, and the modifications on the way to it with full names."""
+    text = library.classes.get(base_class)
+    if text is None:
+        raise BadInput(f"no class {base_class} in the libraries; check its full name")
+    modifications: list[str] = []
+    while not all(_declares(text, slot) for slot in slots):
+        missing = next(slot for slot in slots if not _declares(text, slot))
+        parent = library.resolve(text.bases[0].class_name, text.full_name) if len(text.bases) == 1 else None
+        if parent is None or not text.plain:
+            raise BadInput(
+                f"{base_class} has no replaceable part {missing}, or {text.full_name} declares more beside the class "
+                "that has it; name a class that declares its slots itself"
+            )
+        here = [part.strip() for part in _parts(text.bases[0].modifications)]
+        modifications = [_with_full_names(part, text, library) for part in here] + modifications
+        text = parent
+    return text.full_name, modifications
+
+
+def _declares(text: ClassText, slot: str) -> bool:
+    return any(d.name == slot and "replaceable" in d.prefixes for d in text.declarations)
+
+
+def _parts(bracket: str) -> list[str]:
+    from pysim.effects._tokens import split, written
+
+    tokens = tokenise(bracket)
+    return [written(bracket, part) for part in split(tokens, ",") if part]
+
+
+def _with_full_names(part: str, text: ClassText, library: Libraries) -> str:
+    """A modification with the names of classes written in full, so that it means the same elsewhere."""
+    tokens = tokenise(part)
+    replaced, end = "", 0
+    for k, token in enumerate(tokens):
+        begins = token.text[0].isidentifier() and (k == 0 or tokens[k - 1].text != ".")
+        if begins and k + 1 < len(tokens) and tokens[k + 1].text == ".":
+            found = library.resolve(token.text, text.full_name)
+            if found is not None:
+                replaced += part[end : token.start] + found.full_name
+                end = token.end
+    return replaced + part[end:]

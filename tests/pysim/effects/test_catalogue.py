@@ -1,0 +1,117 @@
+"""The catalogue read from Modelica text: a user's own library in one file, ours, and what is refused."""
+
+from pathlib import Path
+
+import pytest
+
+from pysim.effects import Pair, read_catalogue, read_pairs
+from pysim.types import BadInput
+from tests.modelica.library import LIBRARY
+
+DRIVE = """
+package Drive "A positioning drive; model, type and end in a text do not matter"
+  type Torque = Real(final unit="N.m", nominal=2) "Torque";
+  type Loss = Torque(min=0, max=50);
+  partial model PartialFriction "Slot"
+    input Real w(unit="rad/s");
+    output Torque tau;
+  end PartialFriction;
+  package Effects
+    model Bearing "Dry friction of the \\"bearing\\""  // with a comment; end Bearing;
+      extends PartialFriction;
+      parameter Loss T_c = 0 "Torque, 0 = off" annotation(Dialog(group="a"), __HydraulicTestBench(inverse="G"));
+      parameter Real s(final unit="s/rad", min=-(1e1), max=2*5e2) = 1/2^2 "Steepness";
+      parameter Real on(unit="1", min=0, max=2, nominal=1, start=1) = 1.0;
+      final parameter Real known = 3;
+      Real z[2](each start=0), other;
+    protected
+      parameter Torque unused(min=0, max=1) = 1;
+    equation
+      tau = -T_c*tanh(s*w);
+      if w > 0 then
+        z = {1, 2};
+      end if;
+      annotation(Documentation(info="<html>annotation(x=1); end Bearing;</html>"),
+        __HydraulicTestBench(effect="drive.bearing", slot="friction", bypass=true));
+    end Bearing;
+    model Plain extends PartialFriction; equation tau = 0; end Plain;
+    model Two "Sum"
+      extends PartialFriction;
+      annotation(__HydraulicTestBench(pair="friction", of={"a.b", "c.d"}));
+    end Two;
+  end Effects;
+end Drive;
+"""
+
+
+def library(folder: Path, text: str, name: str = "Drive.mo") -> Path:
+    (folder / name).write_text(text)
+    return folder / name
+
+
+def test_a_users_library_in_one_file(tmp_path: Path) -> None:
+    (effect,) = read_catalogue(library(tmp_path, DRIVE))
+    assert (effect.name, effect.slot, effect.class_name) == ("drive.bearing", "friction", "Drive.Effects.Bearing")
+    assert effect.description == 'Dry friction of the "bearing"'
+    assert effect.bypass
+    torque, steepness, on, unused = effect.parameters
+    assert (torque.name, torque.unit, torque.min, torque.max, torque.nominal) == ("T_c", "N.m", 0.0, 50.0, 2.0)
+    assert (torque.default, torque.off, torque.inverse, torque.description) == (0.0, 0.0, "G", "Torque, 0 = off")
+    assert (steepness.min, steepness.max, steepness.default, steepness.off) == (-10.0, 1000.0, 0.25, None)
+    assert steepness.nominal == 100.0  # a tenth of the larger bound, where nothing is said
+    assert on.off == 1.0  # start says it
+    assert unused.off is None
+    assert effect.strengths == (torque, on)
+
+
+def test_pairs(tmp_path: Path) -> None:
+    assert read_pairs(library(tmp_path, DRIVE)) == (Pair("friction", "Drive.Effects.Two", ("a.b", "c.d")),)
+
+
+def test_several_libraries_together(tmp_path: Path) -> None:
+    names = [effect.name for effect in read_catalogue(LIBRARY, library(tmp_path, DRIVE))]
+    assert names[-1] == "drive.bearing"
+    assert len(names) == 19
+    assert len(read_catalogue(LIBRARY)) == 18
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ("min=0, max=50", "max=50", "T_c has no min"),
+        ('final unit="s/rad", ', "", "s has no unit"),
+        ("= 1/2^2", "= other", "'other' must be a number"),
+        ("= 1/2^2", "", "s has no value"),
+        ("max=2*5e2", "max=-20", "put the smaller first"),
+        (', slot="friction"', "", "fills no slot"),
+        ("T_c = 0", "T_c = 60", "60 is outside 0 ... 50"),
+        ("T_c = 0", "T_c = 1", None),
+    ],
+)
+def test_refuses(tmp_path: Path, old: str, new: str, message: str | None) -> None:
+    text = DRIVE.replace(old, new)
+    assert text != DRIVE
+    path = library(tmp_path, text)
+    if message is None:  # `on` is a strength still
+        assert [p.name for p in read_catalogue(path)[0].strengths] == ["on"]
+        return
+    with pytest.raises(BadInput, match=message) as caught:
+        read_catalogue(path)
+    assert str(path) in str(caught.value)
+
+
+def test_refuses_an_effect_without_strength_and_one_that_is_there_twice(tmp_path: Path) -> None:
+    path = library(tmp_path, DRIVE.replace("T_c = 0", "T_c = 1").replace(", start=1", ""))
+    with pytest.raises(BadInput, match="no parameter is 0 as declared"):
+        read_catalogue(path)
+    one, other = (
+        library(tmp_path, DRIVE, "A.mo"),
+        library(tmp_path, DRIVE.replace("package Drive", "package D").replace("end Drive", "end D"), "B.mo"),
+    )
+    with pytest.raises(BadInput, match=r"drive\.bearing is also in"):
+        read_catalogue(one, other)
+
+
+def test_refuses_what_is_no_library(tmp_path: Path) -> None:
+    with pytest.raises(BadInput, match="is no Modelica library"):
+        read_catalogue(tmp_path)
