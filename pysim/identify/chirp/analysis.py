@@ -80,11 +80,11 @@ def analyse_chirp(
     Args:
         record: of kind "chirp"; a log over time.
         input_, output: names of the columns.
-        level: what tops and bottoms count from, in the output's unit; the command's offset by default, as in the
-            thesis, which takes output and command in one unit.
+        level: what tops and bottoms count from, in the output's unit; by default the command's offset, which needs
+            output and command to have one unit, as in the thesis.
         noise: standard deviation of the output's noise where it is known; else what the fits leave over.
     Raises:
-        BadInput: a command that is no chirp, or an output without a pair of extremes.
+        BadInput: a command that is no chirp, no level between different units, or an output without a pair of extremes.
     Source: thesis Section 2.5. Differs: the level is taken off (Eq. 2.15 and 2.16 forget the offset); extremes of
     fitted curves in place of highest samples.
     """
@@ -92,7 +92,7 @@ def analyse_chirp(
         raise BadInput(f'{record.source}: its kind is "{record.kind}"; chirp analysis needs a "{CHIRP}"')
     command = logged_wave(record, input_)
     assert isinstance(record.data, Record)  # logged_wave has refused anything else
-    level = command.offset if level is None else level
+    level = _level(record.data, command, input_, output) if level is None else level
     samples = _samples(record.data, command, output)
     pairs = list(_extremes(samples, command))
     if not pairs:
@@ -141,6 +141,17 @@ def chirp_responses(
     if not found:
         raise BadInput(f'data set {dataset.name!r} has no log of kind "{CHIRP}"; give its chirps that kind')
     return tuple(found)
+
+
+def _level(data: Record, command: LoggedWave, input_: str, output: str) -> float:
+    """The command's offset, where it can be compared with the output."""
+    units = [data.units[data.names.index(name)] for name in (input_, output)]
+    if units[0] != units[1]:
+        raise BadInput(
+            f"chirp analysis: {output} is in {units[1]} and {input_} in {units[0]}; give the level that {output} has at"
+            f" the command's offset of {command.offset:.4g} {units[0]}"
+        )
+    return command.offset
 
 
 def _samples(data: Record, command: LoggedWave, output: str) -> Samples:

@@ -76,6 +76,23 @@ def test_the_level_is_taken_off() -> None:
     np.testing.assert_allclose(other.bottom.gain[slow], raised.bottom.gain[slow] - 0.1, atol=1e-4)
 
 
+def test_different_units_need_a_level() -> None:
+    record = log(2.0)
+    radians = replace(record, data=replace(record.data, units=("%", "rad")))
+    with pytest.raises(
+        BadInput, match="y is in rad and u in %; give the level that y has at the command's offset of 50 %"
+    ):
+        analyse_chirp(radians, "u", "y")
+    found = analyse_chirp(radians, "u", "y", level=50.0)
+    np.testing.assert_allclose(found.mean.gain, analyse_chirp(record, "u", "y").mean.gain, rtol=1e-4)
+
+
+def test_a_slow_logger_still_shows_the_response() -> None:
+    found = analyse_chirp(log(1.0, sampling=80), "u", "y")  # 3.2 samples per period at the end
+    assert np.max(np.abs(errors(found.mean, low=2.0)[0])) < 0.1
+    assert np.max(np.abs(errors(found.mean, low=2.0)[1])) < 1.0
+
+
 def test_stops_where_tops_are_lost_in_noise() -> None:
     found = analyse_chirp(log(1.0, natural_hz=2.0, noise=0.5, stop_hz=40.0), "u", "y")
     assert any("lost in noise" in remark for remark in found.remarks)
