@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import os
 import threading
+from collections import deque
 from collections.abc import Callable, Sequence
-from concurrent.futures import FIRST_EXCEPTION, ThreadPoolExecutor, as_completed, wait
+from concurrent.futures import FIRST_EXCEPTION, ThreadPoolExecutor, wait
+from queue import SimpleQueue
 from typing import TypeVar
 
 from pysim.types import BadInput, Model
@@ -36,17 +38,36 @@ def side_by_side(
         progress: called with (tasks done, tasks in all) from the calling thread; what it raises stops everything, as
             does an interrupt from the keyboard.
     """
-    stop = threading.Event()
+    stop, left, finished = threading.Event(), deque(enumerate(tasks)), SimpleQueue[BaseException | None]()
+    results: dict[int, Result] = {}
+
+    def work() -> None:  # tasks may be short: handing each to the pool would cost as much as preparing a run
+        while left and not stop.is_set():
+            try:
+                number, task = left.popleft()
+            except IndexError:  # another thread was faster
+                return
+            try:
+                results[number] = task(stop.is_set)
+            except BaseException as error:
+                finished.put(error)
+                raise
+            if progress is not None:
+                finished.put(None)
+
     with ThreadPoolExecutor(count) as pool:
-        jobs = [pool.submit(task, stop.is_set) for task in tasks]
+        jobs = [pool.submit(work) for _ in range(min(count, len(tasks)))]
         try:
-            if progress is None:  # then this thread sleeps; waking for every task, it would take the workers' time
-                wait(jobs, return_when=FIRST_EXCEPTION)
-            else:
-                for done, job in enumerate(as_completed(jobs), start=1):
+            if progress is not None:
+                for done in range(1, len(tasks) + 1):
+                    if error := finished.get():
+                        raise error
+                    progress(done, len(tasks))
+            wait(jobs, return_when=FIRST_EXCEPTION)  # without progress this thread sleeps, and takes no time from them
+            for job in jobs:
+                if job.done():
                     job.result()
-                    progress(done, len(jobs))
-            return tuple(job.result() for job in jobs)
+            return tuple(results[number] for number in range(len(tasks)))
         except BaseException:  # also an interrupt: the threads must not go on behind the caller's back
             stop.set()
             pool.shutdown(wait=True, cancel_futures=True)

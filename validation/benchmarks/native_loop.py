@@ -3,9 +3,9 @@
 `python -m validation.benchmarks.native_loop [FMU]`; without a file, Examples.SteppedSine is built. In that model the
 command is part of the FMU, because FMPy 0.3.32 sets inputs at communication points and holds them in between: no
 tolerance would bring it within 0.01 percent of a smooth command. FMPy is timed at the loosest half decade of tolerance
-that holds this limit, the native loop half a decade below its own, so that rounding alone cannot spoil it; FMPy keeps
-its instance and its model description from run to run. The ratio is one of wall-clock times and means something on an
-otherwise idle machine only.
+that holds this limit, the native loop at half the tolerance that would do, so that rounding alone cannot spoil it;
+FMPy keeps its instance and its model description from run to run. The ratio is one of wall-clock times and means
+something on an otherwise idle machine only.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ CLASS = "HydraulicTestBench.Examples.SteppedSine"
 RATIO, LIMIT = 20.0, 0.01  # at least; percent of the angle's range, root mean square, at most
 
 # Rodas holds the limit in every run at 1e-3 and misses it at 3e-3, CVODE misses it at 3e-4.
-NATIVE = Rodas(rtol=3e-4, atol=3e-4)
+NATIVE = Rodas(rtol=5e-4, atol=5e-4)
 CVODE_TOLERANCE = 1e-4
 
 _REPEATS = 5  # of the native side, which takes a fraction of a second: the median counts
