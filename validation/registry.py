@@ -30,10 +30,16 @@ CASES: Mapping[str, Case] = MappingProxyType(
         "demo-table": Case("validation.demo_table.case", "the demo against the independent result and the thesis"),
         "native-loop": Case("validation.benchmarks.native_loop", "time and accuracy against FMPy's CVODE loop"),
         "blackbox-coverage": Case("validation.blackbox.case", "Table 4.1 comes back; 95 % intervals hold the truth"),
+        "effect-pairs": Case("validation.effects.case", "every two effects of the catalogue build, vanish and run"),
         "friction": Case("validation.friction.case", "thesis Table 6.2 found again from ten pulses per revolution"),
         "chirp": Case("validation.chirp.case", "one chirp against stepped sines on a model whose directions differ"),
         "multisine": Case("validation.multisine.case", "gain, noise, even and odd distortion where theory knows them"),
         "virtual-bench": Case("validation.virtual_bench.case", "the virtual bench against an independent plant's logs"),
+        "fit-bench-01": Case("validation.fit_bench.case", "an independent plant's logs fitted to their noise"),
+        "fit-speed": Case("validation.fit_speed.case", "13 parameters, 342 sines and two waves, from 30 percent off"),
+        "fit-thesis": Case("validation.fit_thesis.case", "the fits of thesis Section 4.4 done again"),
+        "fit-coverage": Case("validation.fit_coverage.case", "95 percent intervals hold the truth; held-out error"),
+        "sensitivity": Case("validation.sensitivity.case", "exact derivatives of a whole fit against differences"),
         "wine": Case("validation.wine.case", "the Windows binary under Wine against the binary of this machine"),
     }
 )

@@ -1,0 +1,1 @@
+"""Sensitivities and periodic orbits at the cost a fit can afford."""
