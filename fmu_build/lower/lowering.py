@@ -5,6 +5,7 @@ from collections.abc import Sequence
 import casadi as ca
 
 from fmu_build.front.flat_model import FlatModel
+from fmu_build.lower.bounds import check_bounds
 from fmu_build.lower.continuous import Solved, scalar_equations, solve_continuous
 from fmu_build.lower.discrete import DiscretePart
 from fmu_build.lower.evaluate import Evaluator
@@ -55,11 +56,13 @@ def lower(flat: FlatModel) -> OdeModel:
         pre_b=column(updates.pre_conditions),
         e=column([events.initial, events.terminal, *(sample.flag for sample in events.samples)]),
     )
+    rows = make_rows(places.entries, evaluator, numbers)
+    check_bounds(flat.name, rows, places.entries)
     return OdeModel(
         name=flat.name,
         description=flat.description,
         symbols=symbols,
-        variables=make_rows(places.entries, evaluator, numbers),
+        variables=rows,
         derivatives=column(derivatives),
         outputs=column(_settled(places.outputs, scope)),
         residual=column(_settled(solved.residuals, scope)),
