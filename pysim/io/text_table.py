@@ -113,7 +113,7 @@ def _row(fields: list[str], columns: tuple[str, ...], where: str) -> list[float]
     if len(fields) != len(columns):
         raise BadInput(
             f"{where}: {len(fields)} columns where {len(columns)} belong ({', '.join(columns)}); "
-            "complete the row, or name the file's columns in dataset.toml"
+            "complete the row; in a data set, dataset.toml can name the file's columns"
         )
     row = []
     for name, field in zip(columns, fields, strict=True):

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from pysim.identify import TransferFunction, magnitude_db
+from pysim.io import write_file
 from pysim.types import FrequencyResponse, SineTest
 from validation.read_csv import read_csv
 
@@ -80,7 +81,7 @@ def write_dataset(folder: Path, frequencies: Sequence[float] = FREQUENCIES_HZ) -
         name = f"O{test.offset:+g}_A{test.amplitude:g}.csv"
         rows = zip(response.frequency, magnitude_db(response, None), np.degrees(response.phase), strict=True)
         lines = [f"{f:g},{magnitude:.9f},{phase:.9f}" for f, magnitude, phase in rows]
-        (folder / name).write_text("\n".join(["frequency_hz,magnitude_db,phase_deg", *lines, ""]), encoding="utf-8")
+        write_file(folder / name, "\n".join(["frequency_hz,magnitude_db,phase_deg", *lines, ""]))
         records.append(_RECORD.format(file=name, offset=test.offset, amplitude=test.amplitude, origin=response.origin))
-    (folder / "dataset.toml").write_text(_HEAD + "".join(records), encoding="utf-8")
+    write_file(folder / "dataset.toml", _HEAD + "".join(records))
     return folder
