@@ -76,12 +76,16 @@ def anchors(text: str) -> set[str]:
     return {re.sub(r"[^\w\- ]", "", head.lower()).replace(" ", "-") for head in heads}
 
 
+def links(page: Path) -> list[str]:
+    """Targets of the page's links, but for those to the web."""
+    found = re.findall(r"\]\(([^)\s]+)\)", page.read_text(encoding="utf-8"))
+    return [link for link in found if not re.match(r"[a-z]+:", link)]
+
+
 def dead_links(page: Path) -> list[str]:
-    """Links to files or headings that are not there; those to the web are not looked at."""
+    """Links to files or headings that are not there."""
     dead = []
-    for link in re.findall(r"\]\(([^)\s]+)\)", page.read_text(encoding="utf-8")):
-        if re.match(r"[a-z]+:", link):
-            continue
+    for link in links(page):
         name, _, anchor = link.partition("#")
         target = page.parent / name if name else page
         if not target.exists() or (anchor and anchor not in anchors(target.read_text(encoding="utf-8"))):
@@ -113,9 +117,15 @@ def test_links_lead_somewhere(page: Path) -> None:
     assert dead_links(page) == []
 
 
-def test_every_page_is_reached_from_the_overview() -> None:
-    overview = (ROOT / "docs" / "methods.md").read_text(encoding="utf-8")
-    assert [page.name for page in PAGES if page.name != "methods.md" and f"({page.name}" not in overview] == []
+def test_every_page_is_reached_from_the_readme() -> None:
+    found, to_read = set(), {ROOT / "README.md"}
+    while to_read:
+        page = to_read.pop()
+        found.add(page)
+        names = {link.partition("#")[0] for link in links(page)} - {""}
+        targets = {(page.parent / name).resolve() for name in names}
+        to_read |= {t for t in targets if t.suffix == ".md" and t.exists()} - found
+    assert [page.name for page in PAGES if page not in found] == []
 
 
 PAGE = """# A page: of mine
