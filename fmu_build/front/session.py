@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from fmu_build.errors import BuildError
+from fmu_build.front.joined import JoinedText, join
 from fmu_build.front.source import ClassSource
 from fmu_build.front.tokens import tokenise
 
@@ -45,12 +46,13 @@ def _compile(
     source: ClassSource, libraries: Sequence[Path], modification: str
 ) -> tuple[dict[str, Any], dict[str, Any]]:
     roots = [str(library) for library in libraries if library.is_dir()]
-    text = source.text if source.is_single_file else ""
+    joined = join(source, libraries)
+    text = joined.text
     name = source.name
     if modification or not source.is_single_file:
         name = WRAPPER
         text += f"\nmodel {WRAPPER}\n  extends {source.name}{modification};\nend {WRAPPER};\n"
-    file_name = _stand_in(source) if source.is_single_file else f"{WRAPPER}.mo"
+    file_name = _stand_in(source) if joined.parts else f"{WRAPPER}.mo"
     rumoca = _import_rumoca()
     with _quiet_stderr():
         try:
@@ -59,9 +61,10 @@ def _compile(
         except BaseException as failure:  # a panic in rumoca is no Exception
             if isinstance(failure, KeyboardInterrupt | SystemExit):
                 raise
-            raise _explain(failure, source, libraries, rumoca) from None
+            raise _explain(failure, source, joined, libraries, rumoca) from None
     for known in dae["source_map"]["files"]:  # [number, name, text]
-        known[1] = str(source.file) if known[1] == _stand_in(source) else known[1]
+        if known[1] == _stand_in(source):
+            known[1] = joined
     return dae, flat
 
 
@@ -110,7 +113,9 @@ def _value_text(name: str, value: Override) -> str:
     return str(value) if isinstance(value, int) else repr(float(value))
 
 
-def _explain(failure: BaseException, source: ClassSource, libraries: Sequence[Path], rumoca: Any) -> BuildError:
+def _explain(
+    failure: BaseException, source: ClassSource, joined: JoinedText, libraries: Sequence[Path], rumoca: Any
+) -> BuildError:
     text = str(failure)
     syntax = _syntax_error(text, source, libraries, rumoca)
     if syntax is not None:
@@ -124,8 +129,10 @@ def _explain(failure: BaseException, source: ClassSource, libraries: Sequence[Pa
     place = PLACE.search(text)
     message = PLACE.sub("", message).strip()
     if place and WRAPPER not in place.group(1):
-        file = source.file if place.group(1) == _stand_in(source) else Path(place.group(1))
-        return BuildError(message, file, int(place.group(2)))
+        file, line = Path(place.group(1)), int(place.group(2))
+        if place.group(1) == _stand_in(source):
+            file, line = joined.place(line)
+        return BuildError(message, file, line)
     return BuildError(message, source.file, source.line)
 
 
@@ -150,6 +157,7 @@ def _syntax_error(text: str, source: ClassSource, libraries: Sequence[Path], rum
     if "unexpected" not in text and "parse source-root" not in text:
         return None
     files = [source.file] if source.is_single_file else []
+    files += [library for library in libraries if library.is_file() and library != source.file]
     files += [file for library in libraries if library.is_dir() for file in sorted(library.rglob("*.mo"))]
     for file in files:
         for found in rumoca.validate(str(file)):

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from fmu_build.front.expression import Span
+from fmu_build.front.joined import JoinedText
 from fmu_build.front.session import WRAPPER
 
 
@@ -13,22 +14,24 @@ class Places:
     """The text of all sources, by rumoca's source number."""
 
     def __init__(self, source_map: Mapping[str, Any]) -> None:
-        self._files: dict[int, tuple[Path, list[int]]] = {}
+        self._files: dict[int, tuple[JoinedText, list[int]]] = {}
         for number, name, text in source_map["files"]:
-            if Path(name).stem == WRAPPER:  # nothing a user has written
-                continue
+            if not isinstance(name, JoinedText):
+                if Path(name).stem == WRAPPER:  # nothing a user has written
+                    continue
+                name = JoinedText(text, (1,), (Path(name),))
             starts = [0]
             for line in text.encode().split(b"\n"):
                 starts.append(starts[-1] + len(line) + 1)
-            self._files[number] = (Path(name), starts)
+            self._files[number] = (name, starts)
 
     def span(self, provenance: Mapping[str, Any] | None) -> Span:
         """The line a provenance record points at."""
         place = (provenance or {}).get("span")
         if not place or place["source"] not in self._files:
             return Span()
-        file, starts = self._files[place["source"]]
-        return Span(file, bisect_right(starts, place["start"]))
+        text, starts = self._files[place["source"]]
+        return Span(*text.place(bisect_right(starts, place["start"])))
 
 
 def span_key(provenance: Mapping[str, Any] | None) -> tuple[int, int, int]:

@@ -210,3 +210,22 @@ def test_a_wrong_value_is_blamed_on_the_value(write, value, message):
     with pytest.raises(BuildError, match=message) as caught:
         load("M", [write(SIZED)], {"n": value})
     assert caught.value.file is None
+
+
+def test_single_files_see_each_other(write) -> None:
+    """A package in one file, a model that uses it in another; and a place in either is named."""
+    parts = write(
+        "package Parts\n  model Leak\n    Real x(start=1, fixed=true);\n  equation\n    der(x) = -x;\n"
+        "  end Leak;\nend Parts;\n",
+        "Parts.mo",
+    )
+    user = write("model Uses\n  Parts.Leak leak;\n  Real y = 2*leak.x;\nend Uses;\n", "Uses.mo")
+    for order in ([parts, user], [user, parts]):
+        model = load("Uses", order)
+        assert {v.name for v in model.variables} == {"leak.x", "y"}
+        lines = {(equation.span.file.name, equation.span.line) for equation in model.equations if equation.span.file}
+        assert ("Parts.mo", 5) in lines
+    parts.write_text(parts.read_text().replace("der(x) = -x", "der(x) = = x"))
+    with pytest.raises(BuildError, match="syntax error") as caught:
+        load("Uses", [user, parts])
+    assert (caught.value.file, caught.value.line) == (parts, 5)
