@@ -12,6 +12,7 @@ from pysim.effects._numbers import number
 from pysim.types import BadInput, Effect, EffectParameter
 
 VENDOR = "__HydraulicTestBench"  # the annotation's name
+STANDARD_LIBRARY = Path(__file__).resolve().parents[2] / "modelica" / "HydraulicTestBench"  # the one that comes along
 
 
 @dataclass(frozen=True)

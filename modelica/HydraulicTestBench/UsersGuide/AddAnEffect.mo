@@ -2,19 +2,27 @@ within HydraulicTestBench.UsersGuide;
 class AddAnEffect "How to add a physical effect"
   extends Icons.Information;
   annotation(DocumentationClass=true, Documentation(info="<html>
+<p>The effects that come along are in <code>Effects</code>: look there first, and at one of its classes as a pattern. An
+effect of your own takes four steps:</p>
 <ol>
 <li>Find the slot whose filling sees what the effect depends on and gives what it acts on (<code>Slots</code>).</li>
 <li>Write one class: extend the slot's partial class, declare the strength as a parameter whose off value makes the term
 exactly zero, and give the missing equations. Keep it smooth; use an event only where the physics has one.</li>
-<li>Extend <code>Pump.SwashPlateControl</code> and redeclare the slot, all slots in one such extension.</li>
+<li>Say in the class's annotation what it is: <code>__HydraulicTestBench(effect=\"my.friction\",
+slot=\"pistonForce\")</code>, with a name of your own. Give each parameter <code>min</code>, <code>max</code> and
+<code>nominal</code>. Then <code>pysim</code> finds it in your library, and it takes part in a diagnosis beside the
+others.</li>
+<li>To use it by hand, extend <code>Pump.SwashPlateControl</code> and redeclare the slot, all slots in one such
+extension.</li>
 </ol>
 <pre>
 model PistonCoulomb &quot;Dry friction at the control piston&quot;
   extends HydraulicTestBench.Interfaces.PartialPistonForce;
-  parameter HydraulicTestBench.Types.Force F_c(min=0) = 0 &quot;Friction force, 0 = off&quot;;
+  parameter HydraulicTestBench.Types.Force F_c(min=0, max=500, nominal=80) = 0 &quot;Friction force, 0 = off&quot;;
   constant HydraulicTestBench.Types.Velocity v_t = 1e-3 &quot;Width of the sign change&quot;;
 equation
   f = -F_c*tanh(v/v_t);
+  annotation(__HydraulicTestBench(effect=&quot;my.friction&quot;, slot=&quot;pistonForce&quot;));
 end PistonCoulomb;
 
 model PumpWithFriction &quot;Locked parameter set, with dry friction&quot;
@@ -31,28 +39,14 @@ over a
 redeclaration of a slot that the extended class has itself inherited, without a word. For the same reason a second
 effect is
 added to the same extension, not by extending the first extension.</p>
-<p><b>Two effects in one slot:</b> a class that extends the same partial class, holds both effects as components,
-hands its
-inputs to both and adds their forces or flows; signals go through one after the other.</p>
+<p><b>Two effects in one slot:</b> <code>Effects.Pairs</code> has a class for each slot that several effects want.
+Forces add; signals go through one after the other. Where a slot of your own needs one, hold both effects as components, hand
+them the inputs, add their outputs, and annotate it with <code>pair</code>, as the classes there do.</p>
 <pre>
-model PistonPreload &quot;Preload of the centring springs&quot;
-  extends HydraulicTestBench.Interfaces.PartialPistonForce;
-  parameter HydraulicTestBench.Types.Force F_0(min=0) = 0 &quot;Preload, 0 = off&quot;;
-  constant HydraulicTestBench.Types.Length x_t = 0.2e-3 &quot;Width of the sign change&quot;;
-equation
-  f = -F_0*tanh(x/x_t);
-end PistonPreload;
-
 model FrictionAndPreload &quot;Both forces at once&quot;
-  extends HydraulicTestBench.Interfaces.PartialPistonForce;
-  PistonCoulomb friction(F_c=80) &quot;First&quot;;
-  PistonPreload preload(F_0=50) &quot;Second&quot;;
-equation
-  friction.x = x;
-  friction.v = v;
-  preload.x = x;
-  preload.v = v;
-  f = friction.f + preload.f;
+  extends HydraulicTestBench.Effects.Pairs.PistonForces(
+    redeclare PistonCoulomb first(F_c=80),
+    redeclare HydraulicTestBench.Effects.SpringPreload second(F_0=50));
 end FrictionAndPreload;
 
 model PumpWithBoth &quot;Free parameter set, with dry friction and preload&quot;

@@ -1,0 +1,1 @@
+"""Every two effects of the catalogue in one pump."""
