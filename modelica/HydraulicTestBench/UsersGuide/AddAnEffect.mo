@@ -40,8 +40,9 @@ redeclaration of a slot that the extended class has itself inherited, without a 
 effect is
 added to the same extension, not by extending the first extension.</p>
 <p><b>Two effects in one slot:</b> <code>Effects.Pairs</code> has a class for each slot that several effects want.
-Forces add; signals go through one after the other. Where a slot of your own needs one, hold both effects as components, hand
-them the inputs, add their outputs, and annotate it with <code>pair</code>, as the classes there do.</p>
+Forces add; signals go through one after the other. Where a slot of your own needs one, hold both effects as
+components, hand them the inputs, add their outputs, and annotate it with <code>pair</code>, as the classes there
+do.</p>
 <pre>
 model FrictionAndPreload &quot;Both forces at once&quot;
   extends HydraulicTestBench.Effects.Pairs.PistonForces(
