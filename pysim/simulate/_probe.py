@@ -8,11 +8,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from pysim.simulate._base import Solver
 from pysim.simulate._check import check_experiment
 from pysim.simulate._library import CallFailed, Instance, Library
 from pysim.simulate._run import initialise
 from pysim.simulate._varied import Directions, Varied, vary
+from pysim.simulate.esdirk import Esdirk
 from pysim.types import BadInput, Experiment, Model, Outcome, Variable
 
 Array = NDArray[np.float64]
@@ -101,7 +101,7 @@ def both_sides(model: Model, experiment: Experiment, name: str, share: float) ->
     return experiment.override(**{name: up}), experiment.override(**{name: down}), up - down
 
 
-def probe(library: Library, experiment: Experiment, solver: Solver, parameters: Sequence[str]) -> Offer:
+def probe(library: Library, experiment: Experiment, solver: Esdirk, parameters: Sequence[str]) -> Offer:
     """Ask the FMU, at the experiment's start, for every derivative that is wanted.
 
     A column that it refuses, or that is not what a difference shows, is not part of the offer.
@@ -119,7 +119,7 @@ def probe(library: Library, experiment: Experiment, solver: Solver, parameters: 
 
 
 def probe_each(
-    library: Library, experiments: Sequence[Experiment], solver: Solver, parameters: Sequence[str]
+    library: Library, experiments: Sequence[Experiment], solver: Esdirk, parameters: Sequence[str]
 ) -> dict[tuple[str, ...], Offer]:
     """The offer for each choice of variables to record."""
     offers: dict[tuple[str, ...], Offer] = {}
@@ -134,7 +134,7 @@ def _is_start(variable: Variable) -> bool:
 
 
 def at_start(
-    library: Library, experiment: Experiment, solver: Solver, directions: Directions, start: Array | None = None
+    library: Library, experiment: Experiment, solver: Esdirk, directions: Directions, start: Array | None = None
 ) -> Varied | None:
     """The run's first point; None where the FMU refuses."""
     try:
@@ -145,14 +145,14 @@ def at_start(
 
 
 def _begin(
-    instance: Instance, experiment: Experiment, solver: Solver, directions: Directions, start: Array | None
+    instance: Instance, experiment: Experiment, solver: Esdirk, directions: Directions, start: Array | None
 ) -> Varied | None:
     initialise(instance, experiment, solver)
     varied = vary(instance, experiment, solver, directions, start=start)
     return varied if varied.outcome is Outcome.DONE else None
 
 
-def _derivatives(library: Library, experiment: Experiment, solver: Solver, point: Array) -> tuple[Array, Array] | None:
+def _derivatives(library: Library, experiment: Experiment, solver: Esdirk, point: Array) -> tuple[Array, Array] | None:
     """Derivatives (n_x,) of the states at the start, were they at that point, and the size of what adds up to them."""
     varied = at_start(library, experiment, solver, Directions(states=True, outputs=False), point)
     if varied is None:
@@ -161,7 +161,7 @@ def _derivatives(library: Library, experiment: Experiment, solver: Solver, point
     return rates, np.abs(rates) + np.abs(varied.job.array("work", "jacobian").T) @ np.abs(varied.states)
 
 
-def _agrees(library: Library, experiment: Experiment, solver: Solver, name: str, point: Array) -> bool:
+def _agrees(library: Library, experiment: Experiment, solver: Esdirk, name: str, point: Array) -> bool:
     """Whether the FMU's derivative by a parameter is the one that a central difference shows, at those states."""
     given = at_start(library, experiment, solver, Directions((name,), outputs=False), point)
     if given is None:

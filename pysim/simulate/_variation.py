@@ -10,6 +10,7 @@ The lengths of the steps are taken as they are (internal numerical differentiati
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
@@ -39,6 +40,9 @@ VARIATION = np.dtype(
         ("right", np.int64),  # (n, c)
         ("inside", np.int64),  # (n, c) within a step
         ("weights", np.int64),  # (s,)
+        ("tolerance", np.float64),  # tolerated error of a step in a column of S, of the column's largest size so far
+        ("error", np.int64),  # (n, c)
+        ("sizes", np.int64),  # (c,) those sizes
         ("forcing", np.int64),  # (n_p, n) F
         ("rows", np.int64),  # (n_t, n_y, c) derivatives of what is recorded
         ("kinds", np.int64),  # (n_y,) of int64: number of the state a variable is, or one of the kinds below
@@ -135,6 +139,27 @@ def _add_forcing(job: Any, target: int, factor: float) -> None:
     for p in range(v.parameters):
         for i in range(n):
             rows[i * v.columns + v.by_start + p] += factor * forcing[p * n + i]
+
+
+@native
+def variation_error(job: Any, h: float) -> float:
+    """Largest error of a column of S in the step just taken, over what is tolerated; states weigh as in their own."""
+    v, work, control = job.variation, job.work, job.control
+    x, nominal = doubles(work.x_new), doubles(work.nominal)
+    error, s, sizes, worst = doubles(v.error), doubles(v.inside), doubles(v.sizes), 0.0
+    for r in range(work.n * v.columns):
+        error[r] = 0.0
+    add_rows(v.error, v.k, job.method.error, job.method.stages, h, v.error, work.n * v.columns)
+    for c in range(v.by_start + v.parameters):
+        wrong, size = 0.0, 0.0
+        for i in range(work.n):
+            weight = 1.0 / (control.atol * nominal[i] + control.rtol * abs(x[i]))
+            wrong += (weight * error[i * v.columns + c]) ** 2
+            size += (weight * s[i * v.columns + c]) ** 2
+        sizes[c] = max(sizes[c], math.sqrt(size))
+        if sizes[c] > 0.0:
+            worst = max(worst, math.sqrt(wrong) / sizes[c])
+    return worst / v.tolerance
 
 
 @native

@@ -20,6 +20,7 @@ from pysim.simulate._variation import (
     end_variation,
     note_range,
     record_variation,
+    variation_error,
     vary_inside,
     vary_step,
 )
@@ -77,16 +78,19 @@ def _restart(job: Any) -> int:
 def _advance(job: Any) -> int:
     """One accepted step, its derivative, and what is recorded in it."""
     fmu, run, work = job.fmu, job.run, job.work
-    code, h, t_new = accepted_step(job, next_target(job))
-    if code != RUNNING:
-        return code
+    while True:
+        code, h, t_new = accepted_step(job, next_target(job))
+        if code != RUNNING:
+            return code
+        run.status = WARNING if run.status > WARNING else run.status  # what was rejected is forgiven
+        status = get_indicators(fmu, work.z_new, work.m)
+        if status <= WARNING and crossed(job, work.z, work.z_new):
+            return EVENT
+        if status <= WARNING and job.variation.columns > 0:
+            status = vary_step(job, h)
+        if status > WARNING or not _shorten(job, h):
+            break
     run.steps += 1
-    run.status = WARNING if run.status > WARNING else run.status  # what was rejected is forgiven
-    status = get_indicators(fmu, work.z_new, work.m)
-    if status <= WARNING and crossed(job, work.z, work.z_new):
-        return EVENT
-    if status <= WARNING and job.variation.columns > 0:
-        status = vary_step(job, h)
     if status <= WARNING:
         status = _record_inside(job, h, t_new)
     if status <= WARNING:
@@ -95,6 +99,23 @@ def _advance(job: Any) -> int:
         status = completed_step(fmu)
     run.status = max(run.status, status)
     return _arrive(job, t_new) if status <= WARNING else MODEL_ERROR
+
+
+@native
+def _shorten(job: Any, h: float) -> bool:
+    """Whether the step has to be taken again because a derivative is too far off; sets the length to try next."""
+    run, v = job.run, job.variation
+    if not (v.columns > 0 and v.tolerance < np.inf):
+        return False
+    error = variation_error(job, h)
+    wanted = h * max(0.9 * max(error, 1e-6) ** (-1.0 / job.method.error_order), 0.2)
+    if error <= 1.0 or not wanted > 1e-12 * (run.end - run.start):
+        run.h = min(run.h, wanted)
+        return False
+    run.rejected += 1
+    run.h = wanted
+    run.jacobian_at = np.nan  # what is there belongs to the end of the step
+    return True
 
 
 @native

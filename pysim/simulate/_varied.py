@@ -9,7 +9,6 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from pysim.simulate._base import Solver
 from pysim.simulate._blocks import VECTOR
 from pysim.simulate._job import Job
 from pysim.simulate._library import Instance
@@ -75,7 +74,7 @@ class Varied(NamedTuple):
 def vary(
     instance: Instance,
     experiment: Experiment,
-    solver: Solver,
+    solver: Esdirk,
     directions: Directions,
     *,
     start: Array | None = None,
@@ -88,7 +87,7 @@ def vary(
     Args:
         instance: in event mode; with `rewind` where the run before left it, of which no event may have been part.
         experiment: checked.
-        solver: an `Esdirk`.
+        solver: tolerances and limits.
         directions: of the derivatives.
         start: (n_x,) states to start from; those of the FMU where None.
         start_by: (n_x, n_p) how the start states depend on the parameters; not at all where None.
@@ -105,6 +104,7 @@ def vary(
     else:
         job.restart(experiment.start, float(experiment.times[-1]))
         job.change("rows", {"next": 0})
+    job.change("variation", {"tolerance": solver.derivative_tol})
     job.change("variation", _of_this_run(job, experiment, start, start_by, rewind))
     code = RUNNING
     while code == RUNNING and not stopped():
@@ -152,6 +152,7 @@ def _of_this_run(
         "start": 0 if start is None else np.array(start, dtype=np.float64),
         "start_by": first,
         "rows": np.zeros((experiment.times.size, len(experiment.record), width)),
+        "sizes": np.zeros(width),
         "low": np.full(n, np.inf),
         "high": np.full(n, -np.inf),
     }
@@ -172,6 +173,7 @@ def _arrays(model: Model, record: tuple[str, ...], directions: Directions) -> di
         "k": np.zeros((_STAGES, n, width)),
         "right": np.zeros((n, width)),
         "inside": np.zeros((n, width)),
+        "error": np.zeros((n, width)),
         "weights": np.zeros(_STAGES),
         "forcing": np.zeros((len(parameters), n)),
         **_recorded(model, record, directions, by_start, width),

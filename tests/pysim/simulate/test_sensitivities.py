@@ -139,6 +139,34 @@ def test_pump_agrees_with_differences_of_tight_runs_in_every_column():
         assert (np.abs(found.by_parameter[:, :, p] - difference).max(axis=0) <= 1e-4 * size).all(), name
 
 
+def test_derivatives_may_choose_the_steps(fixture_model):
+    times = np.linspace(0, 10, 41)
+    loose, driven = (
+        sensitivities(fixture_model(OSCILLATOR), forced(times), ("w", "D"), solver=Esdirk(1e-3, 1e-3, derivative_tol=d))
+        for d in (math.inf, 1e-6)
+    )
+    errors = [np.abs(found.by_parameter[:, 0] - oscillation_by(times)[:, :2]).max() for found in (loose, driven)]
+    assert errors[0] > 2e-2
+    assert errors[1] < 2e-4
+    assert driven.record.statistics["steps"] > loose.record.statistics["steps"]
+
+
+def test_kink_of_the_model_asks_for_derivatives_in_the_step_rule():
+    """A step of the command saturates the valve; the reference is a difference of tight runs."""
+    model, times = pump_model("free"), np.linspace(0, 0.2, 41)
+    command = {"alphaCMD": sine(2 * math.pi * 3, 10.0, 30.0)}
+    run = Experiment(times, ("alphaPercent",), command, rates={"alphaCMD_t": "alphaCMD"})
+    value = model["omega_v"].start
+    sides = [run.override(omega_v=value * (1 + sign * 1e-4)) for sign in (1, -1)]
+    up, down = (simulate(model, side, solver=Rodas(1e-10, 1e-10)).values for side in sides)
+    difference = (up - down) / (2e-4 * value)
+    error = [
+        np.abs(sensitivities(model, run, ("omega_v",), solver=s).by_parameter[:, :, 0] - difference).max()
+        for s in (Esdirk(1e-5, 1e-5), Esdirk(1e-5, 1e-5, derivative_tol=1e-4))
+    ]
+    assert error[1] < 0.3 * error[0] < 0.3 * 0.05 * np.abs(difference).max()
+
+
 def test_failed_run_is_an_outcome_or_an_error(fixture_model):
     beyond = Experiment(np.linspace(0, 3, 31), ("x",))
     with pytest.raises(SimulationError) as failure:
