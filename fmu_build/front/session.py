@@ -1,11 +1,12 @@
 """Runs rumoca: finds the class, compiles it, and turns every failure into one `BuildError` with a place."""
 
+import importlib.util
+import json
 import os
 import re
+import subprocess
 import sys
-import tempfile
-from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Mapping, Sequence
 from itertools import accumulate
 from math import isfinite
 from pathlib import Path
@@ -13,12 +14,14 @@ from typing import Any
 
 from fmu_build.errors import BuildError
 from fmu_build.front.joined import JoinedText, join
-from fmu_build.front.source import ClassSource
+from fmu_build.front.source import ClassSource, read_text
 from fmu_build.front.tokens import tokenise
 
 WRAPPER = "OverridesOfThisBuild"
 Override = float | str  # a number, or Modelica text
 _NOISE = re.compile(r"^(?:[a-z]+ failed: )?(?:\S+ (?:could not be compiled|failed in \w+): )?")
+_BYTES = re.compile(r"start: BytePos\((\d+)\), end: BytePos\((\d+)\)")
+_WORKER = Path(__file__).with_name("rumoca_worker.py")
 PLACE = re.compile(r"\[([^\[\]\n]+?\.mo):(\d+):\d+\]")
 
 
@@ -53,15 +56,12 @@ def _compile(
         name = WRAPPER
         text += f"\nmodel {WRAPPER}\n  extends {source.name}{modification};\nend {WRAPPER};\n"
     file_name = _stand_in(source) if joined.parts else f"{WRAPPER}.mo"
-    rumoca = _import_rumoca()
-    with _quiet_stderr():
-        try:
-            model = rumoca.Session(roots=roots).loads(text, model=name, filename=file_name)
-            dae, flat = model.to_dict("dae"), model.to_dict("flat")
-        except BaseException as failure:  # a panic in rumoca is no Exception
-            if isinstance(failure, KeyboardInterrupt | SystemExit):
-                raise
-            raise _explain(failure, source, joined, libraries, rumoca) from None
+    files = [str(file) for file in (*joined.parts, *_library_files(libraries))]
+    request = {"roots": roots, "text": text, "name": name, "file_name": file_name, "files": files}
+    answer = _ask_rumoca(request, source)
+    if "forms" not in answer:
+        raise _explain(answer, source, joined, libraries)
+    dae, flat = answer["forms"]
     for known in dae["source_map"]["files"]:  # [number, name, text]
         if known[1] == _stand_in(source):
             known[1] = joined
@@ -73,14 +73,32 @@ def _stand_in(source: ClassSource) -> str:
     return f"FolderOfThisBuild/{source.file.name}"
 
 
-def _import_rumoca() -> Any:
+def _library_files(libraries: Sequence[Path]) -> list[Path]:
+    return [file for library in libraries if library.is_dir() for file in sorted(library.rglob("*.mo"))]
+
+
+def _ask_rumoca(request: Mapping[str, Any], source: ClassSource) -> dict[str, Any]:
+    """What the worker answers. It costs 0.1 s to start; without it, an abort in the parser would end this process."""
+    if importlib.util.find_spec("rumoca") is None:
+        raise BuildError("building from Modelica needs rumoca 0.10.2; install it with: pip install rumoca==0.10.2")
+    done = subprocess.run(
+        [sys.executable, "-P", str(_WORKER)],
+        input=json.dumps(request).encode(),
+        capture_output=True,
+        env={**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))},
+        check=False,
+    )
     try:
-        import rumoca
-    except ImportError:
+        answer: dict[str, Any] = json.loads(done.stdout)
+        return answer
+    except ValueError:
+        last = done.stderr.decode(errors="replace").strip().splitlines()[-1:]
         raise BuildError(
-            "building from Modelica needs rumoca 0.10.2; install it with: pip install rumoca==0.10.2"
+            f"the Modelica compiler crashed on {source.name} ({'; '.join([f'exit code {done.returncode}', *last])}); "
+            "leave out parts of the class to find what it cannot take",
+            source.file,
+            source.line,
         ) from None
-    return rumoca
 
 
 def _modification(overrides: Mapping[str, Override]) -> str:
@@ -114,15 +132,14 @@ def _value_text(name: str, value: Override) -> str:
 
 
 def _explain(
-    failure: BaseException, source: ClassSource, joined: JoinedText, libraries: Sequence[Path], rumoca: Any
+    answer: Mapping[str, Any], source: ClassSource, joined: JoinedText, libraries: Sequence[Path]
 ) -> BuildError:
-    text = str(failure)
-    syntax = _syntax_error(text, source, libraries, rumoca)
-    if syntax is not None:
-        return syntax
+    text = str(answer["failure"])
+    if answer["syntax"] is not None:
+        return _syntax_error(*answer["syntax"])
     message = _NOISE.sub("", " ".join(text.split("\nRelated failures")[0].split()))
     message = message.replace(WRAPPER, source.name)
-    if type(failure).__name__ == "PanicException":
+    if answer["panic"]:
         detail = re.search(r'detail: "([^"]*)"', text)
         message = detail.group(1) if detail else f"the Modelica compiler failed: {message}"
     message = _in_plain_words(message)
@@ -133,7 +150,21 @@ def _explain(
         if place.group(1) == _stand_in(source):
             file, line = joined.place(line)
         return BuildError(message, file, line)
-    return BuildError(message, source.file, source.line)
+    return BuildError(message, *(_place_of_bytes(text, joined, libraries) or (source.file, source.line)))
+
+
+def _place_of_bytes(text: str, joined: JoinedText, libraries: Sequence[Path]) -> tuple[Path, int] | None:
+    """File and line of the der(...) that a panic names by its bytes, without the file they are counted in."""
+    found = _BYTES.search(text)
+    if not found or "derivative" not in text:
+        return None
+    begin, end = int(found.group(1)), int(found.group(2))
+    for file, content in ((None, joined.text), *((file, read_text(file)) for file in _library_files(libraries))):
+        written = content.encode()
+        if re.fullmatch(rb"der\s*\(.*\)", written[begin:end], re.DOTALL):
+            line = written.count(b"\n", 0, begin) + 1
+            return joined.place(line) if file is None else (file, line)
+    return None
 
 
 def _in_plain_words(message: str) -> str:
@@ -152,36 +183,8 @@ def _in_plain_words(message: str) -> str:
     return message
 
 
-def _syntax_error(text: str, source: ClassSource, libraries: Sequence[Path], rumoca: Any) -> BuildError | None:
-    """rumoca names the place of a syntax error only when asked to validate the file."""
-    if "unexpected" not in text and "parse source-root" not in text:
-        return None
-    files = [source.file] if source.is_single_file else []
-    files += [library for library in libraries if library.is_file() and library != source.file]
-    files += [file for library in libraries if library.is_dir() for file in sorted(library.rglob("*.mo"))]
-    for file in files:
-        for found in rumoca.validate(str(file)):
-            if found.rule == "syntax-error":
-                place = re.search(r"\.mo:(\d+):\d+\]", found.message)
-                what = re.search(r"(unexpected [^\n]*|expected [^\n]*)", found.message)
-                line = int(place.group(1)) if place else found.line
-                return BuildError(f"syntax error: {what.group(1) if what else found.rule}", file, line)
-    return None
-
-
-@contextmanager
-def _quiet_stderr() -> Iterator[None]:
-    """Keep what rumoca's native code writes to stderr (the backtrace of a panic) from the user."""
-    sys.stderr.flush()
-    try:
-        keep = os.dup(2)
-    except OSError:  # no stderr, as in a windowed application
-        yield
-        return
-    with tempfile.TemporaryFile() as sink:
-        os.dup2(sink.fileno(), 2)
-        try:
-            yield
-        finally:
-            os.dup2(keep, 2)
-            os.close(keep)
+def _syntax_error(file: str, line: int, message: str) -> BuildError:
+    place = re.search(r"\.mo:(\d+):\d+\]", message)
+    what = re.search(r"(unexpected [^\n]*|expected [^\n]*)", message)
+    line = int(place.group(1)) if place else line
+    return BuildError(f"syntax error: {what.group(1) if what else message}", Path(file), line)

@@ -98,7 +98,7 @@ def test_what_is_no_model_is_refused_by_its_kind(library, write):
     [
         ("model M\n  Real x\nequation\n  der(x) = 1;\nend M;", 2, "syntax error: unexpected `x`"),
         ("model M\n  Real x;\n  Real y;\nequation\n  der(x) = 1;\nend M;", 1, "unbalanced"),
-        ("model M\n  input Real u;\n  Real y;\nequation\n  y = der(u);\nend M;", 1, "der"),
+        ("model M\n  input Real u;\n  Real y;\nequation\n  y = der(u);\nend M;", 5, "der"),
         ('model M\n  Real x = time;\n  String s = "a";\nend M;', 3, "s is a String variable"),
         ("model M\n  Real x;\n  Real y;\nequation\n  x = 1;\nend M;", 1, "1 equations for 2 unknowns; add 1"),
         ("model M\n  Real x[2];\nequation\n  x = {1, 2, 3};\nend M;", 4, "dimension"),

@@ -1,0 +1,55 @@
+"""The compiler runs in a process of its own; what it cannot say, we find out."""
+
+import sys
+
+import pytest
+
+from fmu_build.errors import BuildError
+from fmu_build.front import load, session
+
+MODEL = "model M\n  Real x(start = 1, fixed = true);\nequation\n  der(x) = -x;\nend M;\n"
+
+
+@pytest.fixture
+def file(tmp_path):
+    file = tmp_path / "M.mo"
+    file.write_text(MODEL, encoding="utf-8")
+    return file
+
+
+@pytest.mark.parametrize(
+    ("worker", "said"),
+    [
+        ("import os, sys; print('stack overflow', file=sys.stderr, flush=True); os.abort()", "stack overflow"),
+        ("raise SystemExit(7)", "exit code 7"),
+        ("print('half of an ans')", "exit code 0"),
+    ],
+)
+def test_a_compiler_that_dies_is_one_error_with_the_place_of_the_class(file, tmp_path, monkeypatch, worker, said):
+    script = tmp_path / "worker.py"
+    script.write_text(worker, encoding="utf-8")
+    monkeypatch.setattr(session, "_WORKER", script)
+    with pytest.raises(BuildError, match="the Modelica compiler crashed on M ") as caught:
+        load("M", [file])
+    assert said in caught.value.message
+    assert (caught.value.file, caught.value.line) == (file, 1)
+
+
+def test_the_native_compiler_stays_out_of_this_process(file):
+    loaded = {name for name in sys.modules if name.split(".")[0] == "rumoca"}
+    assert load("M", [file]).name == "M"
+    assert {name for name in sys.modules if name.split(".")[0] == "rumoca"} == loaded
+
+
+def test_the_derivative_of_an_input_is_named_in_the_library_file_that_takes_it(tmp_path):
+    library = tmp_path / "L"
+    library.mkdir()
+    (library / "package.mo").write_text("package L\nend L;\n", encoding="utf-8")
+    (library / "Rate.mo").write_text(
+        'within L;\nblock Rate "\N{DEGREE SIGN}/s"\n  input Real u;\n  output Real y;\n'
+        "equation\n\n  y = der(u);\nend Rate;\n",
+        encoding="utf-8",
+    )
+    with pytest.raises(BuildError, match=r"der\(\) of an input") as caught:
+        load("L.Rate", [library])
+    assert (caught.value.file, caught.value.line) == (library / "Rate.mo", 7)
