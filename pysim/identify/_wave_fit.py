@@ -12,6 +12,7 @@ from pysim.identify._near_orthogonal import near_orthogonal_fit
 
 Array = NDArray[np.float64]
 
+_FEWEST = 32  # samples that show how noisy a log is
 _WHOLE = 0.01  # of the amplitude: a log that is nowhere further from one sine has no lead-in
 
 
@@ -56,13 +57,15 @@ def fit_sine(t: Array, y: Array, omega: float) -> Wave:
 def sine_start(t: Array, y: Array, omega: float, step: float) -> tuple[Wave, slice]:
     """The stretch of a period that is most a sine, and its fit; the whole log where it is one, or not longer.
 
+    At high frequencies it is longer than a period, so that it shows how noisy the log is.
+
     Args:
         t, y: (n,).
         omega: rad/s.
         step: rounding of y.
     """
     dt = float(np.median(np.diff(t)))
-    count = max(round(2 * np.pi / omega / dt), 8)
+    count = max(round(2 * np.pi / omega / dt), min(_FEWEST, t.size // 2), 8)
     best, inside, record = fit_sine(t, y, omega), slice(0, t.size), -1.0
     if np.max(np.abs(y - best.value(t))) <= max(2 * step, _WHOLE * best.amplitude):
         return best, inside
@@ -130,7 +133,8 @@ def chirp_start(t: Array, y: Array) -> tuple[Wave, slice] | None:
         c = np.polyfit(times[good] - origin, half_turns[good], 2)
         error = np.abs(np.polyval(c, times - origin) - half_turns)
         good = error <= max(6 * float(np.median(error)), 0.05)
-    first, last = np.flatnonzero(good)[[0, -1]]
+    sure = np.flatnonzero(good)
+    first, last = sure[[1, -2]] if sure.size > 7 else sure[[0, -1]]  # the outermost may belong to the ramps
     phase = float(c[2]) + (0.0 if upwards[0] else np.pi)
     wave = Wave(offset, amplitude, phase, float(c[1]), float(2 * c[0]), origin)
     return wave, slice(int(np.searchsorted(t, times[first])), int(np.searchsorted(t, times[last])) + 1)

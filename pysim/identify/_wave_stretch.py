@@ -19,6 +19,8 @@ _ALONE = 4
 # Samples further off than this many standard deviations do not count in a fit.
 _OUTLIER = 6.0
 _ROUNDS = 20
+# Of so many last samples at most, those are cut whose sum is off by more than this many of its standard deviations.
+_BEND, _TOGETHER = 50, 4.5
 
 
 @dataclass(frozen=True)
@@ -100,6 +102,9 @@ def grow(log: Log, start: tuple[Wave, slice], fit: Fit) -> Stretch:
         if grown == inside:
             break
         inside = grown
+    if inside.stop < log.time.size:
+        inside = _without_bend(log, wave, inside)
+        wave = _trimmed(log, inside, wave, fit)
     start_time = float(log.time[inside.start])
     for _ in range(_ROUNDS if inside.start > 0 else 0):  # samples of the hold may lie near the wave, and bend it
         start_time = _onset(log, wave, inside, tolerance)
@@ -112,6 +117,23 @@ def grow(log: Log, start: tuple[Wave, slice], fit: Fit) -> Stretch:
     rms = float(np.sqrt(np.mean(left_over**2)))
     memory = float(left_over[1:] @ left_over[:-1]) / max(float(left_over @ left_over), 1e-300)
     return Stretch(wave, inside, start_time, rms, tolerance, abs(memory) < 5 / np.sqrt(left_over.size))
+
+
+def _without_bend(log: Log, wave: Wave, inside: slice) -> slice:
+    """The stretch without those last samples that are off together, though each alone is not: a ramp has begun.
+
+    Within a quarter period of the wave's end, for where it is faster it leaves a ramp at once.
+    """
+    error = (log.values - wave.value(log.time))[inside]
+    last = float(log.time[inside.stop - 1])
+    quarter = 0.5 * np.pi / max(float(wave.omega_at(last)), 1e-9) / float(np.median(np.diff(log.time)))
+    behind = np.arange(1, int(min(_BEND, quarter, error.size // 2)) + 1)
+    if behind.size == 0:
+        return inside
+    together = np.abs(np.cumsum(error[::-1][: behind.size])) / np.sqrt(behind)
+    most = int(np.argmax(together))
+    spread = 1.4826 * float(np.median(np.abs(error))) + log.step
+    return slice(inside.start, inside.stop - (int(behind[most]) if together[most] > _TOGETHER * spread else 0))
 
 
 def _onset(log: Log, wave: Wave, inside: slice, tolerance: float) -> float:

@@ -32,5 +32,5 @@ def log(
     values = test.signal().value(time + jitter * draw.standard_normal(time.size))
     values = values + noise * draw.standard_normal(time.size)
     values = np.round(values / step) * step if step else np.round(values, decimals)
-    data = Record(np.round(time, 6), values[:, None], ("cmd",), ("%",), origin="measured")
+    data = Record(np.round(time, 9), values[:, None], ("cmd",), ("%",), origin="measured")
     return MeasuredRecord("log.txt", kind, "fit", data, frequency=frequency)

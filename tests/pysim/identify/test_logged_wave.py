@@ -122,3 +122,30 @@ def test_no_lead_in_starts_at_the_first_sample() -> None:
     assert wave.start == 5.3
     assert wave.phase == pytest.approx(2 * np.pi * 0.1 * 3.3, abs=1e-6)
     assert LeadIn().onset == 2.0
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_waves_of_all_kinds_are_found(seed: int) -> None:
+    """Drawn tests: sampling, lead-in, noise, quantisation, direction; the log whole, or the wave alone."""
+    draw = np.random.default_rng(seed)
+    offset, amplitude, rate = draw.uniform(-80, 80), 10 ** draw.uniform(-0.3, 1.5), float(draw.choice([70, 250, 1000]))
+    lead = LeadIn(draw.uniform(0, 1), draw.uniform(0.1, 1), draw.uniform(0.05, 2), draw.uniform(0, 1))
+    noise, step = float(draw.choice([0.0, 0.002, 0.01])) * amplitude, float(draw.choice([0.0, 0.01])) * amplitude
+    fastest, frequency = min(30.0, rate / 2.5), None
+    test: SteppedSineCommand | Chirp
+    if draw.random() < 0.4:
+        frequency = 10 ** draw.uniform(-1, np.log10(fastest))
+        test = SteppedSineCommand(offset, amplitude, frequency, max(2.0, 2 * frequency), lead)
+    else:
+        ends = draw.permutation([draw.uniform(0, 2), draw.uniform(5, fastest)])
+        test = Chirp(offset, amplitude, *ends, draw.uniform(10, 40), lead)
+    bounds = {"first": 0.0, "last": test.duration} if draw.random() < 0.6 else {}
+    kind = "chirp" if frequency is None else "frequency-response"
+    record = log(test, kind, frequency=frequency, rate=rate, noise=noise, step=step, seed=seed, **bounds)
+    wave = logged_wave(record, "cmd")
+    found = replace(wave, start=max(wave.start, test.onset), end=min(wave.end, test.end))
+    assert (found.end - found.start) > 0.97 * (test.end - test.onset)
+    t = np.linspace(found.start, found.end, 3001)[:-1]
+    off = np.max(np.abs(wave.value(t) - test.signal().value(t)))
+    # at the ends of a parabola of phase the standard deviation is 3 sqrt(2) sigma / sqrt(n)
+    assert off < max(5e-5, 4.5 * 3 * np.sqrt(2) * (noise + step) / np.sqrt((found.end - found.start) * rate))
