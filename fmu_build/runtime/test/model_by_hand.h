@@ -17,4 +17,11 @@
 
 #define LENGTH(array) (sizeof(array) / sizeof((array)[0]))
 
+/* Fields of `model` that are called as what they hold: those of every model, ... */
+#define BASICS                                                                                             \
+    .n_variables = LENGTH(variables), .variables = variables, .start_x = start_x, .nominal_x = nominal_x, \
+    .start = start, .derivatives = derivatives
+/* ... and those of a model that gives its partial derivatives. */
+#define PARTIALS .jacobian = jacobian, .forward = forward, .reverse = reverse
+
 #endif

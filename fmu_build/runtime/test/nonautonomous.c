@@ -30,12 +30,7 @@ const Model model = {
     .name = "Nonautonomous",
     .token = "{nonautonomous}",
     .n_x = 2,
-    .n_variables = LENGTH(variables),
-    .variables = variables,
-    .start_x = start_x,
-    .nominal_x = nominal_x,
+    BASICS,
     .tolerance = 1e-6,
-    .start = start,
-    .derivatives = derivatives,
     .jacobian = jacobian,
 };
