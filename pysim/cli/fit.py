@@ -31,6 +31,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--signal", metavar="NAME", action="append", help="compare only this output; repeat")
     parser.add_argument("--starts", metavar="N", type=int, default=0, help="more searches, drawn between the bounds")
     parser.add_argument("--seed", metavar="S", type=int, help="of the draw")
+    parser.add_argument("--trust-start", action="store_true", help="do not try the model's own values beside --start")
     parser.add_argument("--profile", metavar="NAME", action="append", default=[], help="exact interval; repeat")
     parser.add_argument("--log", metavar="DIR", type=Path, help="log of the search; in --output by default")
     parser.add_argument("--resume", action="store_true", help="go on where the log of a killed fit ends")
@@ -72,7 +73,7 @@ def run(args: argparse.Namespace) -> int:
         objective=OBJECTIVES[args.objective],
         optimiser=optimiser,
         simulation=simulation,
-        effort=Effort(args.starts, args.seed, log, args.resume),
+        effort=Effort(args.starts, args.seed, not args.trust_start, log, args.resume),
         progress=_say,
     )
     print(fit_text(result))
@@ -213,4 +214,9 @@ def _words(args: argparse.Namespace) -> list[str]:
     for option in ("optimiser", "seed", "log", "json", "output"):
         if getattr(args, option) is not None:
             words += [f"--{option}", str(getattr(args, option))]
-    return words + (["--starts", str(args.starts)] if args.starts else []) + (["--isolate"] if args.isolate else [])
+    return (
+        words
+        + (["--starts", str(args.starts)] if args.starts else [])
+        + (["--isolate"] if args.isolate else [])
+        + (["--trust-start"] if args.trust_start else [])
+    )

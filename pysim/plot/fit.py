@@ -59,7 +59,7 @@ def fit_harmonics_figure(records: Sequence[RecordFit], title: str) -> Figure:
     """
     if not records or not all(record.harmonics for record in records):
         raise BadInput("harmonics figure: needs records of stepped sines")
-    figure = new_figure(6.4, 5.2)
+    figure = new_figure(7.4, 5.2)
     top, low = figure.subplots(2, 1, sharex=True, height_ratios=(3, 2))
     rows = sorted((record.harmonics[0] for record in records), key=lambda h: h.frequency)
     most = max(h.measured.size for h in rows)
@@ -71,7 +71,9 @@ def fit_harmonics_figure(records: Sequence[RecordFit], title: str) -> Figure:
         measured = np.abs([h.measured[k] for h in own])
         spread = np.array([h.std[k] for h in own])
         (points,) = top.plot(f, measured, color=colour, marker=marker, markersize=4, linewidth=0)
-        top.vlines(f, np.maximum(measured - 1.96 * spread, 1e-6), measured + 1.96 * spread, color=colour, linewidth=0.8)
+        top.vlines(
+            f, np.maximum(measured - 1.96 * spread, 0.1 * spread), measured + 1.96 * spread, color=colour, linewidth=0.8
+        )
         top.plot(f, np.abs([h.simulated[k] for h in own]), color=colour, linewidth=1.1)
         left = np.abs([h.measured[k] - h.simulated[k] for h in own]) / (spread * np.sqrt(2))
         low.plot(f, left, color=colour, marker=marker, markersize=4, linewidth=0)
@@ -136,5 +138,5 @@ def fit_correlation_figure(fit: Fit) -> Figure:
     axes.set_xticks(range(n), names, rotation=60, fontsize=SMALL)
     axes.set_yticks(range(n), names, fontsize=SMALL)
     bar = figure.colorbar(image, ax=axes, shrink=0.8)
-    bar.set_label("Correlation (grey: not determined)", fontsize=SMALL)
+    bar.set_label("Correlation (grey: not determined, or at a bound)", fontsize=SMALL)
     return figure

@@ -105,7 +105,7 @@ def benchmark(model: Model, runs: Sequence[Experiment]) -> Result:
         records = simulate_many(model, runs, solver=NATIVE)
         times.append(time.perf_counter() - started)
     started = time.perf_counter()
-    tables = _run_fmpy(model, runs)
+    tables = run_fmpy(model, runs)
     cvode = time.perf_counter() - started
     return Result(median(times), cvode, _worst(model, runs, records), _worst(model, runs, tables))
 
@@ -122,7 +122,7 @@ def _worst(model: Model, runs: Sequence[Experiment], results: Sequence[Record]) 
     return worst
 
 
-def _run_fmpy(model: Model, runs: Sequence[Experiment]) -> list[Record]:
+def run_fmpy(model: Model, runs: Sequence[Experiment]) -> list[Record]:
     """`simulate_fmu` for each, with everything prepared that it lets us prepare."""
     folder = str(extracted(model.path))
     description = read_model_description(folder, validate=False)

@@ -37,12 +37,15 @@ class Effort:
     Args:
         starts: searches from starts drawn at random, besides the given and the nominal one.
         seed: of the draw.
+        nominal: search from the model's own values too, where the given start is another. A fit that starts from a
+            bent optimum may never leave it; leave this out only where the start is trusted.
         log: folder for a log per search; None keeps none.
         resume: go on where the log of a killed fit ends.
     """
 
     starts: int = 0
     seed: int | None = None
+    nominal: bool = True
     log: Path | None = None
     resume: bool = False
 
@@ -84,7 +87,7 @@ def fit(
             f"fit: {optimiser.name} needs a sum of squares, and the objective {objective.name!r} sums up absolute "
             "values; choose the interior-point optimiser"
         )
-    begun = starts(problem.model, problem.space, effort.starts, effort.seed)
+    begun = starts(problem.model, problem.space, effort.starts, effort.seed, nominal=effort.nominal)
     states = _searched(problem, objective, optimiser, simulation, effort, begun, progress)
     good = {name: state for name, state in states.items() if state.best.good}
     if not good:

@@ -14,11 +14,12 @@ from pysim.types import BadInput, Model
 Array = NDArray[np.float64]
 
 
-def starts(model: Model, space: ParameterSpace, count: int, seed: int | None) -> Mapping[str, Array]:
+def starts(
+    model: Model, space: ParameterSpace, count: int, seed: int | None, *, nominal: bool = True
+) -> Mapping[str, Array]:
     """Name -> start (n,) in the search's numbers.
 
-    The model's own start values are always among them where they lie within the bounds: a fit that starts from a bent
-    optimum may never leave it.
+    The model's own start values are among them where they lie within the bounds, unless `nominal` is False.
 
     Args:
         count: searches from starts drawn at random, besides the given and the nominal one.
@@ -27,10 +28,10 @@ def starts(model: Model, space: ParameterSpace, count: int, seed: int | None) ->
         BadInput: no seed, or parameters without bounds to draw between.
     """
     found = {"given": space.to_search(space.start)}
-    nominal = np.array([model[name].start for name in space.variables], dtype=np.float64)
-    inside = np.all((nominal >= space.lower) & (nominal <= space.upper))
-    if inside and not np.array_equal(nominal, space.start):
-        found["nominal"] = space.to_search(nominal)
+    own = np.array([model[name].start for name in space.variables], dtype=np.float64)
+    inside = np.all((own >= space.lower) & (own <= space.upper))
+    if nominal and inside and not np.array_equal(own, space.start):
+        found["nominal"] = space.to_search(own)
     if count:
         found |= _drawn(space, count, seed)
     return found

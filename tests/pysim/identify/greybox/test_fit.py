@@ -1,0 +1,205 @@
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.optimize import least_squares
+
+from pysim.identify.greybox import (
+    FREQUENCY,
+    NOISE,
+    TIME,
+    Effort,
+    GaussNewton,
+    Parameter,
+    Simulation,
+    Tie,
+    Treatment,
+    Tried,
+    fit,
+    problem,
+)
+from pysim.simulate import Esdirk
+from pysim.types import BadInput, FitOutcome, Model
+from tests.pysim.identify.greybox import measurements as m
+
+TIGHT = Simulation(solver=Esdirk(rtol=1e-8, atol=1e-8))
+
+
+def test_a_log_over_time_gives_the_closed_form_least_squares_and_its_covariance(lag: Model) -> None:
+    record = m.ramp_log(2.0, 0.7, seed=1)
+    found = fit(problem(lag, [m.dataset([record])], ["K", "T"]), simulation=TIGHT)
+    t, y = record.data.time, record.data["y"]
+    oracle = least_squares(lambda p: (y - m.ramp_answer(t, *p)) / m.NOISE, [1.5, 0.4], xtol=1e-12, ftol=1e-12)
+    covariance = np.linalg.inv(oracle.jac.T @ oracle.jac) * max(1.0, found.misfit) ** 2
+    assert found.outcome is FitOutcome.CONVERGED
+    assert [e.value for e in found.estimates] == pytest.approx(oracle.x, rel=2e-4)
+    assert found.covariance == pytest.approx(covariance, rel=1e-2)
+    assert found.cost == pytest.approx(2 * oracle.cost, rel=1e-6)
+    assert found.records[0].rms["y"] == pytest.approx(math.sqrt(found.cost / t.size), rel=1e-9)
+
+
+def test_stepped_sines_give_gain_and_time_constant(lag: Model) -> None:
+    """The truth lies inside 99.9 percent, and halving nothing: with the noise gone the truth itself is found."""
+    frequencies = (0.1, 0.3, 0.5, 1.0, 3.0)
+    noisy = [m.sine_log(2.0, 0.7, f, seed=i) for i, f in enumerate(frequencies)]
+    found = fit(problem(lag, [m.dataset(noisy)], ["K", "T"]), simulation=TIGHT)
+    for name, truth in (("K", 2.0), ("T", 0.7)):
+        assert abs(found[name].value - truth) < 3.3 * found[name].std
+    assert found.misfit == pytest.approx(1.0, abs=0.25)
+    clean = [m.sine_log(2.0, 0.7, f, seed=i, noise=0.0) for i, f in enumerate(frequencies)]
+    exact = fit(problem(lag, [m.dataset(clean)], ["K", "T"]), simulation=TIGHT)
+    assert [e.value for e in exact.estimates] == pytest.approx([2.0, 0.7], rel=1e-4)
+    assert len(exact.responses) == 1
+    assert exact.responses[0].comparison.passes
+
+
+def test_orbits_and_transients_agree(lag: Model) -> None:
+    records = [m.sine_log(2.0, 0.4, f, seed=3) for f in (0.3, 1.0, 2.0)]
+    from pysim.identify.greybox import SinePlan
+
+    plan = SinePlan(settle_time=6.0)
+    long = [m.sine_log(2.0, 0.4, f, seed=3) for f in (0.1, 0.2)]
+    del long
+    orbit = fit(problem(lag, [m.dataset(records)], ["K", "T"]), simulation=TIGHT)
+    treatment = Treatment(steady="transient", sine=SinePlan(settle_time=0.5, settle_periods=1))
+    transient = fit(problem(lag, [m.dataset(records)], ["K", "T"], treatment=treatment), simulation=TIGHT)
+    assert plan.points == treatment.sine.points
+    for name in ("K", "T"):  # what is left of the start after one period of settling moves the transient a little
+        assert transient[name].value == pytest.approx(orbit[name].value, rel=0.05)
+
+
+def test_a_table_is_met_in_both_objectives(lag: Model) -> None:
+    data = [m.dataset([m.table(2.0, 0.7, np.array([0.1, 0.2, 0.5, 1.0, 2.0]))])]
+    for objective in (NOISE, FREQUENCY):
+        task = problem(lag, data, ["K", "T"], treatment=Treatment(reference_hz=None))
+        found = fit(task, objective=objective, simulation=TIGHT)
+        assert found.outcome is FitOutcome.CONVERGED, found.message
+        assert [e.value for e in found.estimates] == pytest.approx([2.0, 0.7], rel=2e-3)
+
+
+def test_absolute_deviations_over_time_ignore_an_outlier(lag: Model) -> None:
+    """Eq. 2.24 in K alone is a weighted median: most samples are exact, so the answer is exact too."""
+    record = m.ramp_log(2.0, 0.4, seed=0, noise=0.0)
+    values = record.data.values.copy()
+    values[::10, 1] += 5.0
+    data = m.dataset([m.log(record.data.time, values[:, 0], values[:, 1])])
+    found = fit(problem(lag, [data], ["K"]), objective=TIME, simulation=TIGHT)
+    assert found["K"].value == pytest.approx(2.0, rel=1e-3)
+    squares = fit(problem(lag, [data], ["K"]), simulation=TIGHT)
+    assert squares["K"].value > 2.1
+
+
+def test_an_exact_null_direction_is_found_said_and_not_walked_along(lag: Model) -> None:
+    found = fit(problem(lag, [m.dataset([m.ramp_log(2.0, 0.7, seed=2)])], ["K", "T", "g"]), simulation=TIGHT)
+    assert dict(found.undetermined[0].exponents) == {"K": 1.0, "g": -1.0}
+    assert not found["K"].determined
+    assert found["K"].interval == (0.1, 10.0)
+    assert found["T"].determined
+    product = found.combinations[0]
+    assert dict(product.exponents) == {"K": 1.0, "g": 1.0}
+    assert product.interval[0] < 2.0 < product.interval[1]
+    assert product.value == pytest.approx(2.0, rel=0.02)
+    # on logarithmic scales the shortest way from (1.5, 1) to K g = 2 multiplies both by the same factor
+    assert found["K"].value / found["g"].value == pytest.approx(1.5, rel=0.02)
+
+
+def test_ties_and_fixed_values_take_the_place_of_free_ones(lag: Model) -> None:
+    data = [m.dataset([m.ramp_log(2.0, 0.7, seed=2)])]
+    tied = fit(problem(lag, data, ["K", "T"], ties=[Tie("g", "K", 0.5)]), simulation=TIGHT)
+    assert tied["K"].value ** 2 * 0.5 == pytest.approx(2.0, rel=0.02)
+    assert tied.values["g"] == pytest.approx(0.5 * tied["K"].value)
+    fixed = fit(problem(lag, data, ["K", "T"], fixed={"g": 4.0}), simulation=TIGHT)
+    assert fixed["K"].value == pytest.approx(0.5, rel=0.02)
+
+
+def test_an_estimate_at_its_bound_has_a_one_sided_interval(lag: Model) -> None:
+    data = [m.dataset([m.ramp_log(2.0, 0.7, seed=2)])]
+    found = fit(problem(lag, data, [Parameter("K", upper=1.8), "T"]), simulation=TIGHT)
+    assert (found["K"].value, found["K"].at) == (1.8, "upper")
+    assert found["K"].interval[1] == 1.8
+    assert found["T"].at == ""
+
+
+def test_points_that_do_not_run_are_survived(lag: Model) -> None:
+    """ln(1 - fragile) is no number from 1 on: the search has to come back from there."""
+    t = np.arange(0, 3, 0.02)
+    T, level = 0.4, math.log(1 - 0.98)
+    record = m.log(t, 0 * t, level * (1 - np.exp(-t / T)))
+    tried: list[Tried] = []
+    free = [Parameter("fragile", start=0.3, lower=-20.0, upper=20.0)]
+    found = fit(
+        problem(lag, [m.dataset([record])], free),
+        optimiser=GaussNewton(radius=5.0),
+        simulation=TIGHT,
+        progress=tried.append,
+    )
+    assert any(math.isinf(one.last) for one in tried)
+    assert found["fragile"].value == pytest.approx(0.98, rel=1e-3)
+
+
+def test_held_out_records_are_compared_and_never_fitted(lag: Model) -> None:
+    wrong = m.ramp_log(3.0, 0.7, seed=5, use="validate", source="held.txt")
+    alone = fit(problem(lag, [m.dataset([m.ramp_log(2.0, 0.7, seed=2)])], ["K", "T"]), simulation=TIGHT)
+    both = fit(problem(lag, [m.dataset([m.ramp_log(2.0, 0.7, seed=2), wrong])], ["K", "T"]), simulation=TIGHT)
+    assert both.values == pytest.approx(dict(alone.values))
+    assert both.held_out()["held.txt: y"] > 10
+
+
+def test_a_record_that_starts_away_from_rest_has_its_own_initial_state(lag: Model) -> None:
+    t = np.arange(0, 3, 0.02)
+    rng = np.random.default_rng(4)
+    away = m.ramp_answer(t, 2.0, 0.7) + 1.5 * np.exp(-t / 0.7) + m.NOISE * rng.standard_normal(t.size)
+    records = [m.ramp_log(2.0, 0.7, seed=2), m.log(t, t, away, "away.txt")]
+    free = ["K", "T", Parameter("x", record="away.txt")]
+    found = fit(problem(lag, [m.dataset(records)], free), simulation=TIGHT)
+    assert abs(found["x@away.txt"].value - 1.5) < 3.3 * found["x@away.txt"].std
+    assert abs(found["T"].value - 0.7) < 3.3 * found["T"].std
+    assert found.misfit == pytest.approx(1, abs=0.2)
+
+
+def test_noise_that_nobody_told_is_estimated_and_said(lag: Model) -> None:
+    found = fit(problem(lag, [m.dataset([m.ramp_log(2.0, 0.7, seed=2)], noise=None)], ["K", "T"]), simulation=TIGHT)
+    assert any("not told" in note for note in found.notes)
+    assert found.records[0].noise[0] == pytest.approx(m.NOISE, rel=0.25)
+
+
+def test_the_nominal_start_is_tried_too(lag: Model) -> None:
+    data = [m.dataset([m.ramp_log(2.0, 0.7, seed=2)])]
+    found = fit(problem(lag, data, [Parameter("K", start=9.0), "T"]), simulation=TIGHT)
+    assert [s.name for s in found.starts] == ["given", "nominal"]
+    drawn = fit(problem(lag, data, ["K", "T"]), simulation=TIGHT, effort=Effort(starts=2, seed=1))
+    assert [s.name for s in drawn.starts] == ["given", "drawn-1", "drawn-2"]
+    assert [s.cost for s in drawn.starts] == pytest.approx([found.cost] * 3, rel=1e-4)
+
+
+def test_a_killed_fit_resumes_bit_for_bit(lag: Model, tmp_path: Path) -> None:
+    class Killed(Exception):
+        pass
+
+    def kill(tried: Tried) -> None:
+        if tried.tried == 2:
+            raise Killed
+
+    records = [m.ramp_log(2.0, 0.7, seed=2), *(m.sine_log(2.0, 0.7, f, seed=1) for f in (0.5, 1.0))]
+    task = problem(lag, [m.dataset(records)], ["K", "T"])
+    whole = fit(task)
+    with pytest.raises(Killed):
+        fit(task, effort=Effort(log=tmp_path), progress=kill)
+    resumed = fit(task, effort=Effort(log=tmp_path, resume=True))
+    assert dict(resumed.values) == dict(whole.values)
+    assert (resumed.cost, resumed.iterations) == (whole.cost, whole.iterations)
+
+
+def test_what_cannot_be_fitted_is_refused(lag: Model) -> None:
+    data = [m.dataset([m.ramp_log(2.0, 0.7, seed=2)])]
+    task = problem(lag, data, ["K"])
+    with pytest.raises(BadInput, match="needs frequency data"):
+        fit(task, objective=FREQUENCY)
+    with pytest.raises(BadInput, match="sum of squares"):
+        fit(task, objective=TIME, optimiser=GaussNewton())
+    with pytest.raises(BadInput, match="nothing to resume"):
+        Effort(resume=True)
+    free = [Parameter("fragile", start=2.0, lower=1.5, upper=3.0)]
+    with pytest.raises(BadInput, match="could not be simulated at any start"):
+        fit(problem(lag, data, free))

@@ -1,0 +1,1 @@
+"""The grey-box fit on measurements of an independently written plant."""

@@ -1,0 +1,1 @@
+"""How long a complete fit takes."""

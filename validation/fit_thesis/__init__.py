@@ -1,0 +1,1 @@
+"""The thesis' own fits, Section 4.4, done again."""
