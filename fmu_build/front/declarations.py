@@ -50,13 +50,17 @@ class Declaration:
 
 @dataclass
 class ClassText:
-    """A class as written; `is_extension` for `model extends M ... end M`."""
+    """A class as written; `is_extension` for `model extends M ... end M`.
+
+    `words` are its tokens from behind its name to the end of the class, without `end M`.
+    """
 
     name: str
     kind: str
     prefixes: frozenset[str]
     offset: int
     is_extension: bool = False
+    words: tuple[str, ...] = ()
     declarations: list[Declaration] = field(default_factory=list)
     classes: dict[str, "ClassText"] = field(default_factory=dict)
 
@@ -113,13 +117,13 @@ class _Reader:
         self._tokens = tokens
         self._at = 0
 
-    def body(self, owner: ClassText) -> None:
-        """Read elements into `owner` up to and with its `end name`."""
+    def body(self, owner: ClassText) -> int:
+        """Read elements into `owner` up to and with its `end name`; where that is."""
         while self._at < len(self._tokens):
             token = self._peek()
             if token == "end":
                 self._at += 2
-                return
+                return self._at - 2
             if token in ("equation", "algorithm"):
                 self._pass_equations(owner.name)
             elif token in _SECTIONS or token in ("initial", ";") or token[0] == '"':
@@ -128,6 +132,7 @@ class _Reader:
                 self._statement()
             else:
                 self._element(owner)
+        return len(self._tokens)
 
     def _peek(self, ahead: int = 0) -> str:
         at = self._at + ahead
@@ -174,6 +179,7 @@ class _Reader:
         self._at += is_extension
         new = ClassText(self._peek(), kind, prefixes, offset, is_extension)
         self._at += 1
+        begin = self._at
         if self._peek() == "=":
             self._at += 1
             statement = self._statement()
@@ -181,10 +187,12 @@ class _Reader:
                 statement = statement[1:]
             if statement and statement[0][0] not in ("enumeration", "der"):
                 new.declarations.append(_use(Kind.EXTENDS, frozenset(), statement, offset))
+            end = self._at - 1
         else:
             self._at = behind_brackets(self._tokens, self._at)
-            self.body(new)
+            end = self.body(new)
             self._statement()
+        new.words = tuple(word for word, _ in self._tokens[begin:end])
         owner.classes.setdefault(new.name, new)
         owner.declarations.append(Declaration(Kind.CLASS, prefixes, new.name, (new.name,), (), (), offset))
 

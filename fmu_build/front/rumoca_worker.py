@@ -32,7 +32,7 @@ def answer(request: dict[str, Any]) -> dict[str, Any]:
 
 def _syntax_error(text: str, files: list[str], rumoca: Any) -> list[Any] | None:
     """rumoca names the place of a syntax error only when asked to validate the file."""
-    if "unexpected" not in text and "parse source-root" not in text:
+    if not any(sign in text for sign in ("unexpected", "parse source-root", "parse failed")):
         return None
     for file in files:
         for found in rumoca.validate(file):

@@ -6,11 +6,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from fmu_build.errors import BuildError
+from fmu_build.front.declarations import CLASS_KINDS, read_declarations
 from fmu_build.front.expression import Span
 from fmu_build.front.flat_model import Experiment
-from fmu_build.front.tokens import tokenise
-
-CLASS_KINDS = "model|block|class|package|connector|record|function|type|operator"
 
 
 @dataclass(frozen=True)
@@ -64,7 +62,7 @@ def find_class(name: str, libraries: Sequence[Path]) -> ClassSource:
         if library.is_dir() and library.name == parts[0]:
             file, inside = file_in_library(library, parts[1:])
             return _read(name, file, inside or [parts[-1]], False)
-        if library.is_file() and re.search(rf"\b(?:{CLASS_KINDS})\s+{re.escape(parts[0])}\b", read_text(library)):
+        if library.is_file() and _declared(parts[0]).search(read_text(library)):
             return _read(name, library, parts, True)
     where = ", ".join(str(library) for library in libraries) or "no library"
     raise BuildError(f"class {name} is not in {where}; give its full name, and its library or file")
@@ -90,41 +88,37 @@ def read_text(file: Path) -> str:
         raise BuildError(f"cannot be read as UTF-8 text: {failure}", file) from None
 
 
+def _declared(name: str) -> re.Pattern[str]:
+    return re.compile(rf"\b(?:{'|'.join(sorted(CLASS_KINDS))})\s+{re.escape(name)}\b")
+
+
 def _read(name: str, file: Path, path: list[str], is_single_file: bool) -> ClassSource:
     text = read_text(file)
-    tokens = tokenise(text)
-    begin, inside, end = 0, 0, len(tokens)
+    source = read_declarations(file, text)
+    classes, found = source.classes, None
     for part in path:
-        found = _class_range(tokens, part, inside, end)
+        found = classes.get(part)
         if found is None:
-            raise BuildError(f"class {name} is not here: there is no {part}", file)
-        begin, end = found
-        inside = begin + 2  # behind the class keyword and the name
-    line = text.count("\n", 0, tokens[begin][1]) + 1
-    words = [token for token, _ in tokens[begin:end]]
-    description = "".join(_text(word) for word in words[2:3] if word.startswith('"'))
-    return ClassSource(name, file, line, text, is_single_file, description, _own_annotation(words))
+            break
+        classes = found.classes
+    if found is None:
+        begin = _declared(path[-1]).search(text)
+        if begin is None:
+            raise BuildError(f"class {name} is not here: there is no {path[-1]}", file)
+        line = text.count("\n", 0, begin.start()) + 1  # behind a syntax error, whose place rumoca will tell
+        return ClassSource(name, file, line, text, is_single_file, "", ())
+    description = "".join(_text(word) for word in found.words[:1] if word.startswith('"'))
+    annotation = _own_annotation(found.words)
+    return ClassSource(name, file, source.line(found.offset), text, is_single_file, description, annotation)
 
 
-def _class_range(tokens: Sequence[tuple[str, int]], name: str, begin: int, end: int) -> tuple[int, int] | None:
-    """Token range from the class keyword to `end name`."""
-    kinds = CLASS_KINDS.split("|")
-    for at in range(begin, end - 1):
-        if tokens[at][0] in kinds and tokens[at + 1][0] == name and (at == 0 or tokens[at - 1][0] != "end"):
-            for stop in range(at + 2, end - 1):
-                if tokens[stop][0] == "end" and tokens[stop + 1][0] == name:
-                    return at, stop
-            return at, end
-    return None
-
-
-def _own_annotation(words: list[str]) -> tuple[str, ...]:
+def _own_annotation(words: tuple[str, ...]) -> tuple[str, ...]:
     """Arguments of the last `annotation (...)` followed by nothing but the end of the class."""
-    for at in range(len(words) - 1, 0, -1):
+    for at in range(len(words) - 1, -1, -1):
         if words[at] == "annotation":
-            arguments = _call_arguments(tuple(words[at:]), "annotation")
+            arguments = _call_arguments(words[at:], "annotation")
             rest = words[at + len(arguments) + 3 :]
-            return arguments if rest in ([";"], []) else ()
+            return arguments if rest in ((";",), ()) else ()
     return ()
 
 
