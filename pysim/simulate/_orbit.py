@@ -140,8 +140,7 @@ def _from_shot(plan: Plan, experiment: Experiment, shot: Shot, iterations: int, 
     if not plan.offer.outputs and shot.mismatch > _TIGHT_MISMATCH:
         return _again(plan, experiment, shot, stopped)
     values = varied.values[:points] + rows[:, :, :n] @ shot.step
-    period = replace(experiment, times=experiment.times[:-1])
-    record = varied._replace(values=values).record(plan.library.model, period)
+    record = varied._replace(values=values).record(plan.library.model, experiment)
     columns, by = rows[:, :, n:] + rows[:, :, :n] @ shot.by, shot.by
     if plan.missing:
         places = [plan.parameters.index(name) for name in plan.directions.parameters]

@@ -40,20 +40,22 @@ class Periodic:
     inputs: Mapping[str, Signal] = field(default_factory=dict)
     overrides: Mapping[str, float] = field(default_factory=dict)
     rates: Mapping[str, str] = field(default_factory=dict)
+    _experiment: Experiment = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
         if not (self.period > 0 and math.isfinite(self.period)):
             raise BadInput(f"periodic: the period is {self.period} s; give a positive number")
         if self.points < 1:
             raise BadInput(f"periodic: points is {self.points}; give at least 1")
-        experiment = self.experiment()
+        times = np.linspace(0.0, self.period, self.points + 1)
+        experiment = Experiment(times, self.record, self.inputs, self.overrides, 0.0, self.rates)
+        object.__setattr__(self, "_experiment", experiment)
         for name in ("record", "inputs", "overrides", "rates"):
             object.__setattr__(self, name, getattr(experiment, name))
 
     def experiment(self) -> Experiment:
         """One period from time 0, its end included."""
-        times = np.linspace(0.0, self.period, self.points + 1)
-        return Experiment(times, self.record, self.inputs, self.overrides, 0.0, self.rates)
+        return self._experiment
 
 
 def periodic_many(
