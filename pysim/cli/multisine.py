@@ -77,9 +77,9 @@ def _read(args: argparse.Namespace) -> tuple[list[Record], tuple[str, ...]]:
         logs = [log for log in dataset.logs() if fnmatch(log.source, args.records)]
         logs = [log for log in logs if log.kind in _KINDS] if args.records == "*" else logs
         if not logs:
-            raise BadInput(
-                f"{args.data[0]}: no log of kind {' or '.join(_KINDS)} fits --records {args.records}; name the logs"
-            )
+            what = f"no log of kind {' or '.join(_KINDS)}" if args.records == "*" else f"no log called {args.records}"
+            raise BadInput(f"{args.data[0]}: there is {what}; name the logs to take, --records PATTERN")
+        _refuse_forgotten_period(args, logs)
         columns = tuple(_column(args, dataset, logs[0], role) for role in ("input", "output"))
         records = [replace(log.data, origin=log.source) for log in logs if isinstance(log.data, Record)]
     else:
@@ -88,6 +88,18 @@ def _read(args: argparse.Namespace) -> tuple[list[Record], tuple[str, ...]]:
         columns = (args.input, args.signal)
         records = [replace(read_record(path), origin=path.name) for path in args.data]
     return records, columns if args.reference is None else (*columns, args.reference)
+
+
+def _refuse_forgotten_period(args: argparse.Namespace, logs: list[MeasuredRecord]) -> None:
+    """Between the lines of a multisine there is nothing that a method for any signal could use."""
+    from pysim.types import BadInput
+
+    periodic = next((log.source for log in logs if log.kind == "multisine"), None)
+    if periodic and args.period is None and args.method == "auto":
+        raise BadInput(
+            f"{periodic} is a multisine; write its period, --period SECONDS, or --method arbitrary to take it as any "
+            "signal"
+        )
 
 
 def _column(args: argparse.Namespace, dataset: Dataset, log: MeasuredRecord, role: str) -> str:

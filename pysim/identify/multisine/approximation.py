@@ -5,7 +5,7 @@ from __future__ import annotations
 from pysim.identify.multisine.assemble import POOLED_LINES, amplitude_of, assemble, hertz
 from pysim.identify.multisine.levels import on_free_lines
 from pysim.identify.multisine.linear_part import first_gain, over_free_lines, over_neighbours, over_realisations
-from pysim.identify.multisine.lines import Harmonics, Lines, excited_lines, lines_of
+from pysim.identify.multisine.lines import Harmonics, Lines, chosen_lines
 from pysim.identify.multisine.periods import Periods
 from pysim.identify.multisine.statistics import pooled
 from pysim.identify.multisine.steady import DropPeriods, LocalTransient, SteadySpectra, Transient
@@ -77,19 +77,14 @@ def best_linear_approximation(
     periods, else the local polynomial method."""
     if periods.values.shape[0] > 1:
         return robust_approximation(periods, excited=excited, transient=transient)
-    lines = lines_of(excited) if excited is not None else excited_lines(periods)
+    lines = chosen_lines(periods, excited)
     parted = lines.are_odd and lines.odd.size > 1 and periods.values.shape[1] > 1
     method = fast_approximation if parted else smooth_approximation
     return method(periods, excited=lines.excited, transient=transient)
 
 
 def _prepare(periods: Periods, excited: Harmonics | None, transient: Transient | None) -> tuple[SteadySpectra, Lines]:
-    lines = excited_lines(periods) if excited is None else lines_of(excited)
-    n = periods.values.shape[2]
-    if lines.excited[-1] > (n - 1) // 2 - 1:
-        raise BadInput(
-            f"multisine: line {lines.excited[-1]} is not below half of {n} samples per period; sample faster"
-        )
+    lines = chosen_lines(periods, excited)
     if transient is None:
         transient = LocalTransient() if periods.values.shape[1] > 1 else DropPeriods(0)
     return transient.spectra(periods), lines

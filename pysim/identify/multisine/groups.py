@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from pysim.identify.multisine.lines import Harmonics, excited_lines
+from pysim.identify.multisine.lines import Harmonics, chosen_lines
 from pysim.identify.multisine.periods import Periods
 
 Array = NDArray[np.float64]
@@ -41,7 +41,7 @@ def _same_test(first: Periods, second: Periods, excited: Harmonics | None) -> bo
     """Grid, spectrum and offset of the commands."""
     if (first.names, first.period, first.values.shape[2]) != (second.names, second.period, second.values.shape[2]):
         return False
-    lines, other = (excited_lines(p).excited if excited is None else excited for p in (first, second))
+    lines, other = (chosen_lines(periods, excited).excited for periods in (first, second))
     if not np.array_equal(lines, other):
         return False
     a, b = _command(first), _command(second)

@@ -52,6 +52,23 @@ def lines_of(excited: Harmonics) -> Lines:
     return Lines(excited, free[free % 2 == 0], inside[inside % 2 == 1])
 
 
+def chosen_lines(periods: Periods, excited: Harmonics | None) -> Lines:
+    """The lines a caller names, or those the commands show.
+
+    Raises:
+        BadInput: as `lines_of` and `excited_lines`, or a line that is not below half the sampling rate.
+    """
+    lines = excited_lines(periods) if excited is None else lines_of(excited)
+    n = periods.values.shape[2]
+    highest = (n - 1) // 2
+    if lines.excited[-1] > highest:
+        raise BadInput(
+            f"multisine: line {lines.excited[-1]} is not below half of {n} samples per period; correct the lines, or "
+            "sample faster"
+        )
+    return Lines(lines.excited, lines.even[lines.even <= highest], lines.odd)
+
+
 def find_excited(amplitude: Array) -> Harmonics:
     """Harmonics that are excited, by the widest gap in the command's amplitude spectrum.
 

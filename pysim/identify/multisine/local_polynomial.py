@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from pysim.identify.multisine.linear_part import gain_from_responses
 from pysim.identify.multisine.local_fit import LocalFit, local_fit, powers, windows
-from pysim.identify.multisine.periods import sampling_interval
+from pysim.identify.multisine.periods import checked_columns, sampling_interval
 from pysim.identify.multisine.statistics import plain_level
 from pysim.types import BadInput, BestLinearApproximation, MultisineTest, Record
 
@@ -19,6 +19,10 @@ Complex = NDArray[np.complex128]
 
 _CHUNK = 4096  # windows solved at once, so that long records fit into memory
 _EXCITED = 1e-2  # share of the highest input amplitude, smoothed, down to which the band reaches: 40 dB
+_NOTHING = 1e-5  # share below which there are but the last digits of a log: 100 dB
+# Share of the input's amplitude in a window that a transient must leave over: below it the gain of the pump's chirp and
+# of noisy second-order systems is off by its own size, above it by a hundredth.
+_ROUGH = 0.3
 
 
 @dataclass(frozen=True)
@@ -69,7 +73,8 @@ def local_polynomial_approximation(
         record: equidistant samples.
         columns: names of input and output and, where the input is measured with noise or stands in a loop, of a known
             command; the gain is then the ratio of the responses to it.
-        band: Hz, lowest and highest line; where the input is within 40 dB of its highest line by default.
+        band: Hz, lowest and highest line; where the input is within 40 dB of its highest line by default. Lines around
+            which the input is as smooth as a transient, and cannot be told from one, are left out in any case.
         settings: order and width.
     Returns:
         a gain per line of the record's spectrum; estimates less than 2 half_width lines apart share data.
@@ -121,14 +126,12 @@ def prepare(
     record: Record, columns: Sequence[str], band: tuple[float, float] | None, settings: LocalPolynomial
 ) -> WholeSpectra:
     """Spectra of the columns and the band; arguments as `local_polynomial_approximation`."""
-    names = tuple(columns)
-    if len(names) not in (2, 3):
-        raise BadInput(f"local polynomial: name the columns of input and output (and reference), got {names}")
+    names = checked_columns(columns)
     length = record.time.size * sampling_interval(record)
     lines = _spectra(np.column_stack([record[name] for name in names]))
     drive = lines[:, 2 if len(names) == 3 else 0]
     frequency = np.arange(1, lines.shape[0] + 1) / length
-    chosen = _band(np.abs(drive), frequency, band, settings)
+    chosen = _band(drive, frequency, band, settings)
     return WholeSpectra(drive, lines[:, 0], lines[:, :2] if len(names) == 3 else lines[:, 1:2], chosen, length)
 
 
@@ -158,18 +161,39 @@ def solve(drive: Complex, answers: Complex, chosen: NDArray[np.intp], settings: 
 
 
 def _band(
-    amplitude: Array, frequency: Array, band: tuple[float, float] | None, settings: LocalPolynomial
+    drive: Complex, frequency: Array, band: tuple[float, float] | None, settings: LocalPolynomial
 ) -> NDArray[np.intp]:
     """Positions of the lines to estimate."""
-    if band is None:
-        width = 2 * settings.half_width + 1
-        smooth = np.sqrt(np.convolve(amplitude**2, np.full(width, 1 / width), mode="same"))
-        high = np.flatnonzero(smooth >= _EXCITED * smooth.max())
-        if high.size == 0 or not smooth.max() > 0:
-            raise BadInput("local polynomial: the input stands still; name the column that was excited")
-        chosen = np.arange(high[0], high[-1] + 1)
-    else:
-        chosen = np.flatnonzero((frequency >= band[0] * (1 - 1e-9)) & (frequency <= band[1] * (1 + 1e-9)))
-    if chosen.size < 1 or amplitude.size < 2 * settings.half_width + 1:
-        raise BadInput("local polynomial: no lines in the band; widen it, or record longer")
+    width = 2 * settings.half_width + 1
+    if drive.size < width:
+        raise BadInput(f"local polynomial: {drive.size} lines do not fill a window of {width}; record longer")
+    smooth = np.sqrt(np.convolve(np.abs(drive) ** 2, np.full(width, 1 / width), mode="same"))
+    if not smooth.max() > 0:
+        raise BadInput("local polynomial: the input stands still; name the column that was excited")
+    lowest, highest = band or (0.0, float("inf"))
+    inside = (frequency >= lowest * (1 - 1e-9)) & (frequency <= highest * (1 + 1e-9))
+    if not inside.any():
+        raise BadInput(
+            f"local polynomial: no lines from {lowest:g} to {highest:g} Hz, the record has them from {frequency[0]:g} "
+            f"to {frequency[-1]:g} Hz; give the lower end first, or record longer"
+        )
+    excited = smooth >= (_EXCITED if band is None else _NOTHING) * smooth.max()
+    chosen = np.flatnonzero(inside & excited & _is_rough(drive, settings))
+    if chosen.size == 0:
+        raise BadInput(
+            "local polynomial: the input has no power in the band, or is as smooth there as a transient; narrow the "
+            "band to what it excites"
+        )
     return np.asarray(chosen, dtype=np.intp)
+
+
+def _is_rough(drive: Complex, settings: LocalPolynomial) -> NDArray[np.bool_]:
+    """(n_l,) whether a polynomial, like that of a transient, leaves enough of the input over around a line."""
+    width = 2 * settings.half_width + 1
+    basis, _ = np.linalg.qr(powers(np.arange(width)[None] - float(settings.half_width), settings.order)[0].real)
+    rows = np.lib.stride_tricks.sliding_window_view(drive, width)
+    whole = np.sum(np.abs(rows) ** 2, axis=1)
+    smooth = np.sum(np.abs(rows @ basis) ** 2, axis=1)
+    rough = whole - smooth > _ROUGH**2 * whole
+    first = np.clip(np.arange(drive.size) - settings.half_width, 0, rough.size - 1)
+    return np.asarray(rough[first])

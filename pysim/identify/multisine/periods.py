@@ -82,9 +82,7 @@ def periods_of(
     """
     if not records:
         raise BadInput("multisine: there is no record; give one per realisation")
-    names = tuple(columns)
-    if len(names) not in (2, 3):
-        raise BadInput(f"multisine: name the columns of input and output (and reference), got {names}")
+    names = checked_columns(columns)
     cuts = [_cut(record, period, names, start) for record in records]
     samples = {cut.shape[1] for cut in cuts}
     if len(samples) > 1:
@@ -100,6 +98,18 @@ def periods_of(
     return Periods(
         np.stack([cut[-count:] if start is None else cut[:count] for cut in cuts]), names, units, period, first.origin
     )
+
+
+def checked_columns(columns: Sequence[str]) -> tuple[str, ...]:
+    """Input and output, and the reference where there is one, each a column of its own.
+
+    Raises:
+        BadInput: another number of names, or one that stands there twice.
+    """
+    names = tuple(columns)
+    if len(names) not in (2, 3) or len(set(names)) < len(names):
+        raise BadInput(f"multisine: name the columns of input and output (and reference), each once, got {names}")
+    return names
 
 
 def sampling_interval(record: Record) -> float:
@@ -136,9 +146,10 @@ def _cut(record: Record, period: float, names: tuple[str, ...], start: float | N
         columns = columns[periodic_stretch(columns[:, -1 if len(names) == 3 else 0], size)]
     count = columns.shape[0] // size if size > 3 else 0
     if count < 1:
+        since = "" if start is None else f" from {start:g} s on"
         raise BadInput(
-            f"multisine: {where} holds {columns.shape[0] * step:g} s, less than one period of {period:g} s; record "
-            "longer, or give the right period"
+            f"multisine: {where} holds {columns.shape[0] * step:g} s{since}, less than one period of {period:g} s or "
+            f"than four samples of {step:g} s; correct period or start, or record longer"
         )
     if abs(period / step - size) * count > _DRIFT:
         raise BadInput(

@@ -127,6 +127,7 @@ def test_a_data_set_has_a_result_per_working_point(tmp_path: Path, capsys: pytes
         ([*NAMES, "--method", "robust"], "write --period SECONDS"),
         (["--input", "u", "--signal", "z", "--period", "2"], "no signal 'z'"),
         ([*NAMES, "--period", "2", "--periods", "9"], "9 periods are asked for"),
+        ([*NAMES, "--period", "2", "--lines", "1,3,9999"], "line 9999 is not below half of"),
     ],
 )
 def test_wrong_use(records: list[str], words: list[str], message: str, capsys: pytest.CaptureFixture[str]) -> None:
@@ -137,3 +138,12 @@ def test_wrong_use(records: list[str], words: list[str], message: str, capsys: p
 def test_a_data_set_without_such_logs(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["multisine", str(data_set(tmp_path)), "--period", "2", "--records", "b*"]) == 2
     assert "name the logs" in capsys.readouterr().err
+
+
+def test_the_period_of_a_multisine_is_not_forgotten(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Without it the gain between the lines would be rubbish that looks like a result."""
+    toml = data_set(tmp_path) / "dataset.toml"
+    toml.write_text(toml.read_text().replace('"other"', '"multisine"'))
+    assert main(["multisine", str(tmp_path)]) == 2
+    assert "a5_0.txt is a multisine; write its period, --period SECONDS" in capsys.readouterr().err
+    assert main(["multisine", str(tmp_path), "--method", "arbitrary"]) == 0

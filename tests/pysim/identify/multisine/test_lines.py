@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from pysim.identify.multisine import Periods, excited_lines, find_excited, lines_of
+from pysim.identify.multisine.lines import chosen_lines
 from pysim.types import BadInput
 from tests.pysim.identify.multisine.systems import ODD, measure, with_free_lines
 
@@ -49,3 +50,13 @@ def test_the_command_of_every_realisation_must_show_the_same_lines() -> None:
     mixed = Periods(np.concatenate([same.values, other.values]), same.names, same.units, same.period)
     with pytest.raises(BadInput, match="excite different lines"):
         excited_lines(mixed)
+
+
+def test_named_lines_are_held_against_the_samples_of_a_period() -> None:
+    """N = 512: the highest line is 255, and no free line is looked for above it."""
+    data = measure(ODD, realisations=1, periods=2, seed=0)
+    lines = chosen_lines(data, np.array([251, 255]))
+    np.testing.assert_array_equal(lines.even, [250, 252, 254])
+    np.testing.assert_array_equal(chosen_lines(data, None).excited, ODD)
+    with pytest.raises(BadInput, match="line 256 is not below half of 512 samples"):
+        chosen_lines(data, np.array([1, 256]))

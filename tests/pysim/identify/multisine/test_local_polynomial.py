@@ -144,10 +144,38 @@ def test_the_band_is_where_the_input_is() -> None:
     assert bla.noise is None
 
 
+def swept() -> Record:
+    """A chirp from 5 to 15 Hz of 20 s through the system; what is left of it outside the sweep is smooth leakage."""
+    time = STEP * np.arange(2000)
+    u = np.sin(2 * np.pi * (5 * time + 0.25 * time**2))
+    y = lfilter(B, A, u) + 0.01 * np.random.default_rng(6).standard_normal(time.size)
+    return Record(time, np.column_stack([u, y]), ("u", "y"), ("1", "1"))
+
+
+def test_lines_at_which_a_chirp_is_as_smooth_as_a_transient_are_left_out(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    bla = local_polynomial_approximation(swept(), ("u", "y"))
+    assert 4.0 < bla.frequency[0] < 6.0
+    assert 14.0 < bla.frequency[-1] < 16.0
+    error = np.abs(bla.gain / gain(bla.frequency) - 1)
+    assert np.median(error) < 0.1
+    assert np.max(error) < 1.5  # at the very ends
+    with pytest.raises(BadInput, match="as smooth there as a transient"):
+        local_polynomial_approximation(swept(), ("u", "y"), band=(25.0, 35.0))
+    monkeypatch.setattr("pysim.identify.multisine.local_polynomial._ROUGH", 0.0)
+    whole = local_polynomial_approximation(swept(), ("u", "y"))
+    assert np.max(np.abs(whole.gain / gain(whole.frequency) - 1)) > 100
+
+
 def test_refusals() -> None:
-    record = run(400, noise=0.1, seed=0)
-    with pytest.raises(BadInput, match="no lines in the band"):
+    record, names = run(400, noise=0.1, seed=0), (("u", "y"), ("1", "1"))
+    with pytest.raises(BadInput, match=r"no lines from 60 to 70 Hz, the record has them from 0\.25 to 49\.75"):
         local_polynomial_approximation(record, ("u", "y"), band=(60.0, 70.0))
+    with pytest.raises(BadInput, match="12 lines do not fill a window of 13"):
+        local_polynomial_approximation(Record(record.time[:26], record.values[:26], *names), ("u", "y"))
+    with pytest.raises(BadInput, match="each once"):
+        local_polynomial_approximation(record, ("u", "u"))
     with pytest.raises(BadInput, match="at least 3 lines"):
         LocalPolynomial(2, 2)
     with pytest.raises(BadInput, match="name the columns"):

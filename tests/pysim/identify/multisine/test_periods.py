@@ -79,6 +79,10 @@ def test_refuses_records_that_do_not_fit_together() -> None:
         periods_of([log(np.arange(1000) * 0.01)], 2.0, ("u", "y"), count=6)
     with pytest.raises(BadInput, match="name the columns"):
         periods_of([log(np.arange(1000) * 0.01)], 2.0, ("u",))
+    with pytest.raises(BadInput, match="each once"):
+        periods_of([log(np.arange(1000) * 0.01)], 2.0, ("u", "u"))
+    with pytest.raises(BadInput, match="holds 0 s from 50 s on"):
+        periods_of([log(np.arange(1000) * 0.01)], 2.0, ("u", "y"), start=50.0)
     with pytest.raises(BadInput, match="no signal 'z'"):
         periods_of([log(np.arange(1000) * 0.01)], 2.0, ("u", "z"))
 
