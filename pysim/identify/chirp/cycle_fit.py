@@ -11,8 +11,9 @@ from pysim.identify._near_orthogonal import near_orthogonal_fit
 
 Array = NDArray[np.float64]
 
-# Harmonics of the local fit: so many samples per period for each, and no more than these.
-_SAMPLES_EACH, _MOST, _LEAST = 6.0, 5, 2
+# Harmonics of the local fit: so many samples per period for each, within bounds; fewer where samples are few.
+_SAMPLES_EACH, _MOST, _LEAST = 6.0, 5, 3
+_FEW = ((10.0, 2), (5.0, 1))
 # Samples per number to be fitted, at least.
 _SURPLUS = 2.0
 # A fit spans a turn at least, and more where the frequency changes by no more than this share within it.
@@ -108,7 +109,9 @@ def fit_cycle(samples: Samples, centre: float) -> CycleFit | None:
     """Fit a whole turn or more around an angle; None where the log does not reach so far."""
     place = min(int(np.searchsorted(samples.angle, centre)), samples.angle.size - 1)
     per_turn = float(samples.per_turn[place])
-    harmonics = int(np.clip(per_turn / _SAMPLES_EACH, _LEAST, _MOST)) if per_turn > 5 else 1
+    harmonics = int(np.clip(per_turn / _SAMPLES_EACH, _LEAST, _MOST))
+    for samples_at_least, fewer in _FEW:
+        harmonics = harmonics if per_turn >= samples_at_least else fewer
     count = 2 * harmonics + 3
     turns = float(np.clip(_CHANGE / max(float(samples.change[place]), 1e-12), 1.0, _MOST_TURNS))
     half = np.pi * max(turns, _SURPLUS * count / per_turn)
