@@ -22,9 +22,9 @@ _NEEDED = {  # to build; running a finished FMU needs none of them
 
 def build(
     class_name: str,
-    output: Path | None = None,
+    output: Path | str | None = None,
     *,
-    libraries: Sequence[Path] = (),
+    libraries: Sequence[Path | str] = (),
     fmi: int = 2,
     platforms: Sequence[str] = ("host",),
     overrides: Mapping[str, float | str] = _NOTHING,
@@ -34,7 +34,7 @@ def build(
 
     Args:
         class_name: full name, such as "HydraulicTestBench.Examples.TimeResponse".
-        output: file to write; None leaves the FMU in the cache and gives its place there.
+        output: file to write, a path or its text; None leaves the FMU in the cache and gives its place there.
         libraries: directories with a package.mo, or single .mo files, beside our own library.
         fmi: 2 or 3.
         platforms: names of `pack.PLATFORMS`, "host" or "all".
@@ -47,21 +47,22 @@ def build(
     """
     if fmi not in (2, 3):
         raise BuildError(f"there is no FMI version {fmi} here; choose 2 or 3.")
-    targets = select_platforms(platforms)
-    if output is not None:
-        check_writable(output)
+    systems = select_platforms(platforms)
+    target = None if output is None else Path(output)
+    if target is not None:
+        check_writable(target)
     paths = [*_existing(libraries), bundled_library()]
-    key = content_key(class_name, paths, overrides, [f"FMI {fmi}", *(target.name for target in targets)])
+    key = content_key(class_name, paths, overrides, [f"FMI {fmi}", *(system.name for system in systems)])
     fmu = cached(key) if use_cache else None
     if fmu is None:
-        fmu = _build_anew(class_name, paths, overrides, fmi, targets, key)
-    if output is None:
+        fmu = _build_anew(class_name, paths, overrides, fmi, systems, key)
+    if target is None:
         return fmu
     try:
-        copy_whole(fmu, output)
+        copy_whole(fmu, target)
     except OSError as error:
-        raise BuildError(f"cannot write {output}: {error.strerror or error}; choose another place.") from error
-    return output
+        raise BuildError(f"cannot write {target}: {error.strerror or error}; choose another place.") from error
+    return target
 
 
 def bundled_library() -> Path:
@@ -96,7 +97,7 @@ def _check_installation() -> None:
         raise BuildError(f"building an FMU needs {' and '.join(missing)}: pip install {' '.join(missing)}.")
 
 
-def _existing(libraries: Sequence[Path]) -> list[Path]:
+def _existing(libraries: Sequence[Path | str]) -> list[Path]:
     paths = [Path(library) for library in libraries]
     for path in paths:
         if not path.exists():

@@ -40,6 +40,14 @@ def test_a_second_build_comes_from_the_cache(loads, tmp_path):
     assert zipfile.ZipFile(first).testzip() is None
 
 
+def test_a_path_may_be_a_text(loads, tmp_path):
+    assert build("Test.Oscillator", str(tmp_path / "a.fmu")) == tmp_path / "a.fmu"
+    with pytest.raises(BuildError, match="does not exist; create it first"):
+        build("Test.Oscillator", str(tmp_path / "none" / "a.fmu"))
+    with pytest.raises(BuildError, match="the library nowhere does not exist"):
+        build("Test.Oscillator", libraries=["nowhere"])
+
+
 def test_another_value_or_version_is_another_build(loads):
     paths = {build("A"), build("A", overrides={"m": 1.0}), build("A", fmi=3), build("A")}
     assert len(paths) == len(loads) == 3
