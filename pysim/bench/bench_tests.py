@@ -85,6 +85,8 @@ class SteppedSines:
     def __post_init__(self) -> None:
         if not self.points or not self.frequencies:
             raise BadInput("stepped sines: give at least one pair of offset and amplitude, and one frequency")
+        if any(amplitude <= 0 for _, amplitude in self.points):
+            raise BadInput("stepped sines: every amplitude, the second number of a point, must be positive")
         if min(self.frequencies) <= 0 or self.periods < 1 or not 0 <= self.least <= self.most:
             raise BadInput("stepped sines: frequencies and periods must be positive, and most not less than least")
 

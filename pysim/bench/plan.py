@@ -48,7 +48,9 @@ class Plan:
         sources = [run.source for run in self.runs()]
         for source in sources:
             if sources.count(source) > 1:
-                raise BadInput(f"plan {self.name!r}: two tests are logged to {source}; give one of them another name")
+                raise BadInput(
+                    f"plan {self.name!r}: two tests are logged to {source}; name one of them anew or drop it"
+                )
 
     def _check(self, test: BenchTest) -> None:
         if not test.outputs:

@@ -12,8 +12,7 @@ from pysim.bench.logger import Logger
 from pysim.bench.plan import Plan
 from pysim.bench.sensor import Sensor
 from pysim.excitation import Chirp, LeadIn, LineGrid, Multisine, PiersonMoskowitz, Step, StochasticWave
-from pysim.io import Section, read_toml
-from pysim.io.units import SI, signal_in_si
+from pysim.io import SI, Section, read_toml, signal_in_si
 from pysim.types import BadInput, MeasuredSignal
 
 _PLANS = Path(__file__).parent / "plans"
@@ -141,7 +140,7 @@ def _wave(section: Section, unit: float, lead: LeadIn, common: dict[str, Any]) -
     command = StochasticWave(
         PiersonMoskowitz(unit * section.number("significant_height"), section.number("peak_period")),
         section.number("length"),
-        section.integer("seed"),
+        section.integer("seed", least=0),
         section.integer("components", 100),
         unit * (section.optional_number("offset") or 0.0),
         None if band is None else (band[0], band[1]),
@@ -160,12 +159,17 @@ def _step(section: Section, unit: float, lead: LeadIn, common: dict[str, Any]) -
 def _multisine(section: Section, unit: float, lead: LeadIn, common: dict[str, Any]) -> BenchTest:
     period, low, high = (section.number(key) for key in ("period", "low_hz", "high_hz"))
     grid = LineGrid(
-        period, low, high, section.text("lines", "random-odd"), section.integer("group", 4), section.integer("seed")
+        period,
+        low,
+        high,
+        section.text("lines", "random-odd"),
+        section.integer("group", 4),
+        section.integer("seed", least=0),
     )
     rms, peak = (section.optional_number(key) for key in ("rms", "peak"))
     command = Multisine(
         grid,
-        section.integer("seed"),
+        section.integer("seed", least=0),
         None if rms is None else unit * rms,
         None if peak is None else unit * peak,
         offset=unit * (section.optional_number("offset") or 0.0),

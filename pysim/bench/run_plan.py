@@ -13,6 +13,7 @@ from pysim.bench.bench_tests import Run
 from pysim.bench.plan import Plan
 from pysim.bench.sensor import Sensor
 from pysim.bench.truth import Truth
+from pysim.excitation import Multisine
 from pysim.simulate import Rodas, Solver, simulate_many
 from pysim.types import BadInput, Dataset, Experiment, MeasuredRecord, Model, Outcome, Record, Signal, SimulationError
 
@@ -62,7 +63,8 @@ def run_plan(
         effect, strength: of the truth, for whoever looks for it; not interpreted.
         solver, workers, progress: as for `simulate_many`.
     Raises:
-        BadInput: before the first run; a negative seed, an unknown variable, an input that is none, or another unit.
+        BadInput: before the first run; a negative seed, an unknown variable, an input that is none, another unit, or a
+            sine or multisine above half the sampling rate.
         SimulationError: a run that stopped early.
     """
     if seed < 0:
@@ -120,6 +122,7 @@ def _check_signal(model: Model, sensor: Sensor) -> None:
 
 def _job(model: Model, plan: Plan, run: Run, seed: int, parameters: Mapping[str, float]) -> _Job:
     command = run.command.signal()
+    _refuse_folding(run, plan.logger.rate(len(run.outputs)))
     random = np.random.default_rng([seed, zlib.crc32(run.source.encode())])
     instants = plan.logger.instants(run.log_from, run.command.end, len(run.outputs), random)
     if instants.size < 2:
@@ -135,6 +138,16 @@ def _job(model: Model, plan: Plan, run: Run, seed: int, parameters: Mapping[str,
         rates={f"{variable}_t": variable} if f"{variable}_t" in names - plan.inputs.keys() else {},
     )
     return _Job(run, instants, command, experiment)
+
+
+def _refuse_folding(run: Run, rate: float) -> None:
+    """Lines above half the sampling rate would be taken for others."""
+    highest = run.command.grid.high_hz if isinstance(run.command, Multisine) else run.frequency
+    if highest is not None and highest > 0.5 * rate:
+        raise BadInput(
+            f"{run.source}: its {highest:g} Hz are above half the sampling rate, {rate:.4g} Hz; log faster, or leave "
+            "them out"
+        )
 
 
 def _clean(job: _Job, plan: Plan, record: Record) -> MeasuredRecord:

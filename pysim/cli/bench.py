@@ -44,7 +44,7 @@ def run(args: argparse.Namespace) -> int:
     """Write the data set; 1 when a run stops early, with nothing written."""
     from pysim.bench import read_plan, run_plan, truth_data
     from pysim.cli._options import read_parameters
-    from pysim.cli._outputs import prepare_file
+    from pysim.cli._outputs import prepare_file, prepare_folder
     from pysim.cli._progress import ProgressBar, announce_compilation
     from pysim.io import read_model, write_dataset, write_file
     from pysim.types import SimulationError
@@ -52,6 +52,9 @@ def run(args: argparse.Namespace) -> int:
     plan, model = read_plan(args.plan), read_model(args.model)
     parameters, strength = read_parameters(args, model), _strength(args.strength)
     _check_places(args)
+    for option, folder in (("--output", args.output), ("--clean", args.clean)):
+        if folder is not None:
+            prepare_folder(folder.parent, option)
     if args.truth:
         prepare_file(args.truth, "--truth", (".json",))
     announce_compilation()

@@ -10,9 +10,11 @@ from pysim.io.signals import read_signal, write_signal
 from pysim.io.single_log import read_single_log
 from pysim.io.thesis_folder import read_thesis_folder
 from pysim.io.toml_section import Section, TomlFile, read_toml
+from pysim.io.units import SI, signal_in_si
 from pysim.io.write_dataset import write_dataset
 
 __all__ = [
+    "SI",
     "Section",
     "TomlFile",
     "cache_folder",
@@ -26,6 +28,7 @@ __all__ = [
     "read_toml",
     "record_data",
     "record_text",
+    "signal_in_si",
     "write_dataset",
     "write_file",
     "write_record",

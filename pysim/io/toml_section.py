@@ -88,11 +88,13 @@ class Section:
             raise BadInput(f"{self.place}: {key} is missing or no row of pairs; write {key} = [[1.0, 2.0], [3.0, 4.0]]")
         return tuple((float(first), float(second)) for first, second in rows)
 
-    def integer(self, key: str, default: int | None = None) -> int:
-        """A whole number; one that must be there where there is no default."""
+    def integer(self, key: str, default: int | None = None, *, least: int | None = None) -> int:
+        """A whole number, not below `least`; one that must be there where there is no default."""
         value = self.values.get(key, default)
         if isinstance(value, bool) or not isinstance(value, int):
             raise BadInput(f"{self.place}: {key} is missing or no whole number; write {key} = 1")
+        if least is not None and value < least:
+            raise BadInput(f"{self.place}: {key} cannot be below {least}, got {value}; correct it")
         return value
 
     def flag(self, key: str, default: bool) -> bool:

@@ -76,6 +76,16 @@ def test_wrong_use_writes_nothing(
     assert re.search(message, capsys.readouterr().err)
 
 
+def test_a_place_that_cannot_be_written_is_refused_before_the_first_run(
+    words: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    folder = tmp_path / "plan.toml" / "set"
+    assert main([*words, "-o", str(folder)]) == 2
+    told = capsys.readouterr()
+    assert f"--output {folder.parent}: cannot write there" in told.err
+    assert "tests" not in told.out + told.err
+
+
 def test_an_old_folder_is_not_mixed_with_new_logs(
     words: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -59,6 +59,7 @@ def test_places(toml: TomlFile) -> None:
         (lambda s: s.number("none"), "none is missing; write none = and a number"),
         (lambda s: s.number("flag"), "flag = True is no finite number"),
         (lambda s: s.integer("words"), "words is missing or no whole number"),
+        (lambda s: s.integer("n", least=4), "n cannot be below 4, got 3"),
         (lambda s: s.flag("n", True), "n = 3 is neither true nor false"),
         (lambda s: s.numbers("words"), "words is missing or no row of numbers"),
         (lambda s: s.pairs("row"), "row is missing or no row of pairs"),
