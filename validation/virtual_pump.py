@@ -17,7 +17,7 @@ RATE = 250.0  # Hz, thesis Section 3.1.3
 NOISE = {"alphaPercent": 0.1, "u": 0.002}
 _UNITS = {"alphaCMD": "%", "alphaPercent": "%", "u": "1"}
 _POINTS = 99
-_TIGHT = 1e-7
+_TIGHT = 1e-6
 
 SIGNALS = (
     MeasuredSignal("alphaCMD", "input", "%", "command", "alphaCMD"),

@@ -13,6 +13,7 @@ from pysim.identify import (
     frequency_deviations,
     frequency_response,
     magnitude_db,
+    rate_input,
     run_until_settled,
     stepped_sine,
 )
@@ -85,8 +86,8 @@ def compare(
     tests = [_model_test(model, dataset, response.test) for response in responses]
 
     def make(test: SineTest, frequency: float, plan: SteppedSine) -> Experiment:
-        rate_input = _rate_input(model, test.input)
-        return stepped_sine(test, frequency, plan=plan, rate_input=rate_input, overrides=overrides)
+        rate = rate_input(model, test.input)
+        return stepped_sine(test, frequency, plan=plan, rate_input=rate, overrides=overrides)
 
     def run(experiments: Sequence[Experiment]) -> Sequence[Record]:
         return simulate_many(model, experiments, solver=solver, workers=workers, progress=progress)
@@ -134,12 +135,6 @@ def _model_test(model: Model, dataset: Dataset, test: SineTest) -> SineTest:
             )
         names.append(variable.name)
     return replace(test, input=names[0], output=names[1])
-
-
-def _rate_input(model: Model, command: str) -> str | None:
-    """The input that wants the command's derivative, by the naming of thesis Appendix F (u, u_t, u_tt)."""
-    name = f"{command}_t"
-    return name if any(v.name == name and v.causality == "input" for v in model.variables) else None
 
 
 def _judge(

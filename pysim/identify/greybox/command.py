@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from pysim.types import BadInput, Model, Signal
+from pysim.types import BadInput, Signal
 
 
 @dataclass(frozen=True)
@@ -64,9 +64,3 @@ def _cut(signal: Signal, start: float) -> Signal:
     sines[0, :, 1] += s * (omega + 0.5 * kappa * s)
     sines[0, :, 2] += kappa * s
     return Signal(starts, cubics, sines)
-
-
-def rate_input(model: Model, command: str) -> str | None:
-    """The input that wants the command's derivative, by the naming of thesis Appendix F (u, u_t, u_tt)."""
-    name = f"{command}_t"
-    return name if any(v.name == name and v.causality == "input" for v in model.variables) else None

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from pysim.identify.greybox.command import from_rest, rate_input
+from pysim.identify.greybox.command import from_rest
 from pysim.identify.greybox.log_target import LogTarget
 from pysim.identify.greybox.noise import signal_noise
 from pysim.identify.greybox.sine_log import Sine, SineLog, sine_log, steady_sine
@@ -19,6 +19,7 @@ from pysim.identify.greybox.table_target import TableTarget
 from pysim.identify.greybox.target import Run, Target
 from pysim.identify.logged_command import logged_command
 from pysim.identify.logged_wave import logged_wave
+from pysim.identify.rate_input import rate_input
 from pysim.simulate import Periodic
 from pysim.types import (
     BadInput,

@@ -89,9 +89,10 @@ class ParameterSpace:
             return np.where(self.log, np.log(np.where(self.log, p, 1.0)), p / self.scale)
 
     def to_model(self, x: Array) -> Array:
-        """x (n,) -> model values (n,), which never leave the bounds by rounding."""
+        """x (n,) -> model values (n,), exactly the bounds where x is at its own."""
+        low, high = self.bounds()
         p = np.where(self.log, np.exp(np.where(self.log, x, 0.0)), x * self.scale)
-        return np.clip(p, self.lower, self.upper)
+        return np.where(x <= low, self.lower, np.where(x >= high, self.upper, p))
 
     def slope(self, x: Array) -> Array:
         """dp/dx (n,)."""

@@ -1,0 +1,64 @@
+"""Wherever the runs go, the fit is the same; what a worker loses is a bad point."""
+
+from concurrent.futures import Future
+from typing import Any
+
+import numpy as np
+import pytest
+
+from pysim.identify.greybox import NOISE, Cluster, Parameter, Processes, Simulation, Threads, problem
+from pysim.identify.greybox.evaluation import evaluator
+from pysim.types import Model
+from tests.pysim.identify.greybox import measurements as m
+
+
+class Client:
+    """As a Dask client, in this process; loses shares on demand."""
+
+    def __init__(self, lose: int | None = None) -> None:
+        self.lose, self.calls = lose, 0
+
+    def map(self, function: Any, shares: list, **_: Any) -> list[Future]:
+        futures = []
+        for share in shares:
+            future: Future = Future()
+            self.calls += 1
+            if self.lose is not None and self.calls > self.lose:
+                future.set_exception(RuntimeError("worker died"))
+            else:
+                future.set_result(function(share))
+            futures.append(future)
+        return futures
+
+
+def task(lag: Model) -> Any:
+    records = [m.ramp_log(2.0, 0.7, seed=2), *(m.sine_log(2.0, 0.7, f, seed=1) for f in (0.5, 1.0, 2.0))]
+    return problem(lag, [m.dataset(records)], [Parameter("K"), Parameter("T")])
+
+
+@pytest.mark.parametrize("workers", [Threads(1), Threads(3), Cluster(Client()), Cluster(Client(), chunks=1)])
+def test_all_workers_give_the_same_numbers(lag: Model, workers: Any) -> None:
+    this = task(lag)
+    x = this.space.to_search(this.space.start)
+    expected = evaluator(this, NOISE, Simulation())(x, ())
+    found = evaluator(this, NOISE, Simulation(workers=workers))(x, ())
+    assert np.array_equal(found.residual, expected.residual)
+    assert np.array_equal(found.jacobian, expected.jacobian)
+
+
+def test_a_share_that_a_cluster_lost_is_a_bad_point(lag: Model) -> None:
+    this = task(lag)
+    found = evaluator(this, NOISE, Simulation(workers=Cluster(Client(lose=0))))(
+        this.space.to_search(this.space.start), ()
+    )
+    assert not found.good
+    assert "worker died" in found.trouble
+
+
+@pytest.mark.slow
+def test_processes_give_the_same_numbers(lag: Model) -> None:
+    this = task(lag)
+    x = this.space.to_search(this.space.start)
+    expected = evaluator(this, NOISE, Simulation())(x, ())
+    found = evaluator(this, NOISE, Simulation(workers=Processes(2)))(x, ())
+    assert np.array_equal(found.residual, expected.residual)
