@@ -1,0 +1,56 @@
+import json
+import tomllib
+from pathlib import Path
+
+import pytest
+
+import fmu_build
+from pysim.cli import main
+from pysim.io import write_dataset
+from tests.pysim.identify.greybox import measurements as m
+from tests.pysim.identify.greybox.conftest import LAG
+
+
+@pytest.fixture(scope="module")
+def place(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("fit")
+    (folder / "Lag.mo").write_text(LAG)
+    fmu_build.build("Lag", folder / "Lag.fmu", libraries=[folder / "Lag.mo"])
+    records = [m.ramp_log(2.0, 0.7, seed=2), *(m.sine_log(2.0, 0.7, f, seed=1) for f in (0.5, 1.0))]
+    write_dataset(folder / "data", m.dataset(records))
+    return folder
+
+
+def test_a_fit_writes_numbers_parameters_report_and_log(place: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    words = ["fit", str(place / "Lag.fmu"), "--data", str(place / "data"), "--free", "K,T", "--fix", "g=1"]
+    code = main([*words, "--json", str(place / "fit.json"), "--output", str(place / "out")])
+    assert code == 0
+    assert "converged" in capsys.readouterr().out
+    data = json.loads((place / "fit.json").read_text())
+    assert data["estimates"]["K"]["value"] == pytest.approx(2.0, rel=0.02)
+    parameters = tomllib.loads((place / "out" / "parameters.toml").read_text())
+    assert parameters == pytest.approx(data["values"])
+    assert (place / "out" / "report.html").read_text().count("<img") == 4
+    lines = (place / "out" / "log" / "given" / "iterations.jsonl").read_text().splitlines()
+    assert json.loads(lines[-1])["outcome"] == "converged"
+    again = main([*words, "--resume", "--output", str(place / "out"), "--json", str(place / "again.json")])
+    assert again == 0
+    assert json.loads((place / "again.json").read_text())["values"] == data["values"]
+
+
+@pytest.mark.parametrize(
+    ("more", "message"),
+    [
+        (["--free", "K", "--fix", "T"], "--fix T: write NAME=VALUE"),
+        (["--free", "K", "--tie", "g=two*K"], "write A=B or A=2.5*B"),
+        (["--free", "K", "--bounds", "K=1"], "write NAME=LOW:HIGH"),
+        (["--free", "K", "--start", "T=1"], "T has a start or bounds but is not free"),
+        (["--free", "K", "--resume"], "nothing to resume"),
+        (["--free", "K", "--objective", "time", "--optimiser", "gauss-newton"], "sum of squares"),
+    ],
+)
+def test_wrong_words_are_one_line(
+    place: Path, capsys: pytest.CaptureFixture[str], more: list[str], message: str
+) -> None:
+    assert main(["fit", str(place / "Lag.fmu"), "--data", str(place / "data"), *more]) == 2
+    assert message in capsys.readouterr().err

@@ -1,0 +1,41 @@
+import numpy as np
+import pytest
+
+from pysim.plot import (
+    fit_correlation_figure,
+    fit_harmonics_figure,
+    fit_parameters_figure,
+    fit_record_figure,
+    render,
+)
+from pysim.types import BadInput
+from tests.pysim.fits import small_fit
+
+
+def test_a_record_is_drawn_with_its_residual_in_noise() -> None:
+    figure = fit_record_figure(small_fit().records[0])
+    top, _, low, _ = figure.axes
+    assert [line.get_ydata()[0] for line in top.lines] == pytest.approx([0.0, 0.2])
+    assert low.lines[0].get_ydata() == pytest.approx(np.full(50, -2.0))
+    assert low.get_ylabel() == "Residual (noise s.d.)"
+
+
+def test_harmonics_show_measured_points_and_simulated_lines() -> None:
+    figure = fit_harmonics_figure(small_fit().records[1:], "O+25")
+    top = figure.axes[0]
+    assert top.lines[0].get_ydata() == pytest.approx([9.0, 9.0])
+    assert top.lines[1].get_ydata() == pytest.approx([9.01, 9.01])
+    with pytest.raises(BadInput, match="stepped sines"):
+        fit_harmonics_figure(small_fit().records[:1], "O+25")
+
+
+def test_intervals_stand_between_the_bounds() -> None:
+    axes = fit_parameters_figure(small_fit()).axes[0]
+    assert axes.lines[1].get_xdata() == pytest.approx([1.7 / 9.9, 2.1 / 9.9])
+    assert [text.get_text() for text in axes.get_yticklabels()] == ["K", "g", "T"]
+
+
+def test_correlations_that_are_none_are_left_out() -> None:
+    figure = fit_correlation_figure(small_fit())
+    assert [text.get_text() for text in figure.axes[0].texts] == ["1.00"]
+    assert render(figure, "png").startswith(b"\x89PNG")

@@ -1,0 +1,39 @@
+import json
+
+from pysim.report.fit import fit_data, fit_page, fit_text
+from tests.pysim.fits import small_fit
+
+
+def test_the_text_says_what_was_found_and_what_was_not() -> None:
+    text = fit_text(small_fit())
+    assert "converged (a full step would gain nothing)" in text
+    assert "not determined by itself" in text
+    assert "at its lower bound" in text
+    assert "K g = 2, 95 % 1.9 to 2.1" in text
+    assert "wave.txt (validate), y: residual 2.000 of the noise" in text
+    assert "2 stepped sines of set (fit), y: residual 2.000 of the noise" in text
+    assert "not told by the data set" in text
+
+
+def test_the_data_are_plain_and_finite() -> None:
+    data = fit_data(small_fit())
+    json.dumps(data, allow_nan=False)
+    assert data["estimates"]["K"]["interval"] == [1.8, 2.2]
+    assert data["estimates"]["g"] | {} == {
+        "value": 1.0,
+        "unit": "1",
+        "start": 1.0,
+        "lower": 0.1,
+        "upper": None,
+        "std": None,
+        "interval": [0.1, None],
+        "at_bound": "",
+        "determined": False,
+    }
+    assert data["records"][0]["criteria"]["y"]["E_t mean"] == {"value": 0.2, "limit": 2.0}
+
+
+def test_the_page_holds_everything_a_reader_needs() -> None:
+    page = fit_page(small_fit(), pictures={"A picture": b"<svg/>"}, redo="pysim fit")
+    for text in ("not determined by itself", "K g", "wave.txt", "A picture", "pysim fit", "Table 1.4"):
+        assert text in page
