@@ -21,7 +21,7 @@ _BLUR = 5e-5
 # So many steps are taken inside the blur, where the slope is the better guide, before the search ends.
 _BLIND = 3
 # It is a good end where a full step would gain no more than so many times the tolerance.
-_NEAR = 10_000.0
+_NEAR = 200.0
 
 
 @dataclass(frozen=True)
@@ -34,7 +34,8 @@ class GaussNewton:
     Args:
         max_iterations: points to try.
         tolerance: ends the search once a full step would lower half the sum of squares by less than this, times the
-            mean square residual where that is above one. With residuals in standard deviations 1e-4 is 0.014 of them.
+            mean square residual where that is above one. With residuals in standard deviations 5e-3 is 0.1 of them,
+            for the worst combination of parameters.
         radius: of the first step, in natural logarithms or shares of the scale.
     Raises:
         BadInput: a setting that is not positive.
@@ -42,7 +43,7 @@ class GaussNewton:
     """
 
     max_iterations: int = 100
-    tolerance: float = 1e-4
+    tolerance: float = 5e-3
     radius: float = 0.5
     name: str = "gauss-newton"
     smooth_only: bool = True
@@ -58,7 +59,7 @@ class GaussNewton:
 
     def begin(self, start: Evaluation, bounds: Bounds, squares: bool) -> State:
         """See Optimiser."""
-        return self._examined(State(start, memory={"radius": self.radius, "blind": 0.0}), bounds)
+        return self._examined(State(start, memory={"radius": self.radius, "blind": 0.0, "refused": 0.0}), bounds)
 
     def propose(self, state: State, bounds: Bounds) -> Proposal:
         """See Optimiser."""
@@ -79,9 +80,10 @@ class GaussNewton:
             return self._examined(state, bounds) if steps < _BLIND else self._lost(state, bounds)
         if ratio < 0.25:
             radius = 0.25 * length
-        elif ratio > 0.75 and length > 0.8 * radius:
-            radius = 2 * radius
-        state = replace(state, tried=state.tried + 1, memory={**state.memory, "radius": radius})
+        elif ratio > 0.75 and length > 0.8 * radius and not state.memory["refused"]:
+            radius = 2 * radius  # right after a refused step it would only be refused again
+        memory = {**state.memory, "radius": radius, "refused": float(ratio <= 1e-4)}
+        state = replace(state, tried=state.tried + 1, memory=memory)
         if ratio > 1e-4:
             return self._examined(replace(state, best=trial), bounds)
         if radius < 1e-9:
