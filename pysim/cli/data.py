@@ -57,6 +57,11 @@ def _read(args: argparse.Namespace) -> Dataset:
     from pysim.types import BadInput
 
     if not (args.input or args.response):
+        if args.dataset.is_dir() and not (args.dataset / "dataset.toml").exists():
+            raise BadInput(
+                f"{args.dataset} holds no dataset.toml; name the folder that does, or write one, or tell what logs of "
+                "stepped sines hold with --input NAME:UNIT --response NAME:UNIT"
+            )
         return read_dataset(args.dataset)
     if len(args.input) != 1 or not args.response:
         raise BadInput("logs without a dataset.toml need one --input NAME:UNIT and at least one --response NAME:UNIT")

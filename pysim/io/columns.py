@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -11,10 +11,12 @@ from numpy.typing import NDArray
 
 from pysim.io.parquet_table import read_parquet
 from pysim.io.tdms_table import read_tdms
-from pysim.io.text_table import read_table
+from pysim.io.text_table import LEFT_OUT, read_table
 from pysim.types import BadInput
 
 Array = NDArray[np.float64]
+
+_MANY = 0.05  # of all rows: more of them that stand still are no slip
 
 # Files that name their columns themselves; all others are text.
 _BY_NAME: Mapping[str, Callable[[Path, tuple[str, ...], str], list[Array]]] = {
@@ -45,6 +47,11 @@ class Columns:
         """File and line of a row, for messages."""
         return f"{self.path}, {self.counted} {self.numbers[row]}"
 
+    def scaled(self, name: str, factor: float) -> Columns:
+        """The same with one column times a factor."""
+        factors = np.array([factor if other == name else 1.0 for other in self.names])
+        return replace(self, values=self.values * factors)
+
     def __getitem__(self, name: str) -> Array:
         """The column of that name, (n_r,)."""
         return self.values[:, self.names.index(name)]
@@ -54,19 +61,21 @@ def read_columns(path: Path, names: tuple[str, ...], wanted_by: str) -> Columns:
     """The named columns of a file.
 
     Args:
-        names: of a text file's columns, in its order; of a .parquet or .tdms file those that are wanted.
+        names: of a text file's columns, in its order, LEFT_OUT for those that are not wanted; of a .parquet or .tdms
+            file those that are wanted.
         wanted_by: what named the file, for messages.
     Raises:
         BadInput: what is wrong, with file, line (row) and remedy.
     """
     by_name = _BY_NAME.get(path.suffix.lower())
+    wanted = tuple(name for name in names if name != LEFT_OUT)
     if by_name is not None:
-        columns = by_name(path, names, wanted_by)
+        columns = by_name(path, wanted, wanted_by)
         if not columns[0].size:
-            raise BadInput(f"{path} holds no numbers; it needs rows of {', '.join(names)}")
-        return Columns(path, names, np.column_stack(columns), np.arange(1, columns[0].size + 1), "row")
+            raise BadInput(f"{path} holds no numbers; it needs rows of {', '.join(wanted)}")
+        return Columns(path, wanted, np.column_stack(columns), np.arange(1, columns[0].size + 1), "row")
     values, lines = read_table(path, names, wanted_by)
-    return Columns(path, names, values, lines)
+    return Columns(path, wanted, values[:, [name != LEFT_OUT for name in names]], lines)
 
 
 def refuse_standing_time(columns: Columns) -> None:
@@ -75,12 +84,12 @@ def refuse_standing_time(columns: Columns) -> None:
     Raises:
         BadInput: it stands still or runs backwards, with the line.
     """
-    steps = np.diff(columns["time"])
-    if np.any(steps <= 0):
-        row = int(np.argmax(steps <= 0)) + 1
+    wrong = np.diff(columns["time"]) <= 0
+    if np.any(wrong):
+        row = int(np.argmax(wrong)) + 1
         time, before = columns["time"][row], columns["time"][row - 1]
         how = "stands still at" if time == before else f"runs backwards from {before:.10g} s to"
-        raise BadInput(
-            f"{columns.place(row)}: time {how} {time:.10g} s; "
-            "remove the repeated rows, or give each test a log of its own"
-        )
+        cure = "remove the repeated rows, or give each test a log of its own"
+        if np.count_nonzero(wrong) > _MANY * wrong.size:
+            cure = "log it with more digits, or correct which column it is"
+        raise BadInput(f"{columns.place(row)}: time {how} {time:.10g} s; {cure}")

@@ -7,12 +7,14 @@ from pathlib import Path, PurePosixPath
 
 from pysim.io.measured_log import LOGS, TIME, read_log
 from pysim.io.measured_table import TABLE, read_measured_table
+from pysim.io.text_table import LEFT_OUT
 from pysim.io.toml_section import Section, read_toml
 from pysim.io.units import SI, signal_in_si
 from pysim.types import BadInput, Dataset, MeasuredRecord, MeasuredSignal
 
 _KEYS = ("dataset", "signals", "records")
-_DATASET_KEYS = ("name", "description", "system")
+_DATASET_KEYS = ("name", "description", "system", "time_unit")
+_SECONDS = {"s": 1.0, "ms": 1e-3}
 _SIGNAL_KEYS = ("role", "unit", "quantity", "variable", "noise", "resolution")
 _RECORD_KEYS = ("file", "columns", "kind", "use", "offset", "amplitude", "frequency", "input", "output", "origin")
 
@@ -27,8 +29,7 @@ def read_dataset(folder: Path | str) -> Dataset:
     Raises:
         BadInput: what is wrong, with file, line and remedy.
     """
-    path = Path(folder)
-    toml = read_toml(path if path.suffix == ".toml" else path / "dataset.toml", "data set")
+    toml = read_toml(_description(Path(folder)), "data set")
     head = toml.table("dataset")
     toml.whole.refuse_unknown(_KEYS)
     head.refuse_unknown(_DATASET_KEYS)
@@ -36,21 +37,41 @@ def read_dataset(folder: Path | str) -> Dataset:
     sections = toml.rows("records", "log or table")
     kinds = [_kind(section) for section in sections]
     _refuse_repeated(sections)
+    second = _SECONDS[head.text("time_unit", "s", among=tuple(_SECONDS))]
     return Dataset(
         name=head.text("name"),
         description=head.text("description", "-"),
         system=head.text("system", "-"),
         signals=tuple(signal_in_si(signal) for signal in written.values()),
         records=tuple(
-            _record(toml.path.parent, section, kind, written) for section, kind in zip(sections, kinds, strict=True)
+            _record(toml.path.parent, section, kind, written, second)
+            for section, kind in zip(sections, kinds, strict=True)
         ),
     )
+
+
+def _description(place: Path) -> Path:
+    """Where the dataset.toml is."""
+    if place.suffix == ".toml":
+        return place
+    if place.is_file():
+        raise BadInput(f"{place} is a single file; name the folder of the data set, or its dataset.toml")
+    if not place.is_dir():
+        raise BadInput(f"there is no folder {place}; correct the name of the data set")
+    if not (place / "dataset.toml").exists():
+        raise BadInput(
+            f"{place} holds no dataset.toml; name the folder that does, or write one that says what the logs are"
+        )
+    return place / "dataset.toml"
 
 
 def _signal(name: str, section: Section) -> MeasuredSignal:
     section.refuse_unknown(_SIGNAL_KEYS)
     if name == TIME:
-        raise BadInput(f"{section.place}: {TIME} is the clock of every log, in s, and no signal; remove the section")
+        raise BadInput(
+            f"{section.place}: {TIME} is the clock of every log and no signal; remove the section, and where it is in "
+            'ms write time_unit = "ms" below [dataset]'
+        )
     return MeasuredSignal(
         name=name,
         role=section.text("role", among=("input", "output")),
@@ -72,13 +93,15 @@ def _refuse_repeated(sections: tuple[Section, ...]) -> None:
     """A log that is named twice would count twice."""
     seen: dict[tuple[str, ...], str] = {}
     for section in sections:
-        key = (PurePosixPath(section.text("file")).as_posix(), *section.texts("columns"))
+        key = (PurePosixPath(section.source()).as_posix(), *section.texts("columns", repeatable=LEFT_OUT))
         if key in seen:
             raise BadInput(f"{section.place}: {key[0]} is the record of {seen[key]} already; name each file once")
         seen[key] = section.place.rpartition(", ")[2]
 
 
-def _record(folder: Path, section: Section, kind: str, signals: Mapping[str, MeasuredSignal]) -> MeasuredRecord:
+def _record(
+    folder: Path, section: Section, kind: str, signals: Mapping[str, MeasuredSignal], second: float
+) -> MeasuredRecord:
     if kind == TABLE:
         return read_measured_table(folder, section, signals)
-    return read_log(folder, section, kind, signals)
+    return read_log(folder, section, kind, signals, second)

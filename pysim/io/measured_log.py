@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from pysim.io.columns import Columns, read_columns, refuse_standing_time
+from pysim.io.text_table import LEFT_OUT
 from pysim.io.toml_section import Section
 from pysim.io.units import SI
 from pysim.types import BadInput, MeasuredRecord, MeasuredSignal, Record
@@ -26,7 +27,9 @@ LOGS: Mapping[str, tuple[str, ...]] = {
 _ROUNDING = 1e-6  # of a sampling rate that was computed from printed times
 
 
-def read_log(folder: Path, section: Section, kind: str, signals: Mapping[str, MeasuredSignal]) -> MeasuredRecord:
+def read_log(
+    folder: Path, section: Section, kind: str, signals: Mapping[str, MeasuredSignal], second: float = 1.0
+) -> MeasuredRecord:
     """One log.
 
     Args:
@@ -34,15 +37,17 @@ def read_log(folder: Path, section: Section, kind: str, signals: Mapping[str, Me
         section: what dataset.toml says of it.
         kind: one of LOGS.
         signals: by their names, in the units of the files.
+        second: how many s the unit of its times is.
     Raises:
         BadInput: what is wrong, with file, line and remedy.
     """
-    source, names = section.text("file"), section.texts("columns")
+    source, all_names = section.source(), section.texts("columns", repeatable=LEFT_OUT)
+    names = tuple(name for name in all_names if name != LEFT_OUT)
     _check_columns(section, names, signals)
     command = _command(section, names, signals)
     use = section.text("use", "fit", among=("fit", "validate"))
     test = _test(section, kind, SI[signals[command].unit][1] if command else 1.0)
-    columns = read_columns(folder / source, names, section.place)
+    columns = read_columns(folder / source, all_names, section.place).scaled(TIME, second)
     refuse_standing_time(columns)
     if test[2] is not None:
         refuse_fast_sine(section.place, columns, test[2])
@@ -78,9 +83,10 @@ def refuse_fast_sine(place: str, columns: Columns, frequency: float) -> None:
         return
     rate = 1 / float(np.median(np.diff(columns[TIME])))
     if frequency > 0.5 * rate * (1 + _ROUNDING):
+        ms = ', or tell that time is in ms: [dataset] time_unit = "ms"' if frequency <= 500 * rate < 500 else ""
         raise BadInput(
             f"{place}: frequency = {frequency:g} Hz is above half the sampling rate of {columns.path}, "
-            f"{rate:.4g} Hz; correct the frequency, or log faster"
+            f"{rate:.4g} Hz; correct the frequency, or log faster{ms}"
         )
 
 

@@ -23,7 +23,7 @@ def read_measured_table(folder: Path, section: Section, signals: Mapping[str, Me
     Raises:
         BadInput: what is wrong, with file, line and remedy.
     """
-    source = section.text("file")
+    source = section.source()
     command, output = (_signal_of_role(section, role, tuple(signals.values())) for role in ("input", "output"))
     to_si, from_command = SI[signals[output].unit][1], SI[signals[command].unit][1]
     offset, amplitude = (from_command * section.number(key) for key in ("offset", "amplitude"))

@@ -5,13 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-import numpy as np
-
 from pysim.io.columns import read_columns, refuse_standing_time
-from pysim.io.units import SI
-from pysim.types import BadInput, Dataset, MeasuredRecord, MeasuredSignal, Record
-
-_TIME = "time"
+from pysim.io.measured_log import TIME, in_si
+from pysim.io.units import SI, signal_in_si
+from pysim.types import BadInput, Dataset, MeasuredRecord, MeasuredSignal
 
 
 def read_single_log(path: Path | str, kind: str, columns: Sequence[str], units: Sequence[str]) -> Dataset:
@@ -28,7 +25,7 @@ def read_single_log(path: Path | str, kind: str, columns: Sequence[str], units: 
         BadInput: columns or units that do not fit together, and what is wrong in the file, with its line.
     """
     path, names = Path(path), tuple(columns)
-    if len(names) < 3 or names[0] != _TIME or len(set(names)) != len(names):
+    if len(names) < 3 or names[0] != TIME or len(set(names)) != len(names):
         raise BadInput(f"{path}: columns {', '.join(names)}: name time, the command and at least one response")
     unknown = [unit for unit in units if unit not in SI]
     if unknown or len(units) != len(names) - 1:
@@ -37,11 +34,9 @@ def read_single_log(path: Path | str, kind: str, columns: Sequence[str], units: 
         )
     table = read_columns(path, names, str(path))
     refuse_standing_time(table)
-    in_si = [SI[unit] for unit in units]
-    signals = tuple(
-        MeasuredSignal(name, "output" if i else "input", unit, name, name)
-        for i, (name, (unit, _)) in enumerate(zip(names[1:], in_si, strict=True))
-    )
-    values = np.column_stack([table[name] * factor for name, (_, factor) in zip(names[1:], in_si, strict=True)])
-    data = Record(table[_TIME], values, names[1:], tuple(unit for unit, _ in in_si), origin=f"measured, {path.name}")
-    return Dataset(path.name, "", "", signals, (MeasuredRecord(path.name, kind, "fit", data),))
+    signals = {
+        name: MeasuredSignal(name, "output" if i else "input", unit, name, name)
+        for i, (name, unit) in enumerate(zip(names[1:], units, strict=True))
+    }
+    record = MeasuredRecord(path.name, kind, "fit", in_si(table, signals, f"measured, {path.name}"))
+    return Dataset(path.name, "", "", tuple(signal_in_si(signal) for signal in signals.values()), (record,))

@@ -13,7 +13,11 @@ from pysim.types import BadInput
 
 Array = NDArray[np.float64]
 
+LEFT_OUT = "-"  # name of a column that nobody wants; it may hold anything
+
 _LABVIEW_END, _LABVIEW_LINES = "***End_of_Header***", 200
+_SHOWN = 60  # characters of a line in a message
+_UTF_16 = (b"\xff\xfe", b"\xfe\xff")
 
 
 def read_text(path: Path, wanted_by: str) -> str:
@@ -24,15 +28,17 @@ def read_text(path: Path, wanted_by: str) -> str:
     Args:
         wanted_by: what named the file, for the message.
     Raises:
-        BadInput: the file cannot be read.
+        BadInput: the file cannot be read, or is no text.
     """
     try:
         raw = path.read_bytes()
     except OSError as error:
         reason = error.strerror or type(error).__name__
         raise BadInput(f"{wanted_by}: cannot read {path} ({reason}); correct the name or put the file there") from error
+    if b"\0" in raw and raw[:2] not in _UTF_16:
+        raise BadInput(f"{wanted_by}: {path} is no text file; export it as text, such as .csv")
     try:
-        text = raw.decode("utf-16" if raw[:2] in (b"\xff\xfe", b"\xfe\xff") else "utf-8-sig")
+        text = raw.decode("utf-16" if raw[:2] in _UTF_16 else "utf-8-sig")
     except UnicodeDecodeError:
         text = raw.decode("latin-1")
     return text.replace("\r\n", "\n").replace("\r", "\n")
@@ -42,32 +48,43 @@ def read_table(path: Path, columns: tuple[str, ...], wanted_by: str) -> tuple[Ar
     """Read rows of numbers below optional header lines.
 
     Columns are separated by tabs, semicolons, commas or blanks; a decimal comma is read where the separator is not a
-    comma. Lines that start with # and empty lines are skipped. Lines above the first row of numbers are the header, and
-    so is what a LabVIEW measurement file (.lvm) says to be.
+    comma. Quotation marks, and a separator at the end of every row, mean nothing. Lines that start with # and empty
+    lines are skipped. Lines above the first row of numbers are the header, and so is what a LabVIEW measurement file
+    (.lvm) says to be.
 
     Args:
-        columns: (n_c) names, in the order of the file.
+        columns: (n_c) names, in the order of the file; those called LEFT_OUT are not looked at.
         wanted_by: what named the file, for messages.
     Returns:
         values (n_r, n_c) and the line number of each row (n_r,).
     Raises:
         BadInput: no rows, a row of another width, text where a number belongs, or a number that is not finite.
     """
-    lines = read_text(path, wanted_by).rstrip().split("\n")
+    lines = read_text(path, wanted_by).replace('"', "").rstrip().split("\n")
     begin = _behind_labview_header(lines)
     first = next((i for i in range(begin, len(lines)) if _is_row(lines[i], len(columns))), None)
     if first is None:
-        raise BadInput(f"{path} holds no numbers; it needs rows of {', '.join(columns)}")
+        last = f", and ends with {lines[-1].strip()[:_SHOWN]!r}" if lines[-1].strip() else ""
+        raise BadInput(f"{path} holds no numbers; it needs rows of {', '.join(columns)}{last}")
     body = lines[first:]
     numbers = np.arange(first + 1, len(lines) + 1)
     if any("#" in line or not line or line.isspace() for line in body):  # the usual log has no such lines
         numbers = numbers[[not _is_skipped(line) for line in body]]
         body = [lines[number - 1] for number in numbers]
+    body = _without_end_marks(body)
     values = read_block(body, len(columns))
     if values is None or len(values) != len(body):
         rows = zip(numbers.tolist(), body, strict=True)
         values = np.array([_row(_split(line.strip()), columns, f"{path}, line {number}") for number, line in rows])
     return values, numbers
+
+
+def _without_end_marks(rows: list[str]) -> list[str]:
+    """Rows whose first one ends with a separator, without it: nothing stands behind."""
+    first = rows[0].rstrip(" ")
+    if not first.endswith(("\t", ";", ",")):
+        return rows
+    return [row.rstrip(" ").removesuffix(first[-1]) for row in rows]
 
 
 def _behind_labview_header(lines: list[str]) -> int:
@@ -113,13 +130,14 @@ def _row(fields: list[str], columns: tuple[str, ...], where: str) -> list[float]
     if len(fields) != len(columns):
         raise BadInput(
             f"{where}: {len(fields)} columns where {len(columns)} belong ({', '.join(columns)}); "
-            "complete the row; in a data set, dataset.toml can name the file's columns"
+            f'complete the row; in a data set, dataset.toml names every column, "{LEFT_OUT}" those to leave out'
         )
     row = []
     for name, field in zip(columns, fields, strict=True):
-        value = _number(field)
+        value = 0.0 if name == LEFT_OUT else _number(field)
         if value is None:
-            raise BadInput(f"{where}: {field!r} is no number for {name}; correct it or remove the row")
+            cure = "write it as a number of seconds" if ":" in field else "correct it or remove the row"
+            raise BadInput(f"{where}: {field!r} is no number for {name}; {cure}")
         if not math.isfinite(value):
             raise BadInput(f"{where}: {name} is {field}, which is not finite; correct it or remove the row")
         row.append(value)

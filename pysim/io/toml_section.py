@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import tomllib
 from dataclasses import dataclass
-from pathlib import Path
+from pathlib import Path, PureWindowsPath
 from typing import Any
 
 from pysim.io.text_table import read_text
@@ -32,6 +32,10 @@ class Section:
         if among and value not in among:
             raise BadInput(f"{self.place}: {key} = {value!r} is not known; use one of {', '.join(among)}")
         return value
+
+    def source(self) -> str:
+        """The file a record names, with / between folders whatever the system."""
+        return PureWindowsPath(self.text("file")).as_posix()
 
     def number(self, key: str) -> float:
         """A finite number that must be there."""
@@ -63,13 +67,13 @@ class Section:
             raise BadInput(f"{self.place}: {key} cannot be negative, got {value:g}; correct it")
         return value
 
-    def texts(self, key: str) -> tuple[str, ...]:
-        """A row of different strings that must be there."""
+    def texts(self, key: str, *, repeatable: str = "") -> tuple[str, ...]:
+        """A row of strings that must be there, different but for the `repeatable` one."""
         values = self.values.get(key)
         if not isinstance(values, list) or not values or any(not isinstance(v, str) or not v for v in values):
             raise BadInput(f'{self.place}: {key} is missing or no row of texts; write {key} = ["...", "..."]')
         for value in values:
-            if values.count(value) > 1:
+            if values.count(value) > 1 and value != repeatable:
                 raise BadInput(f"{self.place}: {key} names {value!r} {values.count(value)} times; name it once")
         return tuple(values)
 
@@ -188,7 +192,8 @@ def read_toml(path: Path, wanted_by: str) -> TomlFile:
     try:
         content = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
-        raise BadInput(f"{path}: {error}; correct the TOML") from error
+        cure = "write / between folders" if "Unescaped '\\'" in str(error) else "correct the TOML"
+        raise BadInput(f"{path}: {error}; {cure}") from error
     lines = ((number, line.replace('"', "").strip()) for number, line in enumerate(text.split("\n"), 1))
     headers = tuple((number, line) for number, line in lines if line.startswith("["))
     return TomlFile(path, Section(str(path), content), headers)

@@ -19,6 +19,7 @@ Array = NDArray[np.float64]
 
 _DIGITS = 7  # of the largest value, where neither noise nor resolution says how many mean anything
 _FINER = 100.0  # how far rounding stays below noise and resolution
+_FORBIDDEN = frozenset('<>:"|?*')
 _TIME_SHARE = 1e-4  # of a sampling interval: how far a printed time may be from the true one
 
 
@@ -70,6 +71,10 @@ def _check_sources(dataset: Dataset) -> None:
         path = PurePosixPath(record.source)
         if path.is_absolute() or ".." in path.parts or PureWindowsPath(record.source).drive or not path.name:
             raise BadInput(f"record {record.source!r} would be written outside the data set; give it a relative name")
+        if set(record.source) & _FORBIDDEN:
+            raise BadInput(
+                f"record {record.source!r}: Windows has no such file names; leave out {' '.join(sorted(_FORBIDDEN))}"
+            )
         if path in seen or path == PurePosixPath("dataset.toml"):
             raise BadInput(f"record {record.source!r} has the name of another file; give each its own")
         seen.add(path)

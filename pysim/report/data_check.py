@@ -93,10 +93,10 @@ def _points(records: list[RecordCheck]) -> list[str]:
     """A line per operating point of stepped sines, and one per other record."""
     lines = []
     sines = [record for record in records if record.frequency is not None]
-    for (offset, amplitude), group in groupby(sines, key=lambda r: (r.offset, r.amplitude)):
+    for (offset, amplitude, unit), group in groupby(sines, key=lambda r: (r.offset, r.amplitude, r.unit)):
         members = list(group)
         frequencies = ", ".join(f"{f:g}" for f in sorted(r.frequency for r in members if r.frequency is not None))
-        point = f"offset {offset:g}, amplitude {amplitude:g}"
+        point = f"offset {offset:g} {unit}, amplitude {amplitude:g} {unit}"
         lines.append(f"{point}: {frequencies} Hz; {_times(members)}")
     lines += [f"{record.source}: {_times([record])}" for record in records if record.frequency is None]
     return [part for line in lines for part in textwrap.wrap(line, _WIDTH, subsequent_indent="    ")]
@@ -124,7 +124,7 @@ def _span(values: list[float]) -> str:
 
 def _record(record: RecordCheck) -> dict[str, Any]:
     base = record.clock
-    keys = ("source", "kind", "use", "rows", "offset", "amplitude", "frequency")
+    keys = ("source", "kind", "use", "rows", "offset", "amplitude", "unit", "frequency")
     about: dict[str, Any] = {key: getattr(record, key) for key in keys}
     about |= {"signals": list(record.signals), "warnings": list(record.warnings), "clock": None}
     if base is not None:

@@ -21,6 +21,7 @@ _IMPURE = 0.02  # of the sine: what may be left over of the command
 _JITTER = 0.05  # of the sampling interval
 _HARMONIC = 3  # a symmetric nonlinearity answers there
 _FOLDED = 0.01  # of a signal's variance close to half the sampling rate
+_SLOW = 1.0  # Hz: slower than any bench logs, unless its times are no seconds
 _ROUNDING = 1e-6
 
 
@@ -34,6 +35,7 @@ class RecordCheck:
         rows: samples, or frequencies of a table.
         clock: of a log; None for a table.
         offset, amplitude, frequency: as told.
+        unit: of offset and amplitude; empty where no input is told.
         warnings: sentences on what should be looked at.
     """
 
@@ -46,6 +48,7 @@ class RecordCheck:
     offset: float | None
     amplitude: float | None
     frequency: float | None
+    unit: str
     warnings: tuple[str, ...]
 
 
@@ -92,6 +95,7 @@ def _check(dataset: Dataset, record: MeasuredRecord, limits: dict[str, tuple[flo
         offset=record.offset,
         amplitude=record.amplitude,
         frequency=record.frequency,
+        unit=dataset.signal(record.command).unit if record.command else "",
         warnings=tuple(_warnings(dataset, record, data, base, limits)) if isinstance(data, Record) and base else (),
     )
 
@@ -111,7 +115,8 @@ def _warnings(
         count = clipped(log[name], *limits[name]) if signal.role == "output" else 0
         if count:
             low, high = limits[name]
-            yield f"{count} samples of {name} stand at its smallest or largest value ({low:g}, {high:g}): clipped?"
+            ends = f"({low:g}, {high:g} {signal.unit})"
+            yield f"{count} samples of {name} stand at its smallest or largest value {ends}: clipped?"
         noise = math.hypot(signal.noise or 0.0, (signal.resolution or 0.0) / math.sqrt(12))
         share = share_near_nyquist(log[name], noise) if record.kind in ("chirp", "stochastic", "multisine") else 0.0
         if share > _FOLDED:
@@ -122,6 +127,8 @@ def _warnings(
 
 
 def _of_clock(base: Clock) -> Iterator[str]:
+    if base.rate < _SLOW:
+        yield f'{base.rate:.3g} samples per second: if time is in ms, write time_unit = "ms" below [dataset]'
     if base.gaps:
         start, length = max(base.gaps, key=lambda gap: gap[1])
         count = f"{len(base.gaps)} gaps in time, the longest" if len(base.gaps) > 1 else "a gap in time,"
@@ -133,6 +140,9 @@ def _of_clock(base: Clock) -> Iterator[str]:
 def _of_sine(record: MeasuredRecord, log: Record, base: Clock, command: MeasuredSignal) -> Iterator[str]:
     """A stepped sine against what the record says of it."""
     told = float(record.frequency or 0.0)
+    if np.ptp(log[command.name]) == 0:
+        yield f"{command.name} stands still at {log[command.name][0]:g} {command.unit}"
+        return
     periods = told * base.duration
     if periods < _PERIODS - _ROUNDING:
         yield f"{periods:.2g} periods of {told:g} Hz: too few for a fit without the transient; two are the least"

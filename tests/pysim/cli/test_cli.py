@@ -131,7 +131,7 @@ def test_a_parameter_file_holds_numbers(folder: Path, content: str, capsys: pyte
 
 def test_missing_data_and_missing_model(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["compare", "none.fmu", "--data", str(tmp_path / "none")]) == 2
-    assert "dataset.toml" in capsys.readouterr().err
+    assert "there is no folder" in capsys.readouterr().err
     assert main(["simulate", str(tmp_path / "none.fmu")]) == 2
     assert "none.fmu" in capsys.readouterr().err
 

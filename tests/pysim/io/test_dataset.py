@@ -93,7 +93,7 @@ def test_reading_changes_nothing(folder: Path) -> None:
         ('unit = "%"', 'unit = "percent"', "line 6: unit = 'percent' is not known"),
         ("noise = 0.1", "noise = nan", "line 12: noise = nan is no finite number"),
         ("noise = 0.1", "noise = -0.1", "line 12: noise cannot be negative, got -0.1"),
-        ("[signals.cmd]", "[signals.time]", "line 6: time is the clock of every log, in s, and no signal"),
+        ("[signals.cmd]", "[signals.time]", "line 6: time is the clock of every log and no signal"),
         ('file = "sub/reordered.txt"', 'file = ""', "line 26: file is missing or no text"),
         ("offset = 25.0\n", "", "line 18: offset is missing"),
         ("offset = 25.0", "ofset = 25.0", "line 18: the key 'ofset' is not known"),
@@ -142,8 +142,15 @@ def test_refuses_faults_in_a_table(folder: Path, text: str, words: str) -> None:
 
 
 def test_refuses_a_folder_without_description(tmp_path: Path) -> None:
-    with pytest.raises(BadInput, match=r"data set: cannot read .*dataset\.toml"):
+    with pytest.raises(BadInput, match=r"holds no dataset\.toml; name the folder that does, or write one"):
         read_dataset(tmp_path)
+    with pytest.raises(BadInput, match=r"there is no folder .*none; correct the name"):
+        read_dataset(tmp_path / "none")
+    (tmp_path / "log.txt").write_text("0 1 2\n")
+    with pytest.raises(BadInput, match=r"log\.txt is a single file; name the folder"):
+        read_dataset(tmp_path / "log.txt")
+    with pytest.raises(BadInput, match=r"data set: cannot read .*other\.toml"):
+        read_dataset(tmp_path / "other.toml")
 
 
 def test_a_record_may_choose_among_outputs(folder: Path) -> None:

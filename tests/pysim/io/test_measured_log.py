@@ -116,6 +116,41 @@ def test_refuses_faults_in_the_description(tmp_path: Path, old: str, new: str, w
         read_dataset(files(tmp_path, TOML.replace(old, new)))
 
 
+def test_times_in_ms(tmp_path: Path) -> None:
+    in_ms = "t n p\n0 60 20\n100 30 21\n200 -60 22.5\n"
+    with pytest.raises(
+        BadInput, match=r'half .*sine\.txt, 0\.01 Hz; .*or tell that time is in ms: \[dataset\] time_unit = "ms"'
+    ):
+        read_dataset(files(tmp_path, sine=in_ms))
+    toml = TOML.replace("[dataset]", '[dataset]\ntime_unit = "ms"')
+    np.testing.assert_allclose(read_dataset(files(tmp_path, toml, in_ms)).logs()[0].data.time, [0.0, 0.1, 0.2])
+    with pytest.raises(BadInput, match="time_unit = 'min' is not known; use one of s, ms"):
+        read_dataset(files(tmp_path, TOML.replace("[dataset]", '[dataset]\ntime_unit = "min"')))
+
+
+def test_a_single_repeated_row_is_a_slip(tmp_path: Path) -> None:
+    rows = [f"{0.1 * k:.1f} {k} 20" for k in range(60)]
+    with pytest.raises(BadInput, match=r"line 32: time stands still at 3 s; remove the repeated rows"):
+        read_dataset(files(tmp_path, sine="\n".join([*rows[:31], *rows[30:]])))
+
+
+def test_columns_to_leave_out(tmp_path: Path) -> None:
+    toml = TOML.replace('["time", "speed", "p"]', '["-", "time", "speed", "-", "p"]')
+    sine = "at\tt\tn\tok\tp\n12:00\t0,0\t60\tyes\t20\n12:00\t0,1\t30\tyes\t21\n12:01\t0,2\t-60\tno\t22,5\n"
+    data = read_dataset(files(tmp_path, toml, sine)).logs()[0].data
+    assert data.names == ("speed", "p")
+    np.testing.assert_array_equal(data.values, read_dataset(files(tmp_path)).logs()[0].data.values)
+
+
+def test_folders_may_be_parted_by_either_slash(tmp_path: Path) -> None:
+    (tmp_path / "sub").mkdir()
+    (tmp_path / "sub" / "sine.txt").write_text(SINE)
+    toml = TOML.replace('"sine.txt"', r'"sub\\sine.txt"')
+    assert read_dataset(files(tmp_path, toml)).records[0].source == "sub/sine.txt"
+    with pytest.raises(BadInput, match="write / between folders"):
+        read_dataset(files(tmp_path, TOML.replace('"sine.txt"', r'"sub\sine.txt"')))
+
+
 def test_a_sine_at_half_the_sampling_rate_is_the_fastest(tmp_path: Path) -> None:
     assert read_dataset(files(tmp_path, TOML.replace("frequency = 2.0", "frequency = 5.0"))).records[0].frequency == 5.0
 
@@ -138,7 +173,11 @@ def test_a_log_named_twice_is_refused(tmp_path: Path) -> None:
         ("0 1 2\n0.1 NaN 2\n", "line 2: speed is NaN, which is not finite"),
         ("0 1 2\n0.1 1 -inf\n", "line 2: p is -inf, which is not finite"),
         ("0 1 2\n0.1 1 1e999\n", "line 2: p is 1e999, which is not finite"),
-        ("0 1 2\n\n0.1 1 2\n# again\n0.1 1 2\n", r"sine\.txt, line 5: time stands still at 0\.1 s"),
+        ("0 1 2\n\n0.1 1 2\n# again\n0.1 1 2\n", r"sine\.txt, line 5: time stands still at 0\.1 s; log it"),
+        (
+            "0 1 2\n0 1 2\n0.1 1 2\n0.1 1 2\n",
+            "line 2: time stands still at 0 s; log it with more digits, or correct which",
+        ),
         ("t n p\n0 1 2\n0.1 1 2\n0 1 2\n", r"sine\.txt, line 4: time runs backwards from 0\.1 s to 0 s"),
     ],
 )

@@ -30,6 +30,11 @@ def table(tmp_path: Path, text: str, encoding: str = "utf-8") -> Path:
         "1,5 -2,0 3e2\n4,0 5,0 6\n",
         "# made by hand\na b c\nSampling rate 250 Hz\n\n1.5 -2 3e2\n# a pause\n4 5 6",
         "\ufeffa,b,c\n1.5,-2,3e2\n4,5,6\n",
+        "a;b;c;\n1,5;-2;3e2;\n4;5;6;\n",
+        "a,b,c,\n1.5,-2,3e2, \n4,5,6,\n",
+        "1.5\t-2\t3e2\t\n4\t5\t6\n",
+        '"a","b","c"\n"1.5","-2","3e2"\n"4","5","6"\n',
+        '"a";"b";"c"\n"1,5";"-2";"3e2"\n"4";"5";"6"\n',
     ],
 )
 def test_every_dialect_gives_the_same_numbers(tmp_path: Path, text: str) -> None:
@@ -61,8 +66,12 @@ def test_latin_1_is_read(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        ("", "holds no numbers"),
-        ("a b c\n# nothing\n", "holds no numbers"),
+        ("", r"holds no numbers; it needs rows of a, b, c$"),
+        ("a b c\n# nothing\n", "holds no numbers; it needs rows of a, b, c, and ends with '# nothing'"),
+        ("PK\x03\x04\0\0", r"test: .*log\.txt is no text file; export it as text"),
+        ("1;2;3\n4;5;\n", "line 2: '' is no number for c"),
+        ("1;2;3;\n4;5;\n", "line 2: 2 columns where 3 belong"),
+        ("12:00:01 2 3\n12:00:02 2 3\n", "line 1: '12:00:01' is no number for a; write it as a number of seconds"),
         ("1 2 3\n4 5\n", r"line 2: 2 columns where 3 belong \(a, b, c\)"),
         ("1 2 3\n4\t\t6\n", "line 2: '' is no number for b"),
         ("1 2 3\n4 five 6\n", "line 2: 'five' is no number for b"),
@@ -80,3 +89,11 @@ def test_faults_are_named_with_their_line(tmp_path: Path, text: str, words: str)
 def test_a_missing_file_names_who_asked_for_it(tmp_path: Path) -> None:
     with pytest.raises(BadInput, match=r"dataset\.toml, line 9: cannot read .*none\.txt \(No such file"):
         read_table(tmp_path / "none.txt", COLUMNS, "dataset.toml, line 9")
+
+
+def test_columns_that_nobody_wants_may_hold_anything(tmp_path: Path) -> None:
+    path = table(tmp_path, "day;t;ok;u\n1.3.;0,5;yes;2\n1.3.;0,6;;3\n")
+    values, _ = read_table(path, ("-", "t", "-", "u"), "test")
+    np.testing.assert_array_equal(values[:, [1, 3]], [[0.5, 2.0], [0.6, 3.0]])
+    with pytest.raises(BadInput, match="line 2: 'yes' is no number for ok"):
+        read_table(path, ("-", "t", "ok", "u"), "test")

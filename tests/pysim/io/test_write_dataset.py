@@ -106,6 +106,14 @@ def test_seven_digits_of_anything(tmp_path_factory: pytest.TempPathFactory, valu
     np.testing.assert_allclose(back.values, log.values, atol=1e-6 * np.abs(column).max())
 
 
+def test_every_system_must_be_able_to_hold_the_names(tmp_path: Path) -> None:
+    log = Record(np.arange(2.0), np.zeros((2, 1)), ("cmd",), ("%",))
+    data = Dataset("x", "-", "-", SIGNALS[:1], (MeasuredRecord("run?1.txt", "other", "fit", log),))
+    with pytest.raises(BadInput, match=r"'run\?1\.txt': Windows has no such file names; leave out"):
+        write_dataset(tmp_path / "new", data)
+    assert not (tmp_path / "new").exists()
+
+
 @pytest.mark.parametrize("source", ["../out.txt", "/tmp/out.txt", "C:\\out.txt", "a/../../b.txt", "dataset.toml", "."])
 def test_nothing_is_written_elsewhere(tmp_path: Path, source: str) -> None:
     data = dataset(VALUES, TIME)

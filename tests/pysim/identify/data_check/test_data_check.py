@@ -49,8 +49,8 @@ def test_a_good_log_is_left_in_peace() -> None:
         ({"amplitude": 9.5}, "amplitude of the logged cmd is 10, not 9.5 % as told"),
         ({"cmd": np.clip(sine(), 16, 34)}, "cmd is no pure sine"),
         ({"cmd": np.sign(sine() - 25)}, "cmd is no pure sine"),
-        ({"cmd": np.full(TIME.size, 25.0)}, "amplitude of the logged cmd is"),
-        ({"y": np.clip(measured(0.9 * sine()), 15, 30)}, "stand at its smallest or largest value (15, 30): clipped?"),
+        ({"cmd": np.full(TIME.size, 25.0)}, "cmd stands still at 25 %"),
+        ({"y": np.clip(measured(0.9 * sine()), 15, 30)}, "stand at its smallest or largest value (15, 30 %): clipped?"),
         ({"frequency": 60.0, "cmd": sine(60.0)}, "aliasing: 3 x 60 Hz is beyond half the sampling rate, 250 Hz"),
     ],
 )
@@ -77,6 +77,11 @@ def test_gaps_and_uneven_sampling() -> None:
     assert found(time=holes) == ("2 gaps in time, the longest of 0.084 s after 2.396 s",)
     away = TIME + np.random.default_rng(2).uniform(0, 1e-3, TIME.size)
     assert found(time=away) == ("uneven sampling: the intervals vary by 10 percent",)
+
+
+def test_times_in_ms_are_suspected() -> None:
+    words = 'samples per second: if time is in ms, write time_unit = "ms" below [dataset]'
+    assert found(time=1000 * TIME, kind="other", frequency=None) == (f"0.25 {words}",)
 
 
 def test_the_clock_of_a_log() -> None:
