@@ -115,7 +115,7 @@ def _draw_map(axes: Axes, fit: TransferFunctionFit) -> None:
         if near:
             axes.plot(np.real(near), np.imag(near), marker, label=name, **look)
         for root in roots:
-            _draw_doubt(axes, root, fit.quantile(_LEVEL) / 1.959964, colour, reach)
+            _draw_doubt(axes, root, fit.quantile(_LEVEL) / _ONE, colour, reach)
     axes.set_xlabel("Real part (rad/s)", fontsize=TEXT)
     axes.set_ylabel("Imaginary part (rad/s)", fontsize=TEXT)
     axes.set_title("poles and zeros with 95 % regions", fontsize=TEXT, loc="left")

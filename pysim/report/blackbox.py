@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from pysim.identify import FREQUENCY_CRITERIA, magnitude_db
-from pysim.identify.blackbox import Estimate, FittedResponse, OrderSuggestion, Root
+from pysim.identify.blackbox import FittedNumber, FittedResponse, OrderSuggestion, Root
 from pysim.report.page import cell, commands, heading, items, page, paragraph, picture, table
 
 _WIDTH = 96
@@ -31,7 +31,7 @@ def _text(one: FittedResponse) -> Iterable[str]:
         f"{d.criterion.name} {d.value:.{n}f} {d.criterion.unit}" for d, n in zip(one.deviations, _DIGITS, strict=True)
     )
     for e in _numbers(one):
-        yield f"  {e.name:<10}{e.value:>14.6g}  [{e.low:.6g}, {e.high:.6g}] {e.unit}".rstrip()
+        yield f"  {e.name:<10}{e.value:>14.6g}  [{e.interval[0]:.6g}, {e.interval[1]:.6g}] {e.unit}".rstrip()
     for name, roots in (("pole", fit.poles), ("zero", fit.zeros)):
         yield from (f"  {name:<10}{_root_text(root, fit.quantile(0.95))}" for root in _upper(roots))
     if one.suggestion:
@@ -40,7 +40,7 @@ def _text(one: FittedResponse) -> Iterable[str]:
         yield textwrap.fill(f"note: {note}", _WIDTH, initial_indent="  ", subsequent_indent="    ")
 
 
-def _numbers(one: FittedResponse) -> tuple[Estimate, ...]:
+def _numbers(one: FittedResponse) -> tuple[FittedNumber, ...]:
     return (*one.fit.estimates(), one.fit.gain())
 
 
@@ -125,12 +125,12 @@ def _candidate(candidate: Any) -> dict[str, Any]:
     }
 
 
-def _estimate(e: Estimate) -> dict[str, Any]:
+def _estimate(e: FittedNumber) -> dict[str, Any]:
     return {
         "value": _finite(e.value),
-        "low": _finite(e.low),
-        "high": _finite(e.high),
-        "deviation": _finite(e.deviation),
+        "unit": e.unit,
+        "std": _finite(e.std),
+        "interval": [_finite(end) for end in e.interval],
     }
 
 
@@ -196,7 +196,7 @@ def _overview(fitted: Sequence[FittedResponse]) -> str:
 
 def _numbers_table(one: FittedResponse) -> str:
     rows = [
-        [cell(e.name), cell(f"{e.value:.6g}"), cell(f"{e.low:.6g}"), cell(f"{e.high:.6g}"), cell(e.unit)]
+        [cell(e.name), cell(f"{e.value:.6g}"), *(cell(f"{end:.6g}") for end in e.interval), cell(e.unit)]
         for e in _numbers(one)
     ]
     caption = "Coefficients of powers of s (rad/s), denominator monic; gain at rest; 95 percent intervals"

@@ -123,7 +123,7 @@ def _true_numbers(function: TransferFunction, structure: Structure) -> dict[str,
 
 def _intervals(fit: TransferFunctionFit) -> dict[str, tuple[float, float]]:
     """Of every coefficient, the dead time, the gain, and of each pole above or on the real axis size and damping."""
-    found = {e.name: (e.low, e.high) for e in (*fit.estimates(LEVEL), fit.gain(LEVEL))}
+    found = {e.name: e.interval for e in (*fit.estimates(LEVEL), fit.gain(LEVEL))}
     for i, pole in enumerate(fit.poles):
         found |= _of_pole(i, pole, fit.quantile(LEVEL), lambda low, high: (low, high))
     return found

@@ -4,7 +4,7 @@ from pysim.identify.blackbox.dataset import FittedResponse, fit_dataset
 from pysim.identify.blackbox.fit import fit_transfer_function
 from pysim.identify.blackbox.orders import Candidate, OrderSuggestion, suggest_orders
 from pysim.identify.blackbox.response import WEIGHTS, ComplexResponse, complex_response
-from pysim.identify.blackbox.result import Estimate, Root, TransferFunctionFit, fit_percent
+from pysim.identify.blackbox.result import FittedNumber, Root, TransferFunctionFit, fit_percent
 from pysim.identify.blackbox.structure import Structure
 from pysim.identify.blackbox.thesis_form import THESIS_STRUCTURE, from_thesis_row, thesis_row
 
@@ -13,7 +13,7 @@ __all__ = [
     "WEIGHTS",
     "Candidate",
     "ComplexResponse",
-    "Estimate",
+    "FittedNumber",
     "FittedResponse",
     "OrderSuggestion",
     "Root",

@@ -31,7 +31,7 @@ def cancellations(poles: Complex, zeros: Complex, pole_spread: Complex, zero_spr
             apart = abs(pole - zero)
             with np.errstate(invalid="ignore"):  # neither may be determined
                 noise = pole_spread[i] - zero_spread[j]
-            if apart <= _CLOSE * abs(pole) or (apart <= abs(pole) and _within_noise(pole - zero, noise)):
+            if apart <= _CLOSE * abs(pole) or (apart <= abs(pole) and within_noise(pole - zero, noise)):
                 candidates.append((apart, i, j))
     taken: list[tuple[int, int]] = []
     for _, i, j in sorted(candidates):
@@ -40,8 +40,8 @@ def cancellations(poles: Complex, zeros: Complex, pole_spread: Complex, zero_spr
     return taken
 
 
-def _within_noise(distance: complex, spread: Complex) -> bool:
-    """Whether the distance is one that noise makes in 95 of 100 cases."""
+def within_noise(distance: complex, spread: Complex) -> bool:
+    """Whether noise makes such a distance in 95 of 100 cases; spread (r,) is the complex factor of its covariance."""
     rows = np.vstack([spread.real, spread.imag]) if distance.imag or np.any(spread.imag) else spread.real[None, :]
     if not np.isfinite(rows).all():
         return True

@@ -72,6 +72,7 @@ def _result(data: ComplexResponse, weights: str, problem: Problem, minimum: Mini
         poles=roots.poles,
         zeros=roots.zeros,
         cancelling=roots.cancelling,
+        at_origin=roots.at_origin,
         standardised=minimum.point.residual.reshape(-1, 2) / (np.sqrt(variance) if variance > 0 else 1.0),
         misfit=misfit,
         freedom=freedom,

@@ -20,12 +20,18 @@ def _quality(fit: TransferFunctionFit, minimum: Minimum) -> list[str]:
     if not minimum.converged:
         notes.append(f"The search gave up after {minimum.evaluations} evaluations; the result may not be the best.")
     if fit.noise_known and fit.scatter > 1:
+        factor = _times(np.sqrt(fit.scatter))
         notes.append(
-            f"The residuals are {np.sqrt(fit.scatter):.2g} times what the noise explains: the structure does not hold "
+            f"The residuals are {factor} times what the noise explains: the structure does not hold "
             "all of the response, or the system is not linear. Intervals are widened by that factor, which covers "
             "random deviations and not a wrong structure."
         )
     return notes
+
+
+def _times(factor: float) -> str:
+    """Two digits, without powers of ten."""
+    return f"{factor:.1f}" if factor < 10 else f"{factor:.0f}"
 
 
 def _bounds(fit: TransferFunctionFit, minimum: Minimum) -> list[str]:
@@ -41,7 +47,12 @@ def _bounds(fit: TransferFunctionFit, minimum: Minimum) -> list[str]:
             "A pole ended at the edge of stability: without that condition the data ask for an unstable one, or for an "
             "integrator. It counts as known there, so the intervals are too narrow."
         )
-    unstable = sum(pole.value.real >= 0 for pole in fit.poles)
+    for i in fit.at_origin:
+        notes.append(
+            f"The pole at {fit.poles[i].frequency_hz:.2g} Hz cannot be told from an integrator: it is slower than any "
+            "measured frequency. The gain at rest is not determined; the response within the measured band is."
+        )
+    unstable = sum(pole.value.real >= 0 for i, pole in enumerate(fit.poles) if i not in fit.at_origin)
     if unstable:
         notes.append(
             f"{unstable} of {len(fit.poles)} poles are not left of the imaginary axis: not stable. A system that "

@@ -67,14 +67,14 @@ def suggest_orders(
         BadInput: too few frequencies for any structure.
     """
     data = complex_response(response) if isinstance(response, FrequencyResponse) else response
+    count = 2 * data.frequency.size
     tops = (None,) if dead_time_max is None else (None, dead_time_max)
     structures = [
         Structure(n, m, 0.0, top, stable)
         for top in tops
-        for n in range(1, most_poles + 1)
+        for n in range(1, min(most_poles, count) + 1)
         for m in range(max(n - relative_degree, -1) + 1)
     ]
-    count = 2 * data.frequency.size
     fits = [
         fit_transfer_function(data, s, weights=weights, tries=_TRIES) for s in structures if s.parameters + 3 <= count
     ]
@@ -89,7 +89,10 @@ def suggest_orders(
 
 
 def _candidate(fit: TransferFunctionFit, count: int, trusted: bool) -> Candidate:
-    """Minus twice the logarithm of the likelihood of Gaussian noise, plus what each unknown costs."""
+    """Minus twice the logarithm of the likelihood of Gaussian noise, plus what each unknown costs.
+
+    The term for few data is kept where the noise is known, which would not need it: it leans to fewer poles.
+    """
     if trusted:
         deviance, unknowns = fit.misfit, fit.structure.parameters
     else:

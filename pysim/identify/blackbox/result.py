@@ -18,15 +18,19 @@ Complex = NDArray[np.complex128]
 
 
 @dataclass(frozen=True)
-class Estimate:
-    """A number with its standard deviation and interval, all in `unit`; infinite where the data do not determine it."""
+class FittedNumber:
+    """A coefficient, dead time or gain, in `unit`.
+
+    Args:
+        std: standard deviation to first order; infinite where the data do not determine the number.
+        interval: lowest and highest value at the level that was asked for.
+    """
 
     name: str
-    value: float
-    deviation: float
-    low: float
-    high: float
     unit: str
+    value: float
+    std: float
+    interval: tuple[float, float]
 
 
 @dataclass(frozen=True)
@@ -77,6 +81,7 @@ class TransferFunctionFit:
         undetermined: names that the data do not determine.
         poles, zeros: with their covariances, rad/s, by rising magnitude.
         cancelling: pairs (pole, zero) by place that the data cannot tell apart.
+        at_origin: places of the poles that the data cannot tell from integrators.
         standardised: (n_f, 2) residuals of real and imaginary part in standard deviations, measured minus fitted.
         misfit: weighted sum of squares.
         freedom: measured numbers less estimated ones.
@@ -96,6 +101,7 @@ class TransferFunctionFit:
     poles: tuple[Root, ...]
     zeros: tuple[Root, ...]
     cancelling: tuple[tuple[int, int], ...]
+    at_origin: tuple[int, ...]
     standardised: Array
     misfit: float
     freedom: int
@@ -130,7 +136,7 @@ class TransferFunctionFit:
         """The probability that noise alone makes a misfit as large as this; not a number where noise is not known."""
         return float(stats.chi2.sf(self.misfit, self.freedom)) if self.noise_known else np.nan
 
-    def estimates(self, level: float = 0.95) -> tuple[Estimate, ...]:
+    def estimates(self, level: float = 0.95) -> tuple[FittedNumber, ...]:
         """Every coefficient and the dead time with its interval at the level, to first order in the noise."""
         deviations = np.sqrt(np.sum(self.spread**2, axis=1))
         return tuple(
@@ -138,11 +144,11 @@ class TransferFunctionFit:
             for name, value, deviation in zip(self.names, self.values, deviations, strict=True)
         )
 
-    def gain(self, level: float = 0.95) -> Estimate:
-        """G(0) with its interval, output unit per input unit; infinite with an integrator."""
+    def gain(self, level: float = 0.95) -> FittedNumber:
+        """G(0) with its interval, output unit per input unit; unbounded where there may be an integrator."""
         b0, a0 = self.function.numerator[-1], self.function.denominator[-1]
-        if a0 == 0:
-            return Estimate("gain", np.inf, np.inf, -np.inf, np.inf, "")
+        if a0 == 0 or self.at_origin:
+            return FittedNumber("gain", "", b0 / a0 if a0 else np.inf, np.inf, (-np.inf, np.inf))
         slope = np.zeros(len(self.names))
         slope[len(self.function.numerator) - 1] = 1 / a0
         if self.structure.poles:
@@ -171,11 +177,11 @@ class TransferFunctionFit:
         known = self.noise_known and self.scatter == 1.0
         return float(stats.norm.ppf(tail) if known or self.freedom == 0 else stats.t.ppf(tail, self.freedom))
 
-    def _estimate(self, name: str, value: float, deviation: float, unit: str, level: float) -> Estimate:
+    def _estimate(self, name: str, value: float, deviation: float, unit: str, level: float) -> FittedNumber:
         if name in self.undetermined:
             deviation = np.inf
         half = self.quantile(level) * deviation
-        return Estimate(name, value, deviation, value - half, value + half, unit)
+        return FittedNumber(name, unit, value, deviation, (value - half, value + half))
 
 
 def fit_percent(measured: Complex, fitted: Complex) -> float:

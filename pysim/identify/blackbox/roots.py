@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from pysim.identify.blackbox import sections
-from pysim.identify.blackbox.cancellation import cancellations
+from pysim.identify.blackbox.cancellation import cancellations, within_noise
 from pysim.identify.blackbox.objective import Problem
 from pysim.identify.blackbox.refine import Minimum
 from pysim.identify.blackbox.result import Root
@@ -21,11 +22,17 @@ Complex = NDArray[np.complex128]
 
 @dataclass(frozen=True)
 class Roots:
-    """Poles and zeros by rising magnitude, and the pairs (pole, zero) of them that cancel."""
+    """Poles and zeros by rising magnitude.
+
+    Args:
+        cancelling: pairs (pole, zero) by place that cancel.
+        at_origin: places of the poles that cannot be told from integrators.
+    """
 
     poles: tuple[Root, ...]
     zeros: tuple[Root, ...]
     cancelling: tuple[tuple[int, int], ...]
+    at_origin: tuple[int, ...]
 
 
 def roots_of(problem: Problem, minimum: Minimum, function: TransferFunction, doubt: Spread, variance: float) -> Roots:
@@ -47,7 +54,17 @@ def roots_of(problem: Problem, minimum: Minimum, function: TransferFunction, dou
         _with_doubt(poles[order], pole_spread),
         _with_doubt(zeros, zero_spread),
         tuple(cancellations(poles[order], zeros, pole_spread, zero_spread)),
+        tuple(_at_origin(problem, minimum, poles[order], pole_spread)),
     )
+
+
+def _at_origin(problem: Problem, minimum: Minimum, poles: Complex, spread: Complex) -> Iterator[int]:
+    """Poles slower than all measured frequencies that are as near to zero as noise may bring them, or held there."""
+    lowest = problem.scale * problem.s[0].imag
+    held = problem.structure.stable and bool(np.any(minimum.at_bound[: problem.structure.poles]))
+    for i, pole in enumerate(poles):
+        if abs(pole) < lowest and (held or pole == 0 or within_noise(pole, spread[i])):
+            yield i
 
 
 def _known(doubt: Spread, rows: Complex, noise: float) -> Complex:

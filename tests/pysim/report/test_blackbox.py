@@ -28,17 +28,17 @@ def test_text(fitted) -> None:
 def test_data_is_plain_and_complete(fitted) -> None:
     (one,) = json.loads(json.dumps(blackbox_data(fitted, dataset="bench"), allow_nan=False))["responses"]
     assert one["denominator"] == pytest.approx([1.0, 18.0, 981.0], rel=0.01)
-    low, value, high = (one["estimates"]["a0"][key] for key in ("low", "value", "high"))
+    value, (low, high) = (one["estimates"]["a0"][key] for key in ("value", "interval"))
     assert low < value < high
     assert value == one["denominator"][2]
-    assert np.sqrt(one["covariance"]["matrix"][2][2]) == pytest.approx(one["estimates"]["a0"]["deviation"])
+    assert np.sqrt(one["covariance"]["matrix"][2][2]) == pytest.approx(one["estimates"]["a0"]["std"])
     assert len(one["residuals_standard_deviations"]) == len(F)
     assert one["structures"] is None
 
 
 def test_what_is_not_determined_is_null() -> None:
     (one,) = blackbox_data(fit_dataset(dataset(table(0, 1)), Structure(3, 1)), dataset="bench")["responses"]
-    assert one["estimates"]["a0"]["low"] is None
+    assert one["estimates"]["a0"]["interval"] == [None, None]
     assert json.dumps(one, allow_nan=False)
 
 

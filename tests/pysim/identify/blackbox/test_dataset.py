@@ -27,8 +27,8 @@ def test_logs_with_their_noise() -> None:
     assert one.fit.noise_known
     truth = [*SYSTEM.numerator, *SYSTEM.denominator[1:]]
     for estimate, value in zip(one.fit.estimates(0.999), truth, strict=True):
-        assert estimate.low < value < estimate.high
-        assert estimate.deviation < 0.01 * abs(value)
+        assert estimate.interval[0] < value < estimate.interval[1]
+        assert estimate.std < 0.01 * abs(value)
 
 
 def test_some_tests_only_and_orders_on_request() -> None:

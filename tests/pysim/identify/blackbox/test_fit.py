@@ -155,5 +155,5 @@ def test_whatever_the_numbers_there_is_an_answer(seed: int) -> None:
     structure = Structure(int(rng.integers(0, 6)), int(rng.integers(0, 5)), 0.0, top, bool(rng.random() < 0.5))
     fit = fit_transfer_function(ComplexResponse(frequency, kinds[seed % 4]), structure, tries=2)
     assert np.isfinite(fit.values).all()
-    assert all(e.low <= e.value <= e.high for e in (*fit.estimates(), fit.gain()))
+    assert all(e.interval[0] <= e.value <= e.interval[1] for e in (*fit.estimates(), fit.gain()))
     assert fit.function.stable or not structure.stable

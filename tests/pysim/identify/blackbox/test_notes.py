@@ -34,3 +34,13 @@ def test_dead_time_at_either_end() -> None:
 def test_what_is_not_determined() -> None:
     plain = from_roots([], pairs(-5 + 30j), 900.0)
     assert "do not determine b0, a2, a1, a0" in notes(exact(plain, F), Structure(3, 1))
+
+
+def test_an_integrator_is_named_and_not_called_unstable() -> None:
+    data = [noisy(from_roots([], [0.0, -25.0], 50.0), F, 0.001, seed) for seed in range(4)]
+    fits = [fit_transfer_function(one, Structure(2)) for one in data]
+    for fit in fits:
+        assert fit.at_origin == (0,)
+        assert "cannot be told from an integrator" in fit.notes[0]
+        assert not any("not stable" in note for note in fit.notes)
+    assert {fit.function.stable for fit in fits} == {True, False}  # noise decides on which side it comes out

@@ -53,6 +53,12 @@ def test_criteria_by_hand() -> None:
     assert only.bic == pytest.approx(likelihood + k * np.log(n))
 
 
+def test_more_poles_than_the_points_allow_are_not_even_listed() -> None:
+    data = exact(from_roots([], [-5.0], 5.0), np.array([0.3, 1.0, 3.0]))
+    found = suggest_orders(data, most_poles=10**9)
+    assert max(c.fit.structure.parameters for c in found.candidates) == 3  # of six numbers
+
+
 def test_refuses_too_few_points() -> None:
     with pytest.raises(BadInput, match="too few for any structure"):
         suggest_orders(exact(from_roots([], [-5.0], 5.0), np.array([1.0, 2.0])))

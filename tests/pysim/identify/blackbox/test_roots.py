@@ -33,5 +33,5 @@ def test_without_noise_what_is_too_much_is_not_determined() -> None:
     assert len(lost) == 1
     lead, *others = fit.estimates()  # of any such pair of pole and zero
     assert lead.value == pytest.approx(900.0)
-    assert lead.deviation < 1e-6
-    assert all(np.isinf(e.deviation) for e in others)
+    assert lead.std < 1e-6
+    assert all(np.isinf(e.std) for e in others)

@@ -33,7 +33,7 @@ def test_covariance_of_poles_zeros_and_gain_is_that_of_repeated_fits(fits) -> No
         "pole Hz": [(fit.poles[1].frequency_hz, fit.poles[1].frequency_deviation_hz) for fit in fits],
         "damping": [(fit.poles[1].damping, fit.poles[1].damping_deviation) for fit in fits],
         "zero": [(fit.zeros[0].value.real, np.sqrt(fit.zeros[0].covariance[0, 0])) for fit in fits],
-        "gain": [(fit.gain().value, fit.gain().deviation) for fit in fits],
+        "gain": [(fit.gain().value, fit.gain().std) for fit in fits],
     }
     for name, rows in draws.items():
         values, claims = np.array(rows).T
@@ -42,7 +42,9 @@ def test_covariance_of_poles_zeros_and_gain_is_that_of_repeated_fits(fits) -> No
 
 def test_intervals_hold_what_they_say(fits) -> None:
     truth = np.array([*SYSTEM.numerator, *SYSTEM.denominator[1:], SYSTEM.dead_time])
-    inside = [[e.low <= t <= e.high for e, t in zip(fit.estimates(), truth, strict=True)] for fit in fits]
+    inside = [
+        [e.interval[0] <= t <= e.interval[1] for e, t in zip(fit.estimates(), truth, strict=True)] for fit in fits
+    ]
     np.testing.assert_allclose(np.mean(inside, axis=0), 0.95, atol=SHARE)
 
 
@@ -91,7 +93,7 @@ def test_a_correlated_covariance_is_used_jointly() -> None:
         fit = fit_transfer_function(data, STRUCTURE)
         error[name] = np.linalg.norm(fit.function.at(F) - SYSTEM.at(F))
     assert error["joint"] < 0.6 * error["apart"]
-    deviations = [fit_transfer_function(d, STRUCTURE).gain().deviation for d in (joint, apart)]
+    deviations = [fit_transfer_function(d, STRUCTURE).gain().std for d in (joint, apart)]
     assert deviations[0] < 0.6 * deviations[1]
 
 
