@@ -35,7 +35,10 @@ class Section:
 
     def source(self) -> str:
         """The file a record names, with / between folders whatever the system."""
-        return PureWindowsPath(self.text("file")).as_posix()
+        name = self.text("file")
+        if not name.isprintable():  # TOML reads the \t of logs\test.txt as a tab
+            raise BadInput(f"{self.place}: file = {name!r} is no name; write / between folders")
+        return PureWindowsPath(name).as_posix()
 
     def number(self, key: str) -> float:
         """A finite number that must be there."""

@@ -17,14 +17,14 @@ Array = NDArray[np.float64]
 _ROWS = 12  # frequencies in a table; all of them are in the data
 _ALARM = 0.01  # p-value below which a distortion counts as seen
 _POOL = 6  # free lines whose mean stands in a table
-_COLUMNS = ("Hz", "gain dB", "± dB", "phase deg", "± deg", "noise dB", "distortion dB", "even dB", "odd dB")
+_HEADS = ("Hz", "gain dB", "± dB", "phase deg", "± deg", "noise dB", "distortion dB", "even dB", "odd dB")
 
 
 def multisine_text(name: str, bla: BestLinearApproximation) -> str:
     """What was found, for a terminal: verdicts, then some of the lines; "-" is below what the noise lets see."""
-    rows = _table_rows(bla)
-    widths = [max(len(row[i]) for row in [_COLUMNS, *rows]) for i in range(len(_COLUMNS))]
-    lines = ["  ".join(text.rjust(width) for text, width in zip(row, widths, strict=True)) for row in (_COLUMNS, *rows)]
+    rows = [_heads(bla), *_table_rows(bla)]
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    lines = ["  ".join(text.rjust(width) for text, width in zip(row, widths, strict=True)) for row in rows]
     return "\n".join([f"{name}: {bla.method}", *(f"  {line}" for line in verdicts(bla)), *(f"  {x}" for x in lines)])
 
 
@@ -103,7 +103,7 @@ def multisine_section(
     )
     for name, bla in approximations.items():
         rows = [[cell(text) for text in row] for row in _table_rows(bla)]
-        parts.append(table(f"{name}: some of {bla.frequency.size} lines, ± for 95 percent", _COLUMNS, rows))
+        parts.append(table(f"{name}: some of {bla.frequency.size} lines, ± for 95 percent", _heads(bla), rows))
     return parts
 
 
@@ -128,6 +128,11 @@ def _worst(bla: BestLinearApproximation) -> str:
     return f"Worst at {bla.frequency[k]:g} Hz: distortion {-10 * np.log10(share[k]):.1f} dB below the linear response"
 
 
+def _heads(bla: BestLinearApproximation) -> tuple[str, ...]:
+    """Of the table; noise stands for everything where nothing tells it from distortion."""
+    return tuple("noise + distortion dB" if bla.noise is None and head == "noise dB" else head for head in _HEADS)
+
+
 def _table_rows(bla: BestLinearApproximation) -> list[tuple[str, ...]]:
     f = bla.frequency
     wanted = np.geomspace(f[0], f[-1], min(_ROWS, f.size))
@@ -140,7 +145,7 @@ def _table_rows(bla: BestLinearApproximation) -> list[tuple[str, ...]]:
         [f"{x:.2f}" for x in 20 / np.log(10) * magnitude[at] / size[at]],
         [f"{x:.1f}" for x in angle[at]],
         [f"{x:.1f}" for x in np.degrees(phase[at])],
-        _decibels(bla.noise, at),
+        _decibels(bla.noise or bla.total, at),
         _decibels(bla.distortion, at),
         *(_decibels(None if level is None else pooled(level, f[at], _POOL), None) for level in (bla.even, bla.odd)),
     ]

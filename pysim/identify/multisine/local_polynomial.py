@@ -190,7 +190,8 @@ def _band(
 def _is_rough(drive: Complex, settings: LocalPolynomial) -> NDArray[np.bool_]:
     """(n_l,) whether a polynomial, like that of a transient, leaves enough of the input over around a line."""
     width = 2 * settings.half_width + 1
-    basis, _ = np.linalg.qr(powers(np.arange(width)[None] - float(settings.half_width), settings.order)[0].real)
+    distance = np.arange(width, dtype=np.float64) - settings.half_width
+    basis, _ = np.linalg.qr(powers(distance[None], settings.order)[0].real)
     rows = np.lib.stride_tricks.sliding_window_view(drive, width)
     whole = np.sum(np.abs(rows) ** 2, axis=1)
     smooth = np.sum(np.abs(rows @ basis) ** 2, axis=1)

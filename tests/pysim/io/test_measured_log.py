@@ -147,6 +147,8 @@ def test_folders_may_be_parted_by_either_slash(tmp_path: Path) -> None:
     (tmp_path / "sub" / "sine.txt").write_text(SINE)
     toml = TOML.replace('"sine.txt"', r'"sub\\sine.txt"')
     assert read_dataset(files(tmp_path, toml)).records[0].source == "sub/sine.txt"
+    with pytest.raises(BadInput, match=r"line 18: file = 'sub\\test\.txt' is no name; write / between folders"):
+        read_dataset(files(tmp_path, TOML.replace('"sine.txt"', r'"sub\test.txt"')))
     with pytest.raises(BadInput, match="write / between folders"):
         read_dataset(files(tmp_path, TOML.replace('"sine.txt"', r'"sub\sine.txt"')))
 

@@ -36,6 +36,14 @@ def test_text_has_a_row_per_frequency_and_a_dash_below_the_noise() -> None:
     assert float(lines[6].split()[1]) == round(20 * np.log10(abs(SQUARE.gain[0])), 2)
 
 
+def test_where_noise_cannot_be_told_apart_the_table_shows_both_together() -> None:
+    alone = robust_approximation(measure(FREE, realisations=3, periods=1, noise=0.01, seed=2))
+    lines = multisine_text("bench", alone).splitlines()
+    assert "noise + distortion dB  distortion dB" in lines[3]
+    assert alone.total is not None
+    assert lines[4].split()[5:] == [f"{10 * np.log10(alone.total.variance[0]):.1f}", "-", "-", "-"]
+
+
 def test_data_is_complete_and_json() -> None:
     data = multisine_data("bench", SQUARE)
     again = json.loads(json.dumps(data, allow_nan=False))

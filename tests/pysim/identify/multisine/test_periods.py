@@ -54,6 +54,17 @@ def test_rounded_times_of_a_log_are_no_reason_to_refuse() -> None:
     assert periods_of([log(time)], 1.0, ("u", "y"), start=0.0).values.shape == (1, 3, 300, 2)
 
 
+def test_a_last_digit_may_round_but_not_hide_uneven_sampling() -> None:
+    """70 Hz printed in ms is off by 3.5 percent of an interval; a jitter of 5 percent told in full is refused."""
+    time = np.arange(700) / 70
+    assert periods_of([log(np.round(time, 3))], 1.0, ("u", "y"), start=0.0).values.shape == (1, 10, 70, 2)
+    with pytest.raises(BadInput, match="not sampled at equal intervals"):
+        periods_of([log(np.round(time, 2))], 1.0, ("u", "y"), start=0.0)
+    uneven = time + np.random.default_rng(0).uniform(-0.05, 0.05, 700) / 70
+    with pytest.raises(BadInput, match="not sampled at equal intervals"):
+        periods_of([log(uneven)], 1.0, ("u", "y"), start=0.0)
+
+
 @pytest.mark.parametrize(
     ("time", "period", "words"),
     [
