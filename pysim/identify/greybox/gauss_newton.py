@@ -142,7 +142,7 @@ class _Step:
 
     def within(self, radius: float) -> Array:
         """The best step (n,) no longer than radius."""
-        floor = max((EXACT * np.linalg.norm(self.triangle, 2)) ** 2, np.finfo(float).tiny)
+        floor = max(float((EXACT * np.linalg.norm(self.triangle, 2)) ** 2), float(np.finfo(float).tiny))
         p = self._damped(floor)
         if np.linalg.norm(p) <= radius:
             return p

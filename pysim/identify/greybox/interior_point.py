@@ -148,11 +148,11 @@ class _Barrier:
         value = self.value(point)
         for _ in range(_NEWTON_STEPS):
             gradient, curvature = self._slopes(point, p, damping)
-            d = -np.linalg.lstsq(curvature, gradient, rcond=1e-14)[0]
+            d = np.asarray(-np.linalg.lstsq(curvature, gradient, rcond=1e-14)[0], dtype=np.float64)
             share, decrease = self._share(point.x + p, d), float(-gradient @ d)
             while share > 1e-10:
                 trial = p + share * d
-                new = self.linear(point, trial) + 0.5 * damping * trial @ trial
+                new = self.linear(point, trial) + 0.5 * damping * float(trial @ trial)
                 if new <= value - 1e-4 * share * decrease:
                     break
                 share *= 0.5

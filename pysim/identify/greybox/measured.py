@@ -198,7 +198,8 @@ def _sines(setting: _Setting, group: list[MeasuredRecord]) -> SineTarget:
 def _sine(setting: _Setting, record: MeasuredRecord) -> tuple[SineLog, Run]:
     assert isinstance(record.data, Record)
     columns, outputs = setting.columns(record)
-    swinging = max(columns, key=lambda column: float(np.std(record.data[column])))  # the others stand still
+    data = record.data
+    swinging = max(columns, key=lambda column: float(np.std(data[column])))  # the others stand still
     sine = steady_sine(logged_wave(record, swinging))
     noise = tuple(setting.noise[name] for name in outputs)
     log = sine_log(record.source, _cut(record.data, outputs), sine, noise, setting.treatment.sine)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -73,7 +74,9 @@ def _place(space: ParameterSpace, name: str) -> int:
     return space.keys.index(name)
 
 
+_REFINEMENTS = 8
 _NAMES = ("keys", "variables", "records", "units")
+_ARRAYS = ("lower", "upper", "scale", "log")
 
 
 @dataclass
@@ -93,20 +96,13 @@ class _Walker:
     def cost(self, value: float) -> float:
         """The smallest sum of squares with the parameter held at value."""
         space, keep = self.problem.space, [i for i in range(self.problem.space.size) if i != self.place]
-        rest = replace(
-            space,
-            **{
-                name: tuple(getattr(space, name)[i] for i in keep) for name in ("keys", "variables", "records", "units")
-            },
-            **{name: getattr(space, name)[keep] for name in ("lower", "upper", "scale", "log")},
-            start=self.others,
-            ties=tuple(tie for tie in space.ties if tie.of != space.keys[self.place]),
-            fixed={
-                **space.fixed,
-                space.variables[self.place]: value,
-                **{tie.name: tie.factor * value for tie in space.ties if tie.of == space.keys[self.place]},
-            },
-        )
+        own = space.keys[self.place]
+        kept: dict[str, Any] = {name: tuple(getattr(space, name)[i] for i in keep) for name in _NAMES}
+        kept |= {name: getattr(space, name)[keep] for name in _ARRAYS}
+        tied = {tie.name: tie.factor * value for tie in space.ties if tie.of == own}
+        fixed = {**space.fixed, space.variables[self.place]: value, **tied}
+        ties = tuple(tie for tie in space.ties if tie.of != own)
+        rest = replace(space, **kept, start=self.others, ties=ties, fixed=fixed)
         evaluate = evaluator(replace(self.problem, space=rest), NOISE, self.simulation)
         state = search(evaluate, GaussNewton(), rest, rest.to_search(self.others), squares=True)
         if state.best.good:
@@ -129,7 +125,7 @@ def _end(walker: _Walker, fit: Fit, name: str, side: int, limit: float, steps: i
         rise = walker.cost(value) - fit.cost
         rows[value] = rise + fit.cost
         if rise >= limit:
-            end = _between(inside, low, value, rise, limit)
+            end = _refined(walker, (inside, low), (value, rise), limit, rows)
             break
         inside, low, reach = value, max(rise, 0.0), 1.5 * reach
         if value == bound:
@@ -138,9 +134,24 @@ def _end(walker: _Walker, fit: Fit, name: str, side: int, limit: float, steps: i
     return end
 
 
-def _between(inside: float, low: float, outside: float, high: float, limit: float) -> float:
-    """The cost rises about as a square, so its root about as a line."""
-    a, b, c = math.sqrt(low), math.sqrt(high), math.sqrt(limit)
-    if not math.isfinite(high):
-        return outside
-    return inside + (outside - inside) * (c - a) / (b - a)
+def _refined(
+    walker: _Walker, inside: tuple[float, float], outside: tuple[float, float], limit: float, rows: dict[float, float]
+) -> float:
+    """Narrow down between (value, rise) pairs: the root of the rise is about a line, where it is not, halve."""
+    cost = walker.fit.cost
+    for attempt in range(_REFINEMENTS):
+        if abs(outside[1] - limit) < 0.1 * limit:
+            break
+        value = 0.5 * (inside[0] + outside[0]) if attempt % 2 else _between(inside, outside, limit)
+        rise = walker.cost(value) - cost
+        rows[value] = rise + cost
+        inside, outside = ((value, max(rise, 0.0)), outside) if rise < limit else (inside, (value, rise))
+    return _between(inside, outside, limit)
+
+
+def _between(inside: tuple[float, float], outside: tuple[float, float], limit: float) -> float:
+    """Where a straight line through the roots of both rises meets that of the limit."""
+    if not math.isfinite(outside[1]):
+        return 0.5 * (inside[0] + outside[0])
+    a, b = math.sqrt(inside[1]), math.sqrt(outside[1])
+    return inside[0] + (outside[0] - inside[0]) * (math.sqrt(limit) - a) / (b - a)

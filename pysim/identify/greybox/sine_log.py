@@ -110,7 +110,7 @@ class SineLog:
 
     def coefficients(self, uncorrelated: Array) -> NDArray[np.complex128]:
         """(n_h, ...) as `harmonics` -> mean and complex harmonics (count + 1, ...)."""
-        return to_complex(np.linalg.solve(self._factors[1], uncorrelated))
+        return to_complex(np.asarray(np.linalg.solve(self._factors[1], uncorrelated), dtype=np.float64))
 
     def deviations(self) -> Array:
         """Standard deviation of the size of mean and harmonics at unit noise, (count + 1,)."""

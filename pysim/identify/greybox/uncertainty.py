@@ -77,7 +77,7 @@ def uncertainty(space: ParameterSpace, point: Evaluation, *, scale: float, told:
     estimates = tuple(Estimate(*row) for row in zip(*columns, intervals, at, strict=True))
     covariance = logarithmic * np.outer(relative, relative)
     covariance[open_, :] = covariance[:, open_] = math.nan
-    inverse = scale * np.linalg.pinv(slopes, rcond=EXACT)
+    inverse = np.asarray(scale * np.linalg.pinv(slopes, rcond=EXACT), dtype=np.float64)
     return Uncertainty(estimates, covariance, known, _combinations(space, value, known, inverse, _quantile(freedom)))
 
 

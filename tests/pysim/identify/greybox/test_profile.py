@@ -1,0 +1,30 @@
+import pytest
+
+from pysim.identify.greybox import Simulation, fit, problem, profile
+from pysim.simulate import Esdirk
+from pysim.types import BadInput, Model
+from tests.pysim.identify.greybox import measurements as m
+
+TIGHT = Simulation(solver=Esdirk(rtol=1e-8, atol=1e-8))
+
+
+def test_a_profile_agrees_with_the_interval_where_all_is_nearly_linear(lag: Model) -> None:
+    task = problem(lag, [m.dataset([m.ramp_log(2.0, 0.7, seed=1)])], ["K", "T"])
+    found = fit(task, simulation=TIGHT)
+    exact = profile(task, found, "K", simulation=TIGHT)
+    low, high = found["K"].interval
+    assert exact.interval == pytest.approx((low, high), abs=0.1 * (high - low))
+    assert exact.points[:, 1].min() == pytest.approx(found.cost, rel=1e-4)
+
+
+def test_what_is_not_determined_has_a_profile_up_to_its_bounds(lag: Model) -> None:
+    task = problem(lag, [m.dataset([m.ramp_log(2.0, 0.7, seed=1)])], ["K", "T", "g"])
+    exact = profile(task, fit(task, simulation=TIGHT), "g", simulation=TIGHT)
+    assert exact.interval[1] == 10.0  # K = 0.2 is within its bounds
+    assert exact.interval[0] == pytest.approx(0.2, rel=0.1)  # K ends at 10
+
+
+def test_a_parameter_that_was_not_free_is_refused(lag: Model) -> None:
+    task = problem(lag, [m.dataset([m.ramp_log(2.0, 0.7, seed=1)])], ["K", "T"])
+    with pytest.raises(BadInput, match="g is not free"):
+        profile(task, fit(task), "g")
