@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import MultipleLocator
+from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
 from pysim.identify.multisine import gain_interval, gain_radius, pooled
@@ -19,7 +19,10 @@ Array = NDArray[np.float64]
 
 _NOISE, _TOTAL, _EVEN, _ODD = LIMIT, MEASURED, COLOURS[1], COLOURS[0]
 _SMOOTH = 6  # free lines in the mean that is drawn through the single ones
-_BELOW_NOISE_DB = 12.0  # how far under the lowest noise the axis reaches
+_PHASE_TICKS = 6
+_SURE_DEG = 45.0  # phases less sure than this do not widen the axis
+_NEARLY_NONE = 0.05
+_BELOW_NOISE_DB = 6.0  # how far under the lowest noise the axis reaches
 
 
 def multisine_figure(approximations: Sequence[BestLinearApproximation], titles: Sequence[str]) -> Figure:
@@ -51,7 +54,8 @@ def multisine_figure(approximations: Sequence[BestLinearApproximation], titles: 
     unit = _gain_unit(approximations[0])
     axes[0, 0].set_ylabel(f"Gain and levels (dB re 1{unit})", fontsize=TEXT)
     axes[1, 0].set_ylabel("Phase (deg)", fontsize=TEXT)
-    axes[1, 0].yaxis.set_major_locator(MultipleLocator(45.0))
+    axes[1, 0].yaxis.set_major_locator(MaxNLocator(_PHASE_TICKS, steps=[1, 1.8, 4.5, 9, 10]))  # 45, 90, 180 deg
+    axes[1, 0].set_ylim(*_phase_range(approximations))
     axes[0, 0].set_ylim(bottom=_floor(approximations))
     legend_above(figure, list(handles.values()), list(handles))
     return figure
@@ -63,11 +67,27 @@ def _draw_gain(top: Axes, bottom: Axes, bla: BestLinearApproximation, handles: d
     low, high = 20 * np.log10(np.maximum(size - radius, 1e-3 * size)), 20 * np.log10(size + radius)
     band = top.fill_between(f, low, high, color=COLOURS[2], alpha=0.3, linewidth=0)
     (line,) = top.plot(f, 20 * np.log10(size), color=COLOURS[2], linewidth=1.8)
-    phase, half = np.degrees(np.unwrap(np.angle(bla.gain))), np.degrees(gain_interval(bla)[1])
+    phase, half = _phase(bla)
     bottom.fill_between(f, phase - half, phase + half, color=COLOURS[2], alpha=0.3, linewidth=0)
     bottom.plot(f, phase, color=COLOURS[2], linewidth=1.8)
     handles.setdefault("best linear approximation", line)
     handles.setdefault("95 %", band)
+
+
+def _phase(bla: BestLinearApproximation) -> tuple[Array, Array]:
+    """Continuous phase and the half width of its interval, (n_f,) deg."""
+    return np.degrees(np.unwrap(np.angle(bla.gain))), np.degrees(gain_interval(bla)[1])
+
+
+def _phase_range(approximations: Sequence[BestLinearApproximation]) -> tuple[float, float]:
+    """Ends of the phase axis: what is known at all, with its intervals."""
+    ends = []
+    for bla in approximations:
+        phase, half = _phase(bla)
+        sure = half < _SURE_DEG if np.any(half < _SURE_DEG) else np.full(half.size, True)
+        ends += [float(np.min((phase - half)[sure])), float(np.max((phase + half)[sure]))]
+    margin = 0.05 * (max(ends) - min(ends)) + 1.0
+    return min(ends) - margin, max(ends) + margin
 
 
 def _draw_levels(axes: Axes, bla: BestLinearApproximation, handles: dict[str, Any]) -> None:
@@ -105,9 +125,9 @@ def _db(variance: Array) -> Array:
 
 
 def _floor(approximations: Sequence[BestLinearApproximation]) -> float | None:
-    """The lower end of the axis: a little under the noise, and no further down than any level that is seen."""
+    """The lower end of the axis: a little under nearly all of the lowest noise."""
     levels = [bla.noise or bla.total for bla in approximations]
-    seen = [float(np.median(_db(level.variance))) for level in levels if level is not None]
+    seen = [float(np.nanquantile(_db(level.variance), _NEARLY_NONE)) for level in levels if level is not None]
     return min(seen) - _BELOW_NOISE_DB if seen and np.isfinite(seen).all() else None
 
 

@@ -1,5 +1,7 @@
 """The multisine picture shows the numbers it was given, and leaves out what is not there."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -55,6 +57,16 @@ def test_columns_share_their_scale_and_one_period_has_one_level() -> None:
     assert figure.axes[0].get_ylim() == figure.axes[1].get_ylim()
     assert len(figure.axes[1].get_lines()) == 2
     assert render(figure, "svg").startswith(b"<?xml")
+
+
+def test_a_line_that_knows_nothing_does_not_widen_the_axes() -> None:
+    variance = FAST.variance.copy()
+    variance[-1] = 1e6
+    low, high = multisine_figure([replace(FAST, variance=variance)], [""]).axes[1].get_ylim()
+    phase = np.degrees(np.unwrap(np.angle(FAST.gain)))[:-1]
+    assert low < phase.min()
+    assert high > phase.max()
+    assert high - low < np.ptp(phase) + 30
 
 
 def test_refuses_nothing_to_draw() -> None:
