@@ -27,7 +27,7 @@ def attempt_esdirk(job: Any, h: float) -> tuple[int, float]:
     run, work, method, n = job.run, job.work, job.method, job.work.n
     status = OK
     if run.jacobian_at != run.t:
-        status = take_jacobian(job, run.t, work.x, work.dx)
+        status = take_jacobian(job, run.t, work.x)
         if status > WARNING:
             return status, np.nan
         run.jacobian_at, run.matrix_step = run.t, 0.0

@@ -9,18 +9,19 @@ from pysim.simulate._native import doubles, longs, native
 from pysim.simulate._point import copy, evaluate, set_point
 
 _ROOT_EPS = 1.4901161193847656e-08
+_SMALL = 1e-3  # of a nominal value: a state below it is moved as if it were that large
 
 
 @native
-def take_jacobian(job: Any, t: float, x: int, dx: int) -> int:
-    """Fill work.jacobian at time t (s), states x and their derivative dx (addresses); the worst status.
+def take_jacobian(job: Any, t: float, x: int) -> int:
+    """Fill work.jacobian at time t (s) and the states at address x; the worst status.
 
-    The FMU is left at that point only where it offers directional derivatives; work.error, and without them x_try and
-    slope, change.
+    The FMU is left at that point only where it offers directional derivatives; work.error, and without them slope,
+    change.
     """
     job.run.jacobians += 1
     if job.work.has_directional == 0:
-        return _by_differences(job, t, x, dx)
+        return _by_differences(job, t, x)
     status = set_point(job, t, x)
     return status if status > WARNING else max(status, jacobian_here(job))
 
@@ -49,14 +50,21 @@ def jacobian_here(job: Any) -> int:
 
 
 @native
-def _by_differences(job: Any, t: float, x: int, dx: int) -> int:
-    """One-sided differences, each state moved by the root of the rounding error."""
-    work, n, status = job.work, job.work.n, OK
-    moved, rate, nominal = doubles(work.slope), doubles(dx), doubles(work.nominal)
+def _by_differences(job: Any, t: float, x: int) -> int:
+    """One-sided differences, each state moved by the root of the rounding error.
+
+    They start from the model's own derivative at x: that of an implicit stage is off by what Newton left of it, which
+    the small steps would enlarge to the size of the Jacobian.
+    """
+    work, n = job.work, job.work.n
+    moved, rate, nominal = doubles(work.slope), doubles(work.error), doubles(work.nominal)
     copy(x, work.slope, n)
+    status = evaluate(job, t, work.slope, work.error)
+    if status > WARNING:
+        return status
     for j in range(n):
         before = moved[j]
-        moved[j] = before + _ROOT_EPS * max(abs(before), 1e-3 * abs(nominal[j]))
+        moved[j] = before + _ROOT_EPS * max(abs(before), _SMALL * nominal[j])
         column = doubles(work.jacobian + 8 * n * j)
         status = max(status, evaluate(job, t, work.slope, work.jacobian + 8 * n * j))
         if status > WARNING:

@@ -39,7 +39,7 @@ def attempt_rosenbrock(job: Any, h: float) -> tuple[int, float]:
 def _linearise(job: Any, h: float) -> int:
     """Jacobian and slope at run.t; they serve every attempt from there."""
     run, work = job.run, job.work
-    status = take_jacobian(job, run.t, work.x, work.dx)
+    status = take_jacobian(job, run.t, work.x)
     if status <= WARNING:
         status = _time_slope(job, h)
     if status <= WARNING:

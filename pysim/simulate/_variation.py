@@ -64,7 +64,7 @@ ASKED, FIXED = -1, -2  # the FMU is asked; it does not
 def begin_variation(job: Any) -> int:
     """K at run.t, where the derivatives jump: at the start and behind every break of an input."""
     v, work, n, width = job.variation, job.work, job.work.n, job.variation.columns
-    status = take_jacobian(job, job.run.t, work.x, work.dx)
+    status = take_jacobian(job, job.run.t, work.x)
     if status > WARNING:
         return status
     job.run.jacobian_at, job.run.matrix_step = job.run.t, 0.0
@@ -100,7 +100,7 @@ def _vary_stage(job: Any, i: int, h: float) -> int:
     v, work, method, size = job.variation, job.work, job.method, job.work.n * job.variation.columns
     shift = 1.0 / (h * method.gamma)
     t, place = job.run.t + doubles(method.c)[i] * h, 8 * work.n * i
-    status = take_jacobian(job, t, work.stages + place, work.k + place)
+    status = take_jacobian(job, t, work.stages + place)
     if status <= WARNING:
         status = max(status, _forcing(job))
     if status > WARNING:

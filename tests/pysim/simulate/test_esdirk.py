@@ -1,11 +1,14 @@
 """The method behind the sensitivities: order conditions, stability, interpolant, nonlinear stages."""
 
+import dataclasses
+
 import numpy as np
 import pytest
 
 from pysim.simulate import Esdirk, simulate
-from pysim.types import Experiment
+from pysim.types import Experiment, Signal
 from tests.pysim.simulate.fixture_fmus import STIFF
+from validation.pump import pump_model
 
 _METHOD = Esdirk().method()
 _A, _C = _METHOD.a, _METHOD.c
@@ -79,3 +82,13 @@ def test_stiff_and_nonlinear_equations_are_solved(fixture_model, rate):
     np.testing.assert_allclose(record["x"], np.sin(times), atol=2e-6)
     np.testing.assert_allclose(record["y"], 1 / (1 + times), rtol=2e-6)
     assert record.statistics["steps"] < 1500  # explicit, the stiffest would take millions
+
+
+def test_without_directional_derivatives_steps_are_as_long():
+    """The Jacobian is then a difference from points that Newton has only nearly reached."""
+    pump = pump_model("free")
+    bare = dataclasses.replace(pump, abilities=dataclasses.replace(pump.abilities, directional_derivatives=False))
+    experiment = Experiment(np.array([0.0, 0.1]), ("alphaPercent",), {"alphaCMD": Signal.constant(50.0)})
+    exact, differences = (simulate(model, experiment, solver=Esdirk()) for model in (pump, bare))
+    assert differences.statistics["steps"] < 1.1 * exact.statistics["steps"]
+    np.testing.assert_allclose(differences.values, exact.values, rtol=1e-4)
