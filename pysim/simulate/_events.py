@@ -90,6 +90,8 @@ def settle(job: Any) -> int:
         states, nominals, rounds = states | fmu.states_changed, nominals | fmu.nominals_changed, rounds + 1
         if rounds > _ROUNDS:
             return TOO_MANY_EVENTS
+        if fmu.next_time <= run.t:  # due at once, as some FMUs say instead of asking for another round
+            fmu.again = 1
     status = enter_continuous_mode(fmu)
     if states != 0:
         status = max(status, get_states(fmu, work.x, work.n))

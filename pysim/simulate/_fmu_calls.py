@@ -63,7 +63,13 @@ def get_states(fmu: Any, x: int, n: int) -> int:
 
 @native
 def get_nominals(fmu: Any, nominal: int, n: int) -> int:
-    return call(fmu.get_nominals, (fmu.instance, nominal, n)) if n > 0 else OK
+    """Sizes (n,) of the states, all positive: the sign says nothing, and 1 stands for a size that cannot be one."""
+    status, sizes = OK, doubles(nominal)
+    if n > 0:
+        status = call(fmu.get_nominals, (fmu.instance, nominal, n))
+    for i in range(n):
+        sizes[i] = abs(sizes[i]) if 0.0 < abs(sizes[i]) < np.inf else 1.0
+    return status
 
 
 @native

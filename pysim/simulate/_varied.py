@@ -128,7 +128,7 @@ def _result(instance: Instance, experiment: Experiment, job: Job, code: int, dir
         job.array("variation", "s")[:, :used].copy(),
         job.array("variation", "low"),
         job.array("variation", "high"),
-        np.abs(job.array("work", "nominal")),
+        job.array("work", "nominal").copy(),
         job.statistics(),
         run["events"] == 0 and run["next_event"] >= experiment.times[-1],
         job,

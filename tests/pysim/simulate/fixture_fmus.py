@@ -65,6 +65,7 @@ FRAGILE = Fixture(
     "fragile", ("x",), parameters=(("manner", 0.0), ("refuse", 0.0)), outputs=("root",), starts=(1.0,), tangents=False
 )
 HOARDER = Fixture("hoarder", ("x",), inputs=("u",))
+CARELESS = Fixture("careless", ("x",), outputs=("level",))
 FOLLOWER = Fixture("follower", ("x",), inputs=("u",), outputs=("events", "u_seen"))
 
 

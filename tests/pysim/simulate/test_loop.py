@@ -6,9 +6,9 @@ import math
 import numpy as np
 import pytest
 
-from pysim.simulate import Rk4, Rk45, Rodas, simulate
+from pysim.simulate import Esdirk, Rk4, Rk45, Rodas, simulate
 from pysim.types import Experiment, Outcome, Signal, SimulationError
-from tests.pysim.simulate.fixture_fmus import BALL, CLOCK, FOLLOWER, FRAGILE, OSCILLATOR, STIFF
+from tests.pysim.simulate.fixture_fmus import BALL, CARELESS, CLOCK, FOLLOWER, FRAGILE, OSCILLATOR, STIFF
 
 
 def ramps(times, rates, first=0.0) -> Signal:
@@ -166,3 +166,11 @@ def test_events_without_end_stop_the_run(fixture_model):
 def test_largest_step_is_obeyed(fixture_model):
     record = simulate(fixture_model(FOLLOWER), Experiment(np.array([1.0]), ("x",)), solver=Rk45(max_step=0.01))
     assert record.statistics["steps"] >= 100
+
+
+@pytest.mark.parametrize("solver", [Rk45(), Rodas(), Esdirk()], ids=lambda s: type(s).__name__)
+def test_size_of_zero_and_event_that_is_due_at_once_are_survived(fixture_model, solver):
+    times = np.linspace(0, 3, 7)
+    record = simulate(fixture_model(CARELESS), Experiment(times, ("x", "level")), solver=solver)
+    np.testing.assert_allclose(record["x"], 1 - np.exp(-times), atol=1e-4)
+    np.testing.assert_array_equal(record["level"], 1.0)
