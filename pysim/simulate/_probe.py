@@ -20,6 +20,7 @@ Array = NDArray[np.float64]
 START_STEP = 1e-5  # of a parameter: what moves it to see the start states move
 _WRONG = 0.02  # share by which a derivative and its difference may not differ
 _NOISE = 1e-13  # rounding, of the size of what adds up to a derivative
+_ASIDE = 1e-3  # of the states' sizes: how far beside the start is looked, where fewer derivatives vanish
 
 
 @dataclass(frozen=True)
@@ -101,19 +102,27 @@ def both_sides(model: Model, experiment: Experiment, name: str, share: float) ->
     return experiment.override(**{name: up}), experiment.override(**{name: down}), up - down
 
 
-def probe(library: Library, experiment: Experiment, solver: Esdirk, parameters: Sequence[str]) -> Offer:
-    """Ask the FMU, at the experiment's start, for every derivative that is wanted.
+_NOTHING = Offer((), frozenset(), False)
 
-    A column that it refuses, or that is not what a difference shows, is not part of the offer.
+
+def probe(library: Library, experiment: Experiment, solver: Esdirk, parameters: Sequence[str]) -> Offer | None:
+    """Ask the FMU, at the experiment's start, for every derivative that is wanted; None where it cannot be started.
+
+    A column that it refuses, or that is not what a difference shows, is not part of the offer. Nothing is where the
+    derivatives by the states are wrong, for every column is made of them.
     """
     model = library.model
+    if not model.abilities.directional_derivatives:
+        return _NOTHING
     once = replace(experiment, times=np.array([experiment.start]))
     first = at_start(library, once, solver, Directions())
-    if first is None or not model.abilities.directional_derivatives:
-        return Offer((), frozenset(), first is not None and model.abilities.directional_derivatives)
+    if first is None:
+        return None
     starts = frozenset(n for n in parameters if n in model.abilities.states or _is_start(model[n]))
-    nominal = np.array([model[name].nominal or 1.0 for name in model.abilities.states])
-    point = first.states + 1e-3 * np.maximum(np.abs(first.states), np.abs(nominal))
+    sizes = np.maximum(np.abs(first.states), first.nominal)
+    point = first.states + _ASIDE * sizes
+    if not _states_agree(library, once, solver, point, sizes):
+        return _NOTHING
     given = tuple(n for n in parameters if n in starts or _agrees(library, once, solver, n, point))
     return Offer(given, starts & set(given), True)
 
@@ -121,12 +130,12 @@ def probe(library: Library, experiment: Experiment, solver: Esdirk, parameters: 
 def probe_each(
     library: Library, experiments: Sequence[Experiment], solver: Esdirk, parameters: Sequence[str]
 ) -> dict[tuple[str, ...], Offer]:
-    """The offer for each choice of variables to record."""
-    offers: dict[tuple[str, ...], Offer] = {}
+    """The offer for each choice of variables to record, from the first of the experiments that can be started."""
+    offers: dict[tuple[str, ...], Offer | None] = {}
     for experiment in experiments:
-        if experiment.record not in offers:
+        if offers.get(experiment.record) is None:
             offers[experiment.record] = probe(library, experiment, solver, parameters)
-    return offers
+    return {record: offer or _NOTHING for record, offer in offers.items()}
 
 
 def _is_start(variable: Variable) -> bool:
@@ -159,6 +168,21 @@ def _derivatives(library: Library, experiment: Experiment, solver: Esdirk, point
         return None
     rates = varied.job.array("work", "dx").copy()
     return rates, np.abs(rates) + np.abs(varied.job.array("work", "jacobian").T) @ np.abs(varied.states)
+
+
+def _states_agree(library: Library, experiment: Experiment, solver: Esdirk, point: Array, sizes: Array) -> bool:
+    """Whether the FMU's derivatives by the states, all moved at once by their sizes, are what a difference shows."""
+    given = at_start(library, experiment, solver, Directions(states=True, outputs=False), point)
+    if given is None:
+        return True  # nothing to compare with
+    jacobian = given.job.array("work", "jacobian").T.copy()
+    moves = (START_STEP * sizes, -START_STEP * sizes)
+    sides = [_derivatives(library, experiment, solver, point + move) for move in moves]
+    if sides[0] is None or sides[1] is None:
+        return True
+    numeric, noise = (sides[0][0] - sides[1][0]) / (2 * START_STEP), _NOISE * sides[0][1] / START_STEP
+    size = np.maximum(np.abs(jacobian) @ sizes, np.abs(numeric))
+    return bool(np.all(np.abs(numeric - jacobian @ sizes) <= _WRONG * size + noise))
 
 
 def _agrees(library: Library, experiment: Experiment, solver: Esdirk, name: str, point: Array) -> bool:
