@@ -3,18 +3,51 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 from pysim.simulate._library import settable_types
 from pysim.simulate._recording import GETTERS
 from pysim.types import BadInput, Experiment, Model, Variable
 
 
+def check_arguments(function: str, model: object, solver: object, needed: type | None = None) -> None:
+    """Check that a model and a solver are what their names say; `needed` is the one solver that will do.
+
+    Raises:
+        BadInput: a file name in place of a model, a class in place of a solver, or another solver.
+    """
+    if not isinstance(model, Model):
+        raise BadInput(f"{function}: model is {model!r}; give what pysim.io.read_model makes of an .fmu file")
+    if isinstance(solver, type) or not hasattr(solver, "control"):
+        raise BadInput(f"{function}: solver is {solver!r}; give a solver with its settings, as Rodas(rtol=1e-6)")
+    if needed is not None and not isinstance(solver, needed):
+        raise BadInput(
+            f"{function}: the steps of {type(solver).__name__} cannot be differentiated; "
+            f"give solver={needed.__name__}(...)"
+        )
+
+
+def check_list(function: str, argument: str, items: object, kind: type) -> None:
+    """Check that there is a list (or tuple) of things of one kind.
+
+    Raises:
+        BadInput: one thing alone, or another thing among them.
+    """
+    if isinstance(items, kind) or not isinstance(items, Sequence):
+        raise BadInput(f"{function}: {argument} is no list; write [{kind.__name__}(...), ...], also for a single one")
+    for number, item in enumerate(items):
+        if not isinstance(item, kind):
+            raise BadInput(f"{function}: {argument}[{number}] is {item!r}; give {kind.__name__}(...)")
+
+
 def check_experiment(model: Model, experiment: Experiment) -> None:
     """Check every name the experiment uses.
 
     Raises:
-        BadInput: a name the model does not have, or one that cannot be driven, set or recorded.
+        BadInput: no Experiment, a name the model does not have, or one that cannot be driven, set or recorded.
     """
+    if not isinstance(experiment, Experiment):
+        raise BadInput(f"experiment: got {experiment!r}; give Experiment(...)")
     for name in (*experiment.inputs, *experiment.rates):
         _check_input(model, model[name])
     for name, value in experiment.overrides.items():

@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from functools import partial
 
 from pysim.simulate._base import Solver
-from pysim.simulate._check import check_experiment
+from pysim.simulate._check import check_arguments, check_experiment, check_list
 from pysim.simulate._library import open_library
 from pysim.simulate._pool import side_by_side, worker_count
 from pysim.simulate._run import run
@@ -36,6 +36,8 @@ def simulate_many(
     Raises:
         BadInput: as `simulate`, before the first run starts.
     """
+    check_arguments("simulate_many", model, solver)
+    check_list("simulate_many", "experiments", experiments, Experiment)
     count = worker_count("simulate_many", model, workers)
     for experiment in experiments:
         check_experiment(model, experiment)

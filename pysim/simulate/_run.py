@@ -7,7 +7,7 @@ from collections.abc import Callable
 import numpy as np
 
 from pysim.simulate._base import Solver
-from pysim.simulate._check import check_experiment
+from pysim.simulate._check import check_arguments, check_experiment
 from pysim.simulate._fmu_calls import DISCARD, ERROR, FATAL
 from pysim.simulate._inputs import break_arrays, input_arrays
 from pysim.simulate._job import Job
@@ -39,6 +39,7 @@ def simulate(model: Model, experiment: Experiment, *, solver: Solver = Rk45(), c
         BadInput: unknown name, or one that cannot be driven, set or recorded; no binary for this machine.
         SimulationError: stopped early; `.record` holds the part that was reached.
     """
+    check_arguments("simulate", model, solver)
     check_experiment(model, experiment)
     with open_library(model) as library:
         record = run(library, experiment, solver)

@@ -6,10 +6,12 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import partial
+from numbers import Integral, Real
 
 import numpy as np
 from numpy.typing import NDArray
 
+from pysim.simulate._check import check_arguments, check_list
 from pysim.simulate._library import open_library
 from pysim.simulate._orbit import Orbit, Plan, find_orbit, remembers
 from pysim.simulate._pool import side_by_side, worker_count
@@ -18,6 +20,9 @@ from pysim.simulate.esdirk import Esdirk
 from pysim.types import BadInput, Experiment, Model, Signal
 
 Array = NDArray[np.float64]
+
+_LOOKS = 16  # times at which a signal is compared with itself a period later
+_APART = 1e-6  # of its range: what may lie between the two
 
 
 @dataclass(frozen=True)
@@ -31,7 +36,8 @@ class Periodic:
         inputs: input name -> Signal that repeats with the period from time 0 on, in the input's unit.
         overrides, rates: as of an Experiment.
     Raises:
-        BadInput: a period or a number of points that is not positive, and as an Experiment.
+        BadInput: a period or a number of points that is not positive, an input that does not repeat with the period,
+            and as an Experiment.
     """
 
     period: float
@@ -43,12 +49,18 @@ class Periodic:
     _experiment: Experiment = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
-        if not (self.period > 0 and math.isfinite(self.period)):
-            raise BadInput(f"periodic: the period is {self.period} s; give a positive number")
-        if self.points < 1:
-            raise BadInput(f"periodic: points is {self.points}; give at least 1")
+        if not (isinstance(self.period, Real) and self.period > 0 and math.isfinite(self.period)):
+            raise BadInput(f"periodic: the period is {self.period!r} s; give a positive number")
+        if not (isinstance(self.points, Integral) and self.points >= 1):
+            raise BadInput(f"periodic: points is {self.points!r}; give a whole number of at least 1")
         times = np.linspace(0.0, self.period, self.points + 1)
         experiment = Experiment(times, self.record, self.inputs, self.overrides, 0.0, self.rates)
+        for name, signal in experiment.inputs.items():
+            if not _repeats(signal, float(self.period)):
+                raise BadInput(
+                    f"periodic: input {name} does not repeat every {self.period} s; "
+                    "give the period of its signal, or a multiple of that"
+                )
         object.__setattr__(self, "_experiment", experiment)
         for name in ("record", "inputs", "overrides", "rates"):
             object.__setattr__(self, name, getattr(experiment, name))
@@ -56,6 +68,14 @@ class Periodic:
     def experiment(self) -> Experiment:
         """One period from time 0, its end included."""
         return self._experiment
+
+
+def _repeats(signal: Signal, period: float) -> bool:
+    """Whether the first two periods look alike. One look may fall on a jump, where rounding decides the side."""
+    phases = (0.5 + np.arange(_LOOKS) * (math.sqrt(5) - 1) / 2) % 1.0  # evenly spread, on no fraction of the period
+    first, second = signal.value(phases * period), signal.value((phases + 1.0) * period)
+    allowed = _APART * max(np.ptp(first), np.ptp(second)) + 1e-12 * np.max(np.abs(first))
+    return int(np.sum(np.abs(second - first) > allowed)) <= 1
 
 
 def periodic_many(
@@ -92,6 +112,8 @@ def periodic_many(
     Raises:
         BadInput: as `sensitivities`, before anything runs.
     """
+    check_arguments("periodic_many", model, solver, Esdirk)
+    check_list("periodic_many", "tests", tests, Periodic)
     count = worker_count("periodic_many", model, workers)
     names = check_names("periodic_many", parameters)
     starts = _check_guesses(model, tests, guesses)
@@ -120,7 +142,10 @@ def _check_guesses(model: Model, tests: Sequence[Periodic], guesses: Sequence[Ar
         raise BadInput(f"periodic_many: {len(tests)} tests need as many guesses or none, got {len(guesses)}")
     n, starts = len(model.abilities.states), []
     for guess in guesses:
-        start = np.zeros(0) if guess is None else np.array(guess, dtype=np.float64)
+        try:
+            start = np.zeros(0) if guess is None else np.array(guess, dtype=np.float64)
+        except (TypeError, ValueError) as error:
+            raise BadInput(f"periodic_many: a guess is the model's {n} states, got {guess!r}") from error
         if start.size and start.shape != (n,):
             raise BadInput(f"periodic_many: a guess is the model's {n} states, got an array of shape {start.shape}")
         starts.append(start if start.size and np.isfinite(start).all() else None)

@@ -9,6 +9,7 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
+from pysim.simulate._check import check_arguments, check_list
 from pysim.simulate._differences import run_differences
 from pysim.simulate._library import CallFailed, Library, open_library
 from pysim.simulate._pool import Stopped, side_by_side, worker_count
@@ -97,6 +98,8 @@ def sensitivities_many(
     Raises:
         BadInput: as `sensitivities`, before the first run starts.
     """
+    check_arguments("sensitivities_many", model, solver, Esdirk)
+    check_list("sensitivities_many", "experiments", experiments, Experiment)
     count = worker_count("sensitivities_many", model, workers)
     names = check_names("sensitivities_many", parameters)
     check_parameters("sensitivities_many", model, experiments, names)

@@ -60,8 +60,13 @@ def test_bad_input_is_found_before_anything_runs(fixture_model):
     with pytest.raises(BadInput, match="no variable 'nothing'"):
         simulate_many(fixture_model(OSCILLATOR), [*experiments(2), wrong], progress=lambda *p: seen.append(p))
     assert seen == []
-    with pytest.raises(BadInput, match="workers must be at least 1"):
-        simulate_many(fixture_model(OSCILLATOR), experiments(1), workers=0)
+    for workers in (0, 1.5, "2"):
+        with pytest.raises(BadInput, match="workers must be at least 1"):
+            simulate_many(fixture_model(OSCILLATOR), experiments(1), workers=workers)
+    with pytest.raises(BadInput, match=r"write \[Experiment\(\.\.\.\), \.\.\.\], also for a single one"):
+        simulate_many(fixture_model(OSCILLATOR), experiments(1)[0])
+    with pytest.raises(BadInput, match=r"experiments\[2\] is None"):
+        simulate_many(fixture_model(OSCILLATOR), [*experiments(2), None])
 
 
 def test_nothing_to_do_is_done(fixture_model):

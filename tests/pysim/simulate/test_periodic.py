@@ -194,6 +194,17 @@ def test_interrupt_stops_everything(fixture_model):
         periodic_many(fixture_model(OSCILLATOR), [driven()] * 50, ("w",), progress=stop)
 
 
+@pytest.mark.parametrize("periods", [1, 3])
+def test_inputs_repeat_with_the_period(periods):
+    """Else there is no orbit, and it takes minutes to find that out."""
+    square = Signal.steps(np.arange(20) * 0.5, np.arange(20) % 2.0)
+    for signal, period in ((sine(_OMEGA), 2 * math.pi / _OMEGA), (square, 1.0), (Signal.constant(3.0), 0.7)):
+        assert Periodic(periods * period, 8, ("x",), {"u": signal}).period == periods * period
+    for signal, period in ((sine(_OMEGA), 2.1), (square, 0.5), (Signal.steps([0.0, 0.5], [0.0, 1.0]), 1.0)):
+        with pytest.raises(BadInput, match="input u does not repeat every"):
+            Periodic(period, 8, ("x",), {"u": signal})
+
+
 def test_misuse_is_refused(fixture_model):
     model = fixture_model(OSCILLATOR)
     with pytest.raises(BadInput, match="2 tests need as many guesses"):
@@ -202,8 +213,18 @@ def test_misuse_is_refused(fixture_model):
         periodic_many(model, [driven()], guesses=[np.zeros(3)])
     with pytest.raises(BadInput, match="period is -1"):
         Periodic(-1.0, 8, ("x",))
-    with pytest.raises(BadInput, match="at least 1"):
-        Periodic(1.0, 0, ("x",))
+    for period in (0, math.nan, "1"):
+        with pytest.raises(BadInput, match="give a positive number"):
+            Periodic(period, 8, ("x",))
+    for points in (0, 2.5):
+        with pytest.raises(BadInput, match="at least 1"):
+            Periodic(1.0, points, ("x",))
+    with pytest.raises(BadInput, match="2 states, got 'all'"):
+        periodic_many(model, [driven()], guesses=["all"])
+    with pytest.raises(BadInput, match="also for a single one"):
+        periodic_many(model, driven())
+    with pytest.raises(BadInput, match="Rodas cannot be differentiated"):
+        periodic_many(model, [driven()], solver=Rodas())
     with pytest.raises(BadInput, match="mismatch"):
         periodic_many(model, [driven()], mismatch=0.0)
     assert periodic_many(model, []) == ()

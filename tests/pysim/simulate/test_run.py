@@ -7,7 +7,7 @@ import sys
 import numpy as np
 import pytest
 
-from pysim.simulate import simulate
+from pysim.simulate import Rodas, simulate
 from pysim.types import BadInput, Experiment, Signal
 from tests.pysim.simulate.fixture_fmus import FOLLOWER, OSCILLATOR
 
@@ -54,6 +54,16 @@ def test_misuse_is_said_in_one_sentence(fixture_model, change, words):
     experiment = dataclasses.replace(Experiment(_TIMES, ("x",)), **change)
     with pytest.raises(BadInput, match=re.escape(words)):
         simulate(fixture_model(OSCILLATOR), experiment)
+
+
+def test_a_file_name_is_no_model_and_a_class_no_solver(fixture_model):
+    experiment = Experiment(_TIMES, ("x",))
+    with pytest.raises(BadInput, match=r"model is 'pump\.fmu'; give what pysim\.io\.read_model makes"):
+        simulate("pump.fmu", experiment)
+    with pytest.raises(BadInput, match="give a solver with its settings"):
+        simulate(fixture_model(OSCILLATOR), experiment, solver=Rodas)
+    with pytest.raises(BadInput, match="got None; give Experiment"):
+        simulate(fixture_model(OSCILLATOR), None)
 
 
 def test_simulating_needs_no_compiler_and_no_front_end():

@@ -9,7 +9,7 @@ import pytest
 from pysim.simulate import Esdirk, Rodas, sensitivities, sensitivities_many, simulate
 from pysim.types import BadInput, Experiment, Outcome, Signal, SimulationError
 from tests.pysim.simulate.fixture_fmus import BALL, FRAGILE, OSCILLATOR
-from tests.pysim.simulate.text_models import LAG, text_model
+from tests.pysim.simulate.text_models import DISCARDS, LAG, text_model
 from validation.pump import pump_model
 
 _TIGHT = Esdirk(1e-8, 1e-8)
@@ -74,7 +74,9 @@ def test_values_are_those_of_a_plain_run(fixture_model):
     np.testing.assert_allclose(found.record.values, plain.values, atol=1e-7)  # Newton starts from another matrix
 
 
-@pytest.mark.parametrize(("why", "lie"), [("the FMU gives no derivatives", None), ("no derivative by w", 1.0)])
+@pytest.mark.parametrize(
+    ("why", "lie"), [("the FMU gives no derivatives", None), ("no derivative by w", 1.0), ("no derivatives", 2.0)]
+)
 def test_without_true_derivatives_differences_tell_the_same(fixture_model, why, lie):
     times = np.linspace(0, 10, 41)
     model = fixture_model(_PLAIN if lie is None else OSCILLATOR)
@@ -195,6 +197,20 @@ def test_interrupt_stops_runs_that_are_under_way(fixture_model):
     runs = [forced(np.linspace(0, 1, 5)), long, long]
     with pytest.raises(KeyboardInterrupt):  # else this takes minutes
         sensitivities_many(fixture_model(OSCILLATOR), runs, ("w",), workers=3, progress=stop)
+
+
+def test_other_solvers_are_refused_by_name(fixture_model):
+    with pytest.raises(BadInput, match=r"the steps of Rodas cannot be differentiated; give solver=Esdirk"):
+        sensitivities(fixture_model(OSCILLATOR), forced(np.array([1.0])), ("w",), solver=Rodas())
+
+
+def test_a_run_that_cannot_start_does_not_cost_the_others_their_derivatives(tmp_path):
+    good = Experiment(np.linspace(0, 1, 5), ("x",))
+    bad = good.override(u=-2.0)  # the root of -1
+    found = sensitivities_many(text_model(DISCARDS, tmp_path), [bad, good], ("x",))
+    assert found[0].record.outcome is not Outcome.DONE
+    assert found[1].message == "start values were differentiated by differences"  # and nothing else was
+    np.testing.assert_allclose(found[1].by_parameter[:, 0, 0], np.exp(-good.times), rtol=1e-4)
 
 
 @pytest.mark.parametrize(
