@@ -7,7 +7,7 @@ import threading
 from collections import deque
 from collections.abc import Callable, Sequence
 from concurrent.futures import FIRST_EXCEPTION, ThreadPoolExecutor, wait
-from queue import SimpleQueue
+from queue import Empty, SimpleQueue
 from typing import TypeVar
 
 from pysim.types import BadInput, Model
@@ -15,15 +15,17 @@ from pysim.types import BadInput, Model
 Result = TypeVar("Result")
 Stopped = Callable[[], bool]
 
+_NAP = 0.2  # s; on Windows an interrupt from the keyboard does not end a wait that has no limit
+
 
 def worker_count(function: str, model: Model, workers: int | None) -> int:
     """Threads that may run the model at once.
 
     Raises:
-        BadInput: fewer than one.
+        BadInput: fewer than one, or no whole number.
     """
-    if workers is not None and workers < 1:
-        raise BadInput(f"{function}: workers must be at least 1, got {workers}")
+    if workers is not None and not (isinstance(workers, int) and workers >= 1):
+        raise BadInput(f"{function}: workers must be at least 1, a whole number, got {workers!r}")
     return 1 if model.abilities.single_instance else workers or os.cpu_count() or 1
 
 
@@ -60,15 +62,25 @@ def side_by_side(
         try:
             if progress is not None:
                 for done in range(1, len(tasks) + 1):
-                    if error := finished.get():
+                    if error := _next(finished):
                         raise error
                     progress(done, len(tasks))
-            wait(jobs, return_when=FIRST_EXCEPTION)  # without progress this thread sleeps, and takes no time from them
+            while wait(jobs, _NAP, FIRST_EXCEPTION).not_done:  # without progress this thread takes no time from them
+                for job in jobs:
+                    if job.done():
+                        job.result()
             for job in jobs:
-                if job.done():
-                    job.result()
+                job.result()
             return tuple(results[number] for number in range(len(tasks)))
         except BaseException:  # also an interrupt: the threads must not go on behind the caller's back
             stop.set()
             pool.shutdown(wait=True, cancel_futures=True)
             raise
+
+
+def _next(queue: SimpleQueue[BaseException | None]) -> BaseException | None:
+    while True:
+        try:
+            return queue.get(timeout=_NAP)
+        except Empty:
+            continue
