@@ -6,6 +6,7 @@ import ctypes
 import itertools
 from collections import deque
 from typing import Any
+from weakref import WeakValueDictionary
 
 import fmpy
 from fmpy import fmi2
@@ -17,7 +18,7 @@ try:
 except (ImportError, OSError):  # FMPy brings no such library for this machine: %s and %g stay in the texts
     _logging = None
 
-_mailboxes: dict[int, Mailbox] = {}
+_mailboxes: WeakValueDictionary[int, Mailbox] = WeakValueDictionary()  # by what an FMU is given as environment
 _numbers = itertools.count(1)
 
 

@@ -1,4 +1,5 @@
 import dataclasses
+import gc
 import zipfile
 from unittest.mock import Mock
 
@@ -8,6 +9,7 @@ import pytest
 from pysim.io import read_model
 from pysim.simulate import Rk4, Rk45, Rodas, simulate, simulate_many
 from pysim.simulate._library import open_library
+from pysim.simulate._messages import _mailboxes
 from pysim.simulate._run import run
 from pysim.types import BadInput, Experiment, Outcome
 from tests.pysim.simulate.fixture_fmus import BALL, CLOCK, FRAGILE, OSCILLATOR, STIFF
@@ -94,3 +96,12 @@ def test_an_fmu_that_cannot_be_instantiated_is_one_error_before_the_runs(fixture
         simulate_many(model, [experiment] * 3)
     with pytest.raises(BadInput, match="could not be instantiated"):
         simulate(model, experiment, check=False)
+
+
+def test_instances_that_are_closed_are_forgotten(fixture_model):
+    model = fixture_model(OSCILLATOR, 2)
+    before = len(_mailboxes)
+    for _ in range(3):
+        simulate(model, Experiment(np.ones(1), ("x",)))
+    gc.collect()
+    assert len(_mailboxes) <= before
