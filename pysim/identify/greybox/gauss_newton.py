@@ -59,7 +59,7 @@ class GaussNewton:
 
     def begin(self, start: Evaluation, bounds: Bounds, squares: bool) -> State:
         """See Optimiser."""
-        return self._examined(State(start, memory={"radius": self.radius, "blind": 0.0, "refused": 0.0}), bounds)
+        return self._examined(State(start, memory={"radius": self.radius, "blind": 0.0}), bounds)
 
     def propose(self, state: State, bounds: Bounds) -> Proposal:
         """See Optimiser."""
@@ -80,10 +80,9 @@ class GaussNewton:
             return self._examined(state, bounds) if steps < _BLIND else self._lost(state, bounds)
         if ratio < 0.25:
             radius = 0.25 * length
-        elif ratio > 0.75 and length > 0.8 * radius and not state.memory["refused"]:
-            radius = 2 * radius  # right after a refused step it would only be refused again
-        memory = {**state.memory, "radius": radius, "refused": float(ratio <= 1e-4)}
-        state = replace(state, tried=state.tried + 1, memory=memory)
+        elif ratio > 0.75 and length > 0.8 * radius:
+            radius = 2 * radius
+        state = replace(state, tried=state.tried + 1, memory={**state.memory, "radius": radius})
         if ratio > 1e-4:
             return self._examined(replace(state, best=trial), bounds)
         if radius < 1e-9:
