@@ -65,13 +65,20 @@ static Status bring_up_to_date(Instance *s, const char *function, const ModelVar
     return evaluate_vector(s, v->vector);
 }
 
+/* Whether the model computes it, so that the importer cannot know of a value that is not finite. evaluate_derivatives
+   looks at dx itself. */
+static bool may_surprise(const Instance *s, const ModelVariable *v) {
+    const bool is_discrete = v->vector == VECTOR_D && s->memory->phase != PHASE_INSTANTIATED;
+    return is_discrete || v->vector == VECTOR_C || v->vector == VECTOR_W;
+}
+
 Status variable_get(Instance *s, const char *function, uint32_t reference, ScalarType type, double *value) {
     const ModelVariable *v = find_of_type(s, function, reference, type);
     if (!v) return STATUS_ERROR;
     const Status status = bring_up_to_date(s, function, v);
     if (status != STATUS_OK) return status;
     *value = values_of(s, v->vector)[v->index];
-    if (isfinite(*value) || v->vector != VECTOR_W) return STATUS_OK; /* evaluate_derivatives looks at dx itself */
+    if (isfinite(*value) || !may_surprise(s, v)) return STATUS_OK;
     log_message(s, LOG_DISCARD, "%s: %s is %s at time %.16g s.", function, v->name,
                 isnan(*value) ? "not a number" : "infinite", *s->t);
     return STATUS_DISCARD;

@@ -1,7 +1,7 @@
 /* What fails ends in a status and a message, and an instance that can be used again. */
 #include "importer.h"
 
-enum { QUIET, RESTLESS, NOT_A_NUMBER, NO_SOLUTION };
+enum { QUIET, RESTLESS, NOT_A_NUMBER, NO_SOLUTION, INFINITE, NO_SHARE };
 
 static fmi2Component with_trouble(fmi2Type type, int kind) {
     fmi2Component c = instantiate(type);
@@ -64,6 +64,26 @@ static void infinite_outputs_are_discarded(void) {
     x = 0.8;
     CHECK(fmi2SetContinuousStates(c, &x, 1) == fmi2OK);
     CHECK_NEAR(get(c, "reciprocal"), 20.0, 1e-12);
+    fmi2FreeInstance(c);
+}
+
+static void infinite_discrete_values_are_discarded(void) {
+    fmi2Component c = with_trouble(fmi2ModelExchange, INFINITE);
+    const fmi2ValueReference vr = reference("d");
+    double value;
+    initialise_from(c, 0.0, 0.0);
+    CHECK(fmi2GetReal(c, &vr, 1, &value) == fmi2Discard && logged("fmi2GetReal: d is infinite at time 0 s."));
+    CHECK(get(c, "share") == -1.0);
+    fmi2FreeInstance(c);
+}
+
+static void infinite_calculated_parameters_are_discarded(void) {
+    fmi2Component c = with_trouble(fmi2ModelExchange, NO_SHARE);
+    const fmi2ValueReference vr = reference("share");
+    double value;
+    initialise_from(c, 0.0, 0.0);
+    CHECK(fmi2GetReal(c, &vr, 1, &value) == fmi2Discard && logged("share is infinite"));
+    CHECK(get(c, "d") == 0.0);
     fmi2FreeInstance(c);
 }
 
@@ -142,6 +162,8 @@ int main(void) {
     impossible_points_are_discarded(NOT_A_NUMBER);
     impossible_points_are_discarded(NO_SOLUTION);
     infinite_outputs_are_discarded();
+    infinite_discrete_values_are_discarded();
+    infinite_calculated_parameters_are_discarded();
     a_restored_state_brings_its_status();
     calls_out_of_order_are_errors();
     wrong_arguments_are_errors();
