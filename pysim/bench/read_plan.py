@@ -12,7 +12,7 @@ from pysim.bench.logger import Logger
 from pysim.bench.plan import Plan
 from pysim.bench.sensor import Sensor
 from pysim.excitation import Chirp, LeadIn, LineGrid, Multisine, PiersonMoskowitz, Step, StochasticWave
-from pysim.io import SI, Section, read_toml, signal_in_si
+from pysim.io import SI, SIGNAL_KEYS, Section, described_signal, read_toml, signal_in_si
 from pysim.types import BadInput, MeasuredSignal
 
 _PLANS = Path(__file__).parent / "plans"
@@ -59,16 +59,8 @@ def read_plan(source: Path | str) -> Plan:
 
 def _signal(name: str, section: Section) -> MeasuredSignal:
     """In the unit of the file."""
-    section.refuse_unknown(("role", "unit", "quantity", "variable", "noise", "resolution", "low", "high", "rate"))
-    return MeasuredSignal(
-        name=name,
-        role=section.text("role", among=("input", "output")),
-        unit=section.text("unit", among=tuple(SI)),
-        quantity=section.text("quantity", name),
-        variable=section.text("variable", name),
-        noise=section.not_negative("noise"),
-        resolution=section.positive("resolution"),
-    )
+    section.refuse_unknown((*SIGNAL_KEYS, "low", "high", "rate"))
+    return described_signal(name, section)
 
 
 def _sensor(signal: MeasuredSignal, section: Section) -> Sensor:

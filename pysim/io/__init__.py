@@ -2,7 +2,7 @@
 
 from pysim.io.archive import extracted
 from pysim.io.cache import cache_folder
-from pysim.io.dataset import read_dataset
+from pysim.io.dataset import SIGNAL_KEYS, described_signal, read_dataset
 from pysim.io.files import write_file
 from pysim.io.fmu import read_model
 from pysim.io.records import read_record, record_data, record_text, write_record
@@ -15,9 +15,11 @@ from pysim.io.write_dataset import write_dataset
 
 __all__ = [
     "SI",
+    "SIGNAL_KEYS",
     "Section",
     "TomlFile",
     "cache_folder",
+    "described_signal",
     "extracted",
     "read_dataset",
     "read_model",

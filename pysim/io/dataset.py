@@ -15,7 +15,7 @@ from pysim.types import BadInput, Dataset, MeasuredRecord, MeasuredSignal
 _KEYS = ("dataset", "signals", "records")
 _DATASET_KEYS = ("name", "description", "system", "time_unit")
 _SECONDS = {"s": 1.0, "ms": 1e-3}
-_SIGNAL_KEYS = ("role", "unit", "quantity", "variable", "noise", "resolution")
+SIGNAL_KEYS = ("role", "unit", "quantity", "variable", "noise", "resolution")
 _RECORD_KEYS = ("file", "columns", "kind", "use", "offset", "amplitude", "frequency", "input", "output", "origin")
 
 
@@ -65,8 +65,12 @@ def _description(place: Path) -> Path:
     return place / "dataset.toml"
 
 
-def _signal(name: str, section: Section) -> MeasuredSignal:
-    section.refuse_unknown(_SIGNAL_KEYS)
+def described_signal(name: str, section: Section) -> MeasuredSignal:
+    """What a section says of a signal, in the unit of the files; its other keys are the caller's.
+
+    Raises:
+        BadInput: a missing or wrong key, or the name of the clock.
+    """
     if name == TIME:
         raise BadInput(
             f"{section.place}: {TIME} is the clock of every log and no signal; remove the section, and where it is in "
@@ -81,6 +85,11 @@ def _signal(name: str, section: Section) -> MeasuredSignal:
         noise=section.not_negative("noise"),
         resolution=section.not_negative("resolution"),
     )
+
+
+def _signal(name: str, section: Section) -> MeasuredSignal:
+    section.refuse_unknown(SIGNAL_KEYS)
+    return described_signal(name, section)
 
 
 def _kind(section: Section) -> str:

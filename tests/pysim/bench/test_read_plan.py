@@ -84,6 +84,7 @@ def test_the_plans_that_come_with_the_package() -> None:
         ("[0.5, 2]", "[0.5, -2]", "line 45: stepped sines: frequencies and periods must be positive"),
         ("[0.5, 2]", '"all"', "line 45: frequencies is missing or no row of numbers"),
         ("seed = 4", "seed = 4.5", "seed is missing or no whole number"),
+        ("[signals.v]", "[signals.time]", "line 21: time is the clock of every log and no signal"),
         ("seed = 4", "seed = -4", "line 65: seed cannot be below 0, got -4"),
         ("seed = 2", "seed = -2", "line 73: seed cannot be below 0, got -2"),
         ("[-0.002, 0.001]", "[-0.002, -0.001]", "line 45: stepped sines: every amplitude, .* must be positive"),
