@@ -50,6 +50,11 @@ class Chirp:
         return (self.stop_hz - self.start_hz) / self.sweep
 
     @property
+    def highest_hz(self) -> float:
+        """Of the faster end, Hz."""
+        return max(self.start_hz, self.stop_hz)
+
+    @property
     def onset(self) -> float:
         """When the sweep starts, s."""
         return self.lead.onset

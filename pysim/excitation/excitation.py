@@ -25,6 +25,11 @@ class Excitation(Protocol):
         """Of the whole test, s; the last value holds from there on."""
         ...
 
+    @property
+    def highest_hz(self) -> float:
+        """Of its fastest sine, Hz; zero where it has none. Logging has to be faster than twice that."""
+        ...
+
     def signal(self) -> Signal:
         """The command from time zero on, with its exact derivative."""
         ...

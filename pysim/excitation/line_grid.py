@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from pysim.excitation._check import check_positive
+from pysim.excitation._check import check_finite, check_positive, check_seed, check_sines
 from pysim.types import BadInput
 
 Lines = NDArray[np.int64]
@@ -30,7 +30,8 @@ class LineGrid:
         group: odd lines per group, two at least.
         seed: which line of each group is left out.
     Raises:
-        BadInput: an unknown kind, a group too small, a period that is not positive, or a band without a line to excite.
+        BadInput: an unknown kind, a group too small, a period that is not positive, a seed below zero, or a band that
+            holds no line to excite or too many.
     Source: Pintelon and Schoukens, System Identification: A Frequency Domain Approach, 2nd ed., Sections 4.3 and 5.3.
     """
 
@@ -43,7 +44,10 @@ class LineGrid:
 
     def __post_init__(self) -> None:
         check_positive("line grid: the period", self.period, "s")
+        check_finite("line grid: the lowest frequency", self.low_hz, "Hz")
         check_positive("line grid: the highest frequency", self.high_hz, "Hz")
+        check_seed("line grid: the seed", self.seed)
+        check_sines("line grid", (self.high_hz - self.low_hz) * self.period)
         if self.kind not in _KINDS:
             raise BadInput(f"line grid: kind is {self.kind!r}; write one of {', '.join(_KINDS)}")
         if self.group < 2:

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from pysim.excitation._check import check_finite, check_positive
+from pysim.excitation._check import check_finite, check_positive, check_seed
 from pysim.excitation._waves import largest_value, start_in_hold, wave_signal
 from pysim.excitation.lead_in import LeadIn
 from pysim.excitation.line_grid import LineGrid
@@ -31,8 +31,8 @@ class Multisine:
         lead: how the command comes to its offset and back; the wave starts within the hold, where it last passes zero
             before the onset, so that the command does not jump. With `LeadIn.none()` it is periodic from time zero.
     Raises:
-        BadInput: both levels or none, one that is not positive, a shape of another length or without power, or a
-            number of periods that is not positive.
+        BadInput: both levels or none, one that is not positive, a shape of another length or without power, a
+            number of periods that is not positive, or a seed below zero.
     Source: Pintelon and Schoukens, System Identification: A Frequency Domain Approach, 2nd ed., Section 2.3 and 5.3.
     """
 
@@ -51,6 +51,7 @@ class Multisine:
         check_positive("multisine: the level", self.rms if self.peak is None else self.peak, "")  # type: ignore[arg-type]
         check_finite("multisine: the offset", self.offset, "")
         check_positive("multisine: the number of periods", self.periods, "")
+        check_seed("multisine: the seed", self.seed)
         object.__setattr__(self, "shape", tuple(float(a) for a in self.shape))
         count = self.grid.excited.size
         if self.shape and (len(self.shape) != count or min(self.shape) < 0 or not 0 < sum(self.shape) < math.inf):
@@ -82,6 +83,11 @@ class Multisine:
     def duration(self) -> float:
         """Of the whole test, s."""
         return self.end + self.lead.ramp_down
+
+    @property
+    def highest_hz(self) -> float:
+        """Of the fastest sine, Hz."""
+        return float(self.grid.excited[-1]) / self.period
 
     def waves(self) -> Array:
         """(n_excited, 3): amplitude (command's unit), phase at the onset (rad), angular frequency (rad/s)."""

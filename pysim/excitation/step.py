@@ -39,6 +39,11 @@ class Step:
             raise BadInput("step: without a lead-in there is no level to step from; give a rest, a ramp or a hold")
 
     @property
+    def highest_hz(self) -> float:
+        """Zero: there is no sine."""
+        return 0.0
+
+    @property
     def onset(self) -> float:
         """When the first step happens, s."""
         return self.lead.onset

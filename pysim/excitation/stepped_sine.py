@@ -41,6 +41,11 @@ class SteppedSineCommand:
             raise BadInput(f"stepped sine: the number of periods is {self.periods}; it must be positive")
 
     @property
+    def highest_hz(self) -> float:
+        """Of the sine, Hz."""
+        return self.frequency
+
+    @property
     def onset(self) -> float:
         """When the sine starts, s."""
         return self.lead.onset

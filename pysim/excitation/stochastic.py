@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from pysim.excitation._check import check_finite, check_positive
+from pysim.excitation._check import check_finite, check_positive, check_seed, check_sines
 from pysim.excitation._waves import start_in_hold, wave_signal
 from pysim.excitation.lead_in import LeadIn
 from pysim.excitation.spectrum import PiersonMoskowitz
@@ -37,7 +37,8 @@ class StochasticWave:
         lead: how the command comes to its offset and back; the wave starts within the hold, where it last passes zero
             before the onset, so that the command does not jump.
     Raises:
-        BadInput: a number that is not finite or positive where it must be, no component, or an empty band.
+        BadInput: a number that is not finite or positive where it must be, no component or too many, a seed below zero,
+            or an empty band.
     Source: thesis Appendix A, Eq. 2-4. Differs: frequencies are scattered unless told otherwise, and the variance of
     each interval is taken exactly, not as width times the density at its centre.
     """
@@ -54,6 +55,8 @@ class StochasticWave:
     def __post_init__(self) -> None:
         check_positive("stochastic wave: the length", self.length, "s")
         check_finite("stochastic wave: the offset", self.offset, "")
+        check_seed("stochastic wave: the seed", self.seed)
+        check_sines("stochastic wave", self.components)
         if self.components < 1:
             raise BadInput(f"stochastic wave: {self.components} components; it needs at least one")
         if self.band_hz is not None and not 0 <= self.band_hz[0] < self.band_hz[1] < math.inf:
@@ -87,6 +90,11 @@ class StochasticWave:
     def repeats_after(self) -> float:
         """The envelope repeats after this time, 2 pi / spacing, s; infinite where the frequencies are scattered."""
         return math.inf if self.scatter else float(2 * math.pi / (self.edges[1] - self.edges[0]))
+
+    @property
+    def highest_hz(self) -> float:
+        """Upper edge of the band, Hz."""
+        return float(self.edges[-1] / (2 * math.pi))
 
     def waves(self) -> Array:
         """(components, 3): amplitude (command's unit), phase at the onset (rad), angular frequency (rad/s)."""

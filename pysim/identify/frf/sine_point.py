@@ -28,7 +28,7 @@ class Window:
         settle_periods: periods left out after the sine starts, or the log does, at least.
         settle_time: s left out there, at least.
     Raises:
-        BadInput: a number that is negative.
+        BadInput: a number that is negative or not finite.
     Source: the defaults are those of `SteppedSine`, whose settling times follow from the pump's transients.
     """
 
@@ -36,8 +36,9 @@ class Window:
     settle_time: float = 0.5
 
     def __post_init__(self) -> None:
-        if not (self.settle_periods >= 0 and self.settle_time >= 0):
-            raise BadInput("frequency response: settling must not be negative")
+        for name, value in (("settle_periods", self.settle_periods), ("settle_time", self.settle_time)):
+            if not 0 <= value < math.inf:
+                raise BadInput(f"frequency response: {name} is {value:g}; it must be finite and not negative")
 
 
 @dataclass(frozen=True)
@@ -104,6 +105,11 @@ def sine_point(
     inside, periods, remarks = _fitted_part(record, command, window or Window())
     t, y = record.data.time[inside], record.data[output][inside]
     count = _harmonic_count(t, frequency)
+    if count < 1:
+        raise BadInput(
+            f"{record.source}: the {t.size} samples of {periods} period{'s' if periods > 1 else ''} behind the settling"
+            f" do not show {frequency:g} Hz; shorten the settling, record longer or sample faster"
+        )
     coefficients, left_over = _fit(command.angle(t), y, count)
     interval = float(t[-1] - t[0]) / (t.size - 1)
     judged = residual_noise(left_over, 2 * count + 1, frequency, interval, declared=noise)
@@ -159,14 +165,11 @@ def _fitted_part(record: MeasuredRecord, command: LoggedWave, window: Window) ->
 
 
 def _harmonic_count(t: Array, frequency: float) -> int:
-    """The sine itself and its harmonics, as many as the sampling and the number of samples allow."""
+    """The sine itself and its harmonics, as many as sampling and number of samples allow; 0 where not even it."""
+    if t.size < 2:
+        return 0
     highest = 0.49 * (t.size - 1) / float(t[-1] - t[0])
-    count = min(int(highest / frequency), 1 + _HARMONICS, (t.size - 12) // 2)
-    if count < 1:
-        raise BadInput(
-            f"frequency response: {t.size} samples per fitted part do not show {frequency:g} Hz; sample faster"
-        )
-    return count
+    return max(min(int(highest / frequency), 1 + _HARMONICS, (t.size - 12) // 2), 0)
 
 
 def _fit(angle: Array, y: Array, count: int) -> tuple[Array, Array]:
