@@ -116,58 +116,68 @@ class SteppedSines:
 
 
 @dataclass(frozen=True)
-class ChirpTest:
-    """A chirp; the log starts with the sweep."""
+class _SingleTest:
+    """A test that is one run.
+
+    Args:
+        input, outputs: signal names.
+        command: its excitation.
+        name: of the log; one that tells the test where it is empty.
+        folder: of the log.
+        use: "fit" | "validate".
+    """
 
     input: str
     outputs: tuple[str, ...]
-    command: Chirp
+    command: Excitation
     name: str = ""
-    folder: str = "chirp"
+    folder: str = ""
     use: str = "fit"
+
+    def _run(self, kind: str, usual_name: str, log_from: float, *told: float) -> Iterator[Run]:
+        """One run; `told` is what the log says of itself: offset, amplitude."""
+        source = f"{self.folder}/{self.name or usual_name}.txt"
+        yield Run(source, kind, self.use, self.input, self.outputs, self.command, log_from, *told)
+
+
+@dataclass(frozen=True)
+class ChirpTest(_SingleTest):
+    """A chirp; the log starts with the sweep."""
+
+    command: Chirp
+    folder: str = "chirp"
 
     def runs(self, unit: float) -> Iterator[Run]:
         """One run."""
         offset, amplitude = self.command.offset, self.command.amplitude
-        source = f"{self.folder}/{self.name or _point(offset, amplitude, unit)}.txt"
-        start = self.command.onset
-        yield Run(source, "chirp", self.use, self.input, self.outputs, self.command, start, offset, amplitude)
+        return self._run("chirp", _point(offset, amplitude, unit), self.command.onset, offset, amplitude)
 
 
 @dataclass(frozen=True)
-class WaveTest:
+class WaveTest(_SingleTest):
     """A stochastic wave; the log starts at rest at the offset, before the wave does."""
 
-    input: str
-    outputs: tuple[str, ...]
     command: StochasticWave
-    name: str = ""
     folder: str = "stochastic"
-    use: str = "fit"
 
     def runs(self, unit: float) -> Iterator[Run]:
         """One run."""
-        source = f"{self.folder}/{self.name or f'Tp{self.command.spectrum.peak_period:g}s'}.txt"
-        yield Run(source, "stochastic", self.use, self.input, self.outputs, self.command, _at_offset(self.command.lead))
+        name = f"Tp{self.command.spectrum.peak_period:g}s"
+        return self._run("stochastic", name, _at_offset(self.command.lead))
 
 
 @dataclass(frozen=True)
-class StepTest:
+class StepTest(_SingleTest):
     """A step; the log starts at rest at the offset."""
 
-    input: str
-    outputs: tuple[str, ...]
     command: Step
-    name: str = ""
     folder: str = "step"
-    use: str = "fit"
 
     def runs(self, unit: float) -> Iterator[Run]:
         """One run."""
         offset, height = self.command.offset, self.command.height
-        source = f"{self.folder}/{self.name or f'O{offset / unit:+g}_H{height / unit:+g}'}.txt"
-        start = _at_offset(self.command.lead)
-        yield Run(source, "step", self.use, self.input, self.outputs, self.command, start, offset)
+        name = f"O{offset / unit:+g}_H{height / unit:+g}"
+        return self._run("step", name, _at_offset(self.command.lead), offset)
 
 
 @dataclass(frozen=True)
