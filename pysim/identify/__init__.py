@@ -16,8 +16,7 @@ from pysim.identify.frequency_response import (
     standard_deviations,
 )
 from pysim.identify.frf import MeasuredResponse, SinePoint, Window, measured_responses, sine_point
-from pysim.identify.logged_command import logged_command
-from pysim.identify.logged_wave import LoggedWave, logged_wave
+from pysim.identify.logged import LoggedWave, logged_command, logged_wave
 from pysim.identify.rate_input import rate_input
 from pysim.identify.settling import SteadyRun, run_until_settled
 from pysim.identify.sine_fit import SineFit, sine_fit

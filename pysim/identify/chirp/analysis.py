@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from pysim.identify._columns import declared_noise, the_column
 from pysim.identify.chirp.branch import Branch, mean_branch
 from pysim.identify.chirp.cycle_fit import CycleFit, Extreme, Samples, fit_cycle
-from pysim.identify.logged_wave import CHIRP, LoggedWave, logged_wave
+from pysim.identify.logged import CHIRP, LoggedWave, logged_wave
 from pysim.types import BadInput, Dataset, FrequencyResponse, MeasuredRecord, Record, SineTest
 
 Array = NDArray[np.float64]

@@ -9,7 +9,7 @@ import numpy as np
 
 from pysim.identify._columns import declared_noise, the_column
 from pysim.identify.frf.sine_point import SinePoint, Window, sine_point
-from pysim.identify.logged_wave import STEPPED_SINE
+from pysim.identify.logged import STEPPED_SINE
 from pysim.types import BadInput, Dataset, FrequencyResponse, Record, SineTest
 
 

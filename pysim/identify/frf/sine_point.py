@@ -11,7 +11,7 @@ from scipy.stats import chi2
 
 from pysim.identify._near_orthogonal import near_orthogonal_fit
 from pysim.identify.frf.noise import COLOURED, ResidualNoise, residual_noise
-from pysim.identify.logged_wave import LoggedWave, logged_wave
+from pysim.identify.logged import LoggedWave, logged_wave
 from pysim.types import BadInput, MeasuredRecord, Record
 
 Array = NDArray[np.float64]

@@ -17,8 +17,7 @@ from pysim.identify.greybox.sine_log import Sine, SineLog, sine_log, steady_sine
 from pysim.identify.greybox.sine_target import SineTarget
 from pysim.identify.greybox.table_target import TableTarget
 from pysim.identify.greybox.target import Run, Target
-from pysim.identify.logged_command import logged_command
-from pysim.identify.logged_wave import logged_wave
+from pysim.identify.logged import logged_command, logged_wave
 from pysim.identify.rate_input import rate_input
 from pysim.simulate import Periodic
 from pysim.types import (

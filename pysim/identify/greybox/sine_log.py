@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pysim.identify.greybox.harmonics import harmonic_count, interpolation, regressors, to_complex
-from pysim.identify.logged_wave import LoggedWave
+from pysim.identify.logged import LoggedWave
 from pysim.types import BadInput, Record
 
 Array = NDArray[np.float64]

@@ -1,5 +1,6 @@
 """One log against the closed form of its system."""
 
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -92,5 +93,12 @@ def test_refuses_what_gives_no_response() -> None:
     values = np.array(record.data.values)
     values[:, 1] = 3.0
     refused(replace(record, data=replace(record.data, values=values)), "does not move at 4 Hz")
-    with pytest.raises(BadInput, match="must not be negative"):
-        Window(-1.0)
+    for wrong in (-1.0, math.inf, math.nan):
+        with pytest.raises(BadInput, match=f"settle_periods is {wrong:g}; it must be finite and not negative"):
+            Window(wrong)
+
+
+def test_a_part_too_short_to_fit_is_refused_by_its_name_and_with_a_cure() -> None:
+    record = log(20.0)
+    with pytest.raises(BadInput, match=r"1[23] samples of 1 period behind .* do not show 20 Hz; shorten the settling"):
+        sine_point(record, "cmd", "y", window=Window(settle_periods=1e6))

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from pysim.identify._wave_fit import chirp_start, fit_chirp, fit_sine, sine_start
-from pysim.identify._wave_stretch import Log, Stretch, grow, wander
+from pysim.identify.logged.stretch import Log, Stretch, grow, wander
+from pysim.identify.logged.wave_fit import chirp_start, fit_chirp, fit_sine, sine_start
 from pysim.types import BadInput, MeasuredRecord, Record
 
 Array = NDArray[np.float64]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from pysim.identify.logged_wave import CHIRP, STEPPED_SINE, LoggedWave, logged_wave
+from pysim.identify.logged.wave import CHIRP, STEPPED_SINE, LoggedWave, logged_wave
 from pysim.types import BadInput, MeasuredRecord, Record, Signal
 
 Array = NDArray[np.float64]

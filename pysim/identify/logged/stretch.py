@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from pysim.identify._wave_fit import Wave
+from pysim.identify.logged.wave_fit import Wave
 from pysim.types import BadInput, Record
 
 Array = NDArray[np.float64]
