@@ -84,7 +84,13 @@ def _build_anew(
     from fmu_build.lower import lower
     from fmu_build.pack.fmu import pack
 
-    model = lower(load(class_name, libraries, overrides))
+    try:
+        model = lower(load(class_name, libraries, overrides))
+    except RecursionError:
+        raise BuildError(
+            f"an expression of {class_name} is nested too deeply: a sum of more than some 300 terms, or as many "
+            "parentheses within each other; split it into several equations."
+        ) from None
     with tempfile.TemporaryDirectory(prefix="fmu_build-") as folder:
         fmu = Path(folder) / "model.fmu"
         pack(model, fmu, fmi=fmi, platforms=targets)

@@ -45,4 +45,4 @@ if __name__ == "__main__":
     out = os.dup(1)
     os.dup2(2, 1)  # whatever native code prints is no part of the answer
     with open(out, "w", encoding="utf-8") as stream:
-        json.dump(answer(json.load(sys.stdin.buffer)), stream)
+        stream.write(json.dumps(answer(json.load(sys.stdin.buffer))))  # json.dump would take three times as long

@@ -111,3 +111,11 @@ def test_a_failed_build_leaves_nothing_behind(loads, tmp_path, monkeypatch):
 
 def test_our_library_is_found():
     assert (bundled_library() / "package.mo").is_file()
+
+
+def test_an_expression_that_is_nested_too_deeply_is_the_models_fault(tmp_path):
+    terms = " + ".join(f"{i}*u" for i in range(1000))
+    file = tmp_path / "Sum.mo"
+    file.write_text(f"model Sum\n  input Real u;\n  output Real y;\nequation\n  y = {terms};\nend Sum;\n")
+    with pytest.raises(BuildError, match="an expression of Sum is nested too deeply"):
+        build("Sum", tmp_path / "Sum.fmu", libraries=[file], use_cache=False)
