@@ -96,6 +96,7 @@ def run(args: argparse.Namespace) -> int:
     from pysim.io import write_signal
 
     test = _excitation(args)
+    _refuse_slow_sampling(test, args.sampling)
     prepare_file(args.file, "-o", (".csv",))
     if args.output:
         prepare_folder(args.output)
@@ -108,6 +109,17 @@ def run(args: argparse.Namespace) -> int:
     if args.output:
         _write_report(args, test)
     return 0
+
+
+def _refuse_slow_sampling(test: Excitation, sampling_hz: float) -> None:
+    """Rows further apart than half a period would be another signal."""
+    from pysim.types import BadInput
+
+    if test.highest_hz > 0 and not sampling_hz > 2 * test.highest_hz:
+        raise BadInput(
+            f"--sampling {sampling_hz:g}: so few rows per second do not show {test.highest_hz:.4g} Hz; give more than "
+            f"twice that, or ten times to keep the shape"
+        )
 
 
 def _excitation(args: argparse.Namespace) -> Excitation:
@@ -149,11 +161,12 @@ def _facts(test: Excitation, args: argparse.Namespace) -> list[str]:
     t = np.arange(math.floor((test.end - test.onset) * args.sampling)) / args.sampling + test.onset
     value, rate = test.signal().value(t), test.signal().derivative(t)
     unit = args.unit
+    shown = f", its fastest sine in {args.sampling / test.highest_hz:.3g} rows per period" if test.highest_hz else ""
     return [
         f"excitation from {test.onset:g} to {test.end:g} s, {test.duration:g} s in all",
         f"mean {value.mean():.4g} {unit}, rms about it {value.std():.4g} {unit}, "
         f"from {value.min():.4g} to {value.max():.4g} {unit}",
-        f"fastest {np.abs(rate).max():.4g} {unit}/s",
+        f"fastest {np.abs(rate).max():.4g} {unit}/s{shown}",
     ]
 
 

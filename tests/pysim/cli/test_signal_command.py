@@ -59,6 +59,11 @@ def test_output_writes_picture_and_page(tmp_path: Path) -> None:
         ("chirp --amplitude 1 -o s.csv", "--sweep"),
         ("multisine --period 5 -o s.csv", "one of the arguments --rms --peak"),
         ("stepped-sine --amplitude 1 --frequency 1 --periods inf -o s.csv", "rows; between 2"),
+        (
+            "chirp --amplitude 1 --sweep 5 --stop-hz 30 --sampling 60 -o s.csv",
+            "do not show 30 Hz; give more than twice",
+        ),
+        ("stochastic --height 1 --peak-period 1 --seed -1 -o s.csv", "the seed is -1"),
     ],
 )
 def test_wrong_use(

@@ -40,6 +40,12 @@ class TestFamily:
         jumps, _ = test.signal().breaks()
         assert jumps.sum() == (2 if isinstance(test, Step) else 0)
 
+    def test_nothing_in_it_is_faster_than_it_says(self, test: Excitation) -> None:
+        amplitude, _, omega, kappa = np.moveaxis(test.signal().sines, -1, 0)
+        ends = np.abs([omega, omega + kappa * (test.end - test.onset)]).max(axis=0)
+        fastest = float(np.max(ends[amplitude != 0] / (2 * np.pi), initial=0.0))
+        assert 0.98 * test.highest_hz <= fastest <= test.highest_hz * (1 + 1e-9)
+
 
 def test_without_a_lead_in_the_excitation_starts_at_once_and_holds_its_last_value() -> None:
     signal = Sine(5.0, 2.0, 1.0, periods=1.25, lead=LeadIn.none()).signal()

@@ -46,6 +46,9 @@ def test_line_zero_is_never_in_the_band() -> None:
         ({"group": 1}, "groups of 1"),
         ({"low_hz": 0.51, "high_hz": 0.59}, "no line to excite from 0.51 to 0.59 Hz, 0.1 Hz apart"),
         ({"period": 0.0}, "the period is 0 s"),
+        ({"low_hz": float("nan")}, "the lowest frequency is nan Hz"),
+        ({"seed": -1}, "the seed is -1; give a whole number that is not negative"),
+        ({"high_hz": 1e9}, r"1e\+10 sines are too many"),
     ],
 )
 def test_refuses_what_is_no_grid(wrong: dict, words: str) -> None:

@@ -65,6 +65,7 @@ def test_realisations_differ_in_phase_alone() -> None:
         ({"shape": (0.0,) * GRID.excited.size}, "not all zero"),
         ({"periods": 0.0}, "number of periods"),
         ({"offset": math.nan}, "the offset is nan"),
+        ({"seed": -1}, "the seed is -1"),
     ],
 )
 def test_refuses_what_is_no_multisine(wrong: dict, words: str) -> None:

@@ -68,6 +68,8 @@ def test_even_spacing_has_its_frequencies_in_the_middle() -> None:
         ({"length": 0.0}, "the length is 0 s"),
         ({"band_hz": (2.0, 1.0)}, "from 2 to 1 Hz is empty"),
         ({"offset": math.inf}, "the offset is inf"),
+        ({"seed": -1}, "the seed is -1"),
+        ({"components": 10**9}, r"1e\+09 sines are too many"),
     ],
 )
 def test_refuses_what_is_no_wave(wrong: dict, words: str) -> None:
