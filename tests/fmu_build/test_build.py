@@ -113,9 +113,10 @@ def test_our_library_is_found():
     assert (bundled_library() / "package.mo").is_file()
 
 
-def test_an_expression_that_is_nested_too_deeply_is_the_models_fault(tmp_path):
-    terms = " + ".join(f"{i}*u" for i in range(1000))
+@pytest.mark.parametrize("count", [450, 1000])  # the first is written by the compiler's process, but cannot be read
+def test_an_expression_that_is_nested_too_deeply_is_the_models_fault(tmp_path, count):
+    terms = " + ".join(f"{i}*u" for i in range(count))
     file = tmp_path / "Sum.mo"
     file.write_text(f"model Sum\n  input Real u;\n  output Real y;\nequation\n  y = {terms};\nend Sum;\n")
-    with pytest.raises(BuildError, match="an expression of Sum is nested too deeply"):
+    with pytest.raises(BuildError, match="an expression (of Sum )?is nested too deeply"):
         build("Sum", tmp_path / "Sum.fmu", libraries=[file], use_cache=False)
