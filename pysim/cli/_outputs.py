@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import shlex
+import subprocess
 import sys
 from collections.abc import Sequence
 from pathlib import Path
@@ -53,8 +54,10 @@ def command_line(words: Sequence[str]) -> str:
 
     Where this process runs in the environment that run.py made, `pysim` is on nobody's path and run.py is the way in.
     """
+    windows = sys.platform == "win32"
+    quoted = subprocess.list2cmdline if windows else shlex.join
     root = Path(__file__).resolve().parents[2]
     if Path(sys.prefix).resolve() != root / ".venv" or not (root / "run.py").is_file():
-        return shlex.join(["pysim", *words])
+        return quoted(["pysim", *words])
     start = "run.py" if Path.cwd() == root else str(root / "run.py")
-    return shlex.join(["python3", start, "pysim", *words])
+    return quoted(["py" if windows else "python3", start, "pysim", *words])

@@ -216,3 +216,13 @@ def test_the_line_to_redo_is_quoted_and_starts_where_it_works(monkeypatch: pytes
     assert command_line(["demo"]) == "python3 run.py pysim demo"
     monkeypatch.chdir(root / "tests")
     assert shlex.split(command_line(["demo"])) == ["python3", str(root / "run.py"), "pysim", "demo"]
+
+
+def test_the_line_to_redo_is_quoted_as_windows_wants_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    root = Path(pysim.cli.__file__).parents[2]
+    monkeypatch.setattr(sys, "platform", "win32")
+    monkeypatch.setattr(sys, "prefix", "/usr")
+    assert command_line(["demo", "--output", "my results"]) == 'pysim demo --output "my results"'
+    monkeypatch.setattr(sys, "prefix", str(root / ".venv"))
+    monkeypatch.chdir(root)
+    assert command_line(["demo"]) == "py run.py pysim demo"
