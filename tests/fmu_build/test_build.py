@@ -118,5 +118,5 @@ def test_an_expression_that_is_nested_too_deeply_is_the_models_fault(tmp_path, c
     terms = " + ".join(f"{i}*u" for i in range(count))
     file = tmp_path / "Sum.mo"
     file.write_text(f"model Sum\n  input Real u;\n  output Real y;\nequation\n  y = {terms};\nend Sum;\n")
-    with pytest.raises(BuildError, match="an expression (of Sum )?is nested too deeply"):
+    with pytest.raises(BuildError, match=r"an expression (of Sum )?is nested too deeply"):
         build("Sum", tmp_path / "Sum.fmu", libraries=[file], use_cache=False)
