@@ -6,6 +6,7 @@ import argparse
 import math
 import sys
 import tomllib
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -36,12 +37,7 @@ def read_parameters(args: argparse.Namespace, model: Model) -> dict[str, float]:
     from pysim.types import BadInput
 
     values = _from_file(args.parameters) if args.parameters else {}
-    for text in args.set:
-        name, _, value = text.partition("=")
-        try:
-            values[name.strip()] = float(value)
-        except ValueError:
-            raise BadInput(f"--set {text}: write NAME=VALUE with a number in the parameter's unit") from None
+    values |= assigned(args.set, "--set", "the parameter's unit")
     for name in values:
         variable = model[name]
         if variable.causality != "parameter":
@@ -49,6 +45,28 @@ def read_parameters(args: argparse.Namespace, model: Model) -> dict[str, float]:
         if not math.isfinite(values[name]):
             raise BadInput(f"{name} = {values[name]}: write a finite number in the parameter's unit, {variable.unit}")
         _warn_beyond(variable, values[name], model)
+    return values
+
+
+def assigned(texts: Sequence[str], option: str, unit: str) -> dict[str, float]:
+    """Numbers from words NAME=VALUE.
+
+    Args:
+        option, unit: what the words belong to and what the numbers are in, for messages.
+    Raises:
+        BadInput: no name, or no finite number.
+    """
+    from pysim.types import BadInput
+
+    values = {}
+    for text in texts:
+        name, _, value = (part.strip() for part in text.partition("="))
+        try:
+            values[name] = float(value)
+        except ValueError:
+            values[name] = math.nan
+        if not name or not math.isfinite(values[name]):
+            raise BadInput(f"{option} {text}: write NAME=VALUE with a finite number in {unit}")
     return values
 
 

@@ -43,14 +43,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(args: argparse.Namespace) -> int:
     """Write the data set; 1 when a run stops early, with nothing written."""
     from pysim.bench import read_plan, run_plan, truth_data
-    from pysim.cli._options import read_parameters
+    from pysim.cli._options import assigned, read_parameters
     from pysim.cli._outputs import prepare_file, prepare_folder
     from pysim.cli._progress import ProgressBar, announce_compilation
     from pysim.io import read_model, write_dataset, write_file
     from pysim.types import SimulationError
 
     plan, model = read_plan(args.plan), read_model(args.model)
-    parameters, strength = read_parameters(args, model), _strength(args.strength)
+    parameters, strength = read_parameters(args, model), assigned(args.strength, "--strength", "SI units")
     _check_places(args)
     for option, folder in (("--output", args.output), ("--clean", args.clean)):
         if folder is not None:
@@ -74,19 +74,6 @@ def run(args: argparse.Namespace) -> int:
         write_dataset(args.clean, data.truth.clean, units=units)
     print(_summary(args, plan, data.dataset))
     return 0
-
-
-def _strength(texts: list[str]) -> dict[str, float]:
-    from pysim.types import BadInput
-
-    strength = {}
-    for text in texts:
-        name, _, value = text.partition("=")
-        try:
-            strength[name.strip()] = float(value)
-        except ValueError:
-            raise BadInput(f"--strength {text}: write NAME=VALUE with a number in SI units") from None
-    return strength
 
 
 def _check_places(args: argparse.Namespace) -> None:

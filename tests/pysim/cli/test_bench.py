@@ -63,6 +63,8 @@ def test_the_same_seed_gives_the_same_bytes(words: list[str], tmp_path: Path) ->
         (["--clean", "{set}/.."], "--clean .*the data set would be inside it"),
         (["--truth", "{set}.txt"], "the suffix chooses the form"),
         (["--strength", "F"], "--strength F: write NAME=VALUE"),
+        (["--strength", "F=nan"], "--strength F=nan: write NAME=VALUE with a finite number in SI units"),
+        (["--strength", "=3"], "--strength =3: write NAME=VALUE"),
         (["--set", "E=1"], "has no variable 'E'"),
         (["--plan", "none"], "one of bench-01, thesis.*cannot read none"),
     ],

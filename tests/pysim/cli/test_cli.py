@@ -102,7 +102,7 @@ def test_parameters_from_a_file_yield_to_set(folder: Path) -> None:
     [
         (["--set", "k"], "--set k: write NAME=VALUE"),
         (["--set", "k=much"], "--set k=much: write NAME=VALUE"),
-        (["--set", "k=nan"], "k = nan: write a finite number in the parameter's unit, 1"),
+        (["--set", "k=nan"], "--set k=nan: write NAME=VALUE with a finite number"),
         (["--set", "kk=1"], "linear.fmu has no variable 'kk'; near it: k"),
         (["--set", "cmd=1"], "cmd of linear.fmu has the causality input"),
         (["--parameters", "none.toml"], "--parameters none.toml: cannot be read"),
