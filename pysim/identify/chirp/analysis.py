@@ -32,6 +32,7 @@ class ChirpAnalysis:
         level: what tops and bottoms count from, in the output's unit.
         top, bottom: (n,) in pairs, each bottom next to its top.
         mean: (n,) of each pair.
+        apart: places, from low frequency up, of means whose fits share no sample.
         noise: standard deviation of the output about the local fits, in its unit.
         input, output: names of the signals.
         input_unit, output_unit: of them.
@@ -44,6 +45,7 @@ class ChirpAnalysis:
     top: Branch
     bottom: Branch
     mean: Branch
+    apart: tuple[int, ...]
     noise: float
     input: str
     output: str
@@ -53,15 +55,18 @@ class ChirpAnalysis:
 
     @property
     def response(self) -> FrequencyResponse:
-        """The mean as a frequency response; its covariance is scaled to the command's amplitude."""
-        n, amplitude = self.mean.frequency.size, self.command.amplitude
-        covariance = np.zeros((n, 3, 3))
-        covariance[:, 0, 0] = (self.mean.gain_deviation * amplitude) ** 2
-        covariance[:, 1, 1] = self.mean.phase_deviation**2
+        """The mean as a frequency response of points whose noise is independent, as a fit to it takes them to be.
+
+        Only those in `apart` are in it; the covariance is scaled to the command's amplitude.
+        """
+        mean, places, amplitude = self.mean, list(self.apart), self.command.amplitude
+        covariance = np.zeros((len(places), 3, 3))
+        covariance[:, 0, 0] = (mean.gain_deviation[places] * amplitude) ** 2
+        covariance[:, 1, 1] = mean.phase_deviation[places] ** 2
         return FrequencyResponse(
-            frequency=self.mean.frequency,
-            gain=self.mean.gain,
-            phase=self.mean.phase,
+            frequency=mean.frequency[places],
+            gain=mean.gain[places],
+            phase=mean.phase[places],
             test=SineTest(self.command.offset, amplitude, self.input, self.output),
             origin=f"measured, chirp {self.source}",
             covariance=covariance,
@@ -101,9 +106,13 @@ def analyse_chirp(
     left_over = float(np.sqrt(np.median(fitted[:, 0] / fitted[:, 1])))
     spread = left_over if noise is None else max(noise, left_over)
     seen, remarks = _seen(pairs, level, spread, command)
-    top, bottom = _paired(seen, command, level, spread)
-    if top.frequency.size == 0:
+    paired = _paired(seen, 1 if command.rate >= 0 else -1)
+    if not paired:
         raise BadInput(f"{record.source}: no pair of top and bottom of {output} rises above the noise; swing more")
+    top, bottom = (
+        _branch([(pair[parity], seen[pair[parity]]) for pair in paired], command, level, spread, sign)
+        for parity, sign in ((0, 1), (1, -1))
+    )
     _tell_edges(remarks, command, samples)
     return ChirpAnalysis(
         source=record.source,
@@ -112,6 +121,7 @@ def analyse_chirp(
         top=top,
         bottom=bottom,
         mean=mean_branch(top, bottom),
+        apart=_apart(paired, {number: fit.half for number, _, fit in pairs}),
         noise=spread,
         input=input_,
         output=output,
@@ -205,18 +215,27 @@ def _seen(
     return seen, []
 
 
-def _paired(seen: dict[int, Extreme], command: LoggedWave, level: float, noise: float) -> tuple[Branch, Branch]:
-    """Tops and bottoms next to each other, each in one pair, from the lowest frequency up."""
-    step = 1 if command.rate >= 0 else -1
-    tops, bottoms, taken = [], [], None
+def _paired(seen: dict[int, Extreme], step: int) -> list[tuple[int, int]]:
+    """(top, bottom) of extremes next to each other, each in one pair; step, 1 or -1, leads to higher frequency."""
+    pairs, taken = [], None
     for number in sorted(seen, reverse=step < 0):
         if number == taken or number + step not in seen:
             continue
         taken = number + step
-        top, bottom = (number, taken) if number % 2 == 0 else (taken, number)
-        tops.append((top, seen[top]))
-        bottoms.append((bottom, seen[bottom]))
-    return _branch(tops, command, level, noise, 1), _branch(bottoms, command, level, noise, -1)
+        pairs.append((number, taken) if number % 2 == 0 else (taken, number))
+    return pairs
+
+
+def _apart(paired: list[tuple[int, int]], half: dict[int, float]) -> tuple[int, ...]:
+    """Places of pairs whose fits, `half` to either side of each extreme (rad), do not overlap."""
+    chosen: list[int] = []
+    reached = (np.inf, -np.inf)  # angles that the last chosen one spans
+    for i, pair in enumerate(paired):
+        low, high = min(n * np.pi - half[n] for n in pair), max(n * np.pi + half[n] for n in pair)
+        if not chosen or low >= reached[1] or high <= reached[0]:
+            chosen.append(i)
+            reached = low, high
+    return tuple(chosen)
 
 
 def _branch(extremes: list[tuple[int, Extreme]], command: LoggedWave, level: float, noise: float, sign: int) -> Branch:

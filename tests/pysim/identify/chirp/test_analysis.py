@@ -108,11 +108,27 @@ def test_remarks_name_the_fast_start_and_the_few_samples() -> None:
 
 def test_the_mean_is_a_frequency_response() -> None:
     found = analyse_chirp(log(2.0, noise=0.1), "u", "y")
-    response_ = found.response
-    np.testing.assert_allclose(response_.gain, np.sqrt(found.top.gain * found.bottom.gain))
-    np.testing.assert_allclose(response_.frequency, 0.5 * (found.top.frequency + found.bottom.frequency))
+    response_, places = found.response, list(found.apart)
+    np.testing.assert_allclose(response_.gain, np.sqrt(found.top.gain * found.bottom.gain)[places])
+    np.testing.assert_allclose(response_.frequency, 0.5 * (found.top.frequency + found.bottom.frequency)[places])
     sigma = np.sqrt(response_.covariance[:, 0, 0]) / response_.test.amplitude
-    np.testing.assert_allclose(sigma, found.mean.gain_deviation)
+    np.testing.assert_allclose(sigma, found.mean.gain_deviation[places])
+
+
+def _memory(gains: list[np.ndarray]) -> float:
+    """Correlation of what noise does to neighbours, over many logs of one sweep."""
+    off = np.array(gains) - np.mean(gains, axis=0)
+    off /= np.std(off, axis=0)
+    return float(np.mean(off[:, 1:] * off[:, :-1]))
+
+
+@pytest.mark.parametrize("down", [False, True])
+def test_points_of_the_response_do_not_share_their_noise(down: bool) -> None:
+    """A fit counts them as independent; the means of all pairs are not, where the sweep is slow."""
+    found = [analyse_chirp(log(0.5, noise=0.2, seed=seed, stop_hz=12.0, down=down), "u", "y") for seed in range(12)]
+    assert {one.apart for one in found} == {found[0].apart}
+    assert abs(_memory([one.response.gain for one in found])) < 0.15  # three times 1 / sqrt(12 logs of 35 points)
+    assert _memory([one.mean.gain for one in found]) > 0.4
 
 
 def test_every_chirp_of_a_data_set_is_analysed() -> None:
