@@ -2,15 +2,15 @@
 
 from pysim.simulate._base import Solver
 from pysim.simulate._many import simulate_many
-from pysim.simulate._native import is_compiled
-from pysim.simulate._orbit import Orbit
 from pysim.simulate._run import simulate
 from pysim.simulate.esdirk import Esdirk
-from pysim.simulate.periodic import Periodic, periodic_many
+from pysim.simulate.native.compiled import is_compiled
 from pysim.simulate.rk4 import Rk4
 from pysim.simulate.rk45 import Rk45
 from pysim.simulate.rodas import Rodas
-from pysim.simulate.sensitivities import Sensitivities, sensitivities, sensitivities_many
+from pysim.simulate.sensitivity.orbit import Orbit
+from pysim.simulate.sensitivity.periodic import Periodic, periodic_many
+from pysim.simulate.sensitivity.sensitivities import Sensitivities, sensitivities, sensitivities_many
 
 __all__ = [
     "Esdirk",

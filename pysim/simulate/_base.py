@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass, fields
 from typing import NamedTuple, Protocol
 
-from pysim.simulate._method import Method
+from pysim.simulate.native.method import Method
 from pysim.types import BadInput
 
 

@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 
 from pysim.simulate._library import settable_types
-from pysim.simulate._recording import GETTERS
+from pysim.simulate.native.recording import GETTERS
 from pysim.types import BadInput, Experiment, Model, Variable
 
 

@@ -8,12 +8,12 @@ from typing import Any
 import numpy as np
 
 from pysim.simulate._base import Solver
-from pysim.simulate._fmu_calls import FMU
-from pysim.simulate._inputs import BREAKS, INPUTS
-from pysim.simulate._method import METHOD
-from pysim.simulate._recording import ROWS
-from pysim.simulate._state import CONTROL, RUN, STATISTICS, WORK
-from pysim.simulate._variation import VARIATION
+from pysim.simulate.native.fmu_calls import FMU
+from pysim.simulate.native.inputs import BREAKS, INPUTS
+from pysim.simulate.native.method import METHOD
+from pysim.simulate.native.recording import ROWS
+from pysim.simulate.native.state import CONTROL, RUN, STATISTICS, WORK
+from pysim.simulate.native.variation import VARIATION
 
 JOB = np.dtype(
     [

@@ -17,11 +17,11 @@ from fmpy.fmi2 import FMU2Model
 from fmpy.fmi3 import FMU3Model
 
 from pysim.io import extracted
-from pysim.simulate._fmu_calls import ERROR, FATAL, FUNCTIONS, OK
 from pysim.simulate._job import Job
 from pysim.simulate._messages import Mailbox
-from pysim.simulate._recording import row_layout
-from pysim.simulate._sparsity import jacobian_arrays
+from pysim.simulate.native.fmu_calls import ERROR, FATAL, FUNCTIONS, OK
+from pysim.simulate.native.recording import row_layout
+from pysim.simulate.native.sparsity import jacobian_arrays
 from pysim.types import BadInput, Model
 
 # Setter of FMPy per type of variable, FMI 2 and FMI 3.

@@ -8,17 +8,17 @@ import numpy as np
 
 from pysim.simulate._base import Solver
 from pysim.simulate._check import check_arguments, check_experiment
-from pysim.simulate._fmu_calls import DISCARD, ERROR, FATAL
-from pysim.simulate._inputs import break_arrays, input_arrays
 from pysim.simulate._job import Job
 from pysim.simulate._library import CallFailed, Instance, Library, open_library
-from pysim.simulate._loop import integrate
-from pysim.simulate._method import ExplicitMethod, method_arrays
-from pysim.simulate._state import RUNNING, work_arrays
+from pysim.simulate.native.fmu_calls import DISCARD, ERROR, FATAL
+from pysim.simulate.native.inputs import break_arrays, input_arrays
+from pysim.simulate.native.loop import integrate
+from pysim.simulate.native.method import ExplicitMethod, method_arrays
+from pysim.simulate.native.state import RUNNING, work_arrays
 from pysim.simulate.rk45 import Rk45
 from pysim.types import Experiment, Model, Outcome, Record, SimulationError
 
-_OUTCOMES = tuple(Outcome)  # by the codes of `_state`
+_OUTCOMES = tuple(Outcome)  # by the codes of `native.state`
 
 _BUDGET = 20_000  # steps between two looks at the world outside: some 20 ms
 

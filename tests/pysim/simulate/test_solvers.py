@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from pysim.simulate import simulate
-from pysim.simulate._method import ExplicitMethod
+from pysim.simulate.native.method import ExplicitMethod
 from pysim.types import BadInput, Experiment, Signal
 from tests.pysim.simulate.fixture_fmus import BALL, OSCILLATOR
 from tests.pysim.simulate.solver_cases import SOLVERS, SolverCase

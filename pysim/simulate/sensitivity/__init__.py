@@ -1,0 +1,1 @@
+"""What parameters do to a run and to a periodic steady state."""

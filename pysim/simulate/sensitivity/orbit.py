@@ -1,0 +1,227 @@
+"""One periodic steady state: shooting, and what to do where it fails."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pysim.simulate._library import CallFailed, Library
+from pysim.simulate._pool import Stopped
+from pysim.simulate._run import initialise, make_record
+from pysim.simulate.esdirk import Esdirk
+from pysim.simulate.sensitivity.differences import DIFFERENCE_STEP, tight
+from pysim.simulate.sensitivity.probe import Offer, both_sides
+from pysim.simulate.sensitivity.shooting import Found, Shot, periods_apart, shoot
+from pysim.simulate.sensitivity.transient import Settled, after, settle_down
+from pysim.simulate.sensitivity.varied import Directions, vary
+from pysim.types import Experiment, Outcome, Record
+
+Array = NDArray[np.float64]
+
+_SETTLING = 2  # periods from the model's own start that make a guess
+_FORGOTTEN = 10.0  # mismatches: two periods of an orbit may end that far apart
+_TIGHT = 1e-8  # tolerance of orbits between which a difference is taken
+_TIGHT_MISMATCH = 1e-5
+
+
+@dataclass(frozen=True)
+class Orbit:
+    """A periodic steady state and how parameters move it.
+
+    Args:
+        record: (points) one period from phase zero, without its end.
+        parameters: (n_p) names.
+        by_parameter: (points, n_y, n_p) derivative of each recorded value, its unit over the parameter's unit.
+        state: (n_x,) at phase zero: a guess for an orbit nearby. Empty where the orbit was simulated the long way.
+        state_by_parameter: (n_x, n_p) its derivative. Along a direction in which nothing holds the state, as the
+            level of a closed volume, the state keeps the guess's value and the derivative has no part.
+        iterations: periods that were integrated with derivatives; 0 for the long way.
+        exact: False if a column came from differences.
+        outcome: DONE, or why there is no orbit.
+        message: what was tried, where shooting failed.
+    """
+
+    record: Record
+    parameters: tuple[str, ...]
+    by_parameter: Array = field(repr=False)
+    state: Array = field(repr=False)
+    state_by_parameter: Array = field(repr=False)
+    iterations: int = 0
+    exact: bool = True
+    outcome: Outcome = Outcome.DONE
+    message: str = ""
+
+    def __post_init__(self) -> None:
+        for name in ("by_parameter", "state", "state_by_parameter"):
+            array = np.array(getattr(self, name), dtype=np.float64)
+            array.setflags(write=False)
+            object.__setattr__(self, name, array)
+
+
+@dataclass(frozen=True)
+class Plan:
+    """What all tests of a call have in common."""
+
+    library: Library
+    solver: Esdirk
+    parameters: tuple[str, ...]
+    offer: Offer
+    mismatch: float
+
+    @cached_property
+    def directions(self) -> Directions:
+        """Columns that come from the FMU, if it gives those of the outputs."""
+        return self.offer.directions(states=True) if self.offer.outputs else Directions(states=True, outputs=False)
+
+    @cached_property
+    def missing(self) -> tuple[str, ...]:
+        """Parameters whose columns have to be differences."""
+        given = self.offer.parameters if self.offer.outputs else ()
+        return tuple(name for name in self.parameters if name not in given)
+
+
+def remembers(plan: Plan, experiment: Experiment, guess: Array | None) -> bool:
+    """Whether the model remembers more than its states, so that a period cannot be started from them."""
+    try:
+        found = _shoot(plan, experiment, guess, lambda: False)
+        if found.shot is None:
+            return False
+        state = found.shot.start + found.shot.step
+        apart = periods_apart(plan.library, experiment, plan.solver, state, plan.mismatch)
+    except CallFailed:
+        return False
+    return apart > _FORGOTTEN * plan.mismatch
+
+
+def find_orbit(plan: Plan, experiment: Experiment, guess: Array | None, long_way: bool, stopped: Stopped) -> Orbit:
+    """The orbit of one test; a failure is an outcome.
+
+    Args:
+        experiment: one period from time 0, its end included.
+        guess: (n_x,) states at phase zero.
+        long_way: do not try shooting.
+    """
+    found = Found(None, 0, "the model remembers more than its states")
+    try:
+        if not long_way:
+            found = _shoot(plan, experiment, guess, stopped)
+            if found.shot is None and guess is not None and not found.event and not stopped():
+                found = _shoot(plan, experiment, None, stopped)
+        if found.shot is not None:
+            return _from_shot(plan, experiment, found.shot, found.iterations, stopped)
+        return _the_long_way(plan, experiment, found.trouble, stopped)
+    except CallFailed as error:
+        return _failed(plan, experiment, Outcome.MODEL_ERROR, str(error))
+
+
+def _shoot(plan: Plan, experiment: Experiment, guess: Array | None, stopped: Stopped) -> Found:
+    with plan.library.instance() as instance:
+        initialise(instance, experiment, plan.solver)
+        if guess is None:
+            times = np.array([_SETTLING * experiment.times[-1]])
+            settling = replace(experiment, times=times)
+            varied = vary(instance, settling, plan.solver, Directions(outputs=False), stopped=stopped)
+            if not varied.done:
+                trouble = "an event happened" if varied.event else varied.message
+                return Found(None, 0, trouble, varied.event)
+            guess = varied.states
+            instance.renew()
+            initialise(instance, experiment, plan.solver)
+        return shoot(instance, experiment, plan.solver, plan.directions, guess, plan.mismatch, stopped)
+
+
+def _from_shot(plan: Plan, experiment: Experiment, shot: Shot, iterations: int, stopped: Stopped) -> Orbit:
+    """Apply what is left of the correction, and put the columns together."""
+    varied, n, points = shot.varied, shot.start.size, experiment.times.size - 1
+    rows = varied.rows[:points]
+    if not plan.offer.outputs and shot.mismatch > _TIGHT_MISMATCH:
+        return _again(plan, experiment, shot, stopped)
+    values = varied.values[:points] + rows[:, :, :n] @ shot.step
+    record = varied._replace(values=values).record(plan.library.model, experiment)
+    columns, by = rows[:, :, n:] + rows[:, :, :n] @ shot.by, shot.by
+    if plan.missing:
+        places = [plan.parameters.index(name) for name in plan.directions.parameters]
+        columns, by = _spread(columns, places, len(plan.parameters)), _spread(by, places, len(plan.parameters))
+    orbit = Orbit(record, plan.parameters, columns, shot.start + shot.step, by, iterations)
+    return _with_differences(plan, experiment, orbit, stopped) if plan.missing else orbit
+
+
+def _spread(columns: Array, places: list[int], count: int) -> Array:
+    """The columns (..., n) at their places among that many, the others not a number."""
+    spread = np.full((*columns.shape[:-1], count), np.nan)
+    spread[..., places] = columns
+    return spread
+
+
+def _again(plan: Plan, experiment: Experiment, shot: Shot, stopped: Stopped) -> Orbit:
+    """Without derivatives of the outputs a correction needs one more integration."""
+    finer = replace(plan, mismatch=_TIGHT_MISMATCH)
+    found = _shoot(finer, experiment, shot.start + shot.step, stopped)
+    if found.shot is None:
+        return _the_long_way(plan, experiment, found.trouble, stopped)
+    return _from_shot(finer, experiment, found.shot, found.iterations + 1, stopped)
+
+
+def _with_differences(plan: Plan, experiment: Experiment, orbit: Orbit, stopped: Stopped) -> Orbit:
+    """Fill the columns that the FMU does not give by central differences of tighter orbits."""
+    control = plan.solver.control()
+    solver = Esdirk(_TIGHT, _TIGHT, control.max_step, control.max_steps)
+    bare = replace(
+        plan, solver=solver, parameters=(), offer=replace(plan.offer, parameters=()), mismatch=_TIGHT_MISMATCH
+    )
+    columns, by = orbit.by_parameter.copy(), orbit.state_by_parameter.copy()
+    for name in plan.missing:
+        up, down, distance = both_sides(plan.library.model, experiment, name, DIFFERENCE_STEP)
+        ends = [find_orbit(bare, side, orbit.state, False, stopped) for side in (up, down)]
+        for end in ends:
+            if end.outcome is not Outcome.DONE or not end.state.size:
+                message = f"with {name} moved a little: {end.message}"
+                return replace(orbit, outcome=end.outcome, message=message, exact=False)
+        place = plan.parameters.index(name)
+        columns[:, :, place] = (ends[0].record.values - ends[1].record.values) / distance
+        by[:, place] = (ends[0].state - ends[1].state) / distance
+    message = f"columns by differences: {', '.join(plan.missing)}"
+    return replace(orbit, by_parameter=columns, state_by_parameter=by, exact=False, message=message)
+
+
+def _the_long_way(plan: Plan, experiment: Experiment, why: str, stopped: Stopped) -> Orbit:
+    """Simulate until it repeats; derivatives are differences of runs of the same length."""
+    solver = tight(plan.solver)
+    settled = settle_down(plan.library, experiment, solver, stopped)
+    if not settled.trouble:  # what is left of a transient depends more on a parameter than its own size tells
+        settled = after(plan.library, experiment, solver, 2 * settled.periods, stopped)
+    if settled.trouble:
+        return _not_settled(plan, experiment, settled, why)
+    shape = (experiment.times.size - 1, len(experiment.record), len(plan.parameters))
+    columns = np.full(shape, np.nan)
+    for p, name in enumerate(plan.parameters):
+        up, down, distance = both_sides(plan.library.model, experiment, name, DIFFERENCE_STEP)
+        ends = [after(plan.library, side, solver, settled.periods, stopped) for side in (up, down)]
+        for end in ends:
+            if end.record.outcome is not Outcome.DONE:
+                return _not_settled(plan, experiment, end, f"{why}; with {name} moved a little")
+        columns[:, :, p] = (ends[0].record.values - ends[1].record.values) / distance
+    nothing = np.full((0, len(plan.parameters)), np.nan)
+    message = f"{why}; simulated for {settled.periods} periods instead"
+    return Orbit(
+        settled.record, plan.parameters, columns, np.zeros(0), nothing, 0, not plan.parameters, message=message
+    )
+
+
+def _not_settled(plan: Plan, experiment: Experiment, settled: Settled, why: str) -> Orbit:
+    outcome = settled.record.outcome
+    outcome = Outcome.NOT_PERIODIC if outcome is Outcome.DONE else outcome
+    return _failed(plan, experiment, outcome, f"{why}; {settled.trouble}")
+
+
+def _failed(plan: Plan, experiment: Experiment, outcome: Outcome, message: str) -> Orbit:
+    n, p = len(plan.library.model.abilities.states), len(plan.parameters)
+    columns = np.zeros((0, len(experiment.record), p))
+    values = np.zeros((0, len(experiment.record)))
+    record = make_record(plan.library.model, experiment, values, outcome, message, {})
+    return Orbit(
+        record, plan.parameters, columns, np.full(n, np.nan), np.full((n, p), np.nan), 0, False, outcome, message
+    )

@@ -1,0 +1,192 @@
+"""What parameters do to a run: every recorded value with its derivatives, exact where the FMU offers its own."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field, replace
+from functools import partial
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pysim.simulate._check import check_arguments, check_list
+from pysim.simulate._library import CallFailed, Library, open_library
+from pysim.simulate._pool import Stopped, side_by_side, worker_count
+from pysim.simulate._run import initialise, run
+from pysim.simulate.esdirk import Esdirk
+from pysim.simulate.sensitivity.differences import run_differences
+from pysim.simulate.sensitivity.probe import (
+    START_STEP,
+    Offer,
+    at_start,
+    both_sides,
+    check_names,
+    check_parameters,
+    probe_each,
+)
+from pysim.simulate.sensitivity.varied import Directions, Varied, vary
+from pysim.types import Experiment, Model, Outcome, Record, SimulationError
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Sensitivities:
+    """A run and how its parameters move it.
+
+    Args:
+        record: the run; one that stopped early ends there, and its outcome says why.
+        parameters: (n_p) names.
+        by_parameter: (n_t, n_y, n_p) derivative of each recorded value, its unit over the parameter's unit.
+        exact: False if a column, or the way a start value moves, came from differences.
+        message: why, where it did.
+    """
+
+    record: Record
+    parameters: tuple[str, ...]
+    by_parameter: Array = field(repr=False)
+    exact: bool = True
+    message: str = ""
+
+    def __post_init__(self) -> None:
+        array = np.array(self.by_parameter, dtype=np.float64)
+        array.setflags(write=False)
+        object.__setattr__(self, "by_parameter", array)
+
+
+def sensitivities(
+    model: Model,
+    experiment: Experiment,
+    parameters: Sequence[str],
+    *,
+    solver: Esdirk = Esdirk(),  # noqa: B008
+    check: bool = True,
+) -> Sensitivities:
+    """Run one experiment and differentiate what was recorded by parameters.
+
+    The derivatives are those of the steps themselves (internal numerical differentiation): exact for the computed
+    solution but for the choice of the steps, so their error falls with the tolerance as the solution's does. A column
+    for which the FMU offers no directional derivative comes from central differences of tight runs, and so do all
+    columns of a run with state or time events, which its equations alone do not tell.
+
+    Args:
+        model: a model-exchange FMU; left unchanged.
+        experiment: what is done to it.
+        parameters: (n_p) names of what overrides may set: parameters, start values, inputs that are not driven.
+        solver: tolerances and limits.
+        check: False returns a failed run instead of raising.
+    Raises:
+        BadInput: as `simulate`, or a parameter that is not real, has no value, or is named twice.
+        SimulationError: stopped early; `.record` holds the part that was reached.
+    """
+    found = sensitivities_many(model, [experiment], parameters, solver=solver, workers=1)[0]
+    if check and found.record.outcome is not Outcome.DONE:
+        raise SimulationError(f"{model.name}: {found.record.message}", found.record)
+    return found
+
+
+def sensitivities_many(
+    model: Model,
+    experiments: Sequence[Experiment],
+    parameters: Sequence[str],
+    *,
+    solver: Esdirk = Esdirk(),  # noqa: B008
+    workers: int | None = None,
+    progress: Callable[[int, int], None] | None = None,
+) -> tuple[Sensitivities, ...]:
+    """Run experiments side by side with their derivatives; the results do not depend on how many threads do it.
+
+    Args:
+        model, parameters, solver: as for `sensitivities`.
+        experiments: (n) with the same things recorded or not.
+        workers: threads; all cores where None.
+        progress: called with (runs done, runs in all) from the calling thread; what it raises stops everything.
+    Returns:
+        (n) in the order of the experiments; a failed run is a result whose record says why.
+    Raises:
+        BadInput: as `sensitivities`, before the first run starts.
+    """
+    check_arguments("sensitivities_many", model, solver, Esdirk)
+    check_list("sensitivities_many", "experiments", experiments, Experiment)
+    count = worker_count("sensitivities_many", model, workers)
+    names = check_names("sensitivities_many", parameters)
+    check_parameters("sensitivities_many", model, experiments, names)
+    if not experiments:
+        return ()
+    with open_library(model) as library:
+        offers = probe_each(library, experiments, solver, names)
+        tasks = [partial(_one, library, e, solver, names, offers[e.record]) for e in experiments]
+        return side_by_side(tasks, count, progress)
+
+
+def _one(
+    library: Library, experiment: Experiment, solver: Esdirk, names: tuple[str, ...], offer: Offer, stopped: Stopped
+) -> Sensitivities:
+    varied, moved = _exact_part(library, experiment, solver, offer, stopped) if offer.outputs else (None, False)
+    if varied is None or varied.event:
+        return _by_differences(library, experiment, solver, names, varied is not None, stopped)
+    columns = np.full((len(varied.rows), len(experiment.record), len(names)), np.nan)
+    for column, name in enumerate(offer.parameters):
+        columns[:, :, names.index(name)] = varied.rows[:, :, column]
+    missing = [name for name in names if name not in offer.parameters]
+    record = varied.record(library.model, experiment)
+    if not missing or record.outcome is not Outcome.DONE:
+        message = "start values were differentiated by differences" if moved else ""
+        return Sensitivities(record, names, columns, not moved, message)
+    differences, failed = run_differences(library, experiment, solver, missing, stopped)
+    for column, name in enumerate(missing):
+        columns[:, :, names.index(name)] = differences[:, :, column]
+    message = f"the FMU gives no derivative by {', '.join(missing)}"
+    return Sensitivities(_with_trouble(record, failed), names, columns, False, message)
+
+
+def _exact_part(
+    library: Library, experiment: Experiment, solver: Esdirk, offer: Offer, stopped: Stopped
+) -> tuple[Varied | None, bool]:
+    """The run with the columns of the offer, and whether its start depends on them."""
+    try:
+        start_by = _start_by(library, experiment, solver, offer)
+        with library.instance() as instance:
+            initialise(instance, experiment, solver)
+            directions = offer.directions(states=False)
+            varied = vary(instance, experiment, solver, directions, start_by=start_by, stopped=stopped)
+        return varied, bool(start_by.any())
+    except CallFailed:
+        return None, False
+
+
+def _start_by(library: Library, experiment: Experiment, solver: Esdirk, offer: Offer) -> Array:
+    """d x / d p (n_x, n_p) at the start, by differences of initialisations; exactly zero where nothing moves.
+
+    Raises:
+        CallFailed: the FMU cannot be initialised beside the experiment's own values.
+    """
+    once = replace(experiment, times=np.array([experiment.start]))
+    result = np.zeros((len(library.model.abilities.states), len(offer.parameters)))
+    for column, name in zip(result.T, offer.parameters, strict=True):
+        up, down, distance = both_sides(library.model, once, name, START_STEP)
+        ends = [at_start(library, side, solver, Directions(outputs=False)) for side in (up, down)]
+        if ends[0] is None or ends[1] is None:
+            raise CallFailed(f"{library.model.name} cannot be initialised with {name} moved")
+        column[:] = (ends[0].states - ends[1].states) / distance
+    return result
+
+
+def _by_differences(
+    library: Library, experiment: Experiment, solver: Esdirk, names: tuple[str, ...], event: bool, stopped: Stopped
+) -> Sensitivities:
+    record = run(library, experiment, solver, stopped)
+    shape = (len(record.values), len(experiment.record), len(names))
+    if record.outcome is not Outcome.DONE:
+        return Sensitivities(record, names, np.full(shape, np.nan), False, record.message)
+    columns, failed = run_differences(library, experiment, solver, names, stopped)
+    why = "the run has events" if event else "the FMU gives no derivatives"
+    return Sensitivities(_with_trouble(record, failed), names, columns, False, f"{why}: all columns are differences")
+
+
+def _with_trouble(record: Record, failed: Record | None) -> Record:
+    """The record, or the reason why a run beside it failed."""
+    if failed is None:
+        return record
+    message = f"with a parameter moved a little: {failed.message}"
+    return replace(record, outcome=failed.outcome, message=message)
