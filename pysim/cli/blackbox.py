@@ -127,6 +127,6 @@ def _words(args: argparse.Namespace) -> list[str]:
     words += ["--stable"] if args.stable else []
     words += ["--weights", args.weights] if args.weights else []
     words += ["--orders", args.orders] if args.orders else []
-    words += [word for o, a in args.test for word in ("--test", f"{o:g}/{a:g}")]
+    words += [f"--test={o!r}/{a!r}" for o, a in args.test]  # with =, or a negative offset would be an option
     words += ["--signal", args.signal] if args.signal else []
     return [*words, "--output", str(args.output)]

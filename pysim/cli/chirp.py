@@ -95,7 +95,7 @@ def _write_report(args: argparse.Namespace, dataset: Dataset, analyses: Sequence
     words = ["chirp", str(args.data), "--output", str(args.output)]
     for option in ("columns", "signal", "level"):
         value = getattr(args, option)
-        words += [] if value is None else [f"--{option}", str(value)]
+        words += [] if value is None else [f"--{option}={value}"]  # with =, or -1e-05 would be an option
     words += ["--units", args.units] if args.columns else []
     text = chirp_page(analyses, dataset=dataset.name, pictures=pictures, redo=command_line(words))
     write_file(args.output / "report.html", text)

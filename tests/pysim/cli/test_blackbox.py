@@ -30,7 +30,7 @@ def test_a_row_of_the_thesis_comes_back(folder: Path, tmp_path: Path, capsys: py
 def test_the_report_says_how_to_do_it_again(folder: Path, tmp_path: Path) -> None:
     out = tmp_path / "out"
     words = ["blackbox", str(folder), "--poles", "2", "--zeros", "1", "--dead-time-max", "0.02", "--stable"]
-    words += ["--weights", "relative", "--test=25/5", "--output", str(out)]
+    words += ["--weights", "relative", "--test=25/5", "--test=-25/10", "--output", str(out)]
     assert main(words) == 0
     line = next(x for x in (out / "report.html").read_text().splitlines() if "pysim blackbox" in x)
     again = shlex.split(line[line.index("blackbox") :].replace("</pre>", ""))
