@@ -1,0 +1,1 @@
+"""The blind benchmark of the diagnosis, and the plant behind it."""
