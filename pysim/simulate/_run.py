@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from time import perf_counter
 
 import numpy as np
 
@@ -20,7 +21,9 @@ from pysim.types import Experiment, Model, Outcome, Record, SimulationError
 
 _OUTCOMES = tuple(Outcome)  # by the codes of `native.state`
 
-_BUDGET = 20_000  # steps between two looks at the world outside: some 20 ms
+_FIRST_LOOK = 20  # steps until the first look at the world outside; then as many as take about
+_BETWEEN_LOOKS = 0.02  # s, whatever the model's own functions cost
+_LONGER = 10.0  # times the steps before, at most
 
 _STATUS = {DISCARD: "the model discards the point", ERROR: "an FMI function failed", FATAL: "a fatal FMI error"}
 
@@ -63,14 +66,31 @@ def run(
 
 def _run_instance(instance: Instance, experiment: Experiment, solver: Solver, stopped: Callable[[], bool]) -> Record:
     initialise(instance, experiment, solver)
-    job, code = prepare(instance, experiment, solver), RUNNING
-    while code == RUNNING and not stopped():
-        code = integrate(job.record, _BUDGET)
+    job = prepare(instance, experiment, solver)
+    code = go_on(integrate, job, stopped)
     instance.status = int(job.number("run", "status"))
     outcome = _OUTCOMES[code]
     message = "" if outcome is Outcome.DONE else explain(job, outcome) + instance.mailbox.text()
     values = job.array("rows", "values")[: job.number("rows", "next")]
     return make_record(instance.model, experiment, values, outcome, message, job.statistics())
+
+
+def go_on(loop: Callable[[np.ndarray, int], int], job: Job, stopped: Callable[[], bool]) -> int:
+    """Call a native loop until its run has ended or is to stop; how it ended, or RUNNING.
+
+    Only between two calls can an interrupt from the keyboard arrive.
+    """
+    code, budget = RUNNING, _FIRST_LOOK
+    while code == RUNNING and not stopped():
+        begun = perf_counter()
+        code = loop(job.record, budget)
+        budget = next_budget(budget, perf_counter() - begun)
+    return code
+
+
+def next_budget(budget: int, taken: float) -> int:
+    """Steps until the next look, after that many took so long (s)."""
+    return max(1, int(budget * min(_LONGER, _BETWEEN_LOOKS / max(taken, 1e-9))))
 
 
 def initialise(instance: Instance, experiment: Experiment, solver: Solver) -> None:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from pysim.simulate._job import Job
 from pysim.simulate._library import Instance
-from pysim.simulate._run import explain, make_record, prepare
+from pysim.simulate._run import explain, go_on, make_record, prepare
 from pysim.simulate.esdirk import Esdirk
 from pysim.simulate.native.blocks import VECTOR
 from pysim.simulate.native.state import RUNNING
@@ -22,7 +22,6 @@ from pysim.types import Experiment, Model, Outcome, Record
 Array = NDArray[np.float64]
 
 _OUTCOMES = tuple(Outcome)
-_BUDGET = 2_000  # steps between two looks at the world outside: some 50 ms
 _STAGES = Esdirk().method().b.size
 _REALS = frozenset({"Real", "Float64"})
 
@@ -106,9 +105,7 @@ def vary(
         job.change("rows", {"next": 0})
     job.change("variation", {"tolerance": solver.derivative_tol})
     job.change("variation", _of_this_run(job, experiment, start, start_by, rewind))
-    code = RUNNING
-    while code == RUNNING and not stopped():
-        code = integrate_variations(job.record, _BUDGET)
+    code = go_on(integrate_variations, job, stopped)
     instance.status = int(job.number("run", "status"))
     return _result(instance, experiment, job, code, directions)
 

@@ -3,11 +3,14 @@ import math
 import re
 import subprocess
 import sys
+from unittest.mock import Mock, patch
 
 import numpy as np
 import pytest
 
 from pysim.simulate import Rodas, simulate
+from pysim.simulate._run import go_on
+from pysim.simulate.native.state import RUNNING
 from pysim.types import BadInput, Experiment, Signal
 from tests.pysim.simulate.fixture_fmus import FOLLOWER, OSCILLATOR
 
@@ -64,6 +67,20 @@ def test_a_file_name_is_no_model_and_a_class_no_solver(fixture_model):
         simulate(fixture_model(OSCILLATOR), experiment, solver=Rodas)
     with pytest.raises(BadInput, match="got None; give Experiment"):
         simulate(fixture_model(OSCILLATOR), None)
+
+
+def test_an_interrupt_is_heard_within_moments_however_slow_the_model_is():
+    """A step of this model takes 5 ms of a clock by hand; no look comes later than 0.1 s after the one before."""
+    now, looks = [0.0], []
+
+    def slow(record, budget):
+        now[0] += 5e-3 * budget
+        looks.append(now[0])
+        return RUNNING
+
+    with patch("pysim.simulate._run.perf_counter", lambda: now[0]):
+        go_on(slow, Mock(), lambda: len(looks) > 20)
+    assert np.diff([0.0, *looks]).max() <= 0.1
 
 
 def test_simulating_needs_no_compiler_and_no_front_end():
