@@ -146,7 +146,7 @@ def _limited_sines() -> Iterator[Finding]:
         measured = np.loadtxt(_WAVES / f"bench-08_{test}.txt", skiprows=1) * ANGLE_STEP
         command = stepped_sine(Lead(offset), offset, amplitude, frequency, (measured.size - 1) / RATE)
         rest, off = (
-            (measured - _run(command, parameters, limit)[: measured.size, 0]) / _NOISE[0]
+            (measured - readings_of(command, parameters, limit)[: measured.size, 0]) / _NOISE[0]
             for limit in (strengths, Strengths())
         )
         yield Finding(f"bench-08, {test}: mean square off 1", abs(_excess(rest)), 4.0, "deviations")
@@ -154,7 +154,7 @@ def _limited_sines() -> Iterator[Finding]:
         yield Finding(f"bench-08, {test}: what is left, over what is left without a limit", share, 0.01, "")
 
 
-def _run(command: Command, parameters: Parameters, strengths: Strengths) -> Array:
+def readings_of(command: Command, parameters: Parameters, strengths: Strengths) -> Array:
     """Angle (percent) and spool (1) at the samples of a test, (n, 2)."""
     logged = run_plant(
         command.level * _PERCENT,
@@ -177,7 +177,7 @@ def _whole_session() -> Iterator[Finding]:
             continue
         command = _command_of(record)
         measured = record.data["alphaPercent"]
-        rest = (measured - _run(command, parameters, Strengths())[: measured.size, 0]) / _NOISE[0]
+        rest = (measured - readings_of(command, parameters, Strengths())[: measured.size, 0]) / _NOISE[0]
         pooled.append(rest)
         worst = max(worst, abs(_excess(rest)))
     yield Finding("bench-01, 66 logs: mean square off 1", abs(_excess(np.concatenate(pooled))), 4.0, "deviations")
@@ -206,7 +206,7 @@ def _against_the_fmu(seed: int = 1) -> Iterator[Finding]:
         knots = np.arange(command.level.size) * command.every * STEP
         inputs = {"alphaCMD": Signal.through(knots, command.level, command.slope)}
         runs.append(Experiment(times, ("alphaPercent", "u"), inputs, rates={"alphaCMD_t": "alphaCMD"}))
-        theirs.append(_run(command, Parameters(), Strengths())[:n])
+        theirs.append(readings_of(command, Parameters(), Strengths())[:n])
     model = pump_model("free")
     ours = simulate_many(model, runs, solver=Rodas(rtol=1e-6, atol=1e-6))
     off = {test.file: mine.values - plant for test, mine, plant in zip(tests, ours, theirs, strict=True)}
