@@ -39,7 +39,7 @@ class Sensitivities:
         parameters: (n_p) names.
         by_parameter: (n_t, n_y, n_p) derivative of each recorded value, its unit over the parameter's unit.
         exact: False if a column, or the way a start value moves, came from differences.
-        message: why, where it did.
+        message: why, where it did; and which derivative is not finite, if one is.
     """
 
     record: Record
@@ -131,13 +131,23 @@ def _one(
     missing = [name for name in names if name not in offer.parameters]
     record = varied.record(library.model, experiment)
     if not missing or record.outcome is not Outcome.DONE:
-        message = "start values were differentiated by differences" if moved else ""
-        return Sensitivities(record, names, columns, not moved, message)
+        messages = ["start values were differentiated by differences"] if moved else []
+        messages += _not_finite(record, names, columns)
+        return Sensitivities(record, names, columns, not moved, "; ".join(messages))
     differences, failed = run_differences(library, experiment, solver, missing, stopped)
     for column, name in enumerate(missing):
         columns[:, :, names.index(name)] = differences[:, :, column]
     message = f"the FMU gives no derivative by {', '.join(missing)}"
     return Sensitivities(_with_trouble(record, failed), names, columns, False, message)
+
+
+def _not_finite(record: Record, names: tuple[str, ...], columns: Array) -> list[str]:
+    """The first derivative (n_t, n_y, n_p) that does not exist, in words; as of a square root at zero."""
+    wrong = np.argwhere(~np.isfinite(columns))
+    if not len(wrong):
+        return []
+    row, y, p = wrong[0]
+    return [f"the derivative of {record.names[y]} by {names[p]} is {columns[row, y, p]:g} at {record.time[row]:g} s"]
 
 
 def _exact_part(

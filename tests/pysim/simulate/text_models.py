@@ -57,6 +57,17 @@ end Discards;
 """
 
 
+ROOT = """model Root "An output that cannot be differentiated where its state begins"
+  parameter Real a = 1;
+  output Real x(start=0, fixed=true);
+  output Real y;
+equation
+  der(x) = a;
+  y = sqrt(x);
+end Root;
+"""
+
+
 def text_model(text: str, folder: Path, *, fmi: int = 2) -> Model:
     """The model of that text, compiled anew unless the folder holds it."""
     name = text.split()[1]

@@ -9,7 +9,7 @@ import pytest
 from pysim.simulate import Esdirk, Rodas, sensitivities, sensitivities_many, simulate
 from pysim.types import BadInput, Experiment, Outcome, Signal, SimulationError
 from tests.pysim.simulate.fixture_fmus import BALL, FRAGILE, OSCILLATOR
-from tests.pysim.simulate.text_models import DISCARDS, LAG, text_model
+from tests.pysim.simulate.text_models import DISCARDS, LAG, ROOT, text_model
 from validation.pump import pump_model
 
 _TIGHT = Esdirk(1e-8, 1e-8)
@@ -197,6 +197,13 @@ def test_interrupt_stops_runs_that_are_under_way(fixture_model):
     runs = [forced(np.linspace(0, 1, 5)), long, long]
     with pytest.raises(KeyboardInterrupt):  # else this takes minutes
         sensitivities_many(fixture_model(OSCILLATOR), runs, ("w",), workers=3, progress=stop)
+
+
+def test_a_derivative_that_does_not_exist_is_named(tmp_path):
+    """y = sqrt(a t): at the start its derivative by the state is infinite, and so by a is infinity times zero."""
+    found = sensitivities(text_model(ROOT, tmp_path), Experiment(np.array([0.0, 1.0, 4.0]), ("y",)), ("a",))
+    assert "the derivative of y by a is nan at 0 s" in found.message
+    np.testing.assert_allclose(found.by_parameter[1:, 0, 0], [0.5, 1.0], rtol=1e-6)
 
 
 def test_other_solvers_are_refused_by_name(fixture_model):
