@@ -9,7 +9,21 @@ import sys
 import traceback
 from collections.abc import Sequence
 
-from pysim.cli import bench, blackbox, chirp, compare, data, demo, fit, frf, friction, multisine, signal, simulate
+from pysim.cli import (
+    bench,
+    blackbox,
+    chirp,
+    compare,
+    data,
+    demo,
+    diagnose,
+    fit,
+    frf,
+    friction,
+    multisine,
+    signal,
+    simulate,
+)
 
 DONE, NO, WRONG_USE, OUR_BUG = 0, 1, 2, 3
 _COMMANDS = {
@@ -19,6 +33,7 @@ _COMMANDS = {
     "compare": compare,
     "data": data,
     "demo": demo,
+    "diagnose": diagnose,
     "fit": fit,
     "frf": frf,
     "friction": friction,

@@ -1,5 +1,7 @@
-"""Compare a model with its measurements and say what that means."""
+"""Compare a model with its measurements and say what that means; name the effect that it lacks."""
 
 from pysim.diagnose.compare import compare
+from pysim.diagnose.diagnose import diagnose
+from pysim.diagnose.subject import BuildVariant, Subject, identifiable, subject
 
-__all__ = ["compare"]
+__all__ = ["BuildVariant", "Subject", "compare", "diagnose", "identifiable", "subject"]

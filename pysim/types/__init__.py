@@ -4,6 +4,7 @@ from pysim.types.best_linear_approximation import BestLinearApproximation, Disto
 from pysim.types.comparison import Comparison, ResponseComparison
 from pysim.types.criterion import Criterion, Deviation
 from pysim.types.dataset import Dataset, MeasuredRecord, MeasuredSignal
+from pysim.types.diagnosis import AddedEffect, Candidate, Diagnosis, Failure, LedgerStep
 from pysim.types.effect import Effect, EffectParameter
 from pysim.types.errors import BadInput
 from pysim.types.experiment import Experiment
@@ -26,23 +27,28 @@ from pysim.types.sine_test import SineTest
 
 __all__ = [
     "Abilities",
+    "AddedEffect",
     "BadInput",
     "BestLinearApproximation",
+    "Candidate",
     "Combination",
     "Comparison",
     "Criterion",
     "Dataset",
     "Deviation",
+    "Diagnosis",
     "Direction",
     "Distortion",
-    "Estimate",
     "Effect",
     "EffectParameter",
+    "Estimate",
     "Experiment",
+    "Failure",
     "Fit",
     "FitOutcome",
     "FrequencyResponse",
     "Harmonics",
+    "LedgerStep",
     "Level",
     "MeasuredRecord",
     "MeasuredSignal",

@@ -37,7 +37,7 @@ model SwashPlateControl "Swash plate control of the A4VSG pump: card, proportion
   // Known parameters: names of thesis Table 6, values of Table 5
   parameter Types.BulkModulus beta = known.beta "Oil stiffness" annotation(Dialog(group="Known"));
   parameter Types.Density rho = known.rho "Density of oil" annotation(Dialog(group="Known"));
-  parameter Types.Angle alphaMAX(min=0.01, max=1) = known.alphaMAX "Largest swash plate angle"
+  parameter Types.Angle alphaMAX(min=0.01) = known.alphaMAX "Largest swash plate angle"
     annotation(Dialog(group="Known"));
   parameter Types.Pressure pS = known.pS "Supply pressure" annotation(Dialog(group="Known"));
   parameter Types.Pressure pT = known.pT "Tank pressure" annotation(Dialog(group="Known"));

@@ -1,0 +1,82 @@
+"""The ledger of errors: a model beside every record, counted as a reader counts."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pysim.diagnose.subject import Extended, Subject
+from pysim.identify.greybox import Problem, Simulation
+from pysim.identify.greybox.comparison import Compared, compared
+from pysim.simulate import Esdirk
+from pysim.types import Deviation, RecordFit
+from pysim.types.diagnosis import Failure, LedgerStep
+
+Array = NDArray[np.float64]
+
+# A log over time is shown in so many windows.
+_WINDOWS = 6
+
+
+def beside(subject: Subject, what: Extended, x: Array) -> Compared:
+    """Every record beside the model at x (n,) of its space, those held out too."""
+    nothing = np.zeros(0)
+    fixed = replace(
+        what.space,
+        **dict.fromkeys(("keys", "variables", "records", "units", "ties"), ()),
+        **dict.fromkeys(("start", "lower", "upper", "scale"), nothing),
+        log=np.zeros(0, dtype=bool),
+        fixed=what.space.values(x),
+    )
+    return compared(Problem(what.model, fixed, subject.targets), nothing, Simulation(Esdirk(rtol=1e-6, atol=1e-6)))
+
+
+def ledger_step(name: str, found: Compared, cost: float) -> LedgerStep:
+    """One step of the story from a model beside every record."""
+    deviations = [d for record in found.records for own in record.deviations.values() for d in own]
+    deviations += [d for response in found.responses for d in response.comparison.deviations]
+    return LedgerStep(
+        name,
+        root_mean_square(found.records, "fit"),
+        root_mean_square(found.records, "validate"),
+        {d.criterion.symbol: d.value for d in _worst(deviations)},
+        all(d.passes for d in deviations),
+        cost,
+    )
+
+
+def _worst(deviations: Sequence[Deviation]) -> Iterator[Deviation]:
+    for symbol in dict.fromkeys(d.criterion.symbol for d in deviations):
+        yield max((d for d in deviations if d.criterion.symbol == symbol), key=lambda d: d.value)
+
+
+def root_mean_square(records: Sequence[RecordFit], use: str) -> float | None:
+    """Of all samples over their noise, of records of one use; None where there are none."""
+    values = [record.residual.values.ravel() for record in records if record.use == use]
+    return float(np.sqrt(np.mean(np.concatenate(values) ** 2))) if values else None
+
+
+def failures(found: Compared) -> tuple[Failure, ...]:
+    """Where the model fails, worst first: stepped sines by frequency, logs over time by window."""
+    rows = [row for record in found.records for row in _regions(record)]
+    return tuple(sorted(rows, key=lambda row: -row.error))
+
+
+def _regions(record: RecordFit) -> Iterator[Failure]:
+    residual = record.residual
+    for j, signal in enumerate(residual.names):
+        values = residual.values[:, j]
+        if record.harmonics:
+            yield Failure(record.source, signal, f"{record.harmonics[j].frequency:g} Hz", _size(values))
+            continue
+        for part in np.array_split(np.arange(values.size), min(_WINDOWS, values.size)):
+            window = f"{residual.time[part[0]]:.4g} to {residual.time[part[-1]]:.4g} s"
+            yield Failure(record.source, signal, window, _size(values[part]))
+
+
+def _size(values: Array) -> float:
+    return math.sqrt(float(np.mean(values**2)))

@@ -1,0 +1,123 @@
+"""What is diagnosed: a model, its measurements, a catalogue, and a way to make models with effects."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+
+from pysim.identify.greybox import Measurements, Parameter, Treatment, problem
+from pysim.identify.greybox.parameters import ParameterSpace, parameter_space
+from pysim.identify.greybox.target import Target
+from pysim.types import BadInput, Dataset, Effect, Model
+
+# Effects -> the model that has them, and effect name -> the name ahead of its parameters there.
+BuildVariant = Callable[[Sequence[Effect]], tuple[Model, Mapping[str, str]]]
+
+
+@dataclass(frozen=True)
+class Subject:
+    """Checked once; every step takes it.
+
+    Args:
+        model: the base model.
+        targets: measurements in the form in which models are compared with them.
+        free: parameters of the base model that may be refitted.
+        catalogue: effects to consider.
+        build_variant: makes models with effects; None where the model's source is not at hand.
+        notes: what was assumed.
+    """
+
+    model: Model
+    targets: tuple[Target, ...]
+    free: tuple[str, ...]
+    catalogue: tuple[Effect, ...]
+    build_variant: BuildVariant | None
+    notes: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Extended:
+    """The base model with some effects, and its free numbers.
+
+    Args:
+        effects: in the order in which they were added; none for the base model.
+        model: with all of them.
+        places: effect name -> name ahead of its parameters.
+        space: of the search: the base model's parameters, then the effects' own.
+    """
+
+    effects: tuple[Effect, ...]
+    model: Model
+    places: Mapping[str, str] = field(default_factory=dict)
+    space: ParameterSpace = field(repr=False, kw_only=True)
+
+    @property
+    def own(self) -> tuple[str, ...]:
+        """Full names of the effects' parameters, in the order of the space."""
+        return tuple(f"{self.places[e.name]}.{p.name}" for e in self.effects for p in e.parameters)
+
+
+def subject(
+    model: Model,
+    dataset: Dataset,
+    catalogue: Sequence[Effect],
+    build_variant: BuildVariant | None,
+    *,
+    free: Sequence[str] = (),
+    overrides: Mapping[str, float] | None = None,
+    notes: Sequence[str] = (),
+) -> Subject:
+    """Bring everything together.
+
+    Args:
+        free: parameters that may be refitted; where empty, all that the model gives min, max and nominal.
+        overrides: parameters of the model that differ in these tests.
+        notes: what a reader must know beside what is noted here.
+    Raises:
+        BadInput: no free parameter, or a data set and a model that do not fit together.
+    """
+    names = tuple(free) or identifiable(model)
+    data = Measurements(dataset, overrides=overrides or {})
+    checked = problem(model, [data], names, treatment=Treatment(steady="transient"))
+    return Subject(model, checked.targets, names, tuple(catalogue), build_variant, (*notes, *checked.notes))
+
+
+def identifiable(model: Model) -> tuple[str, ...]:
+    """Parameters that the model gives min, max and nominal: what it says may differ from one unit to the next.
+
+    Raises:
+        BadInput: there is none.
+    """
+    found = tuple(
+        v.name
+        for v in model.variables
+        if v.causality == "parameter"
+        and v.type in ("Real", "Float64")
+        and v.min is not None
+        and v.max is not None
+        and v.nominal is not None
+        and v.start is not None
+    )
+    if not found:
+        raise BadInput(f"{model.path.name} gives no parameter min, max and nominal; name those to refit with free")
+    return found
+
+
+def extended(subject: Subject, effects: Sequence[Effect], *, model: Model | None = None) -> Extended:
+    """The base model with effects; with none, the base model itself.
+
+    Raises:
+        BadInput: effects where no variant can be made.
+    """
+    if not effects:
+        return Extended((), subject.model, space=parameter_space(subject.model, [Parameter(n) for n in subject.free]))
+    if subject.build_variant is None:
+        raise BadInput("no effect can be added: the model's Modelica class is not at hand; name it with its library")
+    built, places = subject.build_variant(effects)
+    own = [
+        Parameter(f"{places[e.name]}.{p.name}", p.default, p.min, p.max, log=None if p.off is None else False)
+        for e in effects
+        for p in e.parameters
+    ]
+    space = parameter_space(built, [*(Parameter(n) for n in subject.free), *own])
+    return Extended(tuple(effects), built, dict(places), space=space)

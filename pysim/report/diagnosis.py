@@ -1,0 +1,110 @@
+"""A diagnosis as numbers and as text."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+
+from pysim.types import Estimate
+from pysim.types.diagnosis import AddedEffect, Candidate, Diagnosis, LedgerStep
+
+
+def diagnosis_data(diagnosis: Diagnosis, files: Mapping[str, str] | None = None) -> dict[str, object]:
+    """What `--json` writes; every number finite or None.
+
+    Args:
+        files: what was written besides, name -> path relative to the JSON file.
+    """
+    return {
+        "verdict": diagnosis.verdict,
+        "reason": diagnosis.reason,
+        "added": [_added(one) for one in diagnosis.added],
+        "ranking": [_candidate(row) for row in diagnosis.ranking],
+        "confusable": [list(group) for group in diagnosis.confusable],
+        "error": [_step(step) for step in diagnosis.error],
+        "parameters": {e.name: _estimate(e) for e in diagnosis.parameters},
+        "where": [
+            {"record": f.record, "signal": f.signal, "region": f.region, "error": _finite(f.error)}
+            for f in diagnosis.where
+        ],
+        "missing": [],
+        "next_test": None,
+        "seconds": {name: _finite(value) for name, value in diagnosis.seconds.items()},
+        "files": dict(files or {}),
+        "notes": list(diagnosis.notes),
+    }
+
+
+def _finite(value: float | None) -> float | None:
+    return value if value is not None and math.isfinite(value) else None
+
+
+def _interval(interval: tuple[float, float]) -> list[float | None]:
+    return [_finite(interval[0]), _finite(interval[1])]
+
+
+def _added(one: AddedEffect) -> dict[str, object]:
+    """An effect's parameters; where people speak of the inverse, that stands beside it."""
+    names = [p.name for p in one.effect.parameters]
+    found: dict[str, dict[str, object]] = {"parameters": {}, "intervals": {}, "unit": {}}
+    for name, estimate in zip(names, one.estimates, strict=True):
+        found["parameters"][name] = _finite(estimate.value)
+        found["intervals"][name] = _interval(estimate.interval)
+        found["unit"][name] = estimate.unit
+        inverse = one.effect[name].inverse
+        if inverse:
+            low, high = ((1 / v if v else math.inf) for v in estimate.interval)
+            found["parameters"][inverse] = _finite(1 / estimate.value if estimate.value else math.inf)
+            found["intervals"][inverse] = _interval((high, low))
+            found["unit"][inverse] = f"1/({estimate.unit})"
+    return {"effect": one.effect.name, "place": one.place, **found}
+
+
+def _candidate(row: Candidate) -> dict[str, object]:
+    return {
+        "effect": row.effect,
+        "score": _finite(row.score),
+        "p_value": _finite(row.p_value),
+        "explained": _finite(row.explained),
+        "refitted": row.refitted,
+        "parameters": {name: _finite(value) for name, value in row.parameters.items()},
+    }
+
+
+def _step(step: LedgerStep) -> dict[str, object]:
+    return {
+        "step": step.step,
+        "fit": _finite(step.fit),
+        "validate": _finite(step.validate),
+        "criteria": {name: _finite(value) for name, value in step.criteria.items()},
+        "passes": step.passes,
+        "cost": _finite(step.cost),
+    }
+
+
+def _estimate(e: Estimate) -> dict[str, object]:
+    return {"value": _finite(e.value), "interval": _interval(e.interval), "unit": e.unit, "at": e.at}
+
+
+def diagnosis_text(diagnosis: Diagnosis) -> str:
+    """Verdict, ledger and ranking for a terminal."""
+    lines = [f"Verdict: {diagnosis.verdict}", f"  {diagnosis.reason}", *_effects(diagnosis.added)]
+    lines += ["", "Error over noise"]
+    for step in diagnosis.error:
+        numbers = "".join(
+            f"  {what} {value:8.3f}" for what, value in (("fitted", step.fit), ("held out", step.validate)) if value
+        )
+        lines.append(f"  {step.step:<20}{numbers}  Tables 1.3 and 1.4 {'met' if step.passes else 'not met'}")
+    if diagnosis.ranking:
+        lines += ["", "Candidates                  gain less price   explained"]
+        lines += [f"  {row.effect:<24} {row.score:14.5g} {100 * row.explained:9.2f} %" for row in diagnosis.ranking[:6]]
+    lines += [f"Not told apart by these data: {', '.join(group)}" for group in diagnosis.confusable]
+    return "\n".join([*lines, *(f"Note: {note}" for note in diagnosis.notes)])
+
+
+def _effects(added: Sequence[AddedEffect]) -> list[str]:
+    return [
+        f"  {one.effect.name}: {name} = {e.value:.5g} {e.unit}, 95 % from {e.interval[0]:.5g} to {e.interval[1]:.5g}"
+        for one in added
+        for name, e in zip([p.name for p in one.effect.parameters], one.estimates, strict=True)
+    ]

@@ -1,0 +1,126 @@
+"""What a diagnosis answers: which physical effect the data demand, on what evidence, and what is left open."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from pysim.types._frozen import FrozenMapping
+from pysim.types.effect import Effect
+from pysim.types.errors import BadInput
+from pysim.types.fit import Estimate
+
+NONE, UNKNOWN = "none", "unknown"
+
+
+@dataclass(frozen=True)
+class AddedEffect:
+    """One effect that was added to the model, with the size the data give it.
+
+    Args:
+        effect: of the catalogue.
+        place: name ahead of its parameters' names in the extended model.
+        estimates: of its parameters, by their names as the class declares them.
+    """
+
+    effect: Effect
+    place: str
+    estimates: tuple[Estimate, ...]
+
+
+@dataclass(frozen=True)
+class Candidate:
+    """One effect that was considered.
+
+    Args:
+        effect: its standard name.
+        score: by how much the sum of squares over noise falls once everything is refitted with it, less the cost of
+            its parameters.
+        p_value: chance of such a fall where the effect is absent, for this candidate alone.
+        explained: share of the avoidable misfit, 0 ... 1.
+        refitted: whether the fall was reached by a refit, not promised by the screening alone.
+        parameters: the effect's parameters there, by their names as declared.
+    """
+
+    effect: str
+    score: float
+    p_value: float
+    explained: float
+    refitted: bool = True
+    parameters: Mapping[str, float] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "parameters", FrozenMapping(self.parameters))
+
+
+@dataclass(frozen=True)
+class LedgerStep:
+    """One step of the story.
+
+    Args:
+        step: "prior", "refit", or the effect that was added.
+        fit, validate: root-mean-square residual over noise; None where there is no such record.
+        criteria: worst value of each criterion of thesis Tables 1.3 and 1.4 over all records, by symbol.
+        passes: whether all of these are within their limits.
+        cost: sum of squares over noise of what is fitted.
+    """
+
+    step: str
+    fit: float | None
+    validate: float | None
+    criteria: Mapping[str, float]
+    passes: bool
+    cost: float
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "criteria", FrozenMapping(self.criteria))
+
+
+@dataclass(frozen=True)
+class Failure:
+    """Where the base model fails.
+
+    Args:
+        record, signal: of the data set.
+        region: frequency band, time window, or range of a state.
+        error: root-mean-square residual over noise there.
+    """
+
+    record: str
+    signal: str
+    region: str
+    error: float
+
+
+@dataclass(frozen=True)
+class Diagnosis:
+    """The whole answer.
+
+    Args:
+        verdict: NONE, UNKNOWN, or the standard name of the first effect the data demand.
+        reason: the same as a sentence.
+        added: effects, in the order in which they were added.
+        ranking: candidates, best first.
+        confusable: groups of candidates that the data do not tell apart.
+        error: the ledger.
+        parameters: of the final model.
+        where: where the base model fails, worst first.
+        seconds: wall time by stage.
+        notes: what a reader must know: what could not be tried, noise that had to be estimated.
+    """
+
+    verdict: str
+    reason: str
+    added: tuple[AddedEffect, ...]
+    ranking: tuple[Candidate, ...]
+    confusable: tuple[tuple[str, ...], ...]
+    error: tuple[LedgerStep, ...]
+    parameters: tuple[Estimate, ...]
+    where: tuple[Failure, ...]
+    seconds: Mapping[str, float]
+    notes: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "seconds", FrozenMapping(self.seconds))
+        if self.verdict in (NONE,) and self.added:
+            raise BadInput(f"diagnosis: the verdict is {NONE}, but effects were added; name the first of them")

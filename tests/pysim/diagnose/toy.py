@@ -1,0 +1,126 @@
+"""A mass on a spring and a damper with a slot for a force, effects for it, and measurements with known truth."""
+
+from collections.abc import Mapping, Sequence
+from functools import cache
+from pathlib import Path
+from tempfile import mkdtemp
+
+import numpy as np
+
+from fmu_build import build
+from pysim.diagnose import Subject, subject
+from pysim.effects import read_catalogue, variant
+from pysim.io import read_model
+from pysim.simulate import Rodas, simulate
+from pysim.types import Dataset, Effect, Experiment, MeasuredRecord, MeasuredSignal, Model, Record, Signal
+
+TEXT = """
+package Toy
+  partial model PartialForce "What acts on the mass besides spring and damper"
+    input Real x(unit="m");
+    input Real v(unit="m/s");
+    output Real f(unit="N");
+  end PartialForce;
+  model NoForce extends PartialForce; equation f = 0; end NoForce;
+  model Rubbing "Dry friction"
+    extends PartialForce;
+    parameter Real F_c(unit="N", min=0, max=5, nominal=0.3) = 0 "0 = off";
+  equation
+    f = -F_c*tanh(v/0.02);
+    annotation(__HydraulicTestBench(effect="toy.friction", slot="force"));
+  end Rubbing;
+  model Twin "Dry friction, hardly another"
+    extends PartialForce;
+    parameter Real F_t(unit="N", min=0, max=5, nominal=0.3) = 0 "0 = off";
+  equation
+    f = -F_t*tanh(v/0.0202);
+    annotation(__HydraulicTestBench(effect="toy.twin", slot="force"));
+  end Twin;
+  model Hardening "Cubic spring"
+    extends PartialForce;
+    parameter Real k_3(unit="N/m3", min=0, max=100, nominal=5) = 0 "0 = off";
+  equation
+    f = -k_3*x^3;
+    annotation(__HydraulicTestBench(effect="toy.hardening", slot="force"));
+  end Hardening;
+  model Bias "Constant force"
+    extends PartialForce;
+    parameter Real F_b(unit="N", min=-5, max=5, nominal=0.3) = 0 "0 = off";
+  equation
+    f = F_b;
+    annotation(__HydraulicTestBench(effect="toy.bias", slot="force"));
+  end Bias;
+  model Mass
+    parameter Real m(unit="kg", min=0.5, max=5, nominal=1) = 1;
+    parameter Real d(unit="N.s/m", min=0, max=10, nominal=1) = 0.8;
+    parameter Real k(unit="N/m", min=1, max=100, nominal=10) = 20;
+    input Real F(unit="N", start=0);
+    output Real x(unit="m", start=0, fixed=true);
+    output Real v(unit="m/s", start=0, fixed=true);
+    replaceable NoForce force constrainedby PartialForce;
+  equation
+    force.x = x;
+    force.v = v;
+    der(x) = v;
+    m*der(v) = F - d*v - k*x + force.f;
+  end Mass;
+end Toy;
+"""
+NOISE = 1e-3  # m
+
+
+@cache
+def library() -> Path:
+    """The package in a file of its own."""
+    path = Path(mkdtemp(prefix="toy-")) / "Toy.mo"
+    path.write_text(TEXT)
+    return path
+
+
+CATALOGUE = {effect.name: effect for effect in read_catalogue(library())}
+
+
+@cache
+def _built(names: tuple[str, ...]) -> tuple[Model, Mapping[str, str]]:
+    made = variant("Toy.Mass", [CATALOGUE[name] for name in names], [library()], name="ToyVariant")
+    source = Path(mkdtemp(prefix="toy-")) / "ToyVariant.mo"
+    source.write_text(made.text)
+    return read_model(build("ToyVariant", libraries=[library(), source])), made.places
+
+
+def build_variant(effects: Sequence[Effect]) -> tuple[Model, Mapping[str, str]]:
+    """What the diagnosis is handed."""
+    return _built(tuple(effect.name for effect in effects))
+
+
+def base() -> Model:
+    return read_model(build("Toy.Mass", libraries=[library()]))
+
+
+def measured(seed: int, effect: str = "", *, noise: float = NOISE, **values: float) -> Dataset:
+    """Two waves, one held out, of a mass whose parameters differ from the model's by some percent."""
+    rng = np.random.default_rng(seed)
+    model, places = _built((effect,)) if effect else (base(), {})
+    records = []
+    for name, use in (("a.txt", "fit"), ("b.txt", "validate")):
+        knots = np.arange(0.0, 12.01, 0.4)
+        push = 6 * rng.standard_normal(knots.size)
+        push[0] = 0.0
+        command = Signal.through(knots, push)
+        times = np.arange(0.0, 12.0, 0.02)
+        run = Experiment(times, ("x",), {"F": command}).override(m=1.05, d=0.75, k=21.0)
+        if effect:
+            run = CATALOGUE[effect].on(run, place=places[effect], **values)
+        clean = simulate(model, run, solver=Rodas(rtol=1e-8, atol=1e-8))["x"]
+        rows = np.column_stack([command.value(times), clean + noise * rng.standard_normal(times.size)])
+        records.append(MeasuredRecord(name, "stochastic", use, Record(times, rows, ("F", "x"), ("N", "m"))))
+    signals = (
+        MeasuredSignal("F", "input", "N", "force", "F"),
+        MeasuredSignal("x", "output", "m", "position", "x", noise=NOISE),
+    )
+    return Dataset("toy", "", "mass", signals, tuple(records))
+
+
+def toy_subject(dataset: Dataset, names: Sequence[str] = ("toy.friction", "toy.hardening", "toy.bias")) -> Subject:
+    """With some effects of the catalogue."""
+    return subject(base(), dataset, [CATALOGUE[name] for name in names], build_variant)
