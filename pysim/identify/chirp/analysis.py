@@ -239,13 +239,15 @@ def _apart(paired: list[tuple[int, int]], half: dict[int, float]) -> tuple[int, 
 
 
 def _branch(extremes: list[tuple[int, Extreme]], command: LoggedWave, level: float, noise: float, sign: int) -> Branch:
-    """Eq. 2.15 or 2.16 with the level taken off, and 2.18 or 2.19."""
+    """Eq. 2.15 or 2.16 with the level and the noise's lift taken off, and 2.18 or 2.19."""
     angle = np.array([(number + 0.5) * np.pi for number, _ in extremes])
     answered = np.array([extreme.angle for _, extreme in extremes])
     caused = command.time_of(angle)
     frequency = command.frequency_at(caused)
     lag = command.time_of(answered) - caused
-    gain = sign * (np.array([e.value for _, e in extremes]) - level) / command.amplitude
+    height = sign * (np.array([e.value for _, e in extremes]) - level)
+    lift = noise**2 * np.array([e.lift for _, e in extremes])
+    gain = (height - np.minimum(lift, 0.5 * height)) / command.amplitude  # the lift holds for small noise
     turned = frequency / command.frequency_at(
         caused + lag
     )  # from the command's angle at the answer to that of Eq. 2.18

@@ -77,11 +77,13 @@ class CycleFit:
                 return None
             at += float(np.clip(-slope / bend, -0.05, 0.05))
         value, slope_of = (self._basis(np.array([at]), order)[0] for order in (0, 1))
+        slope_variance = float(slope_of @ self.inverse @ slope_of)
         return Extreme(
             angle=at,
             value=float(value @ self.coefficients),
             value_deviation=float(np.sqrt(value @ self.inverse @ value)),
-            angle_deviation=float(np.sqrt(slope_of @ self.inverse @ slope_of)) / abs(bend),
+            angle_deviation=float(np.sqrt(slope_variance)) / abs(bend),
+            lift=slope_variance / (2 * abs(bend)),
         )
 
     def _basis(self, angle: Array, order: int) -> Array:
@@ -97,12 +99,15 @@ class Extreme:
         angle: of the command when it happens, rad.
         value: of the output.
         value_deviation, angle_deviation: standard deviations by noise of unit standard deviation.
+        lift: by how much such noise moves the extreme outwards on average: the highest point of a noisy curve is
+            higher than the curve's own, by the variance of the slope over twice the bend.
     """
 
     angle: float
     value: float
     value_deviation: float
     angle_deviation: float
+    lift: float
 
 
 def fit_cycle(samples: Samples, centre: float) -> CycleFit | None:

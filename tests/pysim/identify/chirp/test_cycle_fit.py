@@ -42,6 +42,19 @@ def test_doubts_are_those_of_noise() -> None:
     assert np.std(angle) / 0.1 == pytest.approx(np.mean(angle_deviation), rel=0.15)
 
 
+def test_noise_lifts_a_top_by_what_is_told() -> None:
+    quiet = fit_cycle(samples(10.0), 30.0).extreme(31.0 + 2.79, 1)  # type: ignore[union-attr]
+    noise, values, lifts = 0.5, [], []
+    for seed in range(4000):
+        extreme = fit_cycle(samples(10.0, noise=noise, seed=seed), 30.0).extreme(31.0 + 2.79, 1)  # type: ignore[union-attr]
+        values.append(extreme.value)  # type: ignore[union-attr]
+        lifts.append(noise**2 * extreme.lift)  # type: ignore[union-attr]
+    error = 3 * np.std(values) / np.sqrt(4000)
+    assert quiet is not None
+    assert np.mean(lifts) > 2 * error  # it can be seen at all
+    assert np.mean(values) - quiet.value == pytest.approx(np.mean(lifts), abs=error)
+
+
 def test_regressors_derivatives_are_limits_of_differences() -> None:
     angle, h = np.linspace(1.0, 9.0, 40), 1e-5
     for order in (1, 2):
