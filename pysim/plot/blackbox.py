@@ -106,10 +106,11 @@ def _draw_map(axes: Axes, fit: TransferFunctionFit) -> None:
     axes.axhline(0, color=LIMIT, linewidth=0.8)
     axes.axvline(0, color=LIMIT, linewidth=0.8)
     reach = _FAR * 2 * np.pi * float(fit.data.frequency[-1])
-    drawn, words = [], []
+    drawn, edges, words = [], [], []
     for roots, marker, colour, name in ((fit.poles, "x", _FIT, "pole"), (fit.zeros, "o", _ZERO, "zero")):
         near = [root.value for root in roots if abs(root.value) <= reach]
         drawn += near
+        edges += [edge for root in roots if abs(root.value) <= reach for edge in _edges(root)]
         words += [f"{name} at {_number(r.value)}" for r in roots if abs(r.value) > reach and r.value.imag >= 0]
         look: dict[str, Any] = {"color": colour, "markersize": 7, "fillstyle": "none", "linestyle": "none"}
         if near:
@@ -119,7 +120,7 @@ def _draw_map(axes: Axes, fit: TransferFunctionFit) -> None:
     axes.set_xlabel("Real part (rad/s)", fontsize=TEXT)
     axes.set_ylabel("Imaginary part (rad/s)", fontsize=TEXT)
     axes.set_title("poles and zeros with 95 % regions", fontsize=TEXT, loc="left")
-    _limit(axes, drawn)
+    _limit(axes, drawn, edges)
     if words:
         axes.text(0.02, 0.98, "not shown: " + ",\n".join(words), transform=axes.transAxes, va="top", fontsize=SMALL)
     if drawn:
@@ -130,10 +131,17 @@ def _number(value: complex) -> str:
     return f"{value.real:.3g}" if value.imag == 0 else f"{value.real:.3g} ± {value.imag:.3g}j"
 
 
-def _limit(axes: Axes, values: list[complex]) -> None:
-    """All roots, with the imaginary axis in sight."""
-    real, imag = np.array([v.real for v in values] or [-1.0]), np.array([v.imag for v in values] or [0.0])
-    size = max(float(np.max(np.abs(real))), float(np.max(np.abs(imag))), 1e-9)
+def _edges(root: Root) -> list[complex]:
+    """Outermost points of a root's region, no further off than half its size: a larger one may leave the picture."""
+    half = _TWO * np.sqrt(np.diag(root.covariance))
+    real, imag = np.where(np.isfinite(half), np.minimum(half, 0.5 * abs(root.value)), 0.0)
+    return [root.value + sign * step for sign in (-1, 1) for step in (real, 1j * imag)]
+
+
+def _limit(axes: Axes, values: list[complex], edges: list[complex]) -> None:
+    """All roots and what is near them of their regions, with the imaginary axis in sight."""
+    size = max([abs(part) for v in values or [-1.0] for part in (v.real, v.imag)] + [1e-9])
+    real, imag = (np.array([getattr(v, part) for v in [*values, *edges] or [-1.0]]) for part in ("real", "imag"))
     axes.set_xlim(min(1.3 * float(np.min(real)), -0.1 * size), max(1.3 * float(np.max(real)), 0.12 * size))
     high = max(1.2 * float(np.max(np.abs(imag))), 0.3 * size)
     axes.set_ylim(-high, high)

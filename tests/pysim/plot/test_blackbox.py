@@ -1,5 +1,7 @@
 """The picture shows the numbers of the fit."""
 
+from dataclasses import replace
+
 import numpy as np
 from matplotlib.figure import Figure
 
@@ -29,6 +31,14 @@ def test_curves_points_residuals_and_roots() -> None:
     assert len(plane.patches) == 2
     assert [axes.get_ylabel() for axes in (gain, phase)] == ["Gain (dB)", "Phase (deg)"]
     assert residual.get_xlabel() == "Frequency (Hz)"
+
+
+def test_a_region_across_the_axis_is_shown_whole() -> None:
+    (one,) = fit_dataset(dataset(*(log(f, i) for i, f in enumerate(F))), Structure(2))
+    doubtful = tuple(replace(pole, covariance=np.diag([25.0, 9.0])) for pole in one.fit.poles)  # about -5 ± 30j rad/s
+    *_, plane = blackbox_figure(replace(one, fit=replace(one.fit, poles=doubtful))).axes
+    assert plane.get_xlim()[1] > max(pole.value.real for pole in doubtful) + 2.447 * 5
+    assert plane.get_ylim()[1] > max(pole.value.imag for pole in doubtful) + 2.447 * 3
 
 
 def test_a_root_far_beyond_is_told_in_words_and_whole_turns_are_taken_off() -> None:
