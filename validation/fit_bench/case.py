@@ -15,7 +15,7 @@ from pysim.types import Fit, FitOutcome
 from validation.findings import Finding
 from validation.pump import pump_model
 
-FOLDER = Path(__file__).parents[1] / "data"
+FOLDER = Path(__file__).parents[1] / "measurements"
 NAMES = ("omega_v", "zeta_v", "L", "A_p", "V_0", "m_eff", "k", "b", "K_p", "K_D", "T_d", "K_L", "tau")
 NEAR = 0.03  # share by which a residual may be off the noise
 
