@@ -9,6 +9,8 @@ import numpy as np
 from pysim.identify.blackbox.refine import Minimum
 from pysim.identify.blackbox.result import TransferFunctionFit
 
+_HALF_A_TURN = 0.5  # turns
+
 
 def notes_on(fit: TransferFunctionFit, minimum: Minimum) -> list[str]:
     """Sentences; none for a fit that is what was asked for."""
@@ -41,6 +43,12 @@ def _bounds(fit: TransferFunctionFit, minimum: Minimum) -> list[str]:
         end = "smallest" if fit.function.dead_time < middle else "largest"
         notes.append(
             f"The dead time ended at the {end} that was allowed, {fit.function.dead_time:.4g} s, and counts as known."
+        )
+    gaps = np.diff(fit.data.frequency)
+    if gaps.size and fit.function.dead_time * float(np.min(gaps)) > _HALF_A_TURN:
+        notes.append(
+            f"A dead time of {fit.function.dead_time:.4g} s turns the phase by more than half a turn between any two "
+            "measured frequencies: these data cannot tell it from others. It is meant in seconds."
         )
     if structure.stable and bool(np.any(minimum.at_bound[: structure.poles])):
         notes.append(

@@ -44,3 +44,9 @@ def test_an_integrator_is_named_and_not_called_unstable() -> None:
         assert "cannot be told from an integrator" in fit.notes[0]
         assert not any("not stable" in note for note in fit.notes)
     assert {fit.function.stable for fit in fits} == {True, False}  # noise decides on which side it comes out
+
+
+def test_a_dead_time_beyond_what_the_grid_resolves() -> None:
+    plain, gap = from_roots([], pairs(-5 + 30j), 900.0), float(np.min(np.diff(F)))
+    assert "meant in seconds" in notes(exact(plain, F), Structure(2, dead_time=0.51 / gap))
+    assert "meant in seconds" not in notes(exact(plain, F), Structure(2, dead_time=0.49 / gap))
