@@ -53,6 +53,6 @@ def test_wrong_use(bench: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["frf", str(bench), "--reference-hz", "0.3"]) == 2
     assert "magnitudes relative to 0.3 Hz need that frequency" in capsys.readouterr().err
     assert main(["frf", str(bench), "--settle", "-1"]) == 2
-    assert "must not be negative" in capsys.readouterr().err
+    assert "settle_time is -1; it must be finite and not negative" in capsys.readouterr().err
     assert main(["frf", str(bench), "--signal", "z"]) == 2
     assert "no output 'z'" in capsys.readouterr().err
