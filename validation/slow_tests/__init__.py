@@ -1,0 +1,1 @@
+"""The tests that are too slow for every change."""
