@@ -1,0 +1,56 @@
+"""The ruler counts what the fit counts, and its slopes are the model's."""
+
+import numpy as np
+import pytest
+
+from pysim.diagnose.refit import refit
+from pysim.diagnose.residuals import Ruler, rulers
+from pysim.diagnose.subject import extended, identifiable
+from pysim.identify.greybox import fit, problem
+from pysim.io import read_model
+from pysim.simulate import Rodas
+from pysim.types import BadInput
+from tests.pysim.diagnose.toy import base, build_variant, measured, toy_subject
+
+
+def test_exact_slopes_and_differences_agree() -> None:
+    subject = toy_subject(measured(1))
+    ruler, held = rulers(subject.targets)
+    assert held is not None
+    what = extended(subject, ())
+    x = what.space.to_search(what.space.start)
+    exact = ruler.evaluation(what, x)
+    assert exact.residual == pytest.approx(ruler.at(what, x))
+    tight = Ruler(ruler.targets, Rodas(rtol=1e-9, atol=1e-9))
+    for j in range(x.size):
+        h = 1e-4 * np.eye(x.size)[j]
+        up, down = tight.at(what, x + h), tight.at(what, x - h)
+        central = (up - down) / 2e-4
+        assert np.linalg.norm(exact.jacobian[:, j] - central) < 1e-2 * np.linalg.norm(central)
+
+
+def test_the_refit_ends_where_the_fit_does() -> None:
+    data = measured(7)
+    subject = toy_subject(data)
+    ruler, _ = rulers(subject.targets)
+    what = extended(subject, ())
+    best = refit(ruler, what, what.space.to_search(what.space.start))
+    other = fit(problem(base(), [data], ["m", "d", "k"]))
+    assert best.cost == pytest.approx(other.cost, abs=0.5)
+    found = what.space.to_model(best.x)
+    for value, estimate in zip(found, other.estimates, strict=True):
+        assert abs(value - estimate.value) < 0.5 * estimate.std
+
+
+def test_what_may_be_refitted() -> None:
+    assert identifiable(base()) == ("m", "d", "k")
+    model, _ = build_variant([])
+    assert identifiable(model) == ("m", "d", "k")
+    assert read_model(base().path).name == "Toy.Mass"
+
+
+def test_effects_need_the_class() -> None:
+    subject = toy_subject(measured(1))
+    alone = subject.__class__(subject.model, subject.targets, subject.free, subject.catalogue, None)
+    with pytest.raises(BadInput, match="class is not at hand"):
+        extended(alone, subject.catalogue[:1])
