@@ -25,8 +25,8 @@ Say = Callable[[str], None]
 
 # Effects that may be added one after the other.
 MOST = 3
-# Candidates that get a refit on probation, besides those whose off is a limit.
-_PROBATION = 7
+# Candidates that get a refit on probation, and the share of the best gain that the screening has to promise for it.
+_PROBATION, _PROMISE = 7, 0.02
 # Candidates whose slopes are run again at every step.
 _FINAL = 3
 
@@ -189,10 +189,10 @@ def _refitted(
     """Refit the promising, compare, and take the best where it is good enough."""
     models = {effect.name: what for effect, what in candidates}
     heads = _per_effect(footprints)
-    chosen = [(current, f) for k, f in enumerate(heads) if k < _PROBATION or f.effect.bypass]
+    chosen = [(current, f) for f in _promising(heads)]
     if nominal is not None:
         others = _per_effect(screen(story.ruler, nominal.what, nominal.point, candidates))
-        chosen += [(nominal, f) for f in others[:_PROBATION]]
+        chosen += [(nominal, f) for f in _promising(others)]
         story.stage("screen")
     tried: dict[str, Fitted] = {}
     for at, footprint in chosen:
@@ -214,6 +214,12 @@ def _refitted(
         story.say(f"refitted with {name}: sum of squares {current.point.cost:.6g} -> {tried[name].point.cost:.6g}")
     story.stage("refit leaders")
     return _chosen(story, current, tried, heads)
+
+
+def _promising(heads: Sequence[Footprint]) -> list[Footprint]:
+    """The first of the ranking; several always, since the promise is one to first order only."""
+    enough = [k < 3 or f.gain > _PROMISE * heads[0].gain for k, f in enumerate(heads)]
+    return [f for f, good in zip(heads[:_PROBATION], enough, strict=False) if good]
 
 
 def _score(current: Fitted, fitted: Fitted) -> float:

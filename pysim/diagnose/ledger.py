@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,6 +11,7 @@ from numpy.typing import NDArray
 from pysim.diagnose.subject import Extended, Subject
 from pysim.identify.greybox import Problem, Simulation
 from pysim.identify.greybox.comparison import Compared, compared
+from pysim.identify.greybox.parameters import ParameterSpace
 from pysim.simulate import Esdirk
 from pysim.types import Deviation, RecordFit
 from pysim.types.diagnosis import Failure, LedgerStep
@@ -24,14 +24,8 @@ _WINDOWS = 6
 
 def beside(subject: Subject, what: Extended, x: Array) -> Compared:
     """Every record beside the model at x (n,) of its space, those held out too."""
-    nothing = np.zeros(0)
-    fixed = replace(
-        what.space,
-        **dict.fromkeys(("keys", "variables", "records", "units", "ties"), ()),
-        **dict.fromkeys(("start", "lower", "upper", "scale"), nothing),
-        log=np.zeros(0, dtype=bool),
-        fixed=what.space.values(x),
-    )
+    nothing, values = np.zeros(0), what.space.values(x)
+    fixed = ParameterSpace((), (), (), (), nothing, nothing, nothing, nothing, nothing.astype(bool), fixed=values)
     return compared(Problem(what.model, fixed, subject.targets), nothing, Simulation(Esdirk(rtol=1e-6, atol=1e-6)))
 
 

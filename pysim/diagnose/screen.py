@@ -59,7 +59,7 @@ def screen(
     """
     span = column_space(point.jacobian)
     left_over = point.residual - span @ (span.T @ point.residual)
-    found = []
+    found: list[Footprint] = []
     for effect, what in candidates:
         grid = list(strengths(effect))
         settings = [setting(base, what, effect, point.x, values) for values in grid]

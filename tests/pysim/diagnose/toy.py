@@ -118,7 +118,7 @@ def measured(seed: int, effect: str = "", *, noise: float = NOISE, **values: flo
         MeasuredSignal("F", "input", "N", "force", "F"),
         MeasuredSignal("x", "output", "m", "position", "x", noise=NOISE),
     )
-    return Dataset("toy", "", "mass", signals, tuple(records))
+    return Dataset("toy", "a mass", "mass", signals, tuple(records))
 
 
 def toy_subject(dataset: Dataset, names: Sequence[str] = ("toy.friction", "toy.hardening", "toy.bias")) -> Subject:

@@ -1,0 +1,62 @@
+"""`pysim diagnose` from a data set on disk to the JSON answer, the extended class and its FMU."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+from fmu_build import build
+from pysim.cli import main
+from pysim.io import read_model, write_dataset
+from tests.pysim.diagnose.toy import library, measured
+
+KEYS = {
+    "verdict", "added", "ranking", "confusable", "error", "parameters", "where", "missing", "next_test", "seconds",
+    "files",
+}  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def data(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("data") / "toy"
+    write_dataset(folder, measured(1, "toy.bias", F_b=-0.4))
+    return folder
+
+
+def test_from_a_class_to_the_extended_model(data: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    words = ["--model", "Toy.Mass", "--library", str(library()), "--effects", "toy.bias,toy.hardening"]
+    answer, output = tmp_path / "answer.json", tmp_path / "out"
+    assert main(["diagnose", str(data), *words, "--json", str(answer), "--output", str(output)]) == 0
+    found = json.loads(answer.read_text())
+    assert set(found) >= KEYS
+    assert found["verdict"] == "toy.bias"
+    (added,) = found["added"]
+    low, high = added["intervals"]["F_b"]
+    assert low < -0.4 < high
+    assert added["unit"]["F_b"] == "N"
+    assert [row["step"] for row in found["error"]] == ["prior", "refit", "toy.bias"]
+    assert found["missing"] == []
+    assert found["next_test"] is None
+    pump = read_model(answer.parent / found["files"]["fmu"])
+    assert pump["force.F_b"].min == -5
+    assert "redeclare Toy.Bias force" in (answer.parent / found["files"]["modelica"]).read_text()
+    said = capsys.readouterr()
+    assert "Verdict: toy.bias" in said.out
+    assert "screened 2 effects" in said.err
+
+
+def test_an_fmu_whose_class_is_unknown_is_compared_only(data: Path, tmp_path: Path) -> None:
+    fmu = build("Toy.Mass", tmp_path / "mass.fmu", libraries=[library()])
+    answer = tmp_path / "answer.json"
+    assert main(["diagnose", str(data), "--model", str(fmu), "--json", str(answer)]) == 0
+    found = json.loads(answer.read_text())
+    assert found["verdict"] == "unknown"
+    assert any("no effect can be added" in note for note in found["notes"])
+    assert found["where"][0]["error"] > 1.2
+
+
+def test_an_unknown_effect_is_refused(data: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    words = ["--model", "Toy.Mass", "--library", str(library()), "--effects", "toy.magic"]
+    assert main(["diagnose", str(data), *words, "--json", str(tmp_path / "a.json")]) == 2
+    assert "toy.magic" in capsys.readouterr().err
+    assert not (tmp_path / "a.json").exists()
