@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -41,13 +41,17 @@ class Compared:
     notes: tuple[str, ...]
 
 
-def compared(problem: Problem, x: Array, simulation: Simulation) -> Compared:
-    """Simulate every target at x (n,); one that cannot be simulated is noted and left out."""
+def compared(problem: Problem, x: Array, simulation: Simulation, near: Mapping[int, Array] | None = None) -> Compared:
+    """Simulate every target at x (n,); one that cannot be simulated is noted and left out.
+
+    Args:
+        near: id of a run -> a state to start its orbit's search from.
+    """
     records: list[RecordFit] = []
     responses: list[ResponseFit] = []
     notes: list[str] = []
     experiments = []
-    for target, simulated, trouble in _simulated(problem, x, simulation):
+    for target, simulated, trouble in _simulated(problem, x, simulation, near or {}):
         if isinstance(target, LogTarget):
             run = target.run.experiment
             overrides = {**run.overrides, **problem.space.overrides(x, target.run.record)}
@@ -65,16 +69,18 @@ def compared(problem: Problem, x: Array, simulation: Simulation) -> Compared:
 
 
 def _simulated(
-    problem: Problem, x: Array, simulation: Simulation
+    problem: Problem, x: Array, simulation: Simulation, near: Mapping[int, Array]
 ) -> Iterator[tuple[Target, tuple[Simulated, ...], str]]:
     """All targets at once; where that fails, one by one."""
     runs = [run for target in problem.targets for run in target.runs]
-    together = simulate_runs(problem.model, problem.space, runs, x, (None,) * len(runs), simulation)
+    guesses = [near.get(id(run)) for run in runs]
+    together = simulate_runs(problem.model, problem.space, runs, x, guesses, simulation, slopes=False)
     rest = list(together.simulated)
     for target in problem.targets:
         n = len(target.runs)
         if together.trouble:
-            own = simulate_runs(problem.model, problem.space, target.runs, x, (None,) * n, simulation)
+            nothing = (None,) * n
+            own = simulate_runs(problem.model, problem.space, target.runs, x, nothing, simulation, slopes=False)
             yield target, own.simulated, own.trouble
         else:
             yield target, tuple(rest[:n]), ""

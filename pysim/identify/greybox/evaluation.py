@@ -26,7 +26,8 @@ class Evaluation:
         cost: of the objective; infinite where the model could not be simulated.
         residual: (n_r,) what is summed up, its squares or its sizes.
         jacobian: (n_r, n) of the residual by x.
-        states: per run, where the next orbit's search starts, or None.
+        states: per run, an orbit's state (n_states,), or None.
+        state_slopes: per run, that state's by x, (n_states, n), or None.
         trouble: why the point is a bad one; empty where it is not.
     """
 
@@ -35,7 +36,13 @@ class Evaluation:
     residual: Array
     jacobian: Array
     states: tuple[Array | None, ...] = ()
+    state_slopes: tuple[Array | None, ...] = ()
     trouble: str = ""
+
+    def guesses(self, x: Array) -> tuple[Array | None, ...]:
+        """Where the orbits at another point x (n,) may be, to first order from here."""
+        pairs = zip(self.states, self.state_slopes, strict=True)
+        return tuple(None if s is None or by is None else s + by @ (x - self.x) for s, by in pairs)
 
     @property
     def good(self) -> bool:
@@ -73,9 +80,11 @@ def _summed(x: Array, answer: Answer, targets: tuple[Target, ...], objective: Ob
     residual = stacked(parts, x.size)
     if not (np.isfinite(residual.values).all() and np.isfinite(residual.slopes).all()):
         return bad_point(x, "a residual is not finite; an output may not move at all")
-    return Evaluation(x, objective.cost(residual.values), residual.values, residual.slopes, answer.states)
+    return Evaluation(
+        x, objective.cost(residual.values), residual.values, residual.slopes, answer.states, answer.state_slopes
+    )
 
 
 def bad_point(x: Array, trouble: str) -> Evaluation:
     """A point where the model could not be simulated."""
-    return Evaluation(x, math.inf, np.zeros(0), np.zeros((0, x.size)), (), trouble)
+    return Evaluation(x, math.inf, np.zeros(0), np.zeros((0, x.size)), trouble=trouble)

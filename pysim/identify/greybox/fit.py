@@ -29,6 +29,9 @@ Array = NDArray[np.float64]
 # Standard deviation of the median of normal errors over that of their mean: what sums of sizes cost.
 _SIZES = math.sqrt(math.pi / 2)
 
+# Share of the cost by which rough searches differ that may end at one optimum.
+_ALIKE = 0.02
+
 
 @dataclass(frozen=True)
 class Effort:
@@ -94,7 +97,12 @@ def fit(
         reasons = "; ".join(f"{name}: {state.message}" for name, state in states.items())
         raise BadInput(f"fit: the model could not be simulated at any start ({reasons}); give other start values")
     name = min(good, key=lambda key: good[key].best.cost)
-    return _result(problem, objective, optimiser, simulation, states, name, begun)
+    polished = [
+        _polished(problem, objective, optimiser, simulation, effort, key, good[key], progress)
+        for key in _worth_polishing(good, name)
+    ]
+    state = min(polished, key=lambda one: one.best.cost)
+    return _result(problem, objective, optimiser, simulation, states, state, begun)
 
 
 def _searched(
@@ -106,23 +114,70 @@ def _searched(
     begun: Mapping[str, Array],
     progress: Progress | None,
 ) -> Mapping[str, State]:
-    """A search from every start, one after the other: each uses all cores itself."""
-    evaluate = evaluator(problem, objective, simulation)
-    states = {}
-    for name, x in begun.items():
-        identity = repr((problem.model.token, problem.space, objective.name, optimiser, simulation.solver, x.tolist()))
-        states[name] = search(
-            evaluate,
-            optimiser,
-            problem.space,
-            x,
-            squares=objective.squares,
-            name=name,
-            journal=None if effort.log is None else Journal(effort.log / name, identity),
-            resume=effort.resume,
-            progress=progress,
-        )
-    return states
+    """A rough search from every start, one after the other: each uses all cores itself."""
+    rough = optimiser.rough()
+    if rough is not None:
+        optimiser, simulation = rough, simulation.rough()
+    return {
+        name: _one_search(problem, objective, optimiser, simulation, effort, name, x, progress)
+        for name, x in begun.items()
+    }
+
+
+def _worth_polishing(good: Mapping[str, State], best: str) -> list[str]:
+    """The best search, and those that ended elsewhere at a cost that rough simulations do not tell from its own."""
+    chosen = [best]
+    for name, state in good.items():
+        cost, others = state.best.cost, [good[key].best.residual for key in chosen]
+        near = cost <= (1 + _ALIKE) * good[best].best.cost
+        if near and all(np.sum((state.best.residual - r) ** 2) > _ALIKE * cost for r in others):
+            chosen.append(name)
+    return chosen
+
+
+def _polished(
+    problem: Problem,
+    objective: Objective,
+    optimiser: Optimiser,
+    simulation: Simulation,
+    effort: Effort,
+    name: str,
+    best: State,
+    progress: Progress | None,
+) -> State:
+    """The end of a rough search, gone on with by fine simulations."""
+    if optimiser.rough() is None:
+        return best
+    fine = _one_search(problem, objective, optimiser, simulation, effort, f"{name}-polished", best.best, progress)
+    if not fine.best.good:
+        return replace(best, outcome=FitOutcome.STALLED, message=f"the optimum is a rough one: {fine.message}")
+    return replace(fine, tried=best.tried + 1 + fine.tried, first_cost=best.first_cost)
+
+
+def _one_search(
+    problem: Problem,
+    objective: Objective,
+    optimiser: Optimiser,
+    simulation: Simulation,
+    effort: Effort,
+    name: str,
+    start: Array | Evaluation,
+    progress: Progress | None,
+) -> State:
+    x = start.x if isinstance(start, Evaluation) else start
+    settings = (simulation.solver, simulation.mismatch)
+    identity = repr((problem.model.token, problem.space, objective.name, optimiser, settings, x.tolist()))
+    return search(
+        evaluator(problem, objective, simulation),
+        optimiser,
+        problem.space,
+        start,
+        squares=objective.squares,
+        name=name,
+        journal=None if effort.log is None else Journal(effort.log / name, identity),
+        resume=effort.resume,
+        progress=progress,
+    )
 
 
 def _result(
@@ -131,16 +186,16 @@ def _result(
     optimiser: Optimiser,
     simulation: Simulation,
     states: Mapping[str, State],
-    winner: str,
+    state: State,
     begun: Mapping[str, Array],
 ) -> Fit:
-    state, space = states[winner], problem.space
+    space = problem.space
     point = _in_noise(problem, objective, simulation, state.best)
     told = not untold(problem.notes)
     size = misfit(point)
     scale = (max(size, 1.0) if told else size) * (1.0 if objective.squares else _SIZES)
     doubt = uncertainty(space, point, scale=scale, told=told)
-    beside = compared(problem, state.best.x, simulation)
+    beside = compared(problem, state.best.x, simulation, _known(problem, objective, state.best))
     return Fit(
         model=problem.model.name,
         objective=objective.words,
@@ -167,6 +222,13 @@ def _result(
     )
 
 
+def _known(problem: Problem, objective: Objective, best: Evaluation) -> dict[int, Array]:
+    """id of a run -> its orbit's state at the optimum."""
+    runs = [run for target in objective.chosen(problem.targets) for run in target.runs]
+    pairs = zip(runs, best.guesses(best.x), strict=False)
+    return {id(run): state for run, state in pairs if state is not None}
+
+
 def _outcome(state: State) -> FitOutcome:
     assert state.outcome is not None  # searches end with one
     return state.outcome
@@ -177,4 +239,4 @@ def _in_noise(problem: Problem, objective: Objective, simulation: Simulation, be
     if objective.weighted:
         return best
     weighted = replace(NOISE, domains=objective.domains)
-    return evaluator(problem, weighted, simulation)(best.x, best.states)
+    return evaluator(problem, weighted, simulation)(best.x, best.guesses(best.x))

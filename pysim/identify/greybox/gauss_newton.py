@@ -20,8 +20,16 @@ Array = NDArray[np.float64]
 _BLUR = 5e-5
 # So many steps are taken inside the blur, where the slope is the better guide, before the search ends.
 _BLIND = 3
+# A step is as short as it can be while it promises all but this share of what the best one does: what is nearly tied
+# costs length and gains next to nothing.
+_SPARE = 0.02
+# With half the sum of squares so much above its least, in mean squares, the best step is short enough in itself.
+_FINAL = 1.0
+# Such a share ends a search that only has to come near, where the simulation is rough.
+_NEARLY = 4e-3
 # It is a good end where a full step would gain no more than so many times the tolerance.
 _NEAR = 200.0
+_BISECTIONS = 20
 
 
 @dataclass(frozen=True)
@@ -37,6 +45,7 @@ class GaussNewton:
             mean square residual where that is above one. With residuals in standard deviations 5e-3 is 0.1 of them,
             for the worst combination of parameters.
         radius: of the first step, in natural logarithms or shares of the scale.
+        share: ends the search too where a full step would lower the sum of squares by less than this share of it.
     Raises:
         BadInput: a setting that is not positive.
     Source: Nocedal and Wright 2006, Numerical Optimization, algorithm 4.1 and Section 10.3.
@@ -45,6 +54,7 @@ class GaussNewton:
     max_iterations: int = 100
     tolerance: float = 5e-3
     radius: float = 0.5
+    share: float = 0.0
     name: str = "gauss-newton"
     smooth_only: bool = True
 
@@ -52,6 +62,10 @@ class GaussNewton:
         for setting in ("max_iterations", "tolerance", "radius"):
             if not getattr(self, setting) > 0:
                 raise BadInput(f"gauss-newton: {setting} must be positive, got {getattr(self, setting)}")
+
+    def rough(self) -> GaussNewton:
+        """Ends where rough simulations tell no better."""
+        return replace(self, share=max(self.share, _NEARLY))
 
     def first(self, x: Array, bounds: Bounds) -> Array:
         """Any point within the bounds will do."""
@@ -64,7 +78,10 @@ class GaussNewton:
     def propose(self, state: State, bounds: Bounds) -> Proposal:
         """See Optimiser."""
         step = _Step.at(state.best, bounds)
+        mean_square = max(1.0, state.best.cost / state.best.residual.size)
         p = step.within(state.memory["radius"])
+        if step.predicted(p) > _FINAL * mean_square:
+            p = step.within(state.memory["radius"], _SPARE)
         return Proposal(np.clip(state.best.x + p, bounds.lower, bounds.upper), step.predicted(p))
 
     def tell(self, state: State, proposal: Proposal, trial: Evaluation, bounds: Bounds) -> State:
@@ -79,7 +96,7 @@ class GaussNewton:
             state = replace(state, best=trial, tried=state.tried + 1, memory={**state.memory, "blind": steps})
             return self._examined(state, bounds) if steps < _BLIND else self._lost(state, bounds)
         if ratio < 0.25:
-            radius = 0.25 * length
+            radius = length * (_best_share(state.best, trial, proposal.x) if trial.good else 0.25)
         elif ratio > 0.75 and length > 0.8 * radius:
             radius = 2 * radius
         state = replace(state, tried=state.tried + 1, memory={**state.memory, "radius": radius})
@@ -105,12 +122,21 @@ class GaussNewton:
         return self._counted(state)
 
     def _small(self, best: Evaluation) -> float:
-        return self.tolerance * max(1.0, best.cost / best.residual.size)
+        return max(self.tolerance * max(1.0, best.cost / best.residual.size), 0.5 * self.share * best.cost)
 
     def _counted(self, state: State) -> State:
         if state.tried < self.max_iterations:
             return state
         return _ended(state, FitOutcome.ITERATION_LIMIT, f"{state.tried} points were tried")
+
+
+def _best_share(here: Evaluation, there: Evaluation, x: Array) -> float:
+    """Where on the way to a point that was too far the cost is least: residuals as cubics through values and slopes."""
+    s = np.linspace(0.0, 1.0, 41)[2:37, None]
+    p = x - here.x
+    at = (2 * s**3 - 3 * s**2 + 1) * here.residual + (s**3 - 2 * s**2 + s) * (here.jacobian @ p)
+    at += (3 * s**2 - 2 * s**3) * there.residual + (s**3 - s**2) * (there.jacobian @ p)
+    return float(s[np.argmin(np.sum(at**2, axis=1)), 0])
 
 
 def _ended(state: State, outcome: FitOutcome, message: str) -> State:
@@ -139,20 +165,36 @@ class _Step:
         """By how much half the sum of squares falls over the step that nothing but the bounds holds in."""
         return self.predicted(self.within(math.inf))
 
-    def within(self, radius: float) -> Array:
-        """The best step (n,) no longer than radius."""
+    def within(self, radius: float, spare: float = 0.0) -> Array:
+        """The best step (n,) no longer than radius; with `spare`, the shortest that promises all but that share."""
+        damping, p = self._held_in(radius)
+        if spare == 0:
+            return p
+        enough = (1 - spare) * self.predicted(p)
+        low, high = math.log(damping), math.log(damping) + 60.0
+        for _ in range(_BISECTIONS):  # the promise falls as the damping grows
+            middle = 0.5 * (low + high)
+            shorter = self._damped(math.exp(middle))
+            if self.predicted(shorter) >= enough:
+                low, p = middle, shorter
+            else:
+                high = middle
+        return p
+
+    def _held_in(self, radius: float) -> tuple[float, Array]:
+        """The least damping with which a step is no longer than radius, and that step."""
         floor = max(float((EXACT * np.linalg.norm(self.triangle, 2)) ** 2), float(np.finfo(float).tiny))
         p = self._damped(floor)
         if np.linalg.norm(p) <= radius:
-            return p
+            return floor, p
         low, high = math.log(floor), math.log(np.linalg.norm(self.triangle.T @ self.right) / radius + floor)
-        for _ in range(40):  # the length falls as the damping grows
+        for _ in range(2 * _BISECTIONS):  # the length falls as the damping grows
             middle = 0.5 * (low + high)
             p = self._damped(math.exp(middle))
             low, high = (middle, high) if np.linalg.norm(p) > radius else (low, middle)
             if 0.9 * radius <= np.linalg.norm(p) <= radius:
                 break
-        return p
+        return math.exp(middle), p
 
     def _damped(self, damping: float) -> Array:
         n = self.right.size

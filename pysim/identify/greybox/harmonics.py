@@ -21,11 +21,13 @@ def interpolation(phase: Array, points: int) -> Array:
     Exact for every harmonic below points / 2; what lies above is folded down as sampling does.
     """
     nodes = 2 * np.pi * np.arange(points) / points
-    order = np.arange(1, (points + 1) // 2)
-    weights = 1 + 2 * np.cos((phase[:, None] - nodes)[..., None] * order).sum(axis=2)
-    if points % 2 == 0:
-        weights += np.cos(0.5 * points * phase)[:, None] * np.cos(0.5 * points * nodes)
-    return np.asarray(weights / points)
+    distance = phase[:, None] - nodes
+    half = 0.5 * (distance - 2 * np.pi * np.round(distance / (2 * np.pi)))
+    away = np.abs(half) > 1e-12
+    half = np.where(away, half, 1.0)
+    # the sum of 1 + 2 cos(k distance) in closed form; for an even count the last cosine counts once
+    kernel = np.sin(points * half) / (points * (np.sin(half) if points % 2 else np.tan(half)))
+    return np.where(away, kernel, 1.0)
 
 
 def to_complex(coefficients: Array) -> NDArray[np.complex128]:

@@ -52,6 +52,9 @@ class InteriorPoint:
                 f"{self.max_iterations}, {self.tolerance} and {self.reduction}"
             )
 
+    def rough(self) -> None:
+        """Nothing: a search that goes on starts far from the bounds again."""
+
     def first(self, x: Array, bounds: Bounds) -> Array:
         """Moved off the bounds, where the barrier is infinite."""
         width = bounds.upper - bounds.lower

@@ -6,6 +6,7 @@ import hashlib
 import io
 import json
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -63,8 +64,8 @@ class Journal:
         if head["token"] != self._token:
             raise BadInput(f"{path} belongs to another fit; resume with the same settings, or start anew elsewhere")
         self._forget_after(head["tried"])
-        states = tuple(row if known else None for row, known in zip(arrays["states"], arrays["known"], strict=True))
-        best = Evaluation(arrays["x"], float(arrays["cost"]), arrays["residual"], arrays["jacobian"], states)
+        states, slopes = (_unpacked(arrays[name], arrays["known"]) for name in ("states", "state_slopes"))
+        best = Evaluation(arrays["x"], float(arrays["cost"]), arrays["residual"], arrays["jacobian"], states, slopes)
         outcome = FitOutcome(head["outcome"]) if head["outcome"] else None
         memory = dict(zip(head["names"], arrays["memory"].tolist(), strict=True))
         return State(best, head["tried"], float(arrays["first_cost"]), memory, outcome, head["message"])
@@ -92,8 +93,6 @@ class Journal:
             "message": state.message,
         }
         best, buffer = state.best, io.BytesIO()
-        width = max((s.size for s in best.states if s is not None), default=0)
-        rows = [np.zeros(width) if s is None else s for s in best.states]
         np.savez(
             buffer,
             head=np.array(json.dumps(head)),
@@ -103,7 +102,8 @@ class Journal:
             first_cost=np.array(state.first_cost),
             residual=best.residual,
             jacobian=best.jacobian,
-            states=np.array(rows).reshape(len(rows), width),
+            states=_packed(best.states),
+            state_slopes=_packed(best.state_slopes),
             known=np.array([s is not None for s in best.states], dtype=bool),
         )
         return buffer.getvalue()
@@ -120,3 +120,13 @@ class Journal:
             except (json.JSONDecodeError, KeyError):
                 break  # half a line, from the moment of the kill
         write_file(path, "".join(f"{line}\n" for line in keep))
+
+
+def _packed(rows: Sequence[Array | None]) -> Array:
+    """Equal arrays in one, (n, ...); zeros for None."""
+    shape = next((row.shape for row in rows if row is not None), (0,))
+    return np.array([np.zeros(shape) if row is None else row for row in rows]).reshape(len(rows), *shape)
+
+
+def _unpacked(rows: Array, known: NDArray[np.bool_]) -> tuple[Array | None, ...]:
+    return tuple(row if there else None for row, there in zip(rows, known, strict=True))

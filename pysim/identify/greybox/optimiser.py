@@ -68,6 +68,10 @@ class Optimiser(Protocol):
         """Whether it needs a sum of squares."""
         ...
 
+    def rough(self) -> Optimiser | None:
+        """The same for a first search over rough simulations; None where a second search cannot go on from its end."""
+        ...
+
     def first(self, x: Array, bounds: Bounds) -> Array:
         """The start (n,), moved where the method cannot start from it."""
         ...

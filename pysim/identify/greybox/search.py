@@ -34,7 +34,7 @@ def search(
     evaluate: Evaluate,
     optimiser: Optimiser,
     space: ParameterSpace,
-    start: Array,
+    start: Array | Evaluation,
     *,
     squares: bool,
     name: str = "",
@@ -42,9 +42,10 @@ def search(
     resume: bool = False,
     progress: Progress | None = None,
 ) -> State:
-    """Search from one start (n,) until the optimiser has an outcome.
+    """Search from one start until the optimiser has an outcome.
 
     Args:
+        start: (n,), or a point found before, perhaps by rougher simulations: orbits are sought from its own.
         journal: where every point is written down, or None.
         resume: go on from the journal where it holds a state; an outcome it holds is final.
         progress: called after every point; what it raises ends the search, which can be resumed.
@@ -54,7 +55,9 @@ def search(
     bounds = Bounds(*space.bounds())
     state = journal.load() if journal is not None and resume else None
     if state is None:
-        first = evaluate(optimiser.first(start, bounds), ())
+        before = start if isinstance(start, Evaluation) else None
+        x = optimiser.first(start.x if isinstance(start, Evaluation) else start, bounds)
+        first = evaluate(x, () if before is None else before.guesses(x))
         state = _begun(optimiser, first, bounds, squares)
         if journal is not None:
             journal.begin()
@@ -62,7 +65,7 @@ def search(
         _told(progress, name, state, first)
     while state.outcome is None:
         proposal = optimiser.propose(state, bounds)
-        trial = evaluate(proposal.x, state.best.states)
+        trial = evaluate(proposal.x, state.best.guesses(proposal.x))
         state = optimiser.tell(state, proposal, trial, bounds)
         _written(journal, space, state, trial)
         _told(progress, name, state, trial)

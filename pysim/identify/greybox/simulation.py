@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,6 +18,10 @@ from pysim.types import Experiment, Model, Outcome
 Array = NDArray[np.float64]
 
 
+# On the way to the optimum: what this leaves open is well below the noise.
+_ROUGH, _ROUGH_MISMATCH = 1e-4, 1e-3
+
+
 @dataclass(frozen=True)
 class Simulation:
     """Settings of the runs.
@@ -24,10 +29,18 @@ class Simulation:
     Args:
         solver: of pysim.simulate, for runs over time and periodic ones.
         workers: where the runs go; all cores of this machine by default.
+        mismatch: what of an orbit's correction is left to first order, in amplitudes. It is the relative error of the
+            slopes: small enough to see that a direction does nothing at all.
     """
 
     solver: Esdirk = field(default_factory=lambda: Esdirk(rtol=1e-5, atol=1e-5))
     workers: Workers = field(default_factory=Threads)
+    mismatch: float = 1e-5
+
+    def rough(self) -> Simulation:
+        """Settings for the way to the optimum: good enough to come within a fraction of the noise's uncertainty."""
+        solver = replace(self.solver, rtol=max(self.solver.rtol, _ROUGH), atol=max(self.solver.atol, _ROUGH))
+        return Simulation(solver, self.workers, max(self.mismatch, _ROUGH_MISMATCH))
 
 
 @dataclass(frozen=True)
@@ -37,11 +50,13 @@ class Answer:
     Args:
         simulated: per run, in the order asked for; empty where one failed.
         states: per run, the orbit's state (n_states,) to start the next search from, or None.
+        state_slopes: per run, that state's by x, (n_states, n), or None.
         trouble: why a run failed; empty where all ran.
     """
 
     simulated: tuple[Simulated, ...]
-    states: tuple[Array | None, ...]
+    states: tuple[Array | None, ...] = ()
+    state_slopes: tuple[Array | None, ...] = ()
     trouble: str = ""
 
 
@@ -52,6 +67,8 @@ def simulate_runs(
     x: Array,
     guesses: Sequence[Array | None],
     simulation: Simulation,
+    *,
+    slopes: bool = True,
 ) -> Answer:
     """Simulate every run at x (n,).
 
@@ -60,35 +77,41 @@ def simulate_runs(
 
     Args:
         guesses: per run, a state to start an orbit's search from, or None.
+        slopes: whether those by x are wanted; they are zero where not.
     """
-    jobs = [_job(space, run, x, place, guess) for place, (run, guess) in enumerate(zip(runs, guesses, strict=True))]
+    make = partial(_job, space, x, simulation.mismatch, slopes)
+    jobs = [make(run, place, guess) for place, (run, guess) in enumerate(zip(runs, guesses, strict=True))]
     states: list[Array | None] = [None] * len(runs)
+    state_slopes: list[Array | None] = [None] * len(runs)
     answers: dict[int, Simulated] = {}
     again: list[Job] = []
     for job, orbit in _results(model, [job for job in jobs if isinstance(job.run, Periodic)], simulation):
         if isinstance(orbit, Orbit) and orbit.outcome is Outcome.DONE:
             answers[job.place] = Simulated(orbit.record.values, orbit.by_parameter @ job.slopes)
-            states[job.place] = orbit.state
+            if orbit.state.size:
+                states[job.place], state_slopes[job.place] = orbit.state, orbit.state_by_parameter @ job.slopes
         else:
-            again.append(_job(space, replace(runs[job.place], orbit=None), x, job.place, None))
+            again.append(make(replace(runs[job.place], orbit=None), job.place, None))
     for job, run in _results(model, [job for job in jobs if isinstance(job.run, Experiment)] + again, simulation):
         if not isinstance(run, Sensitivities) or run.record.outcome is not Outcome.DONE:
             trouble = f"{runs[job.place].record}: {run.record.outcome.value}. {run.record.message}"
-            return Answer((), (), trouble.strip())
+            return Answer((), trouble=trouble.strip())
         answers[job.place] = Simulated(run.record.values, run.by_parameter @ job.slopes)
     for job in jobs:
         answer = answers[job.place]
         if not (np.isfinite(answer.values).all() and np.isfinite(answer.slopes).all()):
-            return Answer((), (), f"{runs[job.place].record}: a value or a slope is not finite")
-    return Answer(tuple(answers[i] for i in range(len(runs))), tuple(states))
+            return Answer((), trouble=f"{runs[job.place].record}: a value or a slope is not finite")
+    return Answer(tuple(answers[i] for i in range(len(runs))), tuple(states), tuple(state_slopes))
 
 
 def _results(model: Model, jobs: list[Job], simulation: Simulation) -> Iterator[tuple[Job, Result]]:
     return zip(jobs, simulation.workers.run(model, jobs, simulation.solver), strict=True) if jobs else iter(())
 
 
-def _job(space: ParameterSpace, run: Run, x: Array, place: int, guess: Array | None) -> Job:
+def _job(
+    space: ParameterSpace, x: Array, mismatch: float, slopes: bool, run: Run, place: int, guess: Array | None
+) -> Job:
     wanted = run.experiment if run.orbit is None else run.orbit
     overrides: Mapping[str, float] = {**wanted.overrides, **space.overrides(x, run.record)}
-    names, slopes = space.chain(x, run.record)
-    return Job(place, replace(wanted, overrides=overrides), names, slopes, guess)
+    names, chain = space.chain(x, run.record) if slopes else ((), np.zeros((0, space.size)))
+    return Job(place, replace(wanted, overrides=overrides), names, chain, guess, mismatch)

@@ -18,10 +18,6 @@ from pysim.types import BadInput, Experiment, Model, Outcome
 
 Array = NDArray[np.float64]
 
-# What is left of an orbit's correction is the relative error of its slopes: small enough to see that a direction does
-# nothing at all.
-_MISMATCH = 1e-5
-
 
 @dataclass(frozen=True)
 class Job:
@@ -33,6 +29,7 @@ class Job:
         names: variables whose slopes are wanted.
         slopes: (n_v, n_x) of those variables by the search's numbers.
         guess: state to start an orbit's search from, or None.
+        mismatch: what of an orbit's correction is left to first order.
     """
 
     place: int
@@ -40,6 +37,7 @@ class Job:
     names: tuple[str, ...]
     slopes: Array
     guess: Array | None = None
+    mismatch: float = 1e-5
 
 
 @dataclass(frozen=True)
@@ -153,7 +151,8 @@ def _run_group(
     orbits = [job.run for job in jobs if isinstance(job.run, Periodic)]
     if orbits:
         guesses = [job.guess for job in jobs]
-        return periodic_many(model, orbits, names, guesses=guesses, solver=solver, mismatch=_MISMATCH, workers=workers)
+        left = min(job.mismatch for job in jobs)
+        return periodic_many(model, orbits, names, guesses=guesses, solver=solver, mismatch=left, workers=workers)
     runs = [job.run for job in jobs if isinstance(job.run, Experiment)]
     return sensitivities_many(model, runs, names, solver=solver, workers=workers)
 

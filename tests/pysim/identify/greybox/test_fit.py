@@ -165,7 +165,8 @@ def test_the_nominal_start_is_tried_too(lag: Model) -> None:
     assert [s.name for s in found.starts] == ["given", "nominal"]
     drawn = fit(problem(lag, data, ["K", "T"]), simulation=TIGHT, effort=Effort(starts=2, seed=1))
     assert [s.name for s in drawn.starts] == ["given", "drawn-1", "drawn-2"]
-    assert [s.cost for s in drawn.starts] == pytest.approx([found.cost] * 3, rel=1e-4)
+    assert [s.cost for s in drawn.starts] == pytest.approx([found.cost] * 3, rel=4e-3)  # ends of rough searches
+    assert drawn.cost == pytest.approx(found.cost, rel=1e-4)
 
 
 def test_a_killed_fit_resumes_bit_for_bit(lag: Model, tmp_path: Path) -> None:
