@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -170,7 +171,7 @@ def _rank_screened(story: _Story, current: Fitted, footprints: Sequence[Footprin
         story.ranking.append(
             Candidate(
                 f.effect.name,
-                f.gain - len(f.effect.parameters) * np.log(n),
+                f.gain - len(f.effect.parameters) * math.log(n),
                 decide.p_value(f.gain, 1, scale=1.0),
                 decide.explained(f.gain, current.point.cost, n),
                 refitted=False,
@@ -272,7 +273,7 @@ def _rank_rest(story: _Story, current: Fitted, footprints: Sequence[Footprint]) 
         story.ranking.append(
             Candidate(
                 f.effect.name,
-                f.gain - extra * np.log(n),
+                f.gain - extra * math.log(n),
                 decide.p_value(f.gain, 1, scale=1.0),
                 decide.explained(f.gain, current.point.cost, n),
                 False,
@@ -289,9 +290,9 @@ def _own_values(fitted: Fitted, effect: Effect) -> dict[str, float]:
 def _answer(story: _Story, base: Fitted, final: Fitted) -> Diagnosis:
     verdict, reason = _verdict(story, base, final)
     what, point = final.what, final.point
-    doubt = uncertainty(
-        what.space, point, scale=float(np.sqrt(decide.inflation(point))), told=not untold(story.subject.notes)
-    )
+    short = replace(point, jacobian=np.linalg.qr(point.jacobian, mode="r"))  # the same information in n rows
+    size = float(np.sqrt(decide.inflation(point)))
+    doubt = uncertainty(what.space, short, scale=size, told=not untold(story.subject.notes))
     estimates = {e.name: e for e in doubt.estimates}
     added = tuple(AddedEffect(e, what.places[e.name], _estimates_of(e, what, estimates)) for e in what.effects)
     story.stage("intervals")
