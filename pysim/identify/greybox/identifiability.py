@@ -43,8 +43,9 @@ def identifiability(keys: Sequence[str], slopes: Array, *, noise: float = 1.0) -
         slopes: (n_r, n) of the residuals, in standard deviations, by ln(p).
         noise: standard deviations of the residuals in units of themselves: the misfit where that is above one.
     """
-    _, size, rows = np.linalg.svd(slopes, full_matrices=True)
-    size = np.concatenate([size, np.zeros(rows.shape[0] - size.size)])
+    empty = np.zeros((max(len(keys) - slopes.shape[0], 0), len(keys)))
+    triangle = np.linalg.qr(np.vstack([slopes, empty]), mode="r")  # as many rows as parameters, not as residuals
+    _, size, rows = np.linalg.svd(triangle)
     none = size <= EXACT * max(size[0], np.finfo(float).tiny)
     exact = _sparse(rows[none].T)
     found = [_exact_direction(keys, column) for column in exact.T]
