@@ -63,13 +63,14 @@ def fit_harmonics_figure(records: Sequence[RecordFit], title: str) -> Figure:
     top, low = figure.subplots(2, 1, sharex=True, height_ratios=(3, 2))
     rows = sorted((record.harmonics[0] for record in records), key=lambda h: h.frequency)
     most = max(h.measured.size for h in rows)
-    handles, labels = [], []
+    handles, labels, least = [], [], np.inf
     for k in range(1, most):
         own = [h for h in rows if h.measured.size > k]
         f = np.array([h.frequency for h in own])
         colour, marker = COLOURS[(k - 1) % len(COLOURS)], MARKERS[(k - 1) % len(MARKERS)]
         measured = np.abs([h.measured[k] for h in own])
         spread = np.array([h.std[k] for h in own])
+        least = min(least, float(np.min(spread)))
         (points,) = top.plot(f, measured, color=colour, marker=marker, markersize=4, linewidth=0)
         top.vlines(
             f, np.maximum(measured - 1.96 * spread, 0.1 * spread), measured + 1.96 * spread, color=colour, linewidth=0.8
@@ -78,17 +79,27 @@ def fit_harmonics_figure(records: Sequence[RecordFit], title: str) -> Figure:
         left = np.abs([h.measured[k] - h.simulated[k] for h in own]) / (spread * np.sqrt(2))
         low.plot(f, left, color=colour, marker=marker, markersize=4, linewidth=0)
         handles.append(points)
-        labels.append("fundamental" if k == 1 else f"harmonic {k}")
+        labels.append(str(k))
     low.axhspan(0, 1.73, color=BAND, linewidth=0)  # 95 percent of the sizes of complex normal errors
     top.set_yscale("log")
-    top.set_ylabel(f"Amplitude of {rows[0].signal}", fontsize=TEXT)
+    top.set_ylim(bottom=0.1 * least)  # a decade below the smallest noise there is nothing to see
+    unit = records[0].measured.units[0]
+    top.set_ylabel(f"Amplitude of {rows[0].signal} ({unit if unit != '1' else '-'})", fontsize=TEXT)
     low.set_ylabel("Left over (s.d.)", fontsize=TEXT)
     low.set_xlabel("Frequency (Hz)", fontsize=TEXT)
     for axes in (top, low):
         quiet(axes)
         frequency_axis(axes, rows[0].frequency * 0.9, rows[-1].frequency * 1.1)
     top.set_title(title, fontsize=TEXT)
-    legend_above(figure, handles, labels)
+    top.legend(
+        handles,
+        labels,
+        title="Harmonic",
+        fontsize=SMALL,
+        title_fontsize=SMALL,
+        loc="center left",
+        bbox_to_anchor=(1, 0.5),
+    )
     return figure
 
 
@@ -100,7 +111,7 @@ def fit_parameters_figure(fit: Fit) -> Figure:
         low, high = _range(estimate)
         share = [(v - low) / (high - low) for v in (estimate.value, *estimate.interval, estimate.start)]
         axes.plot([0, 1], [row, row], color=BAND, linewidth=5, solid_capstyle="butt")
-        axes.plot(np.clip(share[1:3], 0, 1), [row, row], color=COLOURS[0], linewidth=2.2)
+        axes.plot(np.clip(share[1:3], 0, 1), [row, row], color=COLOURS[0], linewidth=2.2, solid_capstyle="butt")
         axes.plot(share[0], row, color=COLOURS[0], marker="o", markersize=5)
         axes.plot(np.clip(share[3], 0, 1), row, color=LIMIT, marker="|", markersize=9)
     axes.set_yticks(range(len(fit.estimates)), [e.name for e in fit.estimates], fontsize=SMALL)
