@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 import numpy as np
+from scipy import stats
 
 from pysim.identify.greybox import Effort, Parameter, fit, problem
 from pysim.types import Fit, FitOutcome, MeasuredRecord, Model, Record
@@ -12,7 +13,7 @@ from validation.findings import Finding
 from validation.pump import pump_model
 from validation.virtual_pump import NOISE, measured, noise_free
 
-DRAWS = 60
+DRAWS = 100
 # The plant of Table 4.6 with its leakage away from the bound, where an interval is two-sided.
 TRUTH = {"K_L": 2e-7}
 # A_p and K_D are held: with the one there is the null direction, with the other the near tie of K_p, K_D and omega_v.
@@ -35,12 +36,16 @@ def run() -> Iterator[Finding]:
             single[e.name] += hit
             inside, total = inside + hit, total + 1
         far.append(_held_out_error(found, clean))
+        print(f"draw {draw + 1} of {DRAWS}: {inside} of {total} intervals hold the truth", flush=True)
     share = 100 * inside / total
     print(", ".join(f"{name} {100 * hits / DRAWS:.0f} %" for name, hits in single.items()))
-    yield Finding(f"{total} intervals hold the truth in {share:.1f} percent; off 95 by", abs(share - 95), 2, "%")
+    low, high = (100 * v for v in stats.binomtest(inside, total).proportion_ci(0.95))
+    title = f"{total} intervals hold the truth in {share:.1f} percent ({low:.1f} to {high:.1f}); off 95 by"
+    yield Finding(title, abs(share - 95), 2, "%")
     yield Finding("fits that did not converge", float(stopped), 0, "")
-    # fewer than 49 of 60 happen once in 5000 times where 95 percent is true
-    yield Finding("fewest hits of a parameter, missing to 49 of 60", float(max(0, 49 - min(single.values()))), 0, "")
+    fewest = int(stats.binom.ppf(5e-4, DRAWS, 0.95))  # fewer happen less than once in 2000 times where 95 % is true
+    missing = float(max(0, fewest - min(single.values())))
+    yield Finding(f"fewest hits of a parameter, missing to {fewest} of {DRAWS}", missing, 0, "")
     yield Finding("error against the noise-free held-out wave over the noise, median", float(np.median(far)), 0.1, "")
 
 
