@@ -17,7 +17,7 @@ from pysim.diagnose.residuals import Ruler, rulers
 from pysim.diagnose.screen import Footprint, first_point, screen
 from pysim.diagnose.subject import Extended, Subject, extended
 from pysim.identify.greybox.evaluation import Evaluation
-from pysim.identify.greybox.uncertainty import uncertainty, untold
+from pysim.identify.greybox.uncertainty import Uncertainty, uncertainty, untold
 from pysim.types import BadInput, Effect, Estimate
 from pysim.types.diagnosis import NONE, UNKNOWN, AddedEffect, Candidate, Diagnosis, Failure, LedgerStep
 
@@ -290,10 +290,12 @@ def _own_values(fitted: Fitted, effect: Effect) -> dict[str, float]:
 def _answer(story: _Story, base: Fitted, final: Fitted) -> Diagnosis:
     verdict, reason = _verdict(story, base, final)
     what, point = final.what, final.point
-    short = replace(point, jacobian=np.linalg.qr(point.jacobian, mode="r"))  # the same information in n rows
+    short = replace(
+        point, jacobian=np.asarray(np.linalg.qr(point.jacobian, mode="r"))
+    )  # the same information in n rows
     size = float(np.sqrt(decide.inflation(point)))
     doubt = uncertainty(what.space, short, scale=size, told=not untold(story.subject.notes))
-    estimates = {e.name: e for e in doubt.estimates}
+    estimates = {e.name: e for e in _held(story, final, doubt, short, size).estimates}
     added = tuple(AddedEffect(e, what.places[e.name], _estimates_of(e, what, estimates)) for e in what.effects)
     story.stage("intervals")
     story.say(f"verdict: {verdict}. {reason}")
@@ -309,6 +311,26 @@ def _answer(story: _Story, base: Fitted, final: Fitted) -> Diagnosis:
         story.seconds,
         tuple(story.notes),
     )
+
+
+def _held(story: _Story, final: Fitted, doubt: Uncertainty, point: Evaluation, scale: float) -> Uncertainty:
+    """The doubt of the effects with one parameter of each exactly undetermined direction held where it stands.
+
+    A direction that scales every force leaves no force an interval of its own, though the effect is there for certain.
+    """
+    space, slopes = final.what.space, point.jacobian.copy()
+    held = [
+        next((name for name in story.subject.free if name in d.exponents), None)
+        for d in doubt.known.directions
+        if math.isinf(d.spread)
+    ]
+    names = [name for name in dict.fromkeys(held) if name is not None]
+    if not (names and final.what.effects):
+        return doubt
+    for name in names:
+        slopes[:, space.keys.index(name)] = 0.0
+        story.notes.append(f"intervals of the effects hold {name}, which these data do not determine by itself")
+    return uncertainty(space, replace(point, jacobian=slopes), scale=scale, told=not untold(story.subject.notes))
 
 
 def _estimates_of(effect: Effect, what: Extended, estimates: dict[str, Estimate]) -> tuple[Estimate, ...]:
