@@ -3,18 +3,19 @@ from pathlib import Path
 import pytest
 
 from pysim.cli._progress import ProgressBar, announce_compilation
-from pysim.simulate import _native, is_compiled
+from pysim.simulate import is_compiled
+from pysim.simulate.native import compiled
 
 
 def test_compilation_is_announced_where_there_is_no_machine_code(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr(_native, "cache_folder", lambda purpose: tmp_path / purpose)
+    monkeypatch.setattr(compiled, "cache_folder", lambda purpose: tmp_path / purpose)
     announce_compilation()
     assert "once on this machine" in capsys.readouterr().err
-    compiled = tmp_path / "native" / _native._source_key() / "loop"  # where Numba keeps an index per function
-    compiled.mkdir(parents=True)
-    (compiled / "integrate.nbi").touch()
+    folder = tmp_path / "native" / compiled._source_key() / "loop"  # where Numba keeps an index per function
+    folder.mkdir(parents=True)
+    (folder / "integrate.nbi").touch()
     assert is_compiled()
     announce_compilation()
     assert capsys.readouterr().err == ""
