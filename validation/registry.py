@@ -40,7 +40,7 @@ CASES: Mapping[str, Case] = MappingProxyType(
         "fit-thesis": Case("validation.fit_thesis.case", "the fits of thesis Section 4.4 done again"),
         "fit-coverage": Case("validation.fit_coverage.case", "95 percent intervals hold the truth; held-out error"),
         "sensitivity": Case("validation.sensitivity.case", "exact derivatives of a whole fit against differences"),
-        "blind-plant": Case("validation.blind.proof", "the blind benchmark's plant against an independent one and the FMU"),
+        "blind-plant": Case("validation.blind.proof", "the blind benchmark's plant against another and the FMU"),
         "blind-effects": Case("validation.blind.catalogue", "18 effects: Modelica classes against the blind plant"),
         "slow-tests": Case("validation.slow_tests.case", "the tests that the test command leaves out"),
         "wine": Case("validation.wine.case", "the Windows binary under Wine against the binary of this machine"),

@@ -103,8 +103,8 @@ def _sum_four(
             weight = load(builder.add(weights, eight(loop.index)), ir.DoubleType())
             number = load(builder.add(numbers, eight(loop.index)), long)
             source = builder.add(rows, eight(builder.mul(number, stride)))
-            term = builder.fmul(spread(weight), load(source, four), flags=("contract",))
-            builder.store(builder.fsub(builder.load(total), term, flags=("contract",)), total)
+            term = builder.fmul(spread(weight), load(source, four))
+            builder.store(builder.fsub(builder.load(total), term), total)
         builder.store(builder.load(total), builder.inttoptr(row, four.as_pointer()), align=8)
         return context.get_dummy_value()
 

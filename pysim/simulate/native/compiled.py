@@ -23,11 +23,9 @@ _njit: Any = numba.njit
 _intrinsic: Any = intrinsic
 _config: Any = config
 
-# Of "fast" arithmetic only that a product and a sum are rounded once; NaN has to be seen, and sums keep their order.
-_ARITHMETIC = {"contract"}
-
-# A part of the loop: compiled into whatever calls it, so no wrapper for Python.
-native = _njit(nogil=True, error_model="numpy", fastmath=_ARITHMETIC, no_cpython_wrapper=True, no_cfunc_wrapper=True)
+# A part of the loop: compiled into whatever calls it, so no wrapper for Python. No "fast" arithmetic: NaN has to be
+# seen, and a product and its sum are rounded one after the other, so that every processor gives the same bits.
+native = _njit(nogil=True, error_model="numpy", no_cpython_wrapper=True, no_cfunc_wrapper=True)
 
 
 def _source_key() -> str:
@@ -52,9 +50,7 @@ def entry(function: Callable[..., Any]) -> Callable[..., Any]:
     before = _config.CACHE_DIR
     _config.CACHE_DIR = str(cache_folder("native") / _source_key())
     try:
-        compiled: Callable[..., Any] = _njit(nogil=True, error_model="numpy", fastmath=_ARITHMETIC, cache=True)(
-            function
-        )
+        compiled: Callable[..., Any] = _njit(nogil=True, error_model="numpy", cache=True)(function)
         return compiled
     finally:
         _config.CACHE_DIR = before
