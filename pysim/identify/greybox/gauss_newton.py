@@ -27,8 +27,9 @@ _SPARE = 0.02
 _FINAL = 1.0
 # Such a share ends a search that only has to come near, where the simulation is rough.
 _NEARLY = 4e-3
-# It is a good end where a full step would gain no more than so many times the tolerance.
-_NEAR = 200.0
+# It is a good end where a step inside the radius would gain no more than so many times the tolerance: in the blur, and
+# where a curved valley turns up.
+_NEAR, _LITTLE = 200.0, 10.0
 _BISECTIONS = 20
 
 
@@ -73,7 +74,7 @@ class GaussNewton:
 
     def begin(self, start: Evaluation, bounds: Bounds, squares: bool) -> State:
         """See Optimiser."""
-        return self._examined(State(start, memory={"radius": self.radius, "blind": 0.0}), bounds)
+        return self._examined(State(start, memory={"radius": self.radius, "blind": 0.0, "turned": 0.0}), bounds)
 
     def propose(self, state: State, bounds: Bounds) -> Proposal:
         """See Optimiser."""
@@ -102,14 +103,27 @@ class GaussNewton:
         state = replace(state, tried=state.tried + 1, memory={**state.memory, "radius": radius})
         if ratio > 1e-4:
             return self._examined(replace(state, best=trial), bounds)
+        turned = trial.good and _turned(trial, proposal.x - state.best.x)
+        if turned:
+            state = replace(state, memory={**state.memory, "turned": 1.0})
+        if turned and self._bends(state, bounds):
+            bent = "the sum of squares rises again beyond the last step, and within it no more is to be gained"
+            return _ended(state, FitOutcome.CONVERGED, bent)
         if radius < 1e-9:
             return _ended(state, FitOutcome.STALLED, trial.trouble or f"the last step was {length:.1g} long")
         return self._counted(state)
 
+    def _bends(self, state: State, bounds: Bounds) -> bool:
+        """Whether what is promised up to where the straight line was seen to fail is next to nothing."""
+        step = _Step.at(state.best, bounds)
+        return step.predicted(step.within(state.memory["radius"])) < _LITTLE * self._small(state.best)
+
     def _lost(self, state: State, bounds: Bounds) -> State:
         """The end where the slope promises something that cannot be seen any more."""
-        gain = _Step.at(state.best, bounds).full_gain
-        if gain < _NEAR * self._small(state.best):
+        step = _Step.at(state.best, bounds)
+        gain = step.full_gain
+        radius = state.memory["radius"] if state.memory.get("turned") else math.inf
+        if step.predicted(step.within(radius)) < _NEAR * self._small(state.best):
             return _ended(state, FitOutcome.CONVERGED, "to within the rounding of the simulation")
         promised = f"a full step promises {2 * gain:.3g} off the sum of squares, and short ones gain nothing"
         return _ended(state, FitOutcome.STALLED, promised)
@@ -128,6 +142,11 @@ class GaussNewton:
         if state.tried < self.max_iterations:
             return state
         return _ended(state, FitOutcome.ITERATION_LIMIT, f"{state.tried} points were tried")
+
+
+def _turned(there: Evaluation, way: Array) -> bool:
+    """Whether the cost rises at a point that was too far, on along the way (n,) to it: so its least lies before."""
+    return float(there.residual @ (there.jacobian @ way)) > 0
 
 
 def _best_share(here: Evaluation, there: Evaluation, x: Array) -> float:
