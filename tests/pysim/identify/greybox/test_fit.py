@@ -169,6 +169,18 @@ def test_the_nominal_start_is_tried_too(lag: Model) -> None:
     assert drawn.cost == pytest.approx(found.cost, rel=1e-4)
 
 
+def test_only_the_best_of_rough_searches_is_polished(lag: Model) -> None:
+    tried: list[Tried] = []
+    data = [m.dataset([m.ramp_log(2.0, 0.7, seed=2), m.sine_log(2.0, 0.7, 0.5, seed=1)])]
+    task = problem(lag, data, [Parameter("K", start=9.0), "T"])
+    found = fit(task, progress=tried.append)
+    rough = {name: [one.last for one in tried if one.search == name] for name in ("given", "nominal")}
+    polished = {one.search for one in tried} - set(rough)
+    assert polished == {f"{min(rough, key=lambda name: min(rough[name]))}-polished"}
+    assert sum(one.search in polished for one in tried) <= 4
+    assert found.cost <= min(map(min, rough.values())) * (1 + 1e-4)
+
+
 def test_a_killed_fit_resumes_bit_for_bit(lag: Model, tmp_path: Path) -> None:
     class Killed(Exception):
         pass

@@ -73,6 +73,16 @@ def test_it_says_when_the_limit_of_points_is_reached() -> None:
     assert (state.outcome, state.tried) == (FitOutcome.ITERATION_LIMIT, 3)
 
 
+def test_a_valley_that_bends_has_an_end() -> None:
+    """1000 (1 + 0.01 x^2)^2 is least at zero; along straight lines of the residuals the gain seems 500 everywhere."""
+    noise = np.where(np.arange(1000) % 2, 1.0, -1.0)
+    evaluate = evaluating(lambda x: noise * (1 + 0.01 * x[0] ** 2), lambda x: 0.02 * x[0] * noise[:, None])
+    s = space([3.0])
+    state = search(evaluate, GaussNewton(), s, s.start, squares=True)
+    assert state.outcome is FitOutcome.CONVERGED, state.message
+    assert state.best.x == pytest.approx([0.0], abs=0.1)
+
+
 def test_a_slope_that_lies_ends_in_a_stall() -> None:
     s = space([1.0])
     evaluate = evaluating(lambda x: 10 * x * np.ones(1000), lambda x: -10 * np.ones((1000, 1)))
