@@ -44,9 +44,11 @@ def run() -> Iterator[Finding]:
     """Both models, both objectives, from the thesis' values."""
     with tempfile.TemporaryDirectory() as folder:
         dataset = read_dataset(write_dataset(Path(folder)))
-    done = [redo(label, objective, dataset) for label in ("free", "locked") for objective in (FREQUENCY, NOISE)]
-    for one in done:
-        print(one)
+    done = []
+    for label, objective in ((label, objective) for objective in (NOISE, FREQUENCY) for label in ("free", "locked")):
+        one = redo(label, objective, dataset)
+        done.append(one)
+        print(one, flush=True)
         yield Finding(
             f"{one.label}, {one.objective}: cost over that of the thesis' values", one.fit.cost / one.thesis_cost, 1, ""
         )
