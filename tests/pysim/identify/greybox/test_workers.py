@@ -1,6 +1,7 @@
 """Wherever the runs go, the fit is the same; what a worker loses is a bad point."""
 
 from concurrent.futures import Future
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -8,8 +9,12 @@ import pytest
 
 from pysim.identify.greybox import NOISE, Cluster, Parameter, Processes, Simulation, Threads, problem
 from pysim.identify.greybox.evaluation import evaluator
-from pysim.types import Model
+from pysim.identify.greybox.workers import Job, Lost
+from pysim.io import read_model
+from pysim.simulate import Esdirk
+from pysim.types import Experiment, Model, Outcome
 from tests.pysim.identify.greybox import measurements as m
+from tests.pysim.simulate import fixture_fmus
 
 
 class Client:
@@ -62,3 +67,32 @@ def test_processes_give_the_same_numbers(lag: Model) -> None:
     expected = evaluator(this, NOISE, Simulation())(x, ())
     found = evaluator(this, NOISE, Simulation(workers=Processes(2)))(x, ())
     assert np.array_equal(found.residual, expected.residual)
+
+
+@pytest.mark.slow
+def test_an_fmu_that_crashes_ends_its_worker_and_not_the_run(tmp_path: Path) -> None:
+    model = read_model(fixture_fmus.build(fixture_fmus.FRAGILE, 2, tmp_path))
+    times = np.linspace(0.0, 3.0, 7)  # its state passes zero at 2 s, where manner 3 ends the process
+    crash, fine = (Experiment(times[:n], ("x",), overrides={"manner": manner}) for n, manner in ((7, 3.0), (3, 0.0)))
+    jobs = [Job(i, run, ("manner",), np.ones((1, 1))) for i, run in enumerate((fine, crash, fine))]
+    first, lost, last = Processes(2).run(model, jobs, Esdirk())
+    assert isinstance(lost, Lost)
+    assert "crashed" in lost.message
+    for result in (first, last):
+        assert result.record.outcome is Outcome.DONE
+        assert result.record["x"] == pytest.approx((1 - times[:3] / 2) ** 2, abs=3e-3)
+
+
+@pytest.mark.slow
+def test_a_dask_cluster_gives_the_same_numbers(lag: Model) -> None:
+    distributed = pytest.importorskip("distributed")
+    this = task(lag)
+    x = this.space.to_search(this.space.start)
+    expected = evaluator(this, NOISE, Simulation())(x, ())
+    with (
+        distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster,
+        distributed.Client(cluster) as client,
+    ):
+        found = evaluator(this, NOISE, Simulation(workers=Cluster(client, chunks=2)))(x, ())
+    assert np.array_equal(found.residual, expected.residual)
+    assert np.array_equal(found.jacobian, expected.jacobian)
