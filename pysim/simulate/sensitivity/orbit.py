@@ -21,7 +21,7 @@ from pysim.types import Experiment, Outcome, Record
 
 Array = NDArray[np.float64]
 
-_SETTLING = 2  # periods from the model's own start that make a guess
+_SETTLING = 4  # periods from the model's own start that make a guess; half as many cost the pump three times the time
 _FORGOTTEN = 10.0  # mismatches: two periods of an orbit may end that far apart
 _TIGHT = 1e-8  # tolerance of orbits between which a difference is taken
 _TIGHT_MISMATCH = 1e-5
