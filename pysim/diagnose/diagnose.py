@@ -348,7 +348,8 @@ def _verdict(story: _Story, base: Fitted, final: Fitted) -> tuple[str, str]:
             return NONE, f"the refitted base model explains the data to {left:.3f} times the noise's variance"
         return UNKNOWN, f"{left:.3g} times the noise's variance is left, and no effect takes a fair share of it"
     if complete:
-        return names[0], f"{' and '.join(names)} explain {100 * share:.1f} % of what the base model leaves over noise"
+        verb = "explains" if len(names) == 1 else "explain"
+        return names[0], f"{' and '.join(names)} {verb} {100 * share:.1f} % of what the base model leaves over noise"
     return (
         UNKNOWN,
         f"{' and '.join(names)} help, but {left:.3g} times the noise's variance is left; something else is missing",
