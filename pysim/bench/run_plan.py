@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 
 from pysim.bench.bench_tests import Run
 from pysim.bench.plan import Plan
-from pysim.bench.sensor import Sensor
 from pysim.bench.truth import Truth
 from pysim.excitation import Multisine
 from pysim.simulate import Rodas, Solver, simulate_many
@@ -70,7 +69,7 @@ def run_plan(
     if seed < 0:
         raise BadInput(f"bench: the seed is {seed}; give zero or more")
     for sensor in plan.sensors:
-        _check_signal(model, sensor)
+        model.measured(sensor.signal, "the plan")
     jobs = [_job(model, plan, run, seed, parameters or {}) for run in plan.runs()]
     records = simulate_many(model, [job.experiment for job in jobs], solver=solver, workers=workers, progress=progress)
     for job, record in zip(jobs, records, strict=True):
@@ -108,18 +107,6 @@ def _exact(dataset: Dataset) -> Dataset:
     return replace(dataset, signals=tuple(replace(s, noise=None, resolution=None) for s in dataset.signals))
 
 
-def _check_signal(model: Model, sensor: Sensor) -> None:
-    signal = sensor.signal
-    variable = model[signal.variable]
-    if signal.role == "input" and variable.causality != "input":
-        raise BadInput(f"{model.path.name}: {variable.name} is no input but a {variable.causality}; name the command")
-    if variable.unit != signal.unit:
-        raise BadInput(
-            f"signal {signal.name!r} of the plan is in {signal.unit!r}, {variable.name} of {model.path.name} in "
-            f"{variable.unit!r}; give both the same unit"
-        )
-
-
 def _job(model: Model, plan: Plan, run: Run, seed: int, parameters: Mapping[str, float]) -> _Job:
     command = run.command.signal()
     _refuse_folding(run, plan.logger.rate(len(run.outputs)))
@@ -129,13 +116,13 @@ def _job(model: Model, plan: Plan, run: Run, seed: int, parameters: Mapping[str,
         raise BadInput(f"{run.source}: the test is shorter than a sampling interval; lengthen it, or log faster")
     sensors = [plan.sensor(name) for name in run.outputs]
     variable = plan.sensor(run.input).signal.variable
-    names = {v.name for v in model.variables if v.causality == "input"}
+    rate = model.rate_input(variable)
     experiment = Experiment(
         np.unique(np.concatenate([instants, *(sensor.sampled_at(instants) for sensor in sensors)])),
         record=tuple(dict.fromkeys(sensor.signal.variable for sensor in sensors)),
         inputs={name: Signal.constant(value) for name, value in plan.inputs.items()} | {variable: command},
         overrides=parameters,
-        rates={f"{variable}_t": variable} if f"{variable}_t" in names - plan.inputs.keys() else {},
+        rates={} if rate is None or rate in plan.inputs else {rate: variable},
     )
     return _Job(run, instants, command, experiment)
 

@@ -47,9 +47,3 @@ def _signal(text: str, value: str) -> Signal:
     if not math.isfinite(number):
         raise BadInput(f"--input {text}: {value} is not finite; write a number in the input's unit")
     return Signal.constant(number)
-
-
-def rate_inputs(model: Model, inputs: dict[str, Signal]) -> dict[str, str]:
-    """Inputs that want the rate of a driven one, by the naming of thesis Appendix F (u, u_t), unless driven too."""
-    names = {variable.name for variable in model.variables if variable.causality == "input"}
-    return {f"{name}_t": name for name in inputs if f"{name}_t" in names and f"{name}_t" not in inputs}

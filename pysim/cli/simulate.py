@@ -62,7 +62,7 @@ def run(args: argparse.Namespace) -> int:
 def _experiment(args: argparse.Namespace, model: Model) -> Experiment:
     import numpy as np
 
-    from pysim.cli._inputs import rate_inputs, read_inputs
+    from pysim.cli._inputs import read_inputs
     from pysim.cli._options import read_parameters
     from pysim.types import BadInput, Experiment
 
@@ -77,7 +77,7 @@ def _experiment(args: argparse.Namespace, model: Model) -> Experiment:
     times = np.append(np.arange(0.0, stop - step / 2, step), stop)
     inputs = read_inputs(args, model)
     recorded = _recorded(model, args.record)
-    return Experiment(times, recorded, inputs, read_parameters(args, model), rates=rate_inputs(model, inputs))
+    return Experiment(times, recorded, inputs, read_parameters(args, model), rates=model.rate_inputs(inputs))
 
 
 def _recorded(model: Model, names: list[str]) -> tuple[str, ...]:

@@ -13,7 +13,6 @@ from pysim.identify import (
     frequency_deviations,
     frequency_response,
     magnitude_db,
-    rate_input,
     run_until_settled,
     stepped_sine,
 )
@@ -86,7 +85,7 @@ def compare(
     tests = [_model_test(model, dataset, response.test) for response in responses]
 
     def make(test: SineTest, frequency: float, plan: SteppedSine) -> Experiment:
-        rate = rate_input(model, test.input)
+        rate = model.rate_input(test.input)
         return stepped_sine(test, frequency, plan=plan, rate_input=rate, overrides=overrides)
 
     def run(experiments: Sequence[Experiment]) -> Sequence[Record]:
@@ -120,20 +119,8 @@ def _note(dataset: Dataset) -> str:
 
 def _model_test(model: Model, dataset: Dataset, test: SineTest) -> SineTest:
     """The measured test in the model's names, once the units are known to agree."""
-    names = []
-    for column, causality in ((test.input, "input"), (test.output, None)):
-        signal = dataset.signal(column)
-        variable = model[signal.variable]
-        if causality is not None and variable.causality != causality:
-            raise BadInput(
-                f"{model.path.name}: {variable.name} is no input but a {variable.causality}; name the command"
-            )
-        if variable.unit != signal.unit:
-            raise BadInput(
-                f"signal {column!r} of data set {dataset.name!r} is in {signal.unit!r}, {variable.name} of "
-                f"{model.path.name} in {variable.unit!r}; give both the same unit"
-            )
-        names.append(variable.name)
+    signals = (dataset.signal(test.input), dataset.signal(test.output))
+    names = [model.measured(signal, f"data set {dataset.name!r}").name for signal in signals]
     return replace(test, input=names[0], output=names[1])
 
 

@@ -17,7 +17,6 @@ from pysim.identify.frequency_response import (
 )
 from pysim.identify.frf import MeasuredResponse, SinePoint, Window, measured_responses, sine_point
 from pysim.identify.logged import LoggedWave, logged_command, logged_wave
-from pysim.identify.rate_input import rate_input
 from pysim.identify.settling import SteadyRun, run_until_settled
 from pysim.identify.sine_fit import SineFit, sine_fit
 from pysim.identify.stepped_sine import SteppedSine, command, stepped_sine
@@ -44,7 +43,6 @@ __all__ = [
     "max_deviation",
     "mean_deviation",
     "measured_responses",
-    "rate_input",
     "response_difference",
     "run_until_settled",
     "sine_fit",

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import difflib
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 
+from pysim.types.dataset import MeasuredSignal
 from pysim.types.errors import BadInput
 
 
@@ -70,3 +72,34 @@ class Model:
         near = difflib.get_close_matches(name, list(self._by_name), n=3)
         hint = f"; near it: {', '.join(near)}" if near else ""
         raise BadInput(f"{self.path.name} has no variable {name!r}{hint}")
+
+    def rate_input(self, command: str) -> str | None:
+        """The input that wants the command's derivative, by the naming of thesis Appendix F (u, u_t, u_tt)."""
+        variable = self._by_name.get(f"{command}_t")
+        return variable.name if variable is not None and variable.causality == "input" else None
+
+    def rate_inputs(self, commands: Iterable[str]) -> dict[str, str]:
+        """Inputs that take the exact rate of a driven one; input -> command. None where it is driven itself."""
+        driven = tuple(commands)
+        pairs = ((self.rate_input(name), name) for name in driven)
+        return {rate: name for rate, name in pairs if rate is not None and rate not in driven}
+
+    def measured(self, signal: MeasuredSignal, source: str) -> Variable:
+        """The variable that a signal shows.
+
+        Args:
+            source: where the signal is written, for an error: "data set 'x'" or "the plan".
+        Raises:
+            BadInput: no such variable, a command that is no input of the model, or units that differ.
+        """
+        variable = self[signal.variable]
+        if signal.role == "input" and variable.causality != "input":
+            raise BadInput(
+                f"{self.path.name}: {variable.name} is no input but of causality {variable.causality}; name the command"
+            )
+        if variable.unit != signal.unit:
+            raise BadInput(
+                f"signal {signal.name!r} of {source} is in {signal.unit!r}, {variable.name} of {self.path.name} in "
+                f"{variable.unit!r}; give both the same unit"
+            )
+        return variable

@@ -18,7 +18,6 @@ from pysim.identify.greybox.sine_target import SineTarget
 from pysim.identify.greybox.table_target import TableTarget
 from pysim.identify.greybox.target import Run, Target
 from pysim.identify.logged import logged_command, logged_wave
-from pysim.identify.rate_input import rate_input
 from pysim.simulate import Periodic
 from pysim.types import (
     BadInput,
@@ -61,38 +60,14 @@ class _Setting:
 
     def variable(self, column: str) -> str:
         """The model's name of a column, once both have the same unit."""
-        return checked_variable(self.model, self.dataset, column)
+        return self.model.measured(self.dataset.signal(column), f"data set {self.dataset.name!r}").name
 
     def experiment(
         self, times: Array, outputs: tuple[str, ...], commands: Mapping[str, Signal], start: float
     ) -> Experiment:
         """A run of the model, everything by the model's names."""
         names = tuple(self.variable(column) for column in outputs)
-        return Experiment(times, names, commands, self.overrides, start, rates=rates(self.model, commands))
-
-
-def rates(model: Model, commands: Mapping[str, Signal]) -> dict[str, str]:
-    """Inputs that take the exact rate of a driven one."""
-    pairs = ((rate_input(model, name), name) for name in commands)
-    return {rate: name for rate, name in pairs if rate is not None and rate not in commands}
-
-
-def checked_variable(model: Model, dataset: Dataset, column: str) -> str:
-    """The model's variable behind a column.
-
-    Raises:
-        BadInput: there is none, a command that is no input of the model, or units that differ.
-    """
-    signal = dataset.signal(column)
-    variable = model[signal.variable]
-    if signal.role == "input" and variable.causality != "input":
-        raise BadInput(f"{model.path.name}: {variable.name} is no input but a {variable.causality}; name the command")
-    if variable.unit != signal.unit:
-        raise BadInput(
-            f"signal {column!r} of data set {dataset.name!r} is in {signal.unit!r}, {variable.name} of "
-            f"{model.path.name} in {variable.unit!r}; give both the same unit"
-        )
-    return variable.name
+        return Experiment(times, names, commands, self.overrides, start, rates=self.model.rate_inputs(commands))
 
 
 def build_targets(model: Model, data: Measurements, treatment: Treatment) -> tuple[list[Target], list[str]]:
@@ -248,6 +223,6 @@ def _steady_run(
         record=transient.record,
         inputs=commands,
         overrides=setting.overrides,
-        rates=rates(setting.model, commands),
+        rates=setting.model.rate_inputs(commands),
     )
     return Run(source, transient, orbit)

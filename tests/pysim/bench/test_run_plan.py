@@ -133,7 +133,7 @@ def test_refusals(oscillator: Model, plan: Plan) -> None:
     with pytest.raises(BadInput, match=r"'position' of the plan is in 'rad', x of .* in 'm'"):
         run_plan(oscillator, replace(plan, sensors=(plan.sensors[0], wrong, plan.sensors[2])), 1)
     wrong = replace(plan.sensors[0], signal=replace(plan.sensors[0].signal, variable="x"))
-    with pytest.raises(BadInput, match="x is no input but a local"):
+    with pytest.raises(BadInput, match="x is no input but of causality local"):
         run_plan(oscillator, replace(plan, sensors=(wrong, *plan.sensors[1:])), 1)
     slow = replace(plan.logger, rates=((1, 3.0),))
     with pytest.raises(BadInput, match=r"2Hz\.txt: its 2 Hz are above half the sampling rate, 3 Hz"):
