@@ -4,7 +4,7 @@ from pysim.types.best_linear_approximation import BestLinearApproximation, Disto
 from pysim.types.comparison import Comparison, ResponseComparison
 from pysim.types.criterion import Criterion, Deviation
 from pysim.types.dataset import Dataset, MeasuredRecord, MeasuredSignal
-from pysim.types.diagnosis import AddedEffect, Candidate, Diagnosis, Failure, LedgerStep
+from pysim.types.diagnosis import AddedEffect, Candidate, Diagnosis, Failure, LedgerStep, Missing, NextTest, Shape
 from pysim.types.effect import Effect, EffectParameter
 from pysim.types.errors import BadInput
 from pysim.types.experiment import Experiment
@@ -52,13 +52,16 @@ __all__ = [
     "Level",
     "MeasuredRecord",
     "MeasuredSignal",
+    "Missing",
     "Model",
     "MultisineTest",
+    "NextTest",
     "Outcome",
     "Record",
     "RecordFit",
     "ResponseComparison",
     "ResponseFit",
+    "Shape",
     "Signal",
     "SimulationError",
     "SineTest",

@@ -5,10 +5,15 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+import numpy as np
+from numpy.typing import NDArray
+
 from pysim.types._frozen import FrozenMapping
 from pysim.types.effect import Effect
 from pysim.types.errors import BadInput
 from pysim.types.fit import Estimate
+
+Array = NDArray[np.float64]
 
 NONE, UNKNOWN = "none", "unknown"
 
@@ -93,6 +98,61 @@ class Failure:
 
 
 @dataclass(frozen=True)
+class Shape:
+    """A missing term tabulated over what it depends on.
+
+    Args:
+        argument: (n,) increasing, in `argument_unit`.
+        value: (n,) of the term there, in `unit`.
+        low, high: (n,) its 95 percent band.
+        argument_unit, unit: SI, or as the model counts.
+    """
+
+    argument: Array
+    value: Array
+    low: Array
+    high: Array
+    argument_unit: str
+    unit: str
+
+
+@dataclass(frozen=True)
+class Missing:
+    """What a place of the model would need to close the gap, estimated without naming an effect.
+
+    Args:
+        slot: replaceable part, state equation, input or output that was probed.
+        share: of the avoidable misfit that the best term there takes, 0 ... 1.
+        depends_on: variable over which the term is best described; "time" where none describes it.
+        shape: of the term over that variable.
+        formula: a short expression for it, "" where none fits.
+    """
+
+    slot: str
+    share: float
+    depends_on: str
+    shape: Shape
+    formula: str = ""
+
+
+@dataclass(frozen=True)
+class NextTest:
+    """The experiment that would separate two leading answers best.
+
+    Args:
+        separates: the two.
+        gain: difference of their sums of squares over noise that is expected once it is run and both are refitted.
+        about: what to run and what to log, in a sentence.
+        plan: text of a test plan that `pysim bench` can run.
+    """
+
+    separates: tuple[str, str]
+    gain: float
+    about: str
+    plan: str
+
+
+@dataclass(frozen=True)
 class Diagnosis:
     """The whole answer.
 
@@ -107,6 +167,8 @@ class Diagnosis:
         where: where the base model fails, worst first.
         seconds: wall time by stage.
         notes: what a reader must know: what could not be tried, noise that had to be estimated.
+        missing: per probed place, the largest share first; empty where nothing was probed.
+        next_test: where two answers are left that another experiment would tell apart.
     """
 
     verdict: str
@@ -119,6 +181,8 @@ class Diagnosis:
     where: tuple[Failure, ...]
     seconds: Mapping[str, float]
     notes: tuple[str, ...] = ()
+    missing: tuple[Missing, ...] = ()
+    next_test: NextTest | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "seconds", FrozenMapping(self.seconds))
