@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pysim.diagnose import decide
+from pysim.diagnose.fitted import Fitted
 from pysim.diagnose.ledger import beside, failures, ledger_step
 from pysim.diagnose.refit import chord_refit, refit
 from pysim.diagnose.residuals import Ruler, rulers
@@ -30,14 +31,6 @@ MOST = 3
 _PROBATION, _PROMISE = 7, 0.02
 # Candidates whose slopes are run again at every step.
 _FINAL = 3
-
-
-@dataclass(frozen=True)
-class Fitted:
-    """A model of the story at its best point."""
-
-    what: Extended
-    point: Evaluation
 
 
 @dataclass

@@ -1,0 +1,21 @@
+"""A model of the story at its best point."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from pysim.diagnose.subject import Extended
+from pysim.identify.greybox.evaluation import Evaluation
+
+
+@dataclass(frozen=True)
+class Fitted:
+    """A model with or without effects, refitted.
+
+    Args:
+        what: the model and its free numbers.
+        point: the best one found, with residuals (n_r,) and slopes (n_r, n).
+    """
+
+    what: Extended
+    point: Evaluation
