@@ -25,6 +25,7 @@ class Subject:
         catalogue: effects to consider.
         build_variant: makes models with effects; None where the model's source is not at hand.
         notes: what was assumed.
+        dataset: the measurements as they were read.
     """
 
     model: Model
@@ -33,6 +34,7 @@ class Subject:
     catalogue: tuple[Effect, ...]
     build_variant: BuildVariant | None
     notes: tuple[str, ...] = ()
+    dataset: Dataset | None = field(default=None, repr=False)
 
 
 @dataclass(frozen=True)
@@ -79,7 +81,7 @@ def subject(
     names = tuple(free) or identifiable(model)
     data = Measurements(dataset, overrides=overrides or {})
     checked = problem(model, [data], names, treatment=Treatment(steady="transient"))
-    return Subject(model, checked.targets, names, tuple(catalogue), build_variant, (*notes, *checked.notes))
+    return Subject(model, checked.targets, names, tuple(catalogue), build_variant, (*notes, *checked.notes), dataset)
 
 
 def identifiable(model: Model) -> tuple[str, ...]:
