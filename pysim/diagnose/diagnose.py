@@ -19,11 +19,11 @@ from pysim.diagnose.screen import Footprint, first_point, screen
 from pysim.diagnose.subject import Extended, Subject, extended
 from pysim.identify.greybox.evaluation import Evaluation
 from pysim.identify.greybox.uncertainty import Uncertainty, uncertainty, untold
-from pysim.types import BadInput, Effect, Estimate
+from pysim.types import BadInput, Effect, Estimate, Stage, Told
 from pysim.types.diagnosis import NONE, UNKNOWN, AddedEffect, Candidate, Diagnosis, Failure, LedgerStep
 
 Array = NDArray[np.float64]
-Say = Callable[[str], None]
+Say = Callable[[Told], None]
 
 # Effects that may be added one after the other.
 MOST = 3
@@ -38,7 +38,7 @@ class _Story:
     """What the steps write down as they go; it stays within this module."""
 
     subject: Subject
-    say: Say
+    tell: Say
     seed: int
     ruler: Ruler
     held: Ruler | None
@@ -48,7 +48,16 @@ class _Story:
     ranking: list[Candidate] = field(default_factory=list)
     ties: list[tuple[str, ...]] = field(default_factory=list)
     where: tuple[Failure, ...] = ()
+    stages: list[Stage] = field(default_factory=list)
+    doing: str = ""
     begun: float = field(default_factory=time.monotonic)
+
+    def now(self, doing: str) -> None:
+        self.doing = doing
+        self.tell(Told(doing))
+
+    def say(self, text: str, step: LedgerStep | None = None) -> None:
+        self.tell(Told(self.doing, text, step))
 
     def stage(self, name: str) -> None:
         now = time.monotonic()
@@ -61,10 +70,12 @@ class _Story:
             self.where = failures(found)
         step = ledger_step(name, found, at.point.cost)
         self.ledger.append(step)
+        estimates = () if name == "prior" else _doubt(self, at)[0].estimates
+        self.stages.append(Stage(name, estimates, found.records, found.responses))
         self.notes += [note for note in found.notes if note not in self.notes]
         held = "" if step.validate is None else f", held out {step.validate:.3f}"
-        if step.fit is not None:
-            self.say(f"{name}: residual over noise {step.fit:.3f}{held}; sum of squares {step.cost:.6g}")
+        fitted = "" if step.fit is None else f" {step.fit:.3f}{held};"
+        self.say(f"{name}: residual over noise{fitted} sum of squares {step.cost:.6g}", step)
         self.stage("ledger")
         return step
 
@@ -79,12 +90,12 @@ def diagnose(
         seed: of the bootstrap; the same seed gives the same answer.
         most: effects that may be added one after the other.
         workers: runs at a time; all cores where None. The answer does not depend on it.
-        progress: told a line per step.
+        progress: told what is being done and what was learned.
     Raises:
         BadInput: the base model cannot be simulated at its own parameters.
     """
     ruler, held = rulers(subject.targets, workers)
-    story = _Story(subject, progress or (lambda line: None), seed, ruler, held, notes=list(subject.notes))
+    story = _Story(subject, progress or (lambda told: None), seed, ruler, held, notes=list(subject.notes))
     nominal, base = _base(story)
     current = base
     added: list[Effect] = []
@@ -103,12 +114,14 @@ def diagnose(
 def _base(story: _Story) -> tuple[Fitted, Fitted]:
     """The base model as it is, and refitted."""
     what = extended(story.subject, ())
+    story.now("comparing the model as it is")
     first = story.ruler.evaluation(what, what.space.to_search(what.space.start))
     if not first.good:
         raise BadInput(f"{what.model.path.name} cannot be simulated through the tests at its own parameters")
     nominal = Fitted(what, first)
     story.stage("compare")
     story.enter("prior", nominal)
+    story.now("refitting the model")
     best = refit(story.ruler, what, first.x, rounds=5)
     story.stage("refit")
     base = Fitted(what, best)
@@ -121,8 +134,10 @@ def _next_effect(story: _Story, current: Fitted, nominal: Fitted | None) -> tupl
     if story.subject.build_variant is None:
         story.notes.append("the model's Modelica class is not at hand, so no effect of the catalogue could be tried")
         return None
+    story.now(f"compiling {len(story.subject.catalogue)} candidates")
     candidates = _candidates(story, current)
     story.stage("build")
+    story.now(f"screening {len(candidates)} candidates")
     footprints = screen(story.ruler, current.what, current.point, candidates)
     chance = decide.chance(footprints, scale=1.0, seed=story.seed)
     story.stage("screen")
@@ -188,6 +203,7 @@ def _refitted(
         others = _per_effect(screen(story.ruler, nominal.what, nominal.point, candidates))
         chosen += [(nominal, f) for f in _promising(others)]
         story.stage("screen")
+    story.now("refitting the promising candidates")
     tried: dict[str, Fitted] = {}
     for at, footprint in chosen:
         name = footprint.effect.name
@@ -282,12 +298,8 @@ def _own_values(fitted: Fitted, effect: Effect) -> dict[str, float]:
 
 def _answer(story: _Story, base: Fitted, final: Fitted) -> Diagnosis:
     verdict, reason = _verdict(story, base, final)
-    what, point = final.what, final.point
-    short = replace(
-        point, jacobian=np.asarray(np.linalg.qr(point.jacobian, mode="r"))
-    )  # the same information in n rows
-    size = float(np.sqrt(decide.inflation(point)))
-    doubt = uncertainty(what.space, short, scale=size, told=not untold(story.subject.notes))
+    what = final.what
+    doubt, short, size = _doubt(story, final)
     estimates = {e.name: e for e in _held(story, final, doubt, short, size).estimates}
     added = tuple(AddedEffect(e, what.places[e.name], _estimates_of(e, what, estimates)) for e in what.effects)
     story.stage("intervals")
@@ -303,7 +315,16 @@ def _answer(story: _Story, base: Fitted, final: Fitted) -> Diagnosis:
         story.where,
         story.seconds,
         tuple(story.notes),
+        stages=tuple(story.stages),
     )
+
+
+def _doubt(story: _Story, fitted: Fitted) -> tuple[Uncertainty, Evaluation, float]:
+    """Intervals of a fitted model, its point with the same information in n rows, and what the noise is widened by."""
+    point = fitted.point
+    short = replace(point, jacobian=np.asarray(np.linalg.qr(point.jacobian, mode="r")))
+    size = float(np.sqrt(decide.inflation(point)))
+    return uncertainty(fitted.what.space, short, scale=size, told=not untold(story.subject.notes)), short, size
 
 
 def _held(story: _Story, final: Fitted, doubt: Uncertainty, point: Evaluation, scale: float) -> Uncertainty:

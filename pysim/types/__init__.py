@@ -4,7 +4,18 @@ from pysim.types.best_linear_approximation import BestLinearApproximation, Disto
 from pysim.types.comparison import Comparison, ResponseComparison
 from pysim.types.criterion import Criterion, Deviation
 from pysim.types.dataset import Dataset, MeasuredRecord, MeasuredSignal
-from pysim.types.diagnosis import AddedEffect, Candidate, Diagnosis, Failure, LedgerStep, Missing, NextTest, Shape
+from pysim.types.diagnosis import (
+    AddedEffect,
+    Candidate,
+    Diagnosis,
+    Failure,
+    LedgerStep,
+    Missing,
+    NextTest,
+    Shape,
+    Stage,
+    Told,
+)
 from pysim.types.effect import Effect, EffectParameter
 from pysim.types.errors import BadInput
 from pysim.types.experiment import Experiment
@@ -65,6 +76,8 @@ __all__ = [
     "Signal",
     "SimulationError",
     "SineTest",
+    "Stage",
     "Start",
+    "Told",
     "Variable",
 ]

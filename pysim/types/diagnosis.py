@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from pysim.types._frozen import FrozenMapping
 from pysim.types.effect import Effect
 from pysim.types.errors import BadInput
-from pysim.types.fit import Estimate
+from pysim.types.fit import Estimate, RecordFit, ResponseFit
 
 Array = NDArray[np.float64]
 
@@ -153,6 +153,41 @@ class NextTest:
 
 
 @dataclass(frozen=True)
+class Stage:
+    """The model at one step of the story, beside every record: what can be drawn of it.
+
+    Args:
+        step: as in the ledger: "prior", "refit", or the effect that was added.
+        estimates: its free parameters with intervals; none of the untouched model, whose values are their starts.
+        records: logs beside the model, those held out too.
+        responses: frequency responses, from tables or from stepped sines.
+    """
+
+    step: str
+    estimates: tuple[Estimate, ...] = ()
+    records: tuple[RecordFit, ...] = field(default=(), repr=False)
+    responses: tuple[ResponseFit, ...] = field(default=(), repr=False)
+
+
+@dataclass(frozen=True)
+class Told:
+    """What a diagnosis tells while it works; as text, what was learned or is being done.
+
+    Args:
+        stage: what it is doing now, in a few words.
+        text: what was learned, a line; "" where only the stage is new.
+        step: of the ledger, where one is done.
+    """
+
+    stage: str
+    text: str = ""
+    step: LedgerStep | None = None
+
+    def __str__(self) -> str:
+        return self.text or f"{self.stage} ..."
+
+
+@dataclass(frozen=True)
 class Diagnosis:
     """The whole answer.
 
@@ -169,6 +204,8 @@ class Diagnosis:
         notes: what a reader must know: what could not be tried, noise that had to be estimated.
         missing: per probed place, the largest share first; empty where nothing was probed.
         next_test: where two answers are left that another experiment would tell apart.
+        stages: the models of the ledger beside every record.
+        conditions: what it takes to repeat it, in words: model, data, seed, solver, versions.
     """
 
     verdict: str
@@ -183,8 +220,11 @@ class Diagnosis:
     notes: tuple[str, ...] = ()
     missing: tuple[Missing, ...] = ()
     next_test: NextTest | None = None
+    stages: tuple[Stage, ...] = field(default=(), repr=False)
+    conditions: Mapping[str, str] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "seconds", FrozenMapping(self.seconds))
+        for name in ("seconds", "conditions"):
+            object.__setattr__(self, name, FrozenMapping(getattr(self, name)))
         if self.verdict in (NONE,) and self.added:
             raise BadInput(f"diagnosis: the verdict is {NONE}, but effects were added; name the first of them")
