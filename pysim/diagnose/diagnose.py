@@ -20,7 +20,7 @@ from pysim.diagnose.subject import Extended, Subject, extended
 from pysim.identify.greybox.evaluation import Evaluation
 from pysim.identify.greybox.uncertainty import Uncertainty, uncertainty, untold
 from pysim.types import BadInput, Effect, Estimate, Stage, Told
-from pysim.types.diagnosis import NONE, UNKNOWN, AddedEffect, Candidate, Diagnosis, Failure, LedgerStep
+from pysim.types.diagnosis import NONE, UNKNOWN, AddedEffect, Candidate, Diagnosis, LedgerStep
 
 Array = NDArray[np.float64]
 Say = Callable[[Told], None]
@@ -47,7 +47,6 @@ class _Story:
     notes: list[str] = field(default_factory=list)
     ranking: list[Candidate] = field(default_factory=list)
     ties: list[tuple[str, ...]] = field(default_factory=list)
-    where: tuple[Failure, ...] = ()
     stages: list[Stage] = field(default_factory=list)
     doing: str = ""
     begun: float = field(default_factory=time.monotonic)
@@ -66,12 +65,10 @@ class _Story:
 
     def enter(self, name: str, at: Fitted) -> LedgerStep:
         found = beside(self.subject, at.what, at.point.x)
-        if name == "refit":
-            self.where = failures(found)
         step = ledger_step(name, found, at.point.cost)
         self.ledger.append(step)
         estimates = () if name == "prior" else _doubt(self, at)[0].estimates
-        self.stages.append(Stage(name, estimates, found.records, found.responses))
+        self.stages.append(Stage(name, estimates, found.records, found.responses, failures(found)))
         self.notes += [note for note in found.notes if note not in self.notes]
         held = "" if step.validate is None else f", held out {step.validate:.3f}"
         fitted = "" if step.fit is None else f" {step.fit:.3f}{held};"
@@ -312,7 +309,7 @@ def _answer(story: _Story, base: Fitted, final: Fitted) -> Diagnosis:
         tuple(story.ties),
         tuple(story.ledger),
         doubt.estimates,
-        story.where,
+        next(stage.where for stage in story.stages if stage.step == "refit"),
         story.seconds,
         tuple(story.notes),
         stages=tuple(story.stages),

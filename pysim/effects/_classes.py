@@ -44,7 +44,8 @@ class Base:
 
 @dataclass
 class ClassText:
-    """One class. `plain` tells that beside extends clauses and annotations nothing stands in it."""
+    """One class. `plain` tells that beside extends clauses and annotations nothing stands in it; `equations` are those
+    of the class itself, as written, without initial ones."""
 
     full_name: str
     kind: str
@@ -55,6 +56,7 @@ class ClassText:
     annotation: str = ""
     modifiers: dict[str, str] = field(default_factory=dict)  # of a short class, type X = Real(...)
     plain: bool = True
+    equations: list[str] = field(default_factory=list)
 
 
 def read_classes(source: str, file: Path, within: str) -> Iterator[ClassText]:
@@ -110,6 +112,7 @@ def _class(source: str, tokens: Sequence[Token], k: int, within: str, file: Path
         return _short_class(source, tokens, k + 1, here)
     if tokens[k].is_string:
         here.description, k = string(tokens[k]), k + 1
+    law = False
     while k < len(tokens) and not (tokens[k].text == "end" and tokens[k + 1].text == name):
         if _begins_class(tokens, k):
             here.plain = False
@@ -117,9 +120,12 @@ def _class(source: str, tokens: Sequence[Token], k: int, within: str, file: Path
             continue
         if tokens[k].text in ("public", "protected", "equation", "algorithm", "initial"):
             here.plain &= tokens[k].text in ("public", "protected")
+            law = tokens[k].text in ("equation", "algorithm") and tokens[k - 1].text != "initial"
             k += 1
             continue
         end = _end_of_statement(tokens, k)
+        if law and tokens[k].text != "annotation":
+            here.equations.append(written(source, tokens[k : end + 1]))
         _statement(source, tokens[k:end], here)
         k = end + 1
     return _end_of_statement(tokens, k) + 1

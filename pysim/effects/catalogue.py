@@ -90,6 +90,7 @@ def _effect(name: str, text: ClassText, said: dict[str, str], library: Libraries
             tuple(parameters),
             text.description,
             said.get("bypass", "false") == "true",
+            "\n".join(text.equations),
         )
     except BadInput as error:
         raise BadInput(f"{text.file}: {error}") from error

@@ -161,12 +161,14 @@ class Stage:
         estimates: its free parameters with intervals; none of the untouched model, whose values are their starts.
         records: logs beside the model, those held out too.
         responses: frequency responses, from tables or from stepped sines.
+        where: it fails, worst first.
     """
 
     step: str
     estimates: tuple[Estimate, ...] = ()
     records: tuple[RecordFit, ...] = field(default=(), repr=False)
     responses: tuple[ResponseFit, ...] = field(default=(), repr=False)
+    where: tuple[Failure, ...] = field(default=(), repr=False)
 
 
 @dataclass(frozen=True)

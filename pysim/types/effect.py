@@ -62,6 +62,7 @@ class Effect:
         parameters: strengths and shapes, in the class' order.
         description: in words.
         bypass: whether off is a limit that its equations do not reach; the slot's own filling stands for it then.
+        law: its equations, as the class writes them.
     Raises:
         BadInput: no strength, or two parameters of one name.
     """
@@ -72,6 +73,7 @@ class Effect:
     parameters: tuple[EffectParameter, ...]
     description: str = ""
     bypass: bool = False
+    law: str = ""
 
     def __post_init__(self) -> None:
         names = [parameter.name for parameter in self.parameters]

@@ -54,6 +54,8 @@ def test_a_users_library_in_one_file(tmp_path: Path) -> None:
     assert (effect.name, effect.slot, effect.class_name) == ("drive.bearing", "friction", "Drive.Effects.Bearing")
     assert effect.description == 'Dry friction of the "bearing"'
     assert effect.bypass
+    assert effect.law.startswith("tau = -T_c*tanh(s*w);\nif w > 0 then\n")
+    assert effect.law.endswith("end if;")
     torque, steepness, on, unused = effect.parameters
     assert (torque.name, torque.unit, torque.min, torque.max, torque.nominal) == ("T_c", "N.m", 0.0, 50.0, 2.0)
     assert (torque.default, torque.off, torque.inverse, torque.description) == (0.0, 0.0, "G", "Torque, 0 = off")
