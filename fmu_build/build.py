@@ -28,6 +28,7 @@ def build(
     fmi: int = 2,
     platforms: Sequence[str] = ("host",),
     overrides: Mapping[str, float | str] = _NOTHING,
+    probes: Sequence[str] = (),
     use_cache: bool = True,
 ) -> Path:
     """Compile a Modelica class to an FMU for model exchange and co-simulation.
@@ -39,6 +40,9 @@ def build(
         fmi: 2 or 3.
         platforms: names of `pack.PLATFORMS`, "host" or "all".
         overrides: values of parameters by their name in the class, in SI units; a text is taken as Modelica.
+        probes: continuous variables, by their name in the class, that get a further input "probe.NAME": it is added to
+            the right-hand side of the equation of the variable, or of its derivative where the variable is a state.
+            At 0, its start value, the model is what it is without.
         use_cache: False builds anew even where the same FMU has been built before.
     Returns:
         The FMU's path.
@@ -52,10 +56,11 @@ def build(
     if target is not None:
         check_writable(target)
     paths = [*_existing(libraries), bundled_library()]
-    key = content_key(class_name, paths, overrides, [f"FMI {fmi}", *(system.name for system in systems)])
+    options = [f"FMI {fmi}", *(system.name for system in systems), *(f"probe {name}" for name in probes)]
+    key = content_key(class_name, paths, overrides, options)
     fmu = cached(key) if use_cache else None
     if fmu is None:
-        fmu = _build_anew(class_name, paths, overrides, fmi, systems, key)
+        fmu = _build_anew(class_name, paths, overrides, probes, fmi, systems, key)
     if target is None:
         return fmu
     try:
@@ -74,6 +79,7 @@ def _build_anew(
     class_name: str,
     libraries: Sequence[Path],
     overrides: Mapping[str, float | str],
+    probes: Sequence[str],
     fmi: int,
     targets: Sequence[Platform],
     key: str,
@@ -85,7 +91,7 @@ def _build_anew(
     from fmu_build.pack.fmu import pack
 
     try:
-        model = lower(load(class_name, libraries, overrides))
+        model = lower(load(class_name, libraries, overrides), probes)
     except RecursionError:
         raise BuildError(
             f"an expression of {class_name} is nested too deeply: a sum of more than some 300 terms, or as many "

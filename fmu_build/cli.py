@@ -35,6 +35,7 @@ def main(argv: Sequence[str] | None = None) -> int:
             fmi=arguments.fmi,
             platforms=arguments.platform or ["host"],
             overrides=_settings(arguments.set),
+            probes=arguments.probe,
             use_cache=not arguments.no_cache,
         )
     except BuildError as error:
@@ -65,6 +66,13 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--platform", metavar="NAME", action="append", help="see below (default: host)")
     parser.add_argument(
         "--set", metavar="NAME=VALUE", action="append", default=[], help="start value of a parameter, in SI units"
+    )
+    parser.add_argument(
+        "--probe",
+        metavar="NAME",
+        action="append",
+        default=[],
+        help="add an input probe.NAME to the equation of a variable, or of a state's derivative; 0 changes nothing",
     )
     parser.add_argument("--no-cache", action="store_true", help="build even if the same FMU has been built before")
     return parser

@@ -30,6 +30,7 @@ class Case:
         model: instead of a class, what lowering would have made of it.
         stop: end of a run that shows everything, s.
         settings: start values to set before each run, beside those of the model.
+        probes: variables whose equation gets a further input.
         answers: of that run.
         has_delay: whether it uses delay(). Partial derivatives hold the delayed values fixed.
         agreement: largest difference between model exchange (FMPy's CVODE) and co-simulation, relative to the
@@ -42,6 +43,7 @@ class Case:
     model: Callable[[], OdeModel] | None = None
     stop: float = 1.0
     settings: Mapping[str, float] = field(default_factory=dict)
+    probes: tuple[str, ...] = ()
     answers: tuple[Answer, ...] = ()
     has_delay: bool = False
     agreement: float = 1e-4
@@ -125,6 +127,13 @@ HAND_WRITTEN = (
 LIBRARY = (
     Case(name="pump", class_name="HydraulicTestBench.Pump.FreeGreyBox", stop=0.2, settings={"alphaCMD": 30.0}),
     Case(name="pump_locked", class_name="HydraulicTestBench.Pump.LockedGreyBox", stop=0.1, settings={"alphaCMD": 10.0}),
+    Case(
+        name="pump_probed",
+        class_name="HydraulicTestBench.Pump.FreeGreyBox",
+        stop=0.1,
+        settings={"alphaCMD": 10.0, "probe.pistonForce.f": 100.0, "probe.spool.u": 0.1, "probe.linkage.y": 1e-4},
+        probes=("pistonForce.f", "spool.u", "linkage.y", "supply.dp", "oil.kappa1"),
+    ),
     Case(
         name="pump_with_delay",
         class_name="HydraulicTestBench.Examples.TrueDelay",

@@ -13,24 +13,29 @@ from fmu_build.lower.events import Events
 from fmu_build.lower.ode_model import DefaultExperiment, Delay, OdeModel, Relation, Sample, Symbols
 from fmu_build.lower.parameters import Parameters
 from fmu_build.lower.places import place_variables
+from fmu_build.lower.probes import add_probes, with_probe_inputs
 from fmu_build.lower.scope import Scope
 from fmu_build.lower.start import attribute, initial_conditions
 from fmu_build.lower.table import Numbers, make_rows
 from fmu_build.lower.values import Scalar, column
 
 
-def lower(flat: FlatModel) -> OdeModel:
+def lower(flat: FlatModel, probes: Sequence[str] = ()) -> OdeModel:
     """Sort and solve a flat model into explicit ODEs with events.
 
+    Args:
+        probes: variables whose equation gets a further input (`probes.py`).
     Raises:
-        BuildError: unbalanced or singular equations, or a construct outside the supported subset.
+        BuildError: unbalanced or singular equations, a construct outside the supported subset, or a probe that has no
+            place.
     """
+    flat = with_probe_inputs(flat, probes)
     scope = Scope(flat)
     events = Events(scope)
     evaluator = Evaluator(flat, events)
     events.parameters = parameters = Parameters(flat, evaluator)
     parameters.evaluate_all()
-    equations = scalar_equations(flat, evaluator)
+    equations = add_probes(flat, scope, scalar_equations(flat, evaluator), probes)
     discrete = DiscretePart(flat, scope, events, evaluator)
     solved = solve_continuous(flat, scope, equations)
     updates = discrete.updates(solved)

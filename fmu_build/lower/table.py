@@ -80,7 +80,7 @@ def _row(entry: Entry, low: float | None, high: float | None, nominal: float | N
         vector=entry.vector,
         index=entry.index,
         start=start,
-        unit=_derivative_unit(flat.unit) if is_derivative else flat.unit,
+        unit=derivative_unit(flat.unit) if is_derivative else flat.unit,
         display_unit=None if is_derivative else flat.display_unit,
         quantity=None if is_derivative else flat.quantity,
         description=None if is_derivative else flat.description,
@@ -92,7 +92,7 @@ def _row(entry: Entry, low: float | None, high: float | None, nominal: float | N
     )
 
 
-def _derivative_unit(unit: str | None) -> str | None:
+def derivative_unit(unit: str | None) -> str | None:
     """Unit of the time derivative in Modelica's unit syntax."""
     if unit is None:
         return None
@@ -102,7 +102,8 @@ def _derivative_unit(unit: str | None) -> str | None:
     if not denominator:
         return f"{unit}/s"
     inner = denominator.removeprefix("(").removesuffix(")")
-    return f"{numerator}/({_times_second(inner)})"
+    factors = _times_second(inner)
+    return f"{numerator}/({factors})" if "." in factors else f"{numerator}/{factors}"
 
 
 def _times_second(denominator: str) -> str:

@@ -20,4 +20,4 @@ def build_case(case: Case, fmi: int, folder: Path) -> Path:
         library = folder / f"{model_identifier(case.class_name)}.mo"
         library.write_text(case.text, encoding="utf-8")
         libraries.append(library)
-    return build(case.class_name, output, libraries=libraries, fmi=fmi, use_cache=False)
+    return build(case.class_name, output, libraries=libraries, fmi=fmi, probes=case.probes, use_cache=False)

@@ -28,7 +28,7 @@ def loads(tmp_path, monkeypatch):
         return "flat model"
 
     monkeypatch.setattr(fmu_build.front, "load", load)
-    monkeypatch.setattr(fmu_build.lower, "lower", lambda flat: ode_models.oscillator(), raising=False)
+    monkeypatch.setattr(fmu_build.lower, "lower", lambda flat, probes: ode_models.oscillator(), raising=False)
     return calls
 
 
@@ -49,8 +49,8 @@ def test_a_path_may_be_a_text(loads, tmp_path):
 
 
 def test_another_value_or_version_is_another_build(loads):
-    paths = {build("A"), build("A", overrides={"m": 1.0}), build("A", fmi=3), build("A")}
-    assert len(paths) == len(loads) == 3
+    paths = {build("A"), build("A", overrides={"m": 1.0}), build("A", fmi=3), build("A", probes=("x",)), build("A")}
+    assert len(paths) == len(loads) == 4
 
 
 def test_without_the_cache_it_is_built_again(loads):
@@ -100,7 +100,7 @@ def test_a_missing_tool_is_named_with_its_cure(loads, monkeypatch, package):
 
 
 def test_a_failed_build_leaves_nothing_behind(loads, tmp_path, monkeypatch):
-    def refuse(flat):
+    def refuse(flat, probes):
         raise BuildError("no")
 
     monkeypatch.setattr(fmu_build.lower, "lower", refuse)

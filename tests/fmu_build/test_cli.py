@@ -25,13 +25,14 @@ def calls(monkeypatch):
 
 def test_arguments_arrive(calls, capsys):
     command = ["A.B", "-o", "x.fmu", "--library", "L", "--library", "M.mo", "--fmi", "3", "--no-cache"]
-    command += ["--platform", "all", "--set", "a.b=3", "--set", "on = true"]
+    command += ["--platform", "all", "--set", "a.b=3", "--set", "on = true", "--probe", "x", "--probe", "a.f"]
     assert cli.main(command) == 0
     options = {
         "libraries": [Path("L"), Path("M.mo")],
         "fmi": 3,
         "platforms": ["all"],
         "overrides": {"a.b": 3.0, "on": "true"},
+        "probes": ["x", "a.f"],
         "use_cache": False,
     }
     assert calls == [("A.B", Path("x.fmu"), options)]
@@ -40,7 +41,7 @@ def test_arguments_arrive(calls, capsys):
 
 def test_defaults(calls):
     assert cli.main(["A.B"]) == 0
-    options = {"libraries": [], "fmi": 2, "platforms": ["host"], "overrides": {}, "use_cache": True}
+    options = {"libraries": [], "fmi": 2, "platforms": ["host"], "overrides": {}, "probes": [], "use_cache": True}
     assert calls == [("A.B", Path("A.B.fmu"), options)]
 
 
