@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 
-from pysim.identify.greybox import Measurements, Parameter, Treatment, problem
+from pysim.identify.greybox import Measurements, Parameter, Rest, Treatment, problem
 from pysim.identify.greybox.parameters import ParameterSpace, parameter_space
 from pysim.identify.greybox.target import Target
 from pysim.types import BadInput, Dataset, Effect, Model
@@ -67,6 +67,7 @@ def subject(
     *,
     free: Sequence[str] = (),
     overrides: Mapping[str, float] | None = None,
+    rest: Rest | None = None,
     notes: Sequence[str] = (),
 ) -> Subject:
     """Bring everything together.
@@ -74,13 +75,14 @@ def subject(
     Args:
         free: parameters that may be refitted; where empty, all that the model gives min, max and nominal.
         overrides: parameters of the model that differ in these tests.
+        rest: how the model comes to rest ahead of a log; as the thesis' bench did where None.
         notes: what a reader must know beside what is noted here.
     Raises:
         BadInput: no free parameter, or a data set and a model that do not fit together.
     """
     names = tuple(free) or identifiable(model)
     data = Measurements(dataset, overrides=overrides or {})
-    checked = problem(model, [data], names, treatment=Treatment(steady="transient"))
+    checked = problem(model, [data], names, treatment=Treatment(steady="transient", rest=rest or Rest()))
     return Subject(model, checked.targets, names, tuple(catalogue), build_variant, (*notes, *checked.notes), dataset)
 
 
