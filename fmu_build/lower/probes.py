@@ -13,6 +13,7 @@ from fmu_build.lower.continuous import square_blocks
 from fmu_build.lower.equations import ScalarEquation, incidence
 from fmu_build.lower.index_reduction import is_regular, reduce_index
 from fmu_build.lower.scope import ScalarVariable, Scope, scalar_names
+from fmu_build.lower.shared_units import unit_of
 from fmu_build.lower.table import derivative_unit
 from fmu_build.lower.values import Scalar
 
@@ -47,7 +48,7 @@ def with_probe_inputs(flat: FlatModel, probes: Sequence[str]) -> FlatModel:
             raise BuildError(f"no probe can be added to {name}: it is {_WHY_NOT.get(variable.role, 'not Real')}.")
         if PREFIX + name in owner:
             raise BuildError(f"{flat.name} has a variable {PREFIX}{name} already; rename the component 'probe'.")
-        added.append(_input(name, variable))
+        added.append(_input(name, variable, unit_of(variable.name, flat)))
     return replace(flat, variables=(*flat.variables, *added))
 
 
@@ -78,7 +79,7 @@ def add_probes(
     return result
 
 
-def _input(name: str, variable: FlatVariable) -> FlatVariable:
+def _input(name: str, variable: FlatVariable, unit: str | None) -> FlatVariable:
     is_state = variable.role is Role.STATE
     return FlatVariable(
         name=PREFIX + name,
@@ -87,7 +88,7 @@ def _input(name: str, variable: FlatVariable) -> FlatVariable:
         role=Role.INPUT,
         span=variable.span,
         is_input=True,
-        unit=derivative_unit(variable.unit) if is_state else variable.unit,
+        unit=derivative_unit(unit) if is_state else unit,
         description=f"Added to {f'der({name})' if is_state else name}; 0 leaves the model as it is",
     )
 

@@ -91,3 +91,10 @@ def test_each_probe_moves_the_pump(probed, name):
     size = {"dp": 1e5, "kappa1": 1e-10, "kappa2": 1e-10, "q": 1e-6, "q1": 1e-6, "q2": 1e-6, "f": 100.0, "rate": 10.0}
     moved = response(probed, **{name.replace(".", "__"): size.get(name.rpartition(".")[2], 1e-3)})
     assert np.abs(moved - response(probed)).max(axis=0)[0] > 1e-6
+
+
+def test_a_probe_has_the_unit_of_the_place(probed):
+    """Slots for signals with a rate leave the unit open; what they are connected with tells it."""
+    units = {name: probed[f"probe.{name}"].unit for name in ("linkage.y", "angleSensor.y", "angleError.y", "supply.dp")}
+    assert units == {"linkage.y": "m", "angleSensor.y": "rad", "angleError.y": "rad", "supply.dp": "Pa"}
+    assert [probed[f"probe.{slot}.y_t"].unit for slot in ("linkage", "angleSensor")] == ["m/s", "rad/s"]
