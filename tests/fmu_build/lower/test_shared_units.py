@@ -8,15 +8,16 @@ from fmu_build.lower.shared_units import unit_of
 TEXT = """
 model M
   input Real w(unit="rad");
-  Real known(unit="m") = time;
+  Real known(unit="m", start=0);
   Real alias;
   Real far;
-  Real left;
+  input Real left;
   Real difference;
   Real product;
   Real torn;
   Real rate;
 equation
+  der(known) = 1;
   alias = known;
   far = -alias;
   difference = left - w;
