@@ -48,6 +48,27 @@ def read_parameters(args: argparse.Namespace, model: Model) -> dict[str, float]:
     return values
 
 
+def bounded(texts: Sequence[str]) -> dict[str, tuple[float, float]]:
+    """Of `--bounds`: parameter -> lower and upper bound in its unit, from words NAME=LOW:HIGH.
+
+    Raises:
+        BadInput: another form, or bounds that do not increase.
+    """
+    from pysim.types import BadInput
+
+    values = {}
+    for text in texts:
+        name, _, both = text.partition("=")
+        try:
+            low, high = (float(word) for word in both.split(":"))
+        except ValueError:
+            raise BadInput(f"--bounds {text}: write NAME=LOW:HIGH with numbers in the parameter's unit") from None
+        if not low < high:
+            raise BadInput(f"--bounds {text}: {low:g} is not below {high:g}; write the lower bound first")
+        values[name.strip()] = (low, high)
+    return values
+
+
 def assigned(texts: Sequence[str], option: str, unit: str) -> dict[str, float]:
     """Numbers from words NAME=VALUE.
 

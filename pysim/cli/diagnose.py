@@ -25,6 +25,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--library", metavar="PATH", type=Path, action="append", default=[], help="of the class or of effects; repeat"
     )
     parser.add_argument("--free", metavar="NAME,...", default="", help="parameters to refit; those with bounds")
+    parser.add_argument(
+        "--bounds", metavar="NAME=LOW:HIGH", action="append", default=[], help="in place of the model's min and max"
+    )
     parser.add_argument("--effects", metavar="NAME,...", default="", help="consider only these of the catalogue")
     parser.add_argument("--most", metavar="N", type=int, default=3, help="effects to add at most (3)")
     parser.add_argument("--seed", metavar="S", type=int, default=0, help="of the bootstrap (0)")
@@ -35,7 +38,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Print the story as it unfolds; 0 with a verdict, whatever it is."""
-    from pysim.cli._options import read_parameters
+    from pysim.cli._options import bounded, read_parameters
     from pysim.cli._outputs import prepare_file, prepare_folder
     from pysim.cli._progress import announce_compilation
     from pysim.diagnose import diagnose, subject
@@ -54,7 +57,14 @@ def run(args: argparse.Namespace) -> int:
     makes = _Variants(class_name, libraries) if class_name else None
     free = tuple(name.strip() for name in args.free.split(",") if name.strip())
     given = subject(
-        model, dataset, catalogue, makes, free=free, overrides=read_parameters(args, model), notes=tuple(notes)
+        model,
+        dataset,
+        catalogue,
+        makes,
+        free=free,
+        bounds=bounded(args.bounds),
+        overrides=read_parameters(args, model),
+        notes=tuple(notes),
     )
     announce_compilation()
     found = diagnose(given, seed=args.seed, most=args.most, progress=_Lines())

@@ -95,11 +95,12 @@ def _say(tried: Tried) -> None:
 
 
 def _problem(args: argparse.Namespace) -> Problem:
+    from pysim.cli._options import bounded
     from pysim.identify.greybox import Measurements, Parameter, Tie, problem
     from pysim.io import read_dataset, read_model
 
     model = read_model(args.model)
-    starts, bounds = _numbers(args.start, "--start"), _bounds(args.bounds)
+    starts, bounds = _numbers(args.start, "--start"), bounded(args.bounds)
     names = [name.strip() for name in args.free.split(",") if name.strip()]
     _refuse_idle({**starts, **bounds}, names)
     free = [Parameter(name, starts.get(name), *bounds.get(name, (None, None))) for name in names]
@@ -129,20 +130,6 @@ def _numbers(texts: list[str], option: str) -> dict[str, float]:
             values[name.strip()] = float(value)
         except ValueError:
             raise BadInput(f"{option} {text}: write NAME=VALUE with a number in the parameter's unit") from None
-    return values
-
-
-def _bounds(texts: list[str]) -> dict[str, tuple[float, float]]:
-    from pysim.types import BadInput
-
-    values = {}
-    for text in texts:
-        name, _, both = text.partition("=")
-        try:
-            low, high = (float(word) for word in both.split(":"))
-        except ValueError:
-            raise BadInput(f"--bounds {text}: write NAME=LOW:HIGH with numbers in the parameter's unit") from None
-        values[name.strip()] = (low, high)
     return values
 
 

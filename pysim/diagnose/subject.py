@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from pysim.identify.greybox import Measurements, Parameter, Rest, Treatment, problem
 from pysim.identify.greybox.parameters import ParameterSpace, parameter_space
 from pysim.identify.greybox.target import Target
 from pysim.types import BadInput, Dataset, Effect, Model
+from pysim.types._frozen import FrozenMapping
 
 # Effects -> the model that has them, and effect name -> the name ahead of its parameters there.
 BuildVariant = Callable[[Sequence[Effect]], tuple[Model, Mapping[str, str]]]
@@ -25,6 +27,7 @@ class Subject:
         catalogue: effects to consider.
         build_variant: makes models with effects; None where the model's source is not at hand.
         notes: what was assumed.
+        bounds: free parameter -> its bounds, where they are not the model's.
         dataset: the measurements as they were read.
     """
 
@@ -35,6 +38,15 @@ class Subject:
     build_variant: BuildVariant | None
     notes: tuple[str, ...] = ()
     dataset: Dataset | None = field(default=None, repr=False)
+    bounds: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "bounds", FrozenMapping(self.bounds))
+
+    @property
+    def parameters(self) -> tuple[Parameter, ...]:
+        """The free parameters with their bounds."""
+        return tuple(Parameter(name, None, *self.bounds.get(name, (None, None))) for name in self.free)
 
 
 @dataclass(frozen=True)
@@ -66,6 +78,7 @@ def subject(
     build_variant: BuildVariant | None,
     *,
     free: Sequence[str] = (),
+    bounds: Mapping[str, tuple[float, float]] | None = None,
     overrides: Mapping[str, float] | None = None,
     rest: Rest | None = None,
     notes: Sequence[str] = (),
@@ -74,16 +87,31 @@ def subject(
 
     Args:
         free: parameters that may be refitted; where empty, all that the model gives min, max and nominal.
+        bounds: free parameter -> lower and upper bound in its unit, in place of the model's min and max.
         overrides: parameters of the model that differ in these tests.
         rest: how the model comes to rest ahead of a log; as the thesis' bench did where None.
         notes: what a reader must know beside what is noted here.
     Raises:
-        BadInput: no free parameter, or a data set and a model that do not fit together.
+        BadInput: no free parameter, bounds of what is not free, or a data set and a model that do not fit together.
     """
     names = tuple(free) or identifiable(model)
+    for name in bounds or {}:
+        if name not in names:
+            raise BadInput(f"{name} has bounds but is not free; free are {', '.join(names)}")
+    given = Subject(model, (), names, tuple(catalogue), build_variant, dataset=dataset, bounds=bounds or {})
     data = Measurements(dataset, overrides=overrides or {})
-    checked = problem(model, [data], names, treatment=Treatment(steady="transient", rest=rest or Rest()))
-    return Subject(model, checked.targets, names, tuple(catalogue), build_variant, (*notes, *checked.notes), dataset)
+    checked = problem(model, [data], given.parameters, treatment=Treatment(steady="transient", rest=rest or Rest()))
+    return replace(given, targets=checked.targets, notes=(*notes, *_unbounded(checked.space), *checked.notes))
+
+
+def _unbounded(space: ParameterSpace) -> tuple[str, ...]:
+    ends = zip(space.keys, space.lower, space.upper, strict=True)
+    names = [name for name, lower, upper in ends if not (math.isfinite(lower) and math.isfinite(upper))]
+    if not names:
+        return ()
+    return (
+        f"{', '.join(names)}: refitted without bounds on both sides, since neither the model nor the call gives any",
+    )
 
 
 def identifiable(model: Model) -> tuple[str, ...]:
@@ -103,7 +131,9 @@ def identifiable(model: Model) -> tuple[str, ...]:
         and v.start is not None
     )
     if not found:
-        raise BadInput(f"{model.path.name} gives no parameter min, max and nominal; name those to refit with free")
+        raise BadInput(
+            f"{model.path.name} gives no parameter min, max and nominal; name those to refit, and their bounds"
+        )
     return found
 
 
@@ -114,7 +144,7 @@ def extended(subject: Subject, effects: Sequence[Effect], *, model: Model | None
         BadInput: effects where no variant can be made.
     """
     if not effects:
-        return Extended((), subject.model, space=parameter_space(subject.model, [Parameter(n) for n in subject.free]))
+        return Extended((), subject.model, space=parameter_space(subject.model, subject.parameters))
     if subject.build_variant is None:
         raise BadInput("no effect can be added: the model's Modelica class is not at hand; name it with its library")
     built, places = subject.build_variant(effects)
@@ -123,5 +153,5 @@ def extended(subject: Subject, effects: Sequence[Effect], *, model: Model | None
         for e in effects
         for p in e.parameters
     ]
-    space = parameter_space(built, [*(Parameter(n) for n in subject.free), *own])
+    space = parameter_space(built, [*subject.parameters, *own])
     return Extended(tuple(effects), built, dict(places), space=space)
