@@ -19,7 +19,7 @@ from pysim.diagnose.screen import Footprint, first_point, screen
 from pysim.diagnose.subject import Extended, Subject, extended
 from pysim.identify.greybox.evaluation import Evaluation
 from pysim.identify.greybox.uncertainty import Uncertainty, uncertainty, untold
-from pysim.types import BadInput, Effect, Estimate, Stage, Told
+from pysim.types import BadInput, Direction, Effect, Estimate, Stage, Told
 from pysim.types.diagnosis import NONE, UNKNOWN, AddedEffect, Candidate, Diagnosis, LedgerStep
 
 Array = NDArray[np.float64]
@@ -67,8 +67,8 @@ class _Story:
         found = beside(self.subject, at.what, at.point.x)
         step = ledger_step(name, found, at.point.cost)
         self.ledger.append(step)
-        estimates = () if name == "prior" else _doubt(self, at)[0].estimates
-        self.stages.append(Stage(name, estimates, found.records, found.responses, failures(found)))
+        estimates, directions = ((), ()) if name == "prior" else _relative(self, at)
+        self.stages.append(Stage(name, estimates, directions, found.records, found.responses, failures(found)))
         self.notes += [note for note in found.notes if note not in self.notes]
         held = "" if step.validate is None else f", held out {step.validate:.3f}"
         fitted = "" if step.fit is None else f" {step.fit:.3f}{held};"
@@ -296,8 +296,14 @@ def _own_values(fitted: Fitted, effect: Effect) -> dict[str, float]:
 def _answer(story: _Story, base: Fitted, final: Fitted) -> Diagnosis:
     verdict, reason = _verdict(story, base, final)
     what = final.what
-    doubt, short, size = _doubt(story, final)
-    estimates = {e.name: e for e in _held(story, final, doubt, short, size).estimates}
+    doubt = _doubt(story, final)[0]
+    relative, held = _relative(story, final)
+    if what.effects:
+        names = [next(iter(d.exponents)) for d in held]
+        story.notes += [
+            f"intervals of the effects hold {n}, which these data do not determine by itself" for n in names
+        ]
+    estimates = {e.name: e for e in relative}
     added = tuple(AddedEffect(e, what.places[e.name], _estimates_of(e, what, estimates)) for e in what.effects)
     story.stage("intervals")
     story.say(f"verdict: {verdict}. {reason}")
@@ -324,24 +330,23 @@ def _doubt(story: _Story, fitted: Fitted) -> tuple[Uncertainty, Evaluation, floa
     return uncertainty(fitted.what.space, short, scale=size, told=not untold(story.subject.notes)), short, size
 
 
-def _held(story: _Story, final: Fitted, doubt: Uncertainty, point: Evaluation, scale: float) -> Uncertainty:
-    """The doubt of the effects with one parameter of each exactly undetermined direction held where it stands.
+def _relative(story: _Story, fitted: Fitted) -> tuple[tuple[Estimate, ...], tuple[Direction, ...]]:
+    """Estimates with one parameter of each exactly undetermined direction held where it stands, and those directions.
 
-    A direction that scales every force leaves no force an interval of its own, though the effect is there for certain.
+    A direction that scales every force leaves no force an interval of its own, though an effect is there for certain.
     """
-    space, slopes = final.what.space, point.jacobian.copy()
-    held = [
-        next((name for name in story.subject.free if name in d.exponents), None)
-        for d in doubt.known.directions
-        if math.isinf(d.spread)
-    ]
-    names = [name for name in dict.fromkeys(held) if name is not None]
-    if not (names and final.what.effects):
-        return doubt
-    for name in names:
-        slopes[:, space.keys.index(name)] = 0.0
-        story.notes.append(f"intervals of the effects hold {name}, which these data do not determine by itself")
-    return uncertainty(space, replace(point, jacobian=slopes), scale=scale, told=not untold(story.subject.notes))
+    doubt, point, scale = _doubt(story, fitted)
+    space, slopes, held = fitted.what.space, point.jacobian.copy(), []
+    for direction in doubt.known.directions:
+        name = next((name for name in story.subject.free if name in direction.exponents), "")
+        if math.isinf(direction.spread) and name:
+            slopes[:, space.keys.index(name)] = 0.0
+            order = dict(sorted(direction.exponents.items(), key=lambda item: item[0] != name))
+            held.append(replace(direction, exponents=order))
+    if not held:
+        return doubt.estimates, ()
+    found = uncertainty(space, replace(point, jacobian=slopes), scale=scale, told=not untold(story.subject.notes))
+    return found.estimates, tuple(held)
 
 
 def _estimates_of(effect: Effect, what: Extended, estimates: dict[str, Estimate]) -> tuple[Estimate, ...]:

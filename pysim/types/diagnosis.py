@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from pysim.types._frozen import FrozenMapping
 from pysim.types.effect import Effect
 from pysim.types.errors import BadInput
-from pysim.types.fit import Estimate, RecordFit, ResponseFit
+from pysim.types.fit import Direction, Estimate, RecordFit, ResponseFit
 
 Array = NDArray[np.float64]
 
@@ -158,7 +158,9 @@ class Stage:
 
     Args:
         step: as in the ledger: "prior", "refit", or the effect that was added.
-        estimates: its free parameters with intervals; none of the untouched model, whose values are their starts.
+        estimates: its free parameters with intervals, one parameter of each direction in `undetermined` held where it
+            stands; none of the untouched model, whose values are their starts.
+        undetermined: products of parameters that change nothing, the first of each the one that was held.
         records: logs beside the model, those held out too.
         responses: frequency responses, from tables or from stepped sines.
         where: it fails, worst first.
@@ -166,6 +168,7 @@ class Stage:
 
     step: str
     estimates: tuple[Estimate, ...] = ()
+    undetermined: tuple[Direction, ...] = ()
     records: tuple[RecordFit, ...] = field(default=(), repr=False)
     responses: tuple[ResponseFit, ...] = field(default=(), repr=False)
     where: tuple[Failure, ...] = field(default=(), repr=False)
