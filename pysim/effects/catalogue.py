@@ -118,6 +118,7 @@ def _parameter(declaration: Declaration, text: ClassText, library: Libraries) ->
             off,
             declaration.description,
             _text(said.get("inverse", '""')),
+            _text(said.get("limits", '""')),
         )
     except BadInput as error:
         raise BadInput(f"{text.file}: {error}") from error

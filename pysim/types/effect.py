@@ -22,6 +22,7 @@ class EffectParameter:
         off: the value at which the effect vanishes; None for one that only shapes it.
         description: in words.
         inverse: name of the quantity of which this is one over, as people speak of it; "" where it is itself.
+        limits: name of the class' variable whose size that quantity limits, so that it acts from there on; "" for none.
     Raises:
         BadInput: bounds the wrong way round, or a default outside of them.
     """
@@ -35,6 +36,7 @@ class EffectParameter:
     off: float | None
     description: str = ""
     inverse: str = ""
+    limits: str = ""
 
     def __post_init__(self) -> None:
         if not self.min < self.max:

@@ -3,7 +3,7 @@ model ValveRateLimit "Largest speed of the spool (valve.rate_limit)"
   extends Interfaces.PartialSpool(u(start=0, fixed=true), u_t(start=0, fixed=true));
   parameter Real inverse_r_max(final unit="s", min=0, max=0.2, nominal=0.03) = 0
     "One over the largest spool speed, 0 = off"
-    annotation(__HydraulicTestBench(inverse="r_max"));
+    annotation(__HydraulicTestBench(inverse="r_max", limits="u_t"));
 protected
   Types.SpoolAcceleration free "Acceleration without limit";
   Boolean is_fast "Whether the limit holds the speed";

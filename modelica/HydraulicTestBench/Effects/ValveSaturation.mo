@@ -3,7 +3,7 @@ model ValveSaturation "Stops of the spool (valve.saturation)"
   extends Interfaces.PartialSpool(u(start=0, fixed=true), u_t(start=0, fixed=true));
   parameter Real inverse_u_max(final unit="1", min=0, max=20, nominal=3) = 0
     "One over the largest spool position, 0 = off"
-    annotation(__HydraulicTestBench(inverse="u_max"));
+    annotation(__HydraulicTestBench(inverse="u_max", limits="u"));
 protected
   Types.SpoolAcceleration free "Acceleration without stops";
   Boolean is_up(start=false, fixed=true) "Whether the spool is in its upper stop";

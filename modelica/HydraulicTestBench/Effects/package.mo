@@ -7,7 +7,8 @@ slot of the model it fills. Its parameters say the rest: <code>min</code> and <c
 <code>nominal</code> a usual size. A parameter that is 0 as declared is a strength, and 0 is off: the equations are then
 exactly those of the base model. Where off is a singular limit (a lag of 0 s) the annotation says
 <code>bypass=true</code>: the neutral filling stands for off, and the effect tends to it as it shrinks.</p>
-<p><code>inverse=\"u_max\"</code> at a parameter says that it is one over the quantity people speak of.</p>
+<p><code>inverse=\"u_max\"</code> at a parameter says that it is one over the quantity people speak of;
+<code>limits=\"u\"</code> names the class' variable whose size that quantity limits.</p>
 <p>Two effects in one slot are put together by a class of <code>Pairs</code>.</p>
 <p><b>Source:</b> each class names its own; <code>UsersGuide.AddAnEffect</code> shows how to write one.</p>
 </html>"));

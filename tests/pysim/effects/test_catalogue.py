@@ -19,7 +19,7 @@ package Drive "A positioning drive; model, type and end in a text do not matter"
   package Effects
     model Bearing "Dry friction of the \\"bearing\\""  // with a comment; end Bearing;
       extends PartialFriction;
-      parameter Loss T_c = 0 "Torque, 0 = off" annotation(Dialog(group="a"), __HydraulicTestBench(inverse="G"));
+      parameter Loss T_c = 0 "Torque, 0 = off" annotation(Dialog(group="a"), __HydraulicTestBench(inverse="G", limits="tau"));
       parameter Real s(final unit="s/rad", min=-(1e1), max=2*5e2) = 1/2^2 "Steepness";
       parameter Real on(unit="1", min=0, max=2, nominal=1, start=1) = 1.0;
       final parameter Real known = 3;
@@ -59,6 +59,7 @@ def test_a_users_library_in_one_file(tmp_path: Path) -> None:
     torque, steepness, on, unused = effect.parameters
     assert (torque.name, torque.unit, torque.min, torque.max, torque.nominal) == ("T_c", "N.m", 0.0, 50.0, 2.0)
     assert (torque.default, torque.off, torque.inverse, torque.description) == (0.0, 0.0, "G", "Torque, 0 = off")
+    assert torque.limits == "tau"
     assert (steepness.min, steepness.max, steepness.default, steepness.off) == (-10.0, 1000.0, 0.25, None)
     assert steepness.nominal == 100.0  # a tenth of the larger bound, where nothing is said
     assert on.off == 1.0  # start says it

@@ -3,10 +3,10 @@ model SpoolLimits "Stops and largest speed of the spool at once"
   extends Interfaces.PartialSpool(u(start=0, fixed=true), u_t(start=0, fixed=true));
   parameter Real inverse_u_max(final unit="1", min=0, max=20, nominal=3) = 0
     "One over the largest spool position, 0 = off"
-    annotation(__HydraulicTestBench(inverse="u_max"));
+    annotation(__HydraulicTestBench(inverse="u_max", limits="u"));
   parameter Real inverse_r_max(final unit="s", min=0, max=0.2, nominal=0.03) = 0
     "One over the largest spool speed, 0 = off"
-    annotation(__HydraulicTestBench(inverse="r_max"));
+    annotation(__HydraulicTestBench(inverse="r_max", limits="u_t"));
 protected
   Types.SpoolAcceleration free "Acceleration without limits";
   Boolean is_up(start=false, fixed=true) "Whether the spool is in its upper stop";
