@@ -19,7 +19,7 @@ package Drive "A positioning drive; model, type and end in a text do not matter"
   package Effects
     model Bearing "Dry friction of the \\"bearing\\""  // with a comment; end Bearing;
       extends PartialFriction;
-      parameter Loss T_c = 0 "Torque, 0 = off" annotation(Dialog(group="a"), __HydraulicTestBench(inverse="G", limits="tau"));
+      parameter Loss T_c = 0 "Torque, 0 = off" annotation(__HydraulicTestBench(inverse="G", limits="tau"));
       parameter Real s(final unit="s/rad", min=-(1e1), max=2*5e2) = 1/2^2 "Steepness";
       parameter Real on(unit="1", min=0, max=2, nominal=1, start=1) = 1.0;
       final parameter Real known = 3;
