@@ -1,6 +1,19 @@
 """What can be put into a model's slots: the catalogue of effects, and the class of a model that has some of them."""
 
 from pysim.effects.catalogue import STANDARD_LIBRARY, VENDOR, Pair, read_catalogue, read_pairs
+from pysim.effects.slots import Slot, fitting, slots
 from pysim.effects.variant import Variant, variant, variant_text
 
-__all__ = ["STANDARD_LIBRARY", "VENDOR", "Pair", "Variant", "read_catalogue", "read_pairs", "variant", "variant_text"]
+__all__ = [
+    "STANDARD_LIBRARY",
+    "VENDOR",
+    "Pair",
+    "Slot",
+    "Variant",
+    "fitting",
+    "read_catalogue",
+    "read_pairs",
+    "slots",
+    "variant",
+    "variant_text",
+]

@@ -23,7 +23,8 @@ _PREFIXES = {"final", "inner", "outer", "replaceable", "redeclare", "each"} | {
 
 @dataclass(frozen=True)
 class Declaration:
-    """One component: prefixes, type, name, modifiers (name -> text), value, description, annotation (text)."""
+    """One component: prefixes, type, name, modifiers (name -> text), value, description, annotation (text), and the
+    class behind `constrainedby`."""
 
     prefixes: frozenset[str]
     type_name: str
@@ -32,6 +33,7 @@ class Declaration:
     value: str
     description: str
     annotation: str
+    constraint: str = ""
 
 
 @dataclass(frozen=True)
@@ -187,8 +189,10 @@ def _declaration(source: str, tokens: Sequence[Token]) -> Declaration | None:
     if not rest or not rest[0].text[0].isidentifier() or type_name in ("import", "connect", ""):
         return None
     name, bracket, rest = _head(source, rest)
-    annotation, description = "", ""
+    annotation, description, constraint = "", "", ""
     for i, token in enumerate(rest):
+        if token.text == "constrainedby":
+            constraint, _, _ = _head(source, rest[i + 1 :])
         if token.is_string and not description:
             description = string(token)
         if token.text == "annotation":
@@ -197,7 +201,8 @@ def _declaration(source: str, tokens: Sequence[Token]) -> Declaration | None:
     value: list[Token] = []
     if rest and rest[0].text == "=":
         for token in rest[1:]:
-            if token.is_string or token.text == "annotation":
+            if token.is_string or token.text in ("annotation", "constrainedby"):
                 break
             value.append(token)
-    return Declaration(prefixes, type_name, name, arguments(bracket), written(source, value), description, annotation)
+    text = written(source, value)
+    return Declaration(prefixes, type_name, name, arguments(bracket), text, description, annotation, constraint)
