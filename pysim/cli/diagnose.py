@@ -53,7 +53,9 @@ def run(args: argparse.Namespace) -> int:
     dataset = read_dataset(args.data)
     libraries = [STANDARD_LIBRARY, *args.library]
     model, class_name, notes = _model(args.model, libraries)
-    catalogue = _catalogue(libraries, args.effects)
+    catalogue = _catalogue(libraries, args.effects, class_name)
+    if class_name and not catalogue:
+        notes.append(f"no slot of {class_name} takes an effect of the libraries, so none could be tried")
     makes = _Variants(class_name, libraries) if class_name else None
     free = tuple(name.strip() for name in args.free.split(",") if name.strip())
     given = subject(
@@ -117,13 +119,18 @@ class _Variants:
         return self.built[key]
 
     def write(
-        self, effects: Sequence[Effect], folder: Path, fmu: Path | None, name: str = "PumpVariant"
+        self, effects: Sequence[Effect], folder: Path, fmu: Path | None, name: str = ""
     ) -> tuple[Model, dict[str, str]]:
-        """Write the class into a folder and compile it, into the cache where no place is named."""
+        """Write the class into a folder and compile it, into the cache where no place is named.
+
+        Args:
+            name: of the class; the base model's with `Variant` behind it where none is given.
+        """
         import fmu_build
         from pysim.effects import variant
         from pysim.io import read_model
 
+        name = name or f"{self.class_name.rpartition('.')[2]}Variant"
         made = variant(self.class_name, effects, self.libraries, name=name)
         source = folder / f"{name}.mo"
         source.write_text(made.text, encoding="utf-8")
@@ -147,17 +154,21 @@ def _model(text: str, libraries: Sequence[Path]) -> tuple[Model, str, list[str]]
     return read_model(fmu_build.build(text, libraries=list(libraries))), text, []
 
 
-def _catalogue(libraries: Sequence[Path], wanted: str) -> tuple[Effect, ...]:
-    from pysim.effects import read_catalogue
+def _catalogue(libraries: Sequence[Path], wanted: str, class_name: str) -> tuple[Effect, ...]:
+    """Effects of the libraries that the class takes; all where it is not known. Those wanted, where any are named."""
+    from pysim.effects import fitting, read_catalogue
     from pysim.types import BadInput
 
     catalogue = read_catalogue(*libraries)
+    taken = fitting(catalogue, class_name, libraries) if class_name else catalogue
     names = [name.strip() for name in wanted.split(",") if name.strip()]
-    known = [effect.name for effect in catalogue]
+    known, fit = [effect.name for effect in catalogue], [effect.name for effect in taken]
     for name in names:
         if name not in known:
             raise BadInput(f"--effects {name}: not in the catalogue; it has {', '.join(known)}")
-    return tuple(effect for effect in catalogue if not names or effect.name in names)
+        if name not in fit:
+            raise BadInput(f"--effects {name}: no slot of {class_name} takes it; its slots take {', '.join(fit)}")
+    return tuple(effect for effect in taken if not names or effect.name in names)
 
 
 def _write_model(folder: Path, found: Diagnosis, makes: _Variants) -> dict[str, Path]:

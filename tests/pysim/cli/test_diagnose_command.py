@@ -8,7 +8,7 @@ import pytest
 from fmu_build import build
 from pysim.cli import main
 from pysim.io import read_model, write_dataset
-from tests.pysim.diagnose.toy import library, measured
+from tests.pysim.diagnose.toy import CATALOGUE, library, measured
 
 KEYS = {
     "verdict", "added", "ranking", "confusable", "error", "parameters", "where", "missing", "next_test", "seconds",
@@ -53,6 +53,17 @@ def test_an_fmu_whose_class_is_unknown_is_compared_only(data: Path, tmp_path: Pa
     assert found["verdict"] == "unknown"
     assert any("no effect can be added" in note for note in found["notes"])
     assert found["where"][0]["error"] > 1.2
+
+
+def test_only_what_the_slots_take_is_a_candidate(
+    data: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    words = ["--model", "Toy.Mass", "--library", str(library()), "--json", str(tmp_path / "a.json")]
+    assert main(["diagnose", str(data), *words, "--effects", "toy.bias,friction.coulomb"]) == 2
+    assert "friction.coulomb: no slot of Toy.Mass takes it; its slots take toy.friction, " in capsys.readouterr().err
+    assert main(["diagnose", str(data), *words, "--most", "1"]) == 0
+    assert {row["effect"] for row in json.loads((tmp_path / "a.json").read_text())["ranking"]} <= set(CATALOGUE)
+    assert "compiling 4 candidates" in capsys.readouterr().err
 
 
 def test_an_unknown_effect_is_refused(data: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
