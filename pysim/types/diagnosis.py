@@ -173,6 +173,26 @@ class Stage:
     responses: tuple[ResponseFit, ...] = field(default=(), repr=False)
     where: tuple[Failure, ...] = field(default=(), repr=False)
 
+    def on_the_scale_of(self, other: Stage) -> dict[str, float]:
+        """Its values, moved along what changes nothing until the parameters held have the other stage's values."""
+        values, ends = {e.name: e.value for e in self.estimates}, {e.name: e.value for e in other.estimates}
+        for direction in self.undetermined:
+            held, exponent = next(iter(direction.exponents.items()))
+            if values.get(held, 0.0) > 0 and ends.get(held, 0.0) > 0:
+                factor = (ends[held] / values[held]) ** (1 / exponent)
+                values |= {name: values[name] * factor**e for name, e in direction.exponents.items()}
+        return values
+
+    def moves_from(self, before: Stage) -> dict[str, float | None]:
+        """By how many half widths of its 95 percent interval here each parameter has moved; None where it has none."""
+        ends = {e.name: e for e in self.estimates}
+        return {name: _moved(value, ends[name]) for name, value in before.on_the_scale_of(self).items() if name in ends}
+
+
+def _moved(before: float, after: Estimate) -> float | None:
+    half = (after.interval[1] - after.interval[0]) / 2
+    return abs(after.value - before) / half if after.determined and half > 0 else None
+
 
 @dataclass(frozen=True)
 class Told:

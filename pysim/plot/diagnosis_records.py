@@ -1,0 +1,145 @@
+"""Telling records of a diagnosis: measured beside the model before and after, and what is left in units of noise."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from pysim.plot.style import BAND, COLOURS, DASHES, LIMIT, MEASURED, SMALL, TEXT, legend_above, new_figure, quiet
+from pysim.types import BadInput, Diagnosis, RecordFit, Stage
+
+_PERIODS = 2.0  # of a stepped sine that are shown
+_STRETCH = 2.0  # s of another log that are shown, where the refitted model fails most
+_SMOOTH = 5  # samples of the running mean that shows what of a residual is more than noise
+_COARSE = 100  # samples up to which a residual needs no running mean
+
+
+def telling_records(diagnosis: Diagnosis) -> list[str]:
+    """Sources of the records on which the refitted base model fails most: a log, a stepped sine, and one held out."""
+    base = stage_of(diagnosis, "refit")
+    kinds: dict[tuple[bool, str], RecordFit] = {}
+    for record in base.records:
+        key = (bool(record.harmonics), record.use)
+        if key not in kinds or _size(record) > _size(kinds[key]):
+            kinds[key] = record
+    return [
+        kinds[key].source
+        for key in ((False, "fit"), (True, "fit"), (False, "validate"), (True, "validate"))
+        if key in kinds
+    ][:3]
+
+
+def stage_of(diagnosis: Diagnosis, step: str) -> Stage:
+    """The stage of that step.
+
+    Raises:
+        BadInput: there is none.
+    """
+    for stage in diagnosis.stages:
+        if stage.step == step:
+            return stage
+    raise BadInput(f"diagnosis: no stage {step!r}; it has {', '.join(s.step for s in diagnosis.stages) or 'none'}")
+
+
+def stages_shown(diagnosis: Diagnosis) -> list[tuple[str, Stage, str]]:
+    """Untouched, refitted and final model: name, stage and colour of each."""
+    names = [one.effect.name for one in diagnosis.added]
+    last = f"with {' and '.join(names)}" if len(names) < 3 else f"with {len(names)} effects"
+    steps = [("prior", "as it is", LIMIT), ("refit", "refitted", COLOURS[1])]
+    steps += [(names[-1], last, COLOURS[0])] if names else []
+    found = {stage.step: stage for stage in diagnosis.stages}
+    return [(name, found[step], colour) for step, name, colour in steps if step in found and found[step].records]
+
+
+def diagnosis_overlay_figure(diagnosis: Diagnosis, source: str) -> Figure:
+    """One record: each signal as measured and as the untouched, the refitted and the final model has it.
+
+    Below, what each model leaves in standard deviations of the noise; the grey band holds 95 percent of noise alone.
+    A stretch is shown where the refitted model fails most; a stepped sine by its last periods.
+
+    Args:
+        source: of the record, as the data set names it.
+    Raises:
+        BadInput: no stage has the record.
+    """
+    shown = [
+        (name, record, colour)
+        for name, stage, colour in stages_shown(diagnosis)
+        for record in stage.records
+        if record.source == source
+    ]
+    if not shown:
+        raise BadInput(f"overlay figure: no record {source!r} in the diagnosis' stages")
+    first = shown[min(1, len(shown) - 1)][1]
+    names = first.measured.names
+    figure = new_figure(1.2 + 4.6 * max(len(names), 1.4), 4.8)
+    axes = figure.subplots(2, len(names), sharex=True, squeeze=False, height_ratios=(3, 2))
+    part = _stretch(first)
+    handles: dict[str, Artist] = {}
+    for j in range(len(names)):
+        _signal(axes[0, j], shown, j, part, handles)
+        _residual(axes[1, j], shown, j, part)
+    legend_above(figure, list(handles.values()), list(handles))
+    return figure
+
+
+def _signal(
+    axes: Axes, shown: Sequence[tuple[str, RecordFit, str]], j: int, part: slice, handles: dict[str, Artist]
+) -> None:
+    measured = shown[0][1].measured
+    quiet(axes)
+    (dots,) = axes.plot(
+        measured.time[part], measured.values[part, j], ".", color=MEASURED, markersize=2.4, rasterized=True
+    )
+    handles["measured"] = dots
+    for k, (name, record, colour) in enumerate(shown):
+        (line,) = axes.plot(
+            record.simulated.time[part], record.simulated.values[part, j], color=colour, linewidth=1.5,
+            linestyle=DASHES[(len(shown) - 1 - k) % len(DASHES)],
+        )  # fmt: skip
+        handles[name] = line
+    unit = measured.units[j]
+    axes.set_ylabel(f"{measured.names[j]} ({unit if unit != '1' else '-'})", fontsize=TEXT)
+
+
+def _residual(axes: Axes, shown: Sequence[tuple[str, RecordFit, str]], j: int, part: slice) -> None:
+    """Of all models but the untouched one where there are others: it would hide them."""
+    quiet(axes)
+    axes.axhspan(-1.96, 1.96, color=BAND, linewidth=0)
+    words = []
+    for name, record, colour in shown[1:] or shown:
+        time, values = record.residual.time[part], record.residual.values[part, j]
+        if values.size > _COARSE:
+            axes.plot(
+                time, values, color=colour, marker=".", linestyle="none", markersize=1.6, alpha=0.5, rasterized=True
+            )
+            values = np.convolve(values, np.ones(_SMOOTH) / _SMOOTH, mode="valid")
+            time = time[_SMOOTH // 2 : _SMOOTH // 2 + values.size]
+        axes.plot(time, values, color=colour, linewidth=1.4)
+        words.append(f"{name} {math.sqrt(float(np.mean(record.residual.values[:, j] ** 2))):.2f}")
+    axes.set_title(f"rms of the whole record: {', '.join(words)}", fontsize=SMALL, loc="left", color="#444444")
+    axes.set_ylabel("Left over (noise s.d.)", fontsize=TEXT)
+    axes.set_xlabel("Time (s)", fontsize=TEXT)
+
+
+def _stretch(record: RecordFit) -> slice:
+    """Samples to show: the last periods of a stepped sine, else those where the residual is largest."""
+    time = record.measured.time
+    if record.harmonics:
+        length = _PERIODS / record.harmonics[0].frequency
+        return slice(int(np.searchsorted(time, time[-1] - length)), time.size)
+    count = int(np.searchsorted(time, time[0] + _STRETCH))
+    if count >= time.size:
+        return slice(0, time.size)
+    power = np.sum(record.residual.values**2, axis=1)
+    begin = int(np.argmax(np.convolve(power, np.ones(count), mode="valid")))
+    return slice(begin, begin + count)
+
+
+def _size(record: RecordFit) -> float:
+    return math.sqrt(float(np.mean(record.residual.values**2)))

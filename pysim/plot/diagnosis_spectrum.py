@@ -1,0 +1,91 @@
+"""What logs over time leave over, by frequency: noise alone is flat at one."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+from scipy import signal, stats
+
+from pysim.plot.diagnosis_records import stages_shown
+from pysim.plot.style import BAND, COLOURS, LIMIT, SMALL, TEXT, frequency_axis, legend_above, new_figure, quiet
+from pysim.types import BadInput, Diagnosis, RecordFit
+
+Array = NDArray[np.float64]
+
+_SEGMENTS = 8  # of a log, before halves overlap
+_FEWEST = 64  # samples of a segment
+_MANY = 3  # logs shown
+
+
+def residual_spectrum(record: RecordFit, column: int) -> tuple[Array, Array, float]:
+    """Power of one signal's residual by frequency, where white noise of the stated size is 1.
+
+    Returns:
+        frequency (n_f,) in Hz, power (n_f,), and the degrees of freedom of each value.
+    Source: Welch 1967, IEEE Transactions on Audio and Electroacoustics 15:70; Hann windows, halves overlapping.
+    """
+    time, values = record.residual.time, record.residual.values[:, column]
+    step = float(np.median(np.diff(time)))
+    length = min(values.size, max(_FEWEST, values.size // _SEGMENTS))
+    frequency, density = signal.welch(values, 1 / step, nperseg=length, detrend=False)
+    count = 2 * (values.size // length) - 1
+    return frequency[1:], density[1:] / (2 * step), 2 * count * 18 / 19 if count > 1 else 2.0
+
+
+def diagnosis_spectrum_figure(diagnosis: Diagnosis) -> Figure:
+    """A panel per log and signal: power of the residual over frequency, of the refitted and the final model.
+
+    The grey band holds 95 percent of what white noise of the stated size gives.
+
+    Raises:
+        BadInput: no log over time but stepped sines.
+    """
+    shown = [(name, stage, colour) for name, stage, colour in stages_shown(diagnosis) if stage.step != "prior"]
+    panels = [
+        (record, j)
+        for record in ([] if not shown else shown[0][1].records)
+        if not record.harmonics and record.residual.time.size >= 2 * _FEWEST
+        for j in range(len(record.measured.names))
+    ][: 2 * _MANY]
+    if not panels:
+        raise BadInput("spectrum figure: no log over time but stepped sines was compared")
+    columns = min(2, len(panels))
+    rows = -(-len(panels) // columns)
+    figure = new_figure(8.2, 0.5 + 2.2 * rows)
+    axes = figure.subplots(rows, columns, squeeze=False, sharey=True)
+    handles: dict[str, Artist] = {}
+    for own, (record, j) in zip(axes.ravel(), panels, strict=False):
+        beside = [(name, _same(stage.records, record), colour) for name, stage, colour in shown]
+        for name, one, colour in beside:
+            if one is not None:
+                handles[name] = _draw(own, one, j, colour)
+        own.set_title(f"{record.source}: {record.measured.names[j]}", fontsize=SMALL, loc="left")
+    for own in axes.ravel()[len(panels) :]:
+        own.set_visible(False)
+    for own in axes[:, 0]:
+        own.set_ylabel("Residual power over noise (-)", fontsize=TEXT)
+    for own in axes.ravel()[max(0, len(panels) - columns) : len(panels)]:
+        own.set_xlabel("Frequency (Hz)", fontsize=TEXT)
+    legend_above(figure, list(handles.values()), list(handles))
+    return figure
+
+
+def _same(records: Sequence[RecordFit], record: RecordFit) -> RecordFit | None:
+    return next((one for one in records if one.source == record.source), None)
+
+
+def _draw(axes: Axes, record: RecordFit, column: int, colour: str) -> Artist:
+    frequency, power, freedom = residual_spectrum(record, column)
+    quiet(axes)
+    axes.set_yscale("log")
+    low, high = stats.chi2.ppf([0.025, 0.975], freedom) / freedom
+    axes.axhspan(low, high, color=BAND, alpha=0.6, linewidth=0, zorder=0)
+    axes.axhline(1.0, color=LIMIT, linewidth=0.8, zorder=1)
+    (line,) = axes.plot(frequency, power, color=colour, linewidth=1.2, zorder=3 if colour == COLOURS[0] else 2)
+    frequency_axis(axes, float(frequency[0]), float(frequency[-1]))
+    return line

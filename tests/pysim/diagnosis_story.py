@@ -1,0 +1,135 @@
+"""A diagnosis whose every number is known: a gain that was bent, an offset that was missing, and noise of size one."""
+
+import numpy as np
+
+from pysim.types import (
+    AddedEffect,
+    Candidate,
+    Dataset,
+    Diagnosis,
+    Direction,
+    Effect,
+    EffectParameter,
+    Estimate,
+    Failure,
+    Harmonics,
+    LedgerStep,
+    MeasuredRecord,
+    MeasuredSignal,
+    Record,
+    RecordFit,
+    Stage,
+)
+
+OFFSET = Effect(
+    "toy.offset",
+    "force",
+    "Toy.Offset",
+    (EffectParameter("F_o", "N", -5.0, 5.0, 0.3, 0.0, 0.0),),
+    "Constant force (toy.offset)",
+    law="f = F_o;",
+)
+LEFT = {"prior": 8.0, "refit": 3.0, "toy.offset": 0.0}  # what each model leaves beside noise, a constant
+WAVE = 6.0  # Hz, of a ripple that the refitted model leaves in the log that was fitted
+
+
+def estimate(name: str, value: float, half: float, *, start: float = 1.0, unit: str = "N") -> Estimate:
+    """With an interval of that half width; a half width of zero: not determined."""
+    std = half / 1.96 if half else np.inf
+    interval = (value - half, value + half) if half else (0.1, 10.0)
+    return Estimate(name, unit, value, start, 0.1, 10.0, std, interval)
+
+
+def record(source: str, use: str, step: str, seed: int, *, frequency: float = 0.0) -> RecordFit:
+    """A log of one signal, sampled at 100 Hz for 8 s; noise 0.5 in its unit."""
+    noise, time = 0.5, np.arange(0, 8, 0.01)
+    wave = np.sin(2 * np.pi * (frequency or 0.7) * time)
+    white = np.random.default_rng(seed).standard_normal(time.size)
+    white = (white - white.mean()) / white.std()  # so that what is left over has a known size
+    left = LEFT[step] * (1.5 if frequency == 1.0 else 1.0)
+    ripple = 6 * np.sin(2 * np.pi * WAVE * time) if (step, use, frequency) == ("refit", "fit", 0.0) else 0.0
+    measured = 20 * wave + noise * (white + left + ripple)
+    columns = [Record(time, values[:, None], ("x",), ("m",)) for values in (measured, 20 * wave)]
+    harmonics = ()
+    if frequency:
+        size = np.array([0.0, 20.0], dtype=np.complex128)
+        harmonics = (Harmonics("x", frequency, size + noise * np.array([left, 0]), size, np.array([0.1, 0.1])),)
+    kind = "frequency-response" if frequency else "stochastic"
+    return RecordFit("toy", source, kind, use, *columns, (noise,), {}, harmonics)
+
+
+def stage(step: str, *estimates: Estimate, **told: object) -> Stage:
+    """With two stepped sines, a log, and a log held out."""
+    records = (
+        record("sines/1Hz.txt", "fit", step, 1, frequency=1.0),
+        record("sines/5Hz.txt", "fit", step, 2, frequency=5.0),
+        record("wave.txt", "fit", step, 3),
+        record("held.txt", "validate", step, 4),
+    )
+    where = tuple(Failure(r.source, "x", "everywhere", r.rms["x"]) for r in records)
+    return Stage(step, estimates, records=records, where=where, **told)
+
+
+def dataset() -> Dataset:
+    """What the records were taken from."""
+    signals = (MeasuredSignal("F", "input", "N", "force", "F"), MeasuredSignal("x", "output", "m", "place", "x", 0.5))
+    empty = Record(np.arange(2.0), np.zeros((2, 2)), ("F", "x"), ("N", "m"))
+    sines = [
+        MeasuredRecord(f"sines/{f:g}Hz.txt", "frequency-response", "fit", empty, 50.0, 10.0, f) for f in (1.0, 5.0)
+    ]
+    logs = [MeasuredRecord(f"{n}.txt", "stochastic", u, empty) for n, u in (("wave", "fit"), ("held", "validate"))]
+    return Dataset("toy", "a mass", "mass", signals, (*sines, *logs))
+
+
+def step(name: str, fit: float, validate: float | None, magnitude: float) -> LedgerStep:
+    """One criterion of Table 1.3, whose limit is 0.5 dB."""
+    return LedgerStep(name, fit, validate, {"E_M mean": magnitude}, magnitude <= 0.5, fit**2)
+
+
+def story(**changes: object) -> Diagnosis:
+    """m and k were scaled together by chance (held: m), d was bent, and the offset took nearly all of the misfit.
+
+    Args:
+        changes: fields of the answer, in place of what stands here.
+    """
+    open_ = Direction({"m": 1.0, "k": 2.0}, np.inf, "m and k^2 scale")
+    before = (estimate("m", 2.0, 0.0), estimate("k", 3.0, 0.3), estimate("d", 1.0, 0.2))
+    after = (estimate("m", 1.0, 0.0), estimate("k", 0.75, 0.1), estimate("d", 1.5, 0.1), estimate("F_o", 0.4, 0.05))
+    stages = (
+        stage("prior"),
+        stage("refit", *before, undetermined=(open_,)),
+        stage("toy.offset", *after, undetermined=(open_,)),
+    )
+    told: dict[str, object] = {
+        "verdict": "toy.offset",
+        "reason": "toy.offset explains 99.0 % of what the base model leaves over noise",
+        "added": (AddedEffect(OFFSET, "force", after[-1:]),),
+        "ranking": (
+            Candidate("toy.offset", 900.0, 1e-9, 0.99, True, {"F_o": 0.4}),
+            Candidate("toy.twin", 895.0, 1e-9, 0.98, True, {"F_t": 0.4}),
+            Candidate("toy.other", 12.0, 1e-3, 0.05, False, {"k_3": 5.0}),
+            Candidate("toy.idle", -6.0, 0.9, 0.0, False, {"F_i": 0.1}),
+        ),
+        "confusable": (("toy.offset", "toy.twin"),),
+        "error": (step("prior", 8.1, 8.0, 0.9), step("refit", 4.2, 3.2, 0.6), step("toy.offset", 1.0, 1.01, 0.1)),
+        "parameters": after,
+        "where": stages[1].where,
+        "seconds": {"refit": 1.5},
+        "notes": ("the noise of x was seen in the logs",),
+        "stages": stages,
+        "conditions": {"seed": "7"},
+    }
+    return Diagnosis(**(told | changes))  # type: ignore[arg-type]
+
+
+def nothing() -> Diagnosis:
+    """The same where the data ask for nothing."""
+    full = story()
+    return story(
+        verdict="none",
+        reason="the refitted base model explains the data to 1.000 times the noise's variance",
+        added=(),
+        confusable=(),
+        error=full.error[:2],
+        stages=full.stages[:2],
+    )

@@ -1,0 +1,123 @@
+"""The figures of a diagnosis show the numbers of the answer."""
+
+import math
+
+import numpy as np
+import pytest
+
+from pysim.plot import (
+    diagnosis_failures_figure,
+    diagnosis_ledger_figure,
+    diagnosis_map_figure,
+    diagnosis_overlay_figure,
+    diagnosis_parameters_figure,
+    diagnosis_ranking_figure,
+    diagnosis_spectrum_figure,
+    render,
+    telling_records,
+)
+from pysim.plot.diagnosis_spectrum import residual_spectrum
+from pysim.types import BadInput
+from tests.pysim.diagnosis_story import WAVE, dataset, nothing, step, story
+
+
+def texts(axes: object) -> list[str]:
+    return [text.get_text() for text in axes.texts]  # type: ignore[attr-defined]
+
+
+def test_the_ledger_falls_and_marks_the_criteria() -> None:
+    figure = diagnosis_ledger_figure(story().error)
+    top, low = figure.axes
+    fitted, held = (line.get_ydata() for line in top.lines[1:])
+    assert list(fitted) == [8.1, 4.2, 1.0]
+    assert list(held) == [8.0, 3.2, 1.01]
+    assert [label.get_text() for label in top.get_xticklabels()] == ["as it is", "refitted", "+ toy.offset"]
+    assert texts(low) == ["0.9  ✗", "0.6  ✗", "0.1  ✓"]
+    assert [label.get_text() for label in low.get_yticklabels()] == ["mean magnitude ≤ 0.5 dB"]
+    assert render(figure, "png").startswith(b"\x89PNG")
+
+
+def test_a_ledger_without_held_out_data_has_one_line() -> None:
+    figure = diagnosis_ledger_figure([step("prior", 2.0, None, 0.1)])
+    assert len([line for line in figure.axes[0].lines if len(line.get_xdata()) == 1]) == 1
+    assert [text.get_text() for text in figure.legends[0].get_texts()] == ["fitted"]
+    with pytest.raises(BadInput, match="at least one step"):
+        diagnosis_ledger_figure([])
+
+
+def test_the_ranking_tells_refitted_from_screened_and_draws_ties_as_ties() -> None:
+    axes = diagnosis_ranking_figure(story()).axes[0]
+    best, twin, other = (bar for bar in axes.patches if bar.get_width() > 0)
+    assert best.get_width() == pytest.approx(899.0)
+    assert best.get_facecolor() == twin.get_facecolor() != other.get_facecolor()
+    assert (best.get_hatch(), other.get_hatch()) == (None, "////")
+    assert "does not pay" in texts(axes)
+    (bracket,) = axes.lines
+    assert list(bracket.get_ydata()) == pytest.approx([-0.3, -0.3, 1.3, 1.3])
+    assert not diagnosis_ranking_figure(story(confusable=())).axes[0].lines
+    with pytest.raises(BadInput, match="candidate"):
+        diagnosis_ranking_figure(story(ranking=()))
+
+
+def test_the_telling_records_are_the_worst_of_each_kind() -> None:
+    assert telling_records(story()) == ["wave.txt", "sines/1Hz.txt", "held.txt"]
+
+
+def test_an_overlay_shows_every_model_and_what_it_leaves() -> None:
+    figure = diagnosis_overlay_figure(story(), "sines/5Hz.txt")
+    top, low = figure.axes
+    assert len(top.lines) == 4  # measured and three models
+    assert top.lines[0].get_xdata()[0] == pytest.approx(8 - 0.01 - 2 / 5, abs=0.011)  # two periods
+    base, final = low.lines
+    assert np.mean(base.get_ydata()) == pytest.approx(3.0, abs=0.3)
+    assert np.mean(final.get_ydata()) == pytest.approx(0.0, abs=0.3)
+    assert "toy.offset" in low.get_title(loc="left")
+    assert len(diagnosis_overlay_figure(nothing(), "wave.txt").axes[0].lines) == 3
+    with pytest.raises(BadInput, match=r"other\.txt"):
+        diagnosis_overlay_figure(story(), "other.txt")
+
+
+def test_the_map_holds_the_residuals_by_test_and_frequency() -> None:
+    figure = diagnosis_map_figure(story(), dataset())
+    before, after, logs, _, _ = figure.axes
+    assert [label.get_text() for label in before.get_xticklabels()] == ["1", "5"]
+    assert [label.get_text() for label in before.get_yticklabels()] == ["offset 50, amplitude 10"]
+    assert texts(before) == ["4.6", "3.2"]  # the roots of 1 + 4.5^2 and 1 + 3^2
+    assert texts(after) == ["1.0", "1.0"]
+    assert [label.get_text() for label in logs.get_yticklabels()] == ["wave (fitted): x", "held (held out): x"]
+    with pytest.raises(BadInput, match="residual map"):
+        diagnosis_map_figure(story(stages=()), dataset())
+
+
+def test_failures_stand_by_rank_with_what_is_left_in_the_end() -> None:
+    axes = diagnosis_failures_figure(story()).axes[0]
+    before = [bar.get_width() for bar in axes.patches]
+    assert before == pytest.approx([failure.error for failure in story().where])
+    assert list(axes.lines[0].get_xdata()) == pytest.approx(np.ones(4), abs=0.1)
+    assert not [line for line in diagnosis_failures_figure(nothing()).axes[0].lines if line.get_marker() == "o"]
+    with pytest.raises(BadInput, match="no place"):
+        diagnosis_failures_figure(story(where=()))
+
+
+def test_parameters_show_which_were_bent_once_the_scale_is_the_same() -> None:
+    found = story()
+    figure = diagnosis_parameters_figure(found.stages[1], found.stages[2])
+    left, right = figure.axes
+    assert texts(right) == ["held, sets the scale", "0.0", "5.0"]  # k went from 3 to 0.75 as m from 2 to 1; d by 0.5
+    assert [label.get_text() for label in left.get_yticklabels()] == ["m (N)", "k (N)", "d (N)"]
+    assert len(diagnosis_parameters_figure(found.stages[1], None).axes) == 1
+    with pytest.raises(BadInput, match="no estimates"):
+        diagnosis_parameters_figure(found.stages[0], None)
+
+
+def test_the_spectrum_of_noise_is_one_and_a_ripple_stands_out() -> None:
+    base, final = (next(r for r in stage.records if r.source == "wave.txt") for stage in story().stages[1:])
+    frequency, power, freedom = residual_spectrum(final, 0)
+    assert np.mean(power) == pytest.approx(1.0, abs=0.15)
+    assert np.var(power) == pytest.approx(2 / freedom, rel=0.5)
+    _, rippled, _ = residual_spectrum(base, 0)
+    assert frequency[np.argmax(np.where(frequency > 3, rippled, 0))] == pytest.approx(WAVE, abs=1.0)
+    assert len(diagnosis_spectrum_figure(story()).axes) == 2
+    with pytest.raises(BadInput, match="spectrum"):
+        diagnosis_spectrum_figure(story(stages=()))
+    assert math.isfinite(freedom)
