@@ -1,5 +1,5 @@
 """What the pages in docs/ show works as it stands: their Python runs, their command lines parse, their links lead
-somewhere."""
+somewhere. A block that begins with ```sh run is executed, one with file=NAME behind its language is written there."""
 
 import re
 import shlex
@@ -19,16 +19,28 @@ RUNNER = ("python3", "run.py")
 
 
 def blocks(text: str) -> Iterator[tuple[str, int, str]]:
-    """Every fenced block: its language ("" where none is told), the line its content starts at, the content."""
+    """Every fenced block: the words behind its fence, language first, the line its content starts at, the content."""
     for match in re.finditer(r"^```([^\n`]*)\n(.*?)^```[ \t]*$", text, re.DOTALL | re.MULTILINE):
         yield match[1].strip(), text.count("\n", 0, match.start()) + 2, match[2]
 
 
-def run_python(page: Path) -> None:
-    """Run the page's Python blocks one after the other in one namespace; a failure names the page and the line."""
+def run_page(page: Path) -> None:
+    """Do what the page does, block by block: write its files, run its commands, and its Python in one namespace.
+
+    Raises:
+        AssertionError: something failed; names the page and the line.
+    """
     namespace: dict[str, object] = {"__name__": "__main__"}
-    for language, line, source in blocks(page.read_text(encoding="utf-8")):
-        if language != "python":
+    for words, line, source in blocks(page.read_text(encoding="utf-8")):
+        file = re.search(r"\bfile=(\S+)", words)
+        if file:
+            Path(file[1]).parent.mkdir(parents=True, exist_ok=True)
+            Path(file[1]).write_text(source, encoding="utf-8")
+        if words == "sh run":
+            for at, command in commands(source, line):
+                code = execute(command)
+                assert code == 0, f"{page.name}, line {at}: {shlex.join(command)} ends with {code}"
+        if words != "python":
             continue
         padded = "\n" * (line - 1) + source  # so that tracebacks count the page's lines
         try:
@@ -42,12 +54,22 @@ def run_python(page: Path) -> None:
 def command_lines(text: str) -> Iterator[tuple[int, list[str]]]:
     """Every command of ours in a shell block or one without language: its line and its words."""
     for language, first, content in blocks(text):
-        if language not in ("", "sh", "console"):
-            continue
-        for match in re.finditer(r"(?:\\\n|[^\n])+", content):  # a line goes on behind a backslash
-            words = match[0].replace("\\\n", " ").removeprefix("$ ").strip()
-            if words.startswith(("pysim ", "fmu-build ", "python3 run.py ")):
-                yield first + content.count("\n", 0, match.start()), shlex.split(words, comments=True)
+        if language in ("", "sh", "sh run", "console"):
+            yield from commands(content, first)
+
+
+def commands(content: str, first: int) -> Iterator[tuple[int, list[str]]]:
+    """Every command of ours in a block that starts at line `first`: its line and its words."""
+    for match in re.finditer(r"(?:\\\n|[^\n])+", content):  # a line goes on behind a backslash
+        words = match[0].replace("\\\n", " ").removeprefix("$ ").strip()
+        if words.startswith(("pysim ", "fmu-build ", "python3 run.py ")):
+            yield first + content.count("\n", 0, match.start()), shlex.split(words, comments=True)
+
+
+def execute(words: list[str]) -> int:
+    """The exit status of a command of ours, run in this process."""
+    main = {"pysim": "pysim.cli", "fmu-build": "fmu_build.cli"}[words[0]]
+    return int(import_module(main).main(words[1:]))
 
 
 def parse(words: list[str]) -> None:
@@ -98,9 +120,9 @@ def page_name(page: Path) -> str:
 
 
 @pytest.mark.parametrize("page", PAGES, ids=page_name)
-def test_python_runs(page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_what_it_shows_runs(page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
-    run_python(page)
+    run_page(page)
 
 
 @pytest.mark.parametrize("page", [ROOT / "README.md", *PAGES], ids=page_name)
@@ -147,19 +169,34 @@ pysim simulate a.fmu \\
 pysim simulate a.fmu --set tau=1 --output b.csv   # a remark
 ```
 
+```toml file=in/a.toml
+b = 2
+```
+
+```sh run
+pysim simulate nothing.fmu
+```
+
 [here](#a-page-of-mine) [there](other.md) [web](https://example.org) [gone](#nowhere)
 """
 
 
-def test_the_guard_sees_what_it_is_to_see(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_guard_sees_what_it_is_to_see(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
     page = tmp_path / "page.md"
     page.write_text(PAGE, encoding="utf-8")
     with pytest.raises(AssertionError, match=r"page.md, line 11: AssertionError: not two"):
-        run_python(page)
+        run_page(page)
     page.write_text(PAGE.replace("a = 1", "a = = 1"), encoding="utf-8")
     with pytest.raises(AssertionError, match=r"page.md, line 6: SyntaxError"):
-        run_python(page)
-    (first, bad), (second, good) = command_lines(PAGE)
+        run_page(page)
+    page.write_text(PAGE.replace('assert a == 2, "not two"', ""), encoding="utf-8")
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(AssertionError, match=r"page.md, line 25: pysim simulate nothing.fmu ends with 2"):
+        run_page(page)
+    assert Path("in/a.toml").read_text() == "b = 2\n"
+    (first, bad), (second, good), _ = command_lines(PAGE)
     assert (first, bad[-1], second, good[-1]) == (15, "--nonsense", 17, "b.csv")
     with pytest.raises(SystemExit):
         parse(bad)
