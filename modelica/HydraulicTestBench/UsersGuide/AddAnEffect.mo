@@ -9,9 +9,9 @@ effect of your own takes four steps:</p>
 <li>Write one class: extend the slot's partial class, declare the strength as a parameter whose off value makes the term
 exactly zero, and give the missing equations. Keep it smooth; use an event only where the physics has one.</li>
 <li>Say in the class's annotation what it is: <code>__HydraulicTestBench(effect=\"my.friction\",
-slot=\"pistonForce\")</code>, with a name of your own. Give each parameter <code>min</code>, <code>max</code> and
-<code>nominal</code>. Then <code>pysim</code> finds it in your library, and it takes part in a diagnosis beside the
-others.</li>
+slot=\"pistonForce\")</code>, with a name of your own. Give each parameter a unit, <code>min</code>, <code>max</code>
+and <code>nominal</code>. Then <code>pysim diagnose --library YourLibrary</code> finds it, and it takes part beside the
+others wherever a model has that slot.</li>
 <li>To use it by hand, extend <code>Pump.SwashPlateControl</code> and redeclare the slot, all slots in one such
 extension.</li>
 </ol>
