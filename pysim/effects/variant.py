@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from pysim.effects._classes import ClassText
 from pysim.effects._library import Libraries
+from pysim.effects._modifications import with_values
 from pysim.effects._tokens import tokenise
 from pysim.effects.catalogue import Pair, read_pairs
 from pysim.types import BadInput, Effect
@@ -33,7 +34,13 @@ class Variant:
 
 
 def variant(
-    base_class: str, effects: Sequence[Effect], libraries: Sequence[Path], *, name: str = "PumpVariant"
+    base_class: str,
+    effects: Sequence[Effect],
+    libraries: Sequence[Path],
+    *,
+    name: str = "PumpVariant",
+    values: Mapping[str, float] | None = None,
+    comment: str = "",
 ) -> Variant:
     """Extend a model by effects, all slots in one extends clause.
 
@@ -46,6 +53,8 @@ def variant(
         effects: any, each once; none gives the base itself.
         libraries: where the base, the effects and the pairs are.
         name: of the new class.
+        values: parameters to set, by their full names in the new class.
+        comment: lines ahead of the class, without the slashes.
     Raises:
         BadInput: an unknown base, a slot it does not have, an effect twice, or two in a slot that no pair serves.
     """
@@ -60,10 +69,12 @@ def variant(
     for slot in slots:
         filling = _filling(slot, [effect for effect in effects if effect.slot == slot], pairs, inner, places)
         modifications = [*modifications, f"redeclare {filling} {slot}"]
+    modifications = with_values(modifications, values or {})
     bracket = "(\n    " + ",\n    ".join(modifications) + ")" if modifications else ""
     about = ", ".join(names) or "no effect"
     short = base_class.rpartition(".")[2]
-    lines = [f'model {name} "{short} with {about}"', *inner, f"  extends {base}{bracket};", f"end {name};", ""]
+    above = [f"// {line}".rstrip() for line in comment.splitlines()]
+    lines = [*above, f'model {name} "{short} with {about}"', *inner, f"  extends {base}{bracket};", f"end {name};", ""]
     return Variant(name, "\n".join(lines), places)
 
 
