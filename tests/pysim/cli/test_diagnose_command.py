@@ -8,6 +8,7 @@ import pytest
 from fmu_build import build
 from pysim.cli import main
 from pysim.io import read_model, write_dataset
+from tests.foreign import made_foreign
 from tests.pysim.diagnose.toy import CATALOGUE, library, measured
 
 KEYS = {
@@ -53,6 +54,24 @@ def test_an_fmu_whose_class_is_unknown_is_compared_only(data: Path, tmp_path: Pa
     assert found["verdict"] == "unknown"
     assert any("no effect can be added" in note for note in found["notes"])
     assert found["where"][0]["error"] > 1.2
+
+
+def test_an_fmu_of_another_tool_is_compared_and_refitted(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """It has no derivatives, no bounds and no source; the plant rubs, which no refit can hide."""
+    write_dataset(tmp_path / "data", measured(1, "toy.friction", F_c=0.4))
+    fmu = made_foreign(build("Toy.Mass", libraries=[library()]), tmp_path / "foreign.fmu")
+    words = ["diagnose", str(tmp_path / "data"), "--model", str(fmu), "--json", str(tmp_path / "a.json")]
+    assert main(words) == 2
+    assert "no parameter min, max and nominal" in capsys.readouterr().err
+    bounds = [word for text in ("m=0.5:5", "d=0:10", "k=1:100") for word in ("--bounds", text)]
+    assert main([*words, "--free", "m,d,k", *bounds]) == 0
+    found = json.loads((tmp_path / "a.json").read_text())
+    prior, refit = found["error"]
+    assert (prior["step"], refit["step"], found["verdict"], found["added"]) == ("prior", "refit", "unknown", [])
+    assert 1.5 < refit["fit"] < 0.8 * prior["fit"]
+    assert 1.5 < refit["validate"] < prior["validate"]
+    assert all(0.5 < found["parameters"][name]["value"] < 100 for name in ("m", "d", "k"))
+    assert any("inputs F and the outputs x, v of foreign.fmu, nothing inside it" in note for note in found["notes"])
 
 
 def test_only_what_the_slots_take_is_a_candidate(
