@@ -24,9 +24,14 @@ def conditions(model: Model, plan: SteppedSine, solver: Solver, about: str) -> d
         "settling": f"{plan.settle_time:g} s of the sine, at least {plan.settle_periods} periods; doubled up to "
         f"{plan.settle_limit:g} s while the output changes by more than {TOLERANCE:g} of its amplitude over the fit",
         "fit": f"{plan.fit_periods} whole periods of {plan.points} points",
-        "versions": f"{_DISTRIBUTION} {_version(_DISTRIBUTION)}, Python {platform.python_version()}, "
-        f"NumPy {_version('numpy')}",
+        "versions": versions(),
     }
+
+
+def versions() -> str:
+    """Of this project, Python and NumPy."""
+    ours = f"{_DISTRIBUTION} {_version(_DISTRIBUTION)}"
+    return f"{ours}, Python {platform.python_version()}, NumPy {_version('numpy')}"
 
 
 def parameters(model: Model, overrides: Mapping[str, float]) -> dict[str, tuple[float, str]]:

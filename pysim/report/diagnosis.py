@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping, Sequence
 
 from pysim.types import Estimate
-from pysim.types.diagnosis import AddedEffect, Candidate, Diagnosis, LedgerStep
+from pysim.types.diagnosis import AddedEffect, Candidate, Diagnosis, LedgerStep, Missing, NextTest
 
 
 def diagnosis_data(diagnosis: Diagnosis, files: Mapping[str, str] | None = None) -> dict[str, object]:
@@ -27,11 +27,12 @@ def diagnosis_data(diagnosis: Diagnosis, files: Mapping[str, str] | None = None)
             {"record": f.record, "signal": f.signal, "region": f.region, "error": _finite(f.error)}
             for f in diagnosis.where
         ],
-        "missing": [],
-        "next_test": None,
+        "missing": [_missing(one) for one in diagnosis.missing],
+        "next_test": _next_test(diagnosis.next_test),
         "seconds": {name: _finite(value) for name, value in diagnosis.seconds.items()},
         "files": dict(files or {}),
         "notes": list(diagnosis.notes),
+        "conditions": dict(diagnosis.conditions),
     }
 
 
@@ -69,6 +70,26 @@ def _candidate(row: Candidate) -> dict[str, object]:
         "refitted": row.refitted,
         "parameters": {name: _finite(value) for name, value in row.parameters.items()},
     }
+
+
+def _missing(one: Missing) -> dict[str, object]:
+    """A missing term, tabulated."""
+    columns = ("argument", "value", "low", "high")
+    shape: dict[str, object] = {name: [_finite(float(v)) for v in getattr(one.shape, name)] for name in columns}
+    shape |= {"argument_unit": one.shape.argument_unit, "unit": one.shape.unit}
+    return {
+        "slot": one.slot,
+        "share": _finite(one.share),
+        "depends_on": one.depends_on,
+        "shape": shape,
+        "formula": one.formula,
+    }
+
+
+def _next_test(test: NextTest | None) -> dict[str, object] | None:
+    if test is None:
+        return None
+    return {"separates": list(test.separates), "gain": _finite(test.gain), "about": test.about, "plan": test.plan}
 
 
 def _step(step: LedgerStep) -> dict[str, object]:

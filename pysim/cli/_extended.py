@@ -1,0 +1,102 @@
+"""The model a diagnosis ends with, for the user to take away: a readable class with fitted values, and its FMU."""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from pysim.cli._subject import Given
+    from pysim.types import Dataset, Diagnosis
+
+_WIDTH = 110
+
+
+def write_extended(found: Diagnosis, given: Given, folder: Path) -> dict[str, Path]:
+    """Write class, FMU and parameters; name -> path, none where nothing was added.
+
+    Nothing of the user's files is changed: the class extends theirs.
+
+    Raises:
+        BadInput: the folder cannot be written.
+    """
+    from pysim.io import write_file
+
+    if not found.added or given.variants is None:
+        return {}
+    name = extended_name(given.variants.class_name, [one.effect.class_name for one in found.added])
+    fitted = {e.name: e.value for e in found.parameters if "@" not in e.name}
+    values = {**given.overrides, **fitted}
+    effects, fmu = [one.effect for one in found.added], folder / f"{name}.fmu"
+    given.variants.write(effects, folder, fmu, name, values, _comment(found, given, name))
+    lines = [f'"{key}" = {value!r}' for key, value in fitted.items()]
+    write_file(folder / "parameters.toml", "\n".join([*lines, ""]))
+    return {"modelica": folder / f"{name}.mo", "fmu": fmu, "parameters": folder / "parameters.toml"}
+
+
+def extended_name(base: str, effects: Sequence[str]) -> str:
+    """`PumpWithDeadbandAndFriction` of the last words of the classes' names."""
+    return f"{_last(base)}With{'And'.join(_last(name) for name in effects)}"
+
+
+def _last(name: str) -> str:
+    return name.rpartition(".")[2]
+
+
+def _comment(found: Diagnosis, given: Given, name: str) -> str:
+    """What it is, from which data, and when not to trust it."""
+    own = given.libraries
+    more = "".join(f" --library {library}" for library in own)
+    parts = [
+        f"{name}: {given.model_name} with {', '.join(one.effect.name for one in found.added)}.",
+        f"Every number below was fitted to the records of data set {given.dataset.name} that are marked fit; intervals "
+        "and evidence are in report.html beside this file.",
+        f"Compiles by: fmu-build {name} --library {name}.mo{more}",
+        "Do not trust it",
+        *(f"- {text}" for text in _limits(found, given.dataset)),
+    ]
+    indent = {True: "  ", False: ""}
+    wrapped = [textwrap.fill(p, _WIDTH, subsequent_indent=indent[p.startswith("-")]) for p in parts]
+    return "\n".join(wrapped)
+
+
+def _limits(found: Diagnosis, dataset: Dataset) -> list[str]:
+    """What the data did not show."""
+    texts = [f"beyond what was excited: {_excited(dataset)}"]
+    if not any(record.use == "validate" for record in dataset.records):
+        texts.append("for other excitation without a test: no record was held out")
+    last = found.error[-1] if found.error else None
+    if last is not None and not last.passes:
+        texts.append("as a match by thesis Tables 1.3 and 1.4: some of their limits are not met")
+    if found.verdict == "unknown":
+        texts.append("as complete: more than noise is left, and what that is could not be named")
+    for group in found.confusable:
+        texts.append(f"as proof of the effect's kind: these data do not tell {', '.join(group)} apart")
+    last_stage = found.stages[-1] if found.stages else None
+    for direction in last_stage.undetermined if last_stage else ():
+        names = ", ".join(direction.exponents)
+        texts.append(f"as to {names} one by one: the data tell only products of them")
+    return texts
+
+
+def _excited(dataset: Dataset) -> str:
+    """Ranges of the inputs, and the frequencies of stepped sines."""
+    ranges: dict[str, tuple[float, float]] = {}
+    for record in dataset.logs():
+        for name in dataset.columns(record, "input"):
+            values = record.data[name]  # type: ignore[index]
+            low, high = ranges.get(name, (float("inf"), -float("inf")))
+            ranges[name] = (min(low, float(values.min())), max(high, float(values.max())))
+    texts = [f"{name} from {low:.4g} to {high:.4g} {dataset.signal(name).unit}" for name, (low, high) in ranges.items()]
+    sines = [record.frequency for record in dataset.records if record.frequency is not None]
+    texts += [f"sines from {min(sines):g} to {max(sines):g} Hz"] if sines else []
+    return "; ".join(texts) or "see the data set"
+
+
+def relative_files(files: Mapping[str, Path], folder: Path) -> dict[str, str]:
+    """Paths relative to a folder, with slashes."""
+    import os
+
+    return {name: Path(os.path.relpath(path.resolve(), folder.resolve())).as_posix() for name, path in files.items()}

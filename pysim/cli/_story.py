@@ -1,0 +1,163 @@
+"""A diagnosis as it unfolds on the terminal, and what is written when it has ended."""
+
+from __future__ import annotations
+
+import argparse
+import shutil
+import sys
+import threading
+import time
+from collections.abc import Sequence
+from dataclasses import replace
+from types import TracebackType
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from pysim.cli._subject import Given
+    from pysim.types import Diagnosis, LedgerStep, Told
+
+_LEARNED = 4  # last lines kept in sight
+_BAR = 24
+_PAUSE = 0.5  # s between two drawings
+# Share of a diagnosis' time that is usually behind once a stage begins, by the stage's first words.
+_USUAL = {"comparing": 0.0, "refitting the model": 0.05, "compiling": 0.25, "screening": 0.4, "refitting the prom": 0.6}
+
+
+class Story:
+    """One calm block that is drawn over: stage and time, the error falling, what was learned.
+
+    Where standard error is no terminal, a line for each thing told.
+    """
+
+    def __init__(self, title: str) -> None:
+        self._title = title
+        self._begun = time.monotonic()
+        self._stage = ""
+        self._learned: list[str] = []
+        self._steps: list[LedgerStep] = []
+        self._drawn = 0
+        self._live = sys.stderr.isatty()
+        self._lock = threading.Lock()
+        self._ended = threading.Event()
+        self._clock = threading.Thread(target=self._tick, daemon=True)
+
+    def __call__(self, told: Told) -> None:
+        """Take what a diagnosis tells."""
+        if not self._live:
+            print(f"{self._elapsed():6.1f} s  {told}", file=sys.stderr, flush=True)
+            return
+        with self._lock:
+            self._stage = told.stage
+            if told.step is not None:
+                self._steps.append(told.step)
+            elif told.text:
+                self._learned = [*self._learned, told.text][-_LEARNED:]
+        self._draw()
+
+    def __enter__(self) -> Story:
+        if self._live:
+            self._clock.start()
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, where: TracebackType | None
+    ) -> None:
+        self._ended.set()
+        if self._live:
+            self._clock.join()
+            with self._lock:
+                self._stage = "stopped" if error else "done"
+            self._draw()
+
+    def _elapsed(self) -> float:
+        return time.monotonic() - self._begun
+
+    def _tick(self) -> None:
+        while not self._ended.wait(_PAUSE):
+            self._draw()
+
+    def _draw(self) -> None:
+        """Over the lines of the last drawing; each is cut to the terminal, so that none takes two."""
+        with self._lock:
+            width = shutil.get_terminal_size().columns - 1
+            lines = [
+                line[:width] for line in block(self._title, self._stage, self._elapsed(), self._steps, self._learned)
+            ]
+            up = f"\x1b[{self._drawn}A" if self._drawn else ""
+            print(up + "".join(f"\r\x1b[K{line}\n" for line in lines), end="", file=sys.stderr, flush=True)
+            self._drawn = len(lines)
+
+
+def block(title: str, stage: str, elapsed: float, steps: Sequence[LedgerStep], learned: Sequence[str]) -> list[str]:
+    """Lines of the block: title and time, stage, a row per step with the error as a bar, what was learned."""
+    lines = [f"{title}", f"  {_clock(elapsed)}{_left(stage, elapsed)}  {stage}", *_bars(steps)]
+    return [*lines, *(f"  - {text}" for text in learned)]
+
+
+def _bars(steps: Sequence[LedgerStep]) -> list[str]:
+    """The error over noise falling; the bars' lengths are logarithms, and none is left where nothing but noise is."""
+    from math import log
+
+    values = [step.fit if step.fit is not None else step.validate or 1.0 for step in steps]
+    top = log(max([2.0, *values]))
+    lines = []
+    for step, value in zip(steps, values, strict=True):
+        name = {"prior": "as it is", "refit": "refitted"}.get(step.step, f"+ {step.step}")
+        held = "" if step.validate is None or step.fit is None else f"  held out {step.validate:7.2f}"
+        bar = "#" * round(_BAR * max(0.0, log(max(value, 1e-9))) / top)
+        lines.append(f"  {name:<24} {value:7.2f} {bar:<{_BAR}}{held}".rstrip())
+    return [f"  {'error over noise':<24}", *lines] if lines else []
+
+
+def _clock(seconds: float) -> str:
+    return f"{int(seconds) // 60}:{int(seconds) % 60:02d}"
+
+
+def _left(stage: str, elapsed: float) -> str:
+    """How long it may still take, from what is usually behind by then."""
+    share = next((value for words, value in _USUAL.items() if stage.startswith(words)), 0.0)
+    if share < 0.2 or elapsed < 2:
+        return ""
+    return f" (about {_clock(max(elapsed / share - elapsed, 1.0))} left)"
+
+
+def finish(found: Diagnosis, given: Given, args: argparse.Namespace, words: Sequence[str]) -> None:
+    """Write the report, the extended model and the JSON answer, where they were asked for.
+
+    Args:
+        words: of the command line behind `pysim`.
+    """
+    import json
+
+    from pysim.cli._diagnosis_report import write_diagnosis
+    from pysim.cli._extended import relative_files
+    from pysim.cli._outputs import command_line
+    from pysim.io import write_file
+    from pysim.report.diagnosis import diagnosis_data
+
+    redo = command_line(words)
+    found = replace(found, conditions={**_conditions(given, args, redo), **found.conditions})
+    files = write_diagnosis(found, given, args.output, redo) if args.output else {}
+    if args.output:
+        print(f"Report: {args.output / 'report.html'}")
+    if args.json:
+        relative = relative_files(files, args.json.parent)
+        write_file(args.json, json.dumps(diagnosis_data(found, relative), indent=1, allow_nan=False) + "\n")
+
+
+def _conditions(given: Given, args: argparse.Namespace, redo: str) -> dict[str, str]:
+    """What it takes to repeat it."""
+    from pysim.diagnose.conditions import versions
+
+    model = given.subject.model
+    found = {
+        "model": f"{given.model_name}, FMI {model.abilities.fmi}, token {model.token}",
+        "data set": f"{given.dataset.name}, {len(given.dataset.records)} records, {args.data}",
+        "libraries": ", ".join(str(library) for library in given.libraries) or "the one that comes along",
+        "free parameters": ", ".join(given.subject.free),
+        "parameters set": ", ".join(f"{name} = {value:g}" for name, value in given.overrides.items()) or "none",
+        "candidates": ", ".join(effect.name for effect in given.subject.catalogue) or "none",
+    }
+    if hasattr(args, "seed"):
+        found["seed"] = str(args.seed)
+    return {**found, "versions": versions(), "command": redo}

@@ -1,0 +1,190 @@
+"""What the commands of the diagnosis have in common: a data set, a model, libraries, and what may be refitted."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from pysim.cli._variants import Variants
+    from pysim.diagnose import Subject
+    from pysim.types import Dataset, Effect, Model
+
+
+@dataclass(frozen=True)
+class Given:
+    """What the command line named.
+
+    Args:
+        subject: for the steps of the diagnosis.
+        dataset: its measurements.
+        variants: builds models with effects; None where the model's class is not at hand.
+        overrides: parameters that were set, in the variables' units.
+        libraries: the user's own, beside the one that comes along.
+    """
+
+    subject: Subject
+    dataset: Dataset
+    variants: Variants | None
+    overrides: dict[str, float]
+    libraries: tuple[Path, ...]
+
+    @property
+    def model_name(self) -> str:
+        """The class, or the FMU's model where there is none."""
+        return self.variants.class_name if self.variants else self.subject.model.name
+
+
+def add_subject(parser: argparse.ArgumentParser) -> None:
+    """`DATASET --model MODEL` and what goes with them."""
+    from pysim.cli._options import add_parameters
+
+    parser.add_argument("data", metavar="DATASET", type=Path, help="folder with a dataset.toml")
+    parser.add_argument("--model", metavar="MODEL", required=True, help="a Modelica class with slots, or its .fmu")
+    parser.add_argument(
+        "--library", metavar="PATH", type=Path, action="append", default=[], help="of the class or of effects; repeat"
+    )
+    parser.add_argument("--free", metavar="NAME,...", default="", help="parameters to refit; those with bounds")
+    parser.add_argument(
+        "--bounds", metavar="NAME=LOW:HIGH", action="append", default=[], help="in place of the model's min and max"
+    )
+    add_parameters(parser)
+
+
+def add_effects(parser: argparse.ArgumentParser) -> None:
+    """`--effects`."""
+    parser.add_argument("--effects", metavar="NAME,...", default="", help="consider only these of the catalogue")
+
+
+def add_results(parser: argparse.ArgumentParser, what: str) -> None:
+    """`--json` and `--output`."""
+    parser.add_argument("--json", metavar="FILE", type=Path, help="write the whole answer here")
+    parser.add_argument("--output", metavar="DIR", type=Path, help=f"write report.html, pictures{what} here")
+
+
+def prepare_results(args: argparse.Namespace) -> None:
+    """See that the results can be written, before the work starts.
+
+    Raises:
+        BadInput: they cannot.
+    """
+    from pysim.cli._outputs import prepare_file, prepare_folder
+
+    if args.json:
+        prepare_file(args.json, "--json")
+    if args.output:
+        prepare_folder(args.output)
+
+
+def read_subject(args: argparse.Namespace) -> Given:
+    """Model, data and catalogue of a command line.
+
+    Raises:
+        BadInput: what cannot be read, or does not go together. BuildError: a model that does not compile.
+    """
+    from pysim.cli._options import bounded, read_parameters
+    from pysim.cli._variants import Variants
+    from pysim.diagnose import subject
+    from pysim.effects import STANDARD_LIBRARY
+    from pysim.io import read_dataset
+
+    dataset = read_dataset(args.data)
+    libraries = [STANDARD_LIBRARY, *args.library]
+    model, class_name, notes = _model(args.model, libraries)
+    catalogue = _catalogue(libraries, getattr(args, "effects", ""), class_name)
+    if class_name and not catalogue:
+        notes.append(f"no slot of {class_name} takes an effect of the libraries, so none could be tried")
+    variants = Variants(class_name, libraries) if class_name else None
+    overrides = read_parameters(args, model)
+    free = tuple(names_of(args.free))
+    given = subject(
+        model,
+        dataset,
+        catalogue,
+        variants,
+        free=free,
+        bounds=bounded(args.bounds),
+        overrides=overrides,
+        notes=tuple(notes),
+    )
+    return Given(given, dataset, variants, overrides, tuple(args.library))
+
+
+def names_of(text: str) -> list[str]:
+    """Words between commas."""
+    return [name.strip() for name in text.split(",") if name.strip()]
+
+
+def subject_words(args: argparse.Namespace) -> list[str]:
+    """These options again, for the line that repeats the command."""
+    words = [str(args.data), "--model", args.model]
+    for option in ("library", "bounds", "set"):
+        for value in getattr(args, option):
+            words += [f"--{option}", str(value)]
+    for option in ("free", "effects", "parameters", "seed", "most", "json", "output"):
+        value = getattr(args, option, None)
+        if value not in (None, ""):
+            words += [f"--{option}", str(value)]
+    return words
+
+
+def _model(text: str, libraries: Sequence[Path]) -> tuple[Model, str, list[str]]:
+    """The base model, its class where that is known, and notes."""
+    from pysim.effects._library import Libraries
+    from pysim.io import read_model
+
+    if text.lower().endswith(".fmu"):
+        model = read_model(Path(text))
+        if model.name in Libraries(libraries).classes:
+            return model, model.name, []
+        return model, "", _out_of_sight(model)
+    import fmu_build
+
+    return read_model(fmu_build.build(text, libraries=list(libraries))), text, []
+
+
+def _out_of_sight(model: Model) -> list[str]:
+    """What cannot be looked at in a model without its Modelica class."""
+    names = {c: [v.name for v in model.variables if v.causality == c] for c in ("input", "output")}
+    states = model.abilities.states
+    inside = f"nothing inside it: neither its {len(states)} states nor the terms of their equations"
+    return [
+        f"{model.name} is in none of the libraries, so no effect can be added; name its library with --library",
+        f"looked at were the inputs {', '.join(names['input']) or '(none)'} and the outputs "
+        f"{', '.join(names['output']) or '(none)'} of {model.path.name}, {inside}",
+    ]
+
+
+def _catalogue(libraries: Sequence[Path], wanted: str, class_name: str) -> tuple[Effect, ...]:
+    """Effects of the libraries that the class takes; all where it is not known. Those wanted, where any are named."""
+    from pysim.effects import fitting, read_catalogue
+
+    catalogue = read_catalogue(*libraries)
+    taken = fitting(catalogue, class_name, libraries) if class_name else catalogue
+    names = names_of(wanted)
+    return named_effects(names, taken, catalogue, "--effects", class_name) if names else taken
+
+
+def named_effects(
+    names: Sequence[str], taken: Sequence[Effect], catalogue: Sequence[Effect], option: str, class_name: str
+) -> tuple[Effect, ...]:
+    """The effects of these names.
+
+    Args:
+        taken: those that the model's slots take, of the catalogue.
+        option: for messages.
+    Raises:
+        BadInput: one that is not in the catalogue, or that no slot of the model takes.
+    """
+    from pysim.types import BadInput
+
+    known, fit = {effect.name for effect in catalogue}, {effect.name: effect for effect in taken}
+    for name in names:
+        if name not in known:
+            raise BadInput(f"{option} {name}: not in the catalogue; it has {', '.join(sorted(known))}")
+        if name not in fit:
+            raise BadInput(f"{option} {name}: no slot of {class_name} takes it; its slots take {', '.join(fit)}")
+    return tuple(fit[name] for name in names)

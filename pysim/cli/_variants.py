@@ -1,0 +1,74 @@
+"""Models with effects, compiled: what a diagnosis is handed, and what is written for the user."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from pysim.types import Effect, Model
+
+
+@dataclass
+class Variants:
+    """Builds models with effects, each once.
+
+    Args:
+        class_name: of the base model.
+        libraries: where it and the effects are.
+        built: names of effects -> the model, and effect name -> the name ahead of its parameters there.
+    """
+
+    class_name: str
+    libraries: list[Path]
+    built: dict[tuple[str, ...], tuple[Model, dict[str, str]]] = field(default_factory=dict)
+
+    def __call__(self, effects: Sequence[Effect]) -> tuple[Model, dict[str, str]]:
+        """The model with these effects, and where they are in it.
+
+        Raises:
+            BadInput: a class that cannot be made or does not compile.
+        """
+        from pysim.types import BadInput
+
+        key = tuple(effect.name for effect in effects)
+        if key not in self.built:
+            from tempfile import TemporaryDirectory
+
+            import fmu_build
+
+            with TemporaryDirectory(prefix="pysim-variant-") as folder:
+                try:
+                    self.built[key] = self.write(effects, Path(folder), None)
+                except fmu_build.BuildError as error:
+                    raise BadInput(str(error)) from error
+        return self.built[key]
+
+    def write(
+        self,
+        effects: Sequence[Effect],
+        folder: Path,
+        fmu: Path | None,
+        name: str = "",
+        values: Mapping[str, float] | None = None,
+        comment: str = "",
+    ) -> tuple[Model, dict[str, str]]:
+        """Write the class into a folder and compile it, into the cache where no place is named.
+
+        Args:
+            name: of the class; the base model's with `Variant` behind it where none is given.
+            values: parameters to set, by their full names.
+            comment: lines ahead of the class.
+        """
+        import fmu_build
+        from pysim.effects import variant
+        from pysim.io import read_model
+
+        name = name or f"{self.class_name.rpartition('.')[2]}Variant"
+        made = variant(self.class_name, effects, self.libraries, name=name, values=values, comment=comment)
+        source = folder / f"{name}.mo"
+        source.write_text(made.text, encoding="utf-8")
+        built = fmu_build.build(name, fmu, libraries=[*self.libraries, source])
+        return read_model(built), made.places
