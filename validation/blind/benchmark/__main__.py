@@ -1,0 +1,88 @@
+"""`python -m validation.blind.benchmark run | report`."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+TABLE_SEED = 1
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """0 when done, 2 for wrong use."""
+    parser = argparse.ArgumentParser(prog="python -m validation.blind.benchmark", description=__doc__)
+    commands = parser.add_subparsers(dest="command", required=True)
+    _add_run(commands.add_parser("run", help="answer the cases that the store does not hold of this code"))
+    report = commands.add_parser("report", help="write the figures and pictures into README.md")
+    report.add_argument("--store", metavar="DIR", type=Path, help="folder of answers; that of this package")
+    try:
+        args = parser.parse_args(argv)
+    except SystemExit as end:
+        return int(end.code or 0)
+    return _run(args) if args.command == "run" else _report(args)
+
+
+def _add_run(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--kinds", metavar="KIND,...", default="", help="none, named, beyond, left-out, pair; all")
+    parser.add_argument("--names", metavar="PATTERN", default="*", help="of the cases, with * and ?")
+    parser.add_argument("--sample", metavar="N", type=int, help="so many of them at random")
+    parser.add_argument("--seed", metavar="S", type=int, default=0, help="of the sample (0)")
+    parser.add_argument("--shard", metavar="K/N", default="1/1", help="the K-th of N equal parts")
+    parser.add_argument("--workers", metavar="N", type=int, default=2, help="processes of one thread each (2)")
+    parser.add_argument("--limit", metavar="S", type=float, default=900.0, help="seconds for one case (900)")
+    parser.add_argument("--store", metavar="DIR", type=Path, help="folder of answers; that of this package")
+
+
+def _run(args: argparse.Namespace) -> int:
+    for name in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS"):
+        os.environ[name] = "1"  # the processes are the parallel part
+    from pysim.types import BadInput
+    from validation.blind.benchmark.examine import examine
+    from validation.blind.benchmark.fingerprint import fingerprint
+    from validation.blind.benchmark.runs import Choice, run
+    from validation.blind.benchmark.store import ANSWERS, Store
+    from validation.blind.plant import cases
+
+    kinds = tuple(kind.strip() for kind in args.kinds.split(",") if kind.strip())
+    try:
+        choice = Choice(kinds, args.names, args.sample, args.seed, _shard(args.shard))
+    except BadInput as error:
+        print(f"benchmark: {error}", file=sys.stderr)
+        return 2
+    chosen = choice.of(cases(TABLE_SEED))
+    store = Store(args.store or ANSWERS)
+    run(chosen, store, examine, fingerprint(), workers=args.workers, limit=args.limit, say=_say)
+    return 0
+
+
+def _shard(text: str) -> tuple[int, int]:
+    from pysim.types import BadInput
+
+    k, slash, n = text.partition("/")
+    if not (slash and k.isdigit() and n.isdigit()):
+        raise BadInput(f"--shard {text}: give the part and their number, such as 1/4")
+    return int(k), int(n)
+
+
+def _report(args: argparse.Namespace) -> int:
+    from validation.blind.benchmark.report import write_report
+    from validation.blind.benchmark.store import ANSWERS, Store
+    from validation.blind.plant import cases
+
+    table = cases(TABLE_SEED)
+    store = Store(args.store or ANSWERS)
+    store.tidy(table)
+    for path in write_report(table, store.read(), store.folder.parent):
+        print(path)
+    return 0
+
+
+def _say(line: str) -> None:
+    print(line, flush=True)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

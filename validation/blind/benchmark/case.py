@@ -1,0 +1,78 @@
+"""A few cases of the blind benchmark answered again and compared with what is stored; the targets on all of them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from datetime import UTC, datetime
+
+import numpy as np
+
+from validation.blind.benchmark.__main__ import TABLE_SEED
+from validation.blind.benchmark.answer import Answer
+from validation.blind.benchmark.examine import examine
+from validation.blind.benchmark.figures import figures
+from validation.blind.benchmark.store import Store
+from validation.blind.plant import Case, cases
+from validation.findings import Finding
+
+SAMPLE = 6
+# Two computers differ in the last bits, and step control makes that some 1e-4 of a residual; searches end within half
+# a unit of the sum of squares, which moves an error by a few percent of itself.
+NEAR = {"held": 0.01, "base": 0.05, "final": 0.15, "footprint": 0.05}
+
+
+def run(
+    seed: int | None = None, task: Callable[[Case], Answer] = examine, store: Store | None = None
+) -> Iterator[Finding]:
+    """The sample, then the targets.
+
+    Args:
+        seed: of the sample; the day's number where None, so that every day looks at others.
+        task: answers a case.
+        store: what was answered before.
+    """
+    table, answers = cases(TABLE_SEED), (store or Store()).read()
+    yield from _sampled(table, answers, seed, task)
+    yield from targets(table, answers)
+
+
+def _sampled(
+    table: Sequence[Case], answers: Mapping[str, Answer], seed: int | None, task: Callable[[Case], Answer]
+) -> Iterator[Finding]:
+    known = [case for case in table if case.name in answers and not answers[case.name].trouble]
+    yield Finding("stored answers, missing to a sample", float(max(0, SAMPLE - len(known))), 0, "")
+    seed = datetime.now(UTC).date().toordinal() if seed is None else seed
+    places = np.random.default_rng(seed).permutation(len(known))[:SAMPLE]
+    for case in (known[i] for i in places.tolist()):
+        yield from compared(answers[case.name], task(case))
+
+
+def compared(stored: Answer, again: Answer) -> Iterator[Finding]:
+    """The same words, and numbers near those stored."""
+    name = stored.case
+    words = [(a.verdict, a.added) for a in (stored, again)]
+    claim = f"{name}: {again.verdict or again.trouble}, stored {stored.verdict}; answers that differ"
+    yield Finding(claim, float(words[0] != words[1]), 0, "")
+    for number, limit in NEAR.items():
+        before, now = getattr(stored, number), getattr(again, number)
+        if before is not None:
+            off = math.nan if now is None else abs(now - before) / max(abs(before), _FLOORS.get(number, 0.0))
+            yield Finding(
+                f"{name}: {number} {now if now is None else round(now, 4)}, off that stored by", off, limit, "of it"
+            )
+
+
+# Smaller ones are compared with these instead: a footprint of ten is nothing, and so is an error of a hundredth.
+_FLOORS = {"base": 0.01, "final": 0.01, "footprint": 10.0}
+
+
+def targets(table: Sequence[Case], answers: Mapping[str, Answer]) -> Iterator[Finding]:
+    """Every figure with a target as a claim: by how many percent it is beyond."""
+    yield Finding("cases of the table without a stored answer", float(sum(c.name not in answers for c in table)), 0, "")
+    for figure in figures(table, answers):
+        if figure.target is not None:
+            low, high = figure.target
+            beyond = max(low - figure.percent, figure.percent - high, 0.0) if figure.of else math.nan
+            claim = f"{figure.label}: {figure.hits} of {figure.of}, {figure.words}; beyond by"
+            yield Finding(claim, beyond, 0, "%")

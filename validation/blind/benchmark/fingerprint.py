@@ -1,0 +1,34 @@
+"""Which code answered: the text of all that a diagnosis and its judging are made of, as twelve characters."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Iterator
+from pathlib import Path
+
+_ROOT = Path(__file__).parents[3]
+_LIBRARY = "modelica/HydraulicTestBench"
+_SOURCES = (
+    ("pysim/diagnose", "*.py"),
+    ("pysim/effects", "*.py"),
+    ("pysim/identify/greybox", "*.py"),
+    *((f"{_LIBRARY}/{part}", "*.mo") for part in ("Data", "Effects", "Functions", "Interfaces", "Pump")),
+    ("validation/blind/plant", "*.py"),
+)
+# What decides a stored number beside the diagnosis; the rest of this folder only runs and shows.
+_JUDGE = tuple(f"validation/blind/benchmark/{name}.py" for name in ("answer", "examine", "judged", "truth"))
+
+
+def fingerprint(root: Path = _ROOT) -> str:
+    """Of the sources below a root; independent of how lines end."""
+    digest = hashlib.sha256()
+    for path in _files(root):
+        text = path.read_bytes().replace(b"\r\n", b"\n")
+        digest.update(f"{path.relative_to(root).as_posix()} {len(text)}\n".encode() + text)
+    return digest.hexdigest()[:12]
+
+
+def _files(root: Path) -> Iterator[Path]:
+    for folder, pattern in _SOURCES:
+        yield from sorted((root / folder).rglob(pattern))
+    yield from (root / name for name in _JUDGE if (root / name).is_file())
