@@ -42,7 +42,7 @@ def build(
         overrides: values of parameters by their name in the class, in SI units; a text is taken as Modelica.
         probes: continuous variables, by their name in the class, that get a further input "probe.NAME": it is added to
             the right-hand side of the equation of the variable, or of its derivative where the variable is a state.
-            At 0, its start value, the model is what it is without.
+            At 0, its start value, the model is what it is without. "NAME=VARIABLE" adds a variable of the class itself.
         use_cache: False builds anew even where the same FMU has been built before.
     Returns:
         The FMU's path.

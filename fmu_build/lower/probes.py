@@ -18,6 +18,7 @@ from fmu_build.lower.table import derivative_unit
 from fmu_build.lower.values import Scalar
 
 PREFIX = "probe."
+GIVEN = "="  # "NAME=VARIABLE": a variable of the class in place of a new input
 _MOST_NEAR = 3
 _WHY_NOT = {
     Role.CONSTANT: "a constant; a probe goes to a continuous variable",
@@ -31,6 +32,8 @@ _WHY_NOT = {
 def with_probe_inputs(flat: FlatModel, probes: Sequence[str]) -> FlatModel:
     """The model with an input "probe.NAME" for each name; nothing depends on them yet.
 
+    A probe "NAME=VARIABLE" gets no input: what is added is a variable of the class, with an equation of its own.
+
     Raises:
         BuildError: a name is unknown, not that of a continuous variable, or given twice.
     """
@@ -38,14 +41,20 @@ def with_probe_inputs(flat: FlatModel, probes: Sequence[str]) -> FlatModel:
         return flat
     owner = {name: variable for variable in flat.variables for name in scalar_names(variable)}
     added = []
-    for k, name in enumerate(probes):
-        if name in probes[:k]:
+    names = [probe.partition(GIVEN)[0] for probe in probes]
+    for k, (name, probe) in enumerate(zip(names, probes, strict=True)):
+        if name in names[:k]:
             raise BuildError(f"the probe {name} is asked for twice; give it once.")
         if name not in owner:
             raise BuildError(_unknown(name, owner, flat))
         variable = owner[name]
         if variable.role in _WHY_NOT or variable.scalar is not ScalarKind.REAL:
             raise BuildError(f"no probe can be added to {name}: it is {_WHY_NOT.get(variable.role, 'not Real')}.")
+        if GIVEN in probe:
+            given = probe.partition(GIVEN)[2]
+            if given not in owner or owner[given].role is not Role.ALGEBRAIC:
+                raise BuildError(f"{flat.name} has no continuous variable {given} to add to {name}.")
+            continue
         if PREFIX + name in owner:
             raise BuildError(f"{flat.name} has a variable {PREFIX}{name} already; rename the component 'probe'.")
         added.append(_input(name, variable, unit_of(variable.name, flat)))
@@ -71,9 +80,10 @@ def add_probes(
     symbols |= {v.name: rate for v, rate in zip(scope.states, scope.derivatives, strict=True)}
     inputs = {v.name: v.symbol for v in scope.inputs}
     result = list(equations)
-    for name in probes:
+    for probe in probes:
+        name, _, given = probe.partition(GIVEN)
         number = owners.equation(name, symbols[name], flat)
-        shifted = symbols[name] - inputs[PREFIX + name]
+        shifted = symbols[name] - (symbols[given] if given else inputs[PREFIX + name])
         residual = ca.substitute(result[number].residual, symbols[name], shifted)
         result[number] = replace(result[number], residual=residual)
     return result

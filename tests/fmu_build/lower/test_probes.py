@@ -137,6 +137,17 @@ def test_a_probe_beside_a_constraint_between_states(made):
     assert run.at("p1") == pytest.approx((4 + 6) / 5 / 2, rel=1e-9)
 
 
+def test_a_variable_of_the_class_in_place_of_an_input(made):
+    """A force -2 x that the class computes doubles nothing but the stiffness: k = 8 becomes 10."""
+    text = LINEAR.replace("  Real f_seen", "  Real spring;\n  Real f_seen")
+    run = driven(made(text.replace("y = x;", "y = x;\n  spring = -2*x;"), "f=spring"), 0.8, F=1.3)
+    a = np.array([[0.0, 1.0], [-5.0, -1.5]])
+    x, v = np.linalg.solve(a, (expm(a * 0.8) - np.eye(2)) @ np.array([0.0, 0.65]))
+    assert (run.at("x"), run.at("v")) == pytest.approx((x, v), abs=1e-10)
+    with pytest.raises(BuildError, match="no continuous variable sprung to add to f"):
+        made(LINEAR, "f=sprung")
+
+
 TAKEN = """
 model M
   model Part
