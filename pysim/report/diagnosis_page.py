@@ -6,14 +6,14 @@ from collections.abc import Mapping, Sequence
 
 from pysim.identify.accuracy import FREQUENCY_CRITERIA, TIME_CRITERIA
 from pysim.report.diagnosis_words import chance_text, remark, share_text, sizes, verdict_sentence
-from pysim.report.page import cell, commands, heading, items, page, paragraph, picture, table
+from pysim.report.page import cell, commands, heading, items, page, paragraph, picture, statement, table
 from pysim.types import AddedEffect, Candidate, Diagnosis, Estimate, LedgerStep, Missing, Stage
 
 # Section of the page -> SVG by caption.
 Pictures = Mapping[str, Mapping[str, bytes]]
 
 _CRITERIA = (*FREQUENCY_CRITERIA, *TIME_CRITERIA)
-_WORST = 20  # places listed
+_WORST = 15  # places listed
 
 
 def diagnosis_page(
@@ -27,7 +27,7 @@ def diagnosis_page(
         redo: the command line that makes it again.
         files: what was written besides, name -> path relative to the page.
     """
-    parts = [paragraph(verdict_sentence(diagnosis), note=True), *_drawn(pictures, "ledger")]
+    parts = [statement(verdict_sentence(diagnosis)), *_drawn(pictures, "ledger")]
     parts += _added(diagnosis.added)
     parts += _section("Measured and simulated", _drawn(pictures, "records"))
     parts += _section("Where the refitted model fails", [*_drawn(pictures, "where"), _where(diagnosis)])
@@ -95,7 +95,7 @@ def _where(diagnosis: Diagnosis) -> str:
         end = after.get((f.record, f.signal, f.region))
         kind = "beyond" if f.error > 1.5 else ""
         numbers = [cell(f"{f.error:.2f}", kind), *([cell("" if end is None else f"{end:.2f}")] if last else [])]
-        rows.append([cell(f.record, "words"), cell(f.signal), cell(f.region, "words"), *numbers])
+        rows.append([*(cell(text, "words") for text in (f.record, f.signal, f.region)), *numbers])
     head = ["record", "signal", "region", "refitted", *(["at the end"] if last else [])]
     return table("Root-mean-square residual over noise, the worst places first", head, rows) if rows else ""
 

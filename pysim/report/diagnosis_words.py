@@ -42,7 +42,7 @@ def _fall(steps: Sequence[LedgerStep]) -> str:
     """From the refitted base model to the last step."""
     base, last = next((s for s in steps if s.step == "refit"), steps[0]), steps[-1]
     parts = [
-        f"from {before:.3g} to {after:.3g} times the noise on what was {what}"
+        f"from {before:.2f} to {after:.2f} times the noise on what was {what}"
         for what, before, after in (("fitted", base.fit, last.fit), ("held out", base.validate, last.validate))
         if before is not None and after is not None
     ]
@@ -53,8 +53,8 @@ def _left(diagnosis: Diagnosis) -> str:
     last = diagnosis.error[-1] if diagnosis.error else None
     if last is None or last.fit is None:
         return ""
-    held = "" if last.validate is None else f", {last.validate:.3g} on what was held out"
-    return f" What is left is {last.fit:.3g} times the noise on what was fitted{held}."
+    held = "" if last.validate is None else f", {last.validate:.2f} on what was held out"
+    return f" What is left is {last.fit:.2f} times the noise on what was fitted{held}."
 
 
 def _and(words: Sequence[str]) -> str:
@@ -75,7 +75,7 @@ def sizes(one: AddedEffect) -> list[tuple[str, float, tuple[float, float], str]]
 def remark(estimate: Estimate, *, held: bool = False) -> str:
     """What a reader must know of an estimate."""
     if held:
-        return "held: the data tell only its product with others"
+        return "held: sets the scale of others"
     if estimate.at:
         return f"at its {estimate.at} bound"
     return "" if estimate.determined else "not determined by itself"

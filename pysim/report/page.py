@@ -17,6 +17,7 @@ h1 { font-size: 1.7rem; line-height: 1.2; margin: .5rem 0 .25rem; }
 h2 { font-size: 1.25rem; margin: 2.5rem 0 .5rem; border-bottom: 1px solid var(--line); padding-bottom: .2rem; }
 p, li { max-width: 46rem; } .lead { color: var(--quiet); margin-top: 0; }
 .note { border-left: 4px solid #d08700; padding: .1rem 0 .1rem .9rem; margin: 1rem 0; }
+.statement { font-size: 1.15rem; border-left: 4px solid var(--pass); padding: .2rem 0 .2rem .9rem; margin: 1.2rem 0; }
 .scroll { overflow-x: auto; }
 table { border-collapse: collapse; font-variant-numeric: tabular-nums; font-size: .86rem; margin: .8rem 0; }
 caption { text-align: left; color: var(--quiet); padding-bottom: .3rem; }
@@ -24,7 +25,7 @@ th, td { padding: .18rem .45rem; text-align: right; border-bottom: 1px solid var
 td { white-space: nowrap; } th { font-weight: 600; vertical-align: bottom; min-width: 2.6rem; }
 td.beyond { background: var(--mark); color: var(--fail); }
 td.fail { color: var(--fail); font-weight: 600; } td.pass { color: var(--pass); }
-td.words { white-space: normal; text-align: left; } td.differs { font-weight: 600; }
+td.words { white-space: normal; text-align: left; } th.words { text-align: left; } td.differs { font-weight: 600; }
 figure { margin: 1.2rem 0; } figure img { width: 100%; height: auto; background: #fff; border-radius: 4px; }
 figcaption { color: var(--quiet); font-size: .9rem; }
 pre { background: color-mix(in srgb, var(--line) 40%, transparent); padding: .7rem .9rem; overflow-x: auto; }
@@ -60,6 +61,11 @@ def paragraph(text: str, *, note: bool = False) -> str:
     return f'<p class="note">{escape(text)}</p>' if note else f"<p>{escape(text)}</p>"
 
 
+def statement(text: str) -> str:
+    """What the page has to say, in a sentence or two."""
+    return f'<p class="statement">{escape(text)}</p>'
+
+
 def items(texts: Iterable[str]) -> str:
     """A list of plain texts."""
     return "<ul>" + "".join(f"<li>{escape(text)}</li>" for text in texts) + "</ul>"
@@ -76,8 +82,11 @@ def cell(text: str, kind: str = "") -> str:
 
 
 def table(caption: str, head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
-    """A table whose rows are made of cells."""
-    top = "".join(f"<th>{escape(name)}</th>" for name in head)
+    """A table whose rows are made of cells; a column's head stands as the words below it do."""
+    rows = list(rows)
+    words = [bool(rows) and k < len(rows[0]) and rows[0][k].startswith('<td class="words"') for k in range(len(head))]
+    opening = {True: '<th class="words">', False: "<th>"}
+    top = "".join(f"{opening[left]}{escape(name)}</th>" for name, left in zip(head, words, strict=True))
     body = "\n".join(f"<tr>{''.join(row)}</tr>" for row in rows)
     return (
         f'<div class="scroll"><table><caption>{escape(caption)}</caption>\n'

@@ -1,0 +1,103 @@
+"""A diagnosis in words, as numbers, and as a page that needs nothing else."""
+
+import json
+import re
+from dataclasses import replace
+
+import numpy as np
+
+from pysim.report.diagnosis import diagnosis_data, diagnosis_text
+from pysim.report.diagnosis_page import diagnosis_page
+from pysim.report.diagnosis_words import sizes, verdict_sentence
+from pysim.types import AddedEffect, Missing, NextTest, Shape
+from tests.pysim.diagnosis_story import OFFSET, estimate, nothing, step, story
+
+MISSING = Missing("force", 0.97, "v", Shape(*(np.arange(2.0) for _ in range(4)), "m/s", "N"), "-0.4 sign(v)")
+TEST = NextTest(("toy.offset", "toy.twin"), 42.0, "Run a slow ramp and log x.", 'name = "ramp"')
+
+
+def test_the_verdict_is_one_plain_sentence() -> None:
+    assert verdict_sentence(story()) == (
+        "The model lacks an effect: constant force (toy.offset). These data do not tell it from toy.twin. "
+        "With it the error falls from 4.20 to 1.00 times the noise on what was fitted and from 3.20 to 1.01 times the "
+        "noise on what was held out."
+    )
+    assert verdict_sentence(nothing()).startswith("Nothing is missing: the refitted model explains")
+    assert "4.20 times the noise on what was fitted, 3.20 on what was held out" in verdict_sentence(nothing())
+    unknown = replace(nothing(), verdict="unknown", reason="no effect takes a fair share")
+    assert verdict_sentence(unknown) == (
+        "The model fails, and no effect that was tried explains it: no effect takes a fair share."
+    )
+    assert verdict_sentence(story(verdict="unknown")).startswith(
+        "More is missing than could be named: constant force (toy.offset) is asked for, and is not all."
+    )
+    alone = story(error=(step("prior", 3.0, None, 0.1), step("refit", 2.0, None, 0.1), step("x", 1.0, None, 0.1)))
+    assert verdict_sentence(alone).endswith("falls from 2.00 to 1.00 times the noise on what was fitted.")
+
+
+def test_a_size_that_people_turn_over_is_told_both_ways() -> None:
+    (parameter,) = OFFSET.parameters
+    turned = replace(OFFSET, parameters=(replace(parameter, inverse="G"),))
+    (name, value, interval, unit), (other, one_over, turned_interval, per) = sizes(
+        AddedEffect(turned, "force", (estimate("F_o", 0.5, 0.1),))
+    )
+    assert (name, value, interval, unit) == ("F_o", 0.5, (0.4, 0.6), "N")
+    assert (other, one_over, per) == ("G", 2.0, "1/(N)")
+    assert turned_interval == (1 / 0.6, 2.5)
+
+
+def test_the_numbers_hold_the_missing_term_and_the_next_test() -> None:
+    data = json.loads(json.dumps(diagnosis_data(story(missing=(MISSING,), next_test=TEST), {"report": "r.html"})))
+    (missing,) = data["missing"]
+    assert missing["shape"] == {"argument": [0, 1], "value": [0, 1], "low": [0, 1], "high": [0, 1]} | {
+        "argument_unit": "m/s",
+        "unit": "N",
+    }
+    assert (missing["slot"], missing["share"], missing["depends_on"]) == ("force", 0.97, "v")
+    assert data["next_test"]["separates"] == ["toy.offset", "toy.twin"]
+    assert data["files"] == {"report": "r.html"}
+    assert data["conditions"] == {"seed": "7"}
+    assert diagnosis_data(nothing())["next_test"] is None
+
+
+def test_the_page_tells_the_story_from_verdict_to_command_line() -> None:
+    found = story(missing=(MISSING,), next_test=TEST)
+    pictures = {"ledger": {"the fall": b"<svg/>"}, "missing": {"the term": b"<svg/>"}}
+    text = diagnosis_page(found, title="a < b", pictures=pictures, redo="pysim diagnose x", files={"fmu": "Toy.fmu"})
+    heads = re.findall(r"<h2>(.*?)</h2>", text)
+    assert heads == [
+        "What was added: toy.offset",
+        "Where the refitted model fails",
+        "What is missing, and where",
+        "Candidates",
+        "Parameters before and after",
+        "The next test",
+        "The error, step by step",
+        "What to bear in mind",
+        "Conditions",
+        "Do it again",
+    ]
+    assert text.index("The model lacks an effect") < text.index("the fall") < text.index("<h2>")
+    assert "<pre>f = F_o;</pre>" in text
+    assert "To hide what was missing, refitting had bent d." in text
+    assert "Not told apart by these data: toy.offset, toy.twin." in text
+    assert "-0.4 sign(v)" in text
+    assert "Toy.fmu" in text
+    assert "<pre>pysim diagnose x</pre>" in text
+    assert "a &lt; b" in text
+    assert not re.search(r'(?:src|href)="(?!data:)', text)
+
+
+def test_the_page_of_nothing_has_no_empty_sections() -> None:
+    text = diagnosis_page(replace(nothing(), notes=()), title="toy", pictures={}, redo="x")
+    heads = re.findall(r"<h2>(.*?)</h2>", text)
+    assert heads[:3] == ["Where the refitted model fails", "Candidates", "Parameters before and after"]
+    assert "had bent" not in text
+    assert "bear in mind" not in text
+
+
+def test_the_terminal_gets_verdict_ledger_and_ranking() -> None:
+    text = diagnosis_text(story())
+    assert text.startswith("Verdict: toy.offset\n")
+    assert "held out    1.010" in text
+    assert "Not told apart by these data: toy.offset, toy.twin" in text
