@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 
-from pysim.types import Diagnosis, Estimate, Stage
+from pysim.types import Diagnosis, Effect, Estimate, Stage
 from validation.blind.benchmark.truth import Truth
 from validation.blind.plant.case import Measured
 
@@ -55,8 +55,29 @@ def error(measured: Measured, stage: Stage | None) -> float | None:
     return float(np.sqrt(np.mean(np.concatenate(parts) ** 2))) if parts else None
 
 
-def intervals(truth: Truth, found: Diagnosis) -> Iterator[tuple[str, bool]]:
-    """Of what is determined and, in truth and estimate, away from its bounds: whether the 95 percent interval holds it.
+class Known(Protocol):
+    """What is true of a plant."""
+
+    @property
+    def base(self) -> Mapping[str, float]:
+        """The identified parameters."""
+        ...
+
+    def strengths(self, effect: Effect) -> Mapping[str, float]:
+        """An effect's parameters as its class declares them."""
+        ...
+
+
+def intervals(truth: Known, found: Diagnosis) -> Iterator[tuple[str, bool]]:
+    """Of what is determined and, in truth and estimate, away from its bounds: whether the 95 percent interval holds it."""
+    for estimate, true in estimated(truth, found):
+        inside = estimate.lower * (1 + 1e-9) < true < estimate.upper * (1 - 1e-9)
+        if inside and not estimate.at:
+            yield estimate.name, bool(estimate.interval[0] <= true <= estimate.interval[1])
+
+
+def estimated(truth: Known, found: Diagnosis) -> Iterator[tuple[Estimate, float]]:
+    """Each determined number of the final model with its truth.
 
     Where the direction that scales all forces is open, the diagnosis holds one of its parameters at the estimate: the
     truth is moved along that direction until it agrees there.
@@ -74,13 +95,7 @@ def intervals(truth: Truth, found: Diagnosis) -> Iterator[tuple[str, bool]]:
     for estimate in last.estimates:
         if estimate.determined and estimate.name in true and estimate.name not in held:
             value, power = true[estimate.name]
-            yield from _looked(estimate, value * scale**power)
-
-
-def _looked(estimate: Estimate, true: float) -> Iterator[tuple[str, bool]]:
-    inside = estimate.lower * (1 + 1e-9) < true < estimate.upper * (1 - 1e-9)
-    if inside and not estimate.at:
-        yield estimate.name, bool(estimate.interval[0] <= true <= estimate.interval[1])
+            yield estimate, value * scale**power
 
 
 def _moved(held: Sequence[Estimate], true: Mapping[str, float]) -> float:

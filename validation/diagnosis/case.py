@@ -1,0 +1,71 @@
+"""Sixteen data sets of an independent plant: the truth where it was told, the stored answer everywhere."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+
+from pysim.types import Diagnosis
+from validation.blind.benchmark.judged import estimated
+from validation.diagnosis.answers import Kept, answered, kept, read_answers
+from validation.diagnosis.sets import NAMES, Told, read_told
+from validation.findings import Finding
+
+_FAR = 2.0  # half widths of a 95 percent interval: once in ten thousand times
+_NEAR = 0.1  # of the interval's half width, by which an estimate may be off the stored one
+_HELD = 1.05  # residual over noise of a model that lacks nothing
+
+
+def run(names: Sequence[str] = NAMES, answer: Callable[[str], Diagnosis] = answered) -> Iterator[Finding]:
+    """Set by set, then all intervals together."""
+    stored, outside, total = read_answers(), 0, 0
+    for name in names:
+        found, told = answer(name), read_told(name)
+        if told is not None:
+            yield from against_truth(name, found, told)
+            rows = [(e, true) for e, true in estimated(told, found) if not e.at and math.isfinite(true)]
+            total += len(rows)
+            outside += sum(not e.interval[0] <= true <= e.interval[1] for e, true in rows)
+        yield from against_stored(name, kept(found), stored.get(name))
+    if total:
+        allowed = _binomial(total)
+        yield Finding(f"truths outside their 95 percent intervals, of {total}", float(outside), allowed, "")
+
+
+def _binomial(total: int) -> float:
+    """More misses than this would happen to honest intervals once in a thousand times."""
+    from scipy import stats
+
+    return float(stats.binom.ppf(0.999, total, 0.05))
+
+
+def against_truth(name: str, found: Diagnosis, told: Told) -> Iterator[Finding]:
+    """Verdict, effects, strengths, and what is left on held-out records."""
+    added = tuple(one.effect.name for one in found.added)
+    right = found.verdict in told.names
+    if told.names not in (("none",), ("unknown",)):
+        right = right and sorted(added) == sorted(told.names)
+        left = found.error[-1].validate
+        yield Finding(f"{name}: held-out residual over noise", math.nan if left is None else left, _HELD, "")
+    claim = f"{name}: {found.verdict} ({', '.join(added) or 'nothing added'}), truth {' and '.join(told.names)}; wrong"
+    yield Finding(claim, float(not right), 0, "")
+    own = {f"{one.place}.{p.name}": one.effect.name for one in found.added for p in one.effect.parameters}
+    for estimate, true in estimated(told, found):
+        if estimate.name in own and own[estimate.name] in told.names:
+            half = (estimate.interval[1] - estimate.interval[0]) / 2
+            off = abs(estimate.value - true) / half if half > 0 else math.inf
+            claim = f"{name}: {own[estimate.name]} {estimate.name} = {estimate.value:.4g}, truth {true:.4g}; off by"
+            yield Finding(claim, off, _FAR, "half widths of the interval")
+
+
+def against_stored(name: str, now: Kept, before: Kept | None) -> Iterator[Finding]:
+    """The same words, and estimates within a tenth of their interval."""
+    if before is None:
+        yield Finding(f"{name}: answers that are not stored", 1.0, 0, "")
+        return
+    differs = (now.verdict, now.added) != (before.verdict, before.added)
+    yield Finding(f"{name}: {now.verdict}, stored {before.verdict}; differs", float(differs), 0, "")
+    for key, (value, low, high) in before.values.items():
+        if key in now.values:
+            off = abs(now.values[key][0] - value) / max((high - low) / 2, 1e-300)
+            yield Finding(f"{name}: {key} = {now.values[key][0]:.4g}, off that stored by", off, _NEAR, "half widths")
