@@ -12,11 +12,12 @@ from numpy.typing import NDArray
 
 from pysim.diagnose import decide
 from pysim.diagnose.fitted import Fitted
-from pysim.diagnose.ledger import beside, failures, ledger_step
+from pysim.diagnose.ledger import beside, ledger_step
 from pysim.diagnose.refit import chord_refit, refit
 from pysim.diagnose.residuals import Ruler, rulers
 from pysim.diagnose.screen import Footprint, first_point, screen
 from pysim.diagnose.subject import Extended, Subject, extended
+from pysim.diagnose.where import failures
 from pysim.identify.greybox.evaluation import Evaluation
 from pysim.identify.greybox.uncertainty import Uncertainty, uncertainty, untold
 from pysim.types import BadInput, Direction, Effect, Estimate, Stage, Told
@@ -68,7 +69,8 @@ class _Story:
         step = ledger_step(name, found, at.point.cost)
         self.ledger.append(step)
         estimates, directions = ((), ()) if name == "prior" else _relative(self, at)
-        self.stages.append(Stage(name, estimates, directions, found.records, found.responses, failures(found)))
+        where = failures(found.records, self.subject.dataset)
+        self.stages.append(Stage(name, estimates, directions, found.records, found.responses, where))
         self.notes += [note for note in found.notes if note not in self.notes]
         held = "" if step.validate is None else f", held out {step.validate:.3f}"
         fitted = "" if step.fit is None else f" {step.fit:.3f}{held};"

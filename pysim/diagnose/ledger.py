@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Sequence
 
 import numpy as np
@@ -14,12 +13,9 @@ from pysim.identify.greybox.comparison import Compared, compared
 from pysim.identify.greybox.parameters import ParameterSpace
 from pysim.simulate import Esdirk
 from pysim.types import Deviation, RecordFit
-from pysim.types.diagnosis import Failure, LedgerStep
+from pysim.types.diagnosis import LedgerStep
 
 Array = NDArray[np.float64]
-
-# A log over time is shown in so many windows.
-_WINDOWS = 6
 
 
 def beside(subject: Subject, what: Extended, x: Array) -> Compared:
@@ -52,25 +48,3 @@ def root_mean_square(records: Sequence[RecordFit], use: str) -> float | None:
     """Of all samples over their noise, of records of one use; None where there are none."""
     values = [record.residual.values.ravel() for record in records if record.use == use]
     return float(np.sqrt(np.mean(np.concatenate(values) ** 2))) if values else None
-
-
-def failures(found: Compared) -> tuple[Failure, ...]:
-    """Where the model fails, worst first: stepped sines by frequency, logs over time by window."""
-    rows = [row for record in found.records for row in _regions(record)]
-    return tuple(sorted(rows, key=lambda row: -row.error))
-
-
-def _regions(record: RecordFit) -> Iterator[Failure]:
-    residual = record.residual
-    for j, signal in enumerate(residual.names):
-        values = residual.values[:, j]
-        if record.harmonics:
-            yield Failure(record.source, signal, f"{record.harmonics[j].frequency:g} Hz", _size(values))
-            continue
-        for part in np.array_split(np.arange(values.size), min(_WINDOWS, values.size)):
-            window = f"{residual.time[part[0]]:.4g} to {residual.time[part[-1]]:.4g} s"
-            yield Failure(record.source, signal, window, _size(values[part]))
-
-
-def _size(values: Array) -> float:
-    return math.sqrt(float(np.mean(values**2)))

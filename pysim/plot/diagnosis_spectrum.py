@@ -9,32 +9,16 @@ from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
-from scipy import signal, stats
+from scipy import stats
 
+from pysim.identify.residual_spectrum import FEWEST, residual_spectrum
 from pysim.plot.diagnosis_records import stages_shown
 from pysim.plot.style import BAND, COLOURS, LIMIT, SMALL, TEXT, frequency_axis, legend_above, new_figure, quiet
 from pysim.types import BadInput, Diagnosis, RecordFit
 
 Array = NDArray[np.float64]
 
-_SEGMENTS = 8  # of a log, before halves overlap
-_FEWEST = 64  # samples of a segment
 _MANY = 3  # logs shown
-
-
-def residual_spectrum(record: RecordFit, column: int) -> tuple[Array, Array, float]:
-    """Power of one signal's residual by frequency, where white noise of the stated size is 1.
-
-    Returns:
-        frequency (n_f,) in Hz, power (n_f,), and the degrees of freedom of each value.
-    Source: Welch 1967, IEEE Transactions on Audio and Electroacoustics 15:70; Hann windows, halves overlapping.
-    """
-    time, values = record.residual.time, record.residual.values[:, column]
-    step = float(np.median(np.diff(time)))
-    length = min(values.size, max(_FEWEST, values.size // _SEGMENTS))
-    frequency, density = signal.welch(values, 1 / step, nperseg=length, detrend=False)
-    count = 2 * (values.size // length) - 1
-    return frequency[1:], density[1:] / (2 * step), 2 * count * 18 / 19 if count > 1 else 2.0
 
 
 def diagnosis_spectrum_figure(diagnosis: Diagnosis) -> Figure:
@@ -49,7 +33,7 @@ def diagnosis_spectrum_figure(diagnosis: Diagnosis) -> Figure:
     panels = [
         (record, j)
         for record in ([] if not shown else shown[0][1].records)
-        if not record.harmonics and record.residual.time.size >= 2 * _FEWEST
+        if not record.harmonics and record.residual.time.size >= FEWEST
         for j in range(len(record.measured.names))
     ][: 2 * _MANY]
     if not panels:
@@ -80,12 +64,14 @@ def _same(records: Sequence[RecordFit], record: RecordFit) -> RecordFit | None:
 
 
 def _draw(axes: Axes, record: RecordFit, column: int, colour: str) -> Artist:
-    frequency, power, freedom = residual_spectrum(record, column)
-    quiet(axes)
-    axes.set_yscale("log")
-    low, high = stats.chi2.ppf([0.025, 0.975], freedom) / freedom
-    axes.axhspan(low, high, color=BAND, alpha=0.6, linewidth=0, zorder=0)
-    axes.axhline(1.0, color=LIMIT, linewidth=0.8, zorder=1)
+    residual = record.residual
+    frequency, power, freedom = residual_spectrum(residual.time, residual.values[:, column])
+    if not axes.lines:
+        quiet(axes)
+        axes.set_yscale("log")
+        low, high = stats.chi2.ppf([0.025, 0.975], freedom) / freedom
+        axes.axhspan(low, high, color=BAND, alpha=0.6, linewidth=0, zorder=0)
+        axes.axhline(1.0, color=LIMIT, linewidth=0.8, zorder=1)
+        frequency_axis(axes, float(frequency[0]), float(frequency[-1]))
     (line,) = axes.plot(frequency, power, color=colour, linewidth=1.2, zorder=3 if colour == COLOURS[0] else 2)
-    frequency_axis(axes, float(frequency[0]), float(frequency[-1]))
     return line

@@ -1,0 +1,31 @@
+"""What a log leaves over, by frequency: noise alone is flat at one."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import signal
+
+Array = NDArray[np.float64]
+
+# Fewest samples for a spectrum.
+FEWEST = 128
+_SEGMENTS = 8  # of a log, before halves overlap
+_CORRELATED = 18 / 19  # of the degrees of freedom are left by halves of Hann windows that overlap
+
+
+def residual_spectrum(time: Array, values: Array) -> tuple[Array, Array, float]:
+    """Power of a residual by frequency, where white noise of standard deviation one has power 1.
+
+    Args:
+        time: (n_t,) in s, even.
+        values: (n_t,), in standard deviations of the noise; at least FEWEST.
+    Returns:
+        frequency (n_f,) in Hz, without zero; power (n_f,); and the degrees of freedom of each value.
+    Source: Welch 1967, IEEE Transactions on Audio and Electroacoustics 15:70; Hann windows, halves overlapping.
+    """
+    step = float(np.median(np.diff(time)))
+    length = min(values.size, max(FEWEST // 2, values.size // _SEGMENTS))
+    frequency, density = signal.welch(values, 1 / step, nperseg=length, detrend=False)
+    count = 2 * (values.size // length) - 1
+    return frequency[1:], density[1:] / (2 * step), 2 * count * _CORRELATED if count > 1 else 2.0

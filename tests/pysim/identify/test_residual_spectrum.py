@@ -1,0 +1,21 @@
+"""White noise is flat at one; a sine's power stands at its frequency."""
+
+import numpy as np
+import pytest
+
+from pysim.identify.residual_spectrum import residual_spectrum
+
+TIME = np.arange(8192) / 200
+
+
+def test_noise_of_size_one_has_power_one_and_the_spread_that_is_told() -> None:
+    _, power, freedom = residual_spectrum(TIME, np.random.default_rng(1).standard_normal(TIME.size))
+    assert np.mean(power) == pytest.approx(1.0, abs=0.03)
+    assert np.var(power) == pytest.approx(2 / freedom, rel=0.2)  # of a chi-square over its degrees of freedom
+
+
+def test_the_power_of_a_sine_is_found_at_its_frequency() -> None:
+    frequency, power, _ = residual_spectrum(TIME, 3 * np.sin(2 * np.pi * 24.0 * TIME))
+    assert frequency[np.argmax(power)] == pytest.approx(24.0, abs=0.2)
+    step = frequency[1] - frequency[0]
+    assert np.sum(power) * step / 100 == pytest.approx(3**2 / 2, rel=0.01)  # power 1 up to 100 Hz is a variance of 1
