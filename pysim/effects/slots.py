@@ -25,6 +25,8 @@ class Slot:
         gives: variables of `takes` that the filling's own equations give, by themselves or by their derivative: where
             a missing term would stand, "NAME.variable" in the compiled model.
         description: in words.
+        sees: the other variables of `takes`, as far as they are numbers that change: what a term may depend on.
+        nodes: those of them that are no inputs: they follow from the connectors, and answer to the term at once.
     """
 
     name: str
@@ -32,6 +34,8 @@ class Slot:
     takes: str
     gives: tuple[str, ...]
     description: str = ""
+    sees: tuple[str, ...] = ()
+    nodes: tuple[str, ...] = ()
 
 
 def slots(class_name: str, libraries: Sequence[Path]) -> tuple[Slot, ...]:
@@ -87,7 +91,20 @@ def _slot(declaration: Declaration, owner: ClassText, library: Libraries) -> Slo
     laws = [text for text in _ancestry(filling, library) if filling is takes or text not in owned]
     names = [name for name in _given(laws) if name in declared and not _is_input(declared[name])]
     gives = tuple(dict.fromkeys(names))
-    return Slot(declaration.name, filling.full_name, takes.full_name, gives, declaration.description)
+    others = {d.name: _is_input(d) for text in owned for d in text.declarations if _changes(d, text, library)}
+    sees = tuple(name for name in others if name not in gives)
+    nodes = tuple(name for name in sees if not others[name])
+    return Slot(declaration.name, filling.full_name, takes.full_name, gives, declaration.description, sees, nodes)
+
+
+def _changes(declaration: Declaration, owner: ClassText, library: Libraries) -> bool:
+    """Whether it is a real number that is no parameter."""
+    if declaration.prefixes & {"parameter", "constant"}:
+        return False
+    resolved = library.resolve(declaration.type_name, owner.full_name)
+    if resolved is None:
+        return declaration.type_name == "Real"
+    return resolved.kind == "type" or resolved.full_name.endswith((".RealInput", ".RealOutput"))
 
 
 def _given(laws: Sequence[ClassText]) -> Iterator[str]:

@@ -66,6 +66,14 @@ def test_the_pumps_slots_are_those_of_the_guide() -> None:
     assert found["pistonForce"].description == "Force on the piston beside Eq. 3.9"
 
 
+def test_what_a_slot_sees() -> None:
+    found = {slot.name: slot for slot in slots(FREE, [LIBRARY])}
+    assert (found["pistonForce"].sees, found["pistonForce"].nodes) == (("x", "v"), ())
+    assert (found["angleSensor"].sees, found["oil"].sees) == (("s", "s_t"), ("p1", "p2"))
+    assert (found["supply"].sees, found["supply"].nodes) == (("Q",), ("Q",))
+    assert (found["spool"].sees, found["internalLeakage"].sees) == (("u_ref",), ("dp",))
+
+
 @pytest.mark.parametrize("name", ["Axis.Bare", "Axis.Tuned"])
 def test_a_users_slots(tmp_path: Path, name: str) -> None:
     bearing, far = slots(name, [library(tmp_path, AXIS)])
