@@ -106,6 +106,8 @@ class Shape:
         value: (n,) of the term there, in `unit`.
         low, high: (n,) its 95 percent band.
         argument_unit, unit: SI, or as the model counts.
+        absorbed: (n, k) terms that the model's own parameters do as well: any amount of them may be added without a
+            trace in the data, and the band holds for the amount shown.
     """
 
     argument: Array
@@ -114,6 +116,7 @@ class Shape:
     high: Array
     argument_unit: str
     unit: str
+    absorbed: Array = field(default_factory=lambda: np.zeros((0, 0)))
 
 
 @dataclass(frozen=True)
