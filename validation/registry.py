@@ -35,6 +35,7 @@ CASES: Mapping[str, Case] = MappingProxyType(
         "chirp": Case("validation.chirp.case", "one chirp against stepped sines on a model whose directions differ"),
         "multisine": Case("validation.multisine.case", "gain, noise, even and odd distortion where theory knows them"),
         "virtual-bench": Case("validation.virtual_bench.case", "the virtual bench against an independent plant's logs"),
+        "ripple": Case("validation.ripple.case", "the pump's ripple behind a hose and at a relief valve"),
         "fit-bench-01": Case("validation.fit_bench.case", "an independent plant's logs fitted to their noise"),
         "fit-speed": Case("validation.fit_speed.case", "13 parameters, 342 sines and two waves, from 30 percent off"),
         "fit-thesis": Case("validation.fit_thesis.case", "the fits of thesis Section 4.4 done again"),

@@ -1,0 +1,87 @@
+"""Thesis Fig. 4.8 and 4.9: how much of the ripple a hose of 3 m lets through, and why."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+import fmu_build
+from pysim.io import read_model
+from pysim.simulate import Rodas, simulate
+from pysim.types import Experiment, Record
+from validation.findings import Finding
+from validation.ripple.line import Hose
+
+Array = NDArray[np.float64]
+
+EXAMPLE = "HydraulicTestBench.Examples.RippleHose"
+STROKES = 435.0  # Hz, 18 per revolution at 1450 rpm
+SEGMENTS = 32  # of the example
+LAST = 0.2  # s, 87 strokes
+LAGS = (0.0, 5e-5, 1e-4, 2e-4)  # s
+
+
+@cache
+def measured(segments: int = SEGMENTS, lag: float = 1e-4) -> Record:
+    """Flow before and after the hose over the last 87 strokes, once the pump has reached its angle."""
+    model = read_model(fmu_build.build(EXAMPLE, overrides={"hose.n": segments}))
+    times = 0.6 - LAST + LAST * np.arange(87 * 64) / (87 * 64)
+    run = Experiment(times, ("before.Q", "after.Q"), overrides={"hose.T_w": lag})
+    return simulate(model, run, solver=Rodas(rtol=1e-8, atol=1e-8))
+
+
+def amplitude(values: Array, times: Array, hertz: float = STROKES) -> float:
+    """Of the sine at `hertz`, over whole periods."""
+    return float(2 * np.abs(np.mean((values - values.mean()) * np.exp(-2j * np.pi * hertz * times))))
+
+
+def passed(record: Record) -> float:
+    """Ripple after the hose over ripple before, at the strokes' frequency."""
+    return amplitude(record["after.Q"], record.time) / amplitude(record["before.Q"], record.time)
+
+
+def findings() -> Iterator[Finding]:
+    """The FMU against closed forms, and what takes the ripple away."""
+    record, hose = measured(), Hose()
+    flow, strokes = float(record["before.Q"].mean()), np.array([STROKES])
+    share = passed(record)
+    swing = np.ptp(record["after.Q"]) / np.ptp(record["before.Q"])
+    yield Finding(f"hose of {SEGMENTS} segments: share of the 435 Hz ripple that arrives", share, 0.3, "")
+    yield Finding("the same of the whole swing", float(swing), 0.3, "")
+    for segments, lag in ((SEGMENTS, 1e-4), (SEGMENTS, 5e-5), (1, 1e-4)):
+        exact = hose.with_lag(lag).passed_by_segments(segments, strokes, flow)[0]
+        claim = f"FMU against the closed form, {segments} segments, wall's lag {1e6 * lag:g} us"
+        yield Finding(claim, 100 * abs(passed(measured(segments, lag)) / exact - 1), 0.5, "percent")
+    line = hose.passed(strokes, flow)[0]
+    yield Finding(f"{SEGMENTS} segments against the wave equation", 100 * abs(share / line - 1), 6.0, "percent")
+    single = passed(measured(1))
+    yield Finding("one segment: share that arrives, whatever the wall", single, 0.02, "")
+    yield from _by_cause(hose, flow)
+
+
+def _by_cause(hose: Hose, flow: float) -> Iterator[Finding]:
+    """Wall, friction and end, each for itself, by the wave equation over all frequencies near the strokes'."""
+    near = np.linspace(390, 480, 181)  # 1300 to 1600 rpm: any place between two resonances
+    span = "by the wave equation, 1300 to 1600 rpm,"
+    bare = hose.with_lag(0.0).passed(near, flow)
+    yield Finding(
+        f"{span} wall without damping: least share that arrives, short of 1 by", 1 - float(bare.min()), 0.02, ""
+    )
+    yield Finding(f"{span} wall with a loss factor of 0.27: at most", float(hose.passed(near, flow).max()), 0.4, "")
+    closed = replace(hose, end=2 * 100e5 / flow).passed(near, flow)  # slope of an orifice that takes 100 bar
+    yield Finding(f"{span} the same on an orifice of 100 bar: at most", float(closed.max()), 0.1, "")
+
+
+def table(flow: float) -> list[tuple[str, list[float]]]:
+    """Share that arrives at 435 Hz: a row per number of segments and one of the wave equation, a column per lag."""
+    strokes = np.array([STROKES])
+    rows = []
+    for segments in (1, 2, 4, 8, 16, 32, 64):
+        shares = [Hose().with_lag(lag).passed_by_segments(segments, strokes, flow)[0] for lag in LAGS]
+        rows.append((str(segments), [float(share) for share in shares]))
+    rows.append(("line", [float(Hose().with_lag(lag).passed(strokes, flow)[0]) for lag in LAGS]))
+    return rows
