@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
+Complex = NDArray[np.complexfloating]
 
 
 @dataclass(frozen=True)
@@ -40,13 +41,13 @@ class Hose:
         """Speed of sound, m/s."""
         return float(np.sqrt(1 / (1 / self.oil + 1 / self.wall) / self.density))
 
-    def series(self, omega: Array, flow: float) -> NDArray[np.complex128]:
+    def series(self, omega: Array, flow: float) -> Complex:
         """Impedance per length (n,), Pa.s/m4."""
         step = 1e-4 * flow
         slope = (self.gradient(flow + step) - self.gradient(flow - step)) / (2 * step)
         return 1j * omega * self.density / self.area + slope
 
-    def shunt(self, omega: Array) -> NDArray[np.complex128]:
+    def shunt(self, omega: Array) -> Complex:
         """Admittance per length (n,), m2/(Pa.s)."""
         compliance = self.area * (1 / self.oil + 1 / self.wall)
         return 1j * omega * compliance / (1 + 1j * omega * self.lag)
