@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
+from pysim.diagnose.adequacy import shortcomings
 from pysim.identify.greybox import Measurements, Parameter, Rest, Treatment, problem
 from pysim.identify.greybox.parameters import ParameterSpace, parameter_space
 from pysim.identify.greybox.target import Target
@@ -92,7 +93,8 @@ def subject(
         rest: how the model comes to rest ahead of a log; as the thesis' bench did where None.
         notes: what a reader must know beside what is noted here.
     Raises:
-        BadInput: no free parameter, bounds of what is not free, or a data set and a model that do not fit together.
+        BadInput: no free parameter, bounds of what is not free, a data set and a model that do not fit together, or
+            measurements that cannot carry a diagnosis.
     """
     names = tuple(free) or identifiable(model)
     for name in bounds or {}:
@@ -101,7 +103,8 @@ def subject(
     given = Subject(model, (), names, tuple(catalogue), build_variant, dataset=dataset, bounds=bounds or {})
     data = Measurements(dataset, overrides=overrides or {})
     checked = problem(model, [data], given.parameters, treatment=Treatment(steady="transient", rest=rest or Rest()))
-    return replace(given, targets=checked.targets, notes=(*notes, *_unbounded(checked.space), *checked.notes))
+    told = (*notes, *shortcomings(dataset, names), *_unbounded(checked.space), *checked.notes)
+    return replace(given, targets=checked.targets, notes=told)
 
 
 def _unbounded(space: ParameterSpace) -> tuple[str, ...]:

@@ -22,6 +22,8 @@ LEVEL = 0.95
 _TOUCHED = 1e-2
 # Nearer than this share of its standard deviation, or of the bounds' distance, an estimate stands at its bound.
 _AT_BOUND = 1e-6
+# Half width of a combination's interval, as a logarithm, beyond which numbers end.
+_FARTHEST = 300.0
 
 
 @dataclass(frozen=True)
@@ -141,7 +143,8 @@ def _combinations(
         row = np.array([powers.get(key, 0.0) for key in space.keys])
         std = math.sqrt(float(row @ covariance @ row))
         centre = float(np.prod(value**row))
-        interval = centre * math.exp(-factor * std), centre * math.exp(factor * std)
+        reach = math.exp(min(factor * std, _FARTHEST))
+        interval = centre / reach, centre * reach
         found.append(Combination(powers, _product(powers), centre, interval))
     return tuple(found)
 
