@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from copy import copy
+from dataclasses import dataclass, field
 from numbers import Real
 
 import numpy as np
@@ -79,5 +80,8 @@ class Experiment:
                 )
 
     def override(self, **values: float) -> Experiment:
-        """The same experiment with more parameters set."""
-        return replace(self, overrides={**self.overrides, **values})
+        """The same experiment with more parameters set; what stays is not checked again."""
+        other = copy(self)
+        object.__setattr__(other, "overrides", FrozenMapping({**self.overrides, **values}))
+        other._check_names()
+        return other

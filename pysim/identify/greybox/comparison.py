@@ -41,17 +41,19 @@ class Compared:
     notes: tuple[str, ...]
 
 
-def compared(problem: Problem, x: Array, simulation: Simulation, near: Mapping[int, Array] | None = None) -> Compared:
+def compared(
+    problem: Problem, x: Array, simulation: Simulation, known: Mapping[int, Simulated] | None = None
+) -> Compared:
     """Simulate every target at x (n,); one that cannot be simulated is noted and left out.
 
     Args:
-        near: id of a run -> a state to start its orbit's search from.
+        known: id of a run -> its answer at x, where that is there already.
     """
     records: list[RecordFit] = []
     responses: list[ResponseFit] = []
     notes: list[str] = []
     experiments = []
-    for target, simulated, trouble in _simulated(problem, x, simulation, near or {}):
+    for target, simulated, trouble in _simulated(problem, x, simulation, known or {}):
         if isinstance(target, LogTarget):
             run = target.run.experiment
             overrides = {**run.overrides, **problem.space.overrides(x, target.run.record)}
@@ -69,22 +71,28 @@ def compared(problem: Problem, x: Array, simulation: Simulation, near: Mapping[i
 
 
 def _simulated(
-    problem: Problem, x: Array, simulation: Simulation, near: Mapping[int, Array]
+    problem: Problem, x: Array, simulation: Simulation, known: Mapping[int, Simulated]
 ) -> Iterator[tuple[Target, tuple[Simulated, ...], str]]:
-    """All targets at once; where that fails, one by one."""
-    runs = [run for target in problem.targets for run in target.runs]
-    guesses = [near.get(id(run)) for run in runs]
-    together = simulate_runs(problem.model, problem.space, runs, x, guesses, simulation, slopes=False)
-    rest = list(together.simulated)
+    """What is not known of all targets at once; where that fails, one by one."""
+    left = [target for target in problem.targets if any(id(run) not in known for run in target.runs)]
+    answers, trouble = _answers(problem, x, simulation, left)
+    found, troubles = {**known, **answers}, dict.fromkeys(map(id, left), trouble)
+    for target in left if trouble else ():
+        answers, troubles[id(target)] = _answers(problem, x, simulation, [target])
+        found |= answers
     for target in problem.targets:
-        n = len(target.runs)
-        if together.trouble:
-            nothing = (None,) * n
-            own = simulate_runs(problem.model, problem.space, target.runs, x, nothing, simulation, slopes=False)
-            yield target, own.simulated, own.trouble
-        else:
-            yield target, tuple(rest[:n]), ""
-            rest = rest[n:]
+        why = troubles.get(id(target), "")
+        yield target, () if why else tuple(found[id(run)] for run in target.runs), why
+
+
+def _answers(
+    problem: Problem, x: Array, simulation: Simulation, targets: Sequence[Target]
+) -> tuple[dict[int, Simulated], str]:
+    """id of a run -> its answer, without slopes; and why there are none."""
+    runs = [run for target in targets for run in target.runs]
+    nothing = (None,) * len(runs)
+    answer = simulate_runs(problem.model, problem.space, runs, x, nothing, simulation, slopes=False)
+    return {} if answer.trouble else dict(zip(map(id, runs), answer.simulated, strict=True)), answer.trouble
 
 
 def _log(target: LogTarget, simulated: Simulated) -> RecordFit:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from pysim.identify.greybox.objective import Objective
 from pysim.identify.greybox.problem import Problem
 from pysim.identify.greybox.simulation import Answer, Simulation, simulate_runs
-from pysim.identify.greybox.target import Target, stacked
+from pysim.identify.greybox.target import Simulated, Target, stacked
 
 Array = NDArray[np.float64]
 
@@ -68,6 +68,32 @@ def evaluator(problem: Problem, objective: Objective, simulation: Simulation) ->
         return _summed(x, answer, targets, objective)
 
     return evaluate
+
+
+@dataclass(frozen=True)
+class LastLook:
+    """A point simulated once more, as finely as intervals need it.
+
+    Args:
+        point: residuals and slopes there.
+        simulated: id of a run -> its answer; empty where the model could not be simulated.
+    """
+
+    point: Evaluation
+    simulated: Mapping[int, Simulated]
+
+
+def last_look(problem: Problem, objective: Objective, simulation: Simulation, best: Evaluation) -> LastLook:
+    """Simulate everything that counts for an objective at the end of a search.
+
+    Args:
+        best: the end, of an objective over the same domains: its orbits are where these are sought.
+    """
+    targets = objective.chosen(problem.targets)
+    runs = [run for target in targets for run in target.runs]
+    answer = simulate_runs(problem.model, problem.space, runs, best.x, best.guesses(best.x), simulation)
+    simulated = {} if answer.trouble else dict(zip(map(id, runs), answer.simulated, strict=True))
+    return LastLook(_summed(best.x, answer, targets, objective), simulated)
 
 
 def _summed(x: Array, answer: Answer, targets: tuple[Target, ...], objective: Objective) -> Evaluation:

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pysim.identify.greybox.comparison import compared
-from pysim.identify.greybox.evaluation import Evaluation, evaluator
+from pysim.identify.greybox.evaluation import Evaluation, LastLook, evaluator, last_look
 from pysim.identify.greybox.gauss_newton import GaussNewton
 from pysim.identify.greybox.interior_point import InteriorPoint
 from pysim.identify.greybox.journal import Journal
@@ -148,7 +148,9 @@ def _polished(
     """The end of a rough search, gone on with by fine simulations."""
     if optimiser.rough() is None:
         return best
-    fine = _one_search(problem, objective, optimiser, simulation, effort, f"{name}-polished", best.best, progress)
+    fine = _one_search(
+        problem, objective, optimiser, simulation.searching(), effort, f"{name}-polished", best.best, progress
+    )
     if not fine.best.good:
         return replace(best, outcome=FitOutcome.STALLED, message=f"the optimum is a rough one: {fine.message}")
     return replace(fine, tried=best.tried + 1 + fine.tried, first_cost=best.first_cost)
@@ -190,12 +192,13 @@ def _result(
     begun: Mapping[str, Array],
 ) -> Fit:
     space = problem.space
-    point = _in_noise(problem, objective, simulation, state.best)
+    look = _in_noise(problem, objective, simulation, state.best)
+    point = look.point
     told = not untold(problem.notes)
     size = misfit(point)
     scale = (max(size, 1.0) if told else size) * (1.0 if objective.squares else _SIZES)
     doubt = uncertainty(space, point, scale=scale, told=told)
-    beside = compared(problem, state.best.x, simulation, _known(problem, objective, state.best))
+    beside = compared(problem, state.best.x, simulation, look.simulated)
     return Fit(
         model=problem.model.name,
         objective=objective.words,
@@ -207,7 +210,7 @@ def _result(
         combinations=doubt.combinations,
         records=beside.records,
         responses=beside.responses,
-        cost=state.best.cost,
+        cost=point.cost if objective.weighted else state.best.cost,
         start_cost=state.first_cost,
         misfit=size,
         outcome=_outcome(state),
@@ -222,21 +225,12 @@ def _result(
     )
 
 
-def _known(problem: Problem, objective: Objective, best: Evaluation) -> dict[int, Array]:
-    """id of a run -> its orbit's state at the optimum."""
-    runs = [run for target in objective.chosen(problem.targets) for run in target.runs]
-    pairs = zip(runs, best.guesses(best.x), strict=False)
-    return {id(run): state for run, state in pairs if state is not None}
-
-
 def _outcome(state: State) -> FitOutcome:
     assert state.outcome is not None  # searches end with one
     return state.outcome
 
 
-def _in_noise(problem: Problem, objective: Objective, simulation: Simulation, best: Evaluation) -> Evaluation:
-    """The optimum's residuals in standard deviations, where the objective counts them in another way."""
-    if objective.weighted:
-        return best
-    weighted = replace(NOISE, domains=objective.domains)
-    return evaluator(problem, weighted, simulation)(best.x, best.guesses(best.x))
+def _in_noise(problem: Problem, objective: Objective, simulation: Simulation, best: Evaluation) -> LastLook:
+    """The optimum's residuals in standard deviations, which the objective may count in another way."""
+    look = last_look(problem, replace(NOISE, domains=objective.domains), simulation, best)
+    return look if look.point.good or not objective.weighted else replace(look, point=best)

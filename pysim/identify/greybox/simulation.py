@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+import math
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
 
@@ -19,7 +20,7 @@ Array = NDArray[np.float64]
 
 
 # On the way to the optimum: what this leaves open is well below the noise.
-_ROUGH, _ROUGH_MISMATCH = 1e-4, 1e-3
+_ROUGH = 1e-4
 
 
 @dataclass(frozen=True)
@@ -40,7 +41,15 @@ class Simulation:
     def rough(self) -> Simulation:
         """Settings for the way to the optimum: good enough to come within a fraction of the noise's uncertainty."""
         solver = replace(self.solver, rtol=max(self.solver.rtol, _ROUGH), atol=max(self.solver.atol, _ROUGH))
-        return Simulation(solver, self.workers, max(self.mismatch, _ROUGH_MISMATCH))
+        return replace(self, solver=solver).searching()
+
+    def searching(self) -> Simulation:
+        """Settings for points that are only passed.
+
+        A sample of an orbit is wrong by the square of what is left to first order, which need not be less than the
+        error of the integration; only intervals ask for slopes better than that.
+        """
+        return replace(self, mismatch=max(self.mismatch, math.sqrt(self.solver.rtol)))
 
 
 @dataclass(frozen=True)
@@ -79,7 +88,7 @@ def simulate_runs(
         guesses: per run, a state to start an orbit's search from, or None.
         slopes: whether those by x are wanted; they are zero where not.
     """
-    make = partial(_job, space, x, simulation.mismatch, slopes)
+    make = partial(_job, _Settings(space, x, slopes), simulation.mismatch)
     jobs = [make(run, place, guess) for place, (run, guess) in enumerate(zip(runs, guesses, strict=True))]
     states: list[Array | None] = [None] * len(runs)
     state_slopes: list[Array | None] = [None] * len(runs)
@@ -108,10 +117,25 @@ def _results(model: Model, jobs: list[Job], simulation: Simulation) -> Iterator[
     return zip(jobs, simulation.workers.run(model, jobs, simulation.solver), strict=True) if jobs else iter(())
 
 
-def _job(
-    space: ParameterSpace, x: Array, mismatch: float, slopes: bool, run: Run, place: int, guess: Array | None
-) -> Job:
+@dataclass(frozen=True)
+class _Settings:
+    """What all runs at one point x (n,) have in common, worked out once: most logs have no parameters of their own."""
+
+    space: ParameterSpace
+    x: Array
+    slopes: bool
+    _known: dict[str | None, tuple[dict[str, float], tuple[str, ...], Array]] = field(default_factory=dict)
+
+    def of(self, record: str) -> tuple[dict[str, float], tuple[str, ...], Array]:
+        """Parameters of the run of a log, and by which variables it is differentiated: names (n_v), slopes (n_v, n)."""
+        key = record if record in self.space.records else None
+        if key not in self._known:
+            names, chain = self.space.chain(self.x, record) if self.slopes else ((), np.zeros((0, self.space.size)))
+            self._known[key] = self.space.overrides(self.x, record), names, chain
+        return self._known[key]
+
+
+def _job(settings: _Settings, mismatch: float, run: Run, place: int, guess: Array | None) -> Job:
+    overrides, names, chain = settings.of(run.record)
     wanted = run.experiment if run.orbit is None else run.orbit
-    overrides: Mapping[str, float] = {**wanted.overrides, **space.overrides(x, run.record)}
-    names, chain = space.chain(x, run.record) if slopes else ((), np.zeros((0, space.size)))
-    return Job(place, replace(wanted, overrides=overrides), names, chain, guess, mismatch)
+    return Job(place, wanted.override(**overrides), names, chain, guess, mismatch)

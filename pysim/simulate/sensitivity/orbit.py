@@ -14,7 +14,7 @@ from pysim.simulate._run import initialise, make_record
 from pysim.simulate.esdirk import Esdirk
 from pysim.simulate.sensitivity.differences import DIFFERENCE_STEP, tight
 from pysim.simulate.sensitivity.probe import Offer, both_sides
-from pysim.simulate.sensitivity.shooting import Found, Shot, periods_apart, shoot
+from pysim.simulate.sensitivity.shooting import Found, Shot, repeats, shoot
 from pysim.simulate.sensitivity.transient import Settled, after, settle_down
 from pysim.simulate.sensitivity.varied import Directions, vary
 from pysim.types import Experiment, Outcome, Record
@@ -22,7 +22,8 @@ from pysim.types import Experiment, Outcome, Record
 Array = NDArray[np.float64]
 
 _SETTLING = 4  # periods from the model's own start that make a guess; half as many cost the pump three times the time
-_FORGOTTEN = 10.0  # mismatches: two periods of an orbit may end that far apart
+_FORGOTTEN = 10.0  # mismatches: two periods of an orbit may end that far apart,
+_MOST_FORGOTTEN = 1e-2  # amplitudes: but no further
 _TIGHT = 1e-8  # tolerance of orbits between which a difference is taken
 _TIGHT_MISMATCH = 1e-5
 
@@ -90,10 +91,10 @@ def remembers(plan: Plan, experiment: Experiment, guess: Array | None) -> bool:
         if found.shot is None:
             return False
         state = found.shot.start + found.shot.step
-        apart = periods_apart(plan.library, experiment, plan.solver, state, plan.mismatch)
+        allowed = min(_FORGOTTEN * plan.mismatch, _MOST_FORGOTTEN)
+        return not repeats(plan.library, experiment, plan.solver, state, allowed)
     except CallFailed:
         return False
-    return apart > _FORGOTTEN * plan.mismatch
 
 
 def find_orbit(plan: Plan, experiment: Experiment, guess: Array | None, long_way: bool, stopped: Stopped) -> Orbit:

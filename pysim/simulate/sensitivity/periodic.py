@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
+from copy import copy
 from dataclasses import dataclass, field
 from functools import partial
 from numbers import Integral, Real
@@ -68,6 +69,13 @@ class Periodic:
     def experiment(self) -> Experiment:
         """One period from time 0, its end included."""
         return self._experiment
+
+    def override(self, **values: float) -> Periodic:
+        """The same test with more parameters set; what stays is not checked again."""
+        other, experiment = copy(self), self._experiment.override(**values)
+        object.__setattr__(other, "_experiment", experiment)
+        object.__setattr__(other, "overrides", experiment.overrides)
+        return other
 
 
 def _repeats(signal: Signal, period: float) -> bool:

@@ -20,6 +20,7 @@ _ITERATIONS = 15
 _HALVINGS = 4
 _WITHIN = 3.0  # tolerated errors of a step: what the choice of the steps alone moves the end of a period
 _FURTHEST = 10.0  # amplitudes: a longer correction is shortened to that
+_JUMPY = 30.0  # tolerated errors of a step: so far the end of a period with kinks jumps as the steps fall otherwise
 
 
 @dataclass(frozen=True)
@@ -33,6 +34,7 @@ class Shot:
         mismatch: largest entry of `step`, in amplitudes of the orbit.
         by: (n_x, n_p) derivative of the periodic states by the parameters.
         drift: largest mismatch, in amplitudes, that no correction can remove.
+        resolved: whether `step` is no longer than the choice of the integration's steps can move it.
     """
 
     varied: Varied
@@ -41,6 +43,7 @@ class Shot:
     mismatch: float
     by: Array
     drift: float
+    resolved: bool
 
 
 @dataclass(frozen=True)
@@ -65,7 +68,8 @@ def shoot(
     """Correct the guess (n_x,) until what is left is below the tolerance, in amplitudes of each state.
 
     The correction that is left is not applied to another integration but to first order to the last one, which makes
-    an error of its square. A correction after which the mismatch is larger is halved.
+    an error of its square. A correction after which the mismatch is larger is halved, unless both mismatches are what
+    the choice of the integration's steps leaves open: then the smaller one is left, too.
 
     Args:
         instance: in event mode at the experiment's start.
@@ -82,6 +86,8 @@ def shoot(
         if shot is not None and shot.mismatch <= tolerance:
             return Found(None if shot.drift > tolerance else shot, count, _trouble(shot, tolerance))
         if shot is None or (before is not None and not shot.mismatch < before.mismatch):
+            if shot is not None and before is not None and shot.resolved and before.resolved:
+                return Found(None if before.drift > tolerance else before, count, _trouble(before, tolerance))
             length *= 0.5
             if before is None or length < 0.5**_HALVINGS:
                 return Found(None, count, varied.message or _trouble(before, tolerance))
@@ -115,9 +121,13 @@ def _inverse(matrix: Array, least: float) -> Array | None:
 
 def _scale(varied: Varied, solver: Esdirk, tolerance: float) -> Array:
     """Units (n_x,) in which a mismatch counts: amplitudes, but no less than what the integration itself leaves open."""
+    return np.maximum(0.5 * (varied.high - varied.low), _WITHIN * _step_error(varied, solver) / tolerance)
+
+
+def _step_error(varied: Varied, solver: Esdirk) -> Array:
+    """Tolerated error of a step in each state, (n_x,)."""
     size = np.maximum(np.abs(varied.high), np.abs(varied.low))
-    open_end = _WITHIN * (solver.rtol * size + solver.atol * varied.nominal)
-    return np.maximum(0.5 * (varied.high - varied.low), open_end / tolerance)
+    return solver.rtol * size + solver.atol * varied.nominal
 
 
 def _examine(varied: Varied, start: Array, solver: Esdirk, tolerance: float) -> Shot:
@@ -125,7 +135,8 @@ def _examine(varied: Varied, start: Array, solver: Esdirk, tolerance: float) -> 
     mismatch = varied.states - start
     solved, drift = _fixed_point(varied.by[:, :n], np.column_stack([mismatch, varied.by[:, n:]]), scale, solver.rtol)
     step = solved[:, 0]
-    return Shot(varied, start, step, float(np.max(np.abs(step / scale), initial=0.0)), solved[:, 1:], drift)
+    resolved = bool(np.all(np.abs(step) <= np.maximum(tolerance * scale, _JUMPY * _step_error(varied, solver))))
+    return Shot(varied, start, step, float(np.max(np.abs(step / scale), initial=0.0)), solved[:, 1:], drift, resolved)
 
 
 def _fixed_point(monodromy: Array, right: Array, scale: Array, least: float) -> tuple[Array, float]:
@@ -147,10 +158,14 @@ def _fixed_point(monodromy: Array, right: Array, scale: Array, least: float) -> 
     return (vt[held].T @ (inner[held] / sigma[held, None])) * scale[:, None], drift
 
 
-def periods_apart(library: Library, experiment: Experiment, solver: Esdirk, start: Array, tolerance: float) -> float:
-    """How far a second period ends from the first one, in amplitudes; infinite where it cannot be run.
+def repeats(library: Library, experiment: Experiment, solver: Esdirk, start: Array, tolerance: float) -> bool:
+    """Whether a second period ends where the first one did.
 
-    On a periodic orbit that is nothing, unless the model remembers more than its states, as a delay does.
+    On a periodic orbit it does, unless the model remembers more than its states, as a delay does.
+
+    Args:
+        start: (n_x,) states on the orbit.
+        tolerance: what may lie between both ends, in amplitudes, or as much as three ends jump with the steps.
     """
     twice = replace(experiment, times=np.append(experiment.times, experiment.times[-1] * 2))
     ends, directions = [], Directions(outputs=False)
@@ -159,6 +174,6 @@ def periods_apart(library: Library, experiment: Experiment, solver: Esdirk, star
             initialise(instance, run, solver)
             ends.append(vary(instance, run, solver, directions, start=start))
     if not all(end.done for end in ends):
-        return float("inf")
-    distance = np.abs(ends[1].states - ends[0].states) / _scale(ends[0], solver, tolerance)
-    return float(np.max(distance, initial=0.0))
+        return False
+    amplitude, jumps = 0.5 * (ends[0].high - ends[0].low), 3 * _JUMPY * _step_error(ends[0], solver)
+    return bool(np.all(np.abs(ends[1].states - ends[0].states) <= np.maximum(tolerance * amplitude, jumps)))

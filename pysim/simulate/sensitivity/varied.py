@@ -102,7 +102,7 @@ def vary(
         job.keep("variation", job.spare[kind])
     else:
         job.restart(experiment.start, float(experiment.times[-1]))
-        job.change("rows", {"next": 0})
+        job.change("rows", {"next": 0, "values": np.zeros((experiment.times.size, len(experiment.record)))})
     job.change("variation", {"tolerance": solver.derivative_tol})
     job.change("variation", _of_this_run(job, experiment, start, start_by, rewind))
     code = go_on(integrate_variations, job, stopped)

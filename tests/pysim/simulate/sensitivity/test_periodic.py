@@ -102,6 +102,43 @@ def test_loose_guess_is_corrected_and_what_is_left_is_of_second_order():
         assert (np.abs(orbit.record.values - exact.record.values) < 1e-3 * amplitude).all()
 
 
+@pytest.mark.parametrize(("amplitude", "offset"), [(10.0, 25.0), (20.0, -75.0)])
+def test_corrections_as_small_as_the_steps_can_move_them_end_the_search(amplitude, offset):
+    """A valve at its ends 15 times a second: coarse steps move the end of a period by more than the mismatch asked."""
+    values = (
+        219.9,
+        1.066,
+        0.0329,
+        5.217e-4,
+        4.249e-5,
+        81.1,
+        17478.0,
+        9395.0,
+        55.18,
+        0.1688,
+        3.537e-3,
+        1.4e-7,
+        4.979e-3,
+    )
+    test = pump_test(15.0, amplitude, offset, **dict(zip(PUMP, values, strict=True)))
+    model = pump_model("free")
+    (coarse,) = periodic_many(model, [test], solver=Esdirk(1e-4, 1e-4), mismatch=1e-3)
+    (fine,) = periodic_many(model, [test], solver=_TIGHT, mismatch=1e-6)
+    assert 0 < coarse.iterations <= 6
+    amplitudes = np.ptp(fine.record.values, axis=0) / 2
+    assert (np.abs(coarse.record.values - fine.record.values) <= 3e-3 * amplitudes).all()  # 30 tolerated errors
+
+
+def test_override_sets_parameters_and_leaves_the_original_alone():
+    first = driven(w=1.0)
+    second = first.override(w=2.0, D=0.3)
+    assert (dict(first.overrides), dict(first.experiment().overrides)) == ({"w": 1.0}, {"w": 1.0})
+    assert dict(second.overrides) == dict(second.experiment().overrides) == {"w": 2.0, "D": 0.3}
+    assert (second.period, second.inputs, second.experiment().times.size) == (first.period, first.inputs, 25)
+    with pytest.raises(BadInput, match="'w' cannot be set to 'fast'"):
+        first.override(w="fast")
+
+
 def test_without_derivatives_from_the_fmu_differences_tell_the_same(fixture_model):
     (orbit,) = periodic_many(fixture_model(_PLAIN), [driven()], ("w", "D"))
     values, by = steady_oscillation(driven())
