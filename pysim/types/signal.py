@@ -115,6 +115,12 @@ class Signal:
         """The signal's rate at times t (n_t,) in s, in its unit per s; to the right of a kink."""
         return np.where(np.asarray(t) < self.starts[0], 0.0, self._rate(*self._locate(t)))
 
+    def plus(self, other: Signal) -> Signal:
+        """The sum of two signals, exact."""
+        starts = np.union1d(self.starts, other.starts)
+        (cubics, sines), (more, waves) = self._pieces_at(starts), other._pieces_at(starts)
+        return Signal(starts, cubics + more, np.concatenate([sines, waves], axis=1))
+
     def breaks(self) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
         """Per piece (n_k,), whether the value jumps and whether the rate jumps where the piece starts."""
         k, at_start, at_end = np.arange(self.starts.size), np.zeros(self.starts.size), np.diff(self.starts)
@@ -128,6 +134,23 @@ class Signal:
         t = np.asarray(t, dtype=np.float64)
         k = np.maximum(np.searchsorted(self.starts, t, side="right") - 1, 0)
         return k, np.maximum(t - self.starts[k], 0.0)
+
+    def _pieces_at(self, starts: Array) -> tuple[Array, Array]:
+        """Cubics (n, 4) and sines (n, n_j, 4) of pieces that start at `starts` (n,), all its own starts among them."""
+        k, s = self._locate(starts)
+        c, cubics, sines = self.cubics[k], np.zeros((starts.size, 4)), self.sines[k].copy()
+        cubics[:, 0] = c[:, 0] + s * (c[:, 1] + s * (c[:, 2] + s * c[:, 3]))
+        cubics[:, 1] = c[:, 1] + s * (2 * c[:, 2] + 3 * s * c[:, 3])
+        cubics[:, 2] = c[:, 2] + 3 * s * c[:, 3]
+        cubics[:, 3] = c[:, 3]
+        time, kappa = s[:, None], sines[:, :, 3]
+        sines[:, :, 1] += time * (sines[:, :, 2] + 0.5 * kappa * time)
+        sines[:, :, 2] += kappa * time
+        before = starts < self.starts[0]
+        cubics[before] = 0.0
+        cubics[before, 0] = float(self.value(self.starts[:1])[0])
+        sines[before] = 0.0
+        return cubics, sines
 
     def _value(self, k: NDArray[np.intp], s: Array) -> Array:
         c = self.cubics[k]

@@ -37,6 +37,18 @@ def test_value_is_the_defining_formula(signal, times):
     )
 
 
+@given(signals(), signals(), st.lists(st.floats(-8, 20), min_size=1, max_size=8))
+def test_a_sum_has_the_values_and_rates_of_both(one, other, times):
+    t = np.array(times)
+    total = one.plus(other)
+    scale = 1 + np.abs(one.cubics).max() * 20**3
+    np.testing.assert_allclose(total.value(t), one.value(t) + other.value(t), atol=1e-11 * scale, rtol=1e-9)
+    np.testing.assert_allclose(
+        total.derivative(t), one.derivative(t) + other.derivative(t), atol=1e-10 * scale, rtol=1e-9
+    )
+    assert set(one.starts) | set(other.starts) == set(total.starts)
+
+
 @given(signals(), st.floats(0, 1), st.integers(0, 4))
 @settings(max_examples=200)
 def test_derivative_is_the_limit_of_differences(signal, share, piece):
