@@ -1,13 +1,16 @@
 """`pysim diagnose` from a data set on disk to the JSON answer, the extended class and its FMU."""
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from fmu_build import build
 from pysim.cli import main
 from pysim.io import read_model, write_dataset
+from pysim.types import Record
 from tests.foreign import made_foreign
 from tests.pysim.diagnose.toy import CATALOGUE, library, measured
 
@@ -44,6 +47,13 @@ def test_from_a_class_to_the_extended_model(data: Path, tmp_path: Path, capsys: 
     said = capsys.readouterr()
     assert "Verdict: toy.bias" in said.out
     assert "screened 2 effects" in said.err
+    report = (output / "report.html").read_text()
+    assert "The model lacks an effect: constant force (toy.bias)." in report
+    assert "pysim diagnose" in report
+    pictures = [path for name, path in found["files"].items() if name.startswith("picture ")]
+    assert len(pictures) >= 8
+    assert all((answer.parent / path).is_file() for path in found["files"].values())
+    assert found["conditions"]["seed"] == "0"
 
 
 def test_an_fmu_whose_class_is_unknown_is_compared_only(data: Path, tmp_path: Path) -> None:
@@ -90,3 +100,62 @@ def test_an_unknown_effect_is_refused(data: Path, tmp_path: Path, capsys: pytest
     assert main(["diagnose", str(data), *words, "--json", str(tmp_path / "a.json")]) == 2
     assert "toy.magic" in capsys.readouterr().err
     assert not (tmp_path / "a.json").exists()
+
+
+TOO_SHORT = "has 20 samples to fit for 3 free parameters"
+STILL = "the input F is constant in every record to fit"
+
+
+@pytest.mark.parametrize(("cut", "moves", "message"), [(20, True, TOO_SHORT), (600, False, STILL)])
+def test_data_that_cannot_carry_it_are_refused(
+    cut: int, moves: bool, message: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    good = measured(1, "toy.bias", F_b=-0.4)
+    records = []
+    for record in good.records:
+        log = record.data
+        assert isinstance(log, Record)
+        values = log.values[:cut] * (1.0 if moves else np.array([0.0, 1.0]))
+        records.append(replace(record, data=replace(log, time=log.time[:cut], values=values)))
+    write_dataset(tmp_path / "data", replace(good, records=tuple(records)))
+    words = ["--model", "Toy.Mass", "--library", str(library()), "--output", str(tmp_path / "out")]
+    assert main(["diagnose", str(tmp_path / "data"), *words]) == 2
+    assert message in capsys.readouterr().err
+    assert list((tmp_path / "out").iterdir()) == []
+
+
+def test_what_weakens_the_answer_is_noted(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    good = measured(1, "toy.bias", F_b=-0.4)
+    write_dataset(tmp_path / "data", replace(good, records=good.records[:1]))
+    broken = tmp_path / "Mine.mo"
+    broken.write_text(BROKEN)
+    words = ["--model", "Toy.Mass", "--library", str(library()), "--library", str(broken), "--most", "1"]
+    words += ["--effects", "toy.bias,mine.broken"]
+    assert main(["diagnose", str(tmp_path / "data"), *words]) == 0
+    said = capsys.readouterr().out
+    assert "Verdict: toy.bias" in said
+    assert "Note: no record is held out" in said
+    assert "Note: only x was logged" in said
+    assert "Note: mine.broken could not be tried: " in said
+
+
+BROKEN = """
+model Broken "Does not compile"
+  extends Toy.PartialForce;
+  parameter Real c(unit="N", min=0, max=5, nominal=1) = 0;
+equation
+  f = -c*nowhere;
+  annotation(__HydraulicTestBench(effect="mine.broken", slot="force"));
+end Broken;
+"""
+
+
+def test_a_place_that_cannot_be_written_is_told_before_the_work(
+    data: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "file").write_text("")
+    words = ["--model", "Toy.Mass", "--library", str(library()), "--output", str(tmp_path / "file" / "out")]
+    assert main(["diagnose", str(data), *words]) == 2
+    said = capsys.readouterr()
+    assert "cannot write there" in said.err
+    assert "comparing" not in said.err

@@ -1,0 +1,63 @@
+"""What a diagnosis shows on the terminal while it works."""
+
+import io
+import re
+import sys
+
+import pytest
+
+from pysim.cli._story import Story, block
+from pysim.types import Told
+from tests.pysim.diagnosis_story import step, story
+
+
+def test_without_a_terminal_there_is_a_line_for_each_thing_told(capsys: pytest.CaptureFixture[str]) -> None:
+    with Story("toy") as show:
+        show(Told("refitting"))
+        show(Told("refitting", "prior: 8.1", step("prior", 8.1, 8.0, 0.9)))
+    lines = capsys.readouterr().err.splitlines()
+    assert [line.split(" s  ")[1] for line in lines] == ["refitting ...", "prior: 8.1"]
+
+
+def test_the_block_shows_time_stage_and_the_error_falling() -> None:
+    title, clock, head, *bars, learned = block("toy: Mass", "screening 3 candidates", 40.0, story().error, ["found"])
+    assert title == "toy: Mass"
+    assert clock.startswith("  0:40 (about ")
+    assert clock.endswith("screening 3 candidates")
+    assert head.strip() == "error over noise"
+    assert [line.split()[0:2] for line in bars] == [["as", "it"], ["refitted", "4.20"], ["+", "toy.offset"]]
+    lengths = [line.count("#") for line in bars]
+    assert lengths[0] == 24 > lengths[1] > lengths[2] == 0  # nothing but noise has no bar
+    assert bars[0].endswith("held out    8.00")
+    assert learned == "  - found"
+
+
+def test_before_anything_is_known_no_time_is_promised() -> None:
+    assert block("toy", "comparing the model as it is", 30.0, [], []) == ["toy", "  0:30  comparing the model as it is"]
+
+
+class Terminal(io.StringIO):
+    def isatty(self) -> bool:
+        return True
+
+
+def test_on_a_terminal_the_block_is_drawn_over_and_stays(monkeypatch: pytest.MonkeyPatch) -> None:
+    screen = Terminal()
+    monkeypatch.setattr(sys, "stderr", screen)
+    with Story("toy") as show:
+        show(Told("refitting"))
+        show(Told("refitting", "prior: 8.1", step("prior", 8.1, 8.0, 0.9)))
+        show(Told("screening", "three promise something"))
+    drawn = screen.getvalue()
+    assert "\x1b[2A" in drawn  # the first drawing had two lines
+    last = re.split(r"\x1b\[\d+A", drawn)[-1].replace("\r\x1b[K", "").splitlines()
+    assert [line.split()[0] for line in last] == ["toy", "0:00", "error", "as", "-"]
+    assert last[1].endswith("done")
+
+
+def test_what_went_wrong_ends_it_as_stopped(monkeypatch: pytest.MonkeyPatch) -> None:
+    screen = Terminal()
+    monkeypatch.setattr(sys, "stderr", screen)
+    with pytest.raises(ZeroDivisionError), Story("toy") as show:
+        show(Told(f"refitting {1 / 0}"))
+    assert screen.getvalue().rstrip().endswith("stopped")

@@ -1,0 +1,69 @@
+"""The class that is written for the user: named after theirs, its limits told, compiled again from its folder."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from fmu_build import build
+from pysim.cli._extended import extended_name, relative_files, write_extended
+from pysim.cli._subject import Given
+from pysim.cli._variants import Variants
+from pysim.diagnose import diagnose
+from pysim.io import read_model
+from pysim.types import Diagnosis
+from tests.pysim.diagnose.toy import CATALOGUE, library, measured, toy_subject
+
+
+@pytest.fixture(scope="module")
+def found() -> Diagnosis:
+    return diagnose(toy_subject(measured(1, "toy.friction", F_c=0.4)))
+
+
+def given() -> Given:
+    data = measured(1, "toy.friction", F_c=0.4)
+    return Given(toy_subject(data), data, Variants("Toy.Mass", [library()]), {}, (library(),))
+
+
+def test_the_class_holds_the_fitted_values_and_compiles_from_its_folder(found: Diagnosis, tmp_path: Path) -> None:
+    files = write_extended(found, given(), tmp_path)
+    name = "MassWithRubbing"
+    assert {path.name for path in files.values()} == {f"{name}.mo", f"{name}.fmu", "parameters.toml"}
+    text = files["modelica"].read_text()
+    assert "extends Toy.Mass(" in text
+    assert "redeclare Toy.Rubbing force(F_c=0.4" in text
+    again = read_model(build(name, tmp_path / "again.fmu", libraries=[library(), files["modelica"]]))
+    fitted = {e.name: e.value for e in found.parameters}
+    assert set(fitted) == {"m", "d", "k", "force.F_c"}
+    for model in (again, read_model(files["fmu"])):
+        assert {n: model[n].start for n in fitted} == pytest.approx(fitted, rel=1e-12)
+        assert (model["m"].min, model["m"].max) == (0.5, 5)
+    assert 'm" = ' in files["parameters"].read_text()
+
+
+def test_the_header_tells_what_it_is_and_when_not_to_trust_it(found: Diagnosis, tmp_path: Path) -> None:
+    head = write_extended(found, given(), tmp_path)["modelica"].read_text().partition("model ")[0]
+    words = " ".join(head.replace("//", " ").split())
+    assert "MassWithRubbing: Toy.Mass with toy.friction." in words
+    assert "fmu-build MassWithRubbing --library MassWithRubbing.mo --library" in words
+    assert "beyond what was excited: F from -" in words
+    assert "apart" not in words
+    weak = replace(found, verdict="unknown", confusable=(("toy.friction", "toy.twin"),))
+    data = measured(1, "toy.friction", F_c=0.4)
+    alone = replace(given(), dataset=replace(data, records=data.records[:1]))
+    words = " ".join(write_extended(weak, alone, tmp_path)["modelica"].read_text().replace("//", " ").split())
+    assert "these data do not tell toy.friction, toy.twin apart" in words
+    assert "more than noise is left" in words
+    assert "no record was held out" in words
+
+
+def test_where_nothing_was_added_nothing_is_written(found: Diagnosis, tmp_path: Path) -> None:
+    nothing = replace(found, verdict="none", added=())
+    assert write_extended(nothing, given(), tmp_path) == {}
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_names_and_paths(tmp_path: Path) -> None:
+    assert extended_name("A.B.Pump", ["X.Deadband", "Y.Bias"]) == "PumpWithDeadbandAndBias"
+    assert relative_files({"a": tmp_path / "out" / "a.png"}, tmp_path) == {"a": "out/a.png"}
+    assert CATALOGUE["toy.friction"].class_name == "Toy.Rubbing"
