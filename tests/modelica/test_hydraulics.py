@@ -1,5 +1,7 @@
 """Volumes, resistances, valves, motor and hose, each alone against its closed form, as an FMU."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 from scipy.optimize import brentq
@@ -119,3 +121,25 @@ def test_pipe_friction_is_laminar_then_turbulent(roughness: float) -> None:
     exact = [colebrook(reynolds[i], roughness) * rho / (2 * d) * speed[i] * abs(speed[i]) for i in fast[::50]]
     assert np.allclose(gradient[fast[::50]], exact, rtol=0.04)  # Churchill's own claim is some percent
     assert (np.diff(gradient) > 0).all()
+
+
+def test_hose_with_air_is_softer_at_low_pressure(tmp_path: Path) -> None:
+    """Its first resonance by the stiffness of oil with air beside the wall, at 2 and at 100 bar."""
+    found = {}
+    for bar in (2, 100):
+        text = tmp_path / f"Airy{bar}.mo"
+        shape = f"p(start={{{', '.join(str(bar * 1e5 + 100 * s) for s in (1, 0.5, -0.5, -1))}}})"
+        text.write_text(
+            f"model Airy{bar}\n  HydraulicTestBench.Hydraulics.Hose hose(l=3, d=0.01, n=3, beta=1.4e9, rho=875,\n"
+            f"    redeclare HydraulicTestBench.Hydraulics.Fluids.EntrainedAir fluid(each eps=0.02), {shape});\n"
+            f"end Airy{bar};\n"
+        )
+        record = ran(built(f"Airy{bar}", (), (text,)), 1.0, ("hose.p[1]",), 8001)
+        swing = record["hose.p[1]"] - bar * 1e5
+        turns = np.flatnonzero(np.diff(np.sign(swing)) != 0)
+        found[bar] = (turns.size - 1) / (record.time[turns[-1]] - record.time[turns[0]]) / 2
+        absolute = bar * 1e5 + 1.013e5
+        compliance = 1 / 1.4e9 + 1 / 350e6 + 0.02 * (1.013e5 / absolute) ** (1 / 1.4) / (1.4 * absolute)
+        segments = 2 * 3 / 3 * np.sin(np.pi / 6) / (2 * np.pi)
+        assert found[bar] == pytest.approx(segments / np.sqrt(875 * compliance), rel=0.01)
+    assert found[2] < 0.5 * found[100]

@@ -1,6 +1,8 @@
 """The pump block and its flow: the thesis' numbers from an independent calculation, and the FMU against that."""
 
+import html
 import json
+import re
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -10,6 +12,7 @@ import pytest
 from pysim.simulate import Rodas, simulate
 from pysim.types import Experiment, Model, Record, Signal
 from tests.modelica.built import built, ran
+from tests.modelica.library import LIBRARY
 from tests.modelica.piston_kinematics import LITRES, SPEED, Geometry
 
 TABLES = json.loads((Path(__file__).parent / "thesis_tables.json").read_text(encoding="utf-8"))
@@ -225,3 +228,16 @@ def test_signals_stand_for_the_connectors() -> None:
     assert (record["Q_D"] == 0).all()
     assert np.allclose(record["tau"] * 100, record["Q_A"] * 280e5, rtol=1e-9)
     assert record["Q_A"][-1] == pytest.approx(0.5 * 71e-6 * 100 / (2 * np.pi), rel=0.02)
+
+
+def test_recipe_of_the_guide_runs(tmp_path: Path) -> None:
+    """The pressure at which the relief valve lets the pump's flow pass."""
+    guide = (LIBRARY / "UsersGuide" / "PumpBlock.mo").read_text(encoding="utf-8")
+    recipe = re.search(r"<pre>(.*?)</pre>", guide, re.DOTALL)
+    assert recipe
+    file = tmp_path / "OnePump.mo"
+    file.write_text(html.unescape(recipe[1]))
+    record = ran(built("OnePump", (), (file,)), 1.0, ("volume.p", "pump.QActual"))
+    pressure, flow = record["volume.p"][-1], record["pump.QActual"][-1]
+    assert flow == pytest.approx(0.5 * Geometry().mean, rel=0.01)
+    assert (pressure - 200e5) / 50e5 * 2e-5 * np.sqrt(2 / 875 * pressure) == pytest.approx(flow, rel=1e-4)

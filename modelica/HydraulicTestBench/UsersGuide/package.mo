@@ -7,6 +7,7 @@ measurements,
 and so that physics the model lacks can be added at one place, by one class.</p>
 <ul>
 <li><code>PumpModel</code>: what to compile, inputs, outputs, parameters</li>
+<li><code>PumpBlock</code>: the pump with shaft and ports, in a circuit</li>
 <li><code>Conventions</code>, <code>Signs</code>, <code>Connectors</code>: how to read and join the parts</li>
 <li><code>Slots</code>, <code>AddAnEffect</code>: where physics may be missing and how to add it</li>
 <li><code>References</code>: where everything comes from</li>
