@@ -31,7 +31,7 @@ Array = NDArray[np.float64]
 _SOLVER = Rodas(rtol=1e-5, atol=1e-5)
 _STEP = 1e-2  # of one-sided differences, in natural logarithms or shares of the scale, for models with events
 # A refit ends where a full step would lower the sum of squares by less than this share of it, or by half of one.
-_REFIT = GaussNewton(max_iterations=8, tolerance=0.25, share=2e-3)
+_REFIT = GaussNewton(max_iterations=8, tolerance=0.25, share=1e-2)
 
 
 @dataclass(frozen=True)
