@@ -13,11 +13,14 @@ if TYPE_CHECKING:
     from pysim.types import Dataset, Diagnosis
 
 
-def write_diagnosis(found: Diagnosis, given: Given, folder: Path, redo: str) -> dict[str, Path]:
+def write_diagnosis(
+    found: Diagnosis, given: Given, folder: Path, redo: str, *, question: str, answer: str
+) -> dict[str, Path]:
     """Write the page, every picture as PNG and SVG, and the extended model; name -> path.
 
     Args:
         redo: the command line that makes it again.
+        question, answer: what leads the page.
     """
     from pysim.cli._extended import relative_files, write_extended
     from pysim.io import write_file
@@ -29,7 +32,10 @@ def write_diagnosis(found: Diagnosis, given: Given, folder: Path, redo: str) -> 
         write_file(files["plan"], found.next_test.plan)
     drawn, pictures = _drawn(found, given.dataset, folder)
     title = f"{given.model_name} against {given.dataset.name}"
-    text = diagnosis_page(found, title=title, pictures=pictures, redo=redo, files=relative_files(files, folder))
+    beside = relative_files(files, folder)
+    text = diagnosis_page(
+        found, title=title, pictures=pictures, redo=redo, files=beside, question=question, answer=answer
+    )
     write_file(folder / "report.html", text)
     return {"report": folder / "report.html", **files, **drawn}
 

@@ -76,8 +76,8 @@ def _guarded(args: argparse.Namespace) -> int:
     except BrokenPipeError:  # `pysim ... | head` has seen enough
         _silence()
         return WRONG_USE
-    except KeyboardInterrupt:
-        print("pysim: stopped", file=sys.stderr)
+    except KeyboardInterrupt as stop:  # a command that can be gone on with says how
+        print(f"pysim: stopped{f'; {stop}' if str(stop) else ''}", file=sys.stderr)
         return WRONG_USE
     except Exception as error:
         if _is_users(error):

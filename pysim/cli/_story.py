@@ -7,12 +7,14 @@ import shutil
 import sys
 import threading
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from types import TracebackType
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from pysim.cli._subject import Given
     from pysim.types import Diagnosis, LedgerStep, Told
 
@@ -121,24 +123,53 @@ def _left(stage: str, elapsed: float) -> str:
     return f" (about {_clock(max(elapsed / share - elapsed, 1.0))} left)"
 
 
-def finish(found: Diagnosis, given: Given, args: argparse.Namespace, words: Sequence[str]) -> None:
+def unfold(given: Given, args: argparse.Namespace, work: Callable[[Story, Path | None], Diagnosis]) -> Diagnosis:
+    """Run steps of the diagnosis and show them; in `--output` lies a journal from which a stopped run goes on.
+
+    Args:
+        work: the steps, handed what tells and the journal's place.
+    Raises:
+        KeyboardInterrupt: stopped by the user; says how to go on.
+    """
+    journal = args.output / "journal" if args.output else None
+    try:
+        with Story(f"{given.dataset.name}: {given.model_name}") as story:
+            return work(story, journal)
+    except KeyboardInterrupt:
+        cure = "the same command goes on where it was" if journal else "with --output DIR a run can be gone on with"
+        raise KeyboardInterrupt(cure) from None
+
+
+def finish(
+    found: Diagnosis,
+    given: Given,
+    args: argparse.Namespace,
+    command: str,
+    *,
+    question: str = "Which effect is missing?",
+    answer: str = "",
+) -> None:
     """Write the report, the extended model and the JSON answer, where they were asked for.
 
     Args:
-        words: of the command line behind `pysim`.
+        command: that was run.
+        question, answer: what leads the report; the verdict where empty.
     """
     import json
 
     from pysim.cli._diagnosis_report import write_diagnosis
     from pysim.cli._extended import relative_files
     from pysim.cli._outputs import command_line
+    from pysim.cli._subject import subject_words
     from pysim.io import write_file
     from pysim.report.diagnosis import diagnosis_data
 
-    redo = command_line(words)
+    redo = command_line([command, *subject_words(args, model_first=command == "compare")])
     found = replace(found, conditions={**_conditions(given, args, redo), **found.conditions})
-    files = write_diagnosis(found, given, args.output, redo) if args.output else {}
+    files: dict[str, Path] = {}
     if args.output:
+        print("Drawing the report ...", file=sys.stderr)
+        files = write_diagnosis(found, given, args.output, redo, question=question, answer=answer)
         print(f"Report: {args.output / 'report.html'}")
     if args.json:
         relative = relative_files(files, args.json.parent)

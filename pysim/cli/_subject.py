@@ -44,6 +44,12 @@ def add_subject(parser: argparse.ArgumentParser) -> None:
 
     parser.add_argument("data", metavar="DATASET", type=Path, help="folder with a dataset.toml")
     parser.add_argument("--model", metavar="MODEL", required=True, help="a Modelica class with slots, or its .fmu")
+    add_fitted(parser)
+    add_parameters(parser)
+
+
+def add_fitted(parser: argparse.ArgumentParser) -> None:
+    """`--library`, and what may be refitted."""
     parser.add_argument(
         "--library", metavar="PATH", type=Path, action="append", default=[], help="of the class or of effects; repeat"
     )
@@ -51,7 +57,6 @@ def add_subject(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--bounds", metavar="NAME=LOW:HIGH", action="append", default=[], help="in place of the model's min and max"
     )
-    add_parameters(parser)
 
 
 def add_effects(parser: argparse.ArgumentParser) -> None:
@@ -113,22 +118,55 @@ def read_subject(args: argparse.Namespace) -> Given:
     return Given(given, dataset, variants, overrides, tuple(args.library))
 
 
+def read_base(args: argparse.Namespace) -> Model:
+    """The model alone, from a class or an FMU.
+
+    Raises:
+        BadInput: an FMU that cannot be read. BuildError: a class that does not compile.
+    """
+    from pysim.effects import STANDARD_LIBRARY
+
+    return _model(args.model, [STANDARD_LIBRARY, *args.library])[0]
+
+
+def effects_of(names: Sequence[str], given: Given) -> tuple[Effect, ...]:
+    """Effects of `--effect`, in order.
+
+    Raises:
+        BadInput: one that is not in the catalogue or in no slot, one twice, or a model without its class.
+    """
+    from pysim.effects import STANDARD_LIBRARY, read_catalogue
+    from pysim.types import BadInput
+
+    if given.variants is None:
+        raise BadInput(f"nothing can be added to {given.model_name}: its class is in none of the libraries")
+    for name in names:
+        if list(names).count(name) > 1:
+            raise BadInput(f"--effect {name}: named twice; name each effect once")
+    catalogue = read_catalogue(STANDARD_LIBRARY, *given.libraries)
+    return named_effects(names, given.subject.catalogue, catalogue, "--effect", given.model_name)
+
+
 def names_of(text: str) -> list[str]:
     """Words between commas."""
     return [name.strip() for name in text.split(",") if name.strip()]
 
 
-def subject_words(args: argparse.Namespace) -> list[str]:
-    """These options again, for the line that repeats the command."""
-    words = [str(args.data), "--model", args.model]
-    for option in ("library", "bounds", "set"):
-        for value in getattr(args, option):
+def subject_words(args: argparse.Namespace, *, model_first: bool = False) -> list[str]:
+    """These options again, for the line that repeats the command.
+
+    Args:
+        model_first: whether the command takes `MODEL --data DATASET`.
+    """
+    words = [args.model, "--data", str(args.data)] if model_first else [str(args.data), "--model", args.model]
+    for option in ("effect", "library", "bounds", "set"):
+        for value in getattr(args, option, []):
             words += [f"--{option}", str(value)]
     for option in ("free", "effects", "parameters", "seed", "most", "json", "output"):
         value = getattr(args, option, None)
         if value not in (None, ""):
             words += [f"--{option}", str(value)]
-    return words
+    return [*words, "--refit"] if getattr(args, "refit", False) else words
 
 
 def _model(text: str, libraries: Sequence[Path]) -> tuple[Model, str, list[str]]:

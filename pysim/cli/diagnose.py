@@ -19,16 +19,17 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(args: argparse.Namespace) -> int:
     """Show the story as it unfolds; 0 with a verdict, whatever it is."""
     from pysim.cli._progress import announce_compilation
-    from pysim.cli._story import Story, finish
-    from pysim.cli._subject import prepare_results, read_subject, subject_words
+    from pysim.cli._story import finish, unfold
+    from pysim.cli._subject import prepare_results, read_subject
     from pysim.diagnose import diagnose
     from pysim.report.diagnosis import diagnosis_text
 
     prepare_results(args)
     given = read_subject(args)
     announce_compilation()
-    with Story(f"{given.dataset.name}: {given.model_name}") as story:
-        found = diagnose(given.subject, seed=args.seed, most=args.most, progress=story)
+    found = unfold(
+        given, args, lambda story, _: diagnose(given.subject, seed=args.seed, most=args.most, progress=story)
+    )
     print(diagnosis_text(found))
-    finish(found, given, args, ["diagnose", *subject_words(args)])
+    finish(found, given, args, "diagnose")
     return 0

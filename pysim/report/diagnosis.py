@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 import math
+import textwrap
 from collections.abc import Mapping, Sequence
 
+from pysim.report.diagnosis_words import verdict_sentence
 from pysim.types import Estimate
 from pysim.types.diagnosis import AddedEffect, Candidate, Diagnosis, LedgerStep, Missing, NextTest
+
+_WIDTH = 100
 
 
 def diagnosis_data(diagnosis: Diagnosis, files: Mapping[str, str] | None = None) -> dict[str, object]:
@@ -109,8 +113,18 @@ def _estimate(e: Estimate) -> dict[str, object]:
 
 def diagnosis_text(diagnosis: Diagnosis) -> str:
     """Verdict, ledger and ranking for a terminal."""
-    lines = [f"Verdict: {diagnosis.verdict}", f"  {diagnosis.reason}", *_effects(diagnosis.added)]
-    lines += ["", "Error over noise"]
+    return "\n".join(
+        [f"Verdict: {diagnosis.verdict}", *_wrapped(verdict_sentence(diagnosis)), evidence_text(diagnosis)]
+    )
+
+
+def _wrapped(text: str) -> list[str]:
+    return textwrap.wrap(text, _WIDTH, initial_indent="  ", subsequent_indent="  ")
+
+
+def evidence_text(diagnosis: Diagnosis) -> str:
+    """Sizes, ledger, ranking, ties and notes for a terminal."""
+    lines = [*_effects(diagnosis.added), *([""] if diagnosis.added else []), "Error over noise"]
     for step in diagnosis.error:
         numbers = "".join(
             f"  {what} {value:8.3f}" for what, value in (("fitted", step.fit), ("held out", step.validate)) if value
@@ -120,7 +134,9 @@ def diagnosis_text(diagnosis: Diagnosis) -> str:
         lines += ["", "Candidates                  gain less price   explained"]
         lines += [f"  {row.effect:<24} {row.score:14.5g} {100 * row.explained:9.2f} %" for row in diagnosis.ranking[:6]]
     lines += [f"Not told apart by these data: {', '.join(group)}" for group in diagnosis.confusable]
-    return "\n".join([*lines, *(f"Note: {note}" for note in diagnosis.notes)])
+    for note in diagnosis.notes:
+        lines += textwrap.wrap(f"Note: {note}", _WIDTH, subsequent_indent="  ")
+    return "\n".join(lines)
 
 
 def _effects(added: Sequence[AddedEffect]) -> list[str]:

@@ -17,7 +17,14 @@ _WORST = 15  # places listed
 
 
 def diagnosis_page(
-    diagnosis: Diagnosis, *, title: str, pictures: Pictures, redo: str, files: Mapping[str, str] | None = None
+    diagnosis: Diagnosis,
+    *,
+    title: str,
+    pictures: Pictures,
+    redo: str,
+    files: Mapping[str, str] | None = None,
+    question: str = "Which effect is missing?",
+    answer: str = "",
 ) -> str:
     """Verdict, error ledger, what was added, records, where it fails, ranking, parameters, next test, conditions.
 
@@ -26,8 +33,9 @@ def diagnosis_page(
         pictures: by section: "ledger", "records", "where", "missing", "ranking", "parameters".
         redo: the command line that makes it again.
         files: what was written besides, name -> path relative to the page.
+        question, answer: the heading, and what leads the page; the verdict where empty.
     """
-    parts = [statement(verdict_sentence(diagnosis)), *_drawn(pictures, "ledger")]
+    parts = [statement(answer or verdict_sentence(diagnosis)), *_drawn(pictures, "ledger")]
     parts += _added(diagnosis.added)
     parts += _section("Measured and simulated", _drawn(pictures, "records"))
     parts += _section("Where the refitted model fails", [*_drawn(pictures, "where"), _where(diagnosis)])
@@ -49,7 +57,7 @@ def diagnosis_page(
         listed.append("files beside this page: " + ", ".join(files.values()))
     parts += _section("Conditions", [items(listed), paragraph(_METHOD)])
     parts += _section("Do it again", [commands(redo)])
-    return page("Which effect is missing?", title, parts)
+    return page(question, title, parts)
 
 
 _METHOD = (

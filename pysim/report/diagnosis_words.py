@@ -26,6 +26,43 @@ def verdict_sentence(diagnosis: Diagnosis) -> str:
     return f"The model lacks {count}: {_and(names)}.{_tie(diagnosis)}{fall}"
 
 
+def comparison_sentence(diagnosis: Diagnosis) -> str:
+    """How far the model is from its measurements, as it is and refitted, and where most."""
+    texts = [_step_text(step) for step in diagnosis.error]
+    if diagnosis.where:
+        worst = diagnosis.where[0]
+        texts.append(f"It fails most at {worst.record}, {worst.signal}: {worst.region} ({worst.error:.2f}).")
+    return " ".join(texts)
+
+
+def _step_text(step: LedgerStep) -> str:
+    who = {"prior": "As it is, the model", "refit": "Refitted, it"}.get(step.step, f"With {step.step}, it")
+    values = (("fitted", step.fit), ("held out", step.validate))
+    parts = [f"{value:.2f} times the noise on what is {what}" for what, value in values if value is not None]
+    met = "meets" if step.passes else "does not meet"
+    left = f"leaves {_and(parts)} and " if parts else ""
+    return f"{who} {left}{met} thesis Tables 1.3 and 1.4."
+
+
+def ranking_sentence(diagnosis: Diagnosis) -> str:
+    """Which candidates pay; nothing is decided."""
+    paying = [row for row in diagnosis.ranking if row.score > 0]
+    count = len({row.effect for row in diagnosis.ranking})
+    if not paying:
+        return f"None of {count} candidates gains more than its price."
+    names = [f"{row.effect} ({share_text(row.explained)} of the misfit)" for row in paying[:3]]
+    listed = ", ".join(names) + ("" if len(paying) <= 3 else ", ...")
+    return f"{len(paying)} of {count} candidates gain more than their price: {listed}. Nothing was decided."
+
+
+def added_sentence(diagnosis: Diagnosis) -> str:
+    """What the effects that were asked for do to the error."""
+    last = diagnosis.error[-1]
+    met = "are" if last.passes else "are not"
+    names = _and([_named(one) for one in diagnosis.added])
+    return f"Added as asked: {names}. {_fall(diagnosis.error)} Thesis Tables 1.3 and 1.4 {met} met."
+
+
 def _named(one: AddedEffect) -> str:
     """What it is, and its standard name."""
     what = one.effect.description.removesuffix(f"({one.effect.name})").strip()
