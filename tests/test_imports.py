@@ -17,6 +17,7 @@ _RUNS = _FILES | {"pysim.simulate"}
 _FITS = _RUNS | {"pysim.excitation", "pysim.identify"}
 ALLOWED = {
     "pysim.types": set(),
+    "pysim.control": _DATA,
     "pysim.effects": _DATA,
     "pysim.excitation": _DATA,
     "pysim.io": _DATA,

@@ -1,0 +1,20 @@
+"""Controllers as small blocks: sampled, with a state that can be kept (thesis Section 5.4)."""
+
+from pysim.control.block import Block, Port, Stateless
+from pysim.control.pi import PI
+from pysim.control.signals import Gain, Limiter, NormalizeSignal, ZeroSwitch, load_feed_forward, speed_feed_forward
+from pysim.control.valve_compensation import ValveCompensation
+
+__all__ = [
+    "PI",
+    "Block",
+    "Gain",
+    "Limiter",
+    "NormalizeSignal",
+    "Port",
+    "Stateless",
+    "ValveCompensation",
+    "ZeroSwitch",
+    "load_feed_forward",
+    "speed_feed_forward",
+]
