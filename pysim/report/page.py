@@ -17,7 +17,7 @@ h1 { font-size: 1.7rem; line-height: 1.2; margin: .5rem 0 .25rem; }
 h2 { font-size: 1.25rem; margin: 2.5rem 0 .5rem; border-bottom: 1px solid var(--line); padding-bottom: .2rem; }
 p, li { max-width: 46rem; } .lead { color: var(--quiet); margin-top: 0; }
 .note { border-left: 4px solid #d08700; padding: .1rem 0 .1rem .9rem; margin: 1rem 0; }
-.statement { font-size: 1.15rem; border-left: 4px solid var(--pass); padding: .2rem 0 .2rem .9rem; margin: 1.2rem 0; }
+.statement { font-size: 1.15rem; border-left: 4px solid #0072b2; padding: .2rem 0 .2rem .9rem; margin: 1.2rem 0; }
 .scroll { overflow-x: auto; }
 table { border-collapse: collapse; font-variant-numeric: tabular-nums; font-size: .86rem; margin: .8rem 0; }
 caption { text-align: left; color: var(--quiet); padding-bottom: .3rem; }
@@ -26,7 +26,7 @@ td { white-space: nowrap; } th { font-weight: 600; vertical-align: bottom; min-w
 td.beyond { background: var(--mark); color: var(--fail); }
 td.fail { color: var(--fail); font-weight: 600; } td.pass { color: var(--pass); }
 td.words { white-space: normal; text-align: left; } th.words { text-align: left; } td.differs { font-weight: 600; }
-figure { margin: 1.2rem 0; } figure img { width: 100%; height: auto; background: #fff; border-radius: 4px; }
+figure { margin: 1.2rem 0; } figure img { max-width: 100%; height: auto; background: #fff; border-radius: 4px; }
 figcaption { color: var(--quiet); font-size: .9rem; }
 pre { background: color-mix(in srgb, var(--line) 40%, transparent); padding: .7rem .9rem; overflow-x: auto; }
 @media print { :root { --ink: #000; --quiet: #444; --paper: #fff; --line: #bbb; --fail: #a00; --pass: #060;

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from pysim.diagnose.where import ALL_LOGS, ALL_SINES, bands, failures
+from pysim.diagnose.where import ALL_LOGS, ALL_SINES, bands, failures, tone
 from pysim.types import Record, RecordFit
 from tests.pysim.diagnosis_story import WAVE, dataset, stage
 
@@ -27,10 +27,18 @@ def test_noise_alone_is_one_everywhere() -> None:
 
 
 def test_a_ripple_is_told_by_its_band() -> None:
-    worst = failures([log(white() + 3 * np.sin(2 * np.pi * 24 * TIME), np.sin(TIME))])[0]
+    alone, worst, *_ = failures([log(white() + 3 * np.sin(2 * np.pi * 24 * TIME), np.sin(TIME))])
+    assert alone.region == "24 Hz alone"
     low, high = (float(word) for word in worst.region.removesuffix(" Hz").split(" to "))
     assert low <= 24 <= high
     assert worst.error > 2.4  # the root of 1 + 3^2/2 over all frequencies
+
+
+def test_noise_and_broad_residuals_have_no_tone() -> None:
+    rng = np.random.default_rng(5)
+    assert all(tone(rng.chisquare(28, 250) / 28) is None for _ in range(200))
+    assert tone(1 + 100 * np.exp(-(np.linspace(-3, 3, 250) ** 2))) is None
+    assert tone(np.ones(250) + 100.0 * (np.arange(250) == 99)) == 99
 
 
 def test_a_burst_is_told_by_its_window() -> None:
