@@ -26,8 +26,9 @@ _TONE = 15.0  # times the power beside it, or of noise, makes a line a tone: noi
 def failures(records: Sequence[RecordFit], dataset: Dataset | None = None) -> tuple[Failure, ...]:
     """Root-mean-square residual over noise by region, the worst first; 1 is noise alone.
 
-    Stepped sines count one by one and together by frequency, offset and amplitude; other logs by time window and by
-    frequency band, and a tone that stands alone; all of them together by the range of each signal, and of its rate, as the model has it.
+    Stepped sines count one by one and together by frequency, offset and amplitude; other logs by time window, by
+    frequency band, and by a tone that stands alone; all of them together by the range of each signal, and of its rate,
+    as the model has it.
 
     Args:
         records: a model beside its logs.
