@@ -13,7 +13,19 @@ from matplotlib.patches import Patch
 from matplotlib.ticker import FixedLocator, NullLocator, StrMethodFormatter
 
 from pysim.identify.accuracy import FREQUENCY_CRITERIA, TIME_CRITERIA
-from pysim.plot.style import BAND, COLOURS, DASHES, LIMIT, MARKERS, SMALL, TEXT, legend_above, new_figure, quiet
+from pysim.plot.style import (
+    BAND,
+    COLOURS,
+    DASHES,
+    LIMIT,
+    MARKERS,
+    MEASURED,
+    SMALL,
+    TEXT,
+    legend_above,
+    new_figure,
+    quiet,
+)
 from pysim.types import BadInput, Candidate, Criterion, Diagnosis, LedgerStep
 
 _CRITERIA = {c.symbol: c for c in (*FREQUENCY_CRITERIA, *TIME_CRITERIA)}
@@ -192,5 +204,5 @@ def _brackets(axes: Axes, names: Sequence[str], groups: dict[str, int]) -> None:
         if len(own) > 1:
             axes.plot(
                 [0.012, 0.004, 0.004, 0.012], [own[0] - 0.3, own[0] - 0.3, own[-1] + 0.3, own[-1] + 0.3],
-                color=COLOURS[1], linewidth=1.6, transform=axes.get_yaxis_transform(), clip_on=False, zorder=5,
+                color=MEASURED, linewidth=1.6, transform=axes.get_yaxis_transform(), clip_on=False, zorder=5,
             )  # fmt: skip
