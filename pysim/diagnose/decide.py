@@ -21,6 +21,8 @@ ALARM = 0.005
 TIE = 10.0
 # An effect has to take this share of the avoidable misfit to be added.
 FAIR = 0.25
+# An effect is not added where records held out speak against it by more standard deviations than this.
+AGAINST = 2.5
 # Misfit (sum of squares over its number) up to which a model counts as complete.
 COMPLETE = 1.05
 # Share of the avoidable misfit that the added effects have to take together where the misfit stays above that.
@@ -40,9 +42,13 @@ class Chance:
     p_value: float
 
 
-def inflation(point: Evaluation) -> float:
-    """Variance of what noise leaves, in units of that stated: never below 1."""
-    return max(1.0, point.cost / max(point.residual.size - point.x.size, 1))
+def inflation(point: Evaluation, cost: float | None = None) -> float:
+    """Variance of what noise leaves, in units of that stated: never below 1.
+
+    Args:
+        cost: sum of squares of another model, in place of the point's own.
+    """
+    return max(1.0, (point.cost if cost is None else cost) / max(point.residual.size - point.x.size, 1))
 
 
 def chance(footprints: Sequence[Footprint], *, scale: float, seed: int, draws: int = 4000) -> Chance:
@@ -82,6 +88,19 @@ def explained(gain: float, before: float, freedom: int) -> float:
     """Share of the misfit beyond noise, 0 ... 1."""
     avoidable = before - freedom
     return float(np.clip(gain / avoidable, 0.0, 1.0)) if avoidable > 0 else 0.0
+
+
+def disagreement(before: Array, after: Array) -> float:
+    """How far what is held out speaks for the former model, in standard deviations: negative where for the latter.
+
+    Where one of two models is true, the difference of the sums of squares is normal with twice the distance of the
+    models' answers as standard deviation and its square as mean, for the former or for the latter.
+
+    Args:
+        before, after: (n,) residuals of what is held out.
+    """
+    distance = float(np.linalg.norm(before - after))
+    return float(after @ after - before @ before) / (2 * distance) if distance > 0 else 0.0
 
 
 def excess(point: Evaluation) -> float:

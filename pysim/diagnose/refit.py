@@ -1,79 +1,77 @@
-"""Refits: few, cheap steps for a candidate on probation, exact ones for those that remain."""
+"""Refits of a model with all its free numbers: exact slopes seldom, corrected ones between."""
 
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
 
+from pysim.diagnose.descent import Bowl, descend, mean_square
 from pysim.diagnose.residuals import Ruler
 from pysim.diagnose.subject import Extended
-from pysim.identify.greybox import GaussNewton
-from pysim.identify.greybox.evaluation import Evaluation, bad_point
+from pysim.identify.greybox.evaluation import Evaluation
 from pysim.identify.greybox.optimiser import Bounds
 
 Array = NDArray[np.float64]
 
+# A round that lowers the sum of squares by less, in mean squares where those are above one, needs no other slopes.
+_NEAR = 1.0
+# By so much, in the same unit, the error of the integration may raise the sum of squares over a last short step.
+_BLUR = 0.5
 
-def refit(
-    ruler: Ruler, what: Extended, start: Array, *, rounds: int = 4, steps: int = 5, tolerance: float = 0.5
-) -> Evaluation:
-    """Gauss-Newton within the bounds; slopes by differences once a round, corrected by each step in between.
+
+def refit(ruler: Ruler, what: Extended, first: Evaluation, *, rounds: int = 4, steps: int = 6) -> Evaluation:
+    """Gauss-Newton within the bounds; slopes are run once a round and corrected by each step in between.
 
     Args:
-        start: (n,) of the space.
+        first: a good point with its slopes.
         rounds: how often the slopes may be run again.
         steps: points to try at most in each round.
-        tolerance: ends it once a round lowers the sum of squares by less, in units of the mean square.
     Returns:
-        the best point, its slopes run at that point; one that is not good where the start could not be simulated.
+        the best point, with slopes that were run there or so near that the sum of squares has not moved since.
     """
-    best = ruler.evaluation(what, start)
+    return refit_from(ruler, what, first, rounds=rounds, steps=steps)[0]
+
+
+def refit_from(
+    ruler: Ruler, what: Extended, first: Evaluation, *, rounds: int = 4, steps: int = 6
+) -> tuple[Evaluation, Array]:
+    """The same, and where the slopes were run, (n,)."""
+    best = first
     for _ in range(rounds):
-        if not best.good:
-            return best
         end = chord_refit(ruler, what, best, steps=steps)
-        if best.cost - end.cost <= tolerance * max(1.0, best.cost / best.residual.size):
-            return best
-        best = ruler.evaluation(what, end.x)
-    return best
+        if best.cost - end.cost < _NEAR * mean_square(best):
+            return _polished(ruler, what, best, end), best.x
+        again = ruler.evaluation(what, end.x)
+        if not again.good:
+            break
+        best = again
+    return best, best.x
 
 
 def chord_refit(ruler: Ruler, what: Extended, first: Evaluation, *, steps: int = 6) -> Evaluation:
-    """The same with slopes that are not run again but corrected by what each step shows.
-
-    A step costs one run of the tests instead of one per parameter. The slopes at the end are good enough to step by,
-    not to give intervals.
+    """The same with slopes that are not run again: a step costs one run of the tests instead of one per parameter.
 
     Args:
         first: a point with slopes, which may be those of a neighbour.
         steps: points to try at most.
-    Source: Broyden 1965, Mathematics of Computation 19:577, applied to the residuals.
+    Returns:
+        the best point; its slopes are good enough to step by, not to give intervals.
     """
-    bounds, optimiser = Bounds(*what.space.bounds()), GaussNewton(max_iterations=steps, tolerance=0.05)
-    state = optimiser.begin(first, bounds, True)
-    while state.outcome is None:
-        proposal = optimiser.propose(state, bounds)
-        trial = _broyden(state.best, proposal.x, ruler.at(what, proposal.x))
-        tried = state
-        state = optimiser.tell(state, proposal, trial, bounds)
-        if state.best is tried.best and trial.good and state.outcome is None:
-            state = replace(state, best=_corrected(state.best, trial))
-    return state.best
+    return descend(partial(ruler.at, what), first, Bounds(*what.space.bounds()), steps=steps)
 
 
-def _broyden(best: Evaluation, x: Array, residual: Array | None) -> Evaluation:
-    """A point whose slopes are those of the best one, corrected along the step."""
-    if residual is None:
-        return bad_point(x, "the model could not be simulated")
-    step = x - best.x
-    length = float(step @ step)
-    change = residual - best.residual - best.jacobian @ step
-    slopes = best.jacobian + np.outer(change, step) / length if length else best.jacobian
-    return Evaluation(x, float(residual @ residual), residual, slopes)
+def _polished(ruler: Ruler, what: Extended, best: Evaluation, end: Evaluation) -> Evaluation:
+    """The point where exact slopes see the least, unless it is seen to be worse; with those slopes.
 
-
-def _corrected(best: Evaluation, trial: Evaluation) -> Evaluation:
-    """The point that was kept, with the slopes the refused one has taught."""
-    return replace(best, jacobian=trial.jacobian)
+    So near the end the error of the integration hides what a step gains, and the slopes are the better guide.
+    """
+    bounds = Bounds(*what.space.bounds())
+    p = Bowl.around(best, bounds).step(np.inf, spare=0.0)
+    x = np.clip(best.x + p, *bounds)
+    residual = ruler.at(what, x)
+    if residual is not None and float(residual @ residual) < end.cost + _BLUR * mean_square(best):
+        return replace(best, x=x, cost=float(residual @ residual), residual=residual)
+    return replace(best, x=end.x, cost=end.cost, residual=end.residual)

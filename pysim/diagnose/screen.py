@@ -1,23 +1,28 @@
-"""Which effects promise to mend the misfit: one run of the tests per candidate and strength, no refit."""
+"""Which effects promise to mend the misfit: a run of the tests per candidate and strength, no refit."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass, field
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field, replace
+from itertools import product
 
 import numpy as np
 from numpy.typing import NDArray
 
-from pysim.diagnose.residuals import Ruler
-from pysim.diagnose.subject import Extended
-from pysim.identify.greybox.evaluation import Evaluation
-from pysim.types import Effect
+from pysim.diagnose.contenders import Contender
+from pysim.diagnose.fitted import Fitted
+from pysim.diagnose.strengths import amounted, declared, setting, strengths, within
+from pysim.simulate import simulate_many
+from pysim.types import Effect, Outcome
 
 Array = NDArray[np.float64]
 
-# Strengths to try, in the parameter's nominal size. A limit bites late and abruptly, so it gets a finer grid; so does
-# a strength whose off is a limit.
-USUAL, LIMITS, BYPASSED = (0.1, 1.0), (0.25, 0.4, 0.6, 0.8, 1.0, 1.5, 2.5), (0.25, 1.0)
+# A number that only shapes an effect is tried at so many times its usual value too, once the effect promises something:
+# this share of the best gain, and at least so much.
+_SHAPES, _PROMISING, _LEAST = (0.25, 4.0), 0.2, 5.0
+# A strength is tried again where the best amount is further from it than this.
+_FAR = 2.5
 # Directions of the base model's slopes smaller than this share of the largest count as none.
 _NOTHING = 1e-4
 
@@ -44,42 +49,71 @@ class Footprint:
     gain: float
     amount: float
 
+    @property
+    def signed(self) -> bool:
+        """Whether the effect may have either sign."""
+        return any(p.min < (p.off or 0.0) for p in self.effect.strengths)
 
-def screen(
-    ruler: Ruler, base: Extended, point: Evaluation, candidates: list[tuple[Effect, Extended]]
-) -> tuple[Footprint, ...]:
-    """Score tests of every candidate at a point of the base model.
+
+def screen(current: Fitted, tried: Sequence[Contender]) -> tuple[Footprint, ...]:
+    """Score tests of every candidate at the model so far.
+
+    Each is tried at one strength; those that promise something then at other shapes, and at the strength that looks
+    best where that is far from the one tried.
 
     Args:
-        base: the model so far.
-        point: of it, with slopes.
-        candidates: each effect with the model that has it besides.
+        tried: the candidates.
     Returns:
         footprints, the best gain first; strengths that change nothing or cannot be simulated are left out.
     """
-    span = column_space(point.jacobian)
-    left_over = point.residual - span @ (span.T @ point.residual)
-    found: list[Footprint] = []
-    for effect, what in candidates:
-        grid = list(strengths(effect))
-        settings = [setting(base, what, effect, point.x, values) for values in grid]
-        for values, residual in zip(grid, ruler.residuals(what.model, settings), strict=True):
-            if residual is not None:
-                found += _footprint(effect, values, residual - point.residual, span, left_over)
-    return tuple(sorted(found, key=lambda f: -f.gain))
+    span = column_space(current.point.jacobian)
+    left_over = across(span, current.point.residual)
+    found: dict[str, list[Footprint]] = {}
+    for one in tried:
+        grid = list(strengths(one.effect, _largest(current, one)))
+        found[one.effect.name] = list(_footprints(current, one, grid, span, left_over))
+    enough = max([_LEAST, *(_PROMISING * f.gain for own in found.values() for f in own)])
+    for one in tried:
+        own = found[one.effect.name]
+        if own and max(f.gain for f in own) > enough:
+            grid = list(_second(max(own, key=lambda f: f.gain)))
+            own += _footprints(current, one, grid, span, left_over)
+    return tuple(sorted((f for own in found.values() for f in own), key=lambda f: -f.gain))
 
 
-def _footprint(
+def per_effect(footprints: Sequence[Footprint]) -> list[Footprint]:
+    """The best footprint of each effect, in the order given."""
+    best: dict[str, Footprint] = {}
+    for footprint in footprints:
+        best.setdefault(footprint.effect.name, footprint)
+    return list(best.values())
+
+
+def _footprints(
+    current: Fitted, one: Contender, grid: Sequence[dict[str, float]], span: Array, left_over: Array
+) -> Iterator[Footprint]:
+    settings = [setting(current.what, one.what, one.effect, current.point.x, values) for values in grid]
+    for values, residual in zip(grid, one.ruler.residuals(one.what.model, settings), strict=True):
+        if residual is not None:
+            yield from footprint(one.effect, values, residual - current.point.residual, span, left_over)
+
+
+def footprint(
     effect: Effect, values: dict[str, float], change: Array, span: Array, left_over: Array
 ) -> Iterator[Footprint]:
-    left = change - span @ (span.T @ change)
+    """That of a change (n_r,) of the residuals; none where refitting absorbs it whole.
+
+    Args:
+        span: (n_r, rank) orthonormal, what refitting can reach.
+        left_over: (n_r,) of the residuals, outside of it.
+    """
+    left = across(span, change)
     size = float(left @ left)
     if size < 1e-6:
         return
     amount = -float(left @ left_over) / size
-    signed = any(p.min < (p.off or 0.0) for p in effect.strengths)
-    amount = amount if amount > 0 or signed else 0.0
-    yield Footprint(effect, values, change, left, size, amount**2 * size, amount)
+    found = Footprint(effect, values, change, left, size, amount**2 * size, amount)
+    yield found if amount > 0 or found.signed else replace(found, gain=0.0, amount=0.0)
 
 
 def column_space(slopes: Array) -> Array:
@@ -88,63 +122,39 @@ def column_space(slopes: Array) -> Array:
     used = slopes[:, sizes > 0] / sizes[sizes > 0]
     if not used.shape[1]:
         return np.zeros((slopes.shape[0], 0))
-    u, s, _ = np.linalg.svd(used, full_matrices=False)
-    return np.asarray(u[:, s > _NOTHING * s[0]])
+    values, vectors = np.linalg.eigh(used.T @ used)
+    kept = values > _NOTHING**2 * values[-1]
+    span = used @ (vectors[:, kept] / np.sqrt(values[kept]))
+    return np.asarray(np.linalg.qr(span)[0])  # what products rounded off
 
 
-def strengths(effect: Effect) -> Iterator[dict[str, float]]:
-    """Values of all its parameters to try: its strengths in shares of their nominal sizes, shapes as declared."""
-    limits = any(p.inverse for p in effect.strengths)
-    for share in LIMITS if limits else BYPASSED if effect.bypass else USUAL:
-        values = {p.name: p.default for p in effect.parameters}
-        for p in effect.strengths:
-            values[p.name] = float(np.clip((p.off or 0.0) + share * p.nominal, p.min, p.max))
-        yield values
+def across(span: Array, rows: Array) -> Array:
+    """What of rows (n_r,) or (n_r, k) refitting leaves."""
+    return np.asarray(rows - span @ (span.T @ rows))
 
 
-def setting(base: Extended, what: Extended, effect: Effect, x: Array, values: dict[str, float]) -> dict[str, float]:
-    """Parameters of the extended model: the base model's at x (n,), those of the effect from `values`."""
-    own = {f"{what.places[effect.name]}.{name}": value for name, value in values.items()}
-    return {**translated(base, what, base.space.values(x)), **own}
-
-
-def translated(base: Extended, what: Extended, values: dict[str, float]) -> dict[str, float]:
-    """Parameters by their names in the extended model: an effect that shares its slot has moved one level down."""
-    names = {
-        f"{base.places[e.name]}.{p.name}": f"{what.places[e.name]}.{p.name}" for e in base.effects for p in e.parameters
-    }
-    return {names.get(name, name): value for name, value in values.items()}
-
-
-def first_point(
-    ruler: Ruler, base: Extended, what: Extended, point: Evaluation, footprint: Footprint
-) -> Evaluation | None:
-    """Where a refit with that effect starts, with slopes put together from the base model's and the footprint.
-
-    The effect's parameters start at the amount the screening found best, within a factor of three of the strength that
-    was tried; those that only shape it have no slope yet.
-    """
-    amount = float(np.clip(abs(footprint.amount), 1 / 3, 3.0)) * (np.sign(footprint.amount) or 1.0)
-    effect = footprint.effect
-    if any(p.inverse for p in effect.strengths) or effect.bypass:
-        amount = 1.0
-    values = dict(footprint.values)
-    for p in effect.strengths:
-        off = p.off or 0.0
-        values[p.name] = float(np.clip(off + amount * (values[p.name] - off), p.min, p.max))
-    full = setting(base, what, effect, point.x, values)
-    space = what.space
-    start = np.array([full[name] for name in space.keys])
-    x = space.to_search(np.clip(start, space.lower, space.upper))
-    residual = ruler.at(what, x)
-    if residual is None:
+def _largest(current: Fitted, one: Contender) -> float | None:
+    """Size in all tests of the variable that the effect limits; None where it does not say which that is."""
+    effect, limit = one.effect, next((p for p in one.effect.strengths if p.limits), None)
+    if limit is None or len(effect.strengths) > 1:
         return None
-    slopes = np.zeros((residual.size, x.size))
-    names = translated(base, what, dict.fromkeys(base.space.keys, 0.0))
-    for column, name in enumerate(names):
-        slopes[:, space.keys.index(name)] = point.jacobian[:, column]
-    for p in effect.strengths:
-        j = space.keys.index(f"{what.places[effect.name]}.{p.name}")
-        by_value = footprint.change / (footprint.values[p.name] - (p.off or 0.0)) / len(effect.strengths)
-        slopes[:, j] = by_value * space.slope(x)[j]
-    return Evaluation(x, float(residual @ residual), residual, slopes)
+    name = f"{one.what.places[effect.name]}.{limit.limits}"
+    off = {**declared(effect), limit.name: limit.off or 0.0}
+    runs = one.ruler.experiments(setting(current.what, one.what, effect, current.point.x, off))
+    runs = [replace(run, record=(name,)) for run in runs]
+    records = simulate_many(one.what.model, runs, solver=one.ruler.solver, workers=one.ruler.workers)
+    done = [float(np.max(np.abs(r.values))) for r in records if r.outcome is Outcome.DONE and r.values.size]
+    return max(done, default=None)
+
+
+def _second(best: Footprint) -> Iterator[dict[str, float]]:
+    """Other shapes at that strength, and that shape at the strength that looked best."""
+    effect = best.effect
+    shapes = [p for p in effect.parameters if p.off is None]
+    choices = [(best.values[p.name], *(within(p, share * p.default) for share in _SHAPES)) for p in shapes]
+    for chosen in list(product(*choices))[1:]:
+        yield {**best.values, **{p.name: value for p, value in zip(shapes, chosen, strict=True)}}
+    if not (effect.bypass or any(p.inverse for p in effect.strengths)) and not 1 / _FAR < abs(best.amount) < _FAR:
+        yield amounted(
+            effect, best.values, float(np.clip(abs(best.amount), 0.03, 30.0)) * (math.copysign(1.0, best.amount))
+        )

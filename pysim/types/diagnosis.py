@@ -45,6 +45,7 @@ class Candidate:
         explained: share of the avoidable misfit, 0 ... 1.
         refitted: whether the fall was reached by a refit, not promised by the screening alone.
         parameters: the effect's parameters there, by their names as declared.
+        round: of the search: 1 where it was to mend the base model, 2 where an effect was in already.
     """
 
     effect: str
@@ -53,6 +54,7 @@ class Candidate:
     explained: float
     refitted: bool = True
     parameters: Mapping[str, float] = field(default_factory=dict)
+    round: int = 1
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "parameters", FrozenMapping(self.parameters))

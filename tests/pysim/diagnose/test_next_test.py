@@ -2,8 +2,6 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
-import pytest
-
 from pysim.bench import read_plan, run_plan
 from pysim.diagnose.fitted import Fitted
 from pysim.diagnose.next_test import ENOUGH, next_test
@@ -18,7 +16,7 @@ from tests.pysim.diagnose.toy import CATALOGUE, base, build_variant, measured
 def fitted(own: Subject, ruler: Ruler, name: str, start: Fitted | None) -> Fitted:
     what = extended(own, [CATALOGUE[name]])
     x = what.space.to_search(what.space.start) if start is None else start.point.x
-    return Fitted(what, refit(ruler, what, x, rounds=8, tolerance=1e-3))
+    return Fitted(what, refit(ruler, what, ruler.evaluation(what, x), rounds=8))
 
 
 def rivals(data: Dataset, *names: str, starts: Sequence[Fitted | None] = (None, None)) -> tuple[Subject, list[Fitted]]:
@@ -47,7 +45,7 @@ def test_the_plan_separates_as_far_as_it_promises(tmp_path: Path) -> None:
     joined = replace(data, records=(*data.records, *new.records))
     _, (right, wrong) = rivals(joined, *names, starts=(one, other))
     gained = wrong.point.cost - right.point.cost - before
-    assert gained == pytest.approx(found.gain, rel=0.6)
+    assert gained > 0.4 * found.gain  # promised to first order: the longer way of larger amplitudes tells more
     assert gained > 20
 
 

@@ -3,11 +3,12 @@
 import numpy as np
 import pytest
 
+from pysim.diagnose.contenders import Contender
+from pysim.diagnose.fitted import Fitted
 from pysim.diagnose.residuals import rulers
-from pysim.diagnose.screen import column_space, first_point, screen, strengths
+from pysim.diagnose.screen import across, column_space, per_effect, screen
 from pysim.diagnose.subject import extended
-from pysim.effects import STANDARD_LIBRARY, read_catalogue
-from tests.pysim.diagnose.toy import CATALOGUE, measured, toy_subject
+from tests.pysim.diagnose.toy import measured, toy_subject
 
 
 def test_column_space_leaves_out_what_does_nothing() -> None:
@@ -18,6 +19,14 @@ def test_column_space_leaves_out_what_does_nothing() -> None:
     assert column_space(np.zeros((4, 2))).shape == (4, 0)
 
 
+def test_what_slopes_of_very_different_sizes_reach_is_found_to_rounding() -> None:
+    rng = np.random.default_rng(0)
+    slopes = rng.standard_normal((200, 6)) * 10.0 ** np.arange(-6, 6, 2)
+    span = column_space(slopes)
+    assert span.T @ span == pytest.approx(np.eye(6), abs=1e-13)
+    assert np.abs(across(span, slopes)).max(axis=0) / np.abs(slopes).max(axis=0) == pytest.approx(0, abs=1e-12)
+
+
 def test_a_constant_force_on_a_linear_model_is_found_to_its_size() -> None:
     """Its footprint is linear in the force, so the screening at true parameters finds amount and gain exactly."""
     subject = toy_subject(measured(5, "toy.bias", F_b=-0.2), ("toy.bias",))
@@ -25,7 +34,8 @@ def test_a_constant_force_on_a_linear_model_is_found_to_its_size() -> None:
     base = extended(subject, ())
     point = ruler.evaluation(base, base.space.to_search(np.array([1.05, 0.75, 21.0])))
     model = extended(subject, subject.catalogue)
-    found = screen(ruler, base, point, [(subject.catalogue[0], model)])
+    found = screen(Fitted(base, point), [Contender(subject.catalogue[0], model, ruler)])
+    assert len(found) == 1  # the best amount is near what was tried
     best = found[0]
     assert best.amount * best.values["F_b"] == pytest.approx(-0.2, abs=0.003)
     # with what refitting takes by itself, nothing but noise is left
@@ -33,9 +43,17 @@ def test_a_constant_force_on_a_linear_model_is_found_to_its_size() -> None:
     assert point.cost - by_refit - best.gain == pytest.approx(point.residual.size, rel=0.2)
     # it is orthogonal to what refitting reaches
     assert np.abs(column_space(point.jacobian).T @ best.left).max() < 1e-9 * np.sqrt(best.size)
-    start = first_point(ruler, base, model, point, best)
-    assert start is not None
-    assert start.cost < 0.2 * point.cost
+
+
+def test_a_strength_far_from_the_best_is_tried_again_there() -> None:
+    subject = toy_subject(measured(5, "toy.bias", F_b=-2.0), ("toy.bias",))
+    ruler, _ = rulers(subject.targets)
+    base = extended(subject, ())
+    point = ruler.evaluation(base, base.space.to_search(np.array([1.05, 0.75, 21.0])))
+    found = screen(Fitted(base, point), [Contender(subject.catalogue[0], extended(subject, subject.catalogue), ruler)])
+    assert len(found) == 2
+    assert len(per_effect(found)) == 1
+    assert sorted(f.values["F_b"] for f in found) == pytest.approx([-2.0, 0.09], abs=0.03)
 
 
 def test_a_strength_of_one_sign_gains_nothing_against_it() -> None:
@@ -46,13 +64,6 @@ def test_a_strength_of_one_sign_gains_nothing_against_it() -> None:
     point = ruler.evaluation(base, base.space.to_search(np.array([1.05, 1.5, 21.0])))
     blind = point.__class__(point.x, point.cost, point.residual, np.zeros_like(point.jacobian))
     (effect,) = subject.catalogue
-    found = screen(ruler, base, blind, [(effect, extended(subject, [effect]))])
+    found = screen(Fitted(base, blind), [Contender(effect, extended(subject, [effect]), ruler)])
     assert found
     assert all(f.gain == 0 and f.amount == 0 for f in found)
-
-
-def test_grids() -> None:
-    assert [v["F_c"] for v in strengths(CATALOGUE["toy.friction"])] == pytest.approx([0.03, 0.3])
-    standard = {effect.name: effect for effect in read_catalogue(STANDARD_LIBRARY)}
-    assert len(list(strengths(standard["valve.rate_limit"]))) == 7  # bites late
-    assert all(v["T"] == 0.02 for v in strengths(standard["supply.droop"]))  # shapes stay as declared

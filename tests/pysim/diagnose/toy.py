@@ -33,7 +33,7 @@ package Toy
     extends PartialForce;
     parameter Real F_t(unit="N", min=0, max=5, nominal=0.3) = 0 "0 = off";
   equation
-    f = -F_t*tanh(v/0.0202);
+    f = -F_t*tanh(v/0.0201);
     annotation(__HydraulicTestBench(effect="toy.twin", slot="force"));
   end Twin;
   model Hardening "Cubic spring"
@@ -50,6 +50,18 @@ package Toy
     f = F_b;
     annotation(__HydraulicTestBench(effect="toy.bias", slot="force"));
   end Bias;
+  model Both "Two forces at once"
+    extends PartialForce;
+    replaceable NoForce first constrainedby PartialForce;
+    replaceable NoForce second constrainedby PartialForce;
+  equation
+    first.x = x;
+    first.v = v;
+    second.x = x;
+    second.v = v;
+    f = first.f + second.f;
+    annotation(__HydraulicTestBench(pair="force"));
+  end Both;
   model Mass
     parameter Real m(unit="kg", min=0.5, max=5, nominal=1) = 1;
     parameter Real d(unit="N.s/m", min=0, max=10, nominal=1) = 0.8;
@@ -97,10 +109,10 @@ def base() -> Model:
     return read_model(build("Toy.Mass", libraries=[library()]))
 
 
-def measured(seed: int, effect: str = "", *, noise: float = NOISE, **values: float) -> Dataset:
+def measured(seed: int, *effects: str, noise: float = NOISE, **values: float) -> Dataset:
     """Two waves, one held out, of a mass whose parameters differ from the model's by some percent."""
     rng = np.random.default_rng(seed)
-    model, places = _built((effect,)) if effect else (base(), {})
+    model, places = _built(effects) if effects else (base(), {})
     records = []
     for name, use in (("a.txt", "fit"), ("b.txt", "validate")):
         knots = np.arange(0.0, 12.01, 0.4)
@@ -109,8 +121,9 @@ def measured(seed: int, effect: str = "", *, noise: float = NOISE, **values: flo
         command = Signal.through(knots, push)
         times = np.arange(0.0, 12.0, 0.02)
         run = Experiment(times, ("x",), {"F": command}).override(m=1.05, d=0.75, k=21.0)
-        if effect:
-            run = CATALOGUE[effect].on(run, place=places[effect], **values)
+        for effect in (CATALOGUE[name] for name in effects):
+            own = {p.name: values[p.name] for p in effect.parameters}
+            run = effect.on(run, place=places[effect.name], **own)
         clean = simulate(model, run, solver=Rodas(rtol=1e-8, atol=1e-8))["x"]
         rows = np.column_stack([command.value(times), clean + noise * rng.standard_normal(times.size)])
         records.append(MeasuredRecord(name, "stochastic", use, Record(times, rows, ("F", "x"), ("N", "m"))))

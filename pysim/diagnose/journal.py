@@ -1,0 +1,90 @@
+"""What a diagnosis has found so far, a line per finished part: a killed one goes on from there."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from pysim.diagnose.subject import Subject
+from pysim.io import write_file
+from pysim.types import BadInput, Record
+
+# Raised whenever the same line would mean something else.
+_FORM = 1
+
+
+class Journal:
+    """Results by name, kept in a file of JSON lines if there is one; the first line says whose they are.
+
+    Only what cannot be had quickly from other lines is kept: points and what was concluded, not residuals and slopes.
+
+    Args:
+        path: made where it is missing; None keeps nothing beyond this object.
+        identity: text that tells this diagnosis from any other.
+    Raises:
+        BadInput: the file belongs to another diagnosis, or is none.
+    """
+
+    def __init__(self, path: Path | None, identity: str) -> None:
+        self._path, self._known = path, dict[str, Any]()
+        self.reused = 0
+        if path is None:
+            return
+        head = {"diagnosis": hashlib.sha256(identity.encode()).hexdigest(), "form": _FORM}
+        lines = _whole_lines(path)
+        if lines and lines[0] != head:
+            raise BadInput(f"{path} is the journal of another diagnosis; name another file, or delete it")
+        self._known = {line["part"]: line["result"] for line in lines[1:]}
+        path.parent.mkdir(parents=True, exist_ok=True)
+        write_file(path, "".join(json.dumps(line) + "\n" for line in (lines or [head])))
+
+    def once(self, part: str, find: Callable[[], Any]) -> Any:
+        """The result of a part: from the file, or found now and written there.
+
+        Args:
+            part: its name, the same in every run.
+            find: gives what JSON can hold; numbers come back bit for bit.
+        """
+        if part in self._known:
+            self.reused += 1
+            return self._known[part]
+        result = find()
+        self._known[part] = result
+        if self._path is not None:
+            with self._path.open("a", encoding="utf-8") as file:
+                file.write(json.dumps({"part": part, "result": result}) + "\n")
+        return result
+
+
+def _whole_lines(path: Path) -> list[dict[str, Any]]:
+    """Lines up to the first that a kill has cut."""
+    found: list[dict[str, Any]] = []
+    for line in path.read_text(encoding="utf-8").splitlines() if path.is_file() else ():
+        try:
+            found.append(json.loads(line))
+        except json.JSONDecodeError:
+            if not found:
+                raise BadInput(f"{path} is no journal of a diagnosis; name another file") from None
+            break
+    return found
+
+
+def identity(subject: Subject, settings: Mapping[str, object]) -> str:
+    """Text that is the same for the same model, data, catalogue and settings only."""
+    digest = hashlib.sha256(subject.model.path.read_bytes())
+    for target in subject.targets:
+        for run in target.runs:
+            digest.update(repr((run.record, sorted(run.experiment.overrides.items()))).encode())
+    for record in subject.dataset.records if subject.dataset is not None else ():
+        data = record.data
+        values = data.values if isinstance(data, Record) else np.stack([data.frequency, data.gain, data.phase])
+        digest.update(repr((record.source, record.use)).encode() + np.ascontiguousarray(values).tobytes())
+    signals = [] if subject.dataset is None else [repr(s) for s in subject.dataset.signals]
+    catalogue = [(e.name, e.class_name, e.law, repr(e.parameters)) for e in subject.catalogue]
+    bounds = sorted((name, *ends) for name, ends in subject.bounds.items())
+    return repr((digest.hexdigest(), subject.free, bounds, signals, catalogue, sorted(settings.items())))

@@ -1,0 +1,227 @@
+"""One round of the search: which effect the model so far lacks most."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pysim.diagnose import decide
+from pysim.diagnose.contenders import Contender
+from pysim.diagnose.fitted import Fitted
+from pysim.diagnose.refit import chord_refit, refit_from
+from pysim.diagnose.screen import Footprint, per_effect, screen
+from pysim.diagnose.start import start_at, start_off
+from pysim.diagnose.story import Story
+from pysim.identify.greybox.evaluation import Evaluation
+from pysim.simulate import Rodas
+from pysim.types import BadInput, Candidate, Effect
+
+Array = NDArray[np.float64]
+
+# Candidates that get a refit on probation, and the share of the best gain that the screening has to promise for it.
+_PROBATION, _PROMISE = 7, 0.02
+# Candidates whose slopes are run, and the share of the best score that a refit on probation has to reach for it.
+_FINAL, _NEAR = 3, 0.8
+# Points tried on probation, and from parameters far off.
+_STEPS, _FAR_STEPS = 6, 9
+# Integration of ties.
+_FINE = Rodas(rtol=1e-7, atol=1e-7)
+
+
+@dataclass(frozen=True)
+class Tried:
+    """What a round tried.
+
+    Args:
+        current: the model so far.
+        contenders: by the name of the effect.
+        footprints: of all, the best gain first.
+        limit: gain that chance alone exceeds seldom.
+    """
+
+    current: Fitted
+    contenders: dict[str, Contender]
+    footprints: tuple[Footprint, ...]
+    limit: float
+
+    @property
+    def bent(self) -> bool:
+        """Whether so much is left that the parameters have left their place to make up for it."""
+        return self.current.point.cost > 2 * self.current.point.residual.size
+
+    @property
+    def promises(self) -> bool:
+        """Whether some effect promises more than chance does, or straight lines are not to be trusted."""
+        return self.bent or (bool(self.footprints) and self.footprints[0].gain >= self.limit)
+
+
+def screened(story: Story, current: Fitted) -> Tried:
+    """Every effect of the catalogue that the model so far lacks, in a run or two."""
+    missing = [e for e in story.subject.catalogue if e.name not in [had.name for had in current.what.effects]]
+    story.now(f"compiling {len(missing)} candidates")
+    contenders = {}
+    for effect in missing:
+        try:
+            contenders[effect.name] = story.extended(current, effect)
+        except BadInput as error:
+            story.note(f"{effect.name} could not be tried: {error}")
+    story.stage("build")
+    story.now(f"screening {len(contenders)} candidates")
+    footprints = screen(current, list(contenders.values()))
+    limit = decide.chance(footprints, scale=1.0, seed=story.seed).limit
+    story.stage("screen")
+    heads = ", ".join(f"{f.effect.name} {f.gain:.4g}" for f in per_effect(footprints)[:3])
+    story.say(f"screened {len(contenders)} effects: {heads}; by chance up to {limit:.3g}")
+    return Tried(current, contenders, footprints, limit)
+
+
+def refitted(story: Story, tried: Tried, nominal: Fitted | None) -> dict[str, Fitted]:
+    """The promising candidates refitted: all on probation, the leaders with slopes of their own.
+
+    Args:
+        nominal: the base model at its own parameters, where refits start too if those found have been bent.
+    """
+    story.now("refitting the promising candidates")
+    found: dict[str, Fitted] = {}
+    for head in _promising(per_effect(tried.footprints)):
+        one = tried.contenders[head.effect.name]
+        part = f"{name_of(tried.current)} + {head.effect.name} on probation"
+        kept = story.journal.once(part, lambda one=one: _kept(_probation(tried, one, nominal)))  # type: ignore[misc]
+        if kept is not None:
+            x, cost = np.array(kept["x"]), float(kept["cost"])
+            found[head.effect.name] = Fitted(one.what, Evaluation(x, cost, np.zeros(0), np.zeros((0, x.size))))
+    story.stage("refit candidates")
+    order = by_score(tried.current, found)
+    best = score(tried.current, found[order[0]]) if order else 0.0
+    for name in order[:_FINAL]:
+        if score(tried.current, found[name]) < _NEAR * best and name != order[0]:
+            continue
+        end = _leader(story, tried, tried.contenders[name], found[name])
+        if end is not None:
+            found[name] = end
+            story.say(
+                f"refitted with {name}: sum of squares {tried.current.point.cost:.6g} -> {found[name].point.cost:.6g}"
+            )
+    story.stage("refit leaders")
+    return found
+
+
+def _promising(heads: Sequence[Footprint]) -> list[Footprint]:
+    """The first of the ranking; several always, since the promise is one to first order only."""
+    enough = [k < 3 or f.gain > _PROMISE * heads[0].gain for k, f in enumerate(heads)]
+    return [f for f, good in zip(heads[:_PROBATION], enough, strict=False) if good]
+
+
+def _kept(point: Evaluation | None) -> dict[str, Any] | None:
+    return None if point is None else {"x": point.x.tolist(), "cost": point.cost}
+
+
+def _probation(tried: Tried, one: Contender, nominal: Fitted | None) -> Evaluation | None:
+    """The best end of a few cheap refits; None where nothing is better than the model so far."""
+    own = sorted((f for f in tried.footprints if f.effect.name == one.effect.name), key=lambda f: -f.gain)
+    ends = [_end(one, tried.current, own[0], _STEPS)]
+    before = tried.current.point.cost
+    if (ends[0] is None or ends[0].cost > before) and len(own) > 1:
+        ends.append(_end(one, tried.current, min(own, key=lambda f: f.size), _STEPS))
+    if nominal is not None:
+        ends.append(_end(one, nominal, own[0], _FAR_STEPS))
+    good = [end for end in ends if end is not None and end.cost < before]
+    return min(good, key=lambda end: end.cost) if good else None
+
+
+def _end(one: Contender, current: Fitted, found: Footprint, steps: int) -> Evaluation | None:
+    """A refit from the model so far, with the effect off where it can be."""
+    start = start_off(current, one.what, found) if len(one.effect.parameters) == 1 else None
+    if start is None:
+        size = start_amount(found.effect, found.amount)
+        start = start_at(one.ruler, current, one.what, [(found, size)])
+    return None if start is None else chord_refit(one.ruler, one.what, start, steps=steps)
+
+
+def start_amount(effect: Effect, amount: float) -> float:
+    """Of the strength that was tried: near what looked best, but for limits, which act or do not."""
+    if effect.bypass or any(p.inverse for p in effect.strengths):
+        return 1.0
+    return math.copysign(float(np.clip(abs(amount), 1 / 3, 3.0)), amount)
+
+
+def _leader(story: Story, tried: Tried, one: Contender, at: Fitted) -> Fitted | None:
+    def find() -> tuple[Evaluation, Array] | None:
+        first = one.ruler.evaluation(one.what, at.point.x)
+        return refit_from(one.ruler, one.what, first, rounds=3 if tried.bent else 2) if first.good else None
+
+    return story.fitted(one.what, f"{name_of(tried.current)} + {one.effect.name}", find)
+
+
+def score(current: Fitted, fitted: Fitted) -> float:
+    """What the effects added are worth."""
+    extra = fitted.point.x.size - current.point.x.size
+    return decide.score(current.point.cost, fitted.point.cost, extra, current.point.residual.size)
+
+
+def by_score(current: Fitted, found: dict[str, Fitted]) -> list[str]:
+    """Names, the best first."""
+    return sorted(found, key=lambda name: -score(current, found[name]))
+
+
+def settled(story: Story, one: Fitted, other: Fitted) -> float:
+    """By how much the first's sum of squares is below the second's, both refitted at a finer integration."""
+    ends = []
+    for fitted in (one, other):
+        fine = replace(story.ruler_of(fitted.what), solver=_FINE)
+        residual = fine.at(fitted.what, fitted.point.x)
+        if residual is None:
+            return 0.0
+        start = Evaluation(fitted.point.x, float(residual @ residual), residual, fitted.point.jacobian)
+        ends.append(chord_refit(fine, fitted.what, start, steps=3).cost)
+    return ends[1] - ends[0]
+
+
+def rows(story: Story, tried: Tried, found: dict[str, Fitted], number: int) -> list[Candidate]:
+    """Every candidate considered, the refitted ones first, the best of each first."""
+    current = tried.current.point
+    freedom = current.residual.size - current.x.size
+    order = by_score(tried.current, found)
+    listed = []
+    for name in order:
+        extra = found[name].point.x.size - current.x.size
+        gain = current.cost - found[name].point.cost
+        scale = decide.inflation(current, found[name].point.cost)
+        share = decide.explained(gain, current.cost, freedom)
+        values = own_values(found[name], name)
+        worth = score(tried.current, found[name])
+        listed.append(Candidate(name, worth, decide.p_value(gain, extra, scale=scale), share, True, values, number))
+    heads = per_effect(tried.footprints)
+    useless = [f for f in _promising(heads) if found and f.effect.name not in found]
+    for f in useless:
+        price = len(f.effect.parameters) * math.log(max(current.residual.size, 2))
+        listed.append(Candidate(f.effect.name, -price, 1.0, 0.0, True, f.values, number))
+    for f in heads:
+        if f.effect.name not in [row.effect for row in listed]:
+            worth = f.gain - len(f.effect.parameters) * math.log(max(current.residual.size, 2))
+            share = decide.explained(f.gain, current.cost, freedom)
+            chance = decide.p_value(f.gain, 1, scale=1.0)
+            listed.append(Candidate(f.effect.name, worth, chance, share, False, f.values, number))
+    return listed
+
+
+def own_values(fitted: Fitted, name: str) -> dict[str, float]:
+    """An effect's parameters, by their names as declared."""
+    values, what = fitted.what.space.values(fitted.point.x), fitted.what
+    effect = next(e for e in what.effects if e.name == name)
+    return {p.name: values[f"{what.places[name]}.{p.name}"] for p in effect.parameters}
+
+
+def name_of(current: Fitted) -> str:
+    """What a model is made of."""
+    return " + ".join(["base", *(e.name for e in current.what.effects)])
+
+
+def as_data(listed: Sequence[Candidate]) -> list[dict[str, Any]]:
+    """Rows for the journal."""
+    return [{**asdict(row), "parameters": dict(row.parameters)} for row in listed]

@@ -1,0 +1,222 @@
+"""The search: one effect after the other, pairs where single ones do not do, and none that is not needed."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from functools import partial
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pysim.diagnose import decide
+from pysim.diagnose.fitted import Fitted
+from pysim.diagnose.pairs import Pair, joint
+from pysim.diagnose.refit import chord_refit, refit_from
+from pysim.diagnose.rounds import (
+    Tried,
+    as_data,
+    by_score,
+    name_of,
+    refitted,
+    rows,
+    score,
+    screened,
+    settled,
+    start_amount,
+)
+from pysim.diagnose.screen import across, column_space
+from pysim.diagnose.start import start_at
+from pysim.diagnose.story import Story
+from pysim.diagnose.strengths import translated
+from pysim.diagnose.subject import Extended, extended
+from pysim.identify.greybox.evaluation import Evaluation
+from pysim.types import BadInput, Candidate
+
+Array = NDArray[np.float64]
+
+# Pairs that are refitted, and by how many times the best single gain a pair has to exceed it.
+_PAIRS, _TOGETHER = 3, 1.5
+
+
+def search(story: Story, nominal: Fitted, base: Fitted, most: int) -> Fitted:
+    """Add effects while the data demand one; the model with all of them."""
+    current = base
+    for number in range(1, most + 1):
+        found = _round(story, current, nominal if number == 1 else None, number, most)
+        if found is None:
+            break
+        current = _without_the_needless(story, found)
+        story.enter(current.what.effects[-1].name, current)
+    return current
+
+
+def _round(story: Story, current: Fitted, nominal: Fitted | None, number: int, most: int) -> Fitted | None:
+    """The model so far with what it lacks most, or None."""
+    told = story.journal.once(f"round {number}", lambda: _played(story, current, nominal, number, most))
+    if not story.ranking or number > max(row.round for row in story.ranking):
+        story.ranking += [Candidate(**row) for row in told["rows"]]
+        story.ties += [tuple(group) for group in told["ties"]]
+    if told["said"]:
+        story.say(told["said"])
+    if not told["chosen"]:
+        return None
+    named = {e.name: e for e in story.subject.catalogue}
+    what = extended(story.subject, [*current.what.effects, *(named[name] for name in told["chosen"])])
+    return story.fitted(what, told["part"], lambda: None)
+
+
+def _played(story: Story, current: Fitted, nominal: Fitted | None, number: int, most: int) -> dict[str, Any]:
+    tried = screened(story, current)
+    answer: dict[str, Any] = {"rows": [], "ties": [], "chosen": [], "part": "", "said": ""}
+    if not tried.promises:
+        return {**answer, "rows": as_data(rows(story, tried, {}, number))}
+    found = refitted(story, tried, nominal if tried.bent else None)
+    listed = rows(story, tried, found, number)
+    answer["rows"] = as_data(listed)
+    order = by_score(current, found)
+    if order:
+        leader, ties = _first(story, current, found, order)
+        answer["ties"] = [ties] if len(ties) > 1 else []
+        trouble = _objection(story, current, found[leader])
+        if not trouble:
+            share = next(row.explained for row in listed if row.effect == leader)
+            part = f"{name_of(current)} + {leader}"
+            said = f"added {leader}: {100 * share:.1f} % of the misfit explained"
+            return {**answer, "chosen": [leader], "part": part, "said": said}
+        answer["said"] = trouble
+    if len(current.what.effects) + 2 <= most:
+        names = _together(story, tried, found)
+        if names:
+            part = f"{name_of(current)} + {' + '.join(names)}"
+            return {
+                **answer,
+                "chosen": names,
+                "part": part,
+                "said": f"added {' and '.join(names)}, which work together",
+            }
+    return answer
+
+
+def _together(story: Story, tried: Tried, found: dict[str, Fitted]) -> list[str]:
+    """Two effects that do together what none does alone."""
+    point = tried.current.point
+    left_over = across(column_space(point.jacobian), point.residual)
+    alone = max([tried.limit, *(point.cost - one.point.cost for one in found.values())])
+    pairs = [pair for pair in joint(tried.footprints, left_over)[:_PAIRS] if pair.gain > _TOGETHER * alone]
+    if pairs:
+        story.now("refitting pairs of effects")
+    ends: dict[tuple[str, str], Fitted] = {}
+    for pair in pairs:
+        end = _pair(story, tried, pair)
+        if end is not None:
+            ends[pair.names] = end
+    story.stage("refit pairs")
+    if not ends:
+        return []
+    best = max(ends, key=lambda names: score(tried.current, ends[names]))
+    return [] if _objection(story, tried.current, ends[best]) else list(best)
+
+
+def _pair(story: Story, tried: Tried, pair: Pair) -> Fitted | None:
+    one, other = (part.effect for part in pair.parts)
+    try:
+        contender = story.extended(tried.current, one, other)
+    except BadInput as error:
+        story.note(f"{one.name} and {other.name} could not be tried together: {error}")
+        return None
+
+    def find() -> tuple[Evaluation, Array] | None:
+        amounts = [start_amount(part.effect, a) for part, a in zip(pair.parts, pair.amounts, strict=True)]
+        start = start_at(contender.ruler, tried.current, contender.what, list(zip(pair.parts, amounts, strict=True)))
+        if start is None:
+            return None
+        end = chord_refit(contender.ruler, contender.what, start, steps=8)
+        first = contender.ruler.evaluation(contender.what, end.x)
+        return refit_from(contender.ruler, contender.what, first, rounds=2) if first.good else None
+
+    end = story.fitted(contender.what, f"{name_of(tried.current)} + {' + '.join(pair.names)}", find)
+    if end is not None:
+        before, after = tried.current.point.cost, end.point.cost
+        story.say(f"refitted with {' and '.join(pair.names)}: sum of squares {before:.6g} -> {after:.6g}")
+    return end
+
+
+def _without_the_needless(story: Story, found: Fitted) -> Fitted:
+    """The model without effects that another has made needless since."""
+    for effect in found.what.effects[:-1]:
+        story.now(f"asking whether {effect.name} is still needed")
+        rest = [e for e in found.what.effects if e is not effect]
+        what = extended(story.subject, rest)
+        lean = story.fitted(what, f"{name_of(found)} without {effect.name}", partial(_without, story, found, what))
+        story.stage("prune")
+        if lean is not None and score(lean, found) <= 0:
+            story.say(
+                f"{effect.name} is not needed any more: sum of squares {found.point.cost:.6g} -> {lean.point.cost:.6g}"
+            )
+            return _without_the_needless(story, lean)
+    return found
+
+
+def _without(story: Story, found: Fitted, what: Extended) -> tuple[Evaluation, Array] | None:
+    """A refit with an effect less."""
+    ruler, names = story.ruler_of(what), translated(what, found.what, dict.fromkeys(what.space.keys, 0.0))
+    columns = [found.what.space.keys.index(name) for name in names]
+    x = found.point.x[columns]
+    residual = ruler.at(what, x)
+    if residual is None:
+        return None
+    start = Evaluation(x, float(residual @ residual), residual, found.point.jacobian[:, columns])
+    end = chord_refit(ruler, what, start, steps=6)
+    price = (found.point.x.size - x.size) * math.log(found.point.residual.size)
+    if end.cost - found.point.cost > 5 * price + 0.5 * (start.cost - found.point.cost):
+        return None
+    first = ruler.evaluation(what, end.x)
+    return refit_from(ruler, what, first, rounds=2) if first.good else None
+
+
+def _first(story: Story, current: Fitted, found: dict[str, Fitted], order: Sequence[str]) -> tuple[str, list[str]]:
+    """The best of what was refitted with slopes of its own, and with whom it is confusable.
+
+    Records held out count as evidence too: the refits have not seen them.
+    """
+    exact = [name for name in order if found[name].point.residual.size]
+    worth = {name: score(current, found[name]) - _held_cost(story, found[name]) for name in exact}
+    exact.sort(key=lambda name: -worth[name])
+    leader = exact[0]
+    scale = decide.inflation(found[leader].point)
+    near = [name for name in exact[1:] if worth[leader] - worth[name] < decide.TIE * scale]
+    ties = [leader]
+    for name in near:
+        story.now(f"settling {leader} against {name}")
+        priced = found[name].point.x.size - found[leader].point.x.size
+        ahead = settled(story, found[leader], found[name]) + priced * math.log(current.point.residual.size)
+        ahead += _held_cost(story, found[name]) - _held_cost(story, found[leader])
+        if abs(ahead) < decide.TIE * scale:
+            ties.append(name)
+        elif ahead < 0:
+            leader, ties = name, [name]
+    return leader, ties
+
+
+def _held_cost(story: Story, at: Fitted) -> float:
+    held = story.held_out(at)
+    return 0.0 if held is None else float(held @ held)
+
+
+def _objection(story: Story, current: Fitted, best: Fitted) -> str:
+    """Why the best is not added; "" where it is."""
+    name, point = best.what.effects[-1].name, current.point
+    freedom = point.residual.size - point.x.size
+    gain, extra = point.cost - best.point.cost, best.point.x.size - point.x.size
+    share = decide.explained(gain, point.cost, freedom)
+    chance = decide.p_value(gain, extra, scale=decide.inflation(best.point)) * len(story.subject.catalogue)
+    if score(current, best) <= 0 or chance > decide.ALARM:
+        return f"{name} gains no more than chance"
+    if share < decide.FAIR:
+        return f"{name} takes {100 * share:.1f} % of the misfit: not enough to be named"
+    before, after = story.held_out(current), story.held_out(best)
+    if before is not None and after is not None and decide.disagreement(before, after) > decide.AGAINST:
+        return f"{name} makes what is held out worse: not named"
+    return ""

@@ -1,0 +1,165 @@
+"""What the steps of a diagnosis share and write down as they go."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pysim.diagnose.contenders import Contender, suited
+from pysim.diagnose.doubt import held_still
+from pysim.diagnose.fitted import Fitted
+from pysim.diagnose.journal import Journal, identity
+from pysim.diagnose.ledger import beside, ledger_step
+from pysim.diagnose.residuals import Ruler, rulers
+from pysim.diagnose.subject import Extended, Subject, extended
+from pysim.diagnose.where import failures
+from pysim.identify.greybox.evaluation import Evaluation
+from pysim.types import Candidate, Effect, LedgerStep, Stage, Told
+
+Array = NDArray[np.float64]
+Say = Callable[[Told], None]
+
+
+@dataclass
+class Story:
+    """One diagnosis while it runs; it stays within this package.
+
+    Args:
+        subject: model, measurements, catalogue.
+        tell: gets what is being done and what was learned.
+        seed: of every draw.
+        ruler, held: count what is fitted, and what is held out if anything is.
+        journal: of finished parts.
+    """
+
+    subject: Subject
+    tell: Say
+    seed: int
+    ruler: Ruler
+    held: Ruler | None
+    journal: Journal
+    ledger: list[LedgerStep] = field(default_factory=list)
+    seconds: dict[str, float] = field(default_factory=dict)
+    notes: list[str] = field(default_factory=list)
+    ranking: list[Candidate] = field(default_factory=list)
+    ties: list[tuple[str, ...]] = field(default_factory=list)
+    stages: list[Stage] = field(default_factory=list)
+    doing: str = ""
+    begun: float = field(default_factory=time.monotonic)
+    suits: dict[tuple[str, ...], Ruler] = field(default_factory=dict)
+
+    def now(self, doing: str) -> None:
+        """A new stage begins, in a few words."""
+        self.doing = doing
+        self.tell(Told(doing))
+
+    def say(self, text: str, step: LedgerStep | None = None) -> None:
+        """Something was learned."""
+        self.tell(Told(self.doing, text, step))
+
+    def note(self, text: str) -> None:
+        """What a reader must know, once."""
+        if text not in self.notes:
+            self.notes.append(text)
+
+    def stage(self, name: str) -> None:
+        """A stage of that name has ended."""
+        now = time.monotonic()
+        self.seconds[name] = self.seconds.get(name, 0.0) + now - self.begun
+        self.begun = now
+
+    def enter(self, name: str, at: Fitted) -> LedgerStep:
+        """A model joins the ledger."""
+        found = beside(self.subject, at.what, at.point.x)
+        step = ledger_step(name, found, at.point.cost)
+        self.ledger.append(step)
+        estimates, directions = ((), ()) if name == "prior" else held_still(self.subject, at)
+        where = failures(found.records, self.subject.dataset)
+        self.stages.append(Stage(name, estimates, directions, found.records, found.responses, where))
+        for note in found.notes:
+            self.note(note)
+        held = "" if step.validate is None else f", held out {step.validate:.3f}"
+        fitted = "" if step.fit is None else f" {step.fit:.3f}{held};"
+        self.say(f"{name}: residual over noise{fitted} sum of squares {step.cost:.6g}", step)
+        self.stage("ledger")
+        return step
+
+    def ruler_of(self, what: Extended) -> Ruler:
+        """The ruler with the method of integration that suits a model."""
+        return self.suits.get(_key(what.effects), self.ruler)
+
+    def extended(self, current: Fitted, *effects: Effect) -> Contender:
+        """The model so far with more effects.
+
+        Raises:
+            BadInput: it cannot be made.
+        """
+        what = extended(self.subject, [*current.what.effects, *effects])
+        key = _key(what.effects)
+        if key not in self.suits:
+            self.suits[key] = suited(self.ruler, current, what, effects)
+        return Contender(effects[-1], what, self.suits[key])
+
+    def fitted(self, what: Extended, part: str, find: Callable[[], tuple[Evaluation, Array] | None]) -> Fitted | None:
+        """A refit that is done once; None where it came to nothing.
+
+        Args:
+            part: its name in the journal.
+            find: a point with slopes, and where these were run.
+        """
+        point: list[Evaluation] = []
+
+        def found() -> Any:
+            end = find()
+            if end is None:
+                return None
+            point.append(end[0])
+            return {"x": end[0].x.tolist(), "slopes": end[1].tolist()}
+
+        kept = self.journal.once(part, found)
+        if kept is not None and not point:
+            point.append(self._again(what, np.array(kept["x"]), np.array(kept["slopes"])))
+        return Fitted(what, point[0]) if point else None
+
+    def _again(self, what: Extended, x: Array, slopes: Array) -> Evaluation:
+        """A point of an earlier run, bit for bit."""
+        ruler = self.ruler_of(what)
+        near = ruler.evaluation(what, slopes)
+        residual = near.residual if np.array_equal(x, slopes) else ruler.at(what, x)
+        assert residual is not None  # it was there when it was written
+        return Evaluation(x, float(residual @ residual), residual, near.jacobian)
+
+    def held_out(self, at: Fitted) -> Array | None:
+        """Residuals of what is held out, (n,); None where nothing is or where it could not be simulated."""
+        if self.held is None:
+            return None
+        return replace(self.held, solver=self.ruler_of(at.what).solver).at(at.what, at.point.x)
+
+
+def begin(
+    subject: Subject,
+    *,
+    seed: int,
+    workers: int | None,
+    progress: Say | None,
+    journal: Path | None = None,
+    settings: dict[str, object] | None = None,
+) -> Story:
+    """A story that has not begun.
+
+    Raises:
+        BadInput: the journal is that of another diagnosis.
+    """
+    kept = Journal(journal, identity(subject, {"seed": seed, **(settings or {})}))
+    ruler, held = rulers(subject.targets, workers)
+    return Story(subject, progress or (lambda told: None), seed, ruler, held, kept, notes=list(subject.notes))
+
+
+def _key(effects: tuple[Effect, ...]) -> tuple[str, ...]:
+    return tuple(effect.name for effect in effects)
