@@ -7,7 +7,10 @@ from tests.modelica.library import compiled, models_in
 PUMPS = [f"HydraulicTestBench.Pump.{name}" for name in ("SwashPlateControl", "FreeGreyBox", "LockedGreyBox")]
 
 
-@pytest.mark.parametrize("name", [*PUMPS, *models_in("Examples"), *models_in("Validation")])
+BLOCKS = ["HydraulicTestBench.Pump.A4VSGSignals", "HydraulicTestBench.LoadCircuit.OpenTestBench"]
+
+
+@pytest.mark.parametrize("name", [*PUMPS, *BLOCKS, *models_in("Examples"), *models_in("Validation")])
 def test_model_is_balanced(name: str) -> None:
     structure = compiled(name).structure()
     assert structure.n_equations == structure.n_unknowns

@@ -1,0 +1,12 @@
+within HydraulicTestBench.Interfaces.Neutral;
+model ShaftFriction "No further friction"
+  extends PartialShaftFriction;
+equation
+  tau = 0;
+  annotation(Documentation(info="<html>
+<p>The base model's filling of the slot <code>Interfaces.PartialShaftFriction</code>: exactly nothing. A compiler
+removes
+it.</p>
+<p><b>Source:</b> thesis Eq. 5.2 to 5.24, which have no such term.</p>
+</html>"));
+end ShaftFriction;
