@@ -36,6 +36,7 @@ CASES: Mapping[str, Case] = MappingProxyType(
         "multisine": Case("validation.multisine.case", "gain, noise, even and odd distortion where theory knows them"),
         "virtual-bench": Case("validation.virtual_bench.case", "the virtual bench against an independent plant's logs"),
         "ripple": Case("validation.ripple.case", "the pump's ripple behind a hose and at a relief valve"),
+        "load-circuit": Case("validation.load_circuit.case", "linear models, energy and controllers of the test bench"),
         "fit-bench-01": Case("validation.fit_bench.case", "an independent plant's logs fitted to their noise"),
         "fit-speed": Case("validation.fit_speed.case", "13 parameters, 342 sines and two waves, from 30 percent off"),
         "fit-thesis": Case("validation.fit_thesis.case", "the fits of thesis Section 4.4 done again"),

@@ -11,7 +11,7 @@ import fmu_build
 from pysim.simulate import Rodas, simulate
 from pysim.types import Experiment, Model, Record, Signal
 from tests.contracts.fmu import Fmu
-from tests.modelica.built import built, ran
+from tests.modelica.built import built
 
 TABLES = json.loads((Path(__file__).parent / "thesis_tables.json").read_text(encoding="utf-8"))
 K = 60e-6 / (2 * np.pi)  # m3/rad
