@@ -17,7 +17,7 @@ from validation.findings import Finding
 from validation.load_circuit import linear
 from validation.load_circuit.linearised import Linear, linearised
 
-Complex = NDArray[np.complexfloating]
+Complex = NDArray[np.complex128]
 
 OPEN = "HydraulicTestBench.LoadCircuit.OpenTestBench"
 CLOSED = "HydraulicTestBench.LoadCircuit.TestBench"
@@ -49,7 +49,7 @@ class Way:
 
     def ratio(self, model: Linear, hertz: NDArray[np.float64] = HERTZ) -> Complex:
         """FMU over formula."""
-        s = 2j * np.pi * hertz
+        s = (2j * np.pi * hertz).astype(np.complex128)
         return model.response(s, self.kept, self.of, self.output) * self.scale / self.formula(s)
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-Complex = NDArray[np.complexfloating]
+Complex = NDArray[np.complex128]
 
 # Table 5.1, as printed
 K_QU, K_QP, BETA = 0.0035, 5.61e-12, 1400e6

@@ -14,7 +14,7 @@ from fmpy.fmi2 import FMU2Model
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
-Complex = NDArray[np.complexfloating]
+Complex = NDArray[np.complex128]
 
 
 @dataclass(frozen=True)
