@@ -90,16 +90,17 @@ def _record_figures(found: Diagnosis, dataset: Dataset) -> Iterator[tuple[str, s
         telling_records,
     )
 
+    model = "refitted model" if any(stage.step == "refit" for stage in found.stages) else "model as it is"
     uses = {record.source: "held out" if record.use == "validate" else "fitted" for record in dataset.records}
     for k, source in enumerate(telling_records(found)):
         caption = (
-            f"{source} ({uses.get(source, 'fitted')}), where the refitted model fails most: measured and simulated; "
+            f"{source} ({uses.get(source, 'fitted')}), where the {model} fails most: measured and simulated; "
             "below, what is left (of many samples also running means), grey holds 95 percent of noise."
         )
         yield "records", f"record_{k + 1}", caption, diagnosis_overlay_figure(found, source)
     logs = [record for stage in found.stages for record in stage.records]
     if found.where:
-        caption = "The places where the refitted base model fails most."
+        caption = f"The places where the {model} fails most."
         yield "where", "where", caption, diagnosis_failures_figure(found)
     if logs:
         caption = "What is left over of every test, in units of noise."

@@ -10,6 +10,7 @@ import traceback
 from collections.abc import Sequence
 
 from pysim.cli import (
+    add,
     bench,
     blackbox,
     chirp,
@@ -21,12 +22,14 @@ from pysim.cli import (
     frf,
     friction,
     multisine,
+    rank,
     signal,
     simulate,
 )
 
 DONE, NO, WRONG_USE, OUR_BUG = 0, 1, 2, 3
 _COMMANDS = {
+    "add": add,
     "bench": bench,
     "blackbox": blackbox,
     "chirp": chirp,
@@ -38,6 +41,7 @@ _COMMANDS = {
     "frf": frf,
     "friction": friction,
     "multisine": multisine,
+    "rank": rank,
     "signal": signal,
     "simulate": simulate,
 }

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from pysim.cli._subject import Given
     from pysim.types import Diagnosis, LedgerStep, Told
 
+JOURNAL = "journal.jsonl"  # in --output, until the answer is written
 _LEARNED = 4  # last lines kept in sight
 _BAR = 24
 _PAUSE = 0.5  # s between two drawings
@@ -131,7 +132,7 @@ def unfold(given: Given, args: argparse.Namespace, work: Callable[[Story, Path |
     Raises:
         KeyboardInterrupt: stopped by the user; says how to go on.
     """
-    journal = args.output / "journal" if args.output else None
+    journal = args.output / JOURNAL if args.output else None
     try:
         with Story(f"{given.dataset.name}: {given.model_name}") as story:
             return work(story, journal)
@@ -174,6 +175,8 @@ def finish(
     if args.json:
         relative = relative_files(files, args.json.parent)
         write_file(args.json, json.dumps(diagnosis_data(found, relative), indent=1, allow_nan=False) + "\n")
+    if args.output:  # nothing is left to go on with; the next question may use the folder
+        (args.output / JOURNAL).unlink(missing_ok=True)
 
 
 def _conditions(given: Given, args: argparse.Namespace, redo: str) -> dict[str, str]:

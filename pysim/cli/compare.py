@@ -1,4 +1,4 @@
-"""Hold an FMU against measured frequency responses and judge it by thesis Table 1.3."""
+"""Hold a model against measurements and judge it by thesis Tables 1.3 and 1.4; with --refit also refitted."""
 
 from __future__ import annotations
 
@@ -8,45 +8,80 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from pysim.types import Comparison
+    from pysim.types import Comparison, Dataset
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The words behind `pysim compare`."""
     from pysim.cli._options import add_parameters, reference_hz
+    from pysim.cli._subject import add_fitted, add_results
 
-    parser.add_argument("model", metavar="MODEL.fmu", type=Path)
+    parser.add_argument("model", metavar="MODEL", help="an .fmu, or a Modelica class")
     parser.add_argument("--data", metavar="FOLDER", type=Path, required=True, help="data set with a dataset.toml")
+    parser.add_argument("--refit", action="store_true", help="refit within the bounds too, and say where it fails")
+    add_fitted(parser)
     add_parameters(parser)
     parser.add_argument(
         "--reference-hz", metavar="HZ", type=reference_hz, default=0.1, help="whose gain is 0 dB; none: absolute (0.1)"
     )
-    parser.add_argument("--json", metavar="FILE", type=Path, help="write all numbers here")
-    parser.add_argument("--output", metavar="DIR", type=Path, help="write report.html and the plots here")
+    add_results(parser, "")
 
 
 def run(args: argparse.Namespace) -> int:
-    """Print the table; 0 when every test passes, 1 when one does not."""
+    """Print the table; 0 when every test passes, 1 when one does not.
+
+    Frequency responses are compared by driving the model through the tests they stand for. Logs over time are
+    compared sample by sample, in units of their noise.
+    """
+    from pysim.cli._subject import prepare_results
+    from pysim.io import read_dataset
+
+    dataset = read_dataset(args.data)
+    prepare_results(args)
+    if args.refit or not dataset.responses():
+        return _story(args)
+    return _responses(args, dataset)
+
+
+def _story(args: argparse.Namespace) -> int:
+    """Every record beside the model as it is, and refitted where that is asked for."""
+    from pysim.cli._progress import announce_compilation
+    from pysim.cli._story import finish, unfold
+    from pysim.cli._subject import read_subject
+    from pysim.diagnose import against
+    from pysim.report.diagnosis import evidence_text
+    from pysim.report.diagnosis_words import comparison_sentence
+
+    given = read_subject(args)
+    announce_compilation()
+    found = unfold(
+        given,
+        args,
+        lambda story, journal: against(given.subject, refitted=args.refit, progress=story, journal=journal),
+    )
+    print(comparison_sentence(found), evidence_text(found), sep="\n\n")
+    answer = comparison_sentence(found)
+    finish(found, given, args, "compare", question="How far is the model from its measurements?", answer=answer)
+    return 0 if found.error[-1].passes else 1
+
+
+def _responses(args: argparse.Namespace, dataset: Dataset) -> int:
     from pysim.cli._options import read_parameters
-    from pysim.cli._outputs import prepare_file, prepare_folder
     from pysim.cli._progress import ProgressBar, announce_compilation
+    from pysim.cli._subject import read_base
     from pysim.diagnose import compare
-    from pysim.io import read_dataset, read_model, write_file
+    from pysim.io import write_file
     from pysim.report import comparison_data, comparison_text
 
-    dataset, model = read_dataset(args.data), read_model(args.model)
+    model = read_base(args)
     overrides = read_parameters(args, model)
-    if args.output:
-        prepare_folder(args.output)
-    if args.json:
-        prepare_file(args.json, "--json")
     announce_compilation()
     with ProgressBar("stepped sines") as progress:
         comparison = compare(
             model,
             dataset,
             overrides=overrides,
-            label=args.model.stem,
+            label=Path(args.model).stem if args.model.lower().endswith(".fmu") else args.model,
             reference_hz=args.reference_hz,
             progress=progress,
         )
@@ -61,14 +96,12 @@ def run(args: argparse.Namespace) -> int:
 def _write_report(args: argparse.Namespace, comparison: Comparison) -> None:
     from pysim.cli._outputs import command_line
     from pysim.cli._pictures import write_pictures
+    from pysim.cli._subject import subject_words
     from pysim.io import write_file
     from pysim.report import comparison_page
 
-    redo = command_line(
-        ["compare", str(args.model), "--data", str(args.data), "--output", str(args.output)]
-        + ["--reference-hz", "none" if args.reference_hz is None else f"{args.reference_hz:g}"]
-        + [word for name, value in comparison.overrides.items() for word in ("--set", f"{name}={value!r}")]
-    )
+    words = ["compare", *subject_words(args, model_first=True)]
+    redo = command_line([*words, "--reference-hz", "none" if args.reference_hz is None else f"{args.reference_hz:g}"])
     pictures = write_pictures([comparison], args.output)
     text = comparison_page("A model against its measurements", [comparison], pictures=pictures, redo=redo)
     write_file(args.output / "report.html", text)

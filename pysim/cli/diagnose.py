@@ -28,7 +28,9 @@ def run(args: argparse.Namespace) -> int:
     given = read_subject(args)
     announce_compilation()
     found = unfold(
-        given, args, lambda story, _: diagnose(given.subject, seed=args.seed, most=args.most, progress=story)
+        given,
+        args,
+        lambda story, journal: diagnose(given.subject, seed=args.seed, most=args.most, progress=story, journal=journal),
     )
     print(diagnosis_text(found))
     finish(found, given, args, "diagnose")

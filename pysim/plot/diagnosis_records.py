@@ -20,30 +20,21 @@ _COARSE = 100  # samples up to which a residual needs no running mean
 
 
 def telling_records(diagnosis: Diagnosis) -> list[str]:
-    """Sources of the records on which the refitted base model fails most: a log, a stepped sine, and one held out."""
-    base = stage_of(diagnosis, "refit")
+    """Sources of the records on which the base model fails most: a log, a stepped sine, and one held out."""
+    base = base_of(diagnosis)
     kinds: dict[tuple[bool, str], RecordFit] = {}
-    for record in base.records:
+    for record in () if base is None else base.records:
         key = (bool(record.harmonics), record.use)
         if key not in kinds or _size(record) > _size(kinds[key]):
             kinds[key] = record
-    return [
-        kinds[key].source
-        for key in ((False, "fit"), (True, "fit"), (False, "validate"), (True, "validate"))
-        if key in kinds
-    ][:3]
+    order = ((False, "fit"), (True, "fit"), (False, "validate"), (True, "validate"))
+    return [kinds[key].source for key in order if key in kinds][:3]
 
 
-def stage_of(diagnosis: Diagnosis, step: str) -> Stage:
-    """The stage of that step.
-
-    Raises:
-        BadInput: there is none.
-    """
-    for stage in diagnosis.stages:
-        if stage.step == step:
-            return stage
-    raise BadInput(f"diagnosis: no stage {step!r}; it has {', '.join(s.step for s in diagnosis.stages) or 'none'}")
+def base_of(diagnosis: Diagnosis) -> Stage | None:
+    """The refitted base model; as it is, where nothing was refitted."""
+    stages = {stage.step: stage for stage in diagnosis.stages}
+    return stages.get("refit", stages.get("prior"))
 
 
 def stages_shown(diagnosis: Diagnosis) -> list[tuple[str, Stage, str]]:
@@ -54,6 +45,12 @@ def stages_shown(diagnosis: Diagnosis) -> list[tuple[str, Stage, str]]:
     steps += [(names[-1], last, COLOURS[0])] if names else []
     found = {stage.step: stage for stage in diagnosis.stages}
     return [(name, found[step], colour) for step, name, colour in steps if step in found and found[step].records]
+
+
+def stages_compared(diagnosis: Diagnosis) -> list[tuple[str, Stage, str]]:
+    """The same without the untouched model where there are others: what it leaves would hide theirs."""
+    shown = stages_shown(diagnosis)
+    return [one for one in shown if one[1].step != "prior"] or shown
 
 
 def diagnosis_overlay_figure(diagnosis: Diagnosis, source: str) -> Figure:

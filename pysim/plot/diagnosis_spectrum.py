@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from scipy import stats
 
 from pysim.identify.residual_spectrum import FEWEST, residual_spectrum
-from pysim.plot.diagnosis_records import stages_shown
+from pysim.plot.diagnosis_records import stages_compared
 from pysim.plot.style import BAND, COLOURS, LIMIT, SMALL, TEXT, frequency_axis, legend_above, new_figure, quiet
 from pysim.types import BadInput, Diagnosis, RecordFit
 
@@ -29,7 +29,7 @@ def diagnosis_spectrum_figure(diagnosis: Diagnosis) -> Figure:
     Raises:
         BadInput: no log over time but stepped sines.
     """
-    shown = [(name, stage, colour) for name, stage, colour in stages_shown(diagnosis) if stage.step != "prior"]
+    shown = stages_compared(diagnosis)
     panels = [
         (record, j)
         for record in ([] if not shown else shown[0][1].records)

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from matplotlib.image import AxesImage
 from numpy.typing import NDArray
 
-from pysim.plot.diagnosis_records import stages_shown
+from pysim.plot.diagnosis_records import base_of, stages_compared
 from pysim.plot.style import BAND, COLOURS, LIMIT, SMALL, TEXT, legend_above, new_figure, quiet
 from pysim.types import BadInput, Dataset, Diagnosis, RecordFit, Stage
 
@@ -46,7 +46,7 @@ def diagnosis_map_figure(diagnosis: Diagnosis, dataset: Dataset) -> Figure:
     Raises:
         BadInput: no log was compared.
     """
-    shown = [(name, stage) for name, stage, _ in stages_shown(diagnosis) if stage.step != "prior"]
+    shown = [(name, stage) for name, stage, _ in stages_compared(diagnosis)]
     if not any(stage.records for _, stage in shown):
         raise BadInput("residual map: no log over time was compared")
     panels = [one for name, stage in shown for one in (_sines(name, stage, dataset), _logs(name, stage)) if one.rows]
@@ -133,7 +133,7 @@ def _draw(axes: Axes, panel: _Field, norm: LogNorm) -> AxesImage:
 
 
 def diagnosis_failures_figure(diagnosis: Diagnosis) -> Figure:
-    """The places where the refitted base model fails most, and what is left there at the end.
+    """The places where the base model fails most, and what is left there at the end.
 
     Raises:
         BadInput: no such place.
@@ -149,11 +149,12 @@ def diagnosis_failures_figure(diagnosis: Diagnosis) -> Figure:
     axes.grid(False, axis="y")
     high = max(row.error for row in rows)
     handles = [axes.barh(range(len(rows)), [row.error for row in rows], height=0.6, color=COLOURS[1])[0]]
-    names = ["refitted base model"]
+    base = base_of(diagnosis)
+    names = ["model as it is" if base is not None and base.step == "prior" else "refitted base model"]
     if after:
         ends = [after.get((row.record, row.signal, row.region), math.nan) for row in rows]
         handles.append(axes.plot(ends, range(len(rows)), color=COLOURS[0], marker="o", linestyle="none")[0])
-        names.append(stages_shown(diagnosis)[-1][0])
+        names.append(stages_compared(diagnosis)[-1][0])
     for i, row in enumerate(rows):
         axes.annotate(
             f"{row.error:.2f}", (row.error, i), xytext=(4, 0), textcoords="offset points", va="center", fontsize=SMALL

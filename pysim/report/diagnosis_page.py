@@ -38,7 +38,7 @@ def diagnosis_page(
     parts = [statement(answer or verdict_sentence(diagnosis)), *_drawn(pictures, "ledger")]
     parts += _added(diagnosis.added)
     parts += _section("Measured and simulated", _drawn(pictures, "records"))
-    parts += _section("Where the refitted model fails", [*_drawn(pictures, "where"), _where(diagnosis)])
+    parts += _section(f"Where the {_base(diagnosis)} fails", [*_drawn(pictures, "where"), _where(diagnosis)])
     if diagnosis.missing:
         parts += _section("What is missing, and where", [*_drawn(pictures, "missing"), _missing(diagnosis.missing)])
     if diagnosis.ranking:
@@ -67,6 +67,10 @@ _METHOD = (
     "first order, widened by the residual where the model does not fit to the noise. Records held out had no part in "
     "any fit."
 )
+
+
+def _base(diagnosis: Diagnosis) -> str:
+    return "refitted model" if any(stage.step == "refit" for stage in diagnosis.stages) else "model as it is"
 
 
 def _section(title: str, parts: Sequence[str]) -> list[str]:
@@ -104,7 +108,7 @@ def _where(diagnosis: Diagnosis) -> str:
         kind = "beyond" if f.error > 1.5 else ""
         numbers = [cell(f"{f.error:.2f}", kind), *([cell("" if end is None else f"{end:.2f}")] if last else [])]
         rows.append([*(cell(text, "words") for text in (f.record, f.signal, f.region)), *numbers])
-    head = ["record", "signal", "region", "refitted", *(["at the end"] if last else [])]
+    head = ["record", "signal", "region", "before" if last else "error", *(["at the end"] if last else [])]
     return table("Root-mean-square residual over noise, the worst places first", head, rows) if rows else ""
 
 

@@ -1,0 +1,35 @@
+"""Add effects to a model, refit everything, and write the extended class with its FMU."""
+
+from __future__ import annotations
+
+import argparse
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The words behind `pysim add`."""
+    from pysim.cli._subject import add_results, add_subject
+
+    add_subject(parser)
+    parser.add_argument(
+        "--effect", metavar="NAME", action="append", required=True, help="to add, by its standard name; repeat in order"
+    )
+    add_results(parser, ", the extended class and its FMU")
+
+
+def run(args: argparse.Namespace) -> int:
+    """Print what each effect does to the error, on fitted and held-out data; 0."""
+    from pysim.cli._progress import announce_compilation
+    from pysim.cli._story import finish, unfold
+    from pysim.cli._subject import effects_of, prepare_results, read_subject
+    from pysim.diagnose import add
+    from pysim.report.diagnosis import evidence_text
+    from pysim.report.diagnosis_words import added_sentence
+
+    prepare_results(args)
+    given = read_subject(args)
+    effects = effects_of(args.effect, given)
+    announce_compilation()
+    found = unfold(given, args, lambda story, journal: add(given.subject, effects, progress=story, journal=journal))
+    print(added_sentence(found), evidence_text(found), sep="\n\n")
+    finish(found, given, args, "add", question="What do the effects mend?", answer=added_sentence(found))
+    return 0

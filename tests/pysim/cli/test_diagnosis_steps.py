@@ -1,0 +1,139 @@
+"""Each step of the diagnosis as a command of its own, and a command that was stopped."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+from fmu_build import build
+from pysim.cli import main
+from pysim.cli._story import JOURNAL, Story
+from pysim.io import read_model, write_dataset
+from pysim.types import Told
+from tests.pysim.diagnose.toy import library, measured
+
+MODEL = ["--model", "Toy.Mass", "--library", str(library())]
+
+
+@pytest.fixture(scope="module")
+def data(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("data") / "toy"
+    write_dataset(folder, measured(1, "toy.friction", F_c=0.4))
+    return folder
+
+
+def test_rank_tells_what_each_gains_and_decides_nothing(
+    data: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    words = ["rank", str(data), *MODEL, "--effects", "toy.friction,toy.bias,toy.hardening"]
+    assert main([*words, "--json", str(tmp_path / "a.json")]) == 0
+    found = json.loads((tmp_path / "a.json").read_text())
+    assert found["ranking"][0]["effect"] == "toy.friction"
+    assert len(found["ranking"]) == 3
+    assert found["added"] == []
+    assert [row["step"] for row in found["error"]] == ["prior", "refit"]
+    said = capsys.readouterr().out
+    assert "of 3 candidates gain more than their price: toy.friction (" in said
+    assert "Nothing was decided." in said
+
+
+def test_add_writes_the_extended_class_and_the_falling_error(
+    data: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    output, answer = tmp_path / "out", tmp_path / "a.json"
+    words = ["--effect", "toy.friction", "--effect", "toy.bias", "--output", str(output), "--json", str(answer)]
+    assert main(["add", str(data), *MODEL, *words]) == 0
+    found = json.loads(answer.read_text())
+    assert [row["step"] for row in found["error"]] == ["prior", "refit", "toy.friction", "toy.bias"]
+    refit, friction = found["error"][1:3]
+    assert friction["validate"] < 1.1 < refit["validate"]
+    first, second = found["added"]
+    assert first["parameters"]["F_c"] == pytest.approx(0.4, abs=0.01)
+    low, high = second["intervals"]["F_b"]
+    assert low < 0 < high  # the bias is not there
+    model = read_model(tmp_path / found["files"]["fmu"])
+    assert model.name == "MassWithRubbingAndBias"
+    assert model[f"{first['place']}.F_c"].start == first["parameters"]["F_c"]
+    assert "Added as asked: dry friction (toy.friction) and constant force (toy.bias)." in capsys.readouterr().out
+    assert "What do the effects mend?" in (output / "report.html").read_text()
+
+
+@pytest.mark.parametrize(
+    ("effects", "message"),
+    [
+        (["toy.magic"], "--effect toy.magic: not in the catalogue; it has "),
+        (["friction.coulomb"], "--effect friction.coulomb: no slot of Toy.Mass takes it"),
+        (["toy.bias", "toy.bias"], "named twice"),
+    ],
+)
+def test_add_refuses_what_it_cannot_add(
+    effects: list[str], message: str, data: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["add", str(data), *MODEL, *(word for name in effects for word in ("--effect", name))]) == 2
+    assert message in capsys.readouterr().err
+
+
+def test_a_model_without_its_class_gets_no_effect(
+    data: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    fmu = build("Toy.Mass", tmp_path / "mass.fmu", libraries=[library()])
+    assert main(["add", str(data), "--model", str(fmu), "--effect", "toy.bias"]) == 2
+    assert "its class is in none of the libraries" in capsys.readouterr().err
+    assert main(["rank", str(data), "--model", str(fmu)]) == 2
+    assert "class is not at hand" in capsys.readouterr().err
+
+
+def test_compare_tells_how_far_the_model_is_and_where(
+    data: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    words = ["compare", "Toy.Mass", "--library", str(library()), "--data", str(data), "--json", str(tmp_path / "a")]
+    assert main(words) == 1
+    said = capsys.readouterr().out
+    assert said.startswith("As it is, the model leaves ")
+    assert "does not meet thesis Tables 1.3 and 1.4. It fails most at " in said
+    assert [row["step"] for row in json.loads((tmp_path / "a").read_text())["error"]] == ["prior"]
+    output = tmp_path / "out"
+    assert main([*words, "--refit", "--output", str(output)]) == 0
+    assert "Refitted, it leaves " in capsys.readouterr().out
+    found = json.loads((tmp_path / "a").read_text())
+    prior, refit = found["error"]
+    assert prior["fit"] > 1.5 * refit["fit"] > 1.5
+    assert found["where"][0]["error"] > refit["fit"]
+    assert "pysim compare Toy.Mass --data" in (output / "report.html").read_text()
+
+
+def test_compare_draws_a_model_that_is_not_refitted(data: Path, tmp_path: Path) -> None:
+    output = tmp_path / "out"
+    words = ["compare", "Toy.Mass", "--library", str(library()), "--data", str(data), "--output", str(output)]
+    assert main(words) == 1
+    page = (output / "report.html").read_text()
+    assert "Where the model as it is fails" in page
+    assert "refitted model" not in page
+    assert {"ledger.png", "map.png", "where.svg", "record_1.svg"} <= {path.name for path in output.iterdir()}
+
+
+def test_a_command_that_was_stopped_goes_on_with_the_same_answer(
+    data: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    words = ["diagnose", str(data), *MODEL, "--effects", "toy.friction,toy.bias", "--output", str(tmp_path / "out")]
+    tell = Story.__call__
+
+    def stop(self: Story, told: Told) -> None:
+        tell(self, told)
+        if told.step is not None and told.step.step == "refit":
+            raise KeyboardInterrupt
+
+    with monkeypatch.context() as patch:
+        patch.setattr(Story, "__call__", stop)
+        assert main(words) == 2
+    assert capsys.readouterr().err.rstrip().endswith("pysim: stopped; the same command goes on where it was")
+    journal = tmp_path / "out" / JOURNAL
+    assert '"base"' in journal.read_text()
+    assert main([*words, "--seed", "5"]) == 2
+    assert "journal of another diagnosis" in capsys.readouterr().err
+    assert main([*words, "--json", str(tmp_path / "a.json")]) == 0
+    assert not journal.exists()
+    assert main([*words[:-2], "--json", str(tmp_path / "b.json")]) == 0
+    one, other = (json.loads((tmp_path / name).read_text()) for name in ("a.json", "b.json"))
+    for key in ("verdict", "added", "ranking", "error", "parameters", "where"):
+        assert one[key] == other[key]
