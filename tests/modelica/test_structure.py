@@ -81,10 +81,16 @@ def test_library_needs_no_other(file: Path) -> None:
 
 
 def test_connectors_agree_with_the_standard_library() -> None:
-    """Variables, prefixes and order of Modelica.Mechanics.Rotational.Interfaces.Flange_a."""
+    """Variables, prefixes and order of Flange_a of Modelica.Mechanics.Rotational and .Translational."""
     for name in ("Flange_a", "Flange_b"):
         source = without_texts(read(LIBRARY / "Interfaces" / f"{name}.mo"))
         assert re.findall(r"^  (flow )?Types\.(\w+) (\w+)", source, re.MULTILINE) == [
             ("", "Angle", "phi"),
             ("flow ", "Torque", "tau"),
+        ]
+    for name in ("TranslationFlange_a", "TranslationFlange_b"):
+        source = without_texts(read(LIBRARY / "Interfaces" / f"{name}.mo"))
+        assert re.findall(r"^  (flow )?Types\.(\w+) (\w+)", source, re.MULTILINE) == [
+            ("", "Length", "s"),
+            ("flow ", "Force", "f"),
         ]

@@ -27,6 +27,16 @@ def validated(name: str, stop: float, points: int = 401) -> Run:
         ("LinkageRates", 1.0, 0.0, 1e-6),
         ("CommandRate", 0.2, 0.1, 125.7 * 3e-4),  # (omega T)^3 = 2.5e-4
         ("CoastDown", 3.0, 0.0, 50 * 1e-6),  # solver at 1e-8
+        # as FMUs in test_hydraulics.py, and here by another compiler and solver
+        ("VolumeFilling", 2.0, 0.0, 1e-9),
+        ("LaminarFilling", 5.0, 0.0, 100e5 * 1e-7),
+        ("ServoValveLoad", 0.03, 0.0, 1e-6),
+        ("MotorRunUp", 1.0, 0.0, 70 * 1e-6),
+        ("HoseMode", 0.1, 0.0, 1e5 * 1e-4),
+        ("ReliefValveStep", 0.3, 0.0, 1e-6),
+        ("PassiveParts", 2.0, 0.0, 1e-9),
+        ("TwoMassTwist", 0.2, 0.0, 0.01 * 1e-4),
+        ("WireDrop", 0.45, 0.0, 2e-5),  # the wire's smooth beginning
     ],
 )
 def test_error_stays_within_its_reason(name: str, stop: float, after: float, tolerance: float) -> None:

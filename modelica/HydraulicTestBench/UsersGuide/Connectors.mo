@@ -8,6 +8,8 @@ class Connectors "Connectors, and how they meet other libraries"
 RealOutput</td></tr>
 <tr><td>Interfaces.Flange_a, Flange_b</td><td>phi (rad)</td><td>tau (N.m)</td>
 <td>Modelica.Mechanics.Rotational.Interfaces.Flange_a, Flange_b</td></tr>
+<tr><td>Interfaces.TranslationFlange_a, TranslationFlange_b</td><td>s (m)</td><td>f (N)</td>
+<td>Modelica.Mechanics.Translational.Interfaces.Flange_a, Flange_b</td></tr>
 <tr><td>Interfaces.Port_a, Port_b</td><td>p (Pa, gauge)</td><td>q (m3/s)</td><td>this library</td></tr>
 </table>
 <p>Connectors are joined by the names of their variables, so the Modelica Standard Library need not be loaded to use

@@ -1,5 +1,5 @@
 within HydraulicTestBench.UsersGuide;
-class Slots "The slots of the pump, and what each can take"
+class Slots "The slots of the models, and what each can take"
   extends Icons.Information;
   annotation(DocumentationClass=true, Documentation(info="<html>
 <p>A slot is a replaceable part of <code>Pump.SwashPlateControl</code>. Its partial class in <code>Interfaces</code>
@@ -46,6 +46,14 @@ the plate and its velocity</td><td>play with y as a state</td><td>2</td></tr>
 back and
 logged</td><td>lag: <code>der(y) = y_t; y_t = (s - y)/T_f</code></td><td>2</td></tr>
 </table>
+<p><b>Slots elsewhere.</b> The pump block adds four (<code>PumpBlock</code>). <code>Hydraulics.Volume</code> and
+<code>Hose</code> have <code>fluid</code> (PartialFluid: p -&gt; beta_eff, 1 equation; <code>Hydraulics.Fluids</code>),
+<code>Hydraulics.VariableMotor</code> its losses. The test bench <code>LoadCircuit.OpenTestBench</code> has
+<code>plate</code> (PartialSwashPlate, 3), <code>pumpFlow</code> (PartialPumpFlow, 3), <code>servoOpening</code>
+(PartialSignal, 1), <code>shaftFriction</code> (PartialShaftFriction: w -&gt; tau, 1), <code>motorLeakage</code>
+(PartialMotorLeakage: p_s, p_L -&gt; q_s, q_L, 2), <code>motorLoss</code> (PartialMotorLoss: T_s, T_L and speeds -&gt;
+tau_s, tau_L, 2), <code>coupling</code> (PartialCoupling: phi_rel and tau, 1) and <code>hoses</code> (PartialHoses: four
+flows, 4); <code>LoadCircuit.Fillings</code> has classes for them.</p>
 <p>The angle follows the linkage: <code>alpha</code> is computed from what <code>linkage</code> gives, so the swash
 plate and
 its sensor stand behind a play, and the piston, its force balance and its oil ahead of it. <code>alpha_tt</code> (Eq.
