@@ -142,31 +142,25 @@ def _limit(criterion: Criterion) -> str:
 def diagnosis_ranking_figure(diagnosis: Diagnosis) -> Figure:
     """Gain less price of each candidate, the best on top: full bars were refitted, hollow ones only screened.
 
-    Candidates that the data do not tell apart share a colour and a bracket.
+    A panel per round of the search. Candidates that the data do not tell apart share a colour and a bracket.
 
     Raises:
         BadInput: no candidate.
     """
-    rows = diagnosis.ranking[:_ROWS]
-    if not rows:
+    numbers = sorted({row.round for row in diagnosis.ranking})
+    rounds = [[row for row in diagnosis.ranking if row.round == number][:_ROWS] for number in numbers]
+    if not rounds:
         raise BadInput("ranking figure: needs at least one candidate")
-    figure = new_figure(7.4, 1.25 + 0.27 * len(rows))
-    axes = figure.subplots()
-    quiet(axes)
-    axes.grid(False, axis="y")
-    high = max(10.0, *(row.score for row in rows))
-    axes.set_xscale("log")
-    axes.set_xlim(1.0, high * 4.0)
-    added = [one.effect.name for one in diagnosis.added]
+    figure = new_figure(7.4, 0.7 + sum(0.55 + 0.27 * len(rows) for rows in rounds))
+    panels = figure.subplots(len(rounds), 1, squeeze=False, height_ratios=[1 + len(rows) for rows in rounds])[:, 0]
     groups = {name: k for k, group in enumerate(diagnosis.confusable) for name in group}
-    for i, row in enumerate(rows):
-        colour = COLOURS[4] if row.effect in groups else COLOURS[0] if row.effect in added else COLOURS[5]
-        _bar(axes, i, row, colour)
-    _brackets(axes, [row.effect for row in rows], groups)
-    axes.set_ylim(len(rows) - 0.4, -0.6)
-    axes.set_yticks(range(len(rows)), [row.effect for row in rows], fontsize=SMALL)
-    axes.set_xlabel("Gain less price: fall of the sum of squares over noise, less ln n per parameter", fontsize=TEXT)
-    kinds = {"added": Patch(facecolor=COLOURS[0])} if added and added[0] not in groups else {}
+    high = max([10.0, *(row.score for rows in rounds for row in rows)])
+    for axes, rows, number in zip(panels, rounds, numbers, strict=True):
+        _round(axes, rows, groups, _added_in(diagnosis, number), high)
+        axes.set_title("" if len(rounds) == 1 else f"Round {number}", fontsize=TEXT, loc="left")
+    words = "Gain less price: fall of the sum of squares over noise, less ln n per parameter"
+    panels[-1].set_xlabel(words, fontsize=TEXT)
+    kinds = {"added": Patch(facecolor=COLOURS[0])} if {e.effect.name for e in diagnosis.added} - set(groups) else {}
     kinds |= {
         "refitted": Patch(facecolor=COLOURS[5]),
         "screened only": Patch(facecolor="white", edgecolor=COLOURS[5], hatch="////"),
@@ -175,6 +169,26 @@ def diagnosis_ranking_figure(diagnosis: Diagnosis) -> Figure:
         kinds["not told apart"] = Patch(facecolor=COLOURS[4])
     legend_above(figure, list(kinds.values()), list(kinds))
     return figure
+
+
+def _added_in(diagnosis: Diagnosis, number: int) -> set[str]:
+    """Effects that this round has added: those that were candidates in it and in no later one."""
+    later = {row.effect for row in diagnosis.ranking if row.round > number}
+    own = {row.effect for row in diagnosis.ranking if row.round == number}
+    return {one.effect.name for one in diagnosis.added} & own - later
+
+
+def _round(axes: Axes, rows: Sequence[Candidate], groups: dict[str, int], added: set[str], high: float) -> None:
+    quiet(axes)
+    axes.grid(False, axis="y")
+    axes.set_xscale("log")
+    axes.set_xlim(1.0, high * 4.0)
+    for i, row in enumerate(rows):
+        colour = COLOURS[4] if row.effect in groups else COLOURS[0] if row.effect in added else COLOURS[5]
+        _bar(axes, i, row, colour)
+    _brackets(axes, [row.effect for row in rows], groups)
+    axes.set_ylim(len(rows) - 0.4, -0.6)
+    axes.set_yticks(range(len(rows)), [row.effect for row in rows], fontsize=SMALL)
 
 
 def _bar(axes: Axes, i: int, row: Candidate, colour: str) -> None:

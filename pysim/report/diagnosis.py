@@ -68,6 +68,7 @@ def _added(one: AddedEffect) -> dict[str, object]:
 def _candidate(row: Candidate) -> dict[str, object]:
     return {
         "effect": row.effect,
+        "round": row.round,
         "score": _finite(row.score),
         "p_value": _finite(row.p_value),
         "explained": _finite(row.explained),
@@ -132,7 +133,10 @@ def evidence_text(diagnosis: Diagnosis) -> str:
         lines.append(f"  {step.step:<20}{numbers}  Tables 1.3 and 1.4 {'met' if step.passes else 'not met'}")
     if diagnosis.ranking:
         lines += ["", "Candidates                  gain less price   explained"]
-        lines += [f"  {row.effect:<24} {row.score:14.5g} {100 * row.explained:9.2f} %" for row in diagnosis.ranking[:6]]
+        for number in sorted({row.round for row in diagnosis.ranking}):
+            own = [row for row in diagnosis.ranking if row.round == number][: 6 if number == 1 else 3]
+            lines += [f"  round {number}"] if number > 1 else []
+            lines += [f"  {row.effect:<24} {row.score:14.5g} {100 * row.explained:9.2f} %" for row in own]
     lines += [f"Not told apart by these data: {', '.join(group)}" for group in diagnosis.confusable]
     for note in diagnosis.notes:
         lines += textwrap.wrap(f"Note: {note}", _WIDTH, subsequent_indent="  ")

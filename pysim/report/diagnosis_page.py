@@ -123,8 +123,17 @@ def _missing(missing: Sequence[Missing]) -> str:
 
 def _ranking(diagnosis: Diagnosis) -> list[str]:
     texts = [f"Not told apart by these data: {', '.join(group)}." for group in diagnosis.confusable]
-    rows = [_candidate(row) for row in diagnosis.ranking]
-    head = ["effect", "gain less price", "of the misfit", "by chance", "how", "sizes there"]
+    several = len({row.round for row in diagnosis.ranking}) > 1
+    rows = [[*([cell(f"{row.round}")] if several else []), *_candidate(row)] for row in diagnosis.ranking]
+    head = [
+        *(["round"] if several else []),
+        "effect",
+        "gain less price",
+        "of the misfit",
+        "by chance",
+        "how",
+        "sizes there",
+    ]
     return [*(paragraph(text, note=True) for text in texts), table("Every candidate that was considered", head, rows)]
 
 

@@ -46,7 +46,7 @@ def _step_text(step: LedgerStep) -> str:
 
 def ranking_sentence(diagnosis: Diagnosis) -> str:
     """Which candidates pay; nothing is decided."""
-    paying = [row for row in diagnosis.ranking if row.score > 0]
+    paying = [row for row in diagnosis.ranking if row.score > 0 and row.round == 1]
     count = len({row.effect for row in diagnosis.ranking})
     if not paying:
         return f"None of {count} candidates gains more than its price."

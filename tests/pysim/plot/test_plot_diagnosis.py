@@ -1,5 +1,7 @@
 """The figures of a diagnosis show the numbers of the answer."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -52,6 +54,19 @@ def test_the_ranking_tells_refitted_from_screened_and_draws_ties_as_ties() -> No
     (bracket,) = axes.lines
     assert list(bracket.get_ydata()) == pytest.approx([-0.3, -0.3, 1.3, 1.3])
     assert not diagnosis_ranking_figure(story(confusable=())).axes[0].lines
+
+
+def test_each_round_of_the_search_has_a_panel() -> None:
+    rows = story().ranking
+    again = tuple(replace(row, round=2) for row in rows[2:])
+    first, second = diagnosis_ranking_figure(story(confusable=(), ranking=(*rows, *again))).axes
+    assert [label.get_text() for label in second.get_yticklabels()] == ["toy.other", "toy.idle"]
+    assert (first.get_title(loc="left"), second.get_title(loc="left")) == ("Round 1", "Round 2")
+    dark = first.patches[0].get_facecolor()
+    assert [bar.get_facecolor() == dark for bar in (*first.patches[1:], *second.patches)] == [False] * 3
+
+
+def test_a_ranking_needs_candidates() -> None:
     with pytest.raises(BadInput, match="candidate"):
         diagnosis_ranking_figure(story(ranking=()))
 
