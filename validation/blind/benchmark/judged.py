@@ -22,12 +22,13 @@ def judged(truth: Truth, found: Diagnosis) -> dict[str, Any]:
     """Fields of an answer."""
     case = truth.case
     names = [name for name, _ in case.effects]
-    base, final = (error(truth.measured, stage) for stage in _first_and_last(found.stages))
+    first, last = _first_and_last(found.stages)
+    base, final = error(truth.measured, first), error(truth.measured, last)
     told: dict[str, Any] = {"held": found.error[-1].validate, "base": base, "final": final}
     if found.missing:
         told["slot"] = found.missing[0].slot
     if case.effects:
-        told["footprint"] = truth.left(())
+        told["footprint"] = truth.left((), {e.name: e.value for e in first.estimates} if first is not None else None)
     if case.kind == "pair":
         told["parts"] = {name: truth.left([n for n in names if n != name]) for name in names}
     if case.kind in ("named", "pair"):
@@ -69,7 +70,7 @@ class Known(Protocol):
 
 
 def intervals(truth: Known, found: Diagnosis) -> Iterator[tuple[str, bool]]:
-    """Of what is determined and, in truth and estimate, away from its bounds: whether the 95 percent interval holds it."""
+    """Of what is determined and, in truth and estimate, away from its bounds: whether its interval holds the truth."""
     for estimate, true in estimated(truth, found):
         inside = estimate.lower * (1 + 1e-9) < true < estimate.upper * (1 - 1e-9)
         if inside and not estimate.at:

@@ -36,10 +36,11 @@ _REFIT = GaussNewton(max_iterations=8, tolerance=0.25, share=1e-2)
 
 @dataclass(frozen=True)
 class Point:
-    """A model, its free numbers, and where they stand."""
+    """A model, its free numbers, and whether its runs have events, so that slopes have to be taken by differences."""
 
     model: Model
     space: ParameterSpace
+    events: bool = False
 
     @property
     def x(self) -> Array:
@@ -83,7 +84,8 @@ class Truth:
             for p in effect.parameters:
                 log = None if p.off is None else False
                 parameters.append(_parameter(f"{places[effect.name]}.{p.name}", own[p.name], p.min, p.max, log))
-        return Point(built, parameter_space(built, parameters))
+        still = Point(built, parameter_space(built, parameters))
+        return replace(still, events=_has_events(self.of_use("fit"), still))
 
     @cached_property
     def base(self) -> dict[str, float]:
@@ -95,18 +97,30 @@ class Truth:
         spoken = told(effect.name, self.case.strengths())
         return {p.name: 1 / spoken[p.inverse] if p.inverse else spoken[p.name] for p in effect.parameters}
 
-    def left(self, names: Sequence[str]) -> float | None:
-        """Sum of squares that the model with these effects leaves once refitted; None where it cannot be simulated."""
+    def left(self, names: Sequence[str], near: Mapping[str, float] | None = None) -> float | None:
+        """Sum of squares that the model with these effects leaves once refitted; None where it cannot be simulated.
+
+        Args:
+            near: another point to start from, taken where it leaves less than the truth.
+        """
         point, targets = self.model(names), self.of_use("fit")
         bounds = Bounds(*point.space.bounds())
-        first = evaluation(targets, point, point.x)
-        if not first.good:
-            return None
-        state = _REFIT.begin(first, bounds, True)
-        while state.outcome is None:
+        state = _REFIT.begin(self._first(point, near or {}), bounds, True)
+        while state.best.good and state.outcome is None:
             proposal = _REFIT.propose(state, bounds)
             state = _REFIT.tell(state, proposal, evaluation(targets, point, proposal.x), bounds)
-        return state.best.cost
+        return state.best.cost if state.best.good else None
+
+    def _first(self, point: Point, near: Mapping[str, float]) -> Evaluation:
+        """The better of the truth and a point that may be nearer."""
+        targets, space = self.of_use("fit"), point.space
+        here = [near.get(name, value) for name, value in zip(space.keys, space.start.tolist(), strict=True)]
+        there = space.to_search(np.clip(here, space.lower, space.upper))
+        costs = [
+            np.inf if found is None else float(found @ found)
+            for found in (_residual(targets, point.model, space.values(x)) for x in (point.x, there))
+        ]
+        return evaluation(targets, point, there if costs[1] < costs[0] else point.x)
 
     def held_out(self) -> tuple[float, float] | None:
         """Root mean squares over the noise on held-out records: the Cramer-Rao bound, and what the truth leaves."""
@@ -137,7 +151,7 @@ def _parameter(name: str, value: float, lower: float, upper: float, log: bool | 
 def evaluation(targets: Sequence[Target], point: Point, x: Array) -> Evaluation:
     """Residuals of targets and their slopes: exact for a run without events, else by one-sided differences."""
     model, space = point.model, point.space
-    if not _has_events(targets, point, x):
+    if not point.events:
         runs = [run for target in targets for run in target.runs]
         answer = simulate_runs(model, space, runs, x, [None] * len(runs), Simulation(workers=Threads(1)))
         return bad_point(x, answer.trouble) if answer.trouble else _counted(targets, x, answer.simulated)
@@ -174,8 +188,8 @@ def _residual(targets: Sequence[Target], model: Model, values: Mapping[str, floa
     return _counted(targets, np.zeros(0), simulated).residual
 
 
-def _has_events(targets: Sequence[Target], point: Point, x: Array) -> bool:
-    """Whether the shortest run makes more events than its command has pieces."""
-    shortest = min(_runs(targets, point.space.values(x)), key=lambda run: float(run.times[-1]) - run.start)
+def _has_events(targets: Sequence[Target], point: Point) -> bool:
+    """Whether the shortest run, a stepped sine, makes more events than its command has pieces."""
+    shortest = min(_runs(targets, point.space.values(point.x)), key=lambda run: float(run.times[-1]) - run.start)
     record = simulate_many(point.model, [shortest], solver=_SOLVER, workers=1)[0]
     return record.statistics["events"] > sum(signal.starts.size for signal in shortest.inputs.values())

@@ -63,7 +63,7 @@ class MadeUp(SimpleNamespace):
     def strengths(self, effect: Effect) -> dict[str, float]:
         return {"F_c": 100.0}
 
-    def left(self, names: Any) -> float:
+    def left(self, names: Any, near: Any = None) -> float:
         return 321.0 if not names else 5.0
 
     def held_out(self) -> tuple[float, float] | None:

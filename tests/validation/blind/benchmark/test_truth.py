@@ -1,13 +1,13 @@
 """Footprints and bounds of a short session against plain linear algebra."""
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from pysim.simulate import Rodas, simulate
 from pysim.types import Experiment, Record, Signal
-from validation.blind.benchmark import truth as module
 from validation.blind.benchmark.judged import _BASE_POWERS, _UNIT_POWERS
 from validation.blind.benchmark.truth import Truth, evaluation, noise_free
 from validation.blind.benchmark.workshop import workshop
@@ -55,6 +55,9 @@ def test_footprint_is_what_no_parameter_can_take(truth: Truth) -> None:
     found = truth.left(())
     assert found == pytest.approx(first_order, rel=0.15)
     assert 3 < found < 0.5 * at.cost  # refitting takes much of it, and something stays
+    far, bent = {"tau": 0.01}, {name: value * 1.02 for name, value in truth.base.items()}
+    assert truth.left((), far) == found  # no worse start is taken
+    assert truth.left((), bent) == pytest.approx(found, abs=0.5)
     with_it = truth.left(["spring.hardening"])
     assert with_it is not None
     assert with_it < 0.5
@@ -74,11 +77,10 @@ def test_bound_is_what_drawn_noise_costs(truth: Truth) -> None:
     assert limits[1] < 0.2  # plant and FMU are not the same, but nearly
 
 
-def test_slopes_by_differences_agree_with_exact_ones(truth: Truth, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_slopes_by_differences_agree_with_exact_ones(truth: Truth) -> None:
     point, targets = truth.model(["spring.hardening"]), truth.of_use("validate")
     exact = evaluation(targets, point, point.x)
-    monkeypatch.setattr(module, "_has_events", lambda *_: True)
-    differences = evaluation(targets, point, point.x)
+    differences = evaluation(targets, replace(point, events=True), point.x)
     sizes = np.linalg.norm(exact.jacobian, axis=0)
     off = np.linalg.norm(differences.jacobian - exact.jacobian, axis=0)
     assert np.all(off < 0.05 * sizes.max())
@@ -104,3 +106,9 @@ def test_one_direction_shows_in_no_signal() -> None:
     here, there, without = (simulate(model, run.override(**v), solver=solver) for v in (values, scaled, off))
     assert np.abs(here.values - there.values).max() < 1e-3
     assert np.abs(here["alphaPercent"] - without["alphaPercent"]).max() > 0.1
+
+
+def test_a_limit_is_seen_to_have_events(truth: Truth) -> None:
+    limited = Truth(replace(NAMED, effects=(("valve.saturation", "large"),)), truth.measured, truth.shop)
+    assert limited.model(["valve.saturation"]).events
+    assert not truth.model(["spring.hardening"]).events
