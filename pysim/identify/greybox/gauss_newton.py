@@ -30,6 +30,8 @@ _NEARLY = 4e-3
 # It is a good end where a step inside the radius would gain no more than so many times the tolerance: in the blur, and
 # where a curved valley turns up.
 _NEAR, _LITTLE = 200.0, 10.0
+# After a step that could not be simulated, or whose gain could not be seen, the radius is so much of its length.
+_SHORTER = 0.25
 _BISECTIONS = 20
 
 
@@ -94,10 +96,11 @@ class GaussNewton:
         blind = proposal.predicted < blur and ratio <= 1e-4
         if blind and actual > -blur:
             steps = state.memory["blind"] + 1
-            state = replace(state, best=trial, tried=state.tried + 1, memory={**state.memory, "blind": steps})
+            memory = {**state.memory, "blind": steps, "radius": _SHORTER * length}
+            state = replace(state, best=trial, tried=state.tried + 1, memory=memory)
             return self._examined(state, bounds) if steps < _BLIND else self._lost(state, bounds)
         if ratio < 0.25:
-            radius = length * (_best_share(state.best, trial, proposal.x) if trial.good else 0.25)
+            radius = length * (_best_share(state.best, trial, proposal.x) if trial.good else _SHORTER)
         elif ratio > 0.75 and length > 0.8 * radius:
             radius = 2 * radius
         state = replace(state, tried=state.tried + 1, memory={**state.memory, "radius": radius})
@@ -114,7 +117,7 @@ class GaussNewton:
         return self._counted(state)
 
     def _bends(self, state: State, bounds: Bounds) -> bool:
-        """Whether what is promised up to where the straight line was seen to fail is next to nothing."""
+        """Whether what is promised up to where steps were seen to fail is next to nothing."""
         step = _Step.at(state.best, bounds)
         return step.predicted(step.within(state.memory["radius"])) < _LITTLE * self._small(state.best)
 
@@ -129,10 +132,13 @@ class GaussNewton:
         return _ended(state, FitOutcome.STALLED, promised)
 
     def _examined(self, state: State, bounds: Bounds) -> State:
-        """Whether a full step from here would still gain something."""
+        """Whether a full step from here would still gain something, or one as far as steps were seen to do so."""
         gain = _Step.at(state.best, bounds).full_gain
         if gain <= self._small(state.best):
             return _ended(state, FitOutcome.CONVERGED, f"a full step would lower the sum of squares by {2 * gain:.2g}")
+        turned = state.memory.get("turned") or (state.memory.get("blind") and gain < _NEAR * self._small(state.best))
+        if turned and self._bends(state, bounds):
+            return _ended(state, FitOutcome.CONVERGED, "no more is to be gained as far as steps gain what they promise")
         return self._counted(state)
 
     def _small(self, best: Evaluation) -> float:
