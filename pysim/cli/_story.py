@@ -93,7 +93,8 @@ class Story:
 
 def block(title: str, stage: str, elapsed: float, steps: Sequence[LedgerStep], learned: Sequence[str]) -> list[str]:
     """Lines of the block: title and time, stage, a row per step with the error as a bar, what was learned."""
-    lines = [f"{title}", f"  {_clock(elapsed)}{_left(stage, elapsed)}  {stage}", *_bars(steps)]
+    left = _left(stage, elapsed) if len(steps) < 3 else ""  # how many rounds there will be, nobody knows
+    lines = [title, f"  {_clock(elapsed)}{left}  {stage}", *_bars(steps)]
     return [*lines, *(f"  - {text}" for text in learned)]
 
 

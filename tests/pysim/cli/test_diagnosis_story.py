@@ -22,14 +22,18 @@ def test_without_a_terminal_there_is_a_line_for_each_thing_told(capsys: pytest.C
 def test_the_block_shows_time_stage_and_the_error_falling() -> None:
     title, clock, head, *bars, learned = block("toy: Mass", "screening 3 candidates", 40.0, story().error, ["found"])
     assert title == "toy: Mass"
-    assert clock.startswith("  0:40 (about ")
-    assert clock.endswith("screening 3 candidates")
+    assert clock == "  0:40  screening 3 candidates"
     assert head.strip() == "error over noise"
     assert [line.split()[0:2] for line in bars] == [["as", "it"], ["refitted", "4.20"], ["+", "toy.offset"]]
     lengths = [line.count("#") for line in bars]
     assert lengths[0] == 24 > lengths[1] > lengths[2] == 0  # nothing but noise has no bar
     assert bars[0].endswith("held out    8.00")
     assert learned == "  - found"
+
+
+def test_in_the_first_round_it_says_how_long_it_may_take() -> None:
+    _, clock, *_ = block("toy", "screening 3 candidates", 40.0, story().error[:2], [])
+    assert re.fullmatch(r"  0:40 \(about \d+:\d\d left\)  screening 3 candidates", clock)
 
 
 def test_before_anything_is_known_no_time_is_promised() -> None:
