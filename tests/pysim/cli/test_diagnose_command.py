@@ -159,3 +159,42 @@ def test_a_place_that_cannot_be_written_is_told_before_the_work(
     said = capsys.readouterr()
     assert "cannot write there" in said.err
     assert "comparing" not in said.err
+
+
+SEALED = """
+model Sealed "The toy's mass, nothing in it replaceable"
+  parameter Real m(unit="kg", min=0.5, max=5, nominal=1) = 1;
+  parameter Real d(unit="N.s/m", min=0, max=10, nominal=1) = 0.8;
+  parameter Real k(unit="N/m", min=1, max=100, nominal=10) = 20;
+  input Real F(unit="N", start=0);
+  output Real x(unit="m", start=0, fixed=true);
+  output Real v(unit="m/s", start=0, fixed=true);
+equation
+  der(x) = v;
+  m*der(v) = F - d*v - k*x;
+end Sealed;
+"""
+
+
+def test_a_model_without_slots_is_compared_and_told_so(
+    data: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "Mine.mo").write_text(SEALED)
+    words = ["--model", "Sealed", "--library", str(tmp_path / "Mine.mo"), "--json", str(tmp_path / "a.json")]
+    assert main(["diagnose", str(data), *words]) == 0
+    found = json.loads((tmp_path / "a.json").read_text())
+    assert (found["verdict"], found["ranking"]) == ("unknown", [])
+    assert any("no slot of Sealed takes an effect" in note for note in found["notes"])
+    assert "Verdict: unknown" in capsys.readouterr().out
+
+
+def test_a_class_that_does_not_compile_is_refused(
+    data: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "Mine.mo").write_text("model Bad\n  Real x;\nequation\n  der(x) = y;\nend Bad;\n")
+    words = ["--model", "Bad", "--library", str(tmp_path / "Mine.mo"), "--json", str(tmp_path / "a.json")]
+    assert main(["diagnose", str(data), *words]) == 2
+    said = capsys.readouterr().err
+    assert said.startswith("pysim diagnose: ")
+    assert len(said.splitlines()) == 1
+    assert not (tmp_path / "a.json").exists()
