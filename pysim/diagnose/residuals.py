@@ -4,23 +4,40 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from pysim.diagnose.noise import Column, Noise, estimated_noise
+from pysim.diagnose.nuisance import NOTHING, Span, Suspect, columns
 from pysim.diagnose.subject import Extended
+from pysim.diagnose.whiten import Whitening, whitening
 from pysim.identify.greybox import Simulation, Threads
 from pysim.identify.greybox.evaluation import Evaluation, bad_point
 from pysim.identify.greybox.simulation import simulate_runs
 from pysim.identify.greybox.target import Simulated, Target
 from pysim.simulate import Rodas, Solver, simulate_many
-from pysim.types import Experiment, Model, Outcome
+from pysim.types import Experiment, Model, Outcome, Record
 
 Array = NDArray[np.float64]
 
 # Step of one-sided differences, in the search's numbers (natural logarithms or shares of the scale): ten times shorter,
 # and what step control leaves of the runs' error would be as large as the change by a parameter known to a percent.
 STEP = 1e-2
+
+
+@dataclass(frozen=True)
+class Counted(Evaluation):
+    """A point of a ruler.
+
+    Args:
+        along: (rank, 1 + n) residuals and slopes along what the suspected nuisances span, which are not counted.
+        origin: (n,) where that is so; a point that was moved without another run has its own x.
+    """
+
+    along: Array = field(default_factory=lambda: np.zeros((0, 0)), repr=False)
+    origin: Array = field(default_factory=lambda: np.zeros(0), repr=False)
 
 
 @dataclass(frozen=True)
@@ -31,11 +48,50 @@ class Ruler:
         targets: to count; all of one use.
         solver: of the runs.
         workers: runs at a time; all cores where None.
+        noise: of each signal; white and as large as the targets have it where not named.
+        skips: per target, s at its start that do not count; none where empty.
+        suspected: nuisances that are allowed for: residuals and slopes are counted across what they span.
+        near: per run, what a model near the plant answers (n_t, n_y): the shape of the nuisances.
+        taken: nuisances that the targets are corrected for already.
+        whitenings, span: what follows from all that; left out, they are worked out.
     """
 
     targets: tuple[Target, ...]
     solver: Solver = field(default_factory=lambda: Rodas(rtol=1e-5, atol=1e-5))
     workers: int | None = None
+    noise: Mapping[Column, Noise] = field(default_factory=dict)
+    skips: tuple[float, ...] = ()
+    suspected: tuple[Suspect, ...] = ()
+    near: tuple[Array, ...] = field(default=(), repr=False)
+    taken: Mapping[Suspect, float] = field(default_factory=dict)
+    whitenings: tuple[Whitening, ...] = field(default=(), repr=False)
+    span: Span = field(default=NOTHING, repr=False)
+
+    def __post_init__(self) -> None:
+        if self.whitenings:
+            return
+        skips = self.skips or (0.0,) * len(self.targets)
+        maps = tuple(whitening(t, self.noise, skip) for t, skip in zip(self.targets, skips, strict=True))
+        rows, rest = [np.zeros((0, len(self.suspected)))], list(self.near)
+        for target, made in zip(self.targets, maps, strict=True):
+            own, rest = rest[: len(target.runs)], rest[len(target.runs) :]
+            rows.append(made.of(columns(target, own, self.suspected)) if self.suspected else rows[0])
+        object.__setattr__(self, "skips", skips)
+        object.__setattr__(self, "whitenings", maps)
+        object.__setattr__(self, "span", Span.of(np.concatenate(rows)))
+
+    def with_other(self, **changed: Any) -> Ruler:
+        """The ruler with other targets, noise, skips or nuisances."""
+        return replace(self, **{**changed, "whitenings": (), "span": NOTHING})
+
+    @property
+    def freedom(self) -> int:
+        """Independent residuals: rows less the directions of nuisances."""
+        return sum(w.size for w in self.whitenings) - self.span.rank
+
+    def count(self, model: Model, runs: Sequence[Experiment]) -> Array | None:
+        """Residuals (n_r,) of changed experiments, given in the order of `experiments`; None where one failed."""
+        return self._counted(simulate_many(model, list(runs), solver=self.solver, workers=self.workers))
 
     def experiments(self, overrides: Mapping[str, float]) -> list[Experiment]:
         """Every run, with parameters set."""
@@ -49,18 +105,22 @@ class Ruler:
         count = len(runs) // max(len(settings), 1)
         found: list[Array | None] = []
         for k in range(len(settings)):
-            own = records[k * count : (k + 1) * count]
-            if any(r.outcome is not Outcome.DONE or not np.isfinite(r.values).all() for r in own):
-                found.append(None)
-            else:
-                found.append(self._stacked([r.values for r in own]))
+            found.append(self._counted(records[k * count : (k + 1) * count]))
         return found
 
-    def _stacked(self, values: Sequence[Array]) -> Array:
-        rest, parts = [Simulated(v, np.zeros((*v.shape, 0))) for v in values], []
-        for target in self.targets:
+    def _counted(self, records: Sequence[Record]) -> Array | None:
+        if any(r.outcome is not Outcome.DONE or not np.isfinite(r.values).all() for r in records):
+            return None
+        rows = self._weighed([Simulated(r.values, np.zeros((*r.values.shape, 0))) for r in records])
+        return self.span.across(rows)[:, 0]
+
+    def _weighed(self, simulated: Sequence[Simulated]) -> Array:
+        """Residuals and, in the columns behind, their slopes, (n_r, 1 + n_x), nuisances and all."""
+        rest, parts = list(simulated), []
+        for target, made in zip(self.targets, self.whitenings, strict=True):
             own, rest = rest[: len(target.runs)], rest[len(target.runs) :]
-            parts.append(target.weighted(own).values)
+            residual = target.weighted(own)
+            parts.append(made.of(np.column_stack([residual.values, residual.slopes])))
         return np.concatenate(parts)
 
     def at(self, what: Extended, x: Array) -> Array | None:
@@ -69,13 +129,40 @@ class Ruler:
 
     def evaluation(self, what: Extended, x: Array) -> Evaluation:
         """Residuals and their slopes: exact for a model without events, else by one-sided differences."""
-        residual = self.at(what, x)
+        whole = replace(self, span=NOTHING)
+        residual = whole.at(what, x)
         if residual is None:
             return bad_point(x, "the model could not be simulated")
-        slopes = self._differences(what, x, residual) if self.has_events(what, x) else self._exact(what, x)
+        slopes = whole._differences(what, x, residual) if self.has_events(what, x) else whole._exact(what, x)
         if slopes is None:
             return bad_point(x, "the model could not be simulated beside this point")
-        return Evaluation(x, float(residual @ residual), residual, slopes)
+        return self.counted(x, np.column_stack([residual, slopes]))
+
+    def counted(self, x: Array, rows: Array) -> Counted:
+        """A point from residuals and slopes (n_r, 1 + n) with nothing taken off."""
+        along, across = self.span.along(rows), self.span.across(rows)
+        residual = across[:, 0].copy()
+        return Counted(x, float(residual @ residual), residual, across[:, 1:].copy(), along=along, origin=x)
+
+    def whole(self, what: Extended, point: Evaluation) -> Array | None:
+        """Residuals and slopes (n_r, 1 + n) of a point of this ruler with what lies along nuisances; None where the
+        model fails there.
+
+        A point that was moved since its slopes were run has its residuals run again, one without slopes has both.
+        """
+        if not (isinstance(point, Counted) and point.along.shape == (self.span.rank, 1 + point.x.size)):
+            point = self.evaluation(what, point.x)
+        if not isinstance(point, Counted):
+            return None
+        rows = np.column_stack([point.residual, point.jacobian])
+        if self.span.rank:
+            rows += self.span.basis @ point.along
+        if not np.array_equal(point.origin, point.x):
+            residual = replace(self, span=NOTHING).at(what, point.x)
+            if residual is None:
+                return None
+            rows[:, 0] = residual
+        return rows
 
     def has_events(self, what: Extended, x: Array) -> bool:
         """Whether the shortest test makes more events than its command has pieces."""
@@ -89,11 +176,7 @@ class Ruler:
         answer = simulate_runs(what.model, what.space, runs, x, [None] * len(runs), simulation)
         if answer.trouble:
             return None
-        rest, parts = list(answer.simulated), []
-        for target in self.targets:
-            own, rest = rest[: len(target.runs)], rest[len(target.runs) :]
-            parts.append(target.weighted(own).slopes)
-        return np.concatenate(parts)
+        return self._weighed(answer.simulated)[:, 1:]
 
     def _differences(self, what: Extended, x: Array, residual: Array) -> Array | None:
         """Away from the nearer bound."""
@@ -110,8 +193,13 @@ def _values(what: Extended, x: Array) -> dict[str, float]:
     return what.space.values(x)
 
 
-def rulers(targets: Sequence[Target], workers: int | None = None) -> tuple[Ruler, Ruler | None]:
-    """For what is fitted, and for what is held out if anything is."""
-    fitted = tuple(t for t in targets if t.use == "fit")
-    held = tuple(t for t in targets if t.use != "fit")
-    return Ruler(fitted, workers=workers), Ruler(held, workers=workers) if held else None
+def rulers(targets: Sequence[Target], workers: int | None = None, *, told: bool = True) -> tuple[Ruler, Ruler | None]:
+    """For what is fitted, and for what is held out if anything is, with the noise that the logs show.
+
+    Args:
+        told: whether the noise in the targets is told by the data set; seen otherwise, with noise as white.
+    """
+    noise = estimated_noise(targets, told=told)
+    fitted, held = (tuple(t for t in targets if (t.use == "fit") is fit) for fit in (True, False))
+    ruler = Ruler(fitted, workers=workers, noise=noise)
+    return ruler, Ruler(held, workers=workers, noise=noise) if held else None

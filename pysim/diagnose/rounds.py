@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from pysim.diagnose import decide
 from pysim.diagnose.contenders import Contender
 from pysim.diagnose.fitted import Fitted
+from pysim.diagnose.null import chance
 from pysim.diagnose.refit import chord_refit, refit_from
 from pysim.diagnose.screen import Footprint, per_effect, screen
 from pysim.diagnose.start import start_at, start_off
@@ -73,7 +74,7 @@ def screened(story: Story, current: Fitted) -> Tried:
     story.stage("build")
     story.now(f"screening {len(contenders)} candidates")
     footprints = screen(current, list(contenders.values()))
-    limit = decide.chance(footprints, scale=1.0, seed=story.seed).limit
+    limit = chance(footprints, scale=1.0, seed=story.seed).limit
     story.stage("screen")
     heads = ", ".join(f"{f.effect.name} {f.gain:.4g}" for f in per_effect(footprints)[:3])
     story.say(f"screened {len(contenders)} effects: {heads}; by chance up to {limit:.3g}")
@@ -205,8 +206,8 @@ def rows(story: Story, tried: Tried, found: dict[str, Fitted], number: int) -> l
         if f.effect.name not in [row.effect for row in listed]:
             worth = f.gain - len(f.effect.parameters) * math.log(max(current.residual.size, 2))
             share = decide.explained(f.gain, current.cost, freedom)
-            chance = decide.p_value(f.gain, 1, scale=1.0)
-            listed.append(Candidate(f.effect.name, worth, chance, share, False, f.values, number))
+            by_chance = decide.p_value(f.gain, 1, scale=1.0)
+            listed.append(Candidate(f.effect.name, worth, by_chance, share, False, f.values, number))
     return listed
 
 

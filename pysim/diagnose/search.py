@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from pysim.diagnose import decide
 from pysim.diagnose.fitted import Fitted
+from pysim.diagnose.null import ALARM
 from pysim.diagnose.pairs import Pair, joint
 from pysim.diagnose.refit import chord_refit, refit_from
 from pysim.diagnose.rounds import (
@@ -212,7 +213,7 @@ def _objection(story: Story, current: Fitted, best: Fitted) -> str:
     gain, extra = point.cost - best.point.cost, best.point.x.size - point.x.size
     share = decide.explained(gain, point.cost, freedom)
     chance = decide.p_value(gain, extra, scale=decide.inflation(best.point)) * len(story.subject.catalogue)
-    if score(current, best) <= 0 or chance > decide.ALARM:
+    if score(current, best) <= 0 or chance > ALARM:
         return f"{name} gains no more than chance"
     if share < decide.FAIR:
         return f"{name} takes {100 * share:.1f} % of the misfit: not enough to be named"

@@ -1,0 +1,143 @@
+"""What makes measurements differ from a model though no physics is missing: sensors, loggers, wrong starts."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pysim.identify.greybox.harmonics import regressors
+from pysim.identify.greybox.log_target import LogTarget
+from pysim.identify.greybox.sine_log import SineLog
+from pysim.identify.greybox.sine_target import SineTarget
+from pysim.identify.greybox.target import Target
+
+Array = NDArray[np.float64]
+
+GAIN, OFFSET, SHIFT = "gain", "offset", "shift"
+
+
+@dataclass(frozen=True)
+class Suspect:
+    """A nuisance that the data may hold.
+
+    Args:
+        kind: GAIN (share beyond 1), OFFSET (the signal's unit) or SHIFT (s by which outputs are logged late).
+        dataset: where.
+        signal: of which column; "" for all of the data set.
+    """
+
+    kind: str
+    dataset: str
+    signal: str
+
+
+@dataclass(frozen=True)
+class Span:
+    """What the suspects can do to all residuals together.
+
+    Args:
+        columns: (n_r, k), one unit of each.
+        basis: (n_r, rank) orthonormal.
+    """
+
+    columns: Array
+    basis: Array
+
+    @property
+    def rank(self) -> int:
+        """Directions."""
+        return int(self.basis.shape[1])
+
+    @staticmethod
+    def of(columns: Array) -> Span:
+        """Directions in which hardly anything happens are left out."""
+        sizes = np.linalg.norm(columns, axis=0)
+        used = columns[:, sizes > 0] / sizes[sizes > 0]
+        if not used.shape[1]:
+            return Span(columns, np.zeros((columns.shape[0], 0)))
+        u, s, _ = np.linalg.svd(used, full_matrices=False)
+        return Span(columns, np.ascontiguousarray(u[:, s > 1e-6 * s[0]]))
+
+    def along(self, rows: Array) -> Array:
+        """Components (rank, m) of rows (n_r, m)."""
+        return np.asarray(self.basis.T @ rows) if self.rank else np.zeros((0, rows.shape[1]))
+
+    def across(self, rows: Array) -> Array:
+        """The part of rows (n_r, m) that no suspect reaches."""
+        return rows - self.basis @ (self.basis.T @ rows) if self.rank else rows
+
+
+NOTHING = Span(np.zeros((0, 0)), np.zeros((0, 0)))
+"""The span of no suspect."""
+
+
+def suspects(targets: Sequence[Target]) -> tuple[Suspect, ...]:
+    """A gain and an offset of each logged output, and a shift of each data set's outputs against its commands."""
+    found: dict[Suspect, None] = {}
+    for target in targets:
+        parts = [target] if isinstance(target, LogTarget) else target.logs if isinstance(target, SineTarget) else ()
+        for part in parts:
+            dataset = target.dataset  # type: ignore[attr-defined]
+            for name in part.measured.names:
+                found[Suspect(GAIN, dataset, name)] = None
+                found[Suspect(OFFSET, dataset, name)] = None
+            found[Suspect(SHIFT, dataset, "")] = None
+    return tuple(found)
+
+
+def columns(target: Target, simulated: Sequence[Array], suspected: Sequence[Suspect]) -> Array:
+    """What one unit of each suspect adds to a target's weighted residuals, (n, k).
+
+    Args:
+        simulated: (n_t, n_y) of each of the target's runs, by a model near the plant: the measured signals would bring
+            their noise along, and noise explains itself.
+    """
+    if isinstance(target, LogTarget):
+        level = simulated[0]
+        one, rate = np.ones_like(level), _rate(target.measured.time, level)
+        return _placed(target.dataset, target.measured.names, np.array(target.noise), suspected, (level, one, rate))
+    if isinstance(target, SineTarget):
+        pairs = zip(target.logs, simulated, strict=True)
+        return np.concatenate([_sine_columns(target.dataset, log, values, suspected) for log, values in pairs])
+    # a response that exists as a table only has lost its means and its clock
+    return np.zeros((0, len(suspected)))
+
+
+def _placed(
+    dataset: str, names: tuple[str, ...], noise: Array, suspected: Sequence[Suspect], shapes: tuple[Array, ...]
+) -> Array:
+    """Level, one and rate (n, n_y) of one log in the columns of its suspects."""
+    level, one, rate = shapes
+    found = np.zeros((*level.shape, len(suspected)))
+    for k, suspect in enumerate(suspected):
+        if suspect.dataset != dataset:
+            continue
+        shape = {GAIN: level, OFFSET: one, SHIFT: rate}[suspect.kind] / noise
+        for j, name in enumerate(names):
+            if suspect.signal in ("", name):
+                found[:, j, k] = shape[:, j]
+    return found.reshape(-1, len(suspected))
+
+
+def _rate(time: Array, values: Array) -> Array:
+    """Of signals (n_t, n_y) over time, by parabolas, and by quartics inside of an evenly sampled log."""
+    rate = np.gradient(values, time, axis=0, edge_order=2 if time.size > 2 else 1)
+    interval = np.diff(time)
+    if time.size > 8 and np.ptp(interval) < 1e-3 * interval.mean():
+        wide = values[:-4] - 8 * values[1:-3] + 8 * values[3:-1] - values[4:]
+        rate[2:-2] = wide / (12 * interval.mean())
+    return np.asarray(rate)
+
+
+def _sine_columns(dataset: str, log: SineLog, values: Array, suspected: Sequence[Suspect]) -> Array:
+    q, r = np.linalg.qr(regressors(log.phase, log.count))
+    level = log.onto @ values
+    swings = np.linalg.solve(r, level)
+    rates = np.zeros_like(swings)
+    turn = 2 * np.pi * log.sine.frequency * np.arange(1, log.count + 1)[:, None]
+    rates[1::2], rates[2::2] = -turn * swings[2::2], turn * swings[1::2]
+    one = np.tile(q.sum(axis=0)[:, None], (1, level.shape[1]))
+    return _placed(dataset, log.measured.names, np.array(log.noise), suspected, (level, one, r @ rates))

@@ -1,0 +1,226 @@
+"""Makes the residuals of a target independent: what earlier samples tell of the noise is taken off each one."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+import numba
+import numpy as np
+from numpy.typing import NDArray
+
+from pysim.diagnose.noise import Column, Noise, white
+from pysim.identify.greybox.harmonics import regressors
+from pysim.identify.greybox.log_target import LogTarget
+from pysim.identify.greybox.sine_log import SineLog
+from pysim.identify.greybox.sine_target import SineTarget
+from pysim.identify.greybox.target import Residual, Simulated, Target
+
+Array = NDArray[np.float64]
+
+_compiled: Any = numba.njit(nogil=True, error_model="numpy", cache=True)
+
+
+class Whitening(Protocol):
+    """A linear map of a target's residuals, slopes alike."""
+
+    @property
+    def size(self) -> int:
+        """Rows that come out."""
+        ...
+
+    def of(self, rows: Array) -> Array:
+        """Rows (n, m) as the target weighs them -> (size, m), independent and of variance 1."""
+        ...
+
+
+def whitening(target: Target, noise: Mapping[Column, Noise], skip: float = 0.0) -> Whitening:
+    """What a target's residuals need.
+
+    Args:
+        noise: of each signal; white as the target has it where it is not named.
+        skip: s at the start of a log over time that do not count.
+    """
+    if isinstance(target, LogTarget):
+        return _log(target, noise, skip)
+    if isinstance(target, SineTarget):
+        sizes = tuple(2 * log.count + 1 for log in target.logs)
+        return Harmonics(tuple(_harmonics(target.dataset, log, noise) for log in target.logs), sizes)
+    return Untouched(target.weighted(_swings(target)).values.size)
+
+
+def whitened(whitening: Whitening, residual: Residual) -> Residual:
+    """Values and slopes in one pass."""
+    rows = whitening.of(np.column_stack([residual.values, residual.slopes]))
+    return Residual(rows[:, 0], rows[:, 1:])
+
+
+def _swings(target: Target) -> list[Simulated]:
+    """A plain sine in place of each run, to count by."""
+    found = []
+    for run in target.runs:
+        n = run.experiment.times.size
+        swing = np.sin(2 * np.pi * np.arange(n) / n)[:, None] * np.ones(len(run.experiment.record))
+        found.append(Simulated(swing, np.zeros((*swing.shape, 0))))
+    return found
+
+
+@dataclass(frozen=True)
+class Untouched:
+    """Rows that are independent as they are."""
+
+    size: int
+
+    def of(self, rows: Array) -> Array:
+        """The same rows."""
+        return rows
+
+
+@dataclass(frozen=True)
+class Innovations:
+    """A log over time, sample by sample: what could not be predicted from the samples before.
+
+    White noise beside noise with memory is a state of one number per signal; its Kalman filter starts at rest, as
+    likely as the noise itself, so that the first sample counts too.
+
+    Args:
+        first: samples left out at the start.
+        kept: (n_t, n_y) share of the predicted noise that is left one sample later.
+        gain: (n_t, n_y) of the prediction by what was not predicted.
+        scale: (n_t, n_y) over the deviation of what was not predicted.
+    Source: Kalman 1960, Journal of Basic Engineering 82:35; for likelihoods Schweppe 1965, IEEE Transactions on
+        Information Theory 11:61.
+    """
+
+    first: int
+    kept: Array
+    gain: Array
+    scale: Array
+
+    @property
+    def size(self) -> int:
+        """Rows that come out."""
+        return int(self.scale.size)
+
+    def of(self, rows: Array) -> Array:
+        """Samples in order, signal by signal within each."""
+        signals = self.scale.shape[1]
+        kept = np.ascontiguousarray(rows.reshape(-1, signals, rows.shape[1])[self.first :])
+        if not self.gain.any():
+            return (kept * self.scale[:, :, None]).reshape(-1, rows.shape[1])
+        return np.asarray(_innovations(kept, self.kept, self.gain, self.scale)).reshape(-1, rows.shape[1])
+
+
+@dataclass(frozen=True)
+class Harmonics:
+    """Stepped sines: the harmonics of one log and signal depend on each other where their noise has memory.
+
+    Args:
+        logs: per log and signal the triangle (n_h, n_h) that undoes it, or None.
+        sizes: n_h of each log.
+    """
+
+    logs: tuple[tuple[Array | None, ...], ...]
+    sizes: tuple[int, ...]
+
+    @property
+    def size(self) -> int:
+        """Rows that come out."""
+        return sum(size * len(log) for size, log in zip(self.sizes, self.logs, strict=True))
+
+    def of(self, rows: Array) -> Array:
+        """Log by log, harmonic by harmonic, signal by signal within each."""
+        if all(undo is None for log in self.logs for undo in log):
+            return rows
+        found, place = np.array(rows), 0
+        for size, log in zip(self.sizes, self.logs, strict=True):
+            own = found[place : place + size * len(log)].reshape(size, len(log), -1)
+            for j, undo in enumerate(log):
+                if undo is not None:
+                    own[:, j] = undo @ own[:, j]
+            place += size * len(log)
+        return found
+
+
+def _log(target: LogTarget, noise: Mapping[Column, Noise], skip: float) -> Innovations:
+    time = target.measured.time
+    first = int(np.searchsorted(time, time[0] + skip - 1e-9)) if skip > 0 else 0
+    steps = np.diff(time[first:])
+    columns = [
+        _filter(steps, noise.get((target.dataset, name), white(size)), size)
+        for name, size in zip(target.measured.names, target.noise, strict=True)
+    ]
+    kept, gain, scale = (np.ascontiguousarray(np.stack(part, axis=1)) for part in zip(*columns, strict=True))
+    return Innovations(first, kept, gain, scale)
+
+
+def _filter(steps: Array, noise: Noise, unit: float) -> tuple[Array, Array, Array]:
+    """The Kalman filter of one signal's noise, in units of what the target divides by."""
+    n = steps.size + 1
+    if noise.coloured == 0.0:
+        return np.zeros(n), np.zeros(n), np.full(n, unit / noise.white)
+    kept = np.append(np.exp(-steps / noise.memory), 0.0)
+    gain, scale = _gains(kept, (noise.white / unit) ** 2, (noise.coloured / unit) ** 2)
+    return kept, gain, scale
+
+
+@_compiled
+def _gains(kept: Array, white: float, coloured: float) -> tuple[Array, Array]:
+    gain, scale = np.empty_like(kept), np.empty_like(kept)
+    unknown = coloured
+    for t in range(kept.size):
+        total = unknown + white
+        gain[t] = unknown / total
+        scale[t] = 1 / math.sqrt(total)
+        unknown = kept[t] ** 2 * unknown * (1 - gain[t]) + coloured * (1 - kept[t] ** 2)
+    return gain, scale
+
+
+@_compiled
+def _innovations(rows: Array, kept: Array, gain: Array, scale: Array) -> Array:
+    n, signals, columns = rows.shape
+    found = np.empty_like(rows)
+    predicted = np.zeros((signals, columns))
+    for t in range(n):
+        for j in range(signals):
+            for c in range(columns):
+                new = rows[t, j, c] - predicted[j, c]
+                found[t, j, c] = new * scale[t, j]
+                predicted[j, c] = kept[t, j] * (predicted[j, c] + gain[t, j] * new)
+    return found
+
+
+def _harmonics(dataset: str, log: SineLog, noise: Mapping[Column, Noise]) -> tuple[Array | None, ...]:
+    found: list[Array | None] = []
+    columns = None
+    for name, unit in zip(log.measured.names, log.noise, strict=True):
+        own = noise.get((dataset, name), white(unit))
+        if own.plain:
+            found.append(None)
+            continue
+        if columns is None:
+            columns = np.linalg.qr(regressors(log.phase, log.count))[0]
+        spread = (own.white**2 * np.eye(columns.shape[1]) + own.coloured**2 * _products(log, own, columns)) / unit**2
+        found.append(np.linalg.inv(np.linalg.cholesky(spread)))
+    return tuple(found)
+
+
+def _products(log: SineLog, noise: Noise, columns: Array) -> Array:
+    """Covariance of the columns' products with noise with memory of variance 1."""
+    if noise.coloured == 0.0:
+        return np.eye(columns.shape[1])
+    kept = np.exp(-np.diff(log.measured.time) / noise.memory)
+    weighted = columns + _carried(columns, kept) + _carried(columns[::-1].copy(), kept[::-1].copy())[::-1]
+    return np.asarray(columns.T @ weighted)
+
+
+@_compiled
+def _carried(rows: Array, kept: Array) -> Array:
+    """What is left of all earlier rows at each one."""
+    found = np.zeros_like(rows)
+    for t in range(1, rows.shape[0]):
+        for c in range(rows.shape[1]):
+            found[t, c] = kept[t - 1] * (found[t - 1, c] + rows[t - 1, c])
+    return found

@@ -1,0 +1,64 @@
+"""What a gain, an offset and a shift do to residuals, against measurements that were changed so."""
+
+import numpy as np
+import pytest
+
+from pysim.diagnose.nuisance import GAIN, OFFSET, SHIFT, Span, Suspect, columns, suspects
+from pysim.identify.greybox.harmonics import interpolation
+from pysim.identify.greybox.target import Simulated
+from tests.pysim.diagnose.logs import sines, wave
+
+SUSPECTS = (Suspect(GAIN, "data", "y"), Suspect(OFFSET, "data", "y"), Suspect(SHIFT, "data", ""))
+
+
+def swing(time: np.ndarray) -> np.ndarray:
+    return 3 + 4 * np.sin(5 * time) + np.cos(11 * time)
+
+
+def test_suspects_of_signals_and_clocks() -> None:
+    assert set(suspects([sines(np.zeros, 0.1), wave(np.zeros(40), 0.1)])) == set(SUSPECTS)
+
+
+def test_a_log_changes_as_its_columns_say() -> None:
+    time = np.arange(500) / 250
+    plain, near = wave(swing(time), 0.1), swing(time)[:, None]
+    found = columns(plain, [near], SUSPECTS)
+    still = Simulated(near, np.zeros((500, 1, 0)))
+    for k, changed in enumerate((1.01 * swing(time), swing(time) + 0.01, swing(time + 0.01 / 100))):
+        size = 0.01 if k < 2 else 0.01 / 100
+        moved = wave(changed, 0.1).weighted([still]).values - plain.weighted([still]).values
+        assert moved / size == pytest.approx(found[:, k], rel=1e-2, abs=1e-2 * np.abs(found[:, k]).max())
+
+
+def test_stepped_sines_change_as_their_columns_say() -> None:
+    def orbit(log, late=0.0):  # type: ignore[no-untyped-def]
+        w = 2 * np.pi * log.sine.frequency
+        at = np.arange(log.points) / log.points / log.sine.frequency + late
+        return (3 + 10 * np.sin(w * at) + np.cos(2 * w * at) - 0.5 * np.sin(3 * w * at))[:, None]
+
+    target = sines(np.zeros, 0.1)
+    found = columns(target, [orbit(log) for log in target.logs], SUSPECTS)
+    place = 0
+    for log in target.logs:
+        rows = slice(place, place + 2 * log.count + 1)
+        place = rows.stop
+        near = log.onto @ orbit(log) / 0.1
+        assert found[rows, 0] == pytest.approx(near[:, 0])
+        by_offset = log.onto @ (orbit(log) + 1) / 0.1 - near
+        assert found[rows, 1] == pytest.approx(by_offset[:, 0], abs=1e-8)
+        step = 1e-7
+        by_shift = (log.onto @ orbit(log, step) - log.onto @ orbit(log, -step)) / 0.1 / (2 * step)
+        assert found[rows, 2] == pytest.approx(by_shift[:, 0], rel=1e-4, abs=1e-4 * np.abs(by_shift).max())
+    assert interpolation(log.phase, log.points).shape == (log.phase.size, log.points)
+
+
+def test_what_is_across_has_nothing_along() -> None:
+    rng = np.random.default_rng(1)
+    given = rng.standard_normal((30, 3))
+    span = Span.of(np.column_stack([given, given[:, 0] - 2 * given[:, 1], np.zeros(30)]))
+    assert span.rank == 3
+    rows = rng.standard_normal((30, 2))
+    across = span.across(rows)
+    assert np.abs(given.T @ across).max() < 1e-12
+    assert span.across(across) == pytest.approx(across)
+    assert Span.of(np.zeros((4, 0))).across(rows[:4]) is not None
