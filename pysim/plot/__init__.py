@@ -18,6 +18,7 @@ from pysim.plot.fit import (
 )
 from pysim.plot.frf import frf_figure
 from pysim.plot.friction import friction_figure
+from pysim.plot.missing import missing_figure
 from pysim.plot.multisine import multisine_figure
 from pysim.plot.render import render
 from pysim.plot.time_response import time_response_figure
@@ -41,6 +42,7 @@ __all__ = [
     "fit_record_figure",
     "frf_figure",
     "friction_figure",
+    "missing_figure",
     "multisine_figure",
     "render",
     "telling_records",

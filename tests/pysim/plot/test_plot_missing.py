@@ -1,0 +1,41 @@
+"""The missing term's picture: units that people read, the band, and what it says below."""
+
+import numpy as np
+import pytest
+
+from pysim.plot import missing_figure, render
+from pysim.types import BadInput, Missing, Shape
+
+V = np.linspace(-0.3, 0.3, 61)
+
+
+def friction(absorbed: np.ndarray = np.zeros((0, 0)), formula: str = "") -> Missing:  # noqa: B008
+    force = -80 * np.tanh(V / 1e-3)
+    shape = Shape(V, force, force - 5, force + 5, "m/s", "N", absorbed)
+    return Missing("pistonForce", 0.987, "pistonForce.v", shape, formula)
+
+
+def test_axes_are_in_units_that_people_read() -> None:
+    axes = missing_figure(friction()).axes[0]
+    assert axes.get_xlabel() == "pistonForce.v (mm/s)"
+    assert axes.get_ylabel() == "Missing force at pistonForce (N)"
+    assert axes.get_xlim() == pytest.approx((-300, 300))
+    assert axes.lines[0].get_ydata()[0] == pytest.approx(80.0)
+
+
+def test_the_band_lies_around_the_term() -> None:
+    edges = missing_figure(friction()).axes[0].collections[0].get_paths()[0].vertices
+    assert (edges[:, 1].min(), edges[:, 1].max()) == pytest.approx((-85.0, 85.0))
+
+
+def test_what_refitting_absorbs_is_said() -> None:
+    told = missing_figure(friction(V[:, None], "-80 N sign(pistonForce.v)"))._supxlabel.get_text()
+    assert told.splitlines()[0] == "-80 N sign(pistonForce.v)"
+    assert "parameters do as well" in told
+    assert render(missing_figure(friction()), "svg").startswith(b"<?xml")
+
+
+def test_a_single_point_is_refused() -> None:
+    one = np.zeros(1)
+    with pytest.raises(BadInput, match="needs two points"):
+        missing_figure(Missing("a", 1.0, "b", Shape(one, one, one, one, "1", "1")))
