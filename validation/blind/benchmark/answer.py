@@ -20,7 +20,7 @@ class Answer:
         day: on which it was answered, as year-month-day.
         verdict: "" where there is none.
         added: effects, in order.
-        ranking: the first two candidates.
+        ranking: the first two candidates for the base model.
         confusable: groups that the answer says it cannot tell apart.
         footprint: sum of squares over noise that the base model leaves of the noise-free readings.
         parts: the same of each effect in force, once the base model has all others.

@@ -31,7 +31,7 @@ def examine(case: Case) -> Answer:
         datetime.now(UTC).date().isoformat(),
         found.verdict,
         tuple(one.effect.name for one in found.added),
-        tuple(candidate.effect for candidate in found.ranking[:2]),
+        tuple(candidate.effect for candidate in found.ranking if candidate.round == 1)[:2],
         found.confusable,
         wall=wall,
         cpu=cpu,

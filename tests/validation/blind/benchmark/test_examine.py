@@ -20,7 +20,8 @@ def test_the_answer_of_a_case(monkeypatch: pytest.MonkeyPatch) -> None:
 
     def fake(subject: Any, **settings: Any) -> Diagnosis:
         seen.update(settings, catalogue=[e.name for e in subject.catalogue], data=repr(subject.targets))
-        candidates = tuple(Candidate(name, 1.0, 0.5, 0.1) for name in ("oil.air", "sensor.lag", "swash.bias"))
+        names = (("oil.air", 1), ("valve.offset", 2), ("sensor.lag", 1), ("swash.bias", 1))
+        candidates = tuple(Candidate(name, 1.0, 0.5, 0.1, round=number) for name, number in names)
         ledger = (SimpleNamespace(validate=2.5),)
         return Diagnosis("unknown", "", (), candidates, (("oil.air", "sensor.lag"),), ledger, (), (), {})  # type: ignore[arg-type]
 
