@@ -13,6 +13,9 @@ if TYPE_CHECKING:
     from pysim.types import Dataset, Diagnosis
 
 
+_PLACES = 3  # whose missing term is drawn
+
+
 def write_diagnosis(
     found: Diagnosis, given: Given, folder: Path, redo: str, *, question: str, answer: str
 ) -> dict[str, Path]:
@@ -70,6 +73,7 @@ def _figures(found: Diagnosis, dataset: Dataset) -> Iterator[tuple[str, str, str
         )
         yield "ledger", "ledger", caption, diagnosis_ledger_figure(found.error)
     yield from _record_figures(found, dataset)
+    yield from _missing_figures(found)
     if found.ranking:
         caption = "Candidates by what they gain less their price; n is the number of residuals."
         yield "ranking", "ranking", caption, diagnosis_ranking_figure(found)
@@ -79,6 +83,18 @@ def _figures(found: Diagnosis, dataset: Dataset) -> Iterator[tuple[str, str, str
         caption = "Parameters between their bounds, and by how much they moved once what was missing was in the model."
         caption = caption if last else "The refitted parameters between their bounds."
         yield "parameters", "parameters", caption, diagnosis_parameters_figure(base, last)
+
+
+def _missing_figures(found: Diagnosis) -> Iterator[tuple[str, str, str, Figure]]:
+    from pysim.plot import missing_figure
+
+    for k, one in enumerate(found.missing[:_PLACES]):
+        if one.shape.argument.size > 1:
+            caption = (
+                f"What the model would need at {one.slot}, over {one.depends_on}, with its 95 percent band: "
+                f"{100 * one.share:.1f} % of the misfit."
+            )
+            yield "missing", f"missing_{k + 1}", caption, missing_figure(one)
 
 
 def _record_figures(found: Diagnosis, dataset: Dataset) -> Iterator[tuple[str, str, str, Figure]]:
