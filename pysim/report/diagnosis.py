@@ -137,6 +137,12 @@ def evidence_text(diagnosis: Diagnosis) -> str:
             own = [row for row in diagnosis.ranking if row.round == number][: 6 if number == 1 else 3]
             lines += [f"  round {number}"] if number > 1 else []
             lines += [f"  {row.effect:<24} {row.score:14.5g} {100 * row.explained:9.2f} %" for row in own]
+    if diagnosis.missing:
+        lines += ["", "Missing at                over                of the misfit"]
+        lines += [
+            f"  {one.slot:<23} {one.depends_on:<23} {100 * one.share:6.1f} %  {one.formula}".rstrip()
+            for one in diagnosis.missing[:6]
+        ]
     lines += [f"Not told apart by these data: {', '.join(group)}" for group in diagnosis.confusable]
     for note in diagnosis.notes:
         lines += textwrap.wrap(f"Note: {note}", _WIDTH, subsequent_indent="  ")

@@ -55,6 +55,18 @@ def ranking_sentence(diagnosis: Diagnosis) -> str:
     return f"{len(paying)} of {count} candidates gain more than their price: {listed}. Nothing was decided."
 
 
+def missing_sentence(diagnosis: Diagnosis) -> str:
+    """Where a term is missing most likely, and what it looks like."""
+    if not diagnosis.missing:
+        return "Nothing could be looked at inside the model: its Modelica class is not at hand."
+    first = diagnosis.missing[0]
+    shape = f"; {first.formula}" if first.formula else ""
+    texts = [f"What is missing fits best at {first.slot}, over {first.depends_on}{shape}."]
+    texts.append(f"It takes {share_text(first.share)} of the misfit.")
+    rest = [f"{one.slot} {share_text(one.share)}" for one in diagnosis.missing[1:4]]
+    return " ".join([*texts, *([f"Next: {', '.join(rest)}."] if rest else [])])
+
+
 def added_sentence(diagnosis: Diagnosis) -> str:
     """What the effects that were asked for do to the error."""
     last = diagnosis.error[-1]

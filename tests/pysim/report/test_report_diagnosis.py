@@ -6,9 +6,16 @@ from dataclasses import replace
 
 import numpy as np
 
-from pysim.report.diagnosis import diagnosis_data, diagnosis_text
+from pysim.report.diagnosis import diagnosis_data, diagnosis_text, evidence_text
 from pysim.report.diagnosis_page import diagnosis_page
-from pysim.report.diagnosis_words import sizes, verdict_sentence
+from pysim.report.diagnosis_words import (
+    added_sentence,
+    comparison_sentence,
+    missing_sentence,
+    ranking_sentence,
+    sizes,
+    verdict_sentence,
+)
 from pysim.types import AddedEffect, Missing, NextTest, Shape
 from tests.pysim.diagnosis_story import OFFSET, estimate, nothing, step, story
 
@@ -33,6 +40,28 @@ def test_the_verdict_is_one_plain_sentence() -> None:
     )
     alone = story(error=(step("prior", 3.0, None, 0.1), step("refit", 2.0, None, 0.1), step("x", 1.0, None, 0.1)))
     assert verdict_sentence(alone).endswith("falls from 2.00 to 1.00 times the noise on what was fitted.")
+
+
+def test_a_missing_term_is_told_by_place_shape_and_share() -> None:
+    other = replace(MISSING, slot="supply", share=0.12)
+    assert missing_sentence(story(missing=(MISSING, other))) == (
+        "What is missing fits best at force, over v; -0.4 sign(v). It takes 97.0 % of the misfit. Next: supply 12.0 %."
+    )
+    assert "force" in evidence_text(story(missing=(MISSING,)))
+    assert missing_sentence(story()).startswith("Nothing could be looked at")
+
+
+def test_the_steps_alone_have_sentences_of_their_own() -> None:
+    assert comparison_sentence(nothing()).startswith(
+        "As it is, the model leaves 8.10 times the noise on what is fitted and 8.00 times the noise on what is held "
+        "out and does not meet thesis Tables 1.3 and 1.4. Refitted, it leaves 4.20 times"
+    )
+    assert ranking_sentence(story()).startswith("3 of 4 candidates gain more than their price: toy.offset (99.0 % of")
+    assert ranking_sentence(story(ranking=story().ranking[3:])) == "None of 1 candidates gains more than its price."
+    assert added_sentence(story()) == (
+        "Added as asked: constant force (toy.offset). With it the error falls from 4.20 to 1.00 times the noise on "
+        "what was fitted and from 3.20 to 1.01 times the noise on what was held out. Thesis Tables 1.3 and 1.4 are met."
+    )
 
 
 def test_a_size_that_people_turn_over_is_told_both_ways() -> None:
