@@ -34,7 +34,7 @@ class Shot:
         mismatch: largest entry of `step`, in amplitudes of the orbit.
         by: (n_x, n_p) derivative of the periodic states by the parameters.
         drift: largest mismatch, in amplitudes, that no correction can remove.
-        resolved: whether `step` is no longer than the choice of the integration's steps can move it.
+        jumps: (n_x,) by how much the choice of the integration's steps may move `step`, at least.
     """
 
     varied: Varied
@@ -43,7 +43,12 @@ class Shot:
     mismatch: float
     by: Array
     drift: float
-    resolved: bool
+    jumps: Array
+
+    @property
+    def resolved(self) -> bool:
+        """Whether the correction is no longer than that."""
+        return bool(np.all(np.abs(self.step) <= self.jumps))
 
 
 @dataclass(frozen=True)
@@ -135,8 +140,8 @@ def _examine(varied: Varied, start: Array, solver: Esdirk, tolerance: float) -> 
     mismatch = varied.states - start
     solved, drift = _fixed_point(varied.by[:, :n], np.column_stack([mismatch, varied.by[:, n:]]), scale, solver.rtol)
     step = solved[:, 0]
-    resolved = bool(np.all(np.abs(step) <= np.maximum(tolerance * scale, _JUMPY * _step_error(varied, solver))))
-    return Shot(varied, start, step, float(np.max(np.abs(step / scale), initial=0.0)), solved[:, 1:], drift, resolved)
+    jumps = np.maximum(tolerance * scale, _JUMPY * _step_error(varied, solver))
+    return Shot(varied, start, step, float(np.max(np.abs(step / scale), initial=0.0)), solved[:, 1:], drift, jumps)
 
 
 def _fixed_point(monodromy: Array, right: Array, scale: Array, least: float) -> tuple[Array, float]:

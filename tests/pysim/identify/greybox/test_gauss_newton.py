@@ -1,3 +1,5 @@
+import zlib
+
 import numpy as np
 import pytest
 from scipy.optimize import lsq_linear
@@ -81,6 +83,23 @@ def test_a_valley_that_bends_has_an_end() -> None:
     state = search(evaluate, GaussNewton(), s, s.start, squares=True)
     assert state.outcome is FitOutcome.CONVERGED, state.message
     assert state.best.x == pytest.approx([0.0], abs=0.1)
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_costs_that_jump_from_point_to_point_end_the_search_near_the_optimum(seed: int) -> None:
+    """Linear residuals of unit noise, on 30 of them a jump of 0.01 that no slope tells, as step control leaves it."""
+    a, b = linear(seed, 10_000, 4)
+    optimum = np.linalg.lstsq(a, b, rcond=None)[0]
+
+    def jumping(x: np.ndarray) -> np.ndarray:
+        rng = np.random.default_rng(zlib.crc32(x.tobytes()))
+        return np.asarray(a @ x - b + np.append(rng.normal(0.0, 0.01, 30), np.zeros(len(b) - 30)))
+
+    s = space((optimum + 0.3).tolist())
+    state = search(evaluating(jumping, lambda x: a), GaussNewton(), s, s.start, squares=True)
+    assert state.outcome is FitOutcome.CONVERGED, state.message
+    assert np.linalg.norm(a @ (state.best.x - optimum)) < 0.1  # standard deviations of the estimates
+    assert state.tried <= 6
 
 
 def test_a_slope_that_lies_ends_in_a_stall() -> None:
