@@ -54,7 +54,8 @@ def _compile(
     name = source.name
     if modification or not source.is_single_file:
         name = WRAPPER
-        text += f"\nmodel {WRAPPER}\n  extends {source.name}{modification};\nend {WRAPPER};\n"
+        named = "" if source.is_single_file else _imports(libraries)
+        text += f"\nmodel {WRAPPER}\n{named}  extends {source.name}{modification};\nend {WRAPPER};\n"
     file_name = _stand_in(source) if joined.parts else f"{WRAPPER}.mo"
     files = [str(file) for file in (*joined.parts, *_library_files(libraries))]
     request = {"roots": roots, "text": text, "name": name, "file_name": file_name, "files": files}
@@ -66,6 +67,12 @@ def _compile(
         if known[1] == _stand_in(source):
             known[1] = joined
     return dae, flat
+
+
+def _imports(libraries: Sequence[Path]) -> str:
+    """Names each library: rumoca reads those that the text names, and not those that the classes of another name."""
+    names = dict.fromkeys(library.name for library in libraries if library.is_dir())  # one may be given twice
+    return "".join(f"  import {name};\n" for name in names)
 
 
 def _stand_in(source: ClassSource) -> str:

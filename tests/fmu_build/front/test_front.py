@@ -259,3 +259,15 @@ def test_a_class_behind_a_syntax_error_is_refused_for_the_error(write):
     with pytest.raises(BuildError, match="syntax error") as caught:
         load("P.B", [file])
     assert (caught.value.file, caught.value.line) == (file, 3)
+
+
+def test_a_library_may_use_another(tmp_path):
+    """rumoca alone reads no library that only the classes of another name."""
+    for name, body in (
+        ("Parts", "model Lag\n  Real x(start=1, fixed=true);\nequation\n  der(x) = -x;\nend Lag;"),
+        ("Plant", "model Two\n  Parts.Lag first;\n  Real y = 2*first.x;\nend Two;"),
+    ):
+        (tmp_path / name).mkdir()
+        (tmp_path / name / "package.mo").write_text(f"within ;\npackage {name}\n{body}\nend {name};\n")
+    model = load("Plant.Two", [tmp_path / "Plant", tmp_path / "Parts"])
+    assert {"first.x", "y"} <= {variable.name for variable in model.variables}
