@@ -16,6 +16,8 @@ def answered(story: Story, final: Fitted, verdict: str, reason: str) -> Diagnosi
         final: the model at the end of the story.
         verdict, reason: what `decided` says.
     """
+    for line in story.disturbed():
+        story.note(line)
     what, found = final.what, doubt(story.subject, final)
     relative, held = held_still(story.subject, final)
     if what.effects:

@@ -14,7 +14,7 @@ from pysim.diagnose.fitted import Fitted
 from pysim.diagnose.nuisance import GAIN, OFFSET, SHIFT, Suspect, suspects
 from pysim.diagnose.refit import chord_refit
 from pysim.diagnose.residuals import Ruler
-from pysim.diagnose.screen import column_space
+from pysim.diagnose.screen import across, column_space
 from pysim.diagnose.subject import Extended
 from pysim.diagnose.whiten import whitening
 from pysim.identify.greybox.evaluation import Evaluation
@@ -33,6 +33,10 @@ CERTAIN = 4.0
 _OVER, _SHOWS = 0.8, 0.15
 # A wrong start shows with this chance by noise alone, and the model moves little while it does.
 _BY_CHANCE, _STILL = 1e-6, 0.25
+# Share of a nuisance that parameters have to leave for it to be told from them.
+_ALIKE = 1e-2
+# Mean squares up to which nuisances are taken off on trial, and up to which that is then kept.
+_FAR, _EXPLAINED = 20.0, 1.3
 # Fall of the sum of squares from which another refit is worth its runs.
 _WORTH = 1.0
 
@@ -67,30 +71,20 @@ def nuisances(ruler: Ruler, what: Extended, point: Evaluation) -> tuple[Nuisance
     if whole is None:
         return ()
     residual, slopes = whole[:, 0], whole[:, 1:]
-    q, r = _triangle(np.column_stack([_scaled(slopes), ruler.span.columns]), slopes.shape[1])
-    values = np.linalg.lstsq(r, q.T @ residual, rcond=None)[0]
-    spread = np.sqrt(np.diag(np.linalg.pinv(r.T @ r)))
+    reach = column_space(slopes)
+    sizes = np.maximum(np.linalg.norm(ruler.span.columns, axis=0), np.finfo(float).tiny)
+    rest = across(reach, across(reach, ruler.span.columns / sizes))
+    told = np.linalg.norm(rest, axis=0) > _ALIKE
+    values, spread = np.zeros(sizes.size), np.full(sizes.size, math.inf)
+    q, r = np.linalg.qr(rest[:, told])
+    values[told] = np.linalg.lstsq(r, q.T @ residual, rcond=None)[0] / sizes[told]
+    spread[told] = np.linalg.norm(np.linalg.pinv(r), axis=1) / sizes[told]
     inflated = math.sqrt(max(1.0, point.cost / max(ruler.freedom - point.x.size, 1)))
     found = []
-    for suspect, rest, std in zip(ruler.suspected, values, inflated * spread, strict=True):
-        value = _joined(ruler.taken, suspect, float(rest))
+    for suspect, left, std in zip(ruler.suspected, values.tolist(), (inflated * spread).tolist(), strict=True):
+        value = _joined(ruler.taken, suspect, left)
         found.append(Nuisance(suspect, value, value - 1.96 * std, value + 1.96 * std, abs(value) > CERTAIN * std))
     return tuple(found)
-
-
-def _triangle(columns: Array, skip: int) -> tuple[Array, Array]:
-    """The last columns once the first are taken off: orthonormal ones and the triangle behind them."""
-    q, s, _ = np.linalg.svd(columns[:, :skip], full_matrices=False)
-    reach = q[:, s > 1e-6 * s[0]] if skip and s.size else q[:, :0]
-    rest = columns[:, skip:]
-    for _ in range(2):
-        rest = rest - reach @ (reach.T @ rest)
-    return np.linalg.qr(rest)
-
-
-def _scaled(slopes: Array) -> Array:
-    sizes = np.linalg.norm(slopes, axis=0)
-    return np.asarray(slopes / np.where(sizes > 0, sizes, 1.0))
 
 
 def _joined(taken: Mapping[Suspect, float], suspect: Suspect, rest: float) -> float:
@@ -103,20 +97,40 @@ def _joined(taken: Mapping[Suspect, float], suspect: Suspect, rest: float) -> fl
     return before + rest
 
 
+def told_apart(ruler: Ruler, what: Extended, point: Evaluation) -> tuple[Ruler, Evaluation]:
+    """The ruler without suspects that the model's parameters can stand in for whole, and the point as it counts it.
+
+    Such a suspect takes nothing from an effect's footprint that refitting does not take anyway, and would leave those
+    parameters open.
+    """
+    rows = ruler.whole(what, point) if ruler.suspected else None
+    if rows is None:
+        return ruler, point
+    reach = column_space(rows[:, 1:])
+    shares = [_share(across(reach, column), column) for column in ruler.span.columns.T]
+    kept = tuple(s for s, share in zip(ruler.suspected, shares, strict=True) if share > _ALIKE)
+    ruler = ruler.with_other(suspected=kept)
+    return ruler, ruler.counted(point.x, rows)
+
+
+def _share(rest: Array, column: Array) -> float:
+    return float(np.linalg.norm(rest) / max(float(np.linalg.norm(column)), np.finfo(float).tiny))
+
+
 @dataclass(frozen=True)
 class Settled:
     """A fitted model and its rulers once the nuisances beside it are known.
 
     Args:
         seen: estimates of every suspect.
-        near: (n,) of the model, around which they are allowed for; None where the ruler is as before.
+        near: (n,) of the model, around which they are allowed for.
     """
 
     ruler: Ruler
     held: Ruler | None
     at: Fitted
     seen: tuple[Nuisance, ...]
-    near: Array | None = None
+    near: Array
 
     @property
     def targets(self) -> tuple[Target, ...]:
@@ -131,19 +145,34 @@ def settled(ruler: Ruler, held: Ruler | None, at: Fitted, *, rounds: int = 2) ->
     allowed for to first order, found or not, so that a count changes little by this; what is reported, held out or
     drawn is then free of them.
     """
-    seen, near = nuisances(ruler, at.what, at.point), None
+    anchored, _ = taken_off(ruler, None, ruler.taken, at.what, at.point.x)
+    first = Settled(anchored, held, recounted(ruler, anchored, at), (), at.point.x)
+    done = first = replace(first, seen=nuisances(anchored, at.what, first.at.point))
+    if first.at.point.cost > _FAR * ruler.freedom:
+        return first
     for _ in range(rounds):
-        if not _moved(ruler, seen):
+        if not _moved(done.ruler, done.seen):
             break
-        near = at.point.x
-        ruler, held = taken_off(ruler, held, {n.suspect: n.value for n in seen if n.found}, at.what, near)
-        at = _lean_refit(ruler, Fitted(at.what, ruler.evaluation(at.what, near)))
-        seen = nuisances(ruler, at.what, at.point)
-    if near is None:
-        lean = _lean_refit(ruler, at)
-        if lean is not at:
-            at, seen = lean, nuisances(ruler, at.what, lean.point)
-    return Settled(ruler, held, at, seen, near)
+        done = _again(done)
+    if done is first:
+        done = replace(done, at=_lean_refit(done.ruler, done.at))
+        if done.at is not first.at:
+            done = replace(done, seen=nuisances(done.ruler, at.what, done.at.point))
+    return done if done.at.point.cost < _EXPLAINED * ruler.freedom else first
+
+
+def _again(done: Settled) -> Settled:
+    """Takes off what was found, and refits."""
+    what, near = done.at.what, done.at.point.x
+    ruler, held = taken_off(done.ruler, done.held, {n.suspect: n.value for n in done.seen if n.found}, what, near)
+    at = _lean_refit(ruler, Fitted(what, ruler.evaluation(what, near)))
+    return Settled(ruler, held, at, nuisances(ruler, what, at.point), near)
+
+
+def recounted(old: Ruler, new: Ruler, at: Fitted) -> Fitted:
+    """The same point where only nuisances are allowed for otherwise; nothing is run that was run before."""
+    rows = old.whole(at.what, at.point)
+    return at if rows is None else Fitted(at.what, new.counted(at.point.x, rows))
 
 
 def taken_off(
@@ -186,48 +215,39 @@ def _moved(ruler: Ruler, seen: Sequence[Nuisance]) -> bool:
 
 
 def _with(ruler: Ruler, amounts: Mapping[Suspect, float]) -> Ruler:
-    targets = tuple(_target(t, ruler.taken, amounts) for t in ruler.targets)
-    return ruler.with_other(targets=targets, taken=dict(amounts))
+    measured = ruler.measured or ruler.targets
+    targets = tuple(_target(t, amounts) for t in measured)
+    return ruler.with_other(targets=targets, taken=dict(amounts), measured=measured)
 
 
-def _target(target: Target, before: Mapping[Suspect, float], amounts: Mapping[Suspect, float]) -> Target:
+def _target(target: Target, amounts: Mapping[Suspect, float]) -> Target:
+    """A target as it would have been measured without nuisances of these sizes."""
     if isinstance(target, LogTarget):
-        late = _late(amounts, target.dataset) - _late(before, target.dataset)
-        values, noise = _undone(target, target.dataset, before, amounts)
+        late = amounts.get(Suspect(SHIFT, target.dataset, ""), 0.0)
+        values, noise = _undone(target, target.dataset, amounts)
         run = target.run.experiment
         times = np.maximum(run.times + late, run.start + 1e-9 * np.arange(run.times.size))
         measured = replace(target.measured, values=values, time=target.measured.time + late)
-        return replace(
-            target, measured=measured, noise=noise, run=replace(target.run, experiment=replace(run, times=times))
-        )
+        moved = replace(target.run, experiment=replace(run, times=times))
+        return replace(target, measured=measured, noise=noise, run=moved)
     if isinstance(target, SineTarget):
-        late = _late(amounts, target.dataset) - _late(before, target.dataset)
-        logs = []
+        late, logs = amounts.get(Suspect(SHIFT, target.dataset, ""), 0.0), []
         for log in target.logs:
-            values, noise = _undone(log, target.dataset, before, amounts)
+            values, noise = _undone(log, target.dataset, amounts)
             measured = replace(log.measured, values=values, time=log.measured.time + late)
             logs.append(replace(log, measured=measured, noise=noise))
         return replace(target, logs=tuple(logs))
     return target
 
 
-def _late(amounts: Mapping[Suspect, float], dataset: str) -> float:
-    return amounts.get(Suspect(SHIFT, dataset, ""), 0.0)
-
-
 def _undone(
-    log: LogTarget | SineLog, dataset: str, before: Mapping[Suspect, float], amounts: Mapping[Suspect, float]
+    log: LogTarget | SineLog, dataset: str, amounts: Mapping[Suspect, float]
 ) -> tuple[Array, tuple[float, ...]]:
-    """Values and noise with other gains and offsets taken off than before."""
-    values, noise = np.array(log.measured.values), []
-    for j, (name, size) in enumerate(zip(log.measured.names, log.noise, strict=True)):
-        old, new = (
-            (1 + a.get(Suspect(GAIN, dataset, name), 0.0), a.get(Suspect(OFFSET, dataset, name), 0.0))
-            for a in (before, amounts)
-        )
-        values[:, j] = (old[0] * values[:, j] + old[1] - new[1]) / new[0]
-        noise.append(size * old[0] / new[0])
-    return values, tuple(noise)
+    """Values and noise with gains and offsets taken off."""
+    names = log.measured.names
+    gains = np.array([1 + amounts.get(Suspect(GAIN, dataset, name), 0.0) for name in names])
+    offsets = np.array([amounts.get(Suspect(OFFSET, dataset, name), 0.0) for name in names])
+    return (log.measured.values - offsets) / gains, tuple((np.array(log.noise) / gains).tolist())
 
 
 def allowing(ruler: Ruler, held: Ruler | None, what: Extended, x: Array) -> tuple[Ruler, Ruler | None]:
@@ -303,3 +323,23 @@ def _sentence(n: Nuisance, units: Mapping[str, str]) -> str:
         unit = units.get(name, "")
         return f"{name} is off by {n.value:+.3g} +- {reach:.2g} {unit}: an offset of its sensor".replace("  ", " ")
     return f"outputs are logged {1e3 * n.value:+.3g} +- {1e3 * reach:.2g} ms after the command: a shift of clocks"
+
+
+def counting_in_words(ruler: Ruler, held: Ruler | None) -> list[str]:
+    """What a reader must know of how residuals are counted: noise that is not as told, logs cut at their start."""
+    told = []
+    for (_, name), noise in ruler.noise.items():
+        if noise.coloured:
+            told.append(
+                f"the noise of {name} has memory: {noise.coloured:.3g} over {1e3 * noise.memory:.2g} ms beside "
+                f"{noise.white:.3g} of white noise; residuals are counted by what each sample adds to those before"
+            )
+        elif not noise.plain:
+            told.append(f"the noise of {name} is told as {noise.told:.3g}; the logs show {noise.white:.3g}")
+    for one in (ruler, *([held] if held else [])):
+        for target, skip in zip(one.targets, one.skips, strict=True):
+            if skip and isinstance(target, LogTarget):
+                told.append(
+                    f"{target.source}: the plant still moved when the log began; the first {skip:g} s are left out"
+                )
+    return told

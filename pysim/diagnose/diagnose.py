@@ -143,7 +143,9 @@ def _prior(story: Story) -> Fitted:
     """The base model as it is."""
     what = extended(story.subject, ())
     story.now("comparing the model as it is")
-    first = story.ruler.evaluation(what, what.space.to_search(what.space.start))
+    first = story.allow(what, what.space.to_search(what.space.start))
+    for line in story.counting():
+        story.note(line)
     if not first.good:
         raise BadInput(f"{what.model.path.name} cannot be simulated through the tests at its own parameters")
     nominal = Fitted(what, first)
@@ -157,6 +159,7 @@ def _refit(story: Story, nominal: Fitted) -> Fitted:
     story.now("refitting the model")
     base = story.fitted(nominal.what, "base", lambda: refit_from(story.ruler, nominal.what, nominal.point))
     assert base is not None  # the start was good, so the end is
+    base = story.settle(base, "base")
     story.stage("refit")
     story.enter("refit", base)
     return base

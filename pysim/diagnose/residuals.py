@@ -52,7 +52,8 @@ class Ruler:
         skips: per target, s at its start that do not count; none where empty.
         suspected: nuisances that are allowed for: residuals and slopes are counted across what they span.
         near: per run, what a model near the plant answers (n_t, n_y): the shape of the nuisances.
-        taken: nuisances that the targets are corrected for already.
+        taken: nuisances that the targets are corrected for already, and
+        measured: the targets before that; the same where empty.
         whitenings, span: what follows from all that; left out, they are worked out.
     """
 
@@ -64,6 +65,7 @@ class Ruler:
     suspected: tuple[Suspect, ...] = ()
     near: tuple[Array, ...] = field(default=(), repr=False)
     taken: Mapping[Suspect, float] = field(default_factory=dict)
+    measured: tuple[Target, ...] = field(default=(), repr=False)
     whitenings: tuple[Whitening, ...] = field(default=(), repr=False)
     span: Span = field(default=NOTHING, repr=False)
 

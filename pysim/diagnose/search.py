@@ -49,6 +49,7 @@ def search(story: Story, nominal: Fitted, base: Fitted, most: int) -> Fitted:
         if found is None:
             break
         current = _without_the_needless(story, found)
+        current = story.settle(current, name_of(current))
         story.enter(current.what.effects[-1].name, current)
     return current
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import astuple, dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -12,14 +12,27 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pysim.diagnose.contenders import Contender, suited
+from pysim.diagnose.corrections import (
+    Nuisance,
+    Settled,
+    allowing,
+    counting_in_words,
+    in_words,
+    recounted,
+    settled,
+    taken_off,
+    told_apart,
+)
 from pysim.diagnose.doubt import held_still
 from pysim.diagnose.fitted import Fitted
 from pysim.diagnose.journal import Journal, identity
 from pysim.diagnose.ledger import beside, ledger_step
+from pysim.diagnose.nuisance import Suspect
 from pysim.diagnose.residuals import Ruler, rulers
 from pysim.diagnose.subject import Extended, Subject, extended
 from pysim.diagnose.where import failures
 from pysim.identify.greybox.evaluation import Evaluation
+from pysim.identify.greybox.uncertainty import untold
 from pysim.types import Candidate, Effect, LedgerStep, Stage, Told
 
 Array = NDArray[np.float64]
@@ -53,6 +66,7 @@ class Story:
     doing: str = ""
     begun: float = field(default_factory=time.monotonic)
     suits: dict[tuple[str, ...], Ruler] = field(default_factory=dict)
+    nuisances: tuple[Nuisance, ...] = ()
 
     def now(self, doing: str) -> None:
         """A new stage begins, in a few words."""
@@ -133,7 +147,63 @@ class Story:
         near = ruler.evaluation(what, slopes)
         residual = near.residual if np.array_equal(x, slopes) else ruler.at(what, x)
         assert residual is not None  # it was there when it was written
-        return Evaluation(x, float(residual @ residual), residual, near.jacobian)
+        return replace(near, x=x, cost=float(residual @ residual), residual=residual)
+
+    def allow(self, what: Extended, x: Array) -> Evaluation:
+        """From now on residuals are counted across nuisances, and without wrong starts.
+
+        Args:
+            x: (n,) of the base model, near the plant.
+        Returns:
+            the point there.
+        """
+        self.ruler, self.held = allowing(self.ruler, self.held, what, x)
+        point = self.ruler.evaluation(what, x)
+        if point.good:
+            self.ruler, point = told_apart(self.ruler, what, point)
+        return point
+
+    def settle(self, at: Fitted, part: str) -> Fitted:
+        """Takes the nuisances beside a fitted model off the measurements; the model refitted where that matters."""
+        before = self.ruler_of(at.what)
+        done: list[Settled] = []
+
+        def found() -> Any:
+            done.append(settled(before, self.held, at))
+            end = done[0]
+            moved = not np.array_equal(end.at.point.x, at.point.x) or end.ruler.taken != before.taken
+            return {
+                "seen": [(*astuple(n.suspect), n.value, n.low, n.high, n.found) for n in end.seen],
+                "taken": [(*astuple(suspect), value) for suspect, value in end.ruler.taken.items()],
+                "near": end.near.tolist(),
+                "x": end.at.point.x.tolist() if moved else None,
+            }
+
+        kept = self.journal.once(f"nuisances beside {part}", found)
+        self.nuisances = tuple(Nuisance(Suspect(*row[:3]), *row[3:]) for row in kept["seen"])
+        amounts = {Suspect(*row[:3]): row[3] for row in kept["taken"]}
+        ruler, self.held = taken_off(before, self.held, amounts, at.what, np.array(kept["near"]))
+        self.ruler = replace(ruler, solver=self.ruler.solver)
+        self.suits = {key: replace(ruler, solver=one.solver) for key, one in self.suits.items()}
+        targets = (*ruler.targets, *(self.held.targets if self.held else ()))
+        self.subject = replace(self.subject, targets=targets)
+        for line in self.disturbed():
+            self.say(line)
+        if done:
+            return done[0].at
+        if kept["x"] is None:
+            return recounted(before, ruler, at)
+        return Fitted(at.what, ruler.evaluation(at.what, np.array(kept["x"])))
+
+    def disturbed(self) -> list[str]:
+        """The nuisances that were taken off, in words."""
+        signals = self.subject.dataset.signals if self.subject.dataset is not None else ()
+        taken = [n for n in self.nuisances if n.suspect in self.ruler.taken]
+        return in_words(taken, {s.name: s.unit for s in signals})
+
+    def counting(self) -> list[str]:
+        """How residuals are counted, where that is not as told, in words."""
+        return counting_in_words(self.ruler, self.held)
 
     def held_out(self, at: Fitted) -> Array | None:
         """Residuals of what is held out, (n,); None where nothing is or where it could not be simulated."""
@@ -157,7 +227,7 @@ def begin(
         BadInput: the journal is that of another diagnosis.
     """
     kept = Journal(journal, identity(subject, {"seed": seed, **(settings or {})}))
-    ruler, held = rulers(subject.targets, workers)
+    ruler, held = rulers(subject.targets, workers, told=not untold(subject.notes))
     return Story(subject, progress or (lambda told: None), seed, ruler, held, kept, notes=list(subject.notes))
 
 
