@@ -1,9 +1,14 @@
-"""The pump with any effects, compiled once per process."""
+"""The pump with any effects, compiled once and kept in a folder of the benchmark's own.
+
+The compiler's cache lets go of what was not asked for lately, and a run meets more models than it keeps.
+"""
 
 from __future__ import annotations
 
+import os
 import tempfile
 import time
+import uuid
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cache
@@ -11,8 +16,9 @@ from pathlib import Path
 
 import fmu_build
 from pysim.effects import STANDARD_LIBRARY, read_catalogue, variant
-from pysim.io import read_model
+from pysim.io import cache_folder, read_model
 from pysim.types import BadInput, Effect, Model
+from validation.blind.benchmark.fingerprint import model_fingerprint
 
 BASE = "HydraulicTestBench.Pump.FreeGreyBox"
 
@@ -24,11 +30,13 @@ class Workshop:
     Args:
         model: the base model.
         catalogue: every effect of the library.
+        folder: of compiled models.
         seconds: spent on compiling.
     """
 
     model: Model
     catalogue: tuple[Effect, ...]
+    folder: Path
     seconds: float = 0.0
     _built: dict[tuple[str, ...], tuple[Model, Mapping[str, str]]] = field(default_factory=dict)
 
@@ -53,17 +61,33 @@ class Workshop:
 
     def _compiled(self, effects: Sequence[Effect]) -> tuple[Model, Mapping[str, str]]:
         made = variant(BASE, effects, [STANDARD_LIBRARY])
-        with tempfile.TemporaryDirectory(prefix="blind-benchmark-") as folder:
-            source = Path(folder) / f"{made.class_name}.mo"
-            source.write_text(made.text, encoding="utf-8")
-            try:
-                path = fmu_build.build(made.class_name, libraries=[STANDARD_LIBRARY, source])
-            except fmu_build.BuildError as error:
-                raise BadInput(str(error)) from error
+        path = self.folder / f"{'+'.join(effect.name for effect in effects)}.fmu"
+        if not path.is_file():
+            with tempfile.TemporaryDirectory(prefix="blind-benchmark-") as folder:
+                source = Path(folder) / f"{made.class_name}.mo"
+                source.write_text(made.text, encoding="utf-8")
+                _build(made.class_name, path, [STANDARD_LIBRARY, source])
         return read_model(path), made.places
+
+
+def _build(class_name: str, path: Path, libraries: Sequence[Path]) -> None:
+    """Compile to that path, whole or not at all."""
+    partial = path.with_name(f"{uuid.uuid4().hex}.fmu")
+    try:
+        fmu_build.build(class_name, partial, libraries=libraries)
+        os.replace(partial, path)
+    except fmu_build.BuildError as error:
+        raise BadInput(str(error)) from error
+    finally:
+        partial.unlink(missing_ok=True)
 
 
 @cache
 def workshop() -> Workshop:
     """Of this process."""
-    return Workshop(read_model(fmu_build.build(BASE)), tuple(read_catalogue(STANDARD_LIBRARY)))
+    folder = cache_folder("blind-benchmark") / model_fingerprint()
+    folder.mkdir(parents=True, exist_ok=True)
+    base = folder / "base.fmu"
+    if not base.is_file():
+        _build(BASE, base, [STANDARD_LIBRARY])
+    return Workshop(read_model(base), tuple(read_catalogue(STANDARD_LIBRARY)), folder)
