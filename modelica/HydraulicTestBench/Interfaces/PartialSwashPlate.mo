@@ -15,6 +15,7 @@ partial model PartialSwashPlate "Slot for the way from a pump's command to its a
   annotation(Documentation(info="<html>
 <p>The law is three equations, for alpha, alpha_t = d alpha/dt and alphaPercent.</p>
 <p><b>Source:</b> thesis Eq. 5.18, Fig. 3.12.</p>
-<p><b>Used by:</b> <code>plate</code> of <code>LoadCircuit.OpenTestBench</code>.</p>
+<p><b>Used by:</b> <code>plate</code> of <code>LoadCircuit.OpenTestBench</code> and
+<code>Crane.HydraulicCompensation</code>.</p>
 </html>"));
 end PartialSwashPlate;
