@@ -1,0 +1,221 @@
+"""Where a term is missing, and what it looks like: no effect is named for it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pysim.diagnose.fitted import Fitted
+from pysim.diagnose.formula import Formula, formula
+from pysim.diagnose.outside import outside
+from pysim.diagnose.probe_fit import Estimate, Solution, Table, across, advance, begin, first_order, knots
+from pysim.diagnose.probe_laws import KNOTS, Law, slot_laws, state_laws
+from pysim.diagnose.probe_runs import seen, thinned
+from pysim.diagnose.probe_shape import Told, shape, told, units
+from pysim.diagnose.residuals import Ruler
+from pysim.diagnose.screen import column_space
+from pysim.diagnose.subject import Subject
+from pysim.effects import Slot
+from pysim.types import BadInput, Effect, Missing, Model
+
+Array = NDArray[np.float64]
+
+# Effects that the model has already, and a term -> the model compiled with both.
+Probed = Callable[[Sequence[Effect], Law], Model]
+Say = Callable[[str], None]
+
+# Terms that are fitted together with the parameters, and for how many steps: fewer and fewer go on.
+_STAGES = ((6, 1), (4, 2), (2, 5))
+# Terms whose likelihoods differ by less than this factor's logarithm are not told apart: a named form goes first.
+_TIE = 5.0
+
+
+@dataclass(frozen=True)
+class _Found:
+    """One term with what speaks for it: logarithm of the likelihood over that without a term, and its share."""
+
+    law: Law
+    table: Table = field(repr=False)
+    solution: Solution = field(repr=False)
+    evidence: float
+    share: float
+    estimate: Estimate | None = field(default=None, repr=False)
+    told: Told | None = field(default=None, repr=False)
+    formula: Formula | None = None
+
+
+def locate(
+    subject: Subject,
+    ruler: Ruler,
+    current: Fitted,
+    *,
+    slots: Sequence[Slot] = (),
+    probed: Probed | None = None,
+    progress: Say | None = None,
+) -> tuple[Missing, ...]:
+    """Estimate, at each place of the model, the term that would close the gap to the measurements.
+
+    A term is a table over one variable that the place sees, straight between its knots and as smooth as the data ask
+    for; the model's free parameters are refitted with it. Tests that show most of the misfit for their time are used.
+
+    Args:
+        ruler: of what is fitted.
+        current: the model so far at its best point.
+        slots: of the model's class; where there are none, the equations of its states are looked at.
+        probed: compiles the model with a term; None for a model without source, which shows inputs and outputs alone.
+        progress: told a line per step.
+    Returns:
+        per place the best term, the most likely place first; empty where nothing could be looked at.
+    """
+    say = progress or (lambda line: None)
+    if probed is None:
+        return outside(ruler, current)
+    few = thinned(ruler, current.point)
+    point = few.evaluation(current.what, current.point.x)
+    if not point.good:
+        return ()
+    base = _Base.of(Fitted(current.what, point))
+    laws = _laws(subject, current.what.model, slots)
+    samples = seen(few, current, laws)
+    tried = []
+    for law in laws:
+        try:
+            model = probed(current.what.effects, law)
+        except BadInput as error:
+            say(f"{law.slot} over {law.argument} could not be looked at: {error}")
+            continue
+        found = first_order(few, base.at, base.span, Table(law, model, knots(samples[f"{law.slot}|{law.argument}"])))
+        if found is not None:
+            tried.append(base.found(law, *found))
+    tried.sort(key=lambda found: -found.evidence)
+    say(f"looked at {len(tried)} terms: " + ", ".join(f"{f.law.slot} {100 * f.share:.0f} %" for f in tried[:3]))
+    return _missing(subject, few, base, tried, say)
+
+
+@dataclass(frozen=True)
+class _Base:
+    """The model without a term: what refitting takes, and what is left beyond noise."""
+
+    at: Fitted
+    span: Array
+    left: float
+    rows: int
+
+    @classmethod
+    def of(cls, at: Fitted) -> _Base:
+        span = column_space(at.point.jacobian)
+        rest = across(at.point.residual, span)
+        return cls(at, span, float(rest @ rest), at.point.residual.size)
+
+    def found(self, law: Law, table: Table, solution: Solution, estimate: Estimate | None = None) -> _Found:
+        """How much better it gets with a term."""
+        evidence = 0.5 * self.rows * math.log(self.left / self.rows) - solution.loss
+        noise = max(1.0, solution.left / self.rows)
+        avoidable = self.left - (self.rows - self.span.shape[1])
+        gain = self.left - solution.left - solution.freedom * noise
+        share = float(np.clip(gain / avoidable, 0.0, 1.0)) if avoidable > 0 else 0.0
+        return _Found(law, table, solution, evidence, share, estimate)
+
+
+def _laws(subject: Subject, model: Model, slots: Sequence[Slot]) -> tuple[Law, ...]:
+    """Slots that the catalogue has effects for come first; where it has none for any, all of them."""
+    known = {effect.slot for effect in subject.catalogue}
+    chosen = [slot for slot in slots if slot.name in known] or list(slots)
+    return slot_laws(chosen, model) if chosen else state_laws(model)
+
+
+def _missing(subject: Subject, ruler: Ruler, base: _Base, tried: Sequence[_Found], say: Say) -> tuple[Missing, ...]:
+    """Fit the best terms, fewer and fewer, and tell all."""
+    running, twins = _different(tried)
+    for count, rounds in _STAGES:
+        ahead = [_advanced(ruler, base, found, rounds) for found in running[:count]]
+        running = [*sorted(ahead, key=lambda found: -found.evidence), *running[count:]]
+    fitted = sorted((f for f in running if f.estimate is not None), key=lambda found: -found.evidence)
+    done = [_described(subject, found) for found in [*fitted, *(f for f in running if f.estimate is None)]]
+    done += [_described(subject, _as(found, twin)) for found in done for twin in twins.get(id(found.law), ())]
+    rows: dict[str, Missing] = {}
+    for found in _named_first(sorted(done, key=lambda found: (found.estimate is None, -found.evidence))):
+        if found.law.slot not in rows:
+            rows[found.law.slot] = _row(found)
+    for row in rows.values():
+        say(f"{row.slot} over {row.depends_on}: {100 * row.share:.1f} % of the misfit. {row.formula}".strip())
+    return tuple(rows.values())
+
+
+def _different(tried: Sequence[_Found]) -> tuple[list[_Found], dict[int, list[Law]]]:
+    """Terms that do something of their own, and per such a term the laws at other places that do the very same."""
+    different: list[_Found] = []
+    twins: dict[int, list[Law]] = {}
+    for found in tried:
+        same = next((d for d in different if _same(d, found)), None)
+        if same is None:
+            different.append(found)
+        else:
+            twins.setdefault(id(same.law), []).append(found.law)
+    return different, twins
+
+
+def _same(one: _Found, other: _Found) -> bool:
+    return (
+        abs(one.evidence - other.evidence) < 1e-3 * max(abs(one.evidence), 1.0)
+        and abs(one.share - other.share) < 1e-3
+        and one.law.of_rate == other.law.of_rate
+        and one.law.slot != other.law.slot
+    )
+
+
+def _as(found: _Found, law: Law) -> _Found:
+    """The same term at another place."""
+    return replace(found, law=law, table=replace(found.table, law=law))
+
+
+def _advanced(ruler: Ruler, base: _Base, found: _Found, rounds: int) -> _Found:
+    start = found.estimate or begin(ruler, base.at, found.table)
+    if start is None:
+        return found
+    end = advance(ruler, base.at, start, rounds=rounds)
+    return base.found(found.law, found.table, end.solution, end)
+
+
+def _described(subject: Subject, found: _Found) -> _Found:
+    if found.estimate is None:
+        return found
+    of, law = told(found.estimate), found.law
+    unit_in, unit_out = units(law, found.estimate.table.model)
+    said = formula(
+        of.knots,
+        of.values,
+        of.doubt,
+        of.absorbed,
+        argument=law.argument,
+        unit_in=unit_in,
+        unit_out=unit_out,
+        slot=law.slot,
+        catalogue=subject.catalogue,
+    )
+    return replace(found, told=of, formula=said)
+
+
+def _named_first(found: list[_Found]) -> list[_Found]:
+    """Of those that the data do not tell apart, one whose form a catalogue effect has at that very place goes first."""
+    if not found:
+        return found
+    near = [f for f in found if found[0].evidence - f.evidence < _TIE]
+    near.sort(key=lambda f: not (f.formula and f.formula.effect))
+    return near + [f for f in found if not any(f is g for g in near)]
+
+
+def _row(found: _Found) -> Missing:
+    """What is told of one place; a term that was not worth a fit is told as it is to first order."""
+    law, of, said = found.law, found.told, found.formula
+    if of is None or said is None:
+        unit = found.table.unit
+        values, covariance = unit * found.solution.values, unit**2 * found.solution.covariance
+        of = Told(found.table.knots, values, covariance, np.zeros((KNOTS, 0)))
+        said = Formula("", "", "", np.zeros(0))
+    text = f"{said.text} ({said.effect})" if said.effect else said.text
+    return Missing(law.slot, found.share, law.argument, shape(of, law, found.table.model, said.along), text)
