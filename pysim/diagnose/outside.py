@@ -167,7 +167,7 @@ def _at_output(ruler: Ruler, ways: Sequence[_Way], place: _Place, k: Array) -> A
         if place.name in way.experiment.record:
             slopes[:, way.experiment.record.index(place.name)] = _hats(z, k)
         answers.append(Simulated(way.values, slopes))
-    return ruler.span.across(ruler._weighed(answers))[:, 1:]
+    return ruler.span.across(ruler.weighed(answers))[:, 1:]
 
 
 def _found(current: Fitted, span: Array, place: _Place, k: Array, columns: Array) -> _Found | None:

@@ -113,10 +113,10 @@ class Ruler:
     def _counted(self, records: Sequence[Record]) -> Array | None:
         if any(r.outcome is not Outcome.DONE or not np.isfinite(r.values).all() for r in records):
             return None
-        rows = self._weighed([Simulated(r.values, np.zeros((*r.values.shape, 0))) for r in records])
+        rows = self.weighed([Simulated(r.values, np.zeros((*r.values.shape, 0))) for r in records])
         return self.span.across(rows)[:, 0]
 
-    def _weighed(self, simulated: Sequence[Simulated]) -> Array:
+    def weighed(self, simulated: Sequence[Simulated]) -> Array:
         """Residuals and, in the columns behind, their slopes, (n_r, 1 + n_x), nuisances and all."""
         rest, parts = list(simulated), []
         for target, made in zip(self.targets, self.whitenings, strict=True):
@@ -178,7 +178,7 @@ class Ruler:
         answer = simulate_runs(what.model, what.space, runs, x, [None] * len(runs), simulation)
         if answer.trouble:
             return None
-        return self._weighed(answer.simulated)[:, 1:]
+        return self.weighed(answer.simulated)[:, 1:]
 
     def _differences(self, what: Extended, x: Array, residual: Array) -> Array | None:
         """Away from the nearer bound."""
