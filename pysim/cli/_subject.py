@@ -92,8 +92,8 @@ def read_subject(args: argparse.Namespace) -> Given:
     """
     from pysim.cli._options import bounded, read_parameters
     from pysim.cli._variants import Variants
-    from pysim.diagnose import subject
-    from pysim.effects import STANDARD_LIBRARY
+    from pysim.diagnose import Inside, subject
+    from pysim.effects import STANDARD_LIBRARY, slots
     from pysim.io import read_dataset
 
     dataset = read_dataset(args.data)
@@ -103,6 +103,7 @@ def read_subject(args: argparse.Namespace) -> Given:
     if class_name and not catalogue:
         notes.append(f"no slot of {class_name} takes an effect of the libraries, so none could be tried")
     variants = Variants(class_name, libraries) if class_name else None
+    inside = Inside(slots(class_name, libraries), variants.probed) if variants else None
     overrides = read_parameters(args, model)
     free = tuple(names_of(args.free))
     given = subject(
@@ -113,6 +114,7 @@ def read_subject(args: argparse.Namespace) -> Given:
         free=free,
         bounds=bounded(args.bounds),
         overrides=overrides,
+        inside=inside,
         notes=tuple(notes),
     )
     return Given(given, dataset, variants, overrides, tuple(args.library))

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from pysim.diagnose.probe_laws import Law
     from pysim.types import Effect, Model
 
 
@@ -72,3 +73,28 @@ class Variants:
         source.write_text(made.text, encoding="utf-8")
         built = fmu_build.build(name, fmu, libraries=[*self.libraries, source])
         return read_model(built), made.places
+
+    def probed(self, effects: Sequence[Effect], law: Law) -> Model:
+        """The model with these effects and a term at one place of it, as a table whose values are parameters.
+
+        Raises:
+            BadInput: a class that does not compile with that term.
+        """
+        from tempfile import TemporaryDirectory
+
+        import fmu_build
+        from pysim.diagnose.probe_laws import wrapped
+        from pysim.effects import variant
+        from pysim.io import read_model
+        from pysim.types import BadInput
+
+        name = f"{self.class_name.rpartition('.')[2]}Located"
+        made = variant(self.class_name, effects, self.libraries, name=f"{name}Base") if effects else None
+        text = (made.text if made else "") + wrapped(made.class_name if made else self.class_name, law, name)
+        with TemporaryDirectory(prefix="pysim-located-") as folder:
+            source = Path(folder) / f"{name}.mo"
+            source.write_text(text, encoding="utf-8")
+            try:
+                return read_model(fmu_build.build(name, libraries=[*self.libraries, source], probes=law.probes))
+            except fmu_build.BuildError as error:
+                raise BadInput(str(error)) from error

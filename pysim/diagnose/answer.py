@@ -6,15 +6,16 @@ from pysim.diagnose import decide
 from pysim.diagnose.doubt import doubt, held_still
 from pysim.diagnose.fitted import Fitted
 from pysim.diagnose.story import Story
-from pysim.types.diagnosis import NONE, UNKNOWN, AddedEffect, Diagnosis
+from pysim.types.diagnosis import NONE, UNKNOWN, AddedEffect, Diagnosis, Missing
 
 
-def answered(story: Story, final: Fitted, verdict: str, reason: str) -> Diagnosis:
+def answered(story: Story, final: Fitted, verdict: str, reason: str, missing: tuple[Missing, ...] = ()) -> Diagnosis:
     """Everything that was found.
 
     Args:
         final: the model at the end of the story.
         verdict, reason: what `decided` says.
+        missing: terms at its places, where they were looked for.
     """
     for line in story.disturbed():
         story.note(line)
@@ -43,6 +44,7 @@ def answered(story: Story, final: Fitted, verdict: str, reason: str) -> Diagnosi
         where,
         story.seconds,
         tuple(story.notes),
+        missing=missing,
         stages=tuple(story.stages),
     )
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from pysim.diagnose.answer import answered, decided
 from pysim.diagnose.fitted import Fitted
+from pysim.diagnose.locate import locate
 from pysim.diagnose.refit import refit_from
 from pysim.diagnose.rounds import Tried, refitted, rows, screened
 from pysim.diagnose.screen import screen
@@ -16,7 +17,8 @@ from pysim.diagnose.search import search
 from pysim.diagnose.story import Say, Story, begin
 from pysim.diagnose.strengths import declared, setting
 from pysim.diagnose.subject import Subject, extended
-from pysim.types import BadInput, Diagnosis, Effect
+from pysim.types import BadInput, Diagnosis, Effect, Missing
+from pysim.types.diagnosis import UNKNOWN
 
 # Effects that may be added one after the other.
 MOST = 3
@@ -54,7 +56,8 @@ def diagnose(
     elif subject.catalogue:
         final = search(story, nominal, base, most)
     verdict, reason = decided(story, base, final)
-    return answered(story, final, verdict, reason)
+    missing = _missing(story, final) if verdict == UNKNOWN else ()
+    return answered(story, final, verdict, reason, missing)
 
 
 def against(
@@ -126,6 +129,47 @@ def add(
     names = [effect.name for effect in effects]
     told: dict[str, object] = {"step": "add", "effects": names}
     story = begin(subject, seed=0, workers=workers, progress=progress, journal=journal, settings=told)
+    base, current = _with(story, effects)
+    return answered(story, current, *decided(story, base, current))
+
+
+def located(
+    subject: Subject,
+    effects: Sequence[Effect] = (),
+    *,
+    workers: int | None = None,
+    progress: Say | None = None,
+    journal: Path | None = None,
+) -> Diagnosis:
+    """Estimate, at each place of the model, the term that would close the gap; no effect is named for it.
+
+    Args:
+        effects: that the model is to have already.
+    Returns:
+        as `add`, with the missing terms, the most likely place first.
+    Raises:
+        BadInput: as `add`.
+    """
+    if effects:
+        _needs_class(subject)
+    told: dict[str, object] = {"step": "located", "effects": [effect.name for effect in effects]}
+    story = begin(subject, seed=0, workers=workers, progress=progress, journal=journal, settings=told)
+    base, current = _with(story, effects)
+    return answered(story, current, *decided(story, base, current), _missing(story, current))
+
+
+def _missing(story: Story, current: Fitted) -> tuple[Missing, ...]:
+    """Terms at the places of a fitted model; at its inputs and outputs where it cannot be looked into."""
+    story.now("looking where a term is missing")
+    inside, ruler = story.subject.inside, story.ruler_of(current.what)
+    slots, probed = ((), None) if inside is None else (inside.slots, inside.probed)
+    found = locate(story.subject, ruler, current, slots=slots, probed=probed, progress=story.say)
+    story.stage("locate")
+    return found
+
+
+def _with(story: Story, effects: Sequence[Effect]) -> tuple[Fitted, Fitted]:
+    """The refitted base model, and with effects added one after the other."""
     nominal = _prior(story)
     current = base = _refit(story, nominal)
     for number, effect in enumerate(effects):
@@ -136,7 +180,7 @@ def add(
         current = end
         story.stage("add")
         story.enter(effect.name, current)
-    return answered(story, current, *decided(story, base, current))
+    return base, current
 
 
 def _prior(story: Story) -> Fitted:

@@ -7,6 +7,8 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 from pysim.diagnose.adequacy import shortcomings
+from pysim.diagnose.probe_laws import Law
+from pysim.effects import Slot
 from pysim.identify.greybox import Measurements, Parameter, Rest, Treatment, problem
 from pysim.identify.greybox.parameters import ParameterSpace, parameter_space
 from pysim.identify.greybox.target import Target
@@ -15,6 +17,19 @@ from pysim.types._frozen import FrozenMapping
 
 # Effects -> the model that has them, and effect name -> the name ahead of its parameters there.
 BuildVariant = Callable[[Sequence[Effect]], tuple[Model, Mapping[str, str]]]
+
+
+@dataclass(frozen=True)
+class Inside:
+    """A model that can be looked into.
+
+    Args:
+        slots: its replaceable parts.
+        probed: compiles it, effects that it has already and a term at one place.
+    """
+
+    slots: tuple[Slot, ...]
+    probed: Callable[[Sequence[Effect], Law], Model]
 
 
 @dataclass(frozen=True)
@@ -30,6 +45,7 @@ class Subject:
         notes: what was assumed.
         bounds: free parameter -> its bounds, where they are not the model's.
         dataset: the measurements as they were read.
+        inside: to locate what is missing; None where only inputs and outputs can be looked at.
     """
 
     model: Model
@@ -40,6 +56,7 @@ class Subject:
     notes: tuple[str, ...] = ()
     dataset: Dataset | None = field(default=None, repr=False)
     bounds: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    inside: Inside | None = field(default=None, repr=False)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "bounds", FrozenMapping(self.bounds))
@@ -82,6 +99,7 @@ def subject(
     bounds: Mapping[str, tuple[float, float]] | None = None,
     overrides: Mapping[str, float] | None = None,
     rest: Rest | None = None,
+    inside: Inside | None = None,
     notes: Sequence[str] = (),
 ) -> Subject:
     """Bring everything together.
@@ -91,6 +109,7 @@ def subject(
         bounds: free parameter -> lower and upper bound in its unit, in place of the model's min and max.
         overrides: parameters of the model that differ in these tests.
         rest: how the model comes to rest ahead of a log; as the thesis' bench did where None.
+        inside: a way to look into the model, where there is one.
         notes: what a reader must know beside what is noted here.
     Raises:
         BadInput: no free parameter, bounds of what is not free, a data set and a model that do not fit together, or
@@ -101,6 +120,7 @@ def subject(
         if name not in names:
             raise BadInput(f"{name} has bounds but is not free; free are {', '.join(names)}")
     given = Subject(model, (), names, tuple(catalogue), build_variant, dataset=dataset, bounds=bounds or {})
+    given = replace(given, inside=inside)
     data = Measurements(dataset, overrides=overrides or {})
     checked = problem(model, [data], given.parameters, treatment=Treatment(steady="transient", rest=rest or Rest()))
     told = (*notes, *shortcomings(dataset, names), *_unbounded(checked.space), *checked.notes)

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from fmu_build import build
-from pysim.cli import main
+from pysim.cli import _diagnosis_report, main
 from pysim.cli._story import JOURNAL, Story
 from pysim.io import read_model, write_dataset
 from pysim.types import Told
@@ -20,6 +20,12 @@ def data(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("data") / "toy"
     write_dataset(folder, measured(1, "toy.friction", F_c=0.4))
     return folder
+
+
+@pytest.fixture
+def undrawn(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Pictures cost seconds and are held to their numbers elsewhere."""
+    monkeypatch.setattr(_diagnosis_report, "_figures", lambda found, dataset: iter(()))
 
 
 def test_rank_tells_what_each_gains_and_decides_nothing(
@@ -38,7 +44,7 @@ def test_rank_tells_what_each_gains_and_decides_nothing(
 
 
 def test_add_writes_the_extended_class_and_the_falling_error(
-    data: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    undrawn: None, data: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     output, answer = tmp_path / "out", tmp_path / "a.json"
     words = ["--effect", "toy.friction", "--effect", "toy.bias", "--output", str(output), "--json", str(answer)]
@@ -84,7 +90,7 @@ def test_a_model_without_its_class_gets_no_effect(
 
 
 def test_compare_tells_how_far_the_model_is_and_where(
-    data: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    undrawn: None, data: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     words = ["compare", "Toy.Mass", "--library", str(library()), "--data", str(data), "--json", str(tmp_path / "a")]
     assert main(words) == 1
@@ -113,7 +119,7 @@ def test_compare_draws_a_model_that_is_not_refitted(data: Path, tmp_path: Path) 
 
 
 def test_a_command_that_was_stopped_goes_on_with_the_same_answer(
-    data: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+    undrawn: None, data: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     words = ["diagnose", str(data), *MODEL, "--effects", "toy.friction,toy.bias", "--output", str(tmp_path / "out")]
     tell = Story.__call__
@@ -137,3 +143,33 @@ def test_a_command_that_was_stopped_goes_on_with_the_same_answer(
     one, other = (json.loads((tmp_path / name).read_text()) for name in ("a.json", "b.json"))
     for key in ("verdict", "added", "ranking", "error", "parameters", "where"):
         assert one[key] == other[key]
+
+
+def test_locate_tells_the_place_and_the_shape_of_what_is_missing(
+    data: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["locate", str(data), *MODEL, "--json", str(tmp_path / "a.json")]) == 0
+    found = json.loads((tmp_path / "a.json").read_text())
+    first = found["missing"][0]
+    assert (first["slot"], first["depends_on"]) == ("force", "force.v")
+    assert first["share"] > 0.95
+    shape = first["shape"]
+    far = [value for at, value in zip(shape["argument"], shape["value"], strict=True) if at > 0.5]
+    assert far == pytest.approx([-0.4] * len(far), abs=0.03)  # dry friction of 0.4 N against the motion
+    assert "What is missing fits best at force, over force.v" in capsys.readouterr().out
+
+
+def test_locate_beside_the_effect_that_was_missing_finds_little(data: Path, tmp_path: Path) -> None:
+    words = ["locate", str(data), *MODEL, "--effect", "toy.friction", "--json", str(tmp_path / "a.json")]
+    assert main(words) == 0
+    found = json.loads((tmp_path / "a.json").read_text())
+    assert [row["step"] for row in found["error"]] == ["prior", "refit", "toy.friction"]
+    assert all(abs(value) < 0.05 for value in found["missing"][0]["shape"]["value"])
+
+
+def test_an_unknown_comes_with_its_shape(data: Path, tmp_path: Path) -> None:
+    words = ["diagnose", str(data), *MODEL, "--effects", "toy.bias", "--json", str(tmp_path / "a.json")]
+    assert main(words) == 0
+    found = json.loads((tmp_path / "a.json").read_text())
+    assert found["verdict"] == "unknown"
+    assert found["missing"][0]["depends_on"] == "force.v"
