@@ -35,6 +35,7 @@ CASES: Mapping[str, Case] = MappingProxyType(
         "chirp": Case("validation.chirp.case", "one chirp against stepped sines on a model whose directions differ"),
         "multisine": Case("validation.multisine.case", "gain, noise, even and odd distortion where theory knows them"),
         "virtual-bench": Case("validation.virtual_bench.case", "the virtual bench against an independent plant's logs"),
+        "pump-flow": Case("validation.pump_flow.case", "mean flow and ripple of the pump: known numbers and the FMU"),
         "ripple": Case("validation.ripple.case", "the pump's ripple behind a hose and at a relief valve"),
         "load-circuit": Case("validation.load_circuit.case", "linear models, energy and controllers of the test bench"),
         "fit-bench-01": Case("validation.fit_bench.case", "an independent plant's logs fitted to their noise"),

@@ -13,7 +13,7 @@ from pysim.simulate import Rodas, simulate
 from pysim.types import Experiment, Model, Record, Signal
 from tests.modelica.built import built, ran
 from tests.modelica.library import LIBRARY
-from tests.modelica.piston_kinematics import LITRES, SPEED, Geometry
+from validation.pump_flow.kinematics import LITRES, SPEED, Geometry
 
 TABLES = json.loads((Path(__file__).parent / "thesis_tables.json").read_text(encoding="utf-8"))
 TOPS = {7: 1.006, 8: 2.937, 9: 0.6392, 10: 1.891, 13: 0.349}  # l/min above the mean
