@@ -5,6 +5,7 @@ from __future__ import annotations
 from pysim.diagnose import decide
 from pysim.diagnose.doubt import doubt, held_still
 from pysim.diagnose.fitted import Fitted
+from pysim.diagnose.null import leftover
 from pysim.diagnose.story import Story
 from pysim.types.diagnosis import NONE, UNKNOWN, AddedEffect, Diagnosis, Missing
 
@@ -50,23 +51,26 @@ def answered(story: Story, final: Fitted, verdict: str, reason: str, missing: tu
 
 
 def decided(story: Story, base: Fitted, final: Fitted) -> tuple[str, str]:
-    """Verdict and reason."""
+    """Verdict and reason: what was added is named only where nothing else is left."""
     point, names = final.point, [e.name for e in final.what.effects]
-    freedom = point.residual.size - point.x.size
-    left = point.cost / max(freedom, 1)
+    ruler = story.ruler_of(final.what)
+    freedom = ruler.freedom - point.x.size
+    rest = leftover(ruler, point, seed=story.seed)
     share = decide.explained(base.point.cost - point.cost, base.point.cost, freedom)
-    complete = left < decide.COMPLETE or (names and share >= decide.WHOLE)
+    complete = rest.p_value >= decide.SURE or (bool(names) and share >= decide.WHOLE)
+    left = f"{point.cost / max(freedom, 1):.3g} times the noise's variance is left"
     if not names and complete:
-        return NONE, f"the refitted base model explains the data to {left:.3f} times the noise's variance"
+        return NONE, f"the refitted base model explains the data: {left}, and nothing in it has a pattern"
+    where = f", most of it {rest.where[0]}" if rest.where else ""
     if not names and story.subject.build_variant is None:
-        return UNKNOWN, f"{left:.3g} times the noise's variance is left, and no effect could be tried"
+        return UNKNOWN, f"{left}{where}, and no effect could be tried"
     if not names and not story.subject.catalogue:
-        return UNKNOWN, f"{left:.3g} times the noise's variance is left, and the catalogue has no effect for this model"
+        return UNKNOWN, f"{left}{where}, and the catalogue has no effect for this model"
     if not names:
-        return UNKNOWN, f"{left:.3g} times the noise's variance is left, and no effect takes a fair share of it"
-    both = " and ".join(names)
+        return UNKNOWN, f"{left}{where}, and no effect takes a fair share of it"
+    both, plural = " and ".join(names), len(names) > 1
     if complete:
-        verb = "explains" if len(names) == 1 else "explain"
-        return names[0], f"{both} {verb} {100 * share:.1f} % of what the base model leaves over noise"
-    rest = f"{left:.3g} times the noise's variance is left; something else is missing"
-    return UNKNOWN, f"{both} {'helps' if len(names) == 1 else 'help'}, but {rest}"
+        return names[
+            0
+        ], f"{both} {'explain' if plural else 'explains'} {100 * share:.1f} % of what the base model leaves"
+    return UNKNOWN, f"{both} {'help' if plural else 'helps'}, but {left}{where}; something else is missing"

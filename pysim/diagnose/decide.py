@@ -18,10 +18,10 @@ TIE = 10.0
 FAIR = 0.25
 # An effect is not added where records held out speak against it by more standard deviations than this.
 AGAINST = 2.5
-# Misfit (sum of squares over its number) up to which a model counts as complete.
-COMPLETE = 1.05
-# Share of the avoidable misfit that the added effects have to take together where the misfit stays above that.
-WHOLE = 0.95
+# A model is complete where noise alone leaves as much with at least this chance,
+SURE = 1e-4
+# or where so little of the base model's misfit is left that errors of integration and a term's exact form explain it.
+WHOLE = 0.998
 
 
 def inflation(point: Evaluation, cost: float | None = None) -> float:

@@ -214,7 +214,7 @@ def _added(story: Story, current: Fitted, nominal: Fitted | None, effect: Effect
     contender = story.extended(current, effect)
     footprints = screen(current, [contender])
     tried = Tried(current, {effect.name: contender}, footprints, 0.0)
-    found = refitted(story, tried, nominal if tried.bent else None)
+    found = refitted(story, tried, nominal if tried.bent else None, least=-1.0)
     if effect.name in found:
         return found[effect.name]
     space, values = (

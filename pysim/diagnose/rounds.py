@@ -15,7 +15,7 @@ from pysim.diagnose.contenders import Contender
 from pysim.diagnose.fitted import Fitted
 from pysim.diagnose.null import chance
 from pysim.diagnose.refit import chord_refit, refit_from
-from pysim.diagnose.screen import Footprint, per_effect, screen
+from pysim.diagnose.screen import Footprint, across, column_space, footprint, per_effect, screen
 from pysim.diagnose.start import start_at, start_off
 from pysim.diagnose.story import Story
 from pysim.identify.greybox.evaluation import Evaluation
@@ -25,9 +25,11 @@ from pysim.types import BadInput, Candidate, Effect
 Array = NDArray[np.float64]
 
 # Candidates that get a refit on probation, and the share of the best gain that the screening has to promise for it.
-_PROBATION, _PROMISE = 7, 0.02
+_PROBATION, _PROMISE = 7, 0.05
 # Candidates whose slopes are run, and the share of the best score that a refit on probation has to reach for it.
 _FINAL, _NEAR = 3, 0.8
+# Where a refit reaches less than this share of what was promised, straight lines were no guide, and another start is.
+_KEPT = 0.5
 # Points tried on probation, and from parameters far off.
 _STEPS, _FAR_STEPS = 6, 9
 # Integration of ties.
@@ -81,11 +83,14 @@ def screened(story: Story, current: Fitted) -> Tried:
     return Tried(current, contenders, footprints, limit)
 
 
-def refitted(story: Story, tried: Tried, nominal: Fitted | None) -> dict[str, Fitted]:
+def refitted(
+    story: Story, tried: Tried, nominal: Fitted | None, *, least: float = 0.5 * decide.FAIR
+) -> dict[str, Fitted]:
     """The promising candidates refitted: all on probation, the leaders with slopes of their own.
 
     Args:
         nominal: the base model at its own parameters, where refits start too if those found have been bent.
+        least: share of the misfit that a refit on probation has to take for slopes of its own.
     """
     story.now("refitting the promising candidates")
     found: dict[str, Fitted] = {}
@@ -97,7 +102,7 @@ def refitted(story: Story, tried: Tried, nominal: Fitted | None) -> dict[str, Fi
             x, cost = np.array(kept["x"]), float(kept["cost"])
             found[head.effect.name] = Fitted(one.what, Evaluation(x, cost, np.zeros(0), np.zeros((0, x.size))))
     story.stage("refit candidates")
-    order = by_score(tried.current, found)
+    order = by_score(tried.current, found) if _share(tried.current, found) > least else []
     best = score(tried.current, found[order[0]]) if order else 0.0
     for name in order[:_FINAL]:
         if score(tried.current, found[name]) < _NEAR * best and name != order[0]:
@@ -110,6 +115,13 @@ def refitted(story: Story, tried: Tried, nominal: Fitted | None) -> dict[str, Fi
             )
     story.stage("refit leaders")
     return found
+
+
+def _share(current: Fitted, found: dict[str, Fitted]) -> float:
+    """Of the misfit that the best refit takes."""
+    cost = min((fitted.point.cost for fitted in found.values()), default=current.point.cost)
+    freedom = current.point.residual.size - current.point.x.size
+    return decide.explained(current.point.cost - cost, current.point.cost, freedom)
 
 
 def _promising(heads: Sequence[Footprint]) -> list[Footprint]:
@@ -129,7 +141,8 @@ def _probation(tried: Tried, one: Contender, nominal: Fitted | None) -> Evaluati
     before = tried.current.point.cost
     if (ends[0] is None or ends[0].cost > before) and len(own) > 1:
         ends.append(_end(one, tried.current, min(own, key=lambda f: f.size), _STEPS))
-    if nominal is not None:
+    reached = before - min(end.cost for end in ends if end is not None) if any(ends) else 0.0
+    if nominal is not None and reached < _KEPT * own[0].gain:
         ends.append(_end(one, nominal, own[0], _FAR_STEPS))
     good = [end for end in ends if end is not None and end.cost < before]
     return min(good, key=lambda end: end.cost) if good else None
@@ -168,6 +181,20 @@ def score(current: Fitted, fitted: Fitted) -> float:
 def by_score(current: Fitted, found: dict[str, Fitted]) -> list[str]:
     """Names, the best first."""
     return sorted(found, key=lambda name: -score(current, found[name]))
+
+
+def promise(tried: Tried, at: Fitted) -> float:
+    """The best gain of what was tried, were it asked again at another model: footprints hardly change, slopes do."""
+    names = [effect.name for effect in at.what.effects]
+    span = column_space(at.point.jacobian)
+    left_over = across(span, at.point.residual)
+    again = (
+        found.gain
+        for old in tried.footprints
+        if old.effect.name not in names
+        for found in footprint(old.effect, old.values, old.change, span, left_over)
+    )
+    return max(again, default=0.0)
 
 
 def settled(story: Story, one: Fitted, other: Fitted) -> float:

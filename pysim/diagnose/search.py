@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from pysim.diagnose import decide
 from pysim.diagnose.fitted import Fitted
-from pysim.diagnose.null import ALARM
+from pysim.diagnose.null import ALARM, leftover
 from pysim.diagnose.pairs import Pair, joint
 from pysim.diagnose.refit import chord_refit, refit_from
 from pysim.diagnose.rounds import (
@@ -20,6 +20,7 @@ from pysim.diagnose.rounds import (
     as_data,
     by_score,
     name_of,
+    promise,
     refitted,
     rows,
     score,
@@ -39,6 +40,9 @@ Array = NDArray[np.float64]
 
 # Pairs that are refitted, and by how many times the best single gain a pair has to exceed it.
 _PAIRS, _TOGETHER = 3, 1.5
+# Another round is in vain where noise alone leaves as much with more than this chance, and no footprint promises this
+# share of what chance does.
+_QUIET, _HOPE = 0.05, 0.5
 
 
 def search(story: Story, nominal: Fitted, base: Fitted, most: int) -> Fitted:
@@ -51,6 +55,8 @@ def search(story: Story, nominal: Fitted, base: Fitted, most: int) -> Fitted:
         current = _without_the_needless(story, found)
         current = story.settle(current, name_of(current))
         story.enter(current.what.effects[-1].name, current)
+        if story.journal.once(f"round {number}", dict)["done"]:
+            break
     return current
 
 
@@ -71,13 +77,13 @@ def _round(story: Story, current: Fitted, nominal: Fitted | None, number: int, m
 
 def _played(story: Story, current: Fitted, nominal: Fitted | None, number: int, most: int) -> dict[str, Any]:
     tried = screened(story, current)
-    answer: dict[str, Any] = {"rows": [], "ties": [], "chosen": [], "part": "", "said": ""}
+    answer: dict[str, Any] = {"rows": [], "ties": [], "chosen": [], "part": "", "said": "", "done": False}
     if not tried.promises:
         return {**answer, "rows": as_data(rows(story, tried, {}, number))}
     found = refitted(story, tried, nominal if tried.bent else None)
     listed = rows(story, tried, found, number)
     answer["rows"] = as_data(listed)
-    order = by_score(current, found)
+    order = by_score(current, {name: one for name, one in found.items() if one.point.residual.size})
     if order:
         leader, ties = _first(story, current, found, order)
         answer["ties"] = [ties] if len(ties) > 1 else []
@@ -86,7 +92,8 @@ def _played(story: Story, current: Fitted, nominal: Fitted | None, number: int, 
             share = next(row.explained for row in listed if row.effect == leader)
             part = f"{name_of(current)} + {leader}"
             said = f"added {leader}: {100 * share:.1f} % of the misfit explained"
-            return {**answer, "chosen": [leader], "part": part, "said": said}
+            done = _nothing_left(story, tried, found[leader])
+            return {**answer, "chosen": [leader], "part": part, "said": said, "done": done}
         answer["said"] = trouble
     if len(current.what.effects) + 2 <= most:
         names = _together(story, tried, found)
@@ -111,7 +118,7 @@ def _together(story: Story, tried: Tried, found: dict[str, Fitted]) -> list[str]
         story.now("refitting pairs of effects")
     ends: dict[tuple[str, str], Fitted] = {}
     for pair in pairs:
-        end = _pair(story, tried, pair)
+        end = _pair(story, tried, pair, min([point.cost, *(one.point.cost for one in found.values())]))
         if end is not None:
             ends[pair.names] = end
     story.stage("refit pairs")
@@ -121,7 +128,8 @@ def _together(story: Story, tried: Tried, found: dict[str, Fitted]) -> list[str]
     return [] if _objection(story, tried.current, ends[best]) else list(best)
 
 
-def _pair(story: Story, tried: Tried, pair: Pair) -> Fitted | None:
+def _pair(story: Story, tried: Tried, pair: Pair, enough: float) -> Fitted | None:
+    """The model with both, where that is better than with any alone."""
     one, other = (part.effect for part in pair.parts)
     try:
         contender = story.extended(tried.current, one, other)
@@ -135,6 +143,8 @@ def _pair(story: Story, tried: Tried, pair: Pair) -> Fitted | None:
         if start is None:
             return None
         end = chord_refit(contender.ruler, contender.what, start, steps=8)
+        if end.cost > enough:
+            return None
         first = contender.ruler.evaluation(contender.what, end.x)
         return refit_from(contender.ruler, contender.what, first, rounds=2) if first.good else None
 
@@ -178,14 +188,20 @@ def _without(story: Story, found: Fitted, what: Extended) -> tuple[Evaluation, A
     return refit_from(ruler, what, first, rounds=2) if first.good else None
 
 
+def _nothing_left(story: Story, tried: Tried, at: Fitted) -> bool:
+    """Whether another round would be in vain: no more than noise is left, and no footprint promises anything."""
+    if promise(tried, at) > _HOPE * tried.limit:
+        return False
+    return leftover(story.ruler_of(at.what), at.point, seed=story.seed).p_value > _QUIET
+
+
 def _first(story: Story, current: Fitted, found: dict[str, Fitted], order: Sequence[str]) -> tuple[str, list[str]]:
     """The best of what was refitted with slopes of its own, and with whom it is confusable.
 
     Records held out count as evidence too: the refits have not seen them.
     """
-    exact = [name for name in order if found[name].point.residual.size]
-    worth = {name: score(current, found[name]) - _held_cost(story, found[name]) for name in exact}
-    exact.sort(key=lambda name: -worth[name])
+    worth = {name: score(current, found[name]) - _held_cost(story, found[name]) for name in order}
+    exact = sorted(order, key=lambda name: -worth[name])
     leader = exact[0]
     scale = decide.inflation(found[leader].point)
     near = [name for name in exact[1:] if worth[leader] - worth[name] < decide.TIE * scale]
