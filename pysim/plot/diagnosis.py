@@ -31,7 +31,7 @@ from pysim.types import BadInput, Candidate, Criterion, Diagnosis, LedgerStep
 _CRITERIA = {c.symbol: c for c in (*FREQUENCY_CRITERIA, *TIME_CRITERIA)}
 _TICKS = tuple(digit * 10.0**power for power in range(-2, 7) for digit in (1, 2, 5))
 _PASS, _FAIL = "#14663a", "#b3261e"
-_ROWS = 14  # candidates shown
+_ROWS, _FEW = 14, 3  # candidates shown, and of a later round at least
 
 
 def step_name(step: str) -> str:
@@ -148,7 +148,7 @@ def diagnosis_ranking_figure(diagnosis: Diagnosis) -> Figure:
         BadInput: no candidate.
     """
     numbers = sorted({row.round for row in diagnosis.ranking})
-    rounds = [[row for row in diagnosis.ranking if row.round == number][:_ROWS] for number in numbers]
+    rounds = [_shown([row for row in diagnosis.ranking if row.round == number], number) for number in numbers]
     if not rounds:
         raise BadInput("ranking figure: needs at least one candidate")
     figure = new_figure(7.4, 0.7 + sum(0.55 + 0.27 * len(rows) for rows in rounds))
@@ -169,6 +169,12 @@ def diagnosis_ranking_figure(diagnosis: Diagnosis) -> Figure:
         kinds["not told apart"] = Patch(facecolor=COLOURS[4])
     legend_above(figure, list(kinds.values()), list(kinds))
     return figure
+
+
+def _shown(rows: Sequence[Candidate], number: int) -> Sequence[Candidate]:
+    """Of a later round what pays, and a few at least."""
+    paying = sum(row.score > 1 for row in rows)
+    return rows[: _ROWS if number == 1 else min(_ROWS, max(_FEW, paying))]
 
 
 def _added_in(diagnosis: Diagnosis, number: int) -> set[str]:
