@@ -8,7 +8,6 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from pysim.identify.greybox.harmonics import regressors
 from pysim.identify.greybox.log_target import LogTarget
 from pysim.identify.greybox.sine_log import SineLog
 from pysim.identify.greybox.sine_target import SineTarget
@@ -133,7 +132,7 @@ def _rate(time: Array, values: Array) -> Array:
 
 
 def _sine_columns(dataset: str, log: SineLog, values: Array, suspected: Sequence[Suspect]) -> Array:
-    q, r = np.linalg.qr(regressors(log.phase, log.count))
+    q, r = log.factors
     level = log.onto @ values
     swings = np.linalg.solve(r, level)
     rates = np.zeros_like(swings)

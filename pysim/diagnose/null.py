@@ -93,7 +93,7 @@ class _Part:
     doubt: float
 
 
-def leftover(ruler: Ruler, point: Evaluation, *, seed: int = 0, draws: int = 4000) -> Leftover:
+def leftover(ruler: Ruler, point: Evaluation, *, seed: int = 0, draws: int = 2000) -> Leftover:
     """Sums of squares by signal and band or harmonic, and products with the command, against what noise alone does.
 
     A misfit of a few among thousands of samples does not move their total. It does stick out where it sits: at low
@@ -127,7 +127,7 @@ class Expected:
     along: Array
 
     @staticmethod
-    def of(ruler: Ruler, slopes: Array, *, seed: int = 0, draws: int = 4000) -> Expected:
+    def of(ruler: Ruler, slopes: Array, *, seed: int = 0, draws: int = 2000) -> Expected:
         """For a model with slopes (n_r, n), as the ruler counts them."""
         own = column_space(slopes)
         reach = np.column_stack([ruler.span.basis, own]) if ruler.span.rank else own

@@ -12,7 +12,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pysim.diagnose.noise import Column, Noise, white
-from pysim.identify.greybox.harmonics import regressors
 from pysim.identify.greybox.log_target import LogTarget
 from pysim.identify.greybox.sine_log import SineLog
 from pysim.identify.greybox.sine_target import SineTarget
@@ -194,14 +193,12 @@ def _innovations(rows: Array, kept: Array, gain: Array, scale: Array) -> Array:
 
 def _harmonics(dataset: str, log: SineLog, noise: Mapping[Column, Noise]) -> tuple[Array | None, ...]:
     found: list[Array | None] = []
-    columns = None
     for name, unit in zip(log.measured.names, log.noise, strict=True):
         own = noise.get((dataset, name), white(unit))
         if own.plain:
             found.append(None)
             continue
-        if columns is None:
-            columns = np.linalg.qr(regressors(log.phase, log.count))[0]
+        columns = log.factors[0]
         spread = (own.white**2 * np.eye(columns.shape[1]) + own.coloured**2 * _products(log, own, columns)) / unit**2
         found.append(np.linalg.inv(np.linalg.cholesky(spread)))
     return tuple(found)

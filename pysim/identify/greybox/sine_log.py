@@ -94,6 +94,11 @@ class SineLog:
         object.__setattr__(self, "_factors", (q, r))
 
     @property
+    def factors(self) -> tuple[Array, Array]:
+        """Orthonormal columns (n_t, n_h) that span mean and harmonics, and the triangle (n_h, n_h) behind them."""
+        return self._factors
+
+    @property
     def phase(self) -> Array:
         """Of the command at the samples, (n_t,) rad."""
         return self.sine.at(self.measured.time)
