@@ -50,8 +50,12 @@ def answered(story: Story, final: Fitted, verdict: str, reason: str, missing: tu
     )
 
 
-def decided(story: Story, base: Fitted, final: Fitted) -> tuple[str, str]:
-    """Verdict and reason: what was added is named only where nothing else is left."""
+def decided(story: Story, base: Fitted, final: Fitted, *, tried: bool = True) -> tuple[str, str]:
+    """Verdict and reason: what was added is named only where nothing else is left.
+
+    Args:
+        tried: whether the catalogue was.
+    """
     point, names = final.point, [e.name for e in final.what.effects]
     ruler = story.ruler_of(final.what)
     freedom = ruler.freedom - point.x.size
@@ -62,6 +66,8 @@ def decided(story: Story, base: Fitted, final: Fitted) -> tuple[str, str]:
     if not names and complete:
         return NONE, f"the refitted base model explains the data: {left}, and nothing in it has a pattern"
     where = f", most of it {rest.where[0]}" if rest.where else ""
+    if not names and not tried:
+        return UNKNOWN, f"{left}{where}; no effect was tried"
     if not names and story.subject.build_variant is None:
         return UNKNOWN, f"{left}{where}, and no effect could be tried"
     if not names and not story.subject.catalogue:

@@ -80,7 +80,7 @@ def against(
     told: dict[str, object] = {"step": "against"}
     story = begin(subject, seed=0, workers=workers, progress=progress, journal=journal, settings=told)
     last = _refit(story, _prior(story)) if refitted else _prior(story)
-    return answered(story, last, *decided(story, last, last))
+    return answered(story, last, *decided(story, last, last, tried=False))
 
 
 def rank(
@@ -155,7 +155,7 @@ def located(
     told: dict[str, object] = {"step": "located", "effects": [effect.name for effect in effects]}
     story = begin(subject, seed=0, workers=workers, progress=progress, journal=journal, settings=told)
     base, current = _with(story, effects)
-    return answered(story, current, *decided(story, base, current), _missing(story, current))
+    return answered(story, current, *decided(story, base, current, tried=False), _missing(story, current))
 
 
 def _missing(story: Story, current: Fitted) -> tuple[Missing, ...]:

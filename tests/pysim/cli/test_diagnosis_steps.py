@@ -104,6 +104,7 @@ def test_compare_tells_how_far_the_model_is_and_where(
     found = json.loads((tmp_path / "a").read_text())
     prior, refit = found["error"]
     assert prior["fit"] > 1.5 * refit["fit"] > 1.5
+    assert (found["verdict"], found["reason"].partition("; ")[2]) == ("unknown", "no effect was tried")
     assert found["where"][0]["error"] > refit["fit"]
     assert "pysim compare Toy.Mass --data" in (output / "report.html").read_text()
 
