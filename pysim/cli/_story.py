@@ -23,7 +23,7 @@ _LEARNED = 4  # last lines kept in sight
 _BAR = 24
 _PAUSE = 0.5  # s between two drawings
 # Share of a diagnosis' time that is usually behind once a stage begins, by the stage's first words.
-_USUAL = {"comparing": 0.0, "refitting the model": 0.05, "compiling": 0.25, "screening": 0.4, "refitting the prom": 0.6}
+_USUAL = {"comparing": 0.0, "refitting the model": 0.1, "compiling": 0.3, "screening": 0.45, "refitting the prom": 0.55}
 
 
 class Story:
