@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from pysim.diagnose.probe_laws import Law
+    from pysim.diagnose.probe_laws import Term
     from pysim.types import Effect, Model
 
 
@@ -74,7 +74,7 @@ class Variants:
         built = fmu_build.build(name, fmu, libraries=[*self.libraries, source])
         return read_model(built), made.places
 
-    def probed(self, effects: Sequence[Effect], law: Law) -> Model:
+    def probed(self, effects: Sequence[Effect], law: Term) -> Model:
         """The model with these effects and a term at one place of it, as a table whose values are parameters.
 
         Raises:

@@ -13,9 +13,10 @@ from pysim.diagnose.fitted import Fitted
 from pysim.diagnose.formula import Formula, formula
 from pysim.diagnose.outside import outside
 from pysim.diagnose.probe_fit import Estimate, Solution, Table, across, advance, begin, first_order, knots
-from pysim.diagnose.probe_laws import KNOTS, Law, slot_laws, state_laws
+from pysim.diagnose.probe_laws import KNOTS, Law, Term, slot_laws, state_laws
 from pysim.diagnose.probe_runs import seen, thinned
 from pysim.diagnose.probe_shape import Told, shape, told, units
+from pysim.diagnose.probe_tone import tones
 from pysim.diagnose.residuals import Ruler
 from pysim.diagnose.screen import column_space
 from pysim.diagnose.subject import Subject
@@ -25,7 +26,7 @@ from pysim.types import BadInput, Effect, Missing, Model
 Array = NDArray[np.float64]
 
 # Effects that the model has already, and a term -> the model compiled with both.
-Probed = Callable[[Sequence[Effect], Law], Model]
+Probed = Callable[[Sequence[Effect], Term], Model]
 Say = Callable[[str], None]
 
 # Terms that are fitted together with the parameters, and for how many steps: fewer and fewer go on.
@@ -93,7 +94,17 @@ def locate(
             tried.append(base.found(law, *found))
     tried.sort(key=lambda found: -found.evidence)
     say(f"looked at {len(tried)} terms: " + ", ".join(f"{f.law.slot} {100 * f.share:.0f} %" for f in tried[:3]))
-    return _missing(subject, few, base, tried, say)
+    rows = _missing(subject, few, base, tried, say)
+    return _swinging_first(rows, tones(ruler, current, laws, probed), say)
+
+
+def _swinging_first(rows: Sequence[Missing], swings: Sequence[Missing], say: Say) -> tuple[Missing, ...]:
+    """A swing stands for its place where it takes more than the place's best law of the model's own variables does."""
+    if not swings or (rows and rows[0].share > swings[0].share):
+        return tuple(rows)
+    say(f"{swings[0].slot} over time: {100 * swings[0].share:.1f} % of the misfit of a log. {swings[0].formula}")
+    places = {row.slot for row in swings}
+    return (*swings, *(row for row in rows if row.slot not in places))
 
 
 @dataclass(frozen=True)

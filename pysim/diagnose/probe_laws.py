@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from typing import Protocol
 
 from pysim.effects import Slot
 from pysim.types import Model
@@ -99,7 +100,26 @@ class Law:
         return "\n".join([*lines, *start, "equation", *equations, ""])
 
 
-def wrapped(base: str, law: Law, name: str) -> str:
+class Term(Protocol):
+    """What can be compiled beside a model."""
+
+    @property
+    def slot(self) -> str:
+        """Name of the place."""
+        ...
+
+    @property
+    def text(self) -> str:
+        """Declarations and equations."""
+        ...
+
+    @property
+    def probes(self) -> tuple[str, ...]:
+        """What is added to which equation, as `fmu_build.build(probes=...)` takes it."""
+        ...
+
+
+def wrapped(base: str, law: Term, name: str) -> str:
     """The class to compile: the model and the term beside it."""
     return f'model {name} "{base} with a term at {law.slot}"\n  extends {base};\n{law.text}end {name};\n'
 

@@ -12,7 +12,7 @@ from fmu_build import build
 from pysim.diagnose import subject
 from pysim.diagnose.fitted import Fitted
 from pysim.diagnose.locate import locate
-from pysim.diagnose.probe_laws import Law, wrapped
+from pysim.diagnose.probe_laws import Law, Term, wrapped
 from pysim.diagnose.refit import refit
 from pysim.diagnose.residuals import rulers
 from pysim.diagnose.subject import extended
@@ -22,7 +22,7 @@ from pysim.types import Dataset, Effect, Missing, Model
 from tests.pysim.diagnose.toy import CATALOGUE, base, library, measured
 
 
-def probed(effects: Sequence[Effect], law: Law) -> Model:
+def probed(effects: Sequence[Effect], law: Term) -> Model:
     """As the command line does it."""
     assert not effects
     source = Path(mkdtemp(prefix="toy-")) / "Located.mo"
