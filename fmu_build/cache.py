@@ -4,6 +4,7 @@ import hashlib
 import os
 import shutil
 import sys
+import time
 import uuid
 from collections.abc import Iterable, Mapping, Sequence
 from contextlib import suppress
@@ -14,6 +15,7 @@ from fmu_build.errors import BuildError
 
 FOLDER_VARIABLE = "HTB_CACHE"
 KEPT_FMUS = 200
+IN_USE = 86400.0  # s since its last use for which an FMU stays, however many there are: a run may still read it
 _TOOLS = ("rumoca", "casadi", "ziglang", "fmpy")  # their versions shape the result
 _OWN_SUFFIXES = {".py", ".c", ".h", ".txt"}
 
@@ -58,13 +60,15 @@ def cached(key: str) -> Path | None:
 
 
 def store(key: str, fmu: Path) -> Path:
-    """Keep a copy of a new FMU and let go of those unused for longest."""
+    """Keep a copy of a new FMU and let go of those unused for longest, but of none that a run may still read."""
     target = _place(key)
+    lately = time.time() - IN_USE
     try:
         copy_whole(fmu, target)
-        kept = sorted(target.parent.glob("*.fmu"), key=lambda path: path.stat().st_mtime, reverse=True)
-        for path in kept[KEPT_FMUS:]:
-            path.unlink(missing_ok=True)
+        used = {path: path.stat().st_mtime for path in target.parent.glob("*.fmu")}
+        for path in sorted(used, key=used.__getitem__, reverse=True)[KEPT_FMUS:]:
+            if used[path] < lately:
+                path.unlink(missing_ok=True)
     except OSError as error:
         raise BuildError(
             f"cannot keep the FMU in {target.parent}: {error.strerror or error}; "

@@ -67,6 +67,14 @@ def test_the_unused_go_first(tmp_path, monkeypatch):
     assert [cached(name) is not None for name in "abcd"] == [True, False, False, True]
 
 
+def test_what_was_used_within_a_day_stays(tmp_path, monkeypatch):
+    monkeypatch.setattr(cache, "KEPT_FMUS", 1)
+    (tmp_path / "a.fmu").touch()
+    for name in "abc":
+        store(name, tmp_path / "a.fmu")
+    assert all(cached(name) is not None for name in "abc")
+
+
 def test_a_cache_that_cannot_be_written_names_the_cure(tmp_path, monkeypatch):
     (tmp_path / "file").touch()
     monkeypatch.setenv("HTB_CACHE", str(tmp_path / "file" / "cache"))
