@@ -13,6 +13,7 @@ from pysim.diagnose.fitted import Fitted
 from pysim.diagnose.formula import formula
 from pysim.diagnose.probe_fit import Estimate, Solution, Table, across, knots, solve
 from pysim.diagnose.probe_laws import KNOTS, Copy, Law
+from pysim.diagnose.probe_runs import thinned
 from pysim.diagnose.probe_shape import shape, told, units
 from pysim.diagnose.residuals import Ruler
 from pysim.diagnose.screen import column_space
@@ -81,7 +82,8 @@ def outside(ruler: Ruler, current: Fitted) -> tuple[Missing, ...]:
 
     A term at an input is added to what drives the model, one at an output to what it answers. It is a table over one
     signal: the input or output itself, its rate, or one of the others. To first order around the fitted model, what
-    refitting takes left out. Nothing else of an FMU without source can be probed.
+    refitting takes left out, in the tests that show most of the misfit for their time. Nothing else of an FMU without
+    source can be probed.
 
     Args:
         ruler: of what is fitted.
@@ -89,6 +91,11 @@ def outside(ruler: Ruler, current: Fitted) -> tuple[Missing, ...]:
     Returns:
         per input and output the best term, the most likely place first; empty where the model cannot be simulated.
     """
+    few = thinned(ruler, current.point)
+    point = few.evaluation(current.what, current.point.x)
+    if not point.good:
+        return ()
+    ruler, current = few, Fitted(current.what, point)
     ways = _ways(ruler, current)
     if not ways:
         return ()

@@ -1,6 +1,5 @@
 """What is diagnosed: free parameters, bounds, and models that say little of themselves."""
 
-
 import pytest
 
 from fmu_build import build
