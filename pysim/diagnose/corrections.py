@@ -161,6 +161,18 @@ def settled(ruler: Ruler, held: Ruler | None, at: Fitted, *, rounds: int = 2) ->
     return done if done.at.point.cost < _EXPLAINED * ruler.freedom else first
 
 
+def held_beside(ruler: Ruler, held: Ruler, at: Fitted) -> Ruler:
+    """What is held out without the nuisances that a model's own fit asks for, found or not.
+
+    So each model is judged with the sensors it would have: one that explains an offset by physics is not held against
+    measurements from which another model's offset was taken off.
+    """
+    seen = nuisances(ruler, at.what, at.point)
+    if not seen:
+        return held
+    return _with(held, {n.suspect: n.value for n in seen if math.isfinite(n.high)})
+
+
 def _again(done: Settled) -> Settled:
     """Takes off what was found, and refits."""
     what, near = done.at.what, done.at.point.x

@@ -17,6 +17,7 @@ from pysim.diagnose.corrections import (
     Settled,
     allowing,
     counting_in_words,
+    held_beside,
     in_words,
     recounted,
     settled,
@@ -213,10 +214,11 @@ class Story:
         """Residuals of what is held out, (n,); None where nothing is or where it could not be simulated."""
         if self.held is None:
             return None
-        solver = self.ruler_of(at.what).solver
+        ruler = self.ruler_of(at.what)
+        solver = ruler.solver
         if isinstance(solver, Rodas | Esdirk):  # one run, so that what speaks for or against is not its error
             solver = replace(solver, rtol=_FINER * solver.rtol, atol=_FINER * solver.atol)
-        return replace(self.held, solver=solver).at(at.what, at.point.x)
+        return replace(held_beside(ruler, self.held, at), solver=solver).at(at.what, at.point.x)
 
 
 def begin(

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from pysim.diagnose.corrections import allowing, in_words, nuisances, settled, told_apart
+from pysim.diagnose.corrections import allowing, held_beside, in_words, nuisances, settled, told_apart
 from pysim.diagnose.fitted import Fitted
 from pysim.diagnose.nuisance import GAIN, OFFSET, SHIFT
 from pysim.diagnose.refit import refit
@@ -73,6 +73,16 @@ def test_what_is_there_no_more_is_put_back() -> None:
     assert nuisances(clean, at.what, clean.evaluation(at.what, at.point.x)) == ()
     ruler, held, at = fitted(logged(2))
     assert not any(n.found for n in settled(ruler, held, at).seen)
+
+
+def test_each_model_is_judged_with_its_own_sensors() -> None:
+    ruler, held, at = fitted(logged(4, offset=0.02, late=0.006))
+    assert held is not None
+    wrong, right = held.at(at.what, at.point.x), held_beside(ruler, held, at).at(at.what, at.point.x)
+    assert wrong is not None
+    assert right is not None
+    assert wrong @ wrong > 100 * wrong.size
+    assert abs(right @ right - right.size) < 5 * np.sqrt(2 * right.size)
 
 
 def test_intervals_hold() -> None:
