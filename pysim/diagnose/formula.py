@@ -54,12 +54,14 @@ class Formula:
         form: word for its kind, "" where nothing does.
         effect: standard name of the catalogue's effect of that kind at that place, "" where there is none.
         along: (k,) amounts of what refitting absorbs, with which the table and the formula agree.
+        spread: (k, k) their covariance.
     """
 
     text: str
     form: str
     effect: str
     along: Array
+    spread: Array
 
 
 @dataclass(frozen=True)
@@ -95,7 +97,8 @@ def formula(
         slot, catalogue: where the term is, and the effects known there.
     Source: the criterion is Schwarz 1978, Annals of Statistics 6:461.
     """
-    nothing = Formula("", "", "", np.zeros(absorbed.shape[1]))
+    count = absorbed.shape[1]
+    nothing = Formula("", "", "", np.zeros(count), np.zeros((count, count)))
     m, size = k.size, float(np.sqrt(np.mean(values**2)))
     if not size > 0:
         return nothing
@@ -121,9 +124,11 @@ def formula(
     left = target - np.linalg.solve(root, term.columns(k, width)) @ own - free @ along
     if float(left @ left) > (1 - _GOOD) * float(target @ target) or float(left @ left) > 3 * m:
         return nothing
+    design = np.column_stack([np.linalg.solve(root, term.columns(k, width)), free])
+    spread = np.linalg.pinv(design.T @ design)[own.size :, own.size :]
     effect = _effect(term.form, argument, slot, catalogue)
     text = term.written(own, width, argument, unit_in, unit_out)
-    return Formula(text, term.form, effect, -along)
+    return Formula(text, term.form, effect, -along, spread)
 
 
 def _effect(form: str, argument: str, slot: str, catalogue: Sequence[Effect]) -> str:

@@ -227,6 +227,8 @@ def _row(found: _Found) -> Missing:
         unit = found.table.unit
         values, covariance = unit * found.solution.values, unit**2 * found.solution.covariance
         of = Told(found.table.knots, values, covariance, np.zeros((KNOTS, 0)))
-        said = Formula("", "", "", np.zeros(0))
+        said = Formula("", "", "", np.zeros(0), np.zeros((0, 0)))
     text = f"{said.text} ({said.effect})" if said.effect else said.text
-    return Missing(law.slot, found.share, law.argument, shape(of, law, found.table.model, said.along), text)
+    return Missing(
+        law.slot, found.share, law.argument, shape(of, law, found.table.model, said.along, said.spread), text
+    )

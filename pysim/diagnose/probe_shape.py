@@ -72,16 +72,18 @@ def told(estimate: Estimate) -> Told:
     return Told(k, unit * (keep @ values), unit**2 * (keep @ covariance @ keep), absorbed)
 
 
-def shape(of: Told, law: Law, model: Model, along: Array) -> Shape:
+def shape(of: Told, law: Law, model: Model, along: Array, spread: Array | None = None) -> Shape:
     """The term over its argument.
 
     Args:
         along: (k,) amounts of the absorbed directions to show it with.
+        spread: (k, k) their covariance, where a formula gives them; exact where None.
     """
     grid = np.linspace(of.knots[0], of.knots[-1], _POINTS)
     weights = np.stack([np.interp(grid, of.knots, row) for row in np.eye(KNOTS)], axis=1)
     value = weights @ (of.values + of.absorbed @ along)
-    half = _Z95 * np.sqrt(np.maximum(np.einsum("gi,ij,gj->g", weights, of.covariance, weights), 0.0))
+    covariance = of.covariance if spread is None else of.covariance + of.absorbed @ spread @ of.absorbed.T
+    half = _Z95 * np.sqrt(np.maximum(np.einsum("gi,ij,gj->g", weights, covariance, weights), 0.0))
     inside = np.clip(np.searchsorted(of.knots, grid, side="right") - 1, 0, KNOTS - 2)
     half = np.hypot(half, of.bent[inside])
     unit_in, unit_out = units(law, model)
