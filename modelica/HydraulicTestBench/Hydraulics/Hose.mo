@@ -49,7 +49,7 @@ speed of sound is &radic;(&beta;<sub>h</sub>/&rho;): 565 m/s with the default wa
 &beta;<sub>w</sub> = 1e15). The wall of a hose takes energy out of fast waves: p = p<sub>el</sub> + T<sub>w</sub>
 dp<sub>el</sub>/dt, a loss factor of &omega;T<sub>w</sub>; 0 is off.</p>
 <p>Both ends are volumes. Connect them to what gives a flow from a pressure: pump, motor, valve, orifice, closed
-end.</p>
+end. A <code>Tank</code> at an end needs T<sub>w</sub> above 0, which gives that end a flow.</p>
 <p><b>Source:</b> thesis Section 4.5 has a hose without its equations. Line in segments and stiffness of hose walls
 (70 to
 350 MPa): H. E. Merritt, Hydraulic Control Systems, Chapters 2 and 3; friction:
