@@ -7,16 +7,24 @@ from pysim.diagnose.doubt import doubt, held_still
 from pysim.diagnose.fitted import Fitted
 from pysim.diagnose.null import leftover
 from pysim.diagnose.story import Story
-from pysim.types.diagnosis import NONE, UNKNOWN, AddedEffect, Diagnosis, Missing
+from pysim.types.diagnosis import NONE, UNKNOWN, AddedEffect, Diagnosis, Missing, NextTest
 
 
-def answered(story: Story, final: Fitted, verdict: str, reason: str, missing: tuple[Missing, ...] = ()) -> Diagnosis:
+def answered(
+    story: Story,
+    final: Fitted,
+    verdict: str,
+    reason: str,
+    missing: tuple[Missing, ...] = (),
+    test: NextTest | None = None,
+) -> Diagnosis:
     """Everything that was found.
 
     Args:
         final: the model at the end of the story.
         verdict, reason: what `decided` says.
         missing: terms at its places, where they were looked for.
+        test: that would separate what is tied.
     """
     for line in story.disturbed():
         story.note(line)
@@ -46,6 +54,7 @@ def answered(story: Story, final: Fitted, verdict: str, reason: str, missing: tu
         story.seconds,
         tuple(story.notes),
         missing=missing,
+        next_test=test,
         stages=tuple(story.stages),
     )
 

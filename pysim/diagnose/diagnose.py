@@ -10,6 +10,7 @@ import numpy as np
 from pysim.diagnose.answer import answered, decided
 from pysim.diagnose.fitted import Fitted
 from pysim.diagnose.locate import locate
+from pysim.diagnose.next_test import next_test
 from pysim.diagnose.refit import refit_from
 from pysim.diagnose.rounds import Tried, refitted, rows, screened
 from pysim.diagnose.screen import screen
@@ -17,7 +18,7 @@ from pysim.diagnose.search import search
 from pysim.diagnose.story import Say, Story, begin
 from pysim.diagnose.strengths import declared, setting
 from pysim.diagnose.subject import Subject, extended
-from pysim.types import BadInput, Diagnosis, Effect, Missing
+from pysim.types import BadInput, Diagnosis, Effect, Missing, NextTest
 from pysim.types.diagnosis import UNKNOWN
 
 # Effects that may be added one after the other.
@@ -57,7 +58,7 @@ def diagnose(
         final = search(story, nominal, base, most)
     verdict, reason = decided(story, base, final)
     missing = _missing(story, final) if verdict == UNKNOWN else ()
-    return answered(story, final, verdict, reason, missing)
+    return answered(story, final, verdict, reason, missing, _next_test(story))
 
 
 def against(
@@ -156,6 +157,22 @@ def located(
     story = begin(subject, seed=0, workers=workers, progress=progress, journal=journal, settings=told)
     base, current = _with(story, effects)
     return answered(story, current, *decided(story, base, current, tried=False), _missing(story, current))
+
+
+def _next_test(story: Story) -> NextTest | None:
+    """What would separate the last two that were tied; None where none were, or no test would."""
+    if story.tied is None:
+        return None
+    story.now("looking for a test that separates the tied")
+    try:
+        found = next_test(story.subject, *story.tied, workers=story.ruler.workers)
+    except BadInput as error:
+        story.note(f"no next test could be looked for: {error}")
+        found = None
+    story.stage("next test")
+    if found is not None:
+        story.say(f"next test: {found.about}")
+    return found
 
 
 def _missing(story: Story, current: Fitted) -> tuple[Missing, ...]:

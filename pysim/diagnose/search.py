@@ -72,7 +72,13 @@ def _round(story: Story, current: Fitted, nominal: Fitted | None, number: int, m
         return None
     named = {e.name: e for e in story.subject.catalogue}
     what = extended(story.subject, [*current.what.effects, *(named[name] for name in told["chosen"])])
-    return story.fitted(what, told["part"], lambda: None)
+    found = story.fitted(what, told["part"], lambda: None)
+    for group in told["ties"]:  # the leader stands first
+        rival = extended(story.subject, [*current.what.effects, named[group[1]]])
+        other = story.fitted(rival, f"{name_of(current)} + {group[1]}", lambda: None)
+        if found is not None and other is not None:
+            story.tied = found, other
+    return found
 
 
 def _played(story: Story, current: Fitted, nominal: Fitted | None, number: int, most: int) -> dict[str, Any]:
@@ -198,13 +204,12 @@ def _nothing_left(story: Story, tried: Tried, at: Fitted) -> bool:
 def _first(story: Story, current: Fitted, found: dict[str, Fitted], order: Sequence[str]) -> tuple[str, list[str]]:
     """The best of what was refitted with slopes of its own, and with whom it is confusable.
 
-    Records held out count as evidence too: the refits have not seen them.
+    Near-ties are run again at a finer integration, and records held out are evidence between them: the refits have not
+    seen those. They do not overrule a clear score.
     """
-    worth = {name: score(current, found[name]) - _held_cost(story, found[name]) for name in order}
-    exact = sorted(order, key=lambda name: -worth[name])
-    leader = exact[0]
-    scale = decide.inflation(found[leader].point)
-    near = [name for name in exact[1:] if worth[leader] - worth[name] < decide.TIE * scale]
+    leader, scale = order[0], decide.inflation(found[order[0]].point)
+    worth = {name: score(current, found[name]) for name in order}
+    near = [name for name in order[1:] if worth[leader] - worth[name] < decide.TIE * scale]
     ties = [leader]
     for name in near:
         story.now(f"settling {leader} against {name}")
@@ -235,6 +240,8 @@ def _objection(story: Story, current: Fitted, best: Fitted) -> str:
     if share < decide.FAIR:
         return f"{name} takes {100 * share:.1f} % of the misfit: not enough to be named"
     before, after = story.held_out(current), story.held_out(best)
-    if before is not None and after is not None and decide.disagreement(before, after) > decide.AGAINST:
-        return f"{name} makes what is held out worse: not named"
+    if before is None or after is None or decide.disagreement(before, after) <= decide.AGAINST:
+        return ""
+    if float(after @ after - before @ before) > gain:
+        return f"{name} makes what is held out worse by more than it gains: not named"
     return ""

@@ -72,6 +72,7 @@ class Story:
     begun: float = field(default_factory=time.monotonic)
     suits: dict[tuple[str, ...], Ruler] = field(default_factory=dict)
     nuisances: tuple[Nuisance, ...] = ()
+    tied: tuple[Fitted, Fitted] | None = None
 
     def now(self, doing: str) -> None:
         """A new stage begins, in a few words."""
