@@ -105,7 +105,8 @@ def confusion_picture(pairs: Sequence[Pair]) -> Picture:
     share = counts / np.maximum(counts.sum(axis=1, keepdims=True), 1)
     figure = new_figure(0.36 * len(columns) + 2.6, 0.26 * max(len(truths), 4) + 2.2)
     axes = figure.add_subplot()
-    axes.imshow(share, cmap="Blues", vmin=0, vmax=1.15, aspect="auto")
+    if truths:
+        axes.imshow(share, cmap="Blues", vmin=0, vmax=1.15, aspect="auto")
     for i, j in zip(*np.nonzero(counts), strict=True):
         dark = "white" if share[i, j] > 0.6 else MEASURED
         axes.text(j, i, f"{counts[i, j]:.0f}", ha="center", va="center", fontsize=SMALL, color=dark)
