@@ -1,10 +1,12 @@
-"""Refuses redeclarations that rumoca 0.10.2 would drop without a word.
+"""Refuses redeclarations and modifications that rumoca 0.10.2 would drop without a word.
 
 It follows `redeclare X part` only in the modification of a component, or of the very class that declares `part`.
 Through a base class that merely inherits the part, inside another modification, as an element of its own or behind
 `constrainedby`, the redeclaration is lost and the model silently stays what it was. `redeclare model X = Y` is
 followed through bases and as an element too, but not inside another modification; `redeclare model extends X` ends
 rumoca's process.
+
+Of `part(attribute = a) = value` nothing is left in an extends clause, nor inside another modification.
 """
 
 from collections.abc import Iterator
@@ -58,6 +60,7 @@ def _checked(here: FoundClass, classes: ClassLookup) -> Iterator[FoundClass]:
         used = classes.resolve(declaration.class_name, here)
         if used is not None:
             yield used
+        _check_values(declaration, here)
         for found in _redeclarations(declaration.modification):
             _check(found, declaration, used, here, classes)
             replacement = classes.resolve(found.class_name, here) if found.class_name else None
@@ -80,6 +83,24 @@ def _check_element(declaration: Declaration, here: FoundClass) -> None:
             f"{', '.join(declaration.declared)} itself",
             found.offset,
         )
+
+
+def _check_values(declaration: Declaration, here: FoundClass) -> None:
+    """Refuse a value behind the bracket of a modified part where it would be lost with the bracket."""
+    lost_at = 1 if declaration.kind is Kind.EXTENDS else 2
+    opened: list[int] = []
+    tokens = declaration.modification
+    for at, (token, _) in enumerate(tokens):
+        if token in "([{":
+            opened.append(at)
+        elif token in ")]}":
+            name, offset = tokens[opened.pop() - 1]
+            if len(opened) >= lost_at and at + 1 < len(tokens) and tokens[at + 1][0] == "=":
+                raise here.error(
+                    f"the compiler loses both attributes and value of {name}(...) = ... here; set the attributes in a "
+                    f"class of their own, and the value, {name} = ..., in one that extends it",
+                    offset,
+                )
 
 
 def _check(

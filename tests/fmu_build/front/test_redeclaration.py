@@ -120,3 +120,28 @@ def test_the_line_is_that_of_the_redeclaration_wherever_it_is_used(tmp_path: Pat
     with pytest.raises(BuildError, match=THROUGH_BASE) as caught:
         stiffnesses("model M extends Yard(redeclare Bad cart); end M;", tmp_path)
     assert LIBRARY.splitlines()[caught.value.line - 1].strip() == "redeclare Spring slot); end Bad;"
+
+
+@pytest.mark.parametrize(
+    "model",
+    [
+        "model M extends Spring(k(max = 9) = 3); end M;",
+        "model M extends Spring(x(start = 1), k(min = 0, max = max(3, 9)) = 3); end M;",
+        "model M extends Sprung(slot(k(max = 9) = 3)); end M;",
+        "model M Sprung s(slot(k(max = 9) = 3)); end M;",
+    ],
+)
+def test_a_value_behind_attributes_is_refused_where_it_would_be_lost(model: str, tmp_path: Path) -> None:
+    with pytest.raises(BuildError, match=rf"L\.mo:{OWN_LINE}.*loses both attributes and value of k"):
+        stiffnesses(model, tmp_path)
+
+
+@pytest.mark.parametrize(
+    "model",
+    [
+        "model M Spring s(k(max = 9) = 3, x = 0); end M;",
+        "model Wide extends Spring(k(max = 9)); end Wide; model M extends Wide(k = 3, x = 0); end M;",
+    ],
+)
+def test_a_value_behind_attributes_stands_where_it_is_kept(model: str, tmp_path: Path) -> None:
+    assert list(stiffnesses(model, tmp_path).values()) == [3]
