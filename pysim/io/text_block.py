@@ -40,7 +40,7 @@ def read_block(lines: list[str], width: int) -> Array | None:
     allowed = _NUMBER + b" " + (separator or "").encode() + (b"," if decimal else b"")
     if not text.isascii() or text.encode().translate(None, allowed):
         return None
-    if decimal and separator is None and (width == 1 or any(edge in text for edge in _EDGES)):
+    if decimal and separator is None and (width == 1 or any(edge in f"\n{text}\n" for edge in _EDGES)):
         return None
     try:
         rows = text.replace(",", ".").split("\n") if decimal else lines

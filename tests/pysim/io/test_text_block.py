@@ -81,7 +81,7 @@ def test_ordinary_logs_take_the_fast_way(separator: str) -> None:
 
 @pytest.mark.parametrize(
     "second",
-    ["1 nan", "1 inf", "1 1e999", "1 2 3", "1", "1 x", "1 1_0", "1\t2", "1;2", "1, 2", "# 1 2", "1 ٣", "1 2 #"],
+    ["1 nan", "1 inf", "1 1e999", "1 2 3", "1", "1 x", "1 1_0", "1\t2", "1;2", "1, 2", "1 2,", "# 1 2", "1 ٣", "1 2 #"],
 )
 def test_anything_unusual_is_left_to_the_careful_reader(second: str) -> None:
     assert read_block(["1 2,5", second], 2) is None
