@@ -70,8 +70,10 @@ def decided(story: Story, base: Fitted, final: Fitted, *, tried: bool = True) ->
     freedom = ruler.freedom - point.x.size
     rest = leftover(ruler, point, seed=story.seed)
     share = decide.explained(base.point.cost - point.cost, base.point.cost, freedom)
-    complete = rest.p_value >= decide.SURE or (bool(names) and share >= decide.WHOLE)
-    left = f"{point.cost / max(freedom, 1):.3g} times the noise's variance is left"
+    level = point.cost / max(freedom, 1)
+    as_noise = rest.p_value >= decide.SURE and level < decide.LEVEL
+    complete = as_noise or (bool(names) and share >= decide.WHOLE)
+    left = f"{level:.3g} times the noise's variance is left"
     if not names and complete:
         return NONE, f"the refitted base model explains the data: {left}, and nothing in it has a pattern"
     where = f", most of it {rest.where[0]}" if rest.where else ""

@@ -29,6 +29,8 @@ Array = NDArray[np.float64]
 
 # Standard deviations from which a nuisance counts as found: noise alone does that once in 16,000 times.
 CERTAIN = 4.0
+# Usual sizes up to which one is taken for a nuisance: what asks for more has another cause.
+PLAUSIBLE = 3.0
 # s after which a plate that moved when its log began is at rest; s at its start in which that shows.
 _OVER, _SHOWS = 0.8, 0.15
 # A wrong start shows with this chance by noise alone, and the model moves little while it does.
@@ -77,13 +79,17 @@ def nuisances(ruler: Ruler, what: Extended, point: Evaluation) -> tuple[Nuisance
     told = np.linalg.norm(rest, axis=0) > _ALIKE
     values, spread = np.zeros(sizes.size), np.full(sizes.size, math.inf)
     q, r = np.linalg.qr(rest[:, told])
-    values[told] = np.linalg.lstsq(r, q.T @ residual, rcond=None)[0] / sizes[told]
-    spread[told] = np.linalg.norm(np.linalg.pinv(r), axis=1) / sizes[told]
+    usual = np.array([s.width for s in ruler.suspected])[told] * sizes[told]
+    before = np.array([ruler.taken.get(s, 0.0) for s in ruler.suspected])[told] * sizes[told]
+    doubt = np.linalg.pinv(r.T @ r + np.diag(usual**-2), hermitian=True)
+    values[told] = doubt @ (r.T @ (q.T @ residual) - before / usual**2) / sizes[told]
+    spread[told] = np.sqrt(np.diag(doubt)) / sizes[told]
     inflated = math.sqrt(max(1.0, point.cost / max(ruler.freedom - point.x.size, 1)))
     found = []
     for suspect, left, std in zip(ruler.suspected, values.tolist(), (inflated * spread).tolist(), strict=True):
         value = _joined(ruler.taken, suspect, left)
-        found.append(Nuisance(suspect, value, value - 1.96 * std, value + 1.96 * std, abs(value) > CERTAIN * std))
+        there = CERTAIN * std < abs(value) < PLAUSIBLE * suspect.width
+        found.append(Nuisance(suspect, value, value - 1.96 * std, value + 1.96 * std, there))
     return tuple(found)
 
 
@@ -145,6 +151,8 @@ def settled(ruler: Ruler, held: Ruler | None, at: Fitted, *, rounds: int = 2) ->
     allowed for to first order, found or not, so that a count changes little by this; what is reported, held out or
     drawn is then free of them.
     """
+    if ruler.taken and at.what.effects:
+        ruler, held, at = _put_back(ruler, held, at)
     anchored, _ = taken_off(ruler, None, ruler.taken, at.what, at.point.x)
     first = Settled(anchored, held, recounted(ruler, anchored, at), (), at.point.x)
     done = first = replace(first, seen=nuisances(anchored, at.what, first.at.point))
@@ -159,6 +167,16 @@ def settled(ruler: Ruler, held: Ruler | None, at: Fitted, *, rounds: int = 2) ->
         if done.at is not first.at:
             done = replace(done, seen=nuisances(done.ruler, at.what, done.at.point))
     return done if done.at.point.cost < _EXPLAINED * ruler.freedom else first
+
+
+def _put_back(ruler: Ruler, held: Ruler | None, at: Fitted) -> tuple[Ruler, Ruler | None, Fitted]:
+    """Measurements as they came, with the model refitted: what a poorer model took off was physics."""
+    ruler, held = taken_off(ruler, held, {}, at.what, at.point.x)
+    first = ruler.evaluation(at.what, at.point.x)
+    if not first.good:
+        return ruler, held, at
+    end = ruler.evaluation(at.what, chord_refit(ruler, at.what, first).x)
+    return ruler, held, Fitted(at.what, end if end.good and end.cost < first.cost else first)
 
 
 def held_beside(ruler: Ruler, held: Ruler, at: Fitted) -> Ruler:

@@ -18,8 +18,9 @@ TIE = 10.0
 FAIR = 0.25
 # An effect is not added where records held out speak against it by more standard deviations than this.
 AGAINST = 2.5
-# A model is complete where noise alone leaves as much with at least this chance,
-SURE = 1e-4
+# A model is complete where noise alone leaves as much with at least this chance and less than so many times the noise's
+# variance is left, whatever its pattern,
+SURE, LEVEL = 1e-4, 2.0
 # or where so little of the base model's misfit is left that errors of integration and a term's exact form explain it.
 WHOLE = 0.998
 

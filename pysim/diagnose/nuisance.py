@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,6 +18,13 @@ Array = NDArray[np.float64]
 
 GAIN, OFFSET, SHIFT = "gain", "offset", "shift"
 
+# Usual sizes of sensors' gains, of offsets in shares of the full scale, and of shifts between loggers in s, no less
+# than a quarter of a sample. A reading from -1 to 1 is that of a valve's own spool: its loop holds what it reads, so
+# that an offset of the sensor is one of the valve, and only the logger's is left.
+_GAIN, _OFFSET, _OWN, _SHIFT, _SAMPLES = 0.01, 0.005, 0.001, 1e-3, 0.25
+# What a suspect of unknown size may do, in standard deviations of the noise; a tenth of it counts for nothing.
+_ANY = 1e6
+
 
 @dataclass(frozen=True)
 class Suspect:
@@ -26,65 +34,90 @@ class Suspect:
         kind: GAIN (share beyond 1), OFFSET (the signal's unit) or SHIFT (s by which outputs are logged late).
         dataset: where.
         signal: of which column; "" for all of the data set.
+        width: standard deviation of what such sensors and loggers have, in the unit of the kind; infinite where
+            nothing is known of it.
     """
 
     kind: str
     dataset: str
     signal: str
+    width: float = field(default=math.inf, compare=False)
 
 
 @dataclass(frozen=True)
 class Span:
-    """What the suspects can do to all residuals together.
+    """What the suspects can do to all residuals together, and what of it counts.
+
+    Noise and suspects of normal sizes make residuals of covariance I + U s^2 U'. Taken across, they are multiplied with
+    its inverse root and are white again: a suspect of unknown size counts for nothing, one that would have to be many
+    widths off still shows.
 
     Args:
         columns: (n_r, k), one unit of each.
-        basis: (n_r, rank) orthonormal.
+        basis: (n_r, rank) U, orthonormal.
+        kept: (rank,) 1 / sqrt(1 + s^2), the share of each direction that counts.
     """
 
     columns: Array
     basis: Array
+    kept: Array
 
     @property
     def rank(self) -> int:
         """Directions."""
         return int(self.basis.shape[1])
 
+    @property
+    def freedom(self) -> int:
+        """Residuals that the suspects take, to a whole number."""
+        return round(float(np.sum(1 - self.kept**2)))
+
     @staticmethod
-    def of(columns: Array) -> Span:
+    def of(columns: Array, widths: Array) -> Span:
         """Directions in which hardly anything happens are left out."""
         sizes = np.linalg.norm(columns, axis=0)
-        used = columns[:, sizes > 0] / sizes[sizes > 0]
-        if not used.shape[1]:
-            return Span(columns, np.zeros((columns.shape[0], 0)))
-        u, s, _ = np.linalg.svd(used, full_matrices=False)
-        return Span(columns, np.ascontiguousarray(u[:, s > 1e-6 * s[0]]))
+        there = sizes > 0
+        if not there.any():
+            return Span(columns, np.zeros((columns.shape[0], 0)), np.zeros(0))
+        u, s, _ = np.linalg.svd(columns[:, there] * np.minimum(widths[there], _ANY / sizes[there]), full_matrices=False)
+        kept = s > max(1e-2, 1e-6 * s[0])
+        share = np.where(s < 0.1 * _ANY, 1 / np.sqrt(1 + s**2), 0.0)
+        return Span(columns, np.ascontiguousarray(u[:, kept]), share[kept])
 
     def along(self, rows: Array) -> Array:
         """Components (rank, m) of rows (n_r, m)."""
         return np.asarray(self.basis.T @ rows) if self.rank else np.zeros((0, rows.shape[1]))
 
     def across(self, rows: Array) -> Array:
-        """The part of rows (n_r, m) that no suspect reaches."""
-        return rows - self.basis @ (self.basis.T @ rows) if self.rank else rows
+        """What of rows (n_r, m) counts."""
+        return rows - self.taken(self.along(rows)) if self.rank else rows
+
+    def taken(self, along: Array) -> Array:
+        """What does not count (n_r, m) of rows with components (rank, m)."""
+        return np.asarray(self.basis @ ((1 - self.kept)[:, None] * along))
 
 
-NOTHING = Span(np.zeros((0, 0)), np.zeros((0, 0)))
+NOTHING = Span(np.zeros((0, 0)), np.zeros((0, 0)), np.zeros(0))
 """The span of no suspect."""
 
 
 def suspects(targets: Sequence[Target]) -> tuple[Suspect, ...]:
     """A gain and an offset of each logged output, and a shift of each data set's outputs against its commands."""
-    found: dict[Suspect, None] = {}
+    found: dict[Suspect, float] = {}
     for target in targets:
         parts = [target] if isinstance(target, LogTarget) else target.logs if isinstance(target, SineTarget) else ()
         for part in parts:
-            dataset = target.dataset  # type: ignore[attr-defined]
-            for name in part.measured.names:
-                found[Suspect(GAIN, dataset, name)] = None
-                found[Suspect(OFFSET, dataset, name)] = None
-            found[Suspect(SHIFT, dataset, "")] = None
-    return tuple(found)
+            dataset, data = target.dataset, part.measured  # type: ignore[attr-defined]
+            for name, unit in zip(data.names, data.units, strict=True):
+                scale = 100.0 if unit == "%" else float(np.max(np.abs(data[name])))
+                usual = _OWN if unit == "1" else _OFFSET * scale
+                found[Suspect(GAIN, dataset, name)] = _GAIN
+                offset = Suspect(OFFSET, dataset, name)
+                found[offset] = max(found.get(offset, 0.0), usual)
+            shift = Suspect(SHIFT, dataset, "")
+            interval = float(np.median(np.diff(data.time))) if data.time.size > 1 else 0.0
+            found[shift] = max(found.get(shift, 0.0), _SHIFT, _SAMPLES * interval)
+    return tuple(replace(suspect, width=width) for suspect, width in found.items())
 
 
 def columns(target: Target, simulated: Sequence[Array], suspected: Sequence[Suspect]) -> Array:

@@ -112,7 +112,7 @@ class Expected:
 
     Args:
         ruler: that counts them.
-        reach: (n_r, m) orthonormal columns of all that parameters and nuisances take.
+        reach: (n_r, m) orthonormal columns of all that parameters take.
         parts: what is summed up.
         groups: parts that go together, by name.
         drawn: (draws, n_parts) sums of squares of noise.
@@ -129,8 +129,7 @@ class Expected:
     @staticmethod
     def of(ruler: Ruler, slopes: Array, *, seed: int = 0, draws: int = 2000) -> Expected:
         """For a model with slopes (n_r, n), as the ruler counts them."""
-        own = column_space(slopes)
-        reach = np.column_stack([ruler.span.basis, own]) if ruler.span.rank else own
+        reach = column_space(slopes)
         parts, turned = _turned(ruler, reach)
         drawn = _draws(parts, turned, np.random.default_rng(seed), draws)
         return Expected(ruler, reach, tuple(parts), _groups(parts), drawn, _along_command(ruler, reach))

@@ -113,18 +113,19 @@ def outside(ruler: Ruler, current: Fitted) -> tuple[Missing, ...]:
 
 def _ways(ruler: Ruler, current: Fitted) -> list[_Way]:
     runs = ruler.experiments(current.what.space.values(current.point.x))
-    fine = [_finely(run) for run in runs]
+    outputs = tuple(dict.fromkeys(name for run in runs for name in run.record))  # a log may lack some of them
+    fine = [_finely(run, outputs) for run in runs]
     records = simulate_many(current.what.model, [*runs, *fine], solver=ruler.solver, workers=ruler.workers)
     if any(record.outcome is not Outcome.DONE for record in records):
         return []
     return [_Way(e, r.values, f) for e, r, f in zip(runs, records[: len(runs)], records[len(runs) :], strict=True)]
 
 
-def _finely(run: Experiment) -> Experiment:
+def _finely(run: Experiment, outputs: tuple[str, ...]) -> Experiment:
     duration = float(run.times[-1]) - run.start
     between = float(np.median(np.diff(run.times))) if run.times.size > 1 else duration
     count = int(np.clip(2 * duration / between, *_POINTS))
-    return replace(run, times=np.linspace(run.start, run.times[-1], count))
+    return replace(run, times=np.linspace(run.start, run.times[-1], count), record=outputs)
 
 
 def _places(ways: Sequence[_Way]) -> Iterator[_Place]:

@@ -32,7 +32,7 @@ class Counted(Evaluation):
     """A point of a ruler.
 
     Args:
-        along: (rank, 1 + n) residuals and slopes along what the suspected nuisances span, which are not counted.
+        along: (rank, 1 + n) residuals and slopes along what the suspected nuisances span, as they were.
         origin: (n,) where that is so; a point that was moved without another run has its own x.
     """
 
@@ -80,7 +80,9 @@ class Ruler:
             rows.append(made.of(columns(target, own, self.suspected)) if self.suspected else rows[0])
         object.__setattr__(self, "skips", skips)
         object.__setattr__(self, "whitenings", maps)
-        object.__setattr__(self, "span", Span.of(np.concatenate(rows)))
+        object.__setattr__(
+            self, "span", Span.of(np.concatenate(rows), np.array([suspect.width for suspect in self.suspected]))
+        )
 
     def with_other(self, **changed: Any) -> Ruler:
         """The ruler with other targets, noise, skips or nuisances."""
@@ -88,8 +90,8 @@ class Ruler:
 
     @property
     def freedom(self) -> int:
-        """Independent residuals: rows less the directions of nuisances."""
-        return sum(w.size for w in self.whitenings) - self.span.rank
+        """Independent residuals: rows less what nuisances take."""
+        return sum(w.size for w in self.whitenings) - self.span.freedom
 
     def count(self, model: Model, runs: Sequence[Experiment]) -> Array | None:
         """Residuals (n_r,) of changed experiments, given in the order of `experiments`; None where one failed."""
@@ -158,7 +160,7 @@ class Ruler:
             return None
         rows = np.column_stack([point.residual, point.jacobian])
         if self.span.rank:
-            rows += self.span.basis @ point.along
+            rows += self.span.taken(point.along)
         if not np.array_equal(point.origin, point.x):
             residual = replace(self, span=NOTHING).at(what, point.x)
             if residual is None:

@@ -186,8 +186,8 @@ class Story:
             }
 
         kept = self.journal.once(f"nuisances beside {part}", found)
-        self.nuisances = tuple(Nuisance(Suspect(*row[:3]), *row[3:]) for row in kept["seen"])
-        amounts = {Suspect(*row[:3]): row[3] for row in kept["taken"]}
+        self.nuisances = tuple(Nuisance(Suspect(*row[:4]), *row[4:]) for row in kept["seen"])
+        amounts = {Suspect(*row[:4]): row[4] for row in kept["taken"]}
         ruler, self.held = taken_off(before, self.held, amounts, at.what, np.array(kept["near"]))
         self.ruler = replace(ruler, solver=self.ruler.solver)
         self.suits = {key: replace(ruler, solver=one.solver) for key, one in self.suits.items()}

@@ -8,7 +8,7 @@ import pytest
 from pysim.diagnose import add, against, diagnose, rank
 from pysim.diagnose.subject import Subject
 from pysim.types import BadInput, Diagnosis, Told
-from tests.pysim.diagnose.toy import CATALOGUE, measured, toy_subject
+from tests.pysim.diagnose.toy import CATALOGUE, NOISE, measured, toy_subject
 
 
 @pytest.mark.parametrize(
@@ -56,6 +56,10 @@ def test_says_none_where_nothing_is_missing(seed: int) -> None:
 def test_says_unknown_where_the_catalogue_lacks_the_effect() -> None:
     found = diagnose(toy_subject(measured(1, "toy.hardening", k_3=20.0), ("toy.bias", "toy.friction")))
     assert found.verdict == "unknown"
+
+
+def test_a_misfit_far_above_the_noise_is_never_nothing() -> None:
+    assert diagnose(toy_subject(measured(5, noise=3 * NOISE))).verdict == "unknown"
 
 
 def test_equals_are_reported_as_a_set() -> None:

@@ -55,10 +55,33 @@ def test_stepped_sines_change_as_their_columns_say() -> None:
 def test_what_is_across_has_nothing_along() -> None:
     rng = np.random.default_rng(1)
     given = rng.standard_normal((30, 3))
-    span = Span.of(np.column_stack([given, given[:, 0] - 2 * given[:, 1], np.zeros(30)]))
+    span = Span.of(np.column_stack([given, given[:, 0] - 2 * given[:, 1], np.zeros(30)]), np.full(5, np.inf))
     assert span.rank == 3
     rows = rng.standard_normal((30, 2))
     across = span.across(rows)
     assert np.abs(given.T @ across).max() < 1e-12
     assert span.across(across) == pytest.approx(across)
-    assert Span.of(np.zeros((4, 0))).across(rows[:4]) is not None
+    assert Span.of(np.zeros((4, 0)), np.zeros(0)).across(rows[:4]) is not None
+
+
+def test_noise_and_nuisances_of_usual_sizes_are_white_across() -> None:
+    rng = np.random.default_rng(2)
+    columns, widths = rng.standard_normal((6, 2)), np.array([2.0, 0.3])
+    span = Span.of(columns, widths)
+    covariance = np.eye(6) + columns @ np.diag(widths**2) @ columns.T
+    assert span.across(span.across(covariance).T) == pytest.approx(np.eye(6), abs=1e-12)
+    assert span.taken(span.along(columns)) + span.across(columns) == pytest.approx(columns)
+
+
+def test_a_suspect_far_beyond_its_usual_size_still_counts() -> None:
+    column = np.ones((100, 1))
+    span = Span.of(column, np.array([1.0]))
+    assert float(np.sum(span.across(50 * column) ** 2)) == pytest.approx(50**2, rel=0.02)
+
+
+def test_usual_sizes_go_with_scale_and_sampling() -> None:
+    widths = {s.kind: s.width for s in suspects([wave(np.full(40, 7.0), 0.1)])}
+    unit = wave(np.zeros(40), 0.1).measured.units[0]
+    assert widths[GAIN] == 0.01
+    assert widths[OFFSET] == pytest.approx({"%": 0.5, "1": 0.001}.get(unit, 0.035))
+    assert widths[SHIFT] == pytest.approx(0.001)

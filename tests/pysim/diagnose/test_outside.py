@@ -1,6 +1,7 @@
 """Terms at inputs and outputs of a model that stays shut: a plant whose actuator or sensor is bent in a known way."""
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -104,3 +105,16 @@ def test_each_place_is_told_once_and_nothing_inside(mass: Model) -> None:
 
 def test_where_nothing_is_missing_no_term_takes_much(mass: Model) -> None:
     assert all(one.share < 0.3 for one in seen(mass, measured(mass, 4)))
+
+
+def test_logs_may_have_different_columns(mass: Model) -> None:
+    data = measured(mass, 5, sensor=threshold)
+    first = data.records[0]
+    run = Experiment(first.data.time, ("v",), {"F": Signal.through(first.data.time, first.data["F"])}, TRUTH)
+    v = simulate(mass, run, solver=Rodas(rtol=1e-8, atol=1e-8))["v"]
+    v = v + 1e-2 * np.random.default_rng(6).standard_normal(v.size)
+    other = Record(first.data.time, np.column_stack([first.data["F"], v]), ("F", "v"), ("N", "m/s"))
+    signal = MeasuredSignal("v", "output", "m/s", "speed", "v", noise=1e-2)
+    both = (first, MeasuredRecord("b.txt", "stochastic", "fit", other))
+    found = seen(mass, replace(data, signals=(*data.signals, signal), records=both))
+    assert found[0].slot == "x"
