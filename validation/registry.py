@@ -47,6 +47,7 @@ CASES: Mapping[str, Case] = MappingProxyType(
         "blind-effects": Case("validation.blind.catalogue", "18 effects: Modelica classes against the blind plant"),
         "blind-benchmark": Case("validation.blind.benchmark.case", "six of 1090 blind cases again; targets on all"),
         "diagnosis": Case("validation.diagnosis.case", "sixteen data sets of another author's plant diagnosed"),
+        "real-measurements": Case("validation.real_measurements.case", "why the locked model cannot fit; the load"),
         "slow-tests": Case("validation.slow_tests.case", "the tests that the test command leaves out"),
         "wine": Case("validation.wine.case", "the Windows binary under Wine against the binary of this machine"),
     }

@@ -2,7 +2,7 @@
 
 from validation.thesis.explanation import Difference, differences, explain
 from validation.thesis.published import PublishedDeviations, published_deviations
-from validation.thesis.table_4_1.responses import FREQUENCIES_HZ, measured_responses, write_dataset
+from validation.thesis.table_4_1.responses import FREQUENCIES_HZ, loaded_responses, measured_responses, write_dataset
 
 __all__ = [
     "FREQUENCIES_HZ",
@@ -10,6 +10,7 @@ __all__ = [
     "PublishedDeviations",
     "differences",
     "explain",
+    "loaded_responses",
     "measured_responses",
     "published_deviations",
     "write_dataset",

@@ -58,11 +58,17 @@ def measured_responses(frequencies: Sequence[float] = FREQUENCIES_HZ) -> tuple[F
     return tuple(_response(row, np.asarray(frequencies, dtype=np.float64)) for row in rows)
 
 
-def _response(row: dict[str, str], frequencies: np.ndarray) -> FrequencyResponse:
+def loaded_responses(frequencies: Sequence[float] = FREQUENCIES_HZ) -> tuple[FrequencyResponse, ...]:
+    """The two responses with an orifice as load, at 75 percent. Source: thesis Table 4.3, of the same form."""
+    rows = read_csv(Path(__file__).parents[1] / "table_4_3" / "coefficients.csv")
+    return tuple(_response(row, np.asarray(frequencies, dtype=np.float64), "Table 4.3") for row in rows)
+
+
+def _response(row: dict[str, str], frequencies: np.ndarray, table: str = "Table 4.1") -> FrequencyResponse:
     b0, a4, a3, a2, a1, a0 = (float(row[k]) for k in ("b0_1e6", "a4", "a3", "a2_1e3", "a1_1e6", "a0_1e6"))
     function = TransferFunction((b0 * 1e6,), (1.0, a4, a3, a2 * 1e3, a1 * 1e6, a0 * 1e6))
     test = SineTest(float(row["offset_percent"]), float(row["amplitude_percent"]), "alphaCMD", "alphaPercent")
-    return function.response(frequencies, test, origin="transfer function, thesis Table 4.1")
+    return function.response(frequencies, test, origin=f"transfer function, thesis {table}")
 
 
 def write_dataset(folder: Path, frequencies: Sequence[float] = FREQUENCIES_HZ) -> Path:
