@@ -24,7 +24,7 @@ def run() -> Iterator[Finding]:
         done.append(one)
     yield from _locked(done)
     by_name = {one.hypothesis.name: one for one in done}
-    test = settle(*(by_name[name] for name in _RIVALS), responses)
+    test = settle(by_name[_RIVALS[0]], by_name[_RIVALS[1]], responses)
     print(f"to tell {' from '.join(_RIVALS)}: {test.about if test else 'no test found'}", flush=True)
     yield Finding("no test tells the cylinder's area from the valve's size", float(test is None), 0, "")
     yield from _load()
