@@ -8,8 +8,8 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import lsq_linear
 
+from pysim.identify.greybox.damped import damped_step
 from pysim.identify.greybox.evaluation import Evaluation
 from pysim.identify.greybox.optimiser import Bounds
 
@@ -94,14 +94,8 @@ class Bowl:
         return float(self.right @ self.right - np.sum((self.right - self.triangle @ p) ** 2))
 
     def _damped(self, damping: float) -> Array:
-        n = self.right.size
-        matrix = np.vstack([self.triangle, math.sqrt(damping) * np.eye(n)])
-        right = np.concatenate([self.right, np.zeros(n)])
-        free = np.linalg.lstsq(matrix, right, rcond=None)[0]
-        if np.all(free >= self.low) and np.all(free <= self.high):
-            return np.asarray(free)
         room = np.maximum(self.high - self.low, 1e-300)
-        return np.asarray(lsq_linear(matrix, right, (self.low, self.low + room), method="bvls", tol=1e-14).x)
+        return damped_step(self.triangle, self.right, damping, self.low, self.low + room)
 
 
 def descend(

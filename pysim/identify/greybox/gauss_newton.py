@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import lsq_linear
 
+from pysim.identify.greybox.damped import damped_step
 from pysim.identify.greybox.evaluation import Evaluation
 from pysim.identify.greybox.identifiability import EXACT
 from pysim.identify.greybox.optimiser import Bounds, Proposal, State
@@ -222,13 +222,7 @@ class _Step:
         return math.exp(middle), p
 
     def _damped(self, damping: float) -> Array:
-        n = self.right.size
-        matrix = np.vstack([self.triangle, math.sqrt(damping) * np.eye(n)])
-        right = np.concatenate([self.right, np.zeros(n)])
-        free = np.linalg.lstsq(matrix, right, rcond=None)[0]
-        if np.all(free >= self.low) and np.all(free <= self.high):
-            return np.asarray(free)
-        return np.asarray(lsq_linear(matrix, right, (self.low, self.high), method="bvls", tol=1e-14).x)
+        return damped_step(self.triangle, self.right, damping, self.low, self.high)
 
     def predicted(self, p: Array) -> float:
         """By how much half the sum of squares falls over a step p (n,) if the model were linear."""

@@ -1,0 +1,20 @@
+import numpy as np
+import pytest
+
+from pysim.identify.greybox.damped import damped_step
+
+WIDE = np.full(3, 100.0)
+
+
+def test_inside_the_bounds_it_solves_the_damped_normal_equations() -> None:
+    rng = np.random.default_rng(1)
+    triangle, right = np.triu(rng.standard_normal((3, 3))), rng.standard_normal(3)
+    wanted = np.linalg.solve(triangle.T @ triangle + 0.3 * np.eye(3), triangle.T @ right)
+    assert damped_step(triangle, right, 0.3, -WIDE, WIDE) == pytest.approx(wanted)
+
+
+def test_a_bound_holds_one_number_and_the_others_make_the_best_of_it() -> None:
+    triangle, right = np.array([[1.0, 0.5], [0.0, 1.0]]), np.array([3.0, 1.0])
+    high = np.array([1.0, 100.0])
+    found = damped_step(triangle, right, 0.0, -high, high)
+    assert found == pytest.approx([1.0, (0.5 * (3 - 1) + 1) / 1.25])
