@@ -1,0 +1,117 @@
+"""What running a case gave, and how it is kept: a line of JSON with date and machine, so that runs can be compared."""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+import platform
+from collections.abc import Iterable
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+from validation.findings import Finding
+
+HOLDS, FAILS, SKIPPED = "holds", "fails", "skipped"
+_CPU_INFO = Path("/proc/cpuinfo")
+
+
+@dataclass(frozen=True)
+class Machine:
+    """Where a case ran, as far as it decides how long things take."""
+
+    system: str
+    processor: str
+    cores: int
+    python: str
+
+    def __str__(self) -> str:
+        return f"{self.processor}, {self.cores} cores, {self.system}, Python {self.python}"
+
+
+@dataclass(frozen=True)
+class CaseResult:
+    """One run of a case. `error` is the last line of what stopped it, "" where it came to its end."""
+
+    case: str
+    about: str
+    group: str
+    date: str  # UTC, ISO 8601, to the second
+    seconds: float  # by the wall clock
+    machine: Machine
+    findings: tuple[Finding, ...]
+    error: str = ""
+
+    @property
+    def verdict(self) -> str:
+        """ "fails" where a claim fails or the case stopped; "skipped" where no claim could be tried."""
+        tried = [finding for finding in self.findings if not finding.skipped]
+        if self.error or not all(finding.holds for finding in tried):
+            return FAILS
+        return HOLDS if tried else SKIPPED
+
+    def count(self, verdict: str) -> int:
+        """How many claims came out that way."""
+        return sum(verdict_of(finding) == verdict for finding in self.findings)
+
+
+def verdict_of(finding: Finding) -> str:
+    """ "holds", "fails" or "skipped"."""
+    return SKIPPED if finding.skipped else HOLDS if finding.holds else FAILS
+
+
+def this_machine() -> Machine:
+    """The machine this runs on."""
+    system = f"{platform.system()} {platform.machine()}"
+    return Machine(system, _processor(), os.cpu_count() or 1, platform.python_version())
+
+
+def _processor() -> str:
+    if _CPU_INFO.is_file():
+        for line in _CPU_INFO.read_text(encoding="utf-8").splitlines():
+            if line.startswith("model name"):
+                return line.partition(":")[2].strip()
+    return platform.processor() or "unknown processor"
+
+
+def append_results(path: Path, results: Iterable[CaseResult]) -> None:
+    """Add a line for each; makes the file and its folder."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    with path.open("a", encoding="utf-8", newline="\n") as file:
+        file.writelines(to_line(result) + "\n" for result in results)
+
+
+def read_results(path: Path) -> tuple[CaseResult, ...]:
+    """All lines, oldest first; none where there is no file."""
+    if not path.is_file():
+        return ()
+    return tuple(from_line(line) for line in path.read_text(encoding="utf-8").splitlines() if line.strip())
+
+
+def newest(results: Iterable[CaseResult]) -> dict[str, CaseResult]:
+    """The last run of each case."""
+    return {result.case: result for result in sorted(results, key=lambda result: result.date)}
+
+
+def to_line(result: CaseResult) -> str:
+    """JSON without line breaks; a value that is no number is written as null."""
+    data = asdict(result)
+    for finding in data["findings"]:
+        for name in ("value", "limit"):
+            number = float(finding[name])
+            finding[name] = float(f"{number:.6g}") if math.isfinite(number) else None
+        if not finding["skipped"]:
+            del finding["skipped"]
+    data["seconds"] = round(result.seconds, 1)
+    return json.dumps(data, ensure_ascii=False)
+
+
+def from_line(line: str) -> CaseResult:
+    """The other way."""
+    data = json.loads(line)
+    findings = tuple(Finding(**{**row, **_numbers(row)}) for row in data.pop("findings"))
+    return CaseResult(machine=Machine(**data.pop("machine")), findings=findings, **data)
+
+
+def _numbers(row: dict[str, float | None]) -> dict[str, float]:
+    return {name: math.nan if row[name] is None else float(row[name] or 0.0) for name in ("value", "limit")}

@@ -1,0 +1,50 @@
+"""Run cases one after another; what stops one does not stop the next."""
+
+from __future__ import annotations
+
+import time
+import traceback
+from collections.abc import Callable, Iterator, Sequence
+from datetime import UTC, datetime
+
+from validation.findings import Finding
+from validation.registry import CASES
+from validation.results import CaseResult, this_machine
+
+
+def chosen(names: Sequence[str], *, quick: bool) -> list[str]:
+    """The cases to run: those named, or all; the quick ones of them if `quick`.
+
+    Raises:
+        KeyError: the names there are no cases of.
+    """
+    unknown = [name for name in names if name not in CASES]
+    if unknown:
+        raise KeyError(", ".join(unknown))
+    return [name for name in names or CASES if CASES[name].quick or not quick]
+
+
+def run_cases(names: Sequence[str], watch: Callable[[str, Finding | None], None]) -> Iterator[CaseResult]:
+    """Run the cases in this order.
+
+    Args:
+        watch: told of every case as it starts (no finding), and of each of its findings as it comes.
+    """
+    for name in names:
+        watch(name, None)
+        yield _run_case(name, watch)
+
+
+def _run_case(name: str, watch: Callable[[str, Finding | None], None]) -> CaseResult:
+    case, started, error = CASES[name], time.monotonic(), ""
+    date = datetime.now(UTC).strftime("%Y-%m-%dT%H:%M:%SZ")
+    findings: list[Finding] = []
+    try:
+        for finding in case.run():
+            findings.append(finding)
+            watch(name, finding)
+    except Exception as stop:  # whatever it is, the page has to say so, and the other cases are still to be run
+        traceback.print_exc()
+        error = f"{type(stop).__name__}: {stop}".splitlines()[0][:300]
+    seconds = time.monotonic() - started
+    return CaseResult(name, case.about, case.group, date, seconds, this_machine(), tuple(findings), error)
