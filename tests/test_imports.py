@@ -23,13 +23,26 @@ ALLOWED = {
     "pysim.io": _DATA,
     "pysim.simulate": _FILES,
     "pysim.bench": _RUNS | {"pysim.excitation"},
+    "pysim.cosim": _RUNS | {"pysim.control"},
     "pysim.identify": _RUNS | {"pysim.excitation"},
     "pysim.diagnose": _FITS | {"pysim.effects"},
     "pysim.plot": _FITS,
     "pysim.report": _FITS,
     "pysim.cli": _FITS
-    | {"pysim.bench", "pysim.effects", "pysim.diagnose", "pysim.plot", "pysim.report", "fmu_build", "validation"},
-    "validation": _FITS | {"pysim.bench", "pysim.effects", "pysim.diagnose", "pysim.plot", "pysim.report", "fmu_build"},
+    | {
+        "pysim.bench",
+        "pysim.control",
+        "pysim.cosim",
+        "pysim.effects",
+        "pysim.diagnose",
+        "pysim.plot",
+        "pysim.report",
+        "fmu_build",
+        "validation",
+    },
+    "validation": _FITS
+    | {"pysim.bench", "pysim.control", "pysim.cosim", "pysim.effects", "pysim.diagnose", "pysim.plot", "pysim.report"}
+    | {"fmu_build"},
     "fmu_build": set(),
 }
 # Packages whose outside world is limited too.

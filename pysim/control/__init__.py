@@ -1,9 +1,10 @@
 """Controllers as small blocks: sampled, with a state that can be kept (thesis Section 5.4)."""
 
-from pysim.control.block import Block, Port, Stateless
+from pysim.control.block import Block, Stateless
 from pysim.control.pi import PI
 from pysim.control.signals import Gain, Limiter, NormalizeSignal, ZeroSwitch, load_feed_forward, speed_feed_forward
 from pysim.control.valve_compensation import ValveCompensation
+from pysim.types import Port
 
 __all__ = [
     "PI",

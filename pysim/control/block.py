@@ -3,23 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Protocol
 
-
-@dataclass(frozen=True)
-class Port:
-    """One input or output of a block.
-
-    Args:
-        name: unique among the block's inputs, or among its outputs.
-        unit: SI, "1" or "%".
-        start: value ahead of the first step.
-    """
-
-    name: str
-    unit: str = "1"
-    start: float = 0.0
+from pysim.types import Port
 
 
 class Block(Protocol):

@@ -6,8 +6,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from pysim.control.block import Port
-from pysim.types import BadInput
+from pysim.types import BadInput, Port
 
 
 @dataclass

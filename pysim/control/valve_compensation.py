@@ -6,8 +6,8 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from pysim.control.block import Port, Stateless
-from pysim.types import BadInput
+from pysim.control.block import Stateless
+from pysim.types import BadInput, Port
 
 
 @dataclass

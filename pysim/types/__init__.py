@@ -32,6 +32,7 @@ from pysim.types.fit import (
 )
 from pysim.types.frequency_response import FrequencyResponse
 from pysim.types.model import Abilities, Model, Variable
+from pysim.types.port import Port
 from pysim.types.record import Outcome, Record, SimulationError
 from pysim.types.signal import Signal
 from pysim.types.sine_test import SineTest
@@ -68,6 +69,7 @@ __all__ = [
     "MultisineTest",
     "NextTest",
     "Outcome",
+    "Port",
     "Record",
     "RecordFit",
     "ResponseComparison",
