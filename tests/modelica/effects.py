@@ -8,7 +8,7 @@ from tempfile import mkdtemp
 import numpy as np
 
 import fmu_build
-from pysim.effects import Variant, read_catalogue, variant
+from pysim.effects import Variant, fitting, read_catalogue, variant
 from pysim.io import read_model
 from pysim.simulate import Rodas, simulate
 from pysim.types import Effect, Experiment, Model, Record, Signal
@@ -16,7 +16,7 @@ from tests.contracts.fmu import Fmu
 from tests.modelica.library import LIBRARY
 
 BASE = "HydraulicTestBench.Pump.FreeGreyBox"
-CATALOGUE = {effect.name: effect for effect in read_catalogue(LIBRARY)}
+CATALOGUE = {effect.name: effect for effect in fitting(read_catalogue(LIBRARY), BASE, [LIBRARY])}
 EXACT = tuple(name for name, effect in CATALOGUE.items() if not effect.bypass)
 BYPASSED = tuple(name for name, effect in CATALOGUE.items() if effect.bypass)
 TIGHT = Rodas(rtol=1e-8, atol=1e-8)

@@ -16,17 +16,10 @@ from tests.modelica.built import built
 TABLES = json.loads((Path(__file__).parent / "thesis_tables.json").read_text(encoding="utf-8"))
 K = 60e-6 / (2 * np.pi)  # m3/rad
 RHO, BETA, P_SL, K_SV = 875.0, 1.4e9, 310e5, 1.863e-5
-FILLED = """model Filled
-  import F = HydraulicTestBench.LoadCircuit.Fillings;
-  extends HydraulicTestBench.LoadCircuit.OpenTestBench(
-    redeclare F.ShaftFriction shaftFriction, redeclare F.MotorLeakage motorLeakage,
-    redeclare F.MotorTorqueLoss motorLoss, redeclare HydraulicTestBench.Effects.ValveDeadband servoOpening);
-end Filled;
-"""
 GREY = """model GreyRig
   extends HydraulicTestBench.LoadCircuit.OpenTestBench(
     redeclare HydraulicTestBench.Pump.GreyBoxPlate plate,
-    redeclare HydraulicTestBench.LoadCircuit.Fillings.ShaftFriction shaftFriction(tau_c=14.8939, tau_s=54.8258));
+    redeclare HydraulicTestBench.Effects.ShaftFriction shaftFriction(tau_c=14.8939, tau_s=54.8258));
 end GreyRig;
 model GreyBench
   extends HydraulicTestBench.LoadCircuit.TestBench(redeclare GreyRig rig);
@@ -35,7 +28,7 @@ end GreyBench;
 COMPLIANT = """model Compliant
   extends HydraulicTestBench.LoadCircuit.OpenTestBench(
     redeclare HydraulicTestBench.Mechanics.Coupling coupling(k_t=2000, d_t=0.1),
-    redeclare HydraulicTestBench.LoadCircuit.Fillings.SecondVolume hoses(V=1e-3, G=1e-9));
+    redeclare HydraulicTestBench.Effects.HoseCompliance hoses(V=1e-3, T=7e-4));
 end Compliant;
 """
 
@@ -167,29 +160,6 @@ class At:
 
 STATE = {"volume_sA.p": 90e5, "volume_sB.p": 40e5, "volume_LA.p": 120e5, "volume_LB.p": 170e5}
 STATE |= {"inertiaS.w": 3.0, "spool.u": -0.06, "plate.z[1]": 12.0}
-OFF = {"shaftFriction.tau_c": 0.0, "shaftFriction.tau_s": 0.0, "motorLeakage.C_m": 0.0, "motorLoss.eta": 0.0}
-OFF |= {"servoOpening.u_0": 0.0}
-
-
-def changes(folder: Path, on: Mapping[str, float]) -> dict[str, float]:
-    """What some fillings add to the derivatives at STATE; without any, nothing at all."""
-    file = folder / "Filled.mo"
-    file.write_text(FILLED)
-    with At(fmu_build.build("Filled", libraries=[file]), folder / "filled") as filled:
-        base = filled.rates(STATE, OFF)
-        found = filled.rates(STATE, {**OFF, **on})
-    return {name: found[name] - base[name] for name in base}
-
-
-def test_fillings_that_are_off_are_not_there(tmp_path: Path) -> None:
-    file = tmp_path / "Filled.mo"
-    file.write_text(FILLED)
-    plain = fmu_build.build("HydraulicTestBench.LoadCircuit.OpenTestBench")
-    with (
-        At(fmu_build.build("Filled", libraries=[file]), tmp_path / "a") as filled,
-        At(plain, tmp_path / "b") as base,
-    ):
-        assert filled.rates(STATE, OFF) == base.rates(STATE, {})
 
 
 def test_base_model_is_eq_5_10_and_5_24(tmp_path: Path) -> None:
@@ -204,24 +174,6 @@ def test_base_model_is_eq_5_10_and_5_24(tmp_path: Path) -> None:
     assert rates["volume_LA.p"] == pytest.approx(BETA / 1.01e-3 * (K * 3 - out), rel=1e-6)
     into = 0.06 * K_SV * np.sqrt(2 / RHO * 140e5)  # P to B
     assert rates["volume_LB.p"] == pytest.approx(BETA / 1.01e-3 * (into - K * 3), rel=1e-6)
-
-
-@pytest.mark.parametrize(
-    ("on", "state", "change"),
-    [
-        (
-            {"shaftFriction.tau_c": 15.0, "shaftFriction.tau_s": 55.0},
-            "inertiaS.w",
-            -np.tanh(13.8806 * 3) * (15 + 40 * np.exp(-3 / 8.3593)) / 0.0733,
-        ),
-        ({"motorLoss.eta": 0.1}, "inertiaS.w", -0.1 * K * 100e5 / 0.0733),
-        ({"motorLeakage.C_m": 2e-12}, "volume_sA.p", -BETA / 1.52e-3 * 2e-12 * 50e5),
-        ({"motorLeakage.C_m": 2e-12}, "volume_LA.p", BETA / 1.01e-3 * 2e-12 * 50e5),
-        ({"servoOpening.u_0": 0.02}, "volume_LA.p", BETA / 1.01e-3 * 0.02 * K_SV * np.sqrt(2 / RHO * 120e5)),
-    ],
-)
-def test_filling_adds_its_equation(tmp_path: Path, on: dict[str, float], state: str, change: float) -> None:
-    assert changes(tmp_path, on)[state] == pytest.approx(change, rel=1e-6)
 
 
 @pytest.mark.slow

@@ -12,7 +12,7 @@ import numpy as np
 import fmu_build
 from fmu_build.errors import BuildError
 from pysim.effects import STANDARD_LIBRARY as LIBRARY
-from pysim.effects import Variant, read_catalogue, variant
+from pysim.effects import Variant, fitting, read_catalogue, variant
 from pysim.io import read_model
 from pysim.simulate import Rodas, simulate
 from pysim.types import Effect, Experiment, Model, Outcome, Record, Signal
@@ -26,7 +26,7 @@ ON = {"valve.saturation": 12.0, "valve.rate_limit": 0.5}  # strengths that bite 
 
 def run() -> Iterator[Finding]:
     """All 153 pairs of the 18 effects, at the free parameter set."""
-    effects = read_catalogue(LIBRARY)
+    effects = fitting(read_catalogue(LIBRARY), BASE, [LIBRARY])
     base = _ran(read_model(fmu_build.build(BASE)), {})
     refused: list[str] = []
     stopped: list[str] = []

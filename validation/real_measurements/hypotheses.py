@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 
-from pysim.effects import STANDARD_LIBRARY, read_catalogue
+from pysim.effects import STANDARD_LIBRARY, fitting, read_catalogue
 from pysim.identify.greybox import Parameter, Tie
 from pysim.types import Effect
 
+_LOCKED_CLASS = "HydraulicTestBench.Pump.LockedGreyBox"
 LOCKED = ("omega_v", "zeta_v", "V_0", "m_eff", "k", "b", "K_p", "K_D", "T_d", "K_L", "tau")
 # Known numbers may be wrong by this factor either way: the free model went a third of the way with the area.
 _FACTOR = 5.0
@@ -68,7 +69,7 @@ def hypotheses(known: Mapping[str, float]) -> Iterator[Hypothesis]:
     yield Hypothesis("bounds", "bounds", f"bounds of {', '.join(_WIDER)} ten times as wide", wider)
     both = (*wider, within("k2"))
     yield Hypothesis("bounds and K(u)", "bounds", "the last, and the size of the valve's opening", both, ties)
-    for effect in read_catalogue(STANDARD_LIBRARY):
+    for effect in fitting(read_catalogue(STANDARD_LIBRARY), _LOCKED_CLASS, [STANDARD_LIBRARY]):
         if effect.name not in SLOW:
             yield Hypothesis(effect.name, "effect", effect.description, effect=effect)
 

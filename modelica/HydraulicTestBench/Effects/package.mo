@@ -9,6 +9,8 @@ exactly those of the base model. Where off is a singular limit (a lag of 0 s) th
 <code>bypass=true</code>: the neutral filling stands for off, and the effect tends to it as it shrinks.</p>
 <p><code>inverse=\"u_max\"</code> at a parameter says that it is one over the quantity people speak of;
 <code>limits=\"u\"</code> names the class' variable whose size that quantity limits.</p>
+<p>The first eighteen are for the slots of the pump's control, the last six for those of
+<code>LoadCircuit.OpenTestBench</code>.</p>
 <p>Two effects in one slot are put together by a class of <code>Pairs</code>.</p>
 <p><b>Source:</b> each class names its own; <code>UsersGuide.AddAnEffect</code> shows how to write one.</p>
 </html>"));

@@ -27,7 +27,7 @@ model TestBench "The whole test bench with its controllers, thesis Appendix G"
   // Parts 1, 2a, 2b and 5; their motors are PumpS and PumpL of Appendix G
   replaceable OpenTestBench rig(
     Jeff=Jeff, Vm_max=Vm_max, c=c,
-    redeclare Fillings.ShaftFriction shaftFriction(tau_c=Tc, tau_s=Ts, r=r, omega_0=w0))
+    redeclare Effects.ShaftFriction shaftFriction(tau_c=Tc, tau_s=Ts, r=r, omega_0=w0))
     constrainedby OpenTestBench(Jeff=Jeff, Vm_max=Vm_max, c=c) "Circuits and shaft"
     annotation(Placement(transformation(extent={{20, -20}, {60, 20}})));
   SpeedController speed(final masterSpeed=masterSpeed) "Part 3"
@@ -73,7 +73,7 @@ equation
 <p>References of speed and load pressure in, speed by the pulses and both pressures out. The friction is that of Table
 6.2, which includes all that c stands for in the linear models.</p>
 <p>For another pump or more physics, write a class of the bench and use it here; its friction is then its own:
-<code>model MyRig extends OpenTestBench(redeclare Pump.GreyBoxPlate plate, redeclare Fillings.ShaftFriction
+<code>model MyRig extends OpenTestBench(redeclare Pump.GreyBoxPlate plate, redeclare Effects.ShaftFriction
 shaftFriction(tau_c=14.9, tau_s=54.8)); end MyRig;</code> and <code>extends TestBench(redeclare MyRig rig)</code>.</p>
 <p><b>Source:</b> thesis Fig. 5.13, Appendix G with the names of Tables 11 to 15. The table's Time is the simulation's
 time; names of blocks are here those of their outputs.</p>

@@ -53,7 +53,8 @@ logged</td><td>lag: <code>der(y) = y_t; y_t = (s - y)/T_f</code></td><td>2</td><
 (PartialSignal, 1), <code>shaftFriction</code> (PartialShaftFriction: w -&gt; tau, 1), <code>motorLeakage</code>
 (PartialMotorLeakage: p_s, p_L -&gt; q_s, q_L, 2), <code>motorLoss</code> (PartialMotorLoss: T_s, T_L and speeds -&gt;
 tau_s, tau_L, 2), <code>coupling</code> (PartialCoupling: phi_rel and tau, 1) and <code>hoses</code> (PartialHoses: four
-flows, 4); <code>LoadCircuit.Fillings</code> has classes for them.</p>
+flows, 4); the last six are places where physics may be missing, and <code>Effects</code> has a class for each.
+</p>
 <p>The angle follows the linkage: <code>alpha</code> is computed from what <code>linkage</code> gives, so the swash
 plate and
 its sensor stand behind a play, and the piston, its force balance and its oil ahead of it. <code>alpha_tt</code> (Eq.

@@ -15,7 +15,7 @@ from functools import cache
 from pathlib import Path
 
 import fmu_build
-from pysim.effects import STANDARD_LIBRARY, read_catalogue, variant
+from pysim.effects import STANDARD_LIBRARY, fitting, read_catalogue, variant
 from pysim.io import cache_folder, read_model
 from pysim.types import BadInput, Effect, Model
 from validation.blind.benchmark.fingerprint import model_fingerprint
@@ -29,7 +29,7 @@ class Workshop:
 
     Args:
         model: the base model.
-        catalogue: every effect of the library.
+        catalogue: every effect of the library that the pump's slots take.
         folder: of compiled models.
         seconds: spent on compiling.
     """
@@ -90,4 +90,5 @@ def workshop() -> Workshop:
     base = folder / "base.fmu"
     if not base.is_file():
         _build(BASE, base, [STANDARD_LIBRARY])
-    return Workshop(read_model(base), tuple(read_catalogue(STANDARD_LIBRARY)), folder)
+    catalogue = fitting(read_catalogue(STANDARD_LIBRARY), BASE, [STANDARD_LIBRARY])
+    return Workshop(read_model(base), catalogue, folder)
