@@ -93,8 +93,9 @@ class Story:
 
 def block(title: str, stage: str, elapsed: float, steps: Sequence[LedgerStep], learned: Sequence[str]) -> list[str]:
     """Lines of the block: title and time, stage, a row per step with the error as a bar, what was learned."""
-    left = _left(stage, elapsed) if len(steps) < 3 else ""  # how many rounds there will be, nobody knows
-    lines = [title, f"  {_clock(elapsed)}{left}  {stage}", *_bars(steps)]
+    seconds = left(stage, elapsed, steps)
+    more = "" if seconds is None else f" (about {_clock(seconds)} left)"
+    lines = [title, f"  {_clock(elapsed)}{more}  {stage}", *_bars(steps)]
     return [*lines, *(f"  - {text}" for text in learned)]
 
 
@@ -117,15 +118,47 @@ def _clock(seconds: float) -> str:
     return f"{int(seconds) // 60}:{int(seconds) % 60:02d}"
 
 
-def _left(stage: str, elapsed: float) -> str:
-    """How long it may still take, from what is usually behind by then."""
+def left(stage: str, elapsed: float, steps: Sequence[LedgerStep]) -> float | None:
+    """How many s it may still take, from what is usually behind by then; None where nobody knows."""
     share = next((value for words, value in _USUAL.items() if stage.startswith(words)), 0.0)
-    if share < 0.2 or elapsed < 2:
-        return ""
-    return f" (about {_clock(max(elapsed / share - elapsed, 1.0))} left)"
+    if share < 0.2 or elapsed < 2 or len(steps) >= 3:  # how many rounds there will be, nobody knows
+        return None
+    return max(elapsed / share - elapsed, 1.0)
 
 
-def unfold(given: Given, args: argparse.Namespace, work: Callable[[Story, Path | None], Diagnosis]) -> Diagnosis:
+class StoryFile:
+    """What a diagnosis tells, as lines of JSON that another program can follow.
+
+    Each has `seconds` since the begin, `left` (s, or null), `stage`, `text`, and `step` of the ledger (or null).
+    """
+
+    def __init__(self, path: Path) -> None:
+        self._path, self._begun = path, time.monotonic()
+        self._steps: list[LedgerStep] = []
+        path.write_text("", encoding="utf-8")
+
+    def __call__(self, told: Told) -> None:
+        """Write one line; a reader never sees half of one that it cannot tell."""
+        import json
+
+        from pysim.report.diagnosis import step_data
+
+        elapsed = time.monotonic() - self._begun
+        if told.step is not None:
+            self._steps.append(told.step)
+        line: dict[str, object] = {
+            "seconds": round(elapsed, 3),
+            "left": left(told.stage, elapsed, self._steps),
+            "stage": told.stage,
+        }
+        line |= {"text": told.text, "step": None if told.step is None else step_data(told.step)}
+        with self._path.open("a", encoding="utf-8") as file:
+            file.write(json.dumps(line) + "\n")
+
+
+def unfold(
+    given: Given, args: argparse.Namespace, work: Callable[[Callable[[Told], None], Path | None], Diagnosis]
+) -> Diagnosis:
     """Run steps of the diagnosis and show them; in `--output` lies a journal from which a stopped run goes on.
 
     Args:
@@ -136,7 +169,13 @@ def unfold(given: Given, args: argparse.Namespace, work: Callable[[Story, Path |
     journal = args.output / JOURNAL if args.output else None
     try:
         with Story(f"{given.dataset.name}: {given.model_name}") as story:
-            return work(story, journal)
+            told: list[Callable[[Told], None]] = [story, *([StoryFile(args.story)] if args.story else [])]
+
+            def tell(what: Told) -> None:
+                for one in told:
+                    one(what)
+
+            return work(tell, journal)
     except KeyboardInterrupt:
         cure = "the same command goes on where it was" if journal else "with --output DIR a run can be gone on with"
         raise KeyboardInterrupt(cure) from None
@@ -163,7 +202,7 @@ def finish(
     from pysim.cli._extended import relative_files
     from pysim.cli._outputs import command_line
     from pysim.cli._subject import subject_words
-    from pysim.io import write_file
+    from pysim.io import write_file, write_stages
     from pysim.report.diagnosis import diagnosis_data
 
     redo = command_line([command, *subject_words(args, model_first=command == "compare")])
@@ -173,6 +212,8 @@ def finish(
         print("Drawing the report ...", file=sys.stderr)
         files = write_diagnosis(found, given, args.output, redo, question=question, answer=answer)
         print(f"Report: {args.output / 'report.html'}")
+    if args.records:
+        write_stages(args.records, found.stages)
     if args.json:
         relative = relative_files(files, args.json.parent)
         write_file(args.json, json.dumps(diagnosis_data(found, relative), indent=1, allow_nan=False) + "\n")

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from pysim.cli._variants import Variants
     from pysim.diagnose import Subject
+    from pysim.effects import Slot
     from pysim.types import Dataset, Effect, Model
 
 
@@ -68,6 +69,8 @@ def add_results(parser: argparse.ArgumentParser, what: str) -> None:
     """`--json` and `--output`."""
     parser.add_argument("--json", metavar="FILE", type=Path, help="write the whole answer here")
     parser.add_argument("--output", metavar="DIR", type=Path, help=f"write report.html, pictures{what} here")
+    parser.add_argument("--records", metavar="FILE.npz", type=Path, help="write every record beside every model here")
+    parser.add_argument("--story", metavar="FILE", type=Path, help="write what is told on the way here, a JSON a line")
 
 
 def prepare_results(args: argparse.Namespace) -> None:
@@ -78,8 +81,9 @@ def prepare_results(args: argparse.Namespace) -> None:
     """
     from pysim.cli._outputs import prepare_file, prepare_folder
 
-    if args.json:
-        prepare_file(args.json, "--json")
+    for option in ("json", "records", "story"):
+        if getattr(args, option):
+            prepare_file(getattr(args, option), f"--{option}")
     if args.output:
         prepare_folder(args.output)
 
@@ -129,6 +133,21 @@ def read_base(args: argparse.Namespace) -> Model:
     from pysim.effects import STANDARD_LIBRARY
 
     return _model(args.model, [STANDARD_LIBRARY, *args.library])[0]
+
+
+def read_inside(args: argparse.Namespace) -> tuple[Model, str, tuple[Slot, ...], tuple[Effect, ...]]:
+    """A model, its class where that is known, its slots, and the effects of the libraries that these take.
+
+    Raises:
+        BadInput: an FMU that cannot be read. BuildError: a class that does not compile.
+    """
+    from pysim.effects import STANDARD_LIBRARY, slots
+
+    libraries = [STANDARD_LIBRARY, *args.library]
+    model, class_name, _ = _model(args.model, libraries)
+    if not class_name:
+        return model, "", (), ()
+    return model, class_name, slots(class_name, libraries), _catalogue(libraries, "", class_name)
 
 
 def effects_of(names: Sequence[str], given: Given) -> tuple[Effect, ...]:

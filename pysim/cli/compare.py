@@ -38,7 +38,7 @@ def run(args: argparse.Namespace) -> int:
 
     dataset = read_dataset(args.data)
     prepare_results(args)
-    if args.refit or not dataset.responses():
+    if args.refit or args.records or args.story or not dataset.responses():
         return _story(args)
     return _responses(args, dataset)
 

@@ -2,12 +2,13 @@
 
 from pysim.io.archive import extracted
 from pysim.io.cache import cache_folder
-from pysim.io.dataset import SIGNAL_KEYS, described_signal, read_dataset
+from pysim.io.dataset import SIGNAL_KEYS, described_signal, read_dataset, read_dataset_partly
 from pysim.io.files import write_file
 from pysim.io.fmu import read_model
 from pysim.io.records import read_record, record_data, record_text, write_record
 from pysim.io.signals import read_signal, write_signal
 from pysim.io.single_log import read_single_log
+from pysim.io.stages import StageFile, read_stages, record_of, write_stages
 from pysim.io.thesis_folder import read_thesis_folder
 from pysim.io.toml_section import Section, TomlFile, read_toml
 from pysim.io.units import SI, signal_in_si
@@ -17,22 +18,27 @@ __all__ = [
     "SI",
     "SIGNAL_KEYS",
     "Section",
+    "StageFile",
     "TomlFile",
     "cache_folder",
     "described_signal",
     "extracted",
     "read_dataset",
+    "read_dataset_partly",
     "read_model",
     "read_record",
     "read_signal",
     "read_single_log",
+    "read_stages",
     "read_thesis_folder",
     "read_toml",
     "record_data",
+    "record_of",
     "record_text",
     "signal_in_si",
     "write_dataset",
     "write_file",
     "write_record",
     "write_signal",
+    "write_stages",
 ]

@@ -29,7 +29,26 @@ def read_dataset(folder: Path | str) -> Dataset:
     Raises:
         BadInput: what is wrong, with file, line and remedy.
     """
-    toml = read_toml(_description(Path(folder)), "data set")
+    dataset, refused = _read(Path(folder), keep_going=False)
+    assert not refused
+    return dataset
+
+
+def read_dataset_partly(folder: Path | str) -> tuple[Dataset, tuple[tuple[str, str], ...]]:
+    """Read what can be read of a data set, and say what cannot.
+
+    Args:
+        folder: as of `read_dataset`.
+    Returns:
+        the data set of all readable records, and per refused one its file and what is wrong, with line and remedy.
+    Raises:
+        BadInput: the description itself is wrong.
+    """
+    return _read(Path(folder), keep_going=True)
+
+
+def _read(folder: Path, *, keep_going: bool) -> tuple[Dataset, tuple[tuple[str, str], ...]]:
+    toml = read_toml(_description(folder), "data set")
     head = toml.table("dataset")
     toml.whole.refuse_unknown(_KEYS)
     head.refuse_unknown(_DATASET_KEYS)
@@ -38,16 +57,17 @@ def read_dataset(folder: Path | str) -> Dataset:
     kinds = [_kind(section) for section in sections]
     _refuse_repeated(sections)
     second = _SECONDS[head.text("time_unit", "s", among=tuple(_SECONDS))]
-    return Dataset(
-        name=head.text("name"),
-        description=head.text("description", "-"),
-        system=head.text("system", "-"),
-        signals=tuple(signal_in_si(signal) for signal in written.values()),
-        records=tuple(
-            _record(toml.path.parent, section, kind, written, second)
-            for section, kind in zip(sections, kinds, strict=True)
-        ),
-    )
+    records, refused = [], []
+    for section, kind in zip(sections, kinds, strict=True):
+        try:
+            records.append(_record(toml.path.parent, section, kind, written, second))
+        except BadInput as error:
+            if not keep_going:
+                raise
+            refused.append((section.source(), str(error)))
+    signals = tuple(signal_in_si(signal) for signal in written.values())
+    name, about, system = head.text("name"), head.text("description", "-"), head.text("system", "-")
+    return Dataset(name, about, system, signals, tuple(records)), tuple(refused)
 
 
 def _description(place: Path) -> Path:

@@ -25,7 +25,7 @@ def diagnosis_data(diagnosis: Diagnosis, files: Mapping[str, str] | None = None)
         "added": [_added(one) for one in diagnosis.added],
         "ranking": [_candidate(row) for row in diagnosis.ranking],
         "confusable": [list(group) for group in diagnosis.confusable],
-        "error": [_step(step) for step in diagnosis.error],
+        "error": [step_data(step) for step in diagnosis.error],
         "parameters": {e.name: _estimate(e) for e in diagnosis.parameters},
         "where": [
             {"record": f.record, "signal": f.signal, "region": f.region, "error": _finite(f.error)}
@@ -97,7 +97,8 @@ def _next_test(test: NextTest | None) -> dict[str, object] | None:
     return {"separates": list(test.separates), "gain": _finite(test.gain), "about": test.about, "plan": test.plan}
 
 
-def _step(step: LedgerStep) -> dict[str, object]:
+def step_data(step: LedgerStep) -> dict[str, object]:
+    """One step of the ledger; every number finite or None."""
     return {
         "step": step.step,
         "fit": _finite(step.fit),

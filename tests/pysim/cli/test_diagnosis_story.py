@@ -1,12 +1,14 @@
 """What a diagnosis shows on the terminal while it works."""
 
 import io
+import json
 import re
 import sys
+from pathlib import Path
 
 import pytest
 
-from pysim.cli._story import Story, block
+from pysim.cli._story import Story, StoryFile, block, left
 from pysim.types import Told
 from tests.pysim.diagnosis_story import step, story
 
@@ -65,3 +67,20 @@ def test_what_went_wrong_ends_it_as_stopped(monkeypatch: pytest.MonkeyPatch) -> 
     with pytest.raises(ZeroDivisionError), Story("toy") as show:
         show(Told(f"refitting {1 / 0}"))
     assert screen.getvalue().rstrip().endswith("stopped")
+
+
+def test_the_story_in_a_file_can_be_followed_by_a_program(tmp_path: Path) -> None:
+    tell = StoryFile(tmp_path / "story.jsonl")
+    tell(Told("refitting the model"))
+    tell(Told("refitting the model", "prior: 8.1", step("prior", 8.1, None, 0.9)))
+    first, second = (json.loads(line) for line in (tmp_path / "story.jsonl").read_text().splitlines())
+    assert (first["stage"], first["text"], first["step"], first["left"]) == ("refitting the model", "", None, None)
+    assert second["step"]["step"] == "prior"
+    assert (second["step"]["fit"], second["step"]["validate"]) == (8.1, None)
+    assert second["seconds"] >= first["seconds"] >= 0
+
+
+def test_time_is_promised_once_most_of_it_can_be_told() -> None:
+    assert left("compiling 3 variants", 30.0, []) == pytest.approx(70.0)
+    assert left("compiling 3 variants", 1.0, []) is None
+    assert left("compiling 3 variants", 30.0, story().error) is None  # another round may follow

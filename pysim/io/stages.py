@@ -1,0 +1,146 @@
+"""Every record beside every model of a diagnosis, in one .npz: what a picture of it takes, without running anything."""
+
+from __future__ import annotations
+
+import io
+import json
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pysim.io.archive import DAMAGED
+from pysim.io.files import write_file
+from pysim.types import BadInput, Deviation, Estimate, Record, RecordFit, ResponseFit, Stage
+
+Array = NDArray[np.float64]
+
+_FORM = 1
+
+
+@dataclass(frozen=True)
+class StageFile:
+    """A file of stages, opened; arrays are read when they are asked for, and never as Python objects.
+
+    Args:
+        path: the file.
+        about: what stands in it besides arrays: per stage its step, estimates, records, responses and failures.
+    """
+
+    path: Path
+    about: tuple[Mapping[str, Any], ...]
+
+    @cached_property
+    def _arrays(self) -> Any:
+        return np.load(self.path, allow_pickle=False)
+
+    def array(self, key: str) -> Array:
+        """An array by the key that `about` names."""
+        return np.asarray(self._arrays[key], dtype=np.float64)
+
+
+def write_stages(path: Path, stages: Sequence[Stage]) -> None:
+    """Write the stages of a diagnosis; the file is complete or not there.
+
+    Raises:
+        BadInput: a place that cannot be written.
+    """
+    arrays: dict[str, Array] = {}
+    about = {"form": _FORM, "stages": [_stage(stage, k, arrays) for k, stage in enumerate(stages)]}
+    text = np.frombuffer(json.dumps(about, allow_nan=False).encode(), dtype=np.uint8)
+    data = io.BytesIO()
+    np.savez(data, about=text, **arrays)  # type: ignore[arg-type]
+    try:
+        write_file(path, data.getvalue())
+    except OSError as error:
+        raise BadInput(f"{path}: cannot write there ({error.strerror}); choose another folder") from error
+
+
+def read_stages(path: Path) -> StageFile:
+    """Open what `write_stages` wrote.
+
+    Raises:
+        BadInput: no such file, or another one.
+    """
+    try:
+        with np.load(path, allow_pickle=False) as file:
+            about = json.loads(bytes(file["about"].tobytes()))
+        if about["form"] != _FORM:
+            raise ValueError(f"it has the form {about['form']}")
+        return StageFile(path, tuple(about["stages"]))
+    except OSError as error:
+        raise BadInput(f"{path}: cannot be read ({error.strerror or error})") from error
+    except (*DAMAGED, KeyError, TypeError, ValueError) as error:
+        raise BadInput(f"{path} holds no stages of a diagnosis: {error}; write it again with --records") from error
+
+
+def _stage(stage: Stage, number: int, arrays: dict[str, Array]) -> dict[str, Any]:
+    return {
+        "step": stage.step,
+        "estimates": [_estimate(e) for e in stage.estimates],
+        "undetermined": [{"exponents": dict(d.exponents), "words": d.words} for d in stage.undetermined],
+        "where": [[f.record, f.signal, f.region, _finite(f.error)] for f in stage.where],
+        "records": [_record(r, f"{number}/{k}", f"0/{k}", arrays) for k, r in enumerate(stage.records)],
+        "responses": [_response(r) for r in stage.responses],
+    }
+
+
+def _record(fit: RecordFit, own: str, first: str, arrays: dict[str, Array]) -> dict[str, Any]:
+    """One record; what was measured is kept once where it stays the same from stage to stage."""
+    keys = {"time": "t", "measured": "m", "simulated": "s"}
+    values = {"time": fit.measured.time, "measured": fit.measured.values, "simulated": fit.simulated.values}
+    for what, letter in keys.items():
+        before = arrays.get(f"{letter}{first}")
+        same = what != "simulated" and before is not None and np.array_equal(before, values[what])
+        keys[what] = f"{letter}{first if same else own}"
+        arrays[keys[what]] = values[what]
+    deviations = {name: [_deviation(d) for d in own_ones] for name, own_ones in fit.deviations.items()}
+    about = {"source": fit.source, "kind": fit.kind, "use": fit.use, "names": list(fit.measured.names)}
+    about |= {"units": list(fit.measured.units), "noise": list(fit.noise), "rms": list(map(_finite, fit.rms.values()))}
+    frequency = fit.harmonics[0].frequency if fit.harmonics else None
+    return {**about, **keys, "frequency": frequency, "deviations": deviations}
+
+
+def _response(fit: ResponseFit) -> dict[str, Any]:
+    """A frequency response with gains in output unit per input unit, phases in rad."""
+    one = fit.comparison
+    test = one.measured.test
+    about = {"offset": test.offset, "amplitude": test.amplitude, "input": test.input, "output": test.output}
+    sides = {"measured": one.measured, "simulated": one.simulated}
+    found = {
+        name: None if side is None else {"gain": side.gain.tolist(), "phase": side.phase.tolist()}
+        for name, side in sides.items()
+    }
+    about |= {"use": fit.use, "frequency": one.measured.frequency.tolist(), "passes": one.passes}
+    return {**about, **found, "message": one.message, "deviations": [_deviation(d) for d in one.deviations]}
+
+
+def _deviation(one: Deviation) -> dict[str, Any]:
+    c = one.criterion
+    return {"name": c.name, "symbol": c.symbol, "limit": c.limit, "unit": c.unit, "value": _finite(one.value)}
+
+
+def _estimate(e: Estimate) -> dict[str, Any]:
+    numbers = {"value": e.value, "start": e.start, "lower": e.lower, "upper": e.upper, "low": e.interval[0]}
+    found = {name: _finite(value) for name, value in (*numbers.items(), ("high", e.interval[1]))}
+    return {"name": e.name, "unit": e.unit, "at": e.at, "determined": e.determined, **found}
+
+
+def _finite(value: float) -> float | None:
+    return float(value) if math.isfinite(value) else None
+
+
+def record_of(file: StageFile, about: Mapping[str, Any], what: str) -> Record:
+    """One side of a record of the file.
+
+    Args:
+        about: of the record, as the stage lists it.
+        what: "measured" or "simulated".
+    """
+    names, units = tuple(about["names"]), tuple(about["units"])
+    return Record(file.array(about["time"]), file.array(about[what]), names, units, origin=what)

@@ -1,0 +1,52 @@
+"""The stages of a diagnosis in a file: the same numbers back, and nothing that could run."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from pysim.io import read_stages, record_of, write_stages
+from pysim.types import BadInput
+from tests.pysim.diagnosis_story import story
+
+
+def test_every_record_comes_back_bit_for_bit(tmp_path: Path) -> None:
+    stages = story().stages
+    write_stages(tmp_path / "a.npz", stages)
+    file = read_stages(tmp_path / "a.npz")
+    assert [about["step"] for about in file.about] == ["prior", "refit", "toy.offset"]
+    for stage, about in zip(stages, file.about, strict=True):
+        for fit, own in zip(stage.records, about["records"], strict=True):
+            for what in ("measured", "simulated"):
+                back, sent = record_of(file, own, what), getattr(fit, what)
+                assert np.array_equal(back.values, sent.values)
+                assert np.array_equal(back.time, sent.time)
+            assert (own["source"], own["use"], tuple(own["noise"])) == (fit.source, fit.use, fit.noise)
+            assert own["rms"] == list(fit.rms.values())
+
+
+def test_estimates_keep_their_intervals_and_what_is_not_determined(tmp_path: Path) -> None:
+    write_stages(tmp_path / "a.npz", story().stages)
+    refit = read_stages(tmp_path / "a.npz").about[1]
+    m, k, _ = refit["estimates"]
+    assert (m["name"], m["determined"]) == ("m", False)
+    assert (k["value"], k["low"], k["high"]) == (3.0, 2.7, 3.3)
+    assert refit["undetermined"][0]["exponents"] == {"m": 1.0, "k": 2.0}
+
+
+@pytest.mark.parametrize("content", [b"no archive", b""])
+def test_another_file_is_refused(content: bytes, tmp_path: Path) -> None:
+    (tmp_path / "a.npz").write_bytes(content)
+    with pytest.raises(BadInput, match="holds no stages of a diagnosis"):
+        read_stages(tmp_path / "a.npz")
+
+
+def test_objects_are_never_unpacked(tmp_path: Path) -> None:
+    np.savez(tmp_path / "a.npz", about=np.array([{"form": 1}], dtype=object))
+    with pytest.raises(BadInput, match="holds no stages"):
+        read_stages(tmp_path / "a.npz")
+
+
+def test_a_missing_file_is_said(tmp_path: Path) -> None:
+    with pytest.raises(BadInput, match="cannot be read"):
+        read_stages(tmp_path / "none.npz")
