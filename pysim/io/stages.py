@@ -100,7 +100,7 @@ def _record(fit: RecordFit, own: str, first: str, arrays: dict[str, Array]) -> d
         keys[what] = f"{letter}{first if same else own}"
         arrays[keys[what]] = values[what]
     deviations = {name: [_deviation(d) for d in own_ones] for name, own_ones in fit.deviations.items()}
-    about = {"source": fit.source, "kind": fit.kind, "use": fit.use, "names": list(fit.measured.names)}
+    about: dict[str, Any] = {"source": fit.source, "kind": fit.kind, "use": fit.use, "names": list(fit.measured.names)}
     about |= {"units": list(fit.measured.units), "noise": list(fit.noise), "rms": list(map(_finite, fit.rms.values()))}
     frequency = fit.harmonics[0].frequency if fit.harmonics else None
     return {**about, **keys, "frequency": frequency, "deviations": deviations}
