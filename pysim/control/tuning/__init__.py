@@ -1,0 +1,23 @@
+"""PI controllers for linear plants by loop shaping: phase margin and crossover in, gains out."""
+
+from pysim.control.tuning.bench_plants import TABLE_6_1, load_pressure_plant, shaft_speed_plant
+from pysim.control.tuning.loop_response import LoopResponse, loop_response
+from pysim.control.tuning.margins import Margins, margins
+from pysim.control.tuning.pi_gains import Gains, fastest_pi, known_pi, reachable_phase_margins, tune_pi
+from pysim.control.tuning.plant import Plant
+
+__all__ = [
+    "TABLE_6_1",
+    "Gains",
+    "LoopResponse",
+    "Margins",
+    "Plant",
+    "fastest_pi",
+    "known_pi",
+    "load_pressure_plant",
+    "loop_response",
+    "margins",
+    "reachable_phase_margins",
+    "shaft_speed_plant",
+    "tune_pi",
+]

@@ -1,0 +1,77 @@
+"""What the loop does over time, under the sampled controller itself."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import expm
+
+from pysim.control.pi import PI
+from pysim.control.tuning.plant import Plant
+from pysim.types import BadInput
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class LoopResponse:
+    """To a step of the reference by 1, or of a disturbance at the plant's input by 1.
+
+    Args:
+        time: (n,) s.
+        output: (n,) in the plant's output unit.
+        command: (n,) of the controller.
+    """
+
+    time: Array
+    output: Array
+    command: Array
+
+
+def loop_response(
+    plant: Plant, K_p: float, T_i: float, *, dt: float, stop: float, reference: float = 1.0, disturbance: float = 0.0
+) -> LoopResponse:
+    """Plant, exactly discretised, under the difference equation of the PI controller.
+
+    Args:
+        dt: s between the controller's steps; the plant's dead time is rounded to a whole number of them.
+        stop: s.
+        reference, disturbance: steps at time 0, the latter added to the command.
+    Raises:
+        BadInput: times that are not positive, or a plant that answers at once.
+    Source: thesis Eq. 5.33.
+    """
+    if not 0 < dt < stop < np.inf:
+        raise BadInput(f"loop response: dt = {dt:g} s and stop = {stop:g} s; give 0 < dt < stop")
+    if len(plant.numerator) == len(plant.denominator):
+        raise BadInput(f"loop response: the {plant.name} answers at once; give it a lag")
+    A, B, C = _sampled(plant, dt)
+    controller = PI(K_p, T_i, dt)
+    # the error before the step is zero, so that the step itself passes the gain as well
+    controller.step(0.0, (0.0, 0.0, 0.0, 1.0))
+    count, lag = round(stop / dt) + 1, round(plant.delay / dt)
+    x, output, command = np.zeros(A.shape[0]), np.zeros(count), np.zeros(count + lag)
+    for k in range(count):
+        output[k] = C @ x
+        (command[k + lag],) = controller.step(k * dt, (reference, output[k], 0.0, 1.0))
+        x = A @ x + B * (command[k] + disturbance)
+    return LoopResponse(np.arange(count) * dt, output, command[lag:])
+
+
+def _sampled(plant: Plant, dt: float) -> tuple[Array, Array, Array]:
+    """x(k+1) = A x(k) + B u(k), y = C x of the rational part, its input held; in a time scaled to its poles."""
+    order = len(plant.denominator) - 1
+    scale = max(float(np.abs(plant.poles()).max(initial=0.0)), 1e-12 / dt)
+    powers = scale ** np.arange(order + 1)
+    denominator = np.asarray(plant.denominator) / plant.denominator[0] / powers
+    padded = np.zeros(order + 1)
+    padded[order + 1 - len(plant.numerator) :] = plant.numerator
+    numerator = padded / plant.denominator[0] / powers
+    system = np.zeros((order + 1, order + 1))
+    system[0, :order] = -denominator[1:]
+    system[1:order, : order - 1] += np.eye(order - 1)
+    system[0, order] = 1.0
+    held = expm(system * (scale * dt))
+    return held[:order, :order], held[:order, order], numerator[1:]

@@ -1,0 +1,145 @@
+"""How far a loop is from instability, and what it does in closed form."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pysim.control.tuning.plant import Plant
+from pysim.types import BadInput
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+_SMALL = 1e-3  # of the loop gain, below which antiphase is of no interest
+_BISECTIONS = 60  # each halves the bracket of a crossing; ends at rounding
+
+
+@dataclass(frozen=True)
+class Margins:
+    """Of an open loop L = PI times plant.
+
+    Args:
+        crossovers: (n,) rad/s where |L| = 1, rising.
+        phase_margins: (n,) rad at these, within -pi ... pi.
+        phase_crossovers: (m,) rad/s where L is real and negative, and more than a thousandth, rising.
+        gain_margins: (m,) 1/|L| there.
+        delay_margin: s of dead time that the loop bears; infinite without crossover.
+        peak_sensitivity: largest 1/|1 + L|.
+        bandwidth: rad/s, where the closed loop first crosses -3 dB; infinite where it does not.
+        stable: whether the closed loop is.
+    """
+
+    crossovers: Array
+    phase_margins: Array
+    phase_crossovers: Array
+    gain_margins: Array
+    delay_margin: float
+    peak_sensitivity: float
+    bandwidth: float
+    stable: bool
+
+    @property
+    def crossover(self) -> float:
+        """rad/s, the one with the least phase margin; not a number without any."""
+        return float(self.crossovers[np.argmin(self.phase_margins)]) if self.crossovers.size else np.nan
+
+    @property
+    def phase_margin(self) -> float:
+        """rad, the least; infinite without crossover."""
+        return float(self.phase_margins.min()) if self.crossovers.size else np.inf
+
+    @property
+    def gain_margin(self) -> float:
+        """By how much the gain may rise, infinite where nothing near stops it; of an unstable loop the least."""
+        above = self.gain_margins[(self.gain_margins > 1) | (not self.stable)]
+        return float(above.min()) if above.size else np.inf
+
+
+def open_loop(plant: Plant, K_p: float, T_i: float, omega: Array) -> Complex:
+    """K_p (1 + 1/(T_i s)) times the plant at angular frequencies (n,).
+
+    Source: thesis Eq. 5.32.
+    """
+    return np.asarray(K_p * (1 + 1 / (1j * omega * T_i)) * plant.response(omega), dtype=np.complex128)
+
+
+def margins(plant: Plant, K_p: float, T_i: float) -> Margins:
+    """All margins of a plant under K_p (1 + 1/(T_i s)).
+
+    Raises:
+        BadInput: a gain of zero or an integration time that is not positive.
+    """
+    if not (K_p != 0 and np.isfinite(K_p) and 0 < T_i < np.inf):
+        raise BadInput(f"margins: K_p = {K_p:g}, T_i = {T_i:g} s; give a gain other than zero, a positive time")
+    omega = _frequencies(plant, K_p, T_i)
+    loop = open_loop(plant, K_p, T_i, omega)
+
+    def log_size(w: Array) -> Array:
+        return np.asarray(np.log(np.abs(open_loop(plant, K_p, T_i, w))))
+
+    def turned(w: Array) -> Array:
+        return np.asarray(open_loop(plant, K_p, T_i, w).imag)
+
+    crossovers = _roots(omega, np.log(np.abs(loop)), log_size)
+    at = open_loop(plant, K_p, T_i, crossovers)
+    phase_margins = np.angle(-at)
+    real_axis = _roots(omega, loop.imag, turned)
+    values = open_loop(plant, K_p, T_i, real_axis).real
+    negative = values < -_SMALL
+    # dead time turns L by omega T: a turn from the margin's angle, counted as positive, down to the critical point
+    delays = np.mod(phase_margins, 2 * np.pi) / crossovers
+    edges = _roots(omega, _beyond_3_db(loop), lambda w: _beyond_3_db(open_loop(plant, K_p, T_i, w)))
+    return Margins(
+        crossovers,
+        phase_margins,
+        real_axis[negative],
+        -1 / values[negative],
+        float(delays.min()) if delays.size else np.inf,
+        float(1 / np.abs(1 + loop).min()),
+        float(edges[0]) if edges.size else np.inf,
+        _is_stable(plant, K_p, T_i, loop),
+    )
+
+
+def _beyond_3_db(loop: Complex) -> Array:
+    """Positive where the closed loop |L/(1 + L)| is above -3 dB."""
+    return np.asarray(np.abs(loop / (1 + loop)) - np.sqrt(0.5))
+
+
+def _frequencies(plant: Plant, K_p: float, T_i: float) -> Array:
+    """The plant's, and far enough on either side for the controller's corner and a slow integral."""
+    own = plant.frequencies()
+    slow = min(own[0], 1e-4 / T_i)
+    gain = float(np.abs(open_loop(plant, K_p, T_i, np.array([slow])))[0])
+    slow *= min(1.0, 1e-3 * gain)  # down there the loop falls with the frequency at least
+    wide = np.geomspace(slow, max(own[-1], 1e3 / T_i), 4000)
+    return np.asarray(np.unique(np.concatenate([own, wide])))
+
+
+def _roots(omega: Array, values: Array, of: Callable[[Array], Array]) -> Array:
+    """Frequencies where `values` changes its sign, each bisected."""
+    signs = np.signbit(values)
+    k = np.flatnonzero(signs[1:] != signs[:-1])
+    low, high, left = omega[k], omega[k + 1], signs[k]
+    for _ in range(_BISECTIONS):
+        middle = 0.5 * (low + high)
+        same = np.signbit(of(middle)) == left
+        low, high = np.where(same, middle, low), np.where(same, high, middle)
+    return np.asarray(0.5 * (low + high), dtype=np.float64)
+
+
+def _is_stable(plant: Plant, K_p: float, T_i: float, loop: Complex) -> bool:
+    """Roots of the closed loop; with dead time by the argument principle along the imaginary axis."""
+    if plant.delay == 0:
+        forward = np.polymul(plant.numerator, (K_p * T_i, K_p))
+        roots = np.roots(np.polyadd(np.polymul(plant.denominator, (T_i, 0.0)), forward))
+        return bool((roots.real < 0).all())
+    poles = plant.poles()
+    at_zero = 1 + int((np.abs(poles) < 1e-12 * max(np.abs(poles).max(), 1.0)).sum())
+    outside = int((poles.real > 1e-12 * np.abs(poles)).sum())
+    turn = np.unwrap(np.angle(1 + loop))
+    return bool(abs((turn[-1] - turn[0]) - (at_zero * np.pi / 2 + outside * np.pi)) < 0.5)

@@ -1,0 +1,149 @@
+"""Gains of a PI controller from a phase margin and a crossover frequency."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pysim.control.tuning.margins import Margins, margins
+from pysim.control.tuning.plant import Plant
+from pysim.types import BadInput
+
+Array = NDArray[np.float64]
+
+_TIMES = 400  # integration times that are tried
+
+
+@dataclass(frozen=True)
+class Gains:
+    """A PI controller K_p (1 + 1/(T_i s)) and the loop it makes.
+
+    Args:
+        plant: what it controls.
+        K_p: command's unit per unit of what is controlled.
+        T_i: s.
+        loop: all margins of the loop.
+    """
+
+    plant: Plant
+    K_p: float
+    T_i: float
+    loop: Margins
+
+    @property
+    def integral(self) -> float:
+        """K_p/T_i; all that counts where T_i is much shorter than the loop."""
+        return self.K_p / self.T_i
+
+
+def known_pi(plant: Plant, K_p: float, T_i: float) -> Gains:
+    """Gains that somebody chose, with the margins they have here.
+
+    Raises:
+        BadInput: a gain of zero, or an integration time that is not positive.
+    """
+    return Gains(plant, K_p, T_i, margins(plant, K_p, T_i))
+
+
+def reachable_phase_margins(plant: Plant, crossover: float) -> tuple[float, float]:
+    """Least and largest phase margin, rad, that a PI controller can give at a crossover, both open ends.
+
+    The controller turns by -90 degrees (integral alone) to 0 (gain alone).
+    """
+    if not 0 < crossover < math.inf:
+        raise BadInput(f"crossover: {crossover:g} rad/s; give a positive frequency")
+    most = _phase(plant, crossover) + math.pi
+    return most - math.pi / 2, most
+
+
+def tune_pi(plant: Plant, *, crossover: float, phase_margin: float) -> Gains:
+    """The one PI controller with this phase margin (rad) at this crossover (rad/s).
+
+    With phi = phase_margin - pi - arg G(j crossover), between -90 and 0 degrees: T_i = -1/(crossover tan phi) and
+    K_p = cos phi/|G|.
+
+    Returns:
+        gains, with all margins of the loop; whether the loop is stable stands there.
+    Raises:
+        BadInput: no PI controller does it; tells which phase margins it can give there.
+    """
+    least, most = reachable_phase_margins(plant, crossover)
+    if not least < phase_margin < most:
+        low, high = (f"{math.degrees(x):.4g}" for x in (least, most))
+        raise BadInput(
+            f"phase margin: {math.degrees(phase_margin):.4g} degrees at {crossover:g} rad/s are out of a PI "
+            f"controller's reach on the {plant.name}; ask for {low} to {high} degrees there, or another crossover"
+        )
+    phi = phase_margin - most
+    K_p = math.cos(phi) / abs(plant.response(np.array([crossover]))[0])
+    sign = 1.0 if _steady_sign(plant) > 0 else -1.0
+    T_i = -1 / (crossover * math.tan(phi))
+    return known_pi(plant, sign * K_p, T_i)
+
+
+def fastest_pi(plant: Plant, *, phase_margin: float, gain_margin: float = 2.0) -> Gains:
+    """The loop with the largest K_p/T_i that keeps both margins, which rejects slow disturbances best.
+
+    At a given T_i the gain ends where the first frequency whose phase would leave too little margin comes to |L| = 1, or
+    one of those in antiphase to 1/gain_margin. So |L| < 1 wherever the phase is beyond the margin, but for the lowest
+    frequencies of a plant with an integrator, where |L| has to be above 1.
+
+    Args:
+        plant: without poles to the right.
+        phase_margin: rad, the least at any crossover.
+        gain_margin: by how much the gain may rise, at least.
+    Raises:
+        BadInput: a plant that is unstable by itself, or margins that no gain keeps.
+    """
+    if (plant.poles().real > 0).any():
+        raise BadInput(f"{plant.name}: it is unstable by itself; choose a crossover and use tune_pi")
+    if not (0 < phase_margin < math.pi / 2 and gain_margin > 1):
+        raise BadInput(
+            f"margins: {math.degrees(phase_margin):.4g} degrees and {gain_margin:.3g}; give 0 to 90 degrees, above 1"
+        )
+    omega = plant.frequencies()
+    response = plant.response(omega) * _steady_sign(plant)
+    steps = np.geomspace(1e-2 / omega[-1], 1 / omega[0], _TIMES)
+    integrals = [_largest_integral(response, omega, T_i, phase_margin, gain_margin) for T_i in steps]
+    best = int(np.argmax(integrals))
+    if not 0 < integrals[best] < math.inf:
+        raise BadInput(f"{plant.name}: nothing limits the gain, or all of it; add the dead time of the loop")
+    T_i = float(steps[best])
+    K_p = float(integrals[best]) * T_i * _steady_sign(plant)
+    return known_pi(plant, K_p, T_i)
+
+
+def _largest_integral(
+    response: NDArray[np.complex128], omega: Array, T_i: float, phase_margin: float, gain_margin: float
+) -> float:
+    """K_p/T_i, at most so large that both margins are kept."""
+    loop = response * (T_i + 1 / (1j * omega))
+    size, phase = np.abs(loop), np.unwrap(np.angle(loop))
+    phase -= 2 * math.pi if phase[0] > math.pi / 2 else 0.0  # two integrators: half a turn behind, not ahead
+    short = phase + math.pi < phase_margin
+    first = int(np.argmin(short)) if short[0] else 0  # so many at the low end are in antiphase for two integrators
+    if short.all():
+        return 0.0
+    turned = np.signbit(loop.imag[1:]) != np.signbit(loop.imag[:-1])
+    antiphase = np.append(False, turned & (loop.real[1:] < 0))
+    antiphase[: first + 1] = False
+    most = max(size[first:][short[first:]].max(initial=0.0), gain_margin * size[antiphase].max(initial=0.0))
+    if first and most >= size[:first].min():
+        return 0.0
+    return float(1 / most) if most > 0 else math.inf
+
+
+def _steady_sign(plant: Plant) -> float:
+    """Sign of the plant at low frequency, its integrators taken off."""
+    return float(np.sign(np.trim_zeros(plant.numerator, "b")[-1] / np.trim_zeros(plant.denominator, "b")[-1]))
+
+
+def _phase(plant: Plant, omega: float) -> float:
+    """Continuous phase at one frequency, rad, counted from the sign and the integrators at low frequency."""
+    grid = plant.frequencies()
+    grid = np.append(grid[grid < omega], omega)
+    response = plant.response(grid) * _steady_sign(plant)
+    return float(np.unwrap(np.angle(response))[-1])

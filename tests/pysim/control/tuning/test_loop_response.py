@@ -1,0 +1,48 @@
+import math
+
+import numpy as np
+import pytest
+
+from pysim.control.tuning import Plant, load_pressure_plant, loop_response
+from pysim.types import BadInput
+
+INTEGRATOR = Plant((1.0,), (1.0, 0.0))
+
+
+def test_pi_on_an_integrator_in_closed_form() -> None:
+    """Step answer of (2s + 1)/(s + 1)^2, and (of a disturbance) of s/(s + 1)^2; sampling adds terms of the size dt."""
+    step = loop_response(INTEGRATOR, 2.0, 2.0, dt=1e-4, stop=8.0)
+    t = step.time
+    assert step.output == pytest.approx(1 + (t - 1) * np.exp(-t), abs=2e-4)
+    hit = loop_response(INTEGRATOR, 2.0, 2.0, dt=1e-4, stop=8.0, reference=0.0, disturbance=1.0)
+    assert hit.output == pytest.approx(t * np.exp(-t), abs=2e-4)
+    assert hit.command[-1] == pytest.approx(-1.0, abs=5e-3)
+
+
+def test_the_plant_is_discretised_exactly() -> None:
+    """A lag under a gain alone (the integral takes 10^9 s) follows a geometric series."""
+    dt, gain = 0.05, 0.7
+    found = loop_response(Plant((2.0,), (0.5, 1.0)), gain, 1e9, dt=dt, stop=1.0)
+    pole = math.exp(-dt / 0.5)
+    loop = pole - 2 * gain * (1 - pole)
+    k = np.arange(found.time.size)
+    assert found.output == pytest.approx(2 * gain / (1 + 2 * gain) * (1 - loop**k), rel=1e-6)
+
+
+def test_dead_time_comes_first() -> None:
+    found = loop_response(Plant((1.0,), (1.0, 0.0), delay=0.03), 1.0, 1.0, dt=0.01, stop=0.2)
+    assert found.output[:4].tolist() == [0, 0, 0, 0]
+    assert found.output[4] == pytest.approx(0.01)
+    assert found.command[0] == 1.0
+
+
+def test_load_pressure_comes_to_rest_without_error() -> None:
+    found = loop_response(load_pressure_plant(), 1.98e-9, 0.03, dt=1e-3, stop=2.0)
+    assert found.output[-1] == pytest.approx(1.0, abs=1e-6)
+
+
+def test_what_cannot_be_stepped_is_refused() -> None:
+    with pytest.raises(BadInput, match="0 < dt < stop"):
+        loop_response(INTEGRATOR, 1.0, 1.0, dt=1.0, stop=0.5)
+    with pytest.raises(BadInput, match="give it a lag"):
+        loop_response(Plant((1.0, 1.0), (1.0, 2.0)), 1.0, 1.0, dt=0.1, stop=1.0)

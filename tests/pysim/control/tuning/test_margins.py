@@ -1,0 +1,75 @@
+import math
+
+import numpy as np
+import pytest
+
+from pysim.control.tuning import Plant, load_pressure_plant, margins, shaft_speed_plant
+from pysim.control.tuning.margins import open_loop
+from pysim.types import BadInput
+
+INTEGRATOR = Plant((1.0,), (1.0, 0.0))
+
+
+def test_integrator_under_pi_in_closed_form() -> None:
+    """L = (s + 1)/s^2: |L| = 1 where w^4 = w^2 + 1, phase margin atan w."""
+    found = margins(INTEGRATOR, 1.0, 1.0)
+    crossover = math.sqrt((1 + math.sqrt(5)) / 2)
+    assert found.crossover == pytest.approx(crossover, rel=1e-12)
+    assert found.phase_margin == pytest.approx(math.atan(crossover), rel=1e-12)
+    assert found.delay_margin == pytest.approx(math.atan(crossover) / crossover, rel=1e-12)
+    assert found.gain_margin == math.inf
+    assert found.stable
+
+
+def test_gain_margin_of_three_lags_with_a_slow_integral() -> None:
+    """k/(s + 1)^3 with the integral far below: antiphase at the root of 3, where it has an eighth of its gain."""
+    found = margins(Plant((1.0,), (1.0, 3.0, 3.0, 1.0)), 2.0, 1e6)
+    assert found.gain_margin == pytest.approx(4.0, rel=1e-4)
+    assert found.phase_crossovers[-1] == pytest.approx(math.sqrt(3), rel=1e-4)
+    assert margins(Plant((1.0,), (1.0, 3.0, 3.0, 1.0)), 7.99, 1e6).stable
+    assert not margins(Plant((1.0,), (1.0, 3.0, 3.0, 1.0)), 8.01, 1e6).stable
+
+
+def test_peak_sensitivity_and_bandwidth_of_a_pure_integral() -> None:
+    """L = 1/s: sensitivity below 1 with supremum 1, closed loop a lag."""
+    found = margins(Plant((1.0,), (1e-9, 1.0)), 1e-9, 1e-9)
+    assert found.bandwidth == pytest.approx(1.0, rel=1e-9)
+    assert found.peak_sensitivity == pytest.approx(1.0, abs=1e-3)
+
+
+@pytest.mark.parametrize(("plant", "K_p", "T_i"), [(load_pressure_plant(), 1.98e-9, 0.03), (INTEGRATOR, 1.0, 1.0)])
+def test_a_loop_bears_its_delay_margin_and_no_more(plant: Plant, K_p: float, T_i: float) -> None:
+    most = margins(plant, K_p, T_i).delay_margin
+    assert margins(plant.delayed(0.99 * most), K_p, T_i).stable
+    assert not margins(plant.delayed(1.01 * most), K_p, T_i).stable
+
+
+def test_dead_time_agrees_with_its_pade_approximation() -> None:
+    T = 0.02
+    pade = Plant((T**2 / 12, -T / 2, 1.0), (T**2 / 12, T / 2, 1.0))
+    for gain in (1.98e-9, 8e-9, 2e-8):
+        exact = margins(load_pressure_plant().delayed(T), gain, 0.03)
+        near = margins(load_pressure_plant().behind(pade), gain, 0.03)
+        assert exact.stable == near.stable
+        assert exact.gain_margins[0] == pytest.approx(near.gain_margins[0], rel=0.01)
+    assert not exact.stable
+
+
+def test_of_several_crossovers_the_least_margin_counts() -> None:
+    assert margins(shaft_speed_plant(), 1.41e-7, 0.000159).gain_margin == pytest.approx(10.2, rel=0.01)
+    found = margins(shaft_speed_plant(), 1.5e-6, 0.000159)  # the resonance is crossed as well
+    assert found.crossovers.size == 3
+    assert found.phase_margin == found.phase_margins.min() < 0
+    assert not found.stable
+    sizes = np.abs(open_loop(shaft_speed_plant(), 1.5e-6, 0.000159, found.crossovers))
+    assert sizes == pytest.approx(np.ones(3), rel=1e-9)
+
+
+def test_an_unstable_plant_stays_one() -> None:
+    assert not margins(shaft_speed_plant(c=-1.4), 1.41e-7, 0.000159).stable
+    assert not margins(shaft_speed_plant(c=-1.4).delayed(1e-3), 1.41e-7, 0.000159).stable
+
+
+def test_wrong_gains_are_refused() -> None:
+    with pytest.raises(BadInput, match="positive time"):
+        margins(INTEGRATOR, 1.0, 0.0)
