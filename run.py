@@ -18,7 +18,7 @@ COMMANDS = {
     "demo": ["-m", "pysim", "demo"],
     "pysim": ["-m", "pysim"],
     "fmu-build": ["-m", "fmu_build"],
-    "validate": ["-m", "validation"],
+    "validate": ["-m", "pysim", "validate"],
 }
 CHECKS = {  # run beside this file; the others where they were called
     "test": ["-m", "pytest"],

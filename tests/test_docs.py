@@ -82,14 +82,15 @@ def parse(words: list[str]) -> None:
         run = import_module("run")
         assert words[2] in run.COMMANDS | run.CHECKS, f"run.py has no command {words[2]}"
         words = {"demo": ["pysim", "demo"]}.get(words[2], [words[2]]) + words[3:]
+    if words[0] == "validate":
+        words = ["pysim", *words]
     if words[0] == "pysim":
-        argument_parser().parse_args(words[1:])
+        parsed = argument_parser().parse_args(words[1:])
+        if words[1] == "validate" and parsed.names[:1] != ["fmu"]:
+            unknown = set(parsed.names) - set(import_module("validation.registry").CASES)
+            assert not unknown, f"there is no case {sorted(unknown)}"
     elif words[0] == "fmu-build":
         import_module("fmu_build.cli")._parser().parse_args(words[1:])
-    elif words[0] == "validate":
-        cases = import_module("validation.registry").CASES
-        unknown = [word for word in words[1:] if word not in (*cases, "--all", "--list")]
-        assert not unknown, f"there is no case {unknown}"
 
 
 def anchors(text: str) -> set[str]:

@@ -47,7 +47,7 @@ ALLOWED = {
 }
 # Packages whose outside world is limited too.
 OUTSIDE = {"pysim.types": {"numpy"}, "pysim.excitation": {"numpy"}, "pysim.io": {"numpy", "fmpy"}}
-MAIN = {Path("pysim/__main__.py"): {"pysim.cli"}}
+MAIN = {Path("pysim/__main__.py"): {"pysim.cli"}, Path("validation/__main__.py"): {"pysim.cli"}}
 
 
 def package(module: str) -> str:

@@ -7,6 +7,7 @@ import traceback
 from collections.abc import Callable, Iterator, Sequence
 from datetime import UTC, datetime
 
+from pysim.types import BadInput
 from validation.findings import Finding
 from validation.registry import CASES
 from validation.results import CaseResult, this_machine
@@ -16,11 +17,11 @@ def chosen(names: Sequence[str], *, quick: bool) -> list[str]:
     """The cases to run: those named, or all; the quick ones of them if `quick`.
 
     Raises:
-        KeyError: the names there are no cases of.
+        BadInput: there is no case of that name.
     """
     unknown = [name for name in names if name not in CASES]
     if unknown:
-        raise KeyError(", ".join(unknown))
+        raise BadInput(f"no case named {', '.join(unknown)}; there are {', '.join(CASES)}")
     return [name for name in names or CASES if CASES[name].quick or not quick]
 
 

@@ -26,6 +26,7 @@ from pysim.cli import (
     rank,
     signal,
     simulate,
+    validate,
 )
 
 DONE, NO, WRONG_USE, OUR_BUG = 0, 1, 2, 3
@@ -46,6 +47,7 @@ _COMMANDS = {
     "rank": rank,
     "signal": signal,
     "simulate": simulate,
+    "validate": validate,
 }
 
 

@@ -1,0 +1,60 @@
+"""`pysim validate`: what is run, printed, written and kept."""
+
+from pathlib import Path
+
+import pytest
+
+from pysim.cli import main, validate
+from tests.validation import made_up
+from validation.results import read_results
+from validation.summary import BEGIN, END
+
+
+@pytest.fixture(autouse=True)
+def _cases(monkeypatch: pytest.MonkeyPatch) -> None:
+    made_up.use(monkeypatch)
+
+
+@pytest.mark.parametrize(
+    ("words", "code"),
+    [(["good"], 0), (["bad"], 1), (["nan"], 1), (["broken"], 1), (["bad", "good"], 1), ([], 1), (["--quick"], 0)],
+)
+def test_exit_code(words: list[str], code: int, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["validate", *words]) == code
+    out = capsys.readouterr().out
+    if "bad" in words:
+        assert "FAILS    c | d: 2.5 deg, limit 2" in out
+    if "good" in words:
+        assert "skipped  b: no Wine here" in out
+
+
+@pytest.mark.parametrize("words", [["none"], ["--nonsense"]])
+def test_wrong_use(words: list[str]) -> None:
+    assert main(["validate", *words]) == 2
+
+
+def test_list_runs_nothing(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["validate", "--list"]) == 0
+    assert [line.split()[0] for line in capsys.readouterr().out.splitlines()] == list(made_up.CASES)
+
+
+def test_what_is_written(tmp_path: Path) -> None:
+    out, numbers = tmp_path / "out", tmp_path / "numbers.jsonl"
+    numbers.write_text("old\n")
+    assert main(["validate", "good", "bad", "--output", str(out), "--json", str(numbers)]) == 1
+    assert [result.case for result in read_results(numbers)] == ["good", "bad"]
+    assert {path.name for path in out.iterdir()} == {"report.html", "summary.md", "good-1.png", "bad-1.png"}
+    assert "a picture" in (out / "report.html").read_text(encoding="utf-8")
+
+
+def test_record(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "validation").mkdir()
+    readme = tmp_path / "README.md"
+    readme.write_text(f"# A\n{BEGIN}\n{END}\n", encoding="utf-8")
+    monkeypatch.setattr(validate, "_checkout", lambda: tmp_path)
+    monkeypatch.setattr(validate, "_results_file", lambda: tmp_path / "validation" / "results" / "results.jsonl")
+    for _ in range(2):
+        assert main(["validate", "good", "--record"]) == 0
+    assert len(read_results(tmp_path / "validation" / "results" / "results.jsonl")) == 2
+    assert "| 1 of 4 | 1 | 0 | 1 |" in readme.read_text(encoding="utf-8")
+    assert "| good | about good | 1 | 0 | 1 |" in (tmp_path / "validation" / "RESULTS.md").read_text(encoding="utf-8")

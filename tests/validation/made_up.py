@@ -1,0 +1,48 @@
+"""Cases and results that no calculation is behind."""
+
+from types import SimpleNamespace
+
+from matplotlib.figure import Figure
+
+from validation.findings import Finding
+from validation.registry import Case
+from validation.results import CaseResult, Machine
+
+GOOD = (Finding("a", 1.0, 1.0, "dB"), Finding("b", 0.0, 0.0, "", "no Wine here"))
+BAD = (Finding("a", 1.0, 2.0, "dB"), Finding("c | d", 2.5, 2.0, "deg"))
+MACHINE = Machine("Linux x86_64", "a processor", 2, "3.11.0")
+
+
+def made_of(*findings: Finding) -> SimpleNamespace:
+    return SimpleNamespace(
+        run=lambda: iter(findings), pictures=lambda: {"a picture": Figure()}, notes=lambda: ("a note",)
+    )
+
+
+def broken() -> SimpleNamespace:
+    def run():
+        yield GOOD[0]
+        raise ValueError("no good\nat all")
+
+    return SimpleNamespace(run=run)
+
+
+MODULES = {
+    "good": made_of(*GOOD),
+    "bad": made_of(*BAD),
+    "nan": made_of(Finding("d", float("nan"), 2.0, "deg")),
+    "broken": broken(),
+}
+CASES = {name: Case(name, f"about {name}", "methods", quick=name == "good") for name in MODULES}
+
+
+def result(name: str, *findings: Finding, date: str = "2026-01-02T03:04:05Z", error: str = "") -> CaseResult:
+    return CaseResult(name, f"about {name}", "methods", date, 1.5, MACHINE, findings, error)
+
+
+def use(monkeypatch) -> None:
+    """Let the suite know these cases and no others."""
+    monkeypatch.setattr("validation.registry.import_module", MODULES.__getitem__)
+    for module in ("validation.suite", "validation.summary", "validation.page"):
+        monkeypatch.setattr(f"{module}.CASES", CASES)
+    monkeypatch.setattr("validation.registry.CASES", CASES)

@@ -1,0 +1,112 @@
+"""The suite's HTML page: what holds, what does not, and why, with the figures redone and the costs over time."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from matplotlib.figure import Figure
+
+from pysim.plot import render
+from pysim.plot.style import COLOURS, MARKERS, SMALL, TEXT, new_figure, quiet
+from pysim.report.page import cell, heading, items, page, paragraph, picture, statement, table
+from validation.findings import Finding
+from validation.registry import CASES, GROUPS
+from validation.results import FAILS, HOLDS, SKIPPED, CaseResult, verdict_of
+
+_KIND = {HOLDS: "pass", FAILS: "fail", SKIPPED: ""}
+_COST_UNITS = ("s", "ms", "us", "times", "CPU s")
+_SHOWN = 6  # claims with a cost in one picture
+
+
+def suite_page(
+    results: Sequence[CaseResult], history: Sequence[CaseResult], drawn: Mapping[str, Mapping[str, Figure]]
+) -> str:
+    """The page of one run.
+
+    Args:
+        results: of this run, in the order they ran.
+        history: kept results of former runs, oldest first, for the costs over time.
+        drawn: case -> caption -> figure.
+    """
+    parts = [statement(_verdict(results)), _overview(results)]
+    for group, title in GROUPS.items():
+        for result in (result for result in results if result.group == group):
+            parts += [heading(f"{title}: {result.case}"), *_case(result)]
+            figures = drawn.get(result.case, {})
+            parts += [picture(render(figure, "svg"), caption) for caption, figure in figures.items()]
+    costs = cost_figure([*history, *results])
+    if costs is not None:
+        parts += [
+            heading("Costs over time"),
+            picture(render(costs, "svg"), "Measured costs of kept runs and this one."),
+        ]
+    lead = f"{len(results)} cases on {results[0].machine}, {results[0].date}" if results else "no case was run"
+    return page("Validation", lead, parts)
+
+
+def _verdict(results: Sequence[CaseResult]) -> str:
+    counts = {verdict: sum(result.count(verdict) for result in results) for verdict in (HOLDS, FAILS, SKIPPED)}
+    stopped = sum(bool(result.error) for result in results)
+    text = f"{counts[HOLDS]} claims hold, {counts[FAILS]} fail, {counts[SKIPPED]} could not be tried here."
+    return f"{text} {stopped} cases stopped early." if stopped else text
+
+
+def _overview(results: Sequence[CaseResult]) -> str:
+    rows = [
+        [
+            cell(result.case, "words"),
+            cell(CASES[result.case].about if result.case in CASES else result.about, "words"),
+            *(cell(str(result.count(verdict))) for verdict in (HOLDS, FAILS, SKIPPED)),
+            cell(f"{result.seconds:.1f}"),
+            cell(result.verdict, _KIND[result.verdict]),
+        ]
+        for result in results
+    ]
+    head = ["case", "what", "holds", "fails", "skipped", "seconds", "verdict"]
+    return table("Every case of this run.", head, rows)
+
+
+def _case(result: CaseResult) -> list[str]:
+    notes = CASES[result.case].notes() if result.case in CASES else ()
+    parts = [paragraph(result.about + ".")]
+    if result.error:
+        parts.append(paragraph(f"Stopped: {result.error}", note=True))
+    if notes:
+        parts.append(items(notes))
+    return [
+        *parts,
+        table("Claims.", ["claim", "value", "limit", "unit", "verdict"], [_claim(f) for f in result.findings]),
+    ]
+
+
+def _claim(finding: Finding) -> list[str]:
+    verdict = verdict_of(finding)
+    said = finding.skipped or ""
+    value = "" if finding.skipped else f"{finding.value:.4g}"
+    claim = f"{finding.claim} ({said})" if said else finding.claim
+    numbers = [cell(value), cell(f"{finding.limit:g}"), cell(finding.unit)]
+    return [cell(claim, "words"), *numbers, cell(verdict, _KIND[verdict])]
+
+
+def cost_figure(results: Sequence[CaseResult]) -> Figure | None:
+    """Every claim about a cost over the runs in which it was measured; None where there is none."""
+    series: dict[str, list[tuple[str, float]]] = {}
+    for result in sorted(results, key=lambda result: result.date):
+        if result.group == "speed":
+            for finding in result.findings:
+                if finding.unit in _COST_UNITS and not finding.skipped and finding.value > 0:
+                    series.setdefault(finding.claim, []).append((result.date[:10], finding.value))
+    if not series:
+        return None
+    dates = sorted({date for points in series.values() for date, _ in points})
+    figure = new_figure(7.2, 3.6)
+    axes = figure.subplots()
+    quiet(axes)
+    for k, (claim, points) in enumerate(list(series.items())[:_SHOWN]):
+        places = [dates.index(date) for date, _ in points]
+        values = [value for _, value in points]
+        axes.semilogy(places, values, color=COLOURS[k], marker=MARKERS[k], markersize=4, linewidth=1.0, label=claim)
+    axes.set_xticks(range(len(dates)), dates, rotation=30, ha="right")
+    axes.set_ylabel("Cost, in the claim's unit", fontsize=TEXT)
+    figure.legend(loc="outside lower center", fontsize=SMALL, frameon=False)
+    return figure

@@ -1,0 +1,87 @@
+"""What holds and what does not, as Markdown made from kept results; nothing in it is typed by hand."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+
+from validation.findings import Finding
+from validation.registry import CASES, GROUPS
+from validation.results import FAILS, HOLDS, SKIPPED, CaseResult, newest, verdict_of
+
+BEGIN, END = "<!-- validation: begin, written by pysim validate --record -->", "<!-- validation: end -->"
+
+
+def short_summary(results: Iterable[CaseResult]) -> str:
+    """A row per group, and every claim that fails: what the README includes."""
+    last = newest(results)
+    rows = []
+    for group, title in GROUPS.items():
+        names = [name for name, case in CASES.items() if case.group == group]
+        done = [last[name] for name in names if name in last]
+        counts = [str(sum(result.count(verdict) for result in done)) for verdict in (HOLDS, FAILS, SKIPPED)]
+        rows.append([title, f"{len(done)} of {len(names)}", *counts])
+    head = ["", "cases run", "claims that hold", "fail", "skipped"]
+    return "\n".join([*_table(head, rows), "", *_failing(last), ""])
+
+
+def full_summary(results: Iterable[CaseResult]) -> str:
+    """A table of cases per group, and below each what fails or was skipped, with the numbers."""
+    last = newest(results)
+    lines = [
+        "# What holds, and what does not",
+        "",
+        "Written by `pysim validate --record`; a row per case, its last run.",
+    ]
+    for group, title in GROUPS.items():
+        names = [name for name, case in CASES.items() if case.group == group]
+        done = {name: last[name] for name in names if name in last}
+        lines += ["", f"## {title}", ""]
+        lines += _table(
+            ["case", "what", "holds", "fails", "skipped", "s", "date"], [_row(n, done.get(n)) for n in names]
+        )
+        lines += [f"\n- {text}" for result in done.values() for text in _not_held(result)]
+    machines = sorted({str(result.machine) for result in last.values()})
+    return "\n".join([*lines, "", "Machines: " + "; ".join(machines) + ".", ""])
+
+
+def _row(name: str, result: CaseResult | None) -> list[str]:
+    if result is None:
+        return [name, CASES[name].about, "", "", "", "", "not recorded"]
+    counts = [str(result.count(verdict)) for verdict in (HOLDS, FAILS, SKIPPED)]
+    return [name, CASES[name].about, *counts, f"{result.seconds:.0f}", result.date[:10]]
+
+
+def _failing(last: Mapping[str, CaseResult]) -> list[str]:
+    texts = [
+        f"- {name}: {text}" for name, result in last.items() for text in _not_held(result) if result.verdict == FAILS
+    ]
+    return ["Claims that do not hold:", "", *texts] if texts else ["No claim fails."]
+
+
+def _not_held(result: CaseResult) -> list[str]:
+    texts = [_sentence(finding) for finding in result.findings if verdict_of(finding) != HOLDS]
+    return [*texts, f"stopped: {result.error}"] if result.error else texts
+
+
+def _sentence(finding: Finding) -> str:
+    if finding.skipped:
+        return f"skipped: {finding.claim}: {finding.skipped}"
+    return f"fails: {finding.claim}: {finding.value:.4g} {finding.unit}, limit {finding.limit:g}"
+
+
+def _table(head: list[str], rows: list[list[str]]) -> list[str]:
+    text = [" | ".join(cell.replace("|", "\\|") for cell in row) for row in [head, ["---"] * len(head), *rows]]
+    return [f"| {row} |" for row in text]
+
+
+def between_markers(text: str, block: str) -> str:
+    """`text` with what stands between the markers replaced.
+
+    Raises:
+        ValueError: the markers are not there once each, in order.
+    """
+    before, begin, rest = text.partition(BEGIN)
+    _, end, after = rest.partition(END)
+    if not begin or not end or BEGIN in rest or END in after:
+        raise ValueError(f"needs the lines {BEGIN} and {END} once each, in this order")
+    return f"{before}{BEGIN}\n{block.strip()}\n{END}{after}"
