@@ -1,6 +1,6 @@
-"""Modelica to FMU: `build` compiles a class, `BuildError` says why it could not."""
+"""Modelica to FMU: `build` compiles a class; `BuildError` says why not, `CannotCompile` that another compiler may."""
 
 from fmu_build.build import build
-from fmu_build.errors import BuildError
+from fmu_build.errors import BuildError, CannotCompile
 
-__all__ = ["BuildError", "build"]
+__all__ = ["BuildError", "CannotCompile", "build"]

@@ -7,10 +7,11 @@ from importlib.resources import files
 from pathlib import Path
 
 from fmu_build.cache import cached, content_key, copy_whole, store
-from fmu_build.errors import BuildError
-from fmu_build.pack import Platform, check_writable, select_platforms
+from fmu_build.errors import BuildError, CannotCompile
+from fmu_build.pack import Platform, check_writable, host_platform, select_platforms
 
 BUNDLED_LIBRARY = "HydraulicTestBench"
+COMPILERS = ("rumoca", "openmodelica")
 _NOTHING: Mapping[str, float | str] = {}
 _NEEDED = {  # to build; running a finished FMU needs none of them
     "rumoca": "rumoca==0.10.2",
@@ -30,6 +31,7 @@ def build(
     overrides: Mapping[str, float | str] = _NOTHING,
     probes: Sequence[str] = (),
     use_cache: bool = True,
+    compiler: str = "rumoca",
 ) -> Path:
     """Compile a Modelica class to an FMU for model exchange and co-simulation.
 
@@ -44,11 +46,16 @@ def build(
             the right-hand side of the equation of the variable, or of its derivative where the variable is a state.
             At 0, its start value, the model is what it is without. "NAME=VARIABLE" adds a variable of the class itself.
         use_cache: False builds anew even where the same FMU has been built before.
+        compiler: "rumoca", with our own run-time system, or "openmodelica", for an installed omc: that one builds FMI 2
+            for this machine, without probes.
     Returns:
         The FMU's path.
     Raises:
         BuildError: the class, an argument or the installation is at fault; nothing has been written.
+        CannotCompile: a BuildError of our own compiler on a class that is there; "openmodelica" may take it.
     """
+    if compiler not in COMPILERS:
+        raise BuildError(f'there is no compiler "{compiler}" here; choose among {", ".join(COMPILERS)}.')
     if fmi not in (2, 3):
         raise BuildError(f"there is no FMI version {fmi} here; choose 2 or 3.")
     systems = select_platforms(platforms)
@@ -57,9 +64,13 @@ def build(
         check_writable(target)
     paths = [*_existing(libraries), bundled_library()]
     options = [f"FMI {fmi}", *(system.name for system in systems), *(f"probe {name}" for name in probes)]
+    if compiler == "openmodelica":
+        options += [_openmodelica(fmi, systems, probes)]
     key = content_key(class_name, paths, overrides, options)
     fmu = cached(key) if use_cache else None
-    if fmu is None:
+    if fmu is None and compiler == "openmodelica":
+        fmu = _build_with_openmodelica(class_name, paths, overrides, key)
+    elif fmu is None:
         fmu = _build_anew(class_name, paths, overrides, probes, fmi, systems, key)
     if target is None:
         return fmu
@@ -93,20 +104,62 @@ def _build_anew(
     try:
         model = lower(load(class_name, libraries, overrides), probes)
     except RecursionError:
-        raise BuildError(
+        raise CannotCompile(
             f"an expression of {class_name} is nested too deeply: a sum of more than some 300 terms, or as many "
             "parentheses within each other; split it into several equations."
         ) from None
+    except BuildError as error:
+        if _is_there(class_name, libraries):
+            raise CannotCompile(error.message, error.file, error.line) from error
+        raise
     with tempfile.TemporaryDirectory(prefix="fmu_build-") as folder:
         fmu = Path(folder) / "model.fmu"
         pack(model, fmu, fmi=fmi, platforms=targets)
         return store(key, fmu)
 
 
-def _check_installation() -> None:
-    missing = [package for name, package in _NEEDED.items() if importlib.util.find_spec(name) is None]
+def _build_with_openmodelica(
+    class_name: str, libraries: Sequence[Path], overrides: Mapping[str, float | str], key: str
+) -> Path:
+    """Build into the cache; our own library goes first, since others may use it."""
+    _check_installation("fmpy", "casadi")
+    from fmu_build.openmodelica.translate import translate
+
+    own = bundled_library()
+    ordered = [own, *(library for library in libraries if library != own)]
+    with tempfile.TemporaryDirectory(prefix="fmu_build-") as folder:
+        fmu = Path(folder) / "model.fmu"
+        translate(class_name, ordered, overrides, fmu)
+        return store(key, fmu)
+
+
+def _openmodelica(fmi: int, systems: Sequence[Platform], probes: Sequence[str]) -> str:
+    """The omc that will build, by its version. Raises BuildError for what it cannot do, or where it is missing."""
+    from fmu_build.openmodelica import omc_version
+
+    if fmi != 2:
+        raise BuildError("OpenModelica builds FMI 2 here; leave FMI 3 to our own compiler.")
+    if tuple(systems) != (host_platform(),):
+        raise BuildError("OpenModelica builds for this machine only; leave other platforms to our own compiler.")
+    if probes:
+        raise BuildError("probes are added by our own compiler only; write them into the model as inputs.")
+    return f"openmodelica {omc_version()}"
+
+
+def _is_there(class_name: str, libraries: Sequence[Path]) -> bool:
+    from fmu_build.front.source import find_class
+
+    try:
+        find_class(class_name, libraries)
+    except BuildError:
+        return False
+    return True
+
+
+def _check_installation(*names: str) -> None:
+    missing = [_NEEDED[name] for name in names or _NEEDED if importlib.util.find_spec(name) is None]
     if missing:
-        raise BuildError(f"building an FMU needs {' and '.join(missing)}: pip install {' '.join(missing)}.")
+        raise CannotCompile(f"building an FMU needs {' and '.join(missing)}: pip install {' '.join(missing)}.")
 
 
 def _existing(libraries: Sequence[Path | str]) -> list[Path]:

@@ -7,10 +7,12 @@ import traceback
 from collections.abc import Sequence
 from pathlib import Path
 
-from fmu_build.build import build
-from fmu_build.errors import BuildError
+from fmu_build.build import COMPILERS, build
+from fmu_build.errors import BuildError, CannotCompile
+from fmu_build.openmodelica import what_is_missing
 
 DONE, WRONG_USE, OUR_BUG = 0, 2, 3
+AUTO = "auto"
 
 _EPILOG = """Example:
   fmu-build HydraulicTestBench.Examples.TimeResponse -o pump.fmu --set pump.K_p=12
@@ -26,18 +28,8 @@ def main(argv: Sequence[str] | None = None) -> int:
         arguments = parser.parse_args(argv)
     except SystemExit as exit_:  # argparse has said what is wrong, or printed the help
         return exit_.code if isinstance(exit_.code, int) else WRONG_USE
-    output = Path(arguments.output or f"{arguments.class_name}.fmu")
     try:
-        path = build(
-            arguments.class_name,
-            output,
-            libraries=[Path(library) for library in arguments.library],
-            fmi=arguments.fmi,
-            platforms=arguments.platform or ["host"],
-            overrides=_settings(arguments.set),
-            probes=arguments.probe,
-            use_cache=not arguments.no_cache,
-        )
+        path = _build(arguments)
     except BuildError as error:
         print(f"fmu-build: {error}", file=sys.stderr)
         return WRONG_USE
@@ -48,6 +40,35 @@ def main(argv: Sequence[str] | None = None) -> int:
         return _report_our_bug(error)
     print(path)
     return DONE
+
+
+def _build(arguments: argparse.Namespace) -> Path:
+    """By the compiler chosen; "auto" asks OpenModelica for what our own cannot take, where it is installed."""
+    if arguments.compiler != AUTO:
+        return _build_with(arguments.compiler, arguments)
+    try:
+        return _build_with("rumoca", arguments)
+    except CannotCompile as error:
+        missing = what_is_missing()
+        if missing:
+            advice = f"fmu-build: OpenModelica may take what our own compiler does not, but {missing}."
+            raise CannotCompile(f"{error.message}\n{advice}", error.file, error.line) from None
+        print(f"fmu-build: {error}\nfmu-build: now trying OpenModelica.", file=sys.stderr)
+    return _build_with("openmodelica", arguments)
+
+
+def _build_with(compiler: str, arguments: argparse.Namespace) -> Path:
+    return build(
+        arguments.class_name,
+        Path(arguments.output or f"{arguments.class_name}.fmu"),
+        libraries=[Path(library) for library in arguments.library],
+        fmi=arguments.fmi,
+        platforms=arguments.platform or ["host"],
+        overrides=_settings(arguments.set),
+        probes=arguments.probe,
+        use_cache=not arguments.no_cache,
+        compiler=compiler,
+    )
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -73,6 +94,13 @@ def _parser() -> argparse.ArgumentParser:
         action="append",
         default=[],
         help="add an input probe.NAME to the equation of a variable, or of a state's derivative; 0 changes nothing",
+    )
+    parser.add_argument(
+        "--compiler",
+        choices=(AUTO, *COMPILERS),
+        default=AUTO,
+        help="rumoca with our own run-time system, or openmodelica (an installed omc, and pip install OMPython); "
+        "auto, the default, asks the second for what the first cannot take",
     )
     parser.add_argument("--no-cache", action="store_true", help="build even if the same FMU has been built before")
     return parser

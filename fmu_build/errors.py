@@ -1,4 +1,4 @@
-"""The one exception of the build: something in the model or the call, said with its place."""
+"""The exceptions of the build: something in the model or the call, said with its place."""
 
 from pathlib import Path
 
@@ -17,3 +17,7 @@ class BuildError(Exception):
             return self.message
         place = str(self.file) if self.line is None else f"{self.file}:{self.line}"
         return f"{place}: {self.message}"
+
+
+class CannotCompile(BuildError):
+    """Our own compiler cannot take a class that is there; another compiler may."""

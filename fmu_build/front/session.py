@@ -33,29 +33,25 @@ def compile_class(
     Raises:
         BuildError: the class cannot be compiled, or only without the overrides, which are then to blame.
     """
-    modification = _modification(overrides)
+    modified = modification(overrides)
     try:
-        return _compile(source, libraries, modification)
+        return _compile(source, libraries, modified)
     except BuildError as failure:
         if not overrides:
             raise
         _compile(source, libraries, "")  # where this fails too, the model is at fault
-        raise BuildError(
-            f"{source.name} does not compile with the values set, {modification}: {failure.message}"
-        ) from None
+        raise BuildError(f"{source.name} does not compile with the values set, {modified}: {failure.message}") from None
 
 
-def _compile(
-    source: ClassSource, libraries: Sequence[Path], modification: str
-) -> tuple[dict[str, Any], dict[str, Any]]:
+def _compile(source: ClassSource, libraries: Sequence[Path], modified: str) -> tuple[dict[str, Any], dict[str, Any]]:
     roots = [str(library) for library in libraries if library.is_dir()]
     joined = join(source, libraries)
     text = joined.text
     name = source.name
-    if modification or not source.is_single_file:
+    if modified or not source.is_single_file:
         name = WRAPPER
         named = "" if source.is_single_file else _imports(libraries)
-        text += f"\nmodel {WRAPPER}\n{named}  extends {source.name}{modification};\nend {WRAPPER};\n"
+        text += f"\nmodel {WRAPPER}\n{named}  extends {source.name}{modified};\nend {WRAPPER};\n"
     file_name = _stand_in(source) if joined.parts else f"{WRAPPER}.mo"
     files = [str(file) for file in (*joined.parts, *_library_files(libraries))]
     request = {"roots": roots, "text": text, "name": name, "file_name": file_name, "files": files}
@@ -108,8 +104,8 @@ def _ask_rumoca(request: Mapping[str, Any], source: ClassSource) -> dict[str, An
         ) from None
 
 
-def _modification(overrides: Mapping[str, Override]) -> str:
-    """`{"a.b": 1}` -> `(a(b = 1))`."""
+def modification(overrides: Mapping[str, Override]) -> str:
+    """`{"a.b": 1}` -> `(a(b = 1))`; nothing where there are none. Raises BuildError for what is no value."""
     parts = []
     for name, value in overrides.items():
         *outer, last = name.split(".")

@@ -16,7 +16,6 @@ from fmu_build.emit import (
     fmi3_description,
     model_identifier,
 )
-from fmu_build.errors import BuildError
 from fmu_build.lower.ode_model import OdeModel
 from fmu_build.pack.archive import check_writable, write_archive
 from fmu_build.pack.compiler import compile_shared
@@ -24,6 +23,7 @@ from fmu_build.pack.documentation import documentation_page
 from fmu_build.pack.mach_o import fat_library
 from fmu_build.pack.platforms import Platform
 from fmu_build.pack.sources import Sources, sources_for
+from fmu_build.pack.validation import validate
 
 _NO_TOKEN = "{00000000-0000-0000-0000-000000000000}"
 _LICENSE = Path(__file__).with_name("license.txt")
@@ -45,7 +45,7 @@ def pack(model: OdeModel, output: Path, *, fmi: int, platforms: Sequence[Platfor
         members[path] = members[path].replace(_NO_TOKEN.encode(), token.encode())
     model_c = members["sources/model.c"]
     members |= _binaries(model_c, sources, model_identifier(model.name), fmi, platforms)
-    write_archive(output, members, _validate)
+    write_archive(output, members, validate)
 
 
 def _texts(model: OdeModel, sources: Sources, fmi: int) -> dict[str, bytes]:
@@ -88,11 +88,3 @@ def _binaries(
             library = folder / Path(path).name
             members[path] = fat_library([compile_shared(files, sources.includes, p, library) for p in group])
     return members
-
-
-def _validate(path: Path) -> None:
-    from fmpy.validation import validate_fmu
-
-    problems = validate_fmu(str(path))
-    if problems:
-        raise BuildError("the FMU does not pass FMPy's validation: " + " ".join(problems))

@@ -10,7 +10,7 @@ import pytest
 import fmu_build
 import fmu_build.front
 import fmu_build.lower
-from fmu_build import BuildError, build
+from fmu_build import BuildError, CannotCompile, build
 from fmu_build.build import bundled_library
 from tests import ode_models
 
@@ -120,3 +120,15 @@ def test_an_expression_that_is_nested_too_deeply_is_the_models_fault(tmp_path, c
     file.write_text(f"model Sum\n  input Real u;\n  output Real y;\nequation\n  y = {terms};\nend Sum;\n")
     with pytest.raises(BuildError, match=r"an expression (of Sum )?is nested too deeply"):
         build("Sum", tmp_path / "Sum.fmu", libraries=[file], use_cache=False)
+
+
+def test_a_class_that_is_there_may_be_for_another_compiler(tmp_path):
+    """What no compiler could take, an unknown class, is told apart."""
+    file = tmp_path / "Far.mo"
+    file.write_text("model Far\n  input Real u;\n  output Real y;\nequation\n  y = der(u);\nend Far;\n")
+    with pytest.raises(CannotCompile, match=r"der\(\) of an input") as caught:
+        build("Far", libraries=[file], use_cache=False)
+    assert caught.value.file == file
+    with pytest.raises(BuildError) as unknown:
+        build("Near", libraries=[file], use_cache=False)
+    assert not isinstance(unknown.value, CannotCompile)

@@ -6,7 +6,7 @@ import pytest
 
 from fmu_build import cli
 from fmu_build.build import bundled_library
-from fmu_build.errors import BuildError
+from fmu_build.errors import BuildError, CannotCompile
 from fmu_build.front import load
 
 
@@ -26,6 +26,7 @@ def calls(monkeypatch):
 def test_arguments_arrive(calls, capsys):
     command = ["A.B", "-o", "x.fmu", "--library", "L", "--library", "M.mo", "--fmi", "3", "--no-cache"]
     command += ["--platform", "all", "--set", "a.b=3", "--set", "on = true", "--probe", "x", "--probe", "a.f"]
+    command += ["--compiler", "openmodelica"]
     assert cli.main(command) == 0
     options = {
         "libraries": [Path("L"), Path("M.mo")],
@@ -34,6 +35,7 @@ def test_arguments_arrive(calls, capsys):
         "overrides": {"a.b": 3.0, "on": "true"},
         "probes": ["x", "a.f"],
         "use_cache": False,
+        "compiler": "openmodelica",
     }
     assert calls == [("A.B", Path("x.fmu"), options)]
     assert capsys.readouterr().out.strip() == "x.fmu"
@@ -42,6 +44,7 @@ def test_arguments_arrive(calls, capsys):
 def test_defaults(calls):
     assert cli.main(["A.B"]) == 0
     options = {"libraries": [], "fmi": 2, "platforms": ["host"], "overrides": {}, "probes": [], "use_cache": True}
+    options["compiler"] = "rumoca"
     assert calls == [("A.B", Path("A.B.fmu"), options)]
 
 
@@ -54,6 +57,7 @@ def test_defaults(calls):
         (["A", "--set", "=3"], "NAME=VALUE"),
         (["A", "--set", "a=1", "--set", "a=2"], "a is set twice"),
         (["A", "--nonsense"], "--nonsense"),
+        (["A", "--compiler", "dymola"], "--compiler"),
     ],
 )
 def test_wrong_use(calls, capsys, command, message):
@@ -100,3 +104,47 @@ def test_our_own_mistake_has_its_own_code(monkeypatch, capsys):
     monkeypatch.setenv("HTB_DEBUG", "1")
     assert cli.main(["A"]) == 3
     assert "Traceback" in capsys.readouterr().err
+
+
+@pytest.fixture
+def two_compilers(monkeypatch):
+    """Ours takes nothing but is told of each class; `openmodelica` takes all. Returns who was asked."""
+    asked = []
+
+    def build(class_name, output, *, compiler, **options):
+        asked.append(compiler)
+        if compiler == "rumoca":
+            raise CannotCompile("external functions are not supported", Path("A.mo"), 7)
+        return output
+
+    monkeypatch.setattr(cli, "build", build)
+    return asked
+
+
+def test_what_ours_cannot_take_goes_to_openmodelica(two_compilers, monkeypatch, capsys):
+    monkeypatch.setattr(cli, "what_is_missing", lambda: "")
+    assert cli.main(["A", "-o", "x.fmu"]) == 0
+    out, err = capsys.readouterr()
+    assert two_compilers == ["rumoca", "openmodelica"]
+    assert out.strip() == "x.fmu"
+    assert "A.mo:7: external functions are not supported" in err  # nobody is to wonder which compiler it was
+    assert "now trying OpenModelica" in err
+
+
+def test_where_it_is_missing_the_advice_says_what_to_do(two_compilers, monkeypatch, capsys):
+    monkeypatch.setattr(cli, "what_is_missing", lambda: "omc is not installed: get it")
+    assert cli.main(["A"]) == 2
+    first, second = capsys.readouterr().err.splitlines()
+    assert two_compilers == ["rumoca"]
+    assert first == "fmu-build: A.mo:7: external functions are not supported"
+    assert (
+        second == "fmu-build: OpenModelica may take what our own compiler does not, but omc is not installed: get it."
+    )
+
+
+def test_a_compiler_that_is_named_is_the_only_one(two_compilers, monkeypatch, capsys):
+    monkeypatch.setattr(cli, "what_is_missing", lambda: "")
+    assert cli.main(["A", "--compiler", "rumoca"]) == 2
+    assert cli.main(["A", "--compiler", "openmodelica"]) == 0
+    assert two_compilers == ["rumoca", "openmodelica"]
+    assert "now trying" not in capsys.readouterr().err
