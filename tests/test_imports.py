@@ -26,8 +26,9 @@ ALLOWED = {
     "pysim.cosim": _RUNS | {"pysim.control"},
     "pysim.identify": _RUNS | {"pysim.excitation"},
     "pysim.diagnose": _FITS | {"pysim.effects"},
-    "pysim.plot": _FITS,
-    "pysim.report": _FITS,
+    "pysim.rig": _RUNS | {"pysim.control", "pysim.cosim", "pysim.excitation"},
+    "pysim.plot": _FITS | {"pysim.control", "pysim.rig"},
+    "pysim.report": _FITS | {"pysim.control", "pysim.rig"},
     "pysim.cli": _FITS
     | {
         "pysim.bench",
@@ -37,12 +38,13 @@ ALLOWED = {
         "pysim.diagnose",
         "pysim.plot",
         "pysim.report",
+        "pysim.rig",
         "fmu_build",
         "validation",
     },
     "validation": _FITS
     | {"pysim.bench", "pysim.control", "pysim.cosim", "pysim.effects", "pysim.diagnose", "pysim.plot", "pysim.report"}
-    | {"fmu_build"},
+    | {"pysim.rig", "fmu_build"},
     "fmu_build": set(),
 }
 # Packages whose outside world is limited too.

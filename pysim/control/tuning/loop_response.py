@@ -57,7 +57,7 @@ def loop_response(
         output[k] = C @ x
         (command[k + lag],) = controller.step(k * dt, (reference, output[k], 0.0, 1.0))
         x = A @ x + B * (command[k] + disturbance)
-    return LoopResponse(np.arange(count) * dt, output, command[lag:])
+    return LoopResponse(np.arange(count, dtype=np.float64) * dt, output, command[lag:])
 
 
 def _sampled(plant: Plant, dt: float) -> tuple[Array, Array, Array]:

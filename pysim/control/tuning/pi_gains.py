@@ -87,9 +87,9 @@ def tune_pi(plant: Plant, *, crossover: float, phase_margin: float) -> Gains:
 def fastest_pi(plant: Plant, *, phase_margin: float, gain_margin: float = 2.0) -> Gains:
     """The loop with the largest K_p/T_i that keeps both margins, which rejects slow disturbances best.
 
-    At a given T_i the gain ends where the first frequency whose phase would leave too little margin comes to |L| = 1, or
-    one of those in antiphase to 1/gain_margin. So |L| < 1 wherever the phase is beyond the margin, but for the lowest
-    frequencies of a plant with an integrator, where |L| has to be above 1.
+    At a given T_i the gain ends where the first frequency whose phase would leave too little margin comes to |L| = 1,
+    or one of those in antiphase to 1/gain_margin. So |L| < 1 wherever the phase is beyond the margin, but for the
+    lowest frequencies of a plant with an integrator, where |L| has to be above 1.
 
     Args:
         plant: without poles to the right.

@@ -1,0 +1,140 @@
+"""Loops of PI controllers: open and closed loop over frequency as in thesis Figures 6.1 and 6.2, and over time."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import MultipleLocator
+from numpy.typing import NDArray
+
+from pysim.control.tuning import Gains, loop_response
+from pysim.control.tuning.margins import open_loop
+from pysim.plot.style import (
+    COLOURS,
+    DASHES,
+    LIMIT,
+    SMALL,
+    TEXT,
+    frequency_axis,
+    legend_above,
+    new_figure,
+    quiet,
+)
+from pysim.types import BadInput
+
+Array = NDArray[np.float64]
+
+_TICKS_HZ = (0.001, 0.003, 0.01, 0.03, 0.1, 0.3, 1, 3, 10, 30, 100, 300, 1000)
+
+
+@dataclass(frozen=True)
+class _Look:
+    colour: str
+    dash: object
+
+
+def tuning_figure(loops: Mapping[str, Gains], *, dt: float) -> Figure:
+    """Left the open loop with its crossovers, in the middle the closed loop, right the answers to two unit steps:
+    of the reference, and of a disturbance at the plant's input as a share of what it would come to without controller.
+
+    Args:
+        loops: label -> gains on their plant.
+        dt: s between the sampled controller's steps, for the right column.
+    Raises:
+        BadInput: no loop.
+    """
+    if not loops:
+        raise BadInput("tuning figure: needs at least one loop")
+    figure = new_figure(11.0, 5.6)
+    axes = figure.subplots(2, 3)
+    for panel in figure.axes:
+        quiet(panel)
+    axes[0, 0].sharex(axes[1, 0])
+    axes[0, 1].sharex(axes[1, 1])
+    axes[0, 2].sharex(axes[1, 2])
+    hertz = _range(loops)
+    handles: dict[str, Artist] = {}
+    for k, (label, gains) in enumerate(loops.items()):
+        look = _Look(COLOURS[k % len(COLOURS)], DASHES[k % len(DASHES)])
+        handles[label] = _draw_frequency(axes, gains, hertz, look)
+        _draw_time(axes[:, 2], gains, dt, _stop(loops), look)
+    _label(axes, hertz)
+    legend_above(figure, list(handles.values()), list(handles))
+    return figure
+
+
+def _range(loops: Mapping[str, Gains]) -> Array:
+    """Hz (n,), two decades on either side of the crossovers, and up to the plants' own corners."""
+    crossovers = [float(w) for gains in loops.values() for w in gains.loop.crossovers] or [1.0]
+    corners = [abs(p) for gains in loops.values() for p in gains.plant.poles()]
+    low, high = min(crossovers) / 50, max(50 * min(crossovers), 1.5 * max(corners, default=0.0))
+    return np.asarray(np.geomspace(low, high, 4000) / (2 * np.pi), dtype=np.float64)
+
+
+def _stop(loops: Mapping[str, Gains]) -> float:
+    """s, until the slowest loop that comes to rest has done so."""
+    slowest = min((g.loop.crossovers.min() for g in loops.values() if g.loop.crossovers.size), default=1.0)
+    return float(7 / slowest)
+
+
+def _draw_frequency(axes: NDArray[np.object_], gains: Gains, hertz: Array, look: _Look) -> Artist:
+    omega = 2 * np.pi * hertz
+    loop = open_loop(gains.plant, gains.K_p, gains.T_i, omega)
+    for column, response in enumerate((loop, loop / (1 + loop))):
+        kwargs = {"color": look.colour, "linestyle": look.dash, "linewidth": 1.5}
+        (line,) = axes[0, column].plot(hertz, 20 * np.log10(np.abs(response)), **kwargs)
+        axes[1, column].plot(hertz, np.degrees(np.unwrap(np.angle(response))), **kwargs)
+    at = gains.loop.crossovers
+    phase = np.interp(at, omega, np.degrees(np.unwrap(np.angle(loop))))
+    dots = {"color": look.colour, "linestyle": "none", "marker": "o", "markersize": 4}
+    axes[0, 0].plot(at / (2 * np.pi), np.zeros(at.size), **dots)
+    axes[1, 0].plot(at / (2 * np.pi), phase, **dots)
+    return line
+
+
+def _draw_time(axes: NDArray[np.object_], gains: Gains, dt: float, stop: float, look: _Look) -> None:
+    kwargs = {"color": look.colour, "linestyle": look.dash, "linewidth": 1.5}
+    if not gains.loop.stable:
+        return
+    fine = min(dt, stop / 400)
+    step = loop_response(gains.plant, gains.K_p, gains.T_i, dt=fine, stop=stop)
+    hit = loop_response(gains.plant, gains.K_p, gains.T_i, dt=fine, stop=stop, reference=0.0, disturbance=1.0)
+    axes[0].plot(step.time, step.output, **kwargs)
+    axes[1].plot(hit.time, hit.output / _steady(gains), **kwargs)
+
+
+def _steady(gains: Gains) -> float:
+    """What the disturbance would come to without controller; 1 where that has no end."""
+    last = gains.plant.denominator[-1]
+    return gains.plant.numerator[-1] / last if last else 1.0
+
+
+def _label(axes: NDArray[np.object_], hertz: Array) -> None:
+    for column, name in enumerate(("Open loop", "Closed loop")):
+        _frequency(axes[1, column], hertz)
+        axes[0, column].tick_params(labelbottom=False)
+        axes[0, column].set_title(name, fontsize=TEXT)
+        axes[1, column].set_xlabel("Frequency (Hz)", fontsize=TEXT)
+        axes[1, column].yaxis.set_major_locator(MultipleLocator(90.0))
+        axes[0, column].axhline(0.0, color=LIMIT, linewidth=0.8)
+    axes[1, 0].axhline(-180.0, color=LIMIT, linewidth=0.8)
+    axes[0, 0].set_ylabel("Magnitude (dB)", fontsize=TEXT)
+    axes[1, 0].set_ylabel("Phase (deg)", fontsize=TEXT)
+    axes[0, 2].tick_params(labelbottom=False)
+    axes[0, 2].set_title("Sampled loop", fontsize=TEXT)
+    axes[0, 2].set_ylabel("Step of the reference (-)", fontsize=TEXT)
+    axes[1, 2].set_ylabel("Disturbance at the input (-)", fontsize=TEXT)
+    axes[1, 2].set_xlabel("Time (s)", fontsize=TEXT)
+
+
+def _frequency(axes: Axes, hertz: Array) -> None:
+    """Plain numbers at round frequencies, fewer where the range is wide."""
+    frequency_axis(axes, float(hertz[0]), float(hertz[-1]))
+    wide = hertz[-1] / hertz[0] > 3e3
+    ticks = [f for k, f in enumerate(_TICKS_HZ) if hertz[0] <= f <= hertz[-1] and not (wide and k % 2)]
+    axes.set_xticks(ticks, [f"{f:g}" for f in ticks], fontsize=SMALL)

@@ -1,0 +1,48 @@
+import json
+from pathlib import Path
+
+import pytest
+
+from pysim.cli import main
+
+
+def test_gains_of_the_load_controller(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    words = ["tune", "load", "--crossover", "3.0", "--phase-margin", "60", "--json", str(tmp_path / "t.json")]
+    assert main([*words, "--output", str(tmp_path / "out"), "--gains", "2e-9,0.05"]) == 0
+    found = json.loads((tmp_path / "t.json").read_text())
+    assert list(found) == ["tuned", "MATLAB tuned (Table 6.1)", "manually tuned (Table 6.1)", "2e-9,0.05"]
+    assert found["tuned"]["K_p"] == pytest.approx(1.01e-9, rel=0.05)
+    assert found["tuned"]["phase_margin_deg"] == pytest.approx(60)
+    assert "manually tuned" in capsys.readouterr().out
+    assert (tmp_path / "out" / "tuning.png").read_bytes().startswith(b"\x89PNG")
+    assert "--crossover=3.0" in (tmp_path / "out" / "report.html").read_text()
+
+
+def test_a_plant_of_ones_own_with_dead_time(tmp_path: Path) -> None:
+    words = ["tune", "own", "--numerator", "2", "--denominator", "0.5,1", "--delay", "0.05"]
+    assert main([*words, "--json", str(tmp_path / "t.json")]) == 0
+    found = json.loads((tmp_path / "t.json").read_text())["tuned"]
+    assert found["stable"]
+    assert found["phase_margin_deg"] >= 59.9
+    assert found["gain_margin_db"] >= 5.9
+    assert main([*words, "--gains", "50,1"]) == 0  # another's loop that is not stable is no answer to the question
+
+
+def test_an_unstable_loop_is_a_no() -> None:
+    """Behind the resonance the phase is beyond half a turn whatever the controller."""
+    assert main(["tune", "speed", "--crossover", "8", "--phase-margin", "-60"]) == 1
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (["own"], "give both, or name a plant"),
+        (["load", "--numerator", "1"], "give both, or name a plant"),
+        (["own", "--numerator", "1,x", "--denominator", "1,1"], "write numbers"),
+        (["load", "--gains", "1"], "1 numbers where 2 are meant"),
+        (["speed", "--crossover", "0.1", "--phase-margin", "60"], "out of a PI controller's reach"),
+    ],
+)
+def test_wrong_use(words: list[str], told: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["tune", *words]) == 2
+    assert told in capsys.readouterr().err
