@@ -3,6 +3,7 @@
 rumoca stands here for itself, not for fmu_build: a mistake of our lowering must not hide one of the library.
 """
 
+import re
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -22,9 +23,14 @@ def class_name(file: Path) -> str:
 
 
 def models_in(package: str) -> list[str]:
-    """Full names of the classes of a package, in its own order."""
+    """Full names of the classes of a package that are not partial, in its own order."""
     names = (LIBRARY / package / "package.order").read_text(encoding="utf-8").split()
-    return [f"HydraulicTestBench.{package}.{name}" for name in names]
+    return [f"HydraulicTestBench.{package}.{name}" for name in names if not _is_partial(LIBRARY / package / name)]
+
+
+def _is_partial(path: Path) -> bool:
+    file = path.with_suffix(".mo")
+    return file.is_file() and bool(re.search(r"^partial ", file.read_text(encoding="utf-8"), re.MULTILINE))
 
 
 def compiled(name: str, text: str = "") -> Any:

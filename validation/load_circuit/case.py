@@ -15,6 +15,7 @@ from pysim.simulate import Rodas, simulate
 from pysim.types import Experiment, Signal
 from validation.findings import Finding
 from validation.load_circuit import linear
+from validation.load_circuit.crane import crane_minute, pulses
 from validation.load_circuit.linearised import Linear, linearised
 
 Complex = NDArray[np.complex128]
@@ -66,6 +67,8 @@ def run() -> Iterator[Finding]:
     yield from _agree()
     yield from _depart()
     yield from _whole()
+    yield from crane_minute()
+    yield from pulses()
 
 
 def _at(changes: Mapping[str, float]) -> Linear:
