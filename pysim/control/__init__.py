@@ -1,5 +1,6 @@
 """Controllers as small blocks: sampled, with a state that can be kept (thesis Section 5.4)."""
 
+from pysim.control.bench_controllers import CompensatedLoadController, LoadController, SpeedController
 from pysim.control.block import Block, Stateless
 from pysim.control.pi import PI
 from pysim.control.signals import Gain, Limiter, NormalizeSignal, ZeroSwitch, load_feed_forward, speed_feed_forward
@@ -9,10 +10,13 @@ from pysim.types import Port
 __all__ = [
     "PI",
     "Block",
+    "CompensatedLoadController",
     "Gain",
     "Limiter",
+    "LoadController",
     "NormalizeSignal",
     "Port",
+    "SpeedController",
     "Stateless",
     "ValveCompensation",
     "ZeroSwitch",

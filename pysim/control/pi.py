@@ -62,13 +62,20 @@ class PI:
         reference, measured, track, active = inputs
         error = reference - measured
         if not active:
-            self._u, self._begun = min(max(track, self.low), self.high), 0.0
-        else:
-            before = self._error if self._begun else error
-            u = self._u + self.K_p * (error - before) + self._integral * before
-            self._u, self._begun = min(max(u, self.low), self.high), 1.0
-        self._error = error
-        return (self._u,)
+            self._u, self._error, self._begun = min(max(track, self.low), self.high), error, 0.0
+            return (self._u,)
+        return (self.advance(error, self.low, self.high),)
+
+    def advance(self, error: float, low: float, high: float) -> float:
+        """The output of one active sample within limits that may be others each time."""
+        before = self._error if self._begun else error
+        u = self._u + self.K_p * (error - before) + self._integral * before
+        self._u, self._error, self._begun = min(max(u, low), high), error, 1.0
+        return self._u
+
+    def rest(self) -> None:
+        """One sample that is not active and keeps the output for later."""
+        self._begun = 0.0
 
     def state(self) -> tuple[float, ...]:
         """Output, error, and whether it was active."""

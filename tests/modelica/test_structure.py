@@ -10,7 +10,7 @@ from tests.modelica.library import FILES, FOLDERS, LIBRARY, class_name
 
 ALL_FILES = pytest.mark.parametrize("file", FILES, ids=class_name)
 HOLD_COMPONENTS = {"Effects", "Fluids", "Functions", "Hydraulics", "Mechanics", "Pump", "Sources"}
-HOLD_COMPONENTS |= {"Crane", "LoadCircuit"}
+HOLD_COMPONENTS |= {"Controllers", "Crane", "LoadCircuit"}
 COMPONENTS = [file for file in FILES if file.parent.name in HOLD_COMPONENTS]
 
 
