@@ -26,6 +26,7 @@ from pysim.cli import (
     rank,
     signal,
     simulate,
+    tune,
     validate,
 )
 
@@ -47,6 +48,7 @@ _COMMANDS = {
     "rank": rank,
     "signal": signal,
     "simulate": simulate,
+    "tune": tune,
     "validate": validate,
 }
 
