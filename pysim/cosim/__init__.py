@@ -1,5 +1,31 @@
 """Systems of FMUs and controllers, wired together and stepped."""
 
+from pysim.cosim.bond import Bond
+from pysim.cosim.connection import Connection
+from pysim.cosim.doubling import Doubling
+from pysim.cosim.gauss_seidel import GaussSeidel
+from pysim.cosim.iterated import Iterated
+from pysim.cosim.jacobi import Jacobi
 from pysim.cosim.member import Member, MemberFailed, Setup
+from pysim.cosim.order import Order
+from pysim.cosim.run import Kept, Run, cosimulate
+from pysim.cosim.sampled import Sampled
+from pysim.cosim.system import System
 
-__all__ = ["Member", "MemberFailed", "Setup"]
+__all__ = [
+    "Bond",
+    "Connection",
+    "Doubling",
+    "GaussSeidel",
+    "Iterated",
+    "Jacobi",
+    "Kept",
+    "Member",
+    "MemberFailed",
+    "Order",
+    "Run",
+    "Sampled",
+    "Setup",
+    "System",
+    "cosimulate",
+]

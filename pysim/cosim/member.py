@@ -119,7 +119,7 @@ class Member(Protocol):
         ...
 
     def step(self, time: float, end: float) -> float:
-        """Read the inputs, go on from `time` to `end` (s), write the outputs.
+        """Read inputs and rates, go on from `time` to `end` (s), write the outputs: those of the inputs' last values.
 
         Communication points are start + n * step, rounded once: `end - time` is exact, and differs from the usual
         step by rounding only.

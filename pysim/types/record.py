@@ -25,6 +25,7 @@ class Outcome(Enum):
     TERMINATED = "the model ended the run"
     TOO_MANY_STEPS = "the limit of steps was reached"
     TOO_MANY_EVENTS = "events follow each other without time passing"
+    NOT_CONVERGED = "an iteration between members came to no end"
     NOT_PERIODIC = "no periodic steady state was found"
 
 

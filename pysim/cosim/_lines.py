@@ -1,0 +1,86 @@
+"""Inputs that run as straight lines within a step, for methods of second order."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from pysim.cosim._core import Core
+from pysim.cosim._layout import Wire, indices
+from pysim.cosim.member import Array
+
+
+class Lines:
+    """What drives the inputs at the begin and at the end of a step, and the inputs made from it.
+
+    A member that takes rates gets the line itself; any other gets the line's mean over the step, which is as good to
+    second order. Outputs of blocks and signals are known at the end too; outputs of members are extrapolated from the
+    step before, unless somebody knows better and writes it to `ends`.
+
+    Attributes:
+        begins, ends: (n_sources).
+        memory: time (s) and sources of the communication point before, for the extrapolation; None after an event.
+    """
+
+    def __init__(self, core: Core) -> None:
+        self._core = core
+        self.begins, self.ends = np.zeros(core.sources.size), np.zeros(core.sources.size)
+        self.memory: tuple[float, Array] | None = None
+        wires = [wire for member in core.layout.members for wire in core.layout.wires_to(member.name)]
+        self._all = _Holder(core, wires)
+        self._one = {m.name: _Holder(core, core.layout.wires_to(m.name)) for m in core.layout.members}
+        self._signals = slice(len(core.layout.outputs), core.sources.size)
+        self._moving = [
+            (core.layout.places[b.name].outputs, core.samplers[b.name]) for b in core.layout.blocks if b.hold
+        ]
+
+    def begin(self, time: float, end: float, tick: int | None) -> None:
+        """Take the sources as they are at `time`, and what is known or expected of them at `end` (s).
+
+        Args:
+            tick: number of the communication point at `end`, if it is one.
+        """
+        core, outputs = self._core, self._core.outputs.size
+        self.begins[:] = core.sources
+        self.ends[:] = core.sources
+        if self.memory is not None:
+            before, values = self.memory
+            share = (end - time) / (time - before)
+            self.ends[:outputs] += share * (self.begins[:outputs] - values[:outputs])
+        if core.layout.signals:
+            self.ends[self._signals] = core.signals.at(tick) if tick is not None else core.signals.between(end)
+        for slots, sampler in self._moving:
+            self.ends[slots] = sampler.ahead(end)
+
+    def hold(self, time: float, end: float, name: str | None = None) -> None:
+        """Make inputs and rates from begins and ends: those of one member, or of all."""
+        holder = self._all if name is None else self._one[name]
+        holder.hold(self.begins, self.ends, end - time)
+
+    def done(self, time: float) -> None:
+        """The step from `time` (s) was made: remember where it began."""
+        self.memory = (time, self.begins.copy())
+
+
+class _Holder:
+    """Inputs that wires lead to."""
+
+    def __init__(self, core: Core, wires: list[Wire] | tuple[Wire, ...]) -> None:
+        self._row = core.row.array
+        rating = {
+            slot
+            for member in core.layout.members
+            if member.takes_rates
+            for slot in range(*core.layout.places[member.name].inputs.indices(core.layout.size))
+        }
+        self._lines = indices(w for w in wires if w.target in rating)
+        self._means = indices(w for w in wires if w.target not in rating)
+        self._shift = len(core.layout.inputs)
+
+    def hold(self, begins: Array, ends: Array, size: float) -> None:
+        targets, sources, factors = self._means
+        if targets.size:
+            self._row[targets] = factors * (0.5 * (begins[sources] + ends[sources]))
+        targets, sources, factors = self._lines
+        if targets.size:
+            self._row[targets] = factors * begins[sources]
+            self._row[targets + self._shift] = factors * ((ends[sources] - begins[sources]) / size)

@@ -1,0 +1,99 @@
+"""Whether an experiment fits a system: said before anything runs."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from pysim.cosim.sampled import Sampled
+from pysim.cosim.system import System
+from pysim.types import BadInput, Experiment
+
+# A time belongs to a communication point this close to it, as a share of the step.
+_NEAR = 1e-6
+
+
+def check_experiment(system: System, experiment: Experiment, *, solves_loops: bool) -> None:
+    """Check all names, that every input is driven once, and that loops can be solved.
+
+    Raises:
+        BadInput: it does not fit.
+    """
+    if not isinstance(system, System) or not isinstance(experiment, Experiment):
+        raise BadInput(f"co-simulation: got {system!r} and {experiment!r}; give System(...) and Experiment(...)")
+    for name in (*experiment.inputs, *experiment.rates):
+        system.port("input", name)
+        if name in system.drivers:
+            raise BadInput(
+                f"experiment: {name} has a signal and is driven by {system.drivers[name].source}; remove one of them"
+            )
+    for name in experiment.record:
+        if name not in system.inputs:
+            system.port("output", name)
+    _check_driven(system, experiment)
+    if system.loops and not solves_loops:
+        ways = "; ".join(" -> ".join(loop) for loop in system.loops)
+        raise BadInput(
+            f"system: algebraic loop {ways}; give a sampled block among them a delay, remove a connection, or take "
+            "order=Iterated(), which solves it"
+        )
+
+
+def _check_driven(system: System, experiment: Experiment) -> None:
+    driven = {*system.drivers, *experiment.inputs, *experiment.rates}
+    free = [name for name, port in system.inputs.items() if name not in driven and port.start is None]
+    if free:
+        outputs = ", ".join(system.outputs) or "there are none"
+        raise BadInput(
+            f"system: nothing drives {', '.join(free)}; connect an output ({outputs}) "
+            f"or give the experiment a signal, inputs={{{free[0]!r}: Signal.constant(...)}}"
+        )
+
+
+def overrides_of(system: System, experiment: Experiment) -> Mapping[str, Mapping[str, float]]:
+    """The experiment's overrides by member.
+
+    Raises:
+        BadInput: of no member, or of a block.
+    """
+    by_member: dict[str, dict[str, float]] = {member.name: {} for member in system.members}
+    for name, value in experiment.overrides.items():
+        member, _, parameter = name.partition(".")
+        if member not in by_member or not parameter:
+            raise BadInput(
+                f"experiment: override {name!r} is of no member; write one of {', '.join(by_member)}, a dot, a name"
+            )
+        by_member[member][parameter] = float(value)
+    for part in system.members:
+        if isinstance(part, Sampled) and by_member[part.name]:
+            raise BadInput(
+                f"experiment: {part.name} is a block and takes no overrides; make the block with other settings"
+            )
+    return by_member
+
+
+def tick_of(time: float, start: float, step: float, what: str = "time") -> int:
+    """The number of the communication point at a time, s.
+
+    Raises:
+        BadInput: there is none.
+    """
+    exact = (time - start) / step
+    number = round(exact)
+    if abs(exact - number) > _NEAR * max(1.0, abs(exact) * 1e-6):
+        raise BadInput(
+            f"{what} {time:.12g} s is no whole number of steps of {step:g} s from {start:g} s ({exact:.6g}); take a "
+            "step that divides it"
+        )
+    return number
+
+
+def ticks(experiment: Experiment, step: float) -> list[int]:
+    """The communication points of the experiment's times.
+
+    Raises:
+        BadInput: a time lies between two, or two at one.
+    """
+    numbers = [tick_of(float(time), experiment.start, step) for time in experiment.times]
+    if len(set(numbers)) < len(numbers):
+        raise BadInput(f"experiment: its times lie closer than the step of {step:g} s; take a smaller step")
+    return numbers

@@ -1,0 +1,106 @@
+"""Members step one after the other; each sees what those before it have reached."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from pysim.cosim._core import Core
+from pysim.cosim._graph import components
+from pysim.cosim._lines import Lines
+from pysim.cosim._sweep import Prepare, Sweep, carrier
+from pysim.cosim.order import Stepper
+from pysim.cosim.system import System, owner
+from pysim.types import BadInput
+
+
+@dataclass(frozen=True)
+class GaussSeidel:
+    """A member's inputs from those that have stepped already are taken at the step's end.
+
+    Args:
+        order: names of the members, blocks left out; empty follows the connections, each member after those that
+            drive it; within a circle as the system lists them.
+        lines: False holds an input over the step (first order); True lets it run as a line, to the end's value where
+            that is known, else extrapolated (second order).
+    """
+
+    order: tuple[str, ...] = ()
+    lines: bool = False
+
+    @property
+    def accuracy(self) -> int:
+        """First order; with lines, second."""
+        return 2 if self.lines else 1
+
+    @property
+    def solves_loops(self) -> bool:
+        """No."""
+        return False
+
+    def stepper(self, core: Core) -> Stepper:
+        """Start to work.
+
+        Raises:
+            BadInput: an order that does not name each member once.
+        """
+        names = [member.name for member in core.layout.members]
+        if self.order and sorted(self.order) != sorted(names):
+            raise BadInput(
+                f"Gauss-Seidel: the order is {', '.join(self.order)}; name each of these once: {', '.join(names)}"
+            )
+        return _Stepper(core, self.order or stepping_order(core.system, names), self.lines)
+
+
+def stepping_order(system: System, names: Sequence[str]) -> tuple[str, ...]:
+    """Members after those that drive them, through blocks too; within a circle as listed."""
+    parts = {member.name: index for index, member in enumerate(system.members)}
+    graph = {name: frozenset(owner(c.source) for c in system.connections if owner(c.target) == name) for name in parts}
+    ordered = [name for group in components(graph) for name in sorted(group, key=parts.__getitem__)]
+    return tuple(name for name in ordered if name in set(names))
+
+
+class _Stepper:
+    def __init__(self, core: Core, names: Sequence[str], lines: bool) -> None:
+        self.lines, self._lines = lines, Lines(core) if lines else None
+        before = [names[:number] for number in range(len(names))]
+        if self._lines is None:
+            prepare: list[Prepare | None] = [carrier(core, n, b) for n, b in zip(names, before, strict=True)]
+        else:
+            prepare = [_interpolator(core, self._lines, n, b) for n, b in zip(names, before, strict=True)]
+        self._sweep = Sweep(core, names, prepare)
+
+    @property
+    def memory(self) -> Any:
+        """The point before, with lines."""
+        return self._lines.memory if self._lines is not None else None
+
+    @memory.setter
+    def memory(self, memory: Any) -> None:
+        if self._lines is not None:
+            self._lines.memory = memory
+
+    def advance(self, time: float, end: float, tick: int | None) -> float:
+        """See Stepper."""
+        if self._lines is None:
+            return self._sweep(time, end)
+        self._lines.begin(time, end, tick)
+        self._lines.hold(time, end)
+        reached = self._sweep(time, end)
+        self._lines.done(time)
+        return reached
+
+
+def _interpolator(core: Core, lines: Lines, name: str, stepped: Sequence[str]) -> Prepare | None:
+    """Let a member's inputs run to what those that stepped already have reached."""
+    if carrier(core, name, stepped) is None:
+        return None
+    places = [core.layout.places[other].outputs for other in stepped]
+
+    def prepare(time: float, end: float) -> None:
+        for slots in places:
+            lines.ends[slots] = core.row.array[slots]
+        lines.hold(time, end, name)
+
+    return prepare

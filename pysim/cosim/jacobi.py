@@ -1,0 +1,80 @@
+"""All members step from the same instant, with what was known there."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from pysim.cosim._core import Core
+from pysim.cosim._lines import Lines
+from pysim.cosim._sweep import Sweep
+from pysim.cosim.order import Stepper
+
+
+@dataclass(frozen=True)
+class Jacobi:
+    """Every input is held over a step, or runs on along a line; no member waits for another.
+
+    Args:
+        lines: False keeps the value at the step's begin (first order); True extrapolates from the step before (second
+            order, less stable with large steps).
+    """
+
+    lines: bool = False
+
+    @property
+    def accuracy(self) -> int:
+        """First order; with lines, second."""
+        return 2 if self.lines else 1
+
+    @property
+    def solves_loops(self) -> bool:
+        """No."""
+        return False
+
+    def stepper(self, core: Core) -> Stepper:
+        """Start to work."""
+        # Those that may return early go first: then nobody has gone past their event.
+        names = [m.name for m in sorted(core.layout.members, key=lambda m: not m.may_return_early)]
+        sweep = Sweep(core, names, [None] * len(names))
+        return _Lines(core, sweep) if self.lines else _Held(sweep)
+
+
+class _Held:
+    """Inputs are what the communication point left in the row."""
+
+    memory: Any = None
+    lines = False
+
+    def __init__(self, sweep: Sweep) -> None:
+        self._sweep = sweep
+
+    def advance(self, time: float, end: float, tick: int | None) -> float:
+        """See Stepper."""
+        return self._sweep(time, end)
+
+
+class _Lines:
+    """Inputs are extrapolated."""
+
+    lines = True
+
+    def __init__(self, core: Core, sweep: Sweep) -> None:
+        self._sweep, self._lines = sweep, Lines(core)
+
+    @property
+    def memory(self) -> Any:
+        """The point before."""
+        return self._lines.memory
+
+    @memory.setter
+    def memory(self, memory: Any) -> None:
+        self._lines.memory = memory
+
+    def advance(self, time: float, end: float, tick: int | None) -> float:
+        """See Stepper."""
+        self._lines.begin(time, end, tick)
+        self._lines.hold(time, end)
+        reached = self._sweep(time, end)
+        self._lines.done(time)
+        return reached

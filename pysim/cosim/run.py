@@ -1,0 +1,281 @@
+"""A system at work: started, moved on, kept, put back, recorded."""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from functools import partial
+from types import TracebackType
+from typing import Any
+
+from pysim.cosim._core import Core
+from pysim.cosim._fault import Fault, fault
+from pysim.cosim._layout import Layout, Row, lay_out
+from pysim.cosim._mover import Doubled, Mover, Plain
+from pysim.cosim._prepare import check_experiment, overrides_of, tick_of, ticks
+from pysim.cosim._sampler import Sampler
+from pysim.cosim._signals import Signals
+from pysim.cosim._trace import Trace
+from pysim.cosim.doubling import Doubling
+from pysim.cosim.iterated import check_rollback
+from pysim.cosim.jacobi import Jacobi
+from pysim.cosim.member import Setup
+from pysim.cosim.order import Order
+from pysim.cosim.system import System
+from pysim.types import BadInput, Experiment, Outcome, Record, SimulationError
+
+
+@dataclass(frozen=True)
+class Kept:
+    """A run at one communication point; good for its own run only, as long as that is open."""
+
+    tick: int
+    run: object = field(repr=False)
+    parts: tuple[Any, ...] = field(repr=False)
+
+
+class Run:
+    """One run of a system, for a `with` block: `advance` as far as you like, `save` and `restore` on the way.
+
+    Args:
+        system, experiment, step, order, doubling: as of `cosimulate`.
+    Raises:
+        BadInput: as of `cosimulate`, on entering too.
+    """
+
+    def __init__(
+        self,
+        system: System,
+        experiment: Experiment,
+        *,
+        step: float,
+        order: Order | None = None,
+        doubling: Doubling | None = None,
+    ) -> None:
+        if not (isinstance(step, (int, float)) and 0 < step < math.inf):
+            raise BadInput(f"co-simulation: the step is {step!r}; give a positive number of seconds")
+        self.system, self.experiment, self.step = system, experiment, float(step)
+        self._order: Order = Jacobi() if order is None else order
+        self._doubling = doubling
+        check_experiment(system, experiment, solves_loops=self._order.solves_loops)
+        self._rows = ticks(experiment, self.step)
+        self._layout = lay_out(system, (*experiment.inputs, *experiment.rates))
+        self._tick = self._counted = 0
+        self._open = False
+
+    def __enter__(self) -> Run:
+        row = Row(self._layout)
+        self._trace = Trace(self.system, self.experiment, self._rows, self._layout, row.array)
+        self._samplers = self._make_samplers(self._layout, row)
+        self._core = Core(
+            self.system, self._layout, row, self._samplers, Signals(self.experiment, self._layout, self.step)
+        )
+        self._mover = self._make_mover()
+        self._failed: Fault | None = None
+        self._tick, self._counted, self._open = 0, 0, True
+        try:
+            self._start(row)
+        except BaseException:
+            self._close()
+            raise
+        return self
+
+    def __exit__(self, kind: type | None, error: BaseException | None, trace: TracebackType | None) -> None:
+        self._close()
+
+    @property
+    def time(self) -> float:
+        """s, of the communication point that was reached."""
+        return self.experiment.start + self._tick * self.step
+
+    def advance(self, to: float | None = None, progress: Callable[[float], None] | None = None) -> None:
+        """Move on to a communication point, s; None goes to the experiment's end.
+
+        Args:
+            progress: called now and then with the time, s.
+        Raises:
+            BadInput: a time between two communication points, before the one reached, or after the end.
+            SimulationError: a member could not go on; `.record` holds the part that was reached.
+        """
+        if not self._open or self._failed is not None:
+            raise BadInput("co-simulation: this run is closed or has failed; begin another")
+        last = self._rows[-1] if to is None else tick_of(to, self.experiment.start, self.step)
+        if not self._tick <= last <= self._rows[-1]:
+            raise BadInput(f"co-simulation: cannot go to {to} s from {self.time:.12g} s; stay within the experiment")
+        while self._tick < last:
+            stop = last if progress is None else min(last, self._tick + 1000)
+            try:
+                self._loop(stop)
+            except Fault as error:
+                self._failed = error
+                record = self.record()
+                raise SimulationError(record.message, record) from error.__cause__
+            if progress is not None:
+                progress(self.time)
+
+    def _loop(self, last: int) -> None:
+        """The hot loop: everything it calls was looked up before."""
+        move, at, trace = self._mover.move, self._core.exchange.at, self._trace
+        start, step, tick = self.experiment.start, self.step, self._tick
+        due = trace.due()
+        try:
+            while tick < last:
+                move(tick)
+                tick += 1
+                at(tick, start + tick * step)
+                self._tick = tick
+                if tick == due:
+                    due = trace.take(tick)
+        finally:
+            self._core.counts["steps"] += self._tick - self._counted
+            self._counted = self._tick
+
+    def record(self) -> Record:
+        """What was recorded so far."""
+        if self._failed is None:
+            return self._trace.record(Outcome.DONE, "", self._counts())
+        message = f"t = {self.time:.9g} s: {self._failed}"
+        return self._trace.record(self._failed.outcome, message, self._counts())
+
+    def save(self) -> Kept:
+        """The whole run, to come back to.
+
+        Raises:
+            BadInput: a member that cannot save its state.
+        """
+        check_rollback("save", self._core)
+        core = self._core
+        blocks = {name: sampler.save() for name, sampler in self._samplers.items()}
+        members = core.save([None] * len(self._layout.members))
+        parts = (members, blocks, core.row.array.copy(), core.scale.copy(), self._mover.memory, Counter(core.counts))
+        return Kept(self._tick, self._core, parts)
+
+    def restore(self, kept: Kept) -> None:
+        """Go back; what was recorded after that point is forgotten, and what follows repeats bit for bit.
+
+        Raises:
+            BadInput: kept in another run.
+        """
+        if kept.run is not self._core:
+            raise BadInput("restore: this was kept in another run; states live as long as the run they come from")
+        core = self._core
+        members, blocks, row, scale, memory, counts = kept.parts
+        core.restore(members)
+        for name, state in blocks.items():
+            self._samplers[name].restore(state)
+        core.row.array[:], core.scale[:] = row, scale
+        self._mover.memory, core.counts = memory, Counter(counts)
+        self._tick = self._counted = kept.tick
+        self._failed = None
+        self._trace.rewind(kept.tick)
+
+    def _make_samplers(self, layout: Layout, row: Row) -> dict[str, Sampler]:
+        samplers = {}
+        for block in layout.blocks:
+            every = tick_of(block.every, 0.0, self.step, f"{block.name}: every")
+            delay = tick_of(block.delay, 0.0, self.step, f"{block.name}: delay")
+            samplers[block.name] = Sampler(block, row, layout, every, delay, self.step)
+        return samplers
+
+    def _make_mover(self) -> Mover:
+        start = self.experiment.start
+        if self._doubling is not None:
+            return Doubled(self._core, self._order, start, self.step, self._doubling)
+        return Plain(self._core, self._order.stepper(self._core), start, self.step)
+
+    def _start(self, row: Row) -> None:
+        """Initialise all members, let their initial values settle, do what is due at the first point."""
+        for name, slot in self._layout.inputs.items():
+            row.array[slot] = self.system.inputs[name].start or 0.0
+        for slot, value in zip(
+            self._layout.signals.values(), self._core.signals.at(0) if self._layout.signals else (), strict=True
+        ):
+            row.array[slot] = value
+        row.carry(self._layout.wires)
+        overrides = overrides_of(self.system, self.experiment)
+        try:
+            for member in self._layout.members:
+                place = self._layout.places[member.name]
+                setup = Setup(
+                    time=self.experiment.start,
+                    stop=float(self.experiment.times[-1]),
+                    step=self.step,
+                    inputs=row.part(place.inputs),
+                    rates=row.part(place.rates),
+                    outputs=row.part(place.outputs),
+                    overrides=overrides[member.name],
+                )
+                self._guard(member.name, partial(member.start, setup))
+            self._settle()
+            for member in self._layout.members:
+                self._guard(member.name, member.begin)
+            self._core.exchange.at(0, self.experiment.start)
+        except Fault as error:
+            self._failed = error
+            record = self.record()
+            raise SimulationError(record.message, record) from error.__cause__
+        self._trace.take(0)
+
+    def _settle(self) -> None:
+        parts = len(self._layout.members)
+        if not self._core.exchange.settle(parts + 2 if not self._order.solves_loops else 200):
+            names = ", ".join(member.name for member in self._layout.members)
+            raise Fault(names, "their initial values go round in a circle and do not settle", Outcome.NOT_CONVERGED)
+
+    def _guard(self, name: str, call: Callable[[], None]) -> None:
+        try:
+            call()
+        except BadInput:
+            raise
+        except Exception as error:
+            raise fault(name, error) from error
+
+    def _counts(self) -> dict[str, int]:
+        counts = dict(self._core.counts)
+        loops = self._core.exchange.evaluations
+        return {**counts, "loop_evaluations": loops} if loops else counts
+
+    def _close(self) -> None:
+        self._open = False
+        for member in self._layout.members:
+            member.close()
+
+
+def cosimulate(
+    system: System,
+    experiment: Experiment,
+    *,
+    step: float,
+    order: Order | None = None,
+    doubling: Doubling | None = None,
+    check: bool = True,
+    progress: Callable[[float], None] | None = None,
+) -> Record:
+    """Run a system through an experiment.
+
+    Args:
+        system: its members are started anew, and closed at the end.
+        experiment: times at communication points; names are "member.port", in `overrides` "member.parameter".
+        step: s between two communication points, which lie at start + n * step.
+        order: who steps when, with which inputs; None is Jacobi().
+        doubling: error control within each step.
+        check: False returns a failed run instead of raising.
+        progress: called now and then with the time, s.
+    Returns:
+        columns as asked for, then `<bond>.power` (W) and `<bond>.residual` (J) of each bond.
+    Raises:
+        BadInput: an unknown name, an input that nothing drives, a time or a rate that is no whole number of steps, an
+            algebraic loop that the order does not solve, or a member that cannot do what the order asks for.
+        SimulationError: a member failed or put out what is no finite number; the text has time and name, `.record` the
+            part that was reached.
+    """
+    try:
+        with Run(system, experiment, step=step, order=order, doubling=doubling) as run:
+            run.advance(progress=progress)
+            return run.record()
+    except SimulationError as error:
+        if check:
+            raise
+        return error.record
