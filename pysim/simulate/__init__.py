@@ -2,8 +2,11 @@
 
 from pysim.simulate._base import Solver
 from pysim.simulate._many import simulate_many
+from pysim.simulate._messages import Mailbox
 from pysim.simulate._run import simulate
 from pysim.simulate.esdirk import Esdirk
+from pysim.simulate.fmu_states import FmuState, FmuStates
+from pysim.simulate.fmu_values import FmuValues, is_number
 from pysim.simulate.native.compiled import is_compiled
 from pysim.simulate.rk4 import Rk4
 from pysim.simulate.rk45 import Rk45
@@ -11,17 +14,38 @@ from pysim.simulate.rodas import Rodas
 from pysim.simulate.sensitivity.orbit import Orbit
 from pysim.simulate.sensitivity.periodic import Periodic, periodic_many
 from pysim.simulate.sensitivity.sensitivities import Sensitivities, sensitivities, sensitivities_many
+from pysim.simulate.stepwise import (
+    SavedStep,
+    StepFailed,
+    Stepwise,
+    Wires,
+    can_be_saved,
+    is_smooth,
+    open_stepwise,
+)
 
 __all__ = [
     "Esdirk",
+    "FmuState",
+    "FmuStates",
+    "FmuValues",
+    "Mailbox",
     "Orbit",
     "Periodic",
     "Rk4",
     "Rk45",
     "Rodas",
+    "SavedStep",
     "Sensitivities",
     "Solver",
+    "StepFailed",
+    "Stepwise",
+    "Wires",
+    "can_be_saved",
     "is_compiled",
+    "is_number",
+    "is_smooth",
+    "open_stepwise",
     "periodic_many",
     "sensitivities",
     "sensitivities_many",

@@ -126,15 +126,38 @@ class Instance:
         Raises:
             CallFailed: the FMU refused; its own words are in the mailbox.
         """
-        fmu = self.fmu
-        try:
+        self.enter_initialisation(values, start, stop, tolerance)
+        self.exit_initialisation()
+
+    def enter_initialisation(
+        self, values: Mapping[str, float], start: float, stop: float, tolerance: float | None
+    ) -> None:
+        """Set start values, enter initialisation mode.
+
+        Raises:
+            CallFailed: the FMU refused; its own words are in the mailbox.
+        """
+        with self._refusal():
             self._set(values)
             if self.model.abilities.fmi == 2:
-                fmu.setupExperiment(tolerance=tolerance, startTime=start, stopTime=stop)
-                fmu.enterInitializationMode()
+                self.fmu.setupExperiment(tolerance=tolerance, startTime=start, stopTime=stop)
+                self.fmu.enterInitializationMode()
             else:
-                fmu.enterInitializationMode(tolerance=tolerance, startTime=start, stopTime=stop)
-            fmu.exitInitializationMode()
+                self.fmu.enterInitializationMode(tolerance=tolerance, startTime=start, stopTime=stop)
+
+    def exit_initialisation(self) -> None:
+        """Go on to event mode.
+
+        Raises:
+            CallFailed: the FMU refused; its own words are in the mailbox.
+        """
+        with self._refusal():
+            self.fmu.exitInitializationMode()
+
+    @contextmanager
+    def _refusal(self) -> Iterator[None]:
+        try:
+            yield
         except FMICallException as error:
             self.status = max(self.status, error.status)
             raise CallFailed(str(error)) from error

@@ -1,0 +1,112 @@
+"""The memory of a run that goes on from one communication point to the next."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pysim.simulate._base import Solver
+from pysim.simulate._job import Job
+from pysim.simulate._library import Instance
+from pysim.simulate.native.method import ExplicitMethod, method_arrays
+from pysim.simulate.native.state import work_arrays
+
+Array = NDArray[np.float64]
+
+_MEMORY = ("scratch", "nominal", "matrix", "pivots", "stages", "right", "factors", "pivot_values", "probe")
+
+
+@dataclass(frozen=True)
+class SavedJob:
+    """Numbers of a run, and the solver's memory."""
+
+    record: NDArray[np.void]
+    memory: tuple[NDArray[np.generic], ...]
+
+
+class StepJob:
+    """A job whose end moves on; with views of the numbers that every step changes.
+
+    Args:
+        references: (n_u,) of the inputs that may be straight lines within a step.
+        outputs: names of what is read at each end, into `results`.
+        time: s, of the start.
+    """
+
+    def __init__(
+        self,
+        instance: Instance,
+        solver: Solver,
+        references: NDArray[np.uint32],
+        outputs: tuple[str, ...],
+        results: Array,
+        time: float,
+    ) -> None:
+        self.job, n_u = Job(solver), references.size
+        self.record = self.job.record
+        self._break, self._row, self._starts, self._cubics = np.zeros(1), np.zeros(1), np.zeros(n_u), np.zeros((n_u, 4))
+        self._put_solver(instance, solver)
+        self._put_lines(references)
+        self.job.put("breaks", {"count": 1, "times": self._break, "jumps": np.zeros(1, dtype=np.int64)})
+        self.job.put("rows", instance.rows(outputs))
+        self.job.change("rows", {"count": 1, "times": self._row, "values": results})
+        self.job.restart(time, time)
+        run = self.record["run"]
+        self.t, self._end, self._horizon, self._segment = (run[name] for name in ("t", "end", "horizon", "segment"))
+        self._next, self._lines = self.record["rows"]["next"], self.record["inputs"]["count"]
+
+    def _put_solver(self, instance: Instance, solver: Solver) -> None:
+        abilities, method = instance.model.abilities, solver.method()
+        n, m, terms = len(abilities.states), abilities.event_indicators, method.dense.shape[1]
+        implicit = not isinstance(method, ExplicitMethod)
+        self.job.put("fmu", instance.addresses())
+        self.job.put("method", method_arrays(method))
+        self.job.put("control", {**solver.control()._asdict(), "max_steps": np.iinfo(np.int64).max})
+        self.job.put("work", {**work_arrays(n, m, method.b.size, terms, implicit), **instance.jacobian})
+
+    def _put_lines(self, references: NDArray[np.uint32]) -> None:
+        n_u = references.size
+        numbers = np.arange(n_u + 1, dtype=np.int64)
+        places = {"pieces": numbers, "cursor": numbers[:-1].copy(), "waves": np.zeros(n_u + 1, dtype=np.int64)}
+        lines = {"starts": self._starts, "cubics": self._cubics, "sines": np.zeros((0, 4)), "values": np.zeros(n_u)}
+        rate = np.zeros(n_u, dtype=np.int64)
+        self.job.put("inputs", {"count": 0, "references": references, "rate": rate, **places, **lines})
+
+    def aim(self, end: float, row: float) -> None:
+        """The run is to go on to the time `end` (s), and to read its outputs at the time `row`."""
+        self._end[0] = self._horizon[0] = self._break[0] = end
+        self._row[0], self._next[0] = row, 0
+
+    def begin_afresh(self, values: Array | None, rates: Array | None) -> None:
+        """Native code is to begin with an event at the present time, and with straight lines from there, if any."""
+        self._segment[0] = -1
+        self._lines[0] = 0 if values is None else values.size
+        if values is not None:
+            self._starts[:] = self.t[0]
+            self._cubics[:, 0], self._cubics[:, 1] = values, rates
+
+    @property
+    def has_time_events(self) -> bool:
+        """Whether the model has ever announced one, or had an event."""
+        return bool(np.isfinite(self.record["run"]["next_event"][0]) or self.record["run"]["events"][0] > 0)
+
+    def states(self) -> Array:
+        """(n,) at the present time."""
+        return self.job.array("work", "x")
+
+    def save(self, into: SavedJob | None) -> SavedJob:
+        """All that the solver knows; `into` is what is no longer needed."""
+        arrays = (self.record, *(self.job.array("work", name) for name in _MEMORY), self._starts, self._cubics)
+        if into is None:
+            return SavedJob(arrays[0].copy(), tuple(array.copy() for array in arrays[1:]))
+        for old, array in zip((into.record, *into.memory), arrays, strict=True):
+            np.copyto(old, array)
+        return into
+
+    def restore(self, saved: SavedJob) -> None:
+        """Be as when that was saved."""
+        arrays = (self.record, *(self.job.array("work", name) for name in _MEMORY), self._starts, self._cubics)
+        for array, old in zip(arrays, (saved.record, *saved.memory), strict=True):
+            np.copyto(array, old)
