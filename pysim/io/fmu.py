@@ -9,7 +9,7 @@ from pathlib import Path
 from fmpy.model_description import ModelDescription, ModelVariable, Unknown, read_model_description
 
 from pysim.io.archive import DAMAGED
-from pysim.types import Abilities, BadInput, Model, Variable
+from pysim.types import Abilities, BadInput, CoSimulation, Model, Variable
 
 
 def read_model(path: Path | str) -> Model:
@@ -95,7 +95,34 @@ def _abilities(d: ModelDescription, path: Path) -> Abilities:
         needs_completed_step=getattr(kind, "needsCompletedIntegratorStep", False),
         single_instance=kind.canBeInstantiatedOnlyOncePerProcess,
         dependencies=tuple(_dependencies(u) for u in d.derivatives),
+        feedthrough=tuple((u.variable.name, _inputs(u)) for u in d.outputs),
+        stepping=_stepping(d),
     )
+
+
+def _stepping(d: ModelDescription) -> CoSimulation | None:
+    c = d.coSimulation
+    if c is None:
+        return None
+    return CoSimulation(
+        library=c.modelIdentifier,
+        variable_step=_flag(c.canHandleVariableCommunicationStepSize),
+        state_handling=_flag(c.canGetAndSetFMUstate),
+        event_mode=_flag(c.hasEventMode),
+        early_return=_flag(c.mightReturnEarlyFromDoStep),
+        single_instance=_flag(c.canBeInstantiatedOnlyOncePerProcess),
+    )
+
+
+def _flag(value: bool | str) -> bool:
+    return value in (True, "true", "1")
+
+
+def _inputs(unknown: Unknown) -> frozenset[str] | None:
+    """The inputs an output depends on, as far as it is declared."""
+    if unknown.dependencies is None:
+        return None
+    return frozenset(v.name for v in unknown.dependencies if v.causality == "input")
 
 
 def _dependencies(unknown: Unknown) -> frozenset[str] | None:

@@ -31,7 +31,7 @@ from pysim.types.fit import (
     Start,
 )
 from pysim.types.frequency_response import FrequencyResponse
-from pysim.types.model import Abilities, Model, Variable
+from pysim.types.model import Abilities, CoSimulation, Model, Variable
 from pysim.types.port import Port
 from pysim.types.record import Outcome, Record, SimulationError
 from pysim.types.signal import Signal
@@ -43,6 +43,7 @@ __all__ = [
     "BadInput",
     "BestLinearApproximation",
     "Candidate",
+    "CoSimulation",
     "Combination",
     "Comparison",
     "Criterion",

@@ -32,6 +32,18 @@ class Variable:
 
 
 @dataclass(frozen=True)
+class CoSimulation:
+    """What the FMU says of its own way to step."""
+
+    library: str  # modelIdentifier of the shared library
+    variable_step: bool = False  # communication steps may differ in size
+    state_handling: bool = False
+    event_mode: bool = False  # FMI 3: its events can be handled by the importer
+    early_return: bool = False  # FMI 3: a step may end before its end
+    single_instance: bool = False  # at most one instance per process
+
+
+@dataclass(frozen=True)
 class Abilities:
     """What the FMU says it can do."""
 
@@ -47,6 +59,8 @@ class Abilities:
     needs_completed_step: bool = True  # wants to be told of every accepted step
     single_instance: bool = False  # at most one instance per process
     dependencies: tuple[frozenset[str] | None, ...] = ()  # per derivative, names of what it depends on; None: unknown
+    feedthrough: tuple[tuple[str, frozenset[str] | None], ...] = ()  # output and inputs it depends on; None: unknown
+    stepping: CoSimulation | None = None  # None: model exchange only
 
 
 @dataclass(frozen=True)

@@ -5,6 +5,7 @@ import pytest
 
 from pysim.io import read_model
 from pysim.types import BadInput
+from tests.foreign import made_foreign
 from tests.pysim.simulate.fixture_fmus import BALL, OSCILLATOR, STIFF, build
 
 
@@ -70,3 +71,17 @@ def test_fmi_1_is_refused_with_the_cure(tmp_path):
     )
     with pytest.raises(BadInput, match=r"is an FMI 1\.0 FMU; export it as FMI 2\.0 or 3\.0"):
         read_model(write(tmp_path / "old.fmu", xml))
+
+
+@pytest.mark.parametrize("fmi", [2, 3])
+def test_what_is_said_of_coupling(tmp_path, fmi):
+    abilities = text_model(LAG, tmp_path, fmi=fmi).abilities  # power = K*u*y, and y is a state
+    assert dict(abilities.feedthrough) == {"y": frozenset(), "power": frozenset({"u"})}
+    stepping = abilities.stepping
+    assert stepping.library == "Lag"
+    assert (stepping.variable_step, stepping.state_handling, stepping.single_instance) == (True, True, False)
+    assert (stepping.event_mode, stepping.early_return) == (fmi == 3, fmi == 3)
+    foreign = read_model(made_foreign(tmp_path / f"Lag_{fmi}.fmu", tmp_path / "foreign.fmu")).abilities
+    assert dict(foreign.feedthrough) == {"y": None, "power": None}
+    assert not foreign.stepping.state_handling
+    assert read_model(build(OSCILLATOR, fmi, tmp_path)).abilities.stepping is None
