@@ -7,6 +7,7 @@ from pysim.io import read_model
 from pysim.types import BadInput
 from tests.foreign import made_foreign
 from tests.pysim.simulate.fixture_fmus import BALL, OSCILLATOR, STIFF, build
+from tests.pysim.simulate.text_models import LAG, text_model
 
 
 @pytest.mark.parametrize("fmi", [2, 3])
