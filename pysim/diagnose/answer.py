@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pysim.diagnose import decide
+from pysim.diagnose.corrections import Settled
 from pysim.diagnose.doubt import doubt, held_still
 from pysim.diagnose.fitted import Fitted
 from pysim.diagnose.null import leftover
@@ -59,17 +60,17 @@ def answered(
     )
 
 
-def decided(story: Story, base: Fitted, final: Fitted, *, tried: bool = True) -> tuple[str, str]:
+def decided(story: Story, base: Settled, final: Settled, *, tried: bool = True) -> tuple[str, str]:
     """Verdict and reason: what was added is named only where nothing else is left.
 
     Args:
         tried: whether the catalogue was.
     """
-    point, names = final.point, [e.name for e in final.what.effects]
-    ruler = story.ruler_of(final.what)
+    point, names = final.at.point, [e.name for e in final.at.what.effects]
+    ruler = final.lean
     freedom = ruler.freedom - point.x.size
     rest = leftover(ruler, point, seed=story.seed)
-    share = decide.explained(base.point.cost - point.cost, base.point.cost, freedom)
+    share = decide.explained(base.at.point.cost - point.cost, base.at.point.cost, freedom)
     level = point.cost / max(freedom, 1)
     as_noise = rest.p_value >= decide.SURE and level < decide.LEVEL
     complete = as_noise or (bool(names) and share >= decide.WHOLE)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
@@ -10,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import stats
 
+from pysim.diagnose.blame import Blame, Evidence
 from pysim.diagnose.fitted import Fitted
 from pysim.diagnose.nuisance import GAIN, OFFSET, SHIFT, Suspect, suspects
 from pysim.diagnose.refit import chord_refit
@@ -27,91 +27,77 @@ from pysim.types import Outcome
 
 Array = NDArray[np.float64]
 
-# Standard deviations from which a nuisance counts as found: noise alone does that once in 16,000 times.
-CERTAIN = 4.0
-# Usual sizes up to which one is taken for a nuisance: what asks for more has another cause.
-PLAUSIBLE = 3.0
 # s after which a plate that moved when its log began is at rest; s at its start in which that shows.
 _OVER, _SHOWS = 0.8, 0.15
 # A wrong start shows with this chance by noise alone, and the model moves little while it does.
 _BY_CHANCE, _STILL = 1e-6, 0.25
 # Share of a nuisance that parameters have to leave for it to be told from them.
 _ALIKE = 1e-2
-# Mean squares up to which nuisances are taken off on trial, and up to which that is then kept.
-_FAR, _EXPLAINED = 20.0, 1.3
 # Fall of the sum of squares from which another refit is worth its runs.
 _WORTH = 1.0
+# Refits at most until the blamed are the same again.
+_ROUNDS = 3
 
 
 @dataclass(frozen=True)
 class Nuisance:
-    """What the measurements say of one suspect.
+    """What the measurements say of one nuisance that is allowed for.
 
     Args:
         suspect: which.
         value: share beyond 1, the signal's unit, or s.
         low, high: of the 95 percent interval.
-        found: whether it is there beyond doubt.
     """
 
     suspect: Suspect
     value: float
     low: float
     high: float
-    found: bool
 
 
-def nuisances(ruler: Ruler, what: Extended, point: Evaluation) -> tuple[Nuisance, ...]:
-    """Estimates of every suspect at a fitted point, beside what was taken off already.
+def nuisances(ruler: Ruler, point: Evaluation) -> tuple[Nuisance, ...]:
+    """Estimates of every nuisance that the ruler allows for, at a fitted point.
 
     The intervals allow for what the parameters of the model can take over.
 
     Args:
         point: of the ruler.
     """
-    whole = ruler.whole(what, point) if ruler.suspected else None
-    if whole is None:
+    if not ruler.suspected:
         return ()
-    residual, slopes = whole[:, 0], whole[:, 1:]
-    reach = column_space(slopes)
-    sizes = np.maximum(np.linalg.norm(ruler.span.columns, axis=0), np.finfo(float).tiny)
-    rest = across(reach, across(reach, ruler.span.columns / sizes))
-    told = np.linalg.norm(rest, axis=0) > _ALIKE
-    values, spread = np.zeros(sizes.size), np.full(sizes.size, math.inf)
-    q, r = np.linalg.qr(rest[:, told])
-    usual = np.array([s.width for s in ruler.suspected])[told] * sizes[told]
-    before = np.array([ruler.taken.get(s, 0.0) for s in ruler.suspected])[told] * sizes[told]
-    doubt = np.linalg.pinv(r.T @ r + np.diag(usual**-2), hermitian=True)
-    values[told] = doubt @ (r.T @ (q.T @ residual) - before / usual**2) / sizes[told]
-    spread[told] = np.sqrt(np.diag(doubt)) / sizes[told]
-    inflated = math.sqrt(max(1.0, point.cost / max(ruler.freedom - point.x.size, 1)))
-    found = []
-    for suspect, left, std in zip(ruler.suspected, values.tolist(), (inflated * spread).tolist(), strict=True):
-        value = _joined(ruler.taken, suspect, left)
-        there = CERTAIN * std < abs(value) < PLAUSIBLE * suspect.width
-        found.append(Nuisance(suspect, value, value - 1.96 * std, value + 1.96 * std, there))
-    return tuple(found)
+    rows = ruler.whole(point)
+    reach = column_space(rows[:, 1:])
+    usual = np.array([s.width for s in ruler.suspected])
+    columns = across(reach, across(reach, ruler.span.columns * usual))
+    doubt = np.linalg.inv(columns.T @ columns + np.eye(usual.size))
+    values = usual * (doubt @ (columns.T @ rows[:, 0]))
+    spread = usual * np.sqrt(np.diag(doubt) * max(1.0, point.cost / max(ruler.freedom - point.x.size, 1)))
+    reached = zip(ruler.suspected, values.tolist(), (1.96 * spread).tolist(), strict=True)
+    return tuple(Nuisance(suspect, value, value - half, value + half) for suspect, value, half in reached)
 
 
-def _joined(taken: Mapping[Suspect, float], suspect: Suspect, rest: float) -> float:
-    """A nuisance in the measurements as they came, from what is left of it in corrected ones."""
-    before = taken.get(suspect, 0.0)
-    if suspect.kind == GAIN:
-        return (1 + before) * (1 + rest) - 1
-    if suspect.kind == OFFSET:
-        return before + (1 + taken.get(replace(suspect, kind=GAIN), 0.0)) * rest
-    return before + rest
+def evidence(ruler: Ruler, point: Evaluation, changes: Sequence[Array] = ()) -> Evidence:
+    """What speaks for nuisances and effects at a fitted point.
+
+    Args:
+        ruler: that allows for every suspect.
+        changes: m of (n_r,) of the residuals by effects, where no nuisance is allowed for.
+    """
+    rows = ruler.whole(point)
+    both = np.column_stack(changes) if len(changes) else np.zeros((rows.shape[0], 0))
+    columns = ruler.span.columns if ruler.suspected else np.zeros((rows.shape[0], 0))
+    return Evidence.of(ruler.suspected, columns, rows[:, 0], both, column_space(rows[:, 1:]))
 
 
-def told_apart(ruler: Ruler, what: Extended, point: Evaluation) -> tuple[Ruler, Evaluation]:
+def told_apart(ruler: Ruler, point: Evaluation) -> tuple[Ruler, Evaluation]:
     """The ruler without suspects that the model's parameters can stand in for whole, and the point as it counts it.
 
     Such a suspect takes nothing from an effect's footprint that refitting does not take anyway, and would leave those
     parameters open.
     """
-    rows = ruler.whole(what, point) if ruler.suspected else None
-    if rows is None:
+    if not ruler.suspected:
         return ruler, point
+    rows = ruler.whole(point)
     reach = column_space(rows[:, 1:])
     shares = [_share(across(reach, column), column) for column in ruler.span.columns.T]
     kept = tuple(s for s, share in zip(ruler.suspected, shares, strict=True) if share > _ALIKE)
@@ -125,129 +111,119 @@ def _share(rest: Array, column: Array) -> float:
 
 @dataclass(frozen=True)
 class Settled:
-    """A fitted model and its rulers once the nuisances beside it are known.
+    """A fitted model with the nuisances that are to blame beside it, and no others.
 
     Args:
-        seen: estimates of every suspect.
-        near: (n,) of the model, around which they are allowed for.
+        whole: the model where every suspect is allowed for, by
+        ruler: which has the nuisances' shapes from that model.
+        at: refitted where only those in `blame` are allowed for, by
+        lean: the ruler.
+        blame: who is.
+        seen: sizes of these.
     """
 
+    whole: Fitted
     ruler: Ruler
-    held: Ruler | None
     at: Fitted
+    lean: Ruler
+    blame: Blame
     seen: tuple[Nuisance, ...]
-    near: Array
+
+    @staticmethod
+    def as_is(ruler: Ruler, at: Fitted) -> Settled:
+        """A model that nothing was refitted for."""
+        return Settled(at, ruler, at, ruler, Blame(frozenset(), at.point.cost, 0.0), ())
 
     @property
-    def targets(self) -> tuple[Target, ...]:
-        """Measurements without the nuisances that were found."""
-        return (*self.ruler.targets, *(self.held.targets if self.held else ()))
+    def amounts(self) -> dict[Suspect, float]:
+        """Sizes to take off what was measured."""
+        return {n.suspect: n.value for n in self.seen}
 
 
-def settled(ruler: Ruler, held: Ruler | None, at: Fitted, *, rounds: int = 2) -> Settled:
-    """Takes the nuisances that are found beside a fitted model off the measurements and refits, until none changes.
+def settled(ruler: Ruler, at: Fitted) -> Settled:
+    """Finds who is to blame beside a model that was refitted with every suspect allowed for, and refits with only them.
 
-    Those that were taken off before and are not found beside this model are put back. What is left of each stays
-    allowed for to first order, found or not, so that a count changes little by this; what is reported, held out or
-    drawn is then free of them.
+    A suspect that nothing speaks for would make parameters and effects less certain than they are, and would take its
+    share of an effect that looks like it.
     """
-    if ruler.taken and at.what.effects:
-        ruler, held, at = _put_back(ruler, held, at)
-    anchored, _ = taken_off(ruler, None, ruler.taken, at.what, at.point.x)
-    first = Settled(anchored, held, recounted(ruler, anchored, at), (), at.point.x)
-    done = first = replace(first, seen=nuisances(anchored, at.what, first.at.point))
-    if first.at.point.cost > _FAR * ruler.freedom:
-        return first
-    for _ in range(rounds):
-        if not _moved(done.ruler, done.seen):
+    ruler, whole = _nearer(ruler, at)
+    what, x, rows = at.what, at.point.x, ruler.whole(whole.point)
+    blame = evidence(ruler, whole.point).alone()
+    for _ in range(_ROUNDS):
+        lean = ruler.with_other(suspected=tuple(s for s in ruler.suspected if s in blame.suspects))
+        x, rows = _lean_refit(lean, what, x, rows)
+        before, blame = blame, evidence(ruler, ruler.counted(x, rows)).alone()
+        if blame.suspects == before.suspects:
             break
-        done = _again(done)
-    if done is first:
-        done = replace(done, at=_lean_refit(done.ruler, done.at))
-        if done.at is not first.at:
-            done = replace(done, seen=nuisances(done.ruler, at.what, done.at.point))
-    return done if done.at.point.cost < _EXPLAINED * ruler.freedom else first
+    return _settled(ruler, whole, lean, x, rows)
 
 
-def _put_back(ruler: Ruler, held: Ruler | None, at: Fitted) -> tuple[Ruler, Ruler | None, Fitted]:
-    """Measurements as they came, with the model refitted: what a poorer model took off was physics."""
-    ruler, held = taken_off(ruler, held, {}, at.what, at.point.x)
-    first = ruler.evaluation(at.what, at.point.x)
-    if not first.good:
-        return ruler, held, at
-    end = ruler.evaluation(at.what, chord_refit(ruler, at.what, first).x)
-    return ruler, held, Fitted(at.what, end if end.good and end.cost < first.cost else first)
+def settled_before(ruler: Ruler, at: Fitted, x: Array, suspected: Sequence[Suspect]) -> Settled:
+    """The same where it was found out earlier, bit for bit.
+
+    Args:
+        x: (n,) where the refit ended.
+        suspected: who was to blame.
+    """
+    ruler, whole = _nearer(ruler, at)
+    lean = ruler.with_other(suspected=tuple(suspected))
+    moved = not np.array_equal(x, whole.point.x)
+    rows = ruler.plain.whole(ruler.plain.evaluation(at.what, x)) if moved else ruler.whole(whole.point)
+    return _settled(ruler, whole, lean, x, rows)
+
+
+def _settled(ruler: Ruler, whole: Fitted, lean: Ruler, x: Array, rows: Array) -> Settled:
+    at, blame = Fitted(whole.what, lean.counted(x, rows)), evidence(ruler, ruler.counted(x, rows)).alone()
+    return Settled(whole, ruler, at, lean, blame, nuisances(lean, at.point))
+
+
+def _nearer(ruler: Ruler, at: Fitted) -> tuple[Ruler, Fitted]:
+    """With the shapes of the nuisances from a model."""
+    near = _answers(ruler, at.what, at.point.x)
+    if near is None:
+        return ruler, at
+    closer = ruler.with_other(near=tuple(near))
+    return closer, recounted(ruler, closer, at)
 
 
 def held_beside(ruler: Ruler, held: Ruler, at: Fitted) -> Ruler:
-    """What is held out without the nuisances that a model's own fit asks for, found or not.
+    """What is held out without the nuisances that a model's own fit asks for.
 
     So each model is judged with the sensors it would have: one that explains an offset by physics is not held against
     measurements from which another model's offset was taken off.
+
+    Args:
+        ruler: that allows for those.
     """
-    seen = nuisances(ruler, at.what, at.point)
-    if not seen:
-        return held
-    return _with(held, {n.suspect: n.value for n in seen if math.isfinite(n.high)})
+    return corrected(held, {n.suspect: n.value for n in nuisances(ruler, at.point)})
 
 
-def _again(done: Settled) -> Settled:
-    """Takes off what was found, and refits."""
-    what, near = done.at.what, done.at.point.x
-    ruler, held = taken_off(done.ruler, done.held, {n.suspect: n.value for n in done.seen if n.found}, what, near)
-    at = _lean_refit(ruler, Fitted(what, ruler.evaluation(what, near)))
-    return Settled(ruler, held, at, nuisances(ruler, what, at.point), near)
+def corrected(ruler: Ruler, amounts: Mapping[Suspect, float]) -> Ruler:
+    """The ruler of what would have been measured without nuisances of these sizes."""
+    return ruler.with_other(targets=undisturbed(ruler.targets, amounts)) if amounts else ruler
+
+
+def undisturbed(targets: Sequence[Target], amounts: Mapping[Suspect, float]) -> tuple[Target, ...]:
+    """What would have been measured without nuisances of these sizes."""
+    return tuple(_target(target, amounts) for target in targets) if amounts else tuple(targets)
 
 
 def recounted(old: Ruler, new: Ruler, at: Fitted) -> Fitted:
     """The same point where only nuisances are allowed for otherwise; nothing is run that was run before."""
-    rows = old.whole(at.what, at.point)
-    return at if rows is None else Fitted(at.what, new.counted(at.point.x, rows))
+    return Fitted(at.what, new.counted(at.point.x, old.whole(at.point)))
 
 
-def taken_off(
-    ruler: Ruler, held: Ruler | None, amounts: Mapping[Suspect, float], what: Extended, near: Array
-) -> tuple[Ruler, Ruler | None]:
-    """Rulers of measurements without nuisances of these sizes, and with none but these taken off.
-
-    Args:
-        near: (n,) of the model, around which the rest is allowed for.
-    """
-    ruler, held = _with(ruler, amounts), None if held is None else _with(held, amounts)
-    answers = _answers(ruler, what, near)
-    return (ruler if answers is None else ruler.with_other(near=tuple(answers))), held
-
-
-def _lean_refit(ruler: Ruler, at: Fitted) -> Fitted:
-    """The best point where only those nuisances are allowed for that were found; the same where it is that already.
-
-    A parameter that one of the others could stand in for is then told by the data, and what is held out, where
-    nuisances are not allowed for, is counted with it.
-    """
-    rows = ruler.whole(at.what, at.point)
-    if rows is None:
-        return at
-    lean = ruler.with_other(suspected=tuple(s for s in ruler.suspected if s in ruler.taken))
-    first = lean.counted(at.point.x, rows)
+def _lean_refit(ruler: Ruler, what: Extended, x: Array, rows: Array) -> tuple[Array, Array]:
+    """The best point (n,), with residuals and slopes (n_r, 1 + n) as measured; the same where it is that already."""
+    first = ruler.counted(x, rows)
     reach = column_space(first.jacobian)
     if float(np.sum((reach.T @ first.residual) ** 2)) < _WORTH:
-        return at
-    end = ruler.evaluation(at.what, chord_refit(lean, at.what, first).x)
-    return Fitted(at.what, end) if end.good else at
-
-
-def _moved(ruler: Ruler, seen: Sequence[Nuisance]) -> bool:
-    """Whether some nuisance is not where it was taken off, by more than half its standard deviation."""
-    return any(
-        abs((n.value if n.found else 0.0) - ruler.taken.get(n.suspect, 0.0)) > 0.5 * (n.high - n.low) / 3.92
-        for n in seen
-    )
-
-
-def _with(ruler: Ruler, amounts: Mapping[Suspect, float]) -> Ruler:
-    measured = ruler.measured or ruler.targets
-    targets = tuple(_target(t, amounts) for t in measured)
-    return ruler.with_other(targets=targets, taken=dict(amounts), measured=measured)
+        return x, rows
+    plain = ruler.plain
+    end = plain.evaluation(what, chord_refit(ruler, what, first).x)
+    if not end.good or ruler.counted(end.x, plain.whole(end)).cost >= first.cost:
+        return x, rows
+    return end.x, plain.whole(end)
 
 
 def _target(target: Target, amounts: Mapping[Suspect, float]) -> Target:
@@ -337,12 +313,12 @@ def _wrong_start(ruler: Ruler, target: LogTarget, simulated: Array) -> bool:
 
 
 def in_words(seen: Sequence[Nuisance], units: Mapping[str, str]) -> list[str]:
-    """A sentence for each nuisance that was found.
+    """A sentence for each nuisance.
 
     Args:
         units: of the signals.
     """
-    return [_sentence(n, units) for n in seen if n.found]
+    return [_sentence(n, units) for n in seen]
 
 
 def _sentence(n: Nuisance, units: Mapping[str, str]) -> str:

@@ -34,9 +34,14 @@ def inflation(point: Evaluation, cost: float | None = None) -> float:
     return max(1.0, (point.cost if cost is None else cost) / max(point.residual.size - point.x.size, 1))
 
 
-def score(before: float, after: float, extra: int, count: int) -> float:
-    """Fall of the sum of squares less the cost of the parameters it took (Schwarz 1978, Annals of Statistics 6:461)."""
-    return before - after - extra * math.log(max(count, 2))
+def price(extra: int, count: int) -> float:
+    """What parameters cost, as a fall of the sum of squares (Schwarz 1978, Annals of Statistics 6:461).
+
+    Args:
+        extra: parameters.
+        count: residuals.
+    """
+    return extra * math.log(max(count, 2))
 
 
 def p_value(gain: float, extra: int, *, scale: float) -> float:
@@ -61,9 +66,3 @@ def disagreement(before: Array, after: Array) -> float:
     """
     distance = float(np.linalg.norm(before - after))
     return float(after @ after - before @ before) / (2 * distance) if distance > 0 else 0.0
-
-
-def excess(point: Evaluation) -> float:
-    """The sum of squares above its expectation, in its standard deviations."""
-    freedom = max(point.residual.size - point.x.size, 1)
-    return (point.cost - freedom) / math.sqrt(2 * freedom)

@@ -8,11 +8,12 @@ from pathlib import Path
 import numpy as np
 
 from pysim.diagnose.answer import answered, decided
+from pysim.diagnose.corrections import Settled, recounted
 from pysim.diagnose.fitted import Fitted
 from pysim.diagnose.locate import locate
 from pysim.diagnose.next_test import next_test
 from pysim.diagnose.refit import refit_from
-from pysim.diagnose.rounds import Tried, refitted, rows, screened
+from pysim.diagnose.rounds import Tried, name_of, refitted, rows, screened
 from pysim.diagnose.screen import screen
 from pysim.diagnose.search import search
 from pysim.diagnose.story import Say, Story, begin
@@ -58,7 +59,7 @@ def diagnose(
         final = search(story, nominal, base, most)
     verdict, reason = decided(story, base, final)
     missing = _missing(story, final) if verdict == UNKNOWN else ()
-    return answered(story, final, verdict, reason, missing, _next_test(story))
+    return answered(story, final.at, verdict, reason, missing, _next_test(story))
 
 
 def against(
@@ -80,8 +81,13 @@ def against(
     """
     told: dict[str, object] = {"step": "against"}
     story = begin(subject, seed=0, workers=workers, progress=progress, journal=journal, settings=told)
-    last = _refit(story, _prior(story)) if refitted else _prior(story)
-    return answered(story, last, *decided(story, last, last, tried=False))
+    prior = _prior(story)
+    last = (
+        _refit(story, prior)
+        if refitted
+        else Settled.as_is(story.ruler.plain, recounted(story.ruler, story.ruler.plain, prior))
+    )
+    return answered(story, last.at, *decided(story, last, last, tried=False))
 
 
 def rank(
@@ -103,10 +109,10 @@ def rank(
     story = begin(subject, seed=seed, workers=workers, progress=progress, journal=journal, settings={"step": "rank"})
     nominal = _prior(story)
     base = _refit(story, nominal)
-    tried = screened(story, base)
+    tried = screened(story, base.whole)
     found = refitted(story, tried, nominal if tried.bent else None) if tried.promises else {}
     story.ranking += rows(story, tried, found, 1)
-    return answered(story, base, *decided(story, base, base))
+    return answered(story, base.at, *decided(story, base, base))
 
 
 def add(
@@ -131,7 +137,7 @@ def add(
     told: dict[str, object] = {"step": "add", "effects": names}
     story = begin(subject, seed=0, workers=workers, progress=progress, journal=journal, settings=told)
     base, current = _with(story, effects)
-    return answered(story, current, *decided(story, base, current))
+    return answered(story, current.at, *decided(story, base, current))
 
 
 def located(
@@ -156,7 +162,7 @@ def located(
     told: dict[str, object] = {"step": "located", "effects": [effect.name for effect in effects]}
     story = begin(subject, seed=0, workers=workers, progress=progress, journal=journal, settings=told)
     base, current = _with(story, effects)
-    return answered(story, current, *decided(story, base, current, tried=False), _missing(story, current))
+    return answered(story, current.at, *decided(story, base, current, tried=False), _missing(story, current))
 
 
 def _next_test(story: Story) -> NextTest | None:
@@ -175,28 +181,28 @@ def _next_test(story: Story) -> NextTest | None:
     return found
 
 
-def _missing(story: Story, current: Fitted) -> tuple[Missing, ...]:
+def _missing(story: Story, current: Settled) -> tuple[Missing, ...]:
     """Terms at the places of a fitted model; at its inputs and outputs where it cannot be looked into."""
     story.now("looking where a term is missing")
-    inside, ruler = story.subject.inside, story.ruler_of(current.what)
+    inside = story.subject.inside
     slots, probed = ((), None) if inside is None else (inside.slots, inside.probed)
-    found = locate(story.subject, ruler, current, slots=slots, probed=probed, progress=story.say)
+    found = locate(story.subject, current.lean, current.at, slots=slots, probed=probed, progress=story.say)
     story.stage("locate")
     return found
 
 
-def _with(story: Story, effects: Sequence[Effect]) -> tuple[Fitted, Fitted]:
+def _with(story: Story, effects: Sequence[Effect]) -> tuple[Settled, Settled]:
     """The refitted base model, and with effects added one after the other."""
     nominal = _prior(story)
     current = base = _refit(story, nominal)
     for number, effect in enumerate(effects):
         story.now(f"adding {effect.name}")
-        end = _added(story, current, nominal if number == 0 else None, effect)
+        end = _added(story, current.whole, nominal if number == 0 else None, effect)
         if end is None:
             raise BadInput(f"the model cannot be simulated with {effect.name}; leave it out, or check its bounds")
-        current = end
+        current = story.settle(end, name_of(end))
         story.stage("add")
-        story.enter(effect.name, current)
+        story.enter(effect.name, current.at)
     return base, current
 
 
@@ -211,26 +217,26 @@ def _prior(story: Story) -> Fitted:
         raise BadInput(f"{what.model.path.name} cannot be simulated through the tests at its own parameters")
     nominal = Fitted(what, first)
     story.stage("compare")
-    story.enter("prior", nominal)
+    story.enter("prior", recounted(story.ruler, story.ruler.plain, nominal))
     return nominal
 
 
-def _refit(story: Story, nominal: Fitted) -> Fitted:
+def _refit(story: Story, nominal: Fitted) -> Settled:
     """The base model refitted."""
     story.now("refitting the model")
     base = story.fitted(nominal.what, "base", lambda: refit_from(story.ruler, nominal.what, nominal.point))
     assert base is not None  # the start was good, so the end is
-    base = story.settle(base, "base")
+    end = story.settle(base, "base")
     story.stage("refit")
-    story.enter("refit", base)
-    return base
+    story.enter("refit", end.at)
+    return end
 
 
 def _added(story: Story, current: Fitted, nominal: Fitted | None, effect: Effect) -> Fitted | None:
     """The model refitted with an effect, whether that is any use or not."""
     contender = story.extended(current, effect)
     footprints = screen(current, [contender])
-    tried = Tried(current, {effect.name: contender}, footprints, 0.0)
+    tried = Tried(current, {effect.name: contender}, footprints, {}, 0.0)
     found = refitted(story, tried, nominal if tried.bent else None, least=-1.0)
     if effect.name in found:
         return found[effect.name]

@@ -23,7 +23,7 @@ GAIN, OFFSET, SHIFT = "gain", "offset", "shift"
 # that an offset of the sensor is one of the valve, and only the logger's is left.
 _GAIN, _OFFSET, _OWN, _SHIFT, _SAMPLES = 0.01, 0.005, 0.001, 1e-3, 0.25
 # What a suspect of unknown size may do, in standard deviations of the noise; a tenth of it counts for nothing.
-_ANY = 1e6
+_ANY = 1e7
 
 
 @dataclass(frozen=True)
@@ -91,6 +91,11 @@ class Span:
     def across(self, rows: Array) -> Array:
         """What of rows (n_r, m) counts."""
         return rows - self.taken(self.along(rows)) if self.rank else rows
+
+    def undone(self, rows: Array) -> Array:
+        """The rows (n_r, m) of which these are what counts; nothing comes back along a suspect of unknown size."""
+        back = np.divide(1.0, self.kept, out=np.ones_like(self.kept), where=self.kept > 0) - 1
+        return rows + self.basis @ (back[:, None] * self.along(rows)) if self.rank else rows
 
     def taken(self, along: Array) -> Array:
         """What does not count (n_r, m) of rows with components (rank, m)."""

@@ -28,19 +28,6 @@ STEP = 1e-2
 
 
 @dataclass(frozen=True)
-class Counted(Evaluation):
-    """A point of a ruler.
-
-    Args:
-        along: (rank, 1 + n) residuals and slopes along what the suspected nuisances span, as they were.
-        origin: (n,) where that is so; a point that was moved without another run has its own x.
-    """
-
-    along: Array = field(default_factory=lambda: np.zeros((0, 0)), repr=False)
-    origin: Array = field(default_factory=lambda: np.zeros(0), repr=False)
-
-
-@dataclass(frozen=True)
 class Ruler:
     """Runs models through the tests and counts residuals in standard deviations of the noise.
 
@@ -52,8 +39,6 @@ class Ruler:
         skips: per target, s at its start that do not count; none where empty.
         suspected: nuisances that are allowed for: residuals and slopes are counted across what they span.
         near: per run, what a model near the plant answers (n_t, n_y): the shape of the nuisances.
-        taken: nuisances that the targets are corrected for already, and
-        measured: the targets before that; the same where empty.
         whitenings, span: what follows from all that; left out, they are worked out.
     """
 
@@ -64,8 +49,6 @@ class Ruler:
     skips: tuple[float, ...] = ()
     suspected: tuple[Suspect, ...] = ()
     near: tuple[Array, ...] = field(default=(), repr=False)
-    taken: Mapping[Suspect, float] = field(default_factory=dict)
-    measured: tuple[Target, ...] = field(default=(), repr=False)
     whitenings: tuple[Whitening, ...] = field(default=(), repr=False)
     span: Span = field(default=NOTHING, repr=False)
 
@@ -87,6 +70,11 @@ class Ruler:
     def with_other(self, **changed: Any) -> Ruler:
         """The ruler with other targets, noise, skips or nuisances."""
         return replace(self, **{**changed, "whitenings": (), "span": NOTHING})
+
+    @property
+    def plain(self) -> Ruler:
+        """The ruler that allows for no nuisance."""
+        return replace(self, suspected=(), span=NOTHING)
 
     @property
     def freedom(self) -> int:
@@ -133,7 +121,7 @@ class Ruler:
 
     def evaluation(self, what: Extended, x: Array) -> Evaluation:
         """Residuals and their slopes: exact for a model without events, else by one-sided differences."""
-        whole = replace(self, span=NOTHING)
+        whole = self.plain
         residual = whole.at(what, x)
         if residual is None:
             return bad_point(x, "the model could not be simulated")
@@ -142,31 +130,15 @@ class Ruler:
             return bad_point(x, "the model could not be simulated beside this point")
         return self.counted(x, np.column_stack([residual, slopes]))
 
-    def counted(self, x: Array, rows: Array) -> Counted:
-        """A point from residuals and slopes (n_r, 1 + n) with nothing taken off."""
-        along, across = self.span.along(rows), self.span.across(rows)
+    def counted(self, x: Array, rows: Array) -> Evaluation:
+        """A point from residuals and slopes (n_r, 1 + n) where no nuisance is allowed for."""
+        across = self.span.across(rows)
         residual = across[:, 0].copy()
-        return Counted(x, float(residual @ residual), residual, across[:, 1:].copy(), along=along, origin=x)
+        return Evaluation(x, float(residual @ residual), residual, across[:, 1:].copy())
 
-    def whole(self, what: Extended, point: Evaluation) -> Array | None:
-        """Residuals and slopes (n_r, 1 + n) of a point of this ruler with what lies along nuisances; None where the
-        model fails there.
-
-        A point that was moved since its slopes were run has its residuals run again, one without slopes has both.
-        """
-        if not (isinstance(point, Counted) and point.along.shape == (self.span.rank, 1 + point.x.size)):
-            point = self.evaluation(what, point.x)
-        if not isinstance(point, Counted):
-            return None
-        rows = np.column_stack([point.residual, point.jacobian])
-        if self.span.rank:
-            rows += self.span.taken(point.along)
-        if not np.array_equal(point.origin, point.x):
-            residual = replace(self, span=NOTHING).at(what, point.x)
-            if residual is None:
-                return None
-            rows[:, 0] = residual
-        return rows
+    def whole(self, point: Evaluation) -> Array:
+        """Residuals and slopes (n_r, 1 + n) of a point of this ruler where no nuisance is allowed for."""
+        return self.span.undone(np.column_stack([point.residual, point.jacobian]))
 
     def has_events(self, what: Extended, x: Array) -> bool:
         """Whether the shortest test makes more events than its command has pieces."""

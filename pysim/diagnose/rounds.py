@@ -4,15 +4,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, astuple, dataclass, replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from pysim.diagnose import decide
+from pysim.diagnose.blame import Blame
 from pysim.diagnose.contenders import Contender
+from pysim.diagnose.corrections import evidence
 from pysim.diagnose.fitted import Fitted
+from pysim.diagnose.nuisance import Suspect
 from pysim.diagnose.null import chance
 from pysim.diagnose.refit import chord_refit, refit_from
 from pysim.diagnose.screen import Footprint, across, column_space, footprint, per_effect, screen
@@ -43,13 +46,16 @@ class Tried:
     Args:
         current: the model so far.
         contenders: by the name of the effect.
-        footprints: of all, the best gain first.
+        footprints: of all, the best gain first; every nuisance is allowed for.
+        instead: by the name of the effect, by how much it is more likely, with the nuisances that it leaves to blame,
+            than those that are to blame without it.
         limit: gain that chance alone exceeds seldom.
     """
 
     current: Fitted
     contenders: dict[str, Contender]
     footprints: tuple[Footprint, ...]
+    instead: dict[str, float]
     limit: float
 
     @property
@@ -60,7 +66,16 @@ class Tried:
     @property
     def promises(self) -> bool:
         """Whether some effect promises more than chance does, or straight lines are not to be trusted."""
-        return self.bent or (bool(self.footprints) and self.footprints[0].gain >= self.limit)
+        return self.bent or any(self.worth(head) >= self.limit for head in self.heads)
+
+    @property
+    def heads(self) -> list[Footprint]:
+        """The best footprint of each effect, the most promising effect first."""
+        return sorted(per_effect(self.footprints), key=lambda head: -self.worth(head))
+
+    def worth(self, head: Footprint) -> float:
+        """What an effect promises: what it explains itself, or what it explains in place of nuisances."""
+        return max(head.gain, self.instead.get(head.effect.name, 0.0))
 
 
 def screened(story: Story, current: Fitted) -> Tried:
@@ -77,10 +92,19 @@ def screened(story: Story, current: Fitted) -> Tried:
     story.now(f"screening {len(contenders)} candidates")
     footprints = screen(current, list(contenders.values()))
     limit = chance(footprints, scale=1.0, seed=story.seed).limit
+    tried = Tried(current, contenders, footprints, _instead(story, current, footprints), limit)
     story.stage("screen")
-    heads = ", ".join(f"{f.effect.name} {f.gain:.4g}" for f in per_effect(footprints)[:3])
+    heads = ", ".join(f"{f.effect.name} {tried.worth(f):.4g}" for f in tried.heads[:3])
     story.say(f"screened {len(contenders)} effects: {heads}; by chance up to {limit:.3g}")
-    return Tried(current, contenders, footprints, limit)
+    return tried
+
+
+def _instead(story: Story, current: Fitted, footprints: Sequence[Footprint]) -> dict[str, float]:
+    found = evidence(story.ruler_of(current.what), current.point, [f.plain for f in footprints])
+    none, best = found.alone(), dict[str, float]()
+    for f, blame in zip(footprints, found.beside([f.signed for f in footprints]), strict=True):
+        best[f.effect.name] = max(best.get(f.effect.name, 0.0), blame.over(none))
+    return best
 
 
 def refitted(
@@ -94,18 +118,20 @@ def refitted(
     """
     story.now("refitting the promising candidates")
     found: dict[str, Fitted] = {}
-    for head in _promising(per_effect(tried.footprints)):
+    for head in _promising(tried):
         one = tried.contenders[head.effect.name]
         part = f"{name_of(tried.current)} + {head.effect.name} on probation"
-        kept = story.journal.once(part, lambda one=one: _kept(_probation(tried, one, nominal)))  # type: ignore[misc]
+        kept = story.journal.once(part, lambda one=one: _kept(one, _probation(tried, one, nominal)))  # type: ignore[misc]
         if kept is not None:
             x, cost = np.array(kept["x"]), float(kept["cost"])
             found[head.effect.name] = Fitted(one.what, Evaluation(x, cost, np.zeros(0), np.zeros((0, x.size))))
+            story.know(found[head.effect.name], Blame(frozenset(Suspect(*s) for s in kept["blame"]), *kept["evidence"]))
     story.stage("refit candidates")
-    order = by_score(tried.current, found) if _share(tried.current, found) > least else []
-    best = score(tried.current, found[order[0]]) if order else 0.0
+    worth = not tried.bent or _share(tried.current, found) > least
+    order = by_score(story, tried.current, found) if worth else []
+    best = score(story, tried.current, found[order[0]]) if order else 0.0
     for name in order[:_FINAL]:
-        if score(tried.current, found[name]) < _NEAR * best and name != order[0]:
+        if score(story, tried.current, found[name]) < _NEAR * best and name != order[0]:
             continue
         end = _leader(story, tried, tried.contenders[name], found[name])
         if end is not None:
@@ -124,14 +150,19 @@ def _share(current: Fitted, found: dict[str, Fitted]) -> float:
     return decide.explained(current.point.cost - cost, current.point.cost, freedom)
 
 
-def _promising(heads: Sequence[Footprint]) -> list[Footprint]:
+def _promising(tried: Tried) -> list[Footprint]:
     """The first of the ranking; several always, since the promise is one to first order only."""
-    enough = [k < 3 or f.gain > _PROMISE * heads[0].gain for k, f in enumerate(heads)]
+    heads = tried.heads
+    enough = [k < 3 or tried.worth(f) > _PROMISE * tried.worth(heads[0]) for k, f in enumerate(heads)]
     return [f for f, good in zip(heads[:_PROBATION], enough, strict=False) if good]
 
 
-def _kept(point: Evaluation | None) -> dict[str, Any] | None:
-    return None if point is None else {"x": point.x.tolist(), "cost": point.cost}
+def _kept(one: Contender, point: Evaluation | None) -> dict[str, Any] | None:
+    if point is None:
+        return None
+    blame = evidence(one.ruler, point).alone()
+    suspects = sorted(astuple(suspect) for suspect in blame.suspects)
+    return {"x": point.x.tolist(), "cost": point.cost, "blame": suspects, "evidence": [blame.cost, blame.price]}
 
 
 def _probation(tried: Tried, one: Contender, nominal: Fitted | None) -> Evaluation | None:
@@ -172,15 +203,20 @@ def _leader(story: Story, tried: Tried, one: Contender, at: Fitted) -> Fitted | 
     return story.fitted(one.what, f"{name_of(tried.current)} + {one.effect.name}", find)
 
 
-def score(current: Fitted, fitted: Fitted) -> float:
-    """What the effects added are worth."""
+def score(story: Story, current: Fitted, fitted: Fitted) -> float:
+    """What the effects added are worth, less the cost of their parameters."""
     extra = fitted.point.x.size - current.point.x.size
-    return decide.score(current.point.cost, fitted.point.cost, extra, current.point.residual.size)
+    return gain(story, current, fitted) - decide.price(extra, current.point.residual.size)
 
 
-def by_score(current: Fitted, found: dict[str, Fitted]) -> list[str]:
+def gain(story: Story, current: Fitted, fitted: Fitted) -> float:
+    """Fall of the sum of squares, each model with the nuisances that are to blame beside it."""
+    return story.blame(fitted).over(story.blame(current))
+
+
+def by_score(story: Story, current: Fitted, found: dict[str, Fitted]) -> list[str]:
     """Names, the best first."""
-    return sorted(found, key=lambda name: -score(current, found[name]))
+    return sorted(found, key=lambda name: -score(story, current, found[name]))
 
 
 def promise(tried: Tried, at: Fitted) -> float:
@@ -197,8 +233,8 @@ def promise(tried: Tried, at: Fitted) -> float:
     return max(again, default=0.0)
 
 
-def settled(story: Story, one: Fitted, other: Fitted) -> float:
-    """By how much the first's sum of squares is below the second's, both refitted at a finer integration."""
+def finer(story: Story, one: Fitted, other: Fitted) -> float:
+    """What a finer integration, both refitted, adds to the fall from the second's sum of squares to the first's."""
     ends = []
     for fitted in (one, other):
         fine = replace(story.ruler_of(fitted.what), solver=_FINE)
@@ -207,33 +243,33 @@ def settled(story: Story, one: Fitted, other: Fitted) -> float:
             return 0.0
         start = Evaluation(fitted.point.x, float(residual @ residual), residual, fitted.point.jacobian)
         ends.append(chord_refit(fine, fitted.what, start, steps=3).cost)
-    return ends[1] - ends[0]
+    return ends[1] - ends[0] - (other.point.cost - one.point.cost)
 
 
 def rows(story: Story, tried: Tried, found: dict[str, Fitted], number: int) -> list[Candidate]:
     """Every candidate considered, the refitted ones first, the best of each first."""
     current = tried.current.point
     freedom = current.residual.size - current.x.size
-    order = by_score(tried.current, found)
+    order = by_score(story, tried.current, found)
     listed = []
     for name in order:
         extra = found[name].point.x.size - current.x.size
-        gain = current.cost - found[name].point.cost
+        fall = gain(story, tried.current, found[name])
         scale = decide.inflation(current, found[name].point.cost)
-        share = decide.explained(gain, current.cost, freedom)
+        share = decide.explained(fall, current.cost, freedom)
         values = own_values(found[name], name)
-        worth = score(tried.current, found[name])
-        listed.append(Candidate(name, worth, decide.p_value(gain, extra, scale=scale), share, True, values, number))
-    heads = per_effect(tried.footprints)
-    useless = [f for f in _promising(heads) if found and f.effect.name not in found]
+        worth = score(story, tried.current, found[name])
+        listed.append(Candidate(name, worth, decide.p_value(fall, extra, scale=scale), share, True, values, number))
+    useless = [f for f in _promising(tried) if found and f.effect.name not in found]
     for f in useless:
-        price = len(f.effect.parameters) * math.log(max(current.residual.size, 2))
+        price = decide.price(len(f.effect.parameters), current.residual.size)
         listed.append(Candidate(f.effect.name, -price, 1.0, 0.0, True, f.values, number))
-    for f in heads:
+    for f in tried.heads:
         if f.effect.name not in [row.effect for row in listed]:
-            worth = f.gain - len(f.effect.parameters) * math.log(max(current.residual.size, 2))
-            share = decide.explained(f.gain, current.cost, freedom)
-            by_chance = decide.p_value(f.gain, 1, scale=1.0)
+            promised = tried.worth(f)
+            worth = promised - decide.price(len(f.effect.parameters), current.residual.size)
+            share = decide.explained(promised, current.cost, freedom)
+            by_chance = decide.p_value(promised, 1, scale=1.0)
             listed.append(Candidate(f.effect.name, worth, by_chance, share, False, f.values, number))
     return listed
 

@@ -34,11 +34,12 @@ class Footprint:
     Args:
         effect: which.
         values: its parameters, by their names as declared.
-        change: (n_r,) of the residuals.
+        change: (n_r,) of the residuals, as the ruler counts them.
         left: (n_r,) of it once the base model's parameters are refitted, to first order.
         size: sum of squares of `left`.
         gain: by how much the sum of squares falls with the best amount of it, refit included, to first order.
         amount: that amount, in units of this strength; zero where the sign is not allowed.
+        plain: (n_r,) of the residuals where no nuisance is allowed for.
     """
 
     effect: Effect
@@ -48,6 +49,7 @@ class Footprint:
     size: float
     gain: float
     amount: float
+    plain: Array = field(default_factory=lambda: np.zeros(0), repr=False)
 
     @property
     def signed(self) -> bool:
@@ -93,9 +95,13 @@ def _footprints(
     current: Fitted, one: Contender, grid: Sequence[dict[str, float]], span: Array, left_over: Array
 ) -> Iterator[Footprint]:
     settings = [setting(current.what, one.what, one.effect, current.point.x, values) for values in grid]
-    for values, residual in zip(grid, one.ruler.residuals(one.what.model, settings), strict=True):
+    before = one.ruler.whole(current.point)[:, 0]
+    for values, residual in zip(grid, one.ruler.plain.residuals(one.what.model, settings), strict=True):
         if residual is not None:
-            yield from footprint(one.effect, values, residual - current.point.residual, span, left_over)
+            plain = residual - before
+            change = one.ruler.span.across(plain[:, None])[:, 0]
+            for found in footprint(one.effect, values, change, span, left_over):
+                yield replace(found, plain=plain)
 
 
 def footprint(

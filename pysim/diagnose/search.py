@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from functools import partial
 from typing import Any
@@ -11,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pysim.diagnose import decide
+from pysim.diagnose.corrections import Settled
 from pysim.diagnose.fitted import Fitted
 from pysim.diagnose.null import ALARM, leftover
 from pysim.diagnose.pairs import Pair, joint
@@ -19,13 +19,14 @@ from pysim.diagnose.rounds import (
     Tried,
     as_data,
     by_score,
+    finer,
+    gain,
     name_of,
     promise,
     refitted,
     rows,
     score,
     screened,
-    settled,
     start_amount,
 )
 from pysim.diagnose.screen import across, column_space
@@ -45,16 +46,16 @@ _PAIRS, _TOGETHER = 3, 1.5
 _QUIET, _HOPE = 0.05, 0.5
 
 
-def search(story: Story, nominal: Fitted, base: Fitted, most: int) -> Fitted:
+def search(story: Story, nominal: Fitted, base: Settled, most: int) -> Settled:
     """Add effects while the data demand one; the model with all of them."""
     current = base
     for number in range(1, most + 1):
-        found = _round(story, current, nominal if number == 1 else None, number, most)
+        found = _round(story, current.whole, nominal if number == 1 else None, number, most)
         if found is None:
             break
-        current = _without_the_needless(story, found)
-        current = story.settle(current, name_of(current))
-        story.enter(current.what.effects[-1].name, current)
+        needed = _without_the_needless(story, found)
+        current = story.settle(needed, name_of(needed))
+        story.enter(needed.what.effects[-1].name, current.at)
         if story.journal.once(f"round {number}", dict)["done"]:
             break
     return current
@@ -89,7 +90,7 @@ def _played(story: Story, current: Fitted, nominal: Fitted | None, number: int, 
     found = refitted(story, tried, nominal if tried.bent else None)
     listed = rows(story, tried, found, number)
     answer["rows"] = as_data(listed)
-    order = by_score(current, {name: one for name, one in found.items() if one.point.residual.size})
+    order = by_score(story, current, {name: one for name, one in found.items() if one.point.residual.size})
     if order:
         leader, ties = _first(story, current, found, order)
         answer["ties"] = [ties] if len(ties) > 1 else []
@@ -130,7 +131,7 @@ def _together(story: Story, tried: Tried, found: dict[str, Fitted]) -> list[str]
     story.stage("refit pairs")
     if not ends:
         return []
-    best = max(ends, key=lambda names: score(tried.current, ends[names]))
+    best = max(ends, key=lambda names: score(story, tried.current, ends[names]))
     return [] if _objection(story, tried.current, ends[best]) else list(best)
 
 
@@ -169,7 +170,7 @@ def _without_the_needless(story: Story, found: Fitted) -> Fitted:
         what = extended(story.subject, rest)
         lean = story.fitted(what, f"{name_of(found)} without {effect.name}", partial(_without, story, found, what))
         story.stage("prune")
-        if lean is not None and score(lean, found) <= 0:
+        if lean is not None and score(story, lean, found) <= 0:
             story.say(
                 f"{effect.name} is not needed any more: sum of squares {found.point.cost:.6g} -> {lean.point.cost:.6g}"
             )
@@ -187,7 +188,7 @@ def _without(story: Story, found: Fitted, what: Extended) -> tuple[Evaluation, A
         return None
     start = Evaluation(x, float(residual @ residual), residual, found.point.jacobian[:, columns])
     end = chord_refit(ruler, what, start, steps=6)
-    price = (found.point.x.size - x.size) * math.log(found.point.residual.size)
+    price = decide.price(found.point.x.size - x.size, found.point.residual.size)
     if end.cost - found.point.cost > 5 * price + 0.5 * (start.cost - found.point.cost):
         return None
     first = ruler.evaluation(what, end.x)
@@ -208,13 +209,12 @@ def _first(story: Story, current: Fitted, found: dict[str, Fitted], order: Seque
     seen those. They do not overrule a clear score.
     """
     leader, scale = order[0], decide.inflation(found[order[0]].point)
-    worth = {name: score(current, found[name]) for name in order}
+    worth = {name: score(story, current, found[name]) for name in order}
     near = [name for name in order[1:] if worth[leader] - worth[name] < decide.TIE * scale]
     ties = [leader]
     for name in near:
         story.now(f"settling {leader} against {name}")
-        priced = found[name].point.x.size - found[leader].point.x.size
-        ahead = settled(story, found[leader], found[name]) + priced * math.log(current.point.residual.size)
+        ahead = worth[leader] - worth[name] + finer(story, found[leader], found[name])
         ahead += _held_cost(story, found[name]) - _held_cost(story, found[leader])
         if abs(ahead) < decide.TIE * scale:
             ties.append(name)
@@ -232,16 +232,16 @@ def _objection(story: Story, current: Fitted, best: Fitted) -> str:
     """Why the best is not added; "" where it is."""
     name, point = best.what.effects[-1].name, current.point
     freedom = point.residual.size - point.x.size
-    gain, extra = point.cost - best.point.cost, best.point.x.size - point.x.size
-    share = decide.explained(gain, point.cost, freedom)
-    chance = decide.p_value(gain, extra, scale=decide.inflation(best.point)) * len(story.subject.catalogue)
-    if score(current, best) <= 0 or chance > ALARM:
+    fall, extra = gain(story, current, best), best.point.x.size - point.x.size
+    share = decide.explained(fall, point.cost, freedom)
+    chance = decide.p_value(fall, extra, scale=decide.inflation(best.point)) * len(story.subject.catalogue)
+    if score(story, current, best) <= 0 or chance > ALARM:
         return f"{name} gains no more than chance"
-    if share < decide.FAIR:
+    if point.cost > 2 * freedom and share < decide.FAIR:
         return f"{name} takes {100 * share:.1f} % of the misfit: not enough to be named"
     before, after = story.held_out(current), story.held_out(best)
     if before is None or after is None or decide.disagreement(before, after) <= decide.AGAINST:
         return ""
-    if float(after @ after - before @ before) > gain:
+    if float(after @ after - before @ before) > fall:
         return f"{name} makes what is held out worse by more than it gains: not named"
     return ""

@@ -11,18 +11,22 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from pysim.diagnose import decide
+from pysim.diagnose.blame import Blame
 from pysim.diagnose.contenders import Contender, suited
 from pysim.diagnose.corrections import (
     Nuisance,
     Settled,
     allowing,
     counting_in_words,
+    evidence,
     held_beside,
     in_words,
     recounted,
     settled,
-    taken_off,
+    settled_before,
     told_apart,
+    undisturbed,
 )
 from pysim.diagnose.doubt import held_still
 from pysim.diagnose.fitted import Fitted
@@ -33,6 +37,7 @@ from pysim.diagnose.residuals import Ruler, rulers
 from pysim.diagnose.subject import Extended, Subject, extended
 from pysim.diagnose.where import failures
 from pysim.identify.greybox.evaluation import Evaluation
+from pysim.identify.greybox.target import Target
 from pysim.identify.greybox.uncertainty import untold
 from pysim.simulate import Esdirk, Rodas
 from pysim.types import Candidate, Effect, LedgerStep, Stage, Told
@@ -73,6 +78,11 @@ class Story:
     suits: dict[tuple[str, ...], Ruler] = field(default_factory=dict)
     nuisances: tuple[Nuisance, ...] = ()
     tied: tuple[Fitted, Fitted] | None = None
+    blames: dict[tuple[object, ...], Blame] = field(default_factory=dict)
+    measured: tuple[Target, ...] = ()
+
+    def __post_init__(self) -> None:
+        self.measured = self.subject.targets
 
     def now(self, doing: str) -> None:
         """A new stage begins, in a few words."""
@@ -166,46 +176,44 @@ class Story:
         self.ruler, self.held = allowing(self.ruler, self.held, what, x)
         point = self.ruler.evaluation(what, x)
         if point.good:
-            self.ruler, point = told_apart(self.ruler, what, point)
+            self.ruler, point = told_apart(self.ruler, point)
         return point
 
-    def settle(self, at: Fitted, part: str) -> Fitted:
-        """Takes the nuisances beside a fitted model off the measurements; the model refitted where that matters."""
-        before = self.ruler_of(at.what)
-        done: list[Settled] = []
+    def blame(self, at: Fitted) -> Blame:
+        """Who is to blame beside a model that was refitted with every suspect allowed for."""
+        key = _where(at)
+        if key not in self.blames:
+            self.blames[key] = evidence(self.ruler_of(at.what), at.point).alone()
+        return self.blames[key]
+
+    def know(self, at: Fitted, blame: Blame) -> None:
+        """Who is to blame was found out before."""
+        self.blames[_where(at)] = blame
+
+    def settle(self, at: Fitted, part: str) -> Settled:
+        """The model with the nuisances that are to blame beside it taken off the measurements."""
+        ruler, done = self.ruler_of(at.what), list[Settled]()
 
         def found() -> Any:
-            done.append(settled(before, self.held, at))
-            end = done[0]
-            moved = not np.array_equal(end.at.point.x, at.point.x) or end.ruler.taken != before.taken
-            return {
-                "seen": [(*astuple(n.suspect), n.value, n.low, n.high, n.found) for n in end.seen],
-                "taken": [(*astuple(suspect), value) for suspect, value in end.ruler.taken.items()],
-                "near": end.near.tolist(),
-                "x": end.at.point.x.tolist() if moved else None,
-            }
+            done.append(settled(ruler, at))
+            return {"x": done[0].at.point.x.tolist(), "blame": [astuple(s) for s in done[0].lean.suspected]}
 
         kept = self.journal.once(f"nuisances beside {part}", found)
-        self.nuisances = tuple(Nuisance(Suspect(*row[:4]), *row[4:]) for row in kept["seen"])
-        amounts = {Suspect(*row[:4]): row[4] for row in kept["taken"]}
-        ruler, self.held = taken_off(before, self.held, amounts, at.what, np.array(kept["near"]))
-        self.ruler = replace(ruler, solver=self.ruler.solver)
-        self.suits = {key: replace(ruler, solver=one.solver) for key, one in self.suits.items()}
-        targets = (*ruler.targets, *(self.held.targets if self.held else ()))
-        self.subject = replace(self.subject, targets=targets)
+        suspected = [Suspect(*row) for row in kept["blame"]]
+        end = done[0] if done else settled_before(ruler, at, np.array(kept["x"]), suspected)
+        self.ruler = replace(end.ruler, solver=self.ruler.solver)
+        self.suits = {key: replace(end.ruler, solver=one.solver) for key, one in self.suits.items()}
+        self.blames.clear()
+        self.subject = replace(self.subject, targets=undisturbed(self.measured, end.amounts))
+        self.nuisances = end.seen if end.at.point.cost < decide.LEVEL * end.lean.freedom else ()
         for line in self.disturbed():
             self.say(line)
-        if done:
-            return done[0].at
-        if kept["x"] is None:
-            return recounted(before, ruler, at)
-        return Fitted(at.what, ruler.evaluation(at.what, np.array(kept["x"])))
+        return end
 
     def disturbed(self) -> list[str]:
         """The nuisances that were taken off, in words."""
         signals = self.subject.dataset.signals if self.subject.dataset is not None else ()
-        taken = [n for n in self.nuisances if n.suspect in self.ruler.taken]
-        return in_words(taken, {s.name: s.unit for s in signals})
+        return in_words(self.nuisances, {s.name: s.unit for s in signals})
 
     def counting(self) -> list[str]:
         """How residuals are counted, where that is not as told, in words."""
@@ -219,7 +227,9 @@ class Story:
         solver = ruler.solver
         if isinstance(solver, Rodas | Esdirk):  # one run, so that what speaks for or against is not its error
             solver = replace(solver, rtol=_FINER * solver.rtol, atol=_FINER * solver.atol)
-        return replace(held_beside(ruler, self.held, at), solver=solver).at(at.what, at.point.x)
+        lean = ruler.with_other(suspected=tuple(s for s in ruler.suspected if s in self.blame(at).suspects))
+        right = held_beside(lean, self.held, recounted(ruler, lean, at))
+        return replace(right, solver=solver).at(at.what, at.point.x)
 
 
 def begin(
@@ -239,6 +249,10 @@ def begin(
     kept = Journal(journal, identity(subject, {"seed": seed, **(settings or {})}))
     ruler, held = rulers(subject.targets, workers, told=not untold(subject.notes))
     return Story(subject, progress or (lambda told: None), seed, ruler, held, kept, notes=list(subject.notes))
+
+
+def _where(at: Fitted) -> tuple[object, ...]:
+    return (*_key(at.what.effects), at.point.x.tobytes())
 
 
 def _key(effects: tuple[Effect, ...]) -> tuple[str, ...]:

@@ -3,9 +3,18 @@
 import numpy as np
 import pytest
 
-from pysim.diagnose.corrections import allowing, held_beside, in_words, nuisances, settled, told_apart
+from pysim.diagnose.corrections import (
+    allowing,
+    held_beside,
+    in_words,
+    nuisances,
+    settled,
+    settled_before,
+    told_apart,
+    undisturbed,
+)
 from pysim.diagnose.fitted import Fitted
-from pysim.diagnose.nuisance import GAIN, OFFSET, SHIFT
+from pysim.diagnose.nuisance import OFFSET, SHIFT
 from pysim.diagnose.refit import refit
 from pysim.diagnose.residuals import rulers
 from pysim.diagnose.subject import extended
@@ -40,43 +49,41 @@ def fitted(data: Dataset):  # type: ignore[no-untyped-def]
     what = extended(subject, ())
     start = what.space.to_search(what.space.start)
     ruler, held = allowing(*rulers(subject.targets), what, start)
-    ruler, first = told_apart(ruler, what, ruler.evaluation(what, start))
+    ruler, first = told_apart(ruler, ruler.evaluation(what, start))
     return ruler, held, Fitted(what, refit(ruler, what, first))
 
 
 def test_sizes_of_bad_sensors_and_clocks() -> None:
-    ruler, held, at = fitted(logged(1, offset=0.02, late=0.006))
-    found = settled(ruler, held, at)
+    ruler, _, at = fitted(logged(1, offset=0.012, late=0.006))
+    found = settled(ruler, at)
     seen = {n.suspect.kind: n for n in found.seen}
-    assert GAIN not in seen  # mass, damper and spring together take over any gain
-    assert seen[OFFSET].found
-    assert seen[OFFSET].low < 0.02 < seen[OFFSET].high
-    assert seen[SHIFT].found
-    assert seen[SHIFT].low < 0.006 < seen[SHIFT].high
-    freedom = found.ruler.freedom - at.what.space.size
+    assert set(seen) == {OFFSET, SHIFT}  # mass, damper and spring together take over any gain
+    for kind, true in ((OFFSET, 0.012), (SHIFT, 0.006)):
+        assert abs(seen[kind].value - true) < seen[kind].high - seen[kind].low  # four standard deviations
+    assert found.blame.suspects == {n.suspect for n in found.seen}
+    freedom = found.lean.freedom - at.what.space.size
     assert abs(found.at.point.cost - freedom) < 4 * np.sqrt(2 * freedom)
-    assert found.held is not None
-    left = found.held.at(found.at.what, found.at.point.x)
-    assert left is not None
-    assert abs(left @ left - left.size) < 5 * np.sqrt(2 * left.size)
     told = " ".join(in_words(found.seen, {"x": "m"}))
-    assert "x is off by +0.0199" in told or "x is off by +0.02" in told
+    assert "x is off by +0.012" in told or "x is off by +0.0119" in told
     assert "ms after the command" in told
+    again = settled_before(ruler, at, found.at.point.x, found.lean.suspected)
+    assert again.at.point.residual == pytest.approx(found.at.point.residual, abs=1e-12)
+    assert again.blame.suspects == found.blame.suspects
 
 
-def test_what_is_there_no_more_is_put_back() -> None:
-    ruler, held, at = fitted(logged(2, offset=0.02))
-    before = ruler.targets[0].measured.values  # type: ignore[attr-defined]
-    once = settled(ruler, held, at)
-    assert once.ruler.targets[0].measured.values.mean() == pytest.approx(before.mean() - 0.02, abs=1e-3)  # type: ignore[attr-defined]
-    clean = once.ruler.with_other(targets=ruler.targets, taken={}, suspected=())
-    assert nuisances(clean, at.what, clean.evaluation(at.what, at.point.x)) == ()
-    ruler, held, at = fitted(logged(2))
-    assert not any(n.found for n in settled(ruler, held, at).seen)
+def test_only_who_is_to_blame_is_taken_off() -> None:
+    ruler, _, at = fitted(logged(2, offset=0.012))
+    found = settled(ruler, at)
+    assert {n.suspect.kind for n in found.seen} == {OFFSET}
+    before, (after, *_) = ruler.targets[0].measured.values, undisturbed(ruler.targets, found.amounts)  # type: ignore[attr-defined]
+    assert after.measured.values.mean() == pytest.approx(before.mean() - 0.012, abs=1e-3)  # type: ignore[attr-defined]
+    ruler, _, at = fitted(logged(2))
+    assert settled(ruler, at).seen == ()
+    assert undisturbed(ruler.targets, {}) == ruler.targets
 
 
 def test_each_model_is_judged_with_its_own_sensors() -> None:
-    ruler, held, at = fitted(logged(4, offset=0.02, late=0.006))
+    ruler, held, at = fitted(logged(4, offset=0.012, late=0.006))
     assert held is not None
     wrong, right = held.at(at.what, at.point.x), held_beside(ruler, held, at).at(at.what, at.point.x)
     assert wrong is not None
@@ -89,7 +96,7 @@ def test_intervals_hold() -> None:
     inside = 0
     for seed in range(12):
         ruler, _, at = fitted(logged(100 + seed, offset=0.003))
-        inside += sum(n.low < 0.003 < n.high for n in nuisances(ruler, at.what, at.point) if n.suspect.kind == OFFSET)
+        inside += sum(n.low < 0.003 < n.high for n in nuisances(ruler, at.point) if n.suspect.kind == OFFSET)
     assert inside >= 9  # of 12 at 95 percent: fewer once in 400 times
 
 

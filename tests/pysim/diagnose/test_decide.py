@@ -9,15 +9,14 @@ from pysim.diagnose import decide
 from pysim.identify.greybox.evaluation import Evaluation
 
 
-def test_score_and_share() -> None:
-    assert decide.score(150.0, 100.0, 2, 1000) == pytest.approx(50 - 2 * math.log(1000))
+def test_price_and_share() -> None:
+    assert decide.price(2, 1000) == pytest.approx(2 * math.log(1000))
     assert decide.explained(30.0, 160.0, 100) == pytest.approx(0.5)
     assert decide.explained(80.0, 160.0, 100) == 1.0
     assert decide.explained(3.0, 90.0, 100) == 0.0  # nothing was avoidable
 
 
-def test_excess_and_inflation() -> None:
+def test_inflation() -> None:
     residual = np.full(202, math.sqrt(1.2 * 200 / 202))
     point = Evaluation(np.zeros(2), float(residual @ residual), residual, np.zeros((202, 2)))
     assert decide.inflation(point) == pytest.approx(1.2)
-    assert decide.excess(point) == pytest.approx(0.2 * 200 / math.sqrt(400))

@@ -71,6 +71,7 @@ def test_noise_and_nuisances_of_usual_sizes_are_white_across() -> None:
     covariance = np.eye(6) + columns @ np.diag(widths**2) @ columns.T
     assert span.across(span.across(covariance).T) == pytest.approx(np.eye(6), abs=1e-12)
     assert span.taken(span.along(columns)) + span.across(columns) == pytest.approx(columns)
+    assert span.undone(span.across(columns)) == pytest.approx(columns)
 
 
 def test_a_suspect_far_beyond_its_usual_size_still_counts() -> None:

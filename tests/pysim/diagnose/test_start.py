@@ -73,13 +73,14 @@ def test_slopes_of_a_refit_are_those_of_the_point_it_names() -> None:
 def test_rows_and_promises_of_a_round() -> None:
     ruler, base, what = rubbing()
     one = Contender(CATALOGUE["toy.friction"], what, ruler)
-    tried = Tried(base, {"toy.friction": one}, screen(base, [one]), 8.0)
+    tried = Tried(base, {"toy.friction": one}, screen(base, [one]), {}, 8.0)
     assert tried.promises
     end = Fitted(what, refit(ruler, what, ruler.evaluation(what, what.space.to_search(what.space.start))))
-    assert by_score(base, {"toy.friction": end}) == ["toy.friction"]
-    gain = base.point.cost - end.point.cost
-    assert score(base, end) == pytest.approx(gain - np.log(base.point.residual.size))
-    story = begin(toy_subject(measured(1), ("toy.friction",)), seed=0, workers=None, progress=None)
+    rubbed = measured(1, "toy.friction", F_c=0.1)
+    story = begin(toy_subject(rubbed, ("toy.friction",)), seed=0, workers=None, progress=None)
+    assert by_score(story, base, {"toy.friction": end}) == ["toy.friction"]
+    fall = base.point.cost - end.point.cost
+    assert score(story, base, end) == pytest.approx(fall - np.log(base.point.residual.size), abs=1.0)
     (row,) = rows(story, tried, {"toy.friction": end}, 2)
     assert (row.effect, row.round, row.refitted) == ("toy.friction", 2, True)
     assert row.explained > 0.9
