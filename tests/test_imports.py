@@ -21,6 +21,7 @@ ALLOWED = {
     "pysim.effects": _DATA,
     "pysim.excitation": _DATA,
     "pysim.io": _DATA,
+    "pysim.fmu_check": _FILES,
     "pysim.simulate": _FILES,
     "pysim.bench": _RUNS | {"pysim.excitation"},
     "pysim.cosim": _RUNS | {"pysim.control"},
@@ -28,7 +29,7 @@ ALLOWED = {
     "pysim.diagnose": _FITS | {"pysim.effects"},
     "pysim.rig": _RUNS | {"pysim.control", "pysim.cosim", "pysim.excitation"},
     "pysim.plot": _FITS | {"pysim.control", "pysim.rig"},
-    "pysim.report": _FITS | {"pysim.control", "pysim.rig"},
+    "pysim.report": _FITS | {"pysim.control", "pysim.fmu_check", "pysim.rig"},
     "pysim.cli": _FITS
     | {
         "pysim.bench",
@@ -36,6 +37,7 @@ ALLOWED = {
         "pysim.cosim",
         "pysim.effects",
         "pysim.diagnose",
+        "pysim.fmu_check",
         "pysim.plot",
         "pysim.report",
         "pysim.rig",
@@ -44,7 +46,7 @@ ALLOWED = {
     },
     "validation": _FITS
     | {"pysim.bench", "pysim.control", "pysim.cosim", "pysim.effects", "pysim.diagnose", "pysim.plot", "pysim.report"}
-    | {"pysim.rig", "fmu_build"},
+    | {"pysim.fmu_check", "pysim.rig", "fmu_build"},
     "fmu_build": set(),
 }
 # Packages whose outside world is limited too.

@@ -17,6 +17,9 @@ if TYPE_CHECKING:
     from validation.results import CaseResult
 
 
+FMU = "fmu"
+
+
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The words behind `pysim validate`."""
     parser.add_argument("names", metavar="NAME", nargs="*", help="cases to run, all by default; or: fmu FILE ...")
@@ -24,6 +27,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--list", action="store_true", help="say which cases there are, and run none")
     parser.add_argument("--output", metavar="DIR", type=Path, help="write report.html, summary.md and pictures here")
     parser.add_argument("--json", metavar="FILE", type=Path, help="write all numbers here, a line of JSON per case")
+    parser.add_argument("--strict", action="store_true", help="with fmu: what is doubtful counts as failing")
     parser.add_argument(
         "--record", action="store_true", help="keep the results in the checkout, and write its summary and README anew"
     )
@@ -31,6 +35,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """0 when every claim that could be tried holds, 1 when one fails."""
+    if args.names[:1] == [FMU]:
+        from pysim.cli._fmu_check import check_files
+
+        return check_files(args)
     return _suite(args)
 
 

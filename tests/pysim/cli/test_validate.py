@@ -1,10 +1,12 @@
 """`pysim validate`: what is run, printed, written and kept."""
 
+import json
 from pathlib import Path
 
 import pytest
 
 from pysim.cli import main, validate
+from tests.planted import planted
 from tests.validation import made_up
 from validation.results import read_results
 from validation.summary import BEGIN, END
@@ -58,3 +60,16 @@ def test_record(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     assert len(read_results(tmp_path / "validation" / "results" / "results.jsonl")) == 2
     assert "| 1 of 4 | 1 | 0 | 1 |" in readme.read_text(encoding="utf-8")
     assert "| good | about good | 1 | 0 | 1 |" in (tmp_path / "validation" / "RESULTS.md").read_text(encoding="utf-8")
+
+
+def test_fmu(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    fmu, out, numbers = planted("IDLE_GAIN", tmp_path), tmp_path / "out", tmp_path / "numbers.json"
+    words = ["validate", "fmu", str(fmu), "--output", str(out), "--json", str(numbers)]
+    assert main(words) == 0
+    assert main([*words, "--strict"]) == 1
+    assert "doubtful parameters: every parameter has an effect: g" in capsys.readouterr().out
+    assert "has an effect" in (out / "report.html").read_text(encoding="utf-8")
+    assert json.loads(numbers.read_text())[0]["model"] == "Mass"
+    assert main(["validate", "fmu", str(planted("OTHER_START", tmp_path))]) == 1
+    assert main(["validate", "fmu"]) == 2
+    assert main(["validate", "fmu", str(tmp_path / "none.fmu")]) == 2

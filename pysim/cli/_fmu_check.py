@@ -1,0 +1,38 @@
+"""`pysim validate fmu FILE ...`: check FMUs as a strict importer would."""
+
+from __future__ import annotations
+
+import argparse
+import json
+from pathlib import Path
+
+
+def check_files(args: argparse.Namespace) -> int:
+    """0 when nothing fails, and with --strict nothing is doubtful either; 1 otherwise."""
+    from pysim.cli._outputs import prepare_file, prepare_folder
+    from pysim.cli._progress import ProgressBar
+    from pysim.fmu_check import DOUBTFUL, check_fmu
+    from pysim.io import write_file
+    from pysim.report.fmu_check import fmu_check_data, fmu_check_parts, fmu_check_text
+    from pysim.report.page import page
+    from pysim.types import BadInput
+
+    files = [Path(name) for name in args.names[1:]]
+    if not files:
+        raise BadInput("name at least one FMU behind `validate fmu`")
+    if args.output:
+        prepare_folder(args.output)
+    if args.json:
+        prepare_file(args.json, "--json")
+    reports = []
+    for file in files:
+        with ProgressBar(file.stem) as progress:
+            reports.append(check_fmu(file, progress=progress))
+        print(fmu_check_text(reports[-1]), flush=True)
+    if args.json:
+        write_file(args.json, json.dumps([fmu_check_data(report) for report in reports], indent=1, allow_nan=False))
+    if args.output:
+        parts = [part for report in reports for part in fmu_check_parts(report)]
+        write_file(args.output / "report.html", page("FMUs under check", "As a strict importer would try them.", parts))
+    good = all(report.passes and not (args.strict and report.count(DOUBTFUL)) for report in reports)
+    return 0 if good else 1

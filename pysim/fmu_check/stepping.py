@@ -1,0 +1,25 @@
+"""Runs by communication steps, with inputs that stand still off their start values."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pysim.fmu_check.instance import Instance
+from pysim.fmu_check.subject import Subject, references
+
+Array = NDArray[np.float64]
+
+
+def stepped(
+    subject: Subject, instance: Instance, rows: Sequence[int], size: float, count: int, inputs: Array, first: int = 0
+) -> Array:
+    """Values (count, n) of the variables after each of `count` steps of `size` s, from step number `first` on."""
+    instance.set(references(subject.inputs), inputs)
+    found = []
+    for k in range(first, first + count):
+        instance.raw.doStep(subject.start + k * size, size)
+        found.append(instance.get(rows))
+    return np.array(found).reshape(count, len(rows))

@@ -1,0 +1,53 @@
+"""`python -m pysim.fmu_check.worker FMU NUMBER ...`: run checks by their place, one line of JSON for all that is found.
+
+A process of its own, for an FMU may crash it. The line {"started": ...} comes before each check.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import sys
+import traceback
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import Any
+
+from pysim.fmu_check.checks import CHECKS
+from pysim.fmu_check.instance import CallFailed
+from pysim.fmu_check.result import FAILS, CheckResult
+from pysim.fmu_check.subject import Subject, read_subject
+
+
+def main(words: Sequence[str]) -> None:
+    """Write to standard output; whatever the FMU prints goes nowhere."""
+    channel = os.fdopen(os.dup(1), "w", encoding="utf-8")
+    os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
+    subject, names = read_subject(Path(words[0])), list(CHECKS)
+    for word in words[1:]:
+        name = names[int(word)]
+        _say(channel, {"started": name})
+        for result in results_of(name, subject):
+            _say(channel, {"result": result.data()})
+    _say(channel, {"done": True})
+
+
+def results_of(name: str, subject: Subject) -> Iterator[CheckResult]:
+    """A check's results; an error of the FMU in a legal call, or of ours, becomes one."""
+    try:
+        yield from CHECKS[name](subject)
+    except CallFailed as error:
+        yield CheckResult(name.partition(":")[0], f"every legal call of {name!r} is obeyed", FAILS, str(error))
+    except Exception as error:  # FMPy raises bare exceptions, and the other checks are still to be tried
+        where = traceback.extract_tb(error.__traceback__)[-1].name
+        text = f"{type(error).__name__} in {where}: {error}"
+        yield CheckResult(name.partition(":")[0], f"{name!r} can be tried", FAILS, text)
+
+
+def _say(channel: Any, data: dict[str, Any]) -> None:
+    channel.write(json.dumps(data) + "\n")
+    channel.flush()
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])
