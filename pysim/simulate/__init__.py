@@ -1,6 +1,7 @@
 """Run FMUs fast: one compiled loop that calls the FMU's own functions."""
 
 from pysim.simulate._base import Solver
+from pysim.simulate._check import check_override
 from pysim.simulate._many import simulate_many
 from pysim.simulate._messages import Mailbox
 from pysim.simulate._run import simulate
@@ -42,6 +43,7 @@ __all__ = [
     "Stepwise",
     "Wires",
     "can_be_saved",
+    "check_override",
     "is_compiled",
     "is_number",
     "is_smooth",

@@ -53,7 +53,7 @@ def check_experiment(model: Model, experiment: Experiment) -> None:
     for name, value in experiment.overrides.items():
         if name in experiment.inputs or name in experiment.rates:
             raise BadInput(f"experiment: {name} has a signal and an override; remove one of them")
-        _check_override(model, model[name], value)
+        check_override(model, name, value)
     for name in experiment.record:
         if model[name].type not in GETTERS[model.abilities.fmi]:
             raise BadInput(f"{model.path.name}: {name} is {model[name].type} and cannot be recorded; record a number")
@@ -75,10 +75,15 @@ def _check_input(model: Model, variable: Variable) -> None:
         )
 
 
-def _check_override(model: Model, variable: Variable, value: float) -> None:
-    why = _objection(model, variable, value)
+def check_override(model: Model, name: str, value: float) -> None:
+    """Check that a variable can be set to a value ahead of a run.
+
+    Raises:
+        BadInput: no such variable, one that cannot be set, or a value it cannot take.
+    """
+    why = _objection(model, model[name], value)
     if why:
-        raise BadInput(f"{model.path.name}: {variable.name} {why}")
+        raise BadInput(f"{model.path.name}: {name} {why}")
 
 
 def _objection(model: Model, variable: Variable, value: float) -> str:

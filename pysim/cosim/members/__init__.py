@@ -1,0 +1,5 @@
+"""FMUs as members of a co-simulation."""
+
+from pysim.cosim.members.fmu import Fmu
+
+__all__ = ["Fmu"]

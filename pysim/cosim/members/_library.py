@@ -1,0 +1,105 @@
+"""The shared library of a co-simulation FMU, and one instance in it: FMPy does the life cycle, steps go past it."""
+
+from __future__ import annotations
+
+import ctypes
+import threading
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from fmpy import platform, platform_tuple, sharedLibraryExtension
+from fmpy.fmi1 import FMICallException
+from fmpy.fmi2 import FMU2Slave
+from fmpy.fmi3 import FMU3Slave
+
+from pysim.cosim.member import MemberFailed
+from pysim.io import extracted
+from pysim.simulate import FmuValues, Mailbox
+from pysim.types import BadInput, CoSimulation, Model
+
+FATAL = 4
+
+_loading = threading.Lock()  # FMPy changes the working directory while it loads
+
+
+class SteppingInstance:
+    """One instance of an FMU that steps by itself."""
+
+    def __init__(self, name: str, model: Model, stepping: CoSimulation) -> None:
+        self.model, self.stepping, self.mailbox = model, stepping, Mailbox(model.abilities.fmi)
+        self.status = 0  # worst one; after a fatal error nothing may be called any more
+        folder = extracted(model.path)
+        _check_binary(model, stepping, folder)
+        kind = FMU2Slave if model.abilities.fmi == 2 else FMU3Slave
+        with _loading:
+            try:
+                self.fmu: Any = kind(
+                    guid=model.token,
+                    modelIdentifier=stepping.library,
+                    unzipDirectory=str(folder),
+                    instanceName=name,
+                )
+            except Exception as error:  # FMPy raises a bare Exception
+                raise MemberFailed(f"its shared library cannot be loaded ({error}); export it again") from error
+        self._alive = False
+
+    def instantiate(self, **options: bool) -> int:
+        """Make the instance; its pointer."""
+        try:
+            self.fmu.instantiate(**self.mailbox.callbacks, **options)
+        except Exception as error:  # FMPy raises a bare Exception
+            self._unload()
+            raise MemberFailed(f"it cannot be instantiated{self.mailbox.text()}") from error
+        self._alive = True
+        component: int = self.fmu.component
+        return component
+
+    def address(self, function: str) -> int:
+        """Address of one of the library's functions."""
+        return ctypes.cast(getattr(self.fmu.dll, function), ctypes.c_void_p).value or 0
+
+    @contextmanager
+    def refusal(self) -> Iterator[None]:
+        """Turn what FMPy raises into MemberFailed, with the FMU's own words."""
+        try:
+            yield
+        except FMICallException as error:
+            self.status = max(self.status, error.status)
+            raise MemberFailed(f"{error}{self.mailbox.text()}") from error
+
+    def check(self, status: int, what: str) -> None:
+        """A call that returned a status above warning is an error."""
+        if status > 1:
+            self.status = max(self.status, status)
+            raise MemberFailed(f"{what}{self.mailbox.text()}")
+
+    def set_values(self, values: Mapping[str, float]) -> None:
+        """Set parameters and start values by name."""
+        array = np.array(list(values.values()), dtype=np.float64)
+        variables = [self.model[name] for name in values]
+        names = ", ".join(values)
+        bound = FmuValues(self.model.abilities.fmi, variables, array, self.address)
+        self.check(bound.write(self.fmu.component), f"{names} could not be set")
+
+    def close(self) -> None:
+        """Free the instance and unload the library; twice does no harm."""
+        if self._alive and self.status < FATAL:
+            free = self.fmu.fmi2FreeInstance if self.model.abilities.fmi == 2 else self.fmu.fmi3FreeInstance
+            free(self.fmu.component)
+        if self._alive:
+            self._alive = False
+            self._unload()
+
+    def _unload(self) -> None:
+        if self.status < FATAL:
+            self.fmu.freeLibrary()
+
+
+def _check_binary(model: Model, stepping: CoSimulation, folder: Path) -> None:
+    name = platform if model.abilities.fmi == 2 else platform_tuple
+    if not (folder / "binaries" / name / f"{stepping.library}{sharedLibraryExtension}").is_file():
+        present = ", ".join(sorted(p.name for p in (folder / "binaries").glob("*"))) or "none"
+        raise BadInput(f"{model.path.name} has no binary for {name} (it has: {present}); export it for this machine")

@@ -1,0 +1,189 @@
+"""FMI 3.0 co-simulation: one instance over one run, with its events where it leaves them to us."""
+
+from __future__ import annotations
+
+import ctypes
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from pysim.cosim.member import MemberFailed, Setup
+from pysim.cosim.members._library import SteppingInstance
+from pysim.simulate import FmuState, FmuStates, FmuValues, is_smooth
+from pysim.types import CoSimulation, Model, Outcome
+
+_WARNING, _DISCARD = 1, 2
+_ROUNDS = 1000  # of one event iteration
+
+_P, _D, _I, _B = ctypes.c_void_p, ctypes.c_double, ctypes.c_int, ctypes.c_bool
+_DO_STEP = ctypes.CFUNCTYPE(_I, _P, _D, _D, _B, _P, _P, _P, _P)
+_UPDATE = ctypes.CFUNCTYPE(_I, _P, _P, _P, _P, _P, _P, _P)
+_MODE = ctypes.CFUNCTYPE(_I, _P)
+
+
+class _Answers:
+    """What fmi3DoStep and fmi3UpdateDiscreteStates tell, where they write it."""
+
+    def __init__(self) -> None:
+        self.flags = (ctypes.c_bool * 5)()
+        self.time = ctypes.c_double(0.0)
+        start = ctypes.addressof(self.flags)
+        self.of_step = (start, start + 1, start + 2, ctypes.addressof(self.time))
+        self.of_update = (*(start + i for i in range(5)), ctypes.addressof(self.time))
+
+
+@dataclass(frozen=True)
+class SavedStepping:
+    """What the FMU keeps, and what is kept of it here."""
+
+    fmu: FmuState
+    next_event: float
+    event: bool
+    discrete: bytes
+
+
+class Stepping3:
+    """The calls of `Member`, for an FMU that steps by itself.
+
+    Args:
+        events: whether its events are handled here, where it offers that.
+    """
+
+    def __init__(
+        self,
+        name: str,
+        model: Model,
+        stepping: CoSimulation,
+        ports: tuple[tuple[str, ...], tuple[str, ...]],
+        events: bool,
+    ) -> None:
+        self._instance = SteppingInstance(name, model, stepping)
+        self._model, self._stepping, self._ports = model, stepping, ports
+        self._event_mode = events and stepping.event_mode
+        self._early = events and (stepping.event_mode or stepping.early_return)
+        self._states: FmuStates | None = None
+        self.event, self._next_event = False, math.inf
+
+    def start(self, setup: Setup, overrides: Mapping[str, float]) -> None:
+        """See Member."""
+        instance, model = self._instance, self._model
+        options = {"eventModeUsed": self._event_mode, "earlyReturnAllowed": self._early}
+        self._component = component = instance.instantiate(**options)
+        instance.set_values(overrides)
+        with instance.refusal():
+            instance.fmu.enterInitializationMode(startTime=setup.time, stopTime=setup.stop)
+        inputs, outputs = ([model[name] for name in names] for names in self._ports)
+        self._in = FmuValues(3, inputs, setup.inputs, instance.address)
+        self._out = FmuValues(3, outputs, setup.outputs, instance.address)
+        self._write, self._read = self._in.write, self._out.read
+        self._do_step = _DO_STEP(instance.address("fmi3DoStep"))
+        self._enter_event_mode, self._enter_step_mode = (
+            _MODE(instance.address(f"fmi3Enter{mode}Mode")) for mode in ("Event", "Step")
+        )
+        self._update_discrete = _UPDATE(instance.address("fmi3UpdateDiscreteStates"))
+        self._answers, self._keeps = _Answers(), not self._stepping.state_handling
+        discrete = [i for i, name in enumerate(self._ports[0]) if not is_smooth(model, name)]
+        self._values, self._discrete = setup.inputs, np.array(discrete, dtype=np.intp)
+        if self._stepping.state_handling:
+            self._states = FmuStates(3, component, instance.address)
+        self.event, self._next_event = False, math.inf
+        self._exchange()
+
+    def begin(self) -> None:
+        """See Member."""
+        with self._instance.refusal():
+            self._instance.fmu.exitInitializationMode()
+        if self._event_mode:
+            self._settle()
+        self._held = self._discrete_values()
+        self._instance.check(self._read(self._component), "an output could not be read")
+
+    def update(self) -> None:
+        """See Member."""
+        if self._in_event_mode():
+            self._handle_event()
+        else:
+            self._exchange()
+
+    def _in_event_mode(self) -> bool:
+        """Whether what is due now belongs into event mode: an event, or inputs that may change there only."""
+        return self._event_mode and (self.event or (self._discrete.size > 0 and self._discrete_values() != self._held))
+
+    def _discrete_values(self) -> bytes:
+        return self._values[self._discrete].tobytes() if self._discrete.size else b""
+
+    def _exchange(self) -> None:
+        self._instance.check(self._write(self._component), "an input could not be set")
+        self._instance.check(self._read(self._component), "an output could not be read")
+
+    def _handle_event(self) -> None:
+        self._instance.check(self._enter_event_mode(self._component), "event mode could not be entered")
+        self._instance.check(self._write(self._component), "an input could not be set")
+        self._held = self._discrete_values()
+        self._settle()
+        self._instance.check(self._read(self._component), "an output could not be read")
+
+    def _settle(self) -> None:
+        """Event iteration, then step mode."""
+        component, flags = self._component, self._answers.flags
+        for _ in range(_ROUNDS):
+            status = self._update_discrete(component, *self._answers.of_update)
+            self._instance.check(status, "an event could not be handled")
+            if flags[1]:
+                raise MemberFailed(f"it ended the run{self._instance.mailbox.text()}", Outcome.TERMINATED)
+            if not flags[0]:
+                break
+        else:
+            raise MemberFailed(f"its event iteration does not end after {_ROUNDS} rounds")
+        self._next_event = self._answers.time.value if flags[4] else math.inf
+        self.event = False
+        self._instance.check(self._enter_step_mode(component), "step mode could not be entered")
+
+    def step(self, time: float, end: float) -> float:
+        """See Member."""
+        component = self._component
+        if self._discrete.size and self._in_event_mode():
+            self._handle_event()
+        goal = end if end <= self._next_event else max(self._next_event, time)
+        if goal == time:
+            self.event = True  # due at once
+            return time
+        status = self._write(component)
+        self._instance.check(status, "an input could not be set")
+        status = self._do_step(component, time, goal - time, self._keeps, *self._answers.of_step)
+        if status > _WARNING:
+            self._explain(status)
+        needed, ended, early, _, _ = self._answers.flags
+        if ended:
+            raise MemberFailed(f"it ended the run{self._instance.mailbox.text()}", Outcome.TERMINATED)
+        reached = self._answers.time.value if early else goal
+        self.event = needed or (self._event_mode and reached >= self._next_event)
+        self._instance.check(self._read(component), "an output could not be read")
+        return min(reached, end)
+
+    def _explain(self, status: int) -> None:
+        """A step that was not done."""
+        what = "it discarded the step; smaller steps may do" if status == _DISCARD else "its step failed"
+        self._instance.check(status, what)
+
+    def save(self, into: SavedStepping | None = None) -> SavedStepping:
+        """See Member."""
+        assert self._states is not None
+        status, state = self._states.save(into.fmu if into else None)
+        self._instance.check(status, "its state could not be saved")
+        return SavedStepping(state, self._next_event, self.event, self._held)
+
+    def restore(self, state: SavedStepping) -> None:
+        """See Member."""
+        assert self._states is not None
+        self._instance.check(self._states.restore(state.fmu), "its state could not be restored")
+        self._next_event, self.event, self._held = state.next_event, state.event, state.discrete
+
+    def close(self) -> None:
+        """See Member."""
+        if self._states is not None and self._instance.status < 4:
+            self._states.free()
+        self._states = None
+        self._instance.close()

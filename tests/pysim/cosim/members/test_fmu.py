@@ -1,0 +1,222 @@
+import pickle
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from pysim.cosim import MemberFailed
+from pysim.cosim.members import Fmu
+from pysim.io import read_model
+from pysim.simulate import Rodas
+from pysim.types import BadInput, Model, Outcome
+from tests.foreign import made_foreign
+from tests.pysim.cosim.members.driving import Driven, driven
+from tests.pysim.simulate.text_models import DISCARDS, LAG, text_model
+
+STAIRS = """model Stairs "Climbs one stair every 0.25 s, and one when the input says so"
+  parameter Real last = 1e9;
+  input Boolean jump(start=false);
+  discrete output Real stair(start=0, fixed=true);
+  output Real way(start=0, fixed=true);
+equation
+  der(way) = stair;
+  when {sample(0.25, 0.25), jump} then
+    stair = pre(stair) + 1;
+  end when;
+  when stair >= last then
+    terminate("up there");
+  end when;
+end Stairs;
+"""
+H, T, K = 0.1, 0.5, 2.0
+KINDS = [(fmi, interface) for fmi in (2, 3) for interface in ("co-simulation", "model-exchange")]
+FINE = Rodas(rtol=1e-9, atol=1e-9)
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return tmp_path_factory.mktemp("members")
+
+
+def lagged(inputs: np.ndarray, y: float = 0.3) -> np.ndarray:
+    """T y' + y = K u at the ends of steps of H with u held."""
+    rows = []
+    for u in inputs:
+        y = K * u + (y - K * u) * np.exp(-H / T)
+        rows.append(y)
+    return np.array(rows)
+
+
+@pytest.mark.parametrize(("fmi", "interface"), KINDS)
+def test_held_inputs_give_the_exact_outputs(folder: Path, fmi: int, interface: str) -> None:
+    u = np.random.default_rng(3).normal(size=30)
+    member = Fmu("lag", text_model(LAG, folder, fmi=fmi), interface=interface, solver=FINE)
+    for _ in range(2):  # a closed member begins as if it had never run
+        with driven(member) as run:
+            assert (run["y"], run["power"]) == (0.3, 0.0)
+            np.testing.assert_allclose(run.rows("y", u), lagged(u), atol=2e-5)
+            assert run["power"] == pytest.approx(K * u[-1] * run["y"], abs=1e-12)
+
+
+@pytest.mark.parametrize(("fmi", "interface"), KINDS)
+def test_saved_states_repeat_bit_for_bit(folder: Path, fmi: int, interface: str) -> None:
+    u = np.sin(np.arange(20.0))
+    with driven(Fmu("lag", text_model(LAG, folder, fmi=fmi), interface=interface)) as run:
+        assert run.member.can_rollback
+        run.rows("y", u)
+        kept, time = run.member.save(), run.time
+        first = run.rows("y", u)
+        for _ in range(2):
+            run.member.restore(kept)
+            run.time = time
+            assert run.rows("y", u) == first
+        kept = run.member.save(kept)
+        run.member.restore(kept)
+
+
+@pytest.mark.parametrize(("fmi", "interface"), KINDS)
+def test_an_fmu_of_another_tool(folder: Path, tmp_path: Path, fmi: int, interface: str) -> None:
+    text_model(LAG, folder, fmi=fmi)
+    model = read_model(made_foreign(folder / f"Lag_{fmi}.fmu", tmp_path / "foreign.fmu"))
+    member = Fmu("lag", model, interface=interface)
+    assert dict(member.feedthrough) == {name: frozenset({"u"}) for name in ("y", "power")}
+    assert not Fmu("lag", model, interface=interface, undeclared=False).feedthrough
+    assert member.can_rollback == (interface == "model-exchange")
+    with driven(member) as run:
+        np.testing.assert_allclose(run.rows("y", np.ones(5)), lagged(np.ones(5)), atol=1e-5)
+
+
+@pytest.mark.parametrize(("fmi", "interface"), KINDS)
+def test_outputs_follow_inputs_at_once_where_they_say_so(folder: Path, fmi: int, interface: str) -> None:
+    member = Fmu("lag", text_model(LAG, folder, fmi=fmi), interface=interface)
+    assert member.feedthrough == {"power": frozenset({"u"})}
+    with driven(member) as run:
+        run.go(u=1.0)
+        run.give(u=3.0)
+        member.update()
+        assert run["power"] == pytest.approx(K * 3.0 * run["y"], abs=1e-12)
+
+
+@pytest.mark.parametrize(("fmi", "interface"), KINDS)
+def test_parameters_start_values_inputs_and_what_is_recorded(folder: Path, fmi: int, interface: str) -> None:
+    model = text_model(LAG, folder, fmi=fmi)
+    member = Fmu("lag", model, parameters={"K": 3.0, "y_start": 1.0, "u": 1.0}, record=("T", "y"), interface=interface)
+    assert [(p.name, p.unit, p.start) for p in member.inputs] == [("u", "1", 1.0)]
+    assert [(p.name, p.unit) for p in member.outputs] == [("y", "1"), ("power", "1"), ("T", "s")]
+    with driven(member, T=0.25, K=5.0) as run:
+        assert (run["y"], run["T"]) == (1.0, 0.25)
+        run.go()
+        assert run["y"] == pytest.approx(5.0 - 4.0 * np.exp(-H / 0.25), abs=1e-4)
+
+
+@pytest.mark.parametrize("interface", ["co-simulation", "model-exchange"])
+def test_an_event_of_fmi_3_is_handled_in_step_or_with_the_others(folder: Path, interface: str) -> None:
+    member = Fmu("stairs", text_model(STAIRS, folder, fmi=3), interface=interface)
+    early = interface == "co-simulation"
+    assert member.may_return_early == early
+    with driven(member) as run:
+        assert [run.go(), run.go()] == [0.1, 0.2]
+        assert not member.event
+        reached = run.go()
+        assert reached == pytest.approx(0.25 if early else 0.3, abs=1e-12)
+        if early:
+            assert member.event
+            assert run["stair"] == 0.0
+            member.update()
+            assert not member.event
+            run.time = member.step(run.time, 0.30000000000000004)
+        assert run["stair"] == 1.0
+        assert run["way"] == pytest.approx(0.05, abs=1e-6)
+
+
+@pytest.mark.parametrize("fmi", [2, 3])
+def test_events_left_to_the_fmu_end_no_step_early(folder: Path, fmi: int) -> None:
+    member = Fmu("stairs", text_model(STAIRS, folder, fmi=fmi), events=False)
+    assert not member.may_return_early
+    with driven(member) as run:
+        assert [run.go() for _ in range(6)] == pytest.approx([0.1, 0.2, 0.3, 0.4, 0.5, 0.6], abs=1e-12)
+        assert run["stair"] == 2.0
+        assert run["way"] == pytest.approx(0.25 + 2 * 0.1, abs=1e-6)
+
+
+@pytest.mark.parametrize(("fmi", "interface"), KINDS)
+def test_an_input_that_is_no_continuous_number_acts_at_an_event(folder: Path, fmi: int, interface: str) -> None:
+    member = Fmu("stairs", text_model(STAIRS, folder, fmi=fmi), interface=interface)
+    assert not member.takes_rates
+    with driven(member) as run:
+        run.go(jump=0.0)
+        run.go(jump=1.0)
+        assert run["stair"] == 1.0
+        assert run["way"] == pytest.approx(0.1, abs=1e-6)
+
+
+@pytest.mark.parametrize(("fmi", "interface"), KINDS)
+def test_a_member_that_ends_the_run_says_so(folder: Path, fmi: int, interface: str) -> None:
+    member = Fmu("stairs", text_model(STAIRS, folder, fmi=fmi), interface=interface, events=False)
+    with driven(member, step=0.25, last=2.0) as run:
+        run.go()
+        with pytest.raises(MemberFailed) as caught:
+            _go_twice(run)
+        assert caught.value.outcome is Outcome.TERMINATED
+        assert run.time <= 0.5
+
+
+def _go_twice(run: Driven) -> None:
+    """An event at the very end of a step belongs to that step, or to the next one."""
+    run.go()
+    run.go()
+
+
+@pytest.mark.parametrize(("fmi", "interface"), KINDS)
+def test_a_step_that_cannot_be_done_is_told_in_the_fmus_words(folder: Path, fmi: int, interface: str) -> None:
+    with driven(Fmu("root", text_model(DISCARDS, folder, fmi=fmi), interface=interface)) as run:
+        run.go(u=1.0)
+        with pytest.raises(MemberFailed, match=r"sqrt|finite|discard") as caught:
+            run.go(u=-2.0)
+        assert caught.value.outcome is not Outcome.TERMINATED
+
+
+def test_what_is_wrong_with_the_settings(folder: Path) -> None:
+    model = text_model(LAG, folder)
+    with pytest.raises(BadInput, match=r"Lag_2\.fmu has no variable 'Q'"):
+        Fmu("lag", model, parameters={"Q": 1.0})
+    with pytest.raises(BadInput, match="cannot be set to nan"):
+        Fmu("lag", model, parameters={"K": float("nan")})
+    with pytest.raises(BadInput, match="has no variable 'z'"):
+        Fmu("lag", model, record=("z",))
+    with pytest.raises(BadInput, match="interface 'CS' is not known; write one of co-simulation, model-exchange"):
+        Fmu("lag", model, interface="CS")
+    with pytest.raises(BadInput, match=r"read_model makes of an \.fmu file"):
+        Fmu("lag", "Lag.fmu")  # type: ignore[arg-type]
+    member = Fmu("lag", model)
+    with pytest.raises(BadInput, match="has not been started"):
+        member.step(0.0, 0.1)
+    with pytest.raises(BadInput, match=r"lag\.u is an input; give it a signal"), driven(member, u=1.0):
+        pass
+    with pytest.raises(BadInput, match="has no variable .W."), driven(member, W=1.0):
+        pass
+
+
+def test_an_interface_that_is_not_there(folder: Path, fixture_path: Path) -> None:
+    with pytest.raises(BadInput, match="does not offer co-simulation; it offers model-exchange"):
+        Fmu("x", read_model(fixture_path), interface="co-simulation")
+    assert Fmu("x", read_model(fixture_path)).interface == "model-exchange"
+
+
+@pytest.fixture
+def fixture_path(tmp_path: Path) -> Path:
+    from tests.pysim.simulate.fixture_fmus import OSCILLATOR, build
+
+    return build(OSCILLATOR, 2, tmp_path)
+
+
+def test_a_member_that_has_not_started_goes_to_another_process(folder: Path) -> None:
+    model: Model = text_model(LAG, folder)
+    again = pickle.loads(pickle.dumps(Fmu("lag", model, parameters={"K": 3.0}, solver=FINE)))
+    assert (again.name, again.parameters, again.solver) == ("lag", {"K": 3.0}, FINE)
+    assert again.inputs == Fmu("l", model).inputs
+        "lag",
+        {"K": 3.0},
+        FINE,
+        Fmu("l", model).inputs,
+    )
