@@ -30,8 +30,10 @@ ALLOWED = {
     "pysim.rig": _RUNS | {"pysim.control", "pysim.cosim", "pysim.excitation"},
     "pysim.plot": _FITS | {"pysim.control", "pysim.rig"},
     "pysim.report": _FITS | {"pysim.control", "pysim.fmu_check", "pysim.rig"},
+    "pysim.app": _FILES | {"pysim.identify"},
     "pysim.cli": _FITS
     | {
+        "pysim.app",
         "pysim.bench",
         "pysim.control",
         "pysim.cosim",

@@ -11,6 +11,7 @@ from collections.abc import Sequence
 
 from pysim.cli import (
     add,
+    app,
     bench,
     blackbox,
     chirp,
@@ -22,6 +23,7 @@ from pysim.cli import (
     frf,
     friction,
     locate,
+    model,
     multisine,
     rank,
     signal,
@@ -33,6 +35,7 @@ from pysim.cli import (
 DONE, NO, WRONG_USE, OUR_BUG = 0, 1, 2, 3
 _COMMANDS = {
     "add": add,
+    "app": app,
     "bench": bench,
     "blackbox": blackbox,
     "chirp": chirp,
@@ -44,6 +47,7 @@ _COMMANDS = {
     "frf": frf,
     "friction": friction,
     "locate": locate,
+    "model": model,
     "multisine": multisine,
     "rank": rank,
     "signal": signal,

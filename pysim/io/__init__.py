@@ -5,6 +5,7 @@ from pysim.io.cache import cache_folder
 from pysim.io.dataset import SIGNAL_KEYS, described_signal, read_dataset, read_dataset_partly
 from pysim.io.files import write_file
 from pysim.io.fmu import read_model
+from pysim.io.headings import column_names
 from pysim.io.records import read_record, record_data, record_text, write_record
 from pysim.io.signals import read_signal, write_signal
 from pysim.io.single_log import read_single_log
@@ -21,6 +22,7 @@ __all__ = [
     "StageFile",
     "TomlFile",
     "cache_folder",
+    "column_names",
     "described_signal",
     "extracted",
     "read_dataset",

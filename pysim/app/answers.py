@@ -1,0 +1,112 @@
+"""What has been found so far, read from the project's folder: the same numbers that the command line writes."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
+from typing import Any
+
+from pysim.app.jobs import ANSWER, DONE, RECORDS, Job, read_job
+from pysim.app.project import Project
+from pysim.io import StageFile, read_stages
+from pysim.types import BadInput
+
+_STEPS = ("prior", "refit")
+
+
+@dataclass(frozen=True)
+class Answer:
+    """One finished piece of work.
+
+    Args:
+        job: that made it.
+        folder: where its files are.
+        data: what `--json` wrote.
+        stages: every record beside every model.
+    """
+
+    job: Job
+    folder: Path
+    data: Mapping[str, Any]
+    stages: StageFile
+
+    @property
+    def added(self) -> tuple[str, ...]:
+        """Effects that its last model has."""
+        return tuple(one["effect"] for one in self.data["added"])
+
+    def stage(self, step: str) -> Mapping[str, Any] | None:
+        """The model at a step, beside every record."""
+        return next((stage for stage in self.stages.about if stage["step"] == step), None)
+
+    @property
+    def base(self) -> Mapping[str, Any]:
+        """The refitted model, or as it is where nothing was refitted."""
+        return self.stage("refit") or self.stages.about[0]
+
+    @property
+    def last(self) -> Mapping[str, Any]:
+        """The model with all that was added."""
+        return self.stages.about[-1]
+
+
+def read_answer(folder: Path, fingerprint: str) -> Answer | None:
+    """A finished result of the data and the model as they are; None where there is none."""
+    job = read_job(folder)
+    if job is None or job.state != DONE or job.fingerprint != fingerprint:
+        return None
+    try:
+        return _read(folder, job, (folder / ANSWER).stat().st_mtime_ns)
+    except (OSError, ValueError, BadInput):
+        return None
+
+
+@lru_cache(maxsize=32)
+def _cached(folder: Path, _modified: int) -> tuple[Mapping[str, Any], StageFile]:
+    data = json.loads((folder / ANSWER).read_text(encoding="utf-8"))
+    return data, read_stages(folder / RECORDS)
+
+
+def _read(folder: Path, job: Job, modified: int) -> Answer:
+    data, stages = _cached(folder, modified)
+    return Answer(job, folder, data, stages)
+
+
+@dataclass(frozen=True)
+class Answers:
+    """All finished results of a project as it is now, the newest first."""
+
+    all: tuple[Answer, ...]
+
+    @classmethod
+    def of(cls, project: Project) -> Answers:
+        """Read from its folder."""
+        now = project.fingerprint()
+        folders = sorted((project.folder / "results").glob("*"))
+        found = [answer for answer in (read_answer(folder, now) for folder in folders) if answer is not None]
+        return cls(tuple(sorted(found, key=lambda answer: -(answer.job.ended or 0.0))))
+
+    def with_effects(self, added: tuple[str, ...]) -> Answer | None:
+        """The result whose model has just these effects; without any, whatever has the refitted model."""
+        exact = next((one for one in self.all if one.added == added and one.stages.about), None)
+        if exact is not None or added:
+            return exact
+        return next((one for one in self.all if one.stage("refit")), None)
+
+    def newest(self, key: str) -> Answer | None:
+        """The newest result that has something under a key of its data, such as "ranking"."""
+        return next((one for one in self.all if one.data[key]), None)
+
+    @property
+    def verdict(self) -> Answer | None:
+        """The whole diagnosis, where it was run."""
+        return next((one for one in self.all if one.job.work.words[0] == "diagnose"), None)
+
+
+def ledger(answer: Answer, added: tuple[str, ...]) -> list[Mapping[str, Any]]:
+    """Steps of the error up to the effects that are in the model now."""
+    shown = (*_STEPS, *added)
+    return [step for step in answer.data["error"] if step["step"] in shown]

@@ -1,0 +1,96 @@
+"""The data set's dataset.toml, edited on the page: signals, units, noise, which records are held out."""
+
+from __future__ import annotations
+
+import json
+import tomllib
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from pysim.io import SI, read_dataset_partly, write_file
+from pysim.types import BadInput, Dataset
+
+UNITS = tuple(SI)
+_SINE = "frequency-response"
+
+
+def read_description(path: Path) -> dict[str, Any]:
+    """What stands in a dataset.toml.
+
+    Raises:
+        BadInput: it cannot be read.
+    """
+    try:
+        return tomllib.loads(path.read_text(encoding="utf-8-sig"))
+    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
+        raise BadInput(f"{path.name}: {error}; correct it and drop the folder again") from error
+
+
+def description_text(content: Mapping[str, Any]) -> str:
+    """A dataset.toml with that content; JSON writes texts, numbers and rows as TOML does."""
+    parts = [_table("[dataset]", content["dataset"])]
+    parts += [_table(f"[signals.{json.dumps(n, ensure_ascii=False)}]", s) for n, s in content["signals"].items()]
+    parts += [_table("[[records]]", record) for record in content["records"]]
+    return "\n".join(parts)
+
+
+def _table(header: str, values: Mapping[str, Any]) -> str:
+    lines = [f"{key} = {json.dumps(value, ensure_ascii=False)}" for key, value in values.items() if value is not None]
+    return "\n".join([header, *lines]) + "\n"
+
+
+def change_description(path: Path, content: Mapping[str, Any]) -> Dataset:
+    """Write other content into a dataset.toml, which stays as it was where the content is refused.
+
+    Returns:
+        what it reads as now.
+    Raises:
+        BadInput: what is wrong with it.
+    """
+    before = path.read_bytes() if path.is_file() else None
+    write_file(path, description_text(content))
+    try:
+        return read_dataset_partly(path.parent)[0]
+    except BadInput:
+        if before is None:
+            path.unlink()
+        else:
+            write_file(path, before)
+        raise
+
+
+def refuse_outside(path: Path) -> None:
+    """Every file that a dataset.toml names lies beside it or below.
+
+    Raises:
+        BadInput: one does not.
+    """
+    root = path.parent.resolve()
+    for record in read_description(path).get("records", []):
+        name = record.get("file") if isinstance(record, dict) else None
+        if isinstance(name, str) and not (root / name.replace("\\", "/")).resolve().is_relative_to(root):
+            raise BadInput(f"{path.name}: file = {name!r} lies outside the data set; put the log beside {path.name}")
+
+
+def described(name: str, columns: Sequence[Mapping[str, Any]], logs: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
+    """A description of bare logs.
+
+    Args:
+        name: of the data set.
+        columns: of every log, in order: `name`, `role` ("time", "input", "output" or "-"), `unit`, `variable`, `noise`.
+        logs: `file`, `kind`, `use`, and for stepped sines `offset`, `amplitude`, `frequency`.
+    Raises:
+        BadInput: no time, no input or no output among the columns.
+    """
+    roles = [column["role"] for column in columns]
+    if roles.count("time") != 1 or "input" not in roles or "output" not in roles:
+        raise BadInput("columns: choose one as time, and at least one input and one output")
+    own = [column for column in columns if column["role"] in ("input", "output")]
+    keys = ("role", "unit", "variable", "noise")
+    names = [{"time": "time", "-": "-"}.get(column["role"], column["name"]) for column in columns]
+    inputs = [column["name"] for column in own if column["role"] == "input"]
+    told = {"input": inputs[0]} if len(inputs) > 1 else {}
+    records = [{**log, "columns": names, **(told if log["kind"] == _SINE else {})} for log in logs]
+    signals = {column["name"]: {key: column.get(key) for key in keys} for column in own}
+    return {"dataset": {"name": name, "description": "dropped as logs"}, "signals": signals, "records": records}

@@ -1,0 +1,187 @@
+"""What all tabs share: the project, what runs, and what was read of the data and the model."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from nicegui import run
+
+from pysim.app.answers import Answers
+from pysim.app.jobs import DONE, FAILED, STOPPED, Job, Runner, Work, adding, last_words, read_job, run_pysim, works
+from pysim.app.project import Project
+from pysim.app.upload import Batch, Limits
+from pysim.identify.data_check import DataCheck, check_dataset
+from pysim.io import read_dataset_partly
+from pysim.types import BadInput
+
+_MODEL_LIMIT = 240.0  # s for building or opening a model
+
+
+@dataclass(frozen=True)
+class Loaded:
+    """The data set as it was read.
+
+    Args:
+        check: what it holds; None where the description itself is wrong, or is not there.
+        refused: file and reason.
+        trouble: why there is no check.
+    """
+
+    check: DataCheck | None
+    refused: tuple[tuple[str, str], ...] = ()
+    trouble: str = ""
+
+
+@dataclass
+class Desk:
+    """One per server.
+
+    Args:
+        version: changes with everything that a page shows, but for what a running job tells;
+        beat: changes with that too.
+    """
+
+    project: Project
+    runner: Runner
+    limits: Limits
+    version: int = 0
+    beat: int = 0
+    loaded: Loaded | None = None
+    model: Mapping[str, Any] | None = None
+    model_trouble: str = ""
+    model_busy: bool = False
+    last: Job | None = None
+    batches: dict[str, Batch] = field(default_factory=dict)
+    _answers: tuple[int, Answers] | None = None
+
+    def changed(self) -> None:
+        """Something that pages show is other than before."""
+        self.version += 1
+        self.beat += 1
+
+    @property
+    def answers(self) -> Answers:
+        """Finished results, read once per change."""
+        if self._answers is None or self._answers[0] != self.version:
+            self._answers = (self.version, Answers.of(self.project))
+        return self._answers[1]
+
+    def tick(self) -> None:
+        """Look after the running job."""
+        before = self.runner.running
+        if not self.runner.poll():
+            return
+        self.beat += 1
+        if before is not None and self.runner.running is None:
+            self.last = read_job(self.project.results(before.work.name))
+            self._ended()
+            self.changed()
+
+    def _ended(self) -> None:
+        """A finished diagnosis or addition says what the model has from now on."""
+        job = self.last
+        if job is None or job.state != DONE:
+            return
+        self.changed()
+        answer = next((one for one in self.answers.all if one.job.work.name == job.work.name), None)
+        if answer is not None and job.work.words[0] in ("diagnose", "add"):
+            self.project.change(added=answer.added)
+
+    def start(self, work: Work) -> None:
+        """Run something.
+
+        Raises:
+            BadInput: something runs already.
+        """
+        self.last = None
+        self.runner.start(work)
+        self.changed()
+
+    def work(self, command: str) -> Work:
+        """What a button starts.
+
+        Raises:
+            BadInput: no data or model yet.
+        """
+        return works(self.project)[command]
+
+    def add(self, effect: str) -> None:
+        """Try an effect beside those that the model has; one that was tried before is shown at once.
+
+        Raises:
+            BadInput: something runs already, or no data or model yet.
+        """
+        added = (*self.project.settings().added, effect)
+        if self.answers.with_effects(added) is not None:
+            self.project.change(added=added)
+            self.changed()
+        else:
+            self.start(adding(self.project, added))
+
+    def undo(self) -> None:
+        """Without the last effect."""
+        self.project.change(added=self.project.settings().added[:-1])
+        self.changed()
+
+    def unfinished(self) -> Job | None:
+        """The newest job that was stopped and could go on, of the data and the model as they are."""
+        now = self.project.fingerprint()
+        jobs = [read_job(path.parent) for path in (self.project.folder / "results").glob("*/job.json")]
+        open_ = [job for job in jobs if job and job.state in (STOPPED, FAILED) and job.fingerprint == now]
+        return max(open_, key=lambda job: job.begun, default=None)
+
+    async def read_data(self) -> None:
+        """Read the data set again, beside the page."""
+        self.loaded = await run.io_bound(load, self.project)
+        self.changed()
+
+    async def read_model(self) -> None:
+        """Build or open the model in a process of its own, and keep what it says of itself."""
+        settings, path = self.project.settings(), self.project.folder / "model.json"
+        self.model, self.model_trouble, self.model_busy = None, "", bool(settings.model)
+        self.changed()
+        if not settings.model:
+            return
+        more = [word for library in settings.libraries for word in ("--library", library)]
+        try:
+            await self._describe(["model", settings.model, *more, "--json", path.name], path)
+        finally:
+            self.model_busy = False
+            self.changed()
+
+    async def _describe(self, words: Sequence[str], path: Path) -> None:
+        path.unlink(missing_ok=True)
+        log = self.project.folder / "model.txt"
+        with log.open("wb") as output:
+            process = run_pysim(words, self.project.folder, output)
+        for _ in range(int(_MODEL_LIMIT / 0.1)):
+            if process.poll() is not None:
+                break
+            await asyncio.sleep(0.1)
+        else:
+            process.kill()
+            self.model_trouble = f"the model was not ready within {_MODEL_LIMIT:g} s; check that it can be simulated"
+            return
+        if path.is_file():
+            self.model = json.loads(path.read_text(encoding="utf-8"))
+        else:
+            self.model_trouble = last_words(log)
+
+
+def load(project: Project) -> Loaded | None:
+    """Read the project's data set; None where there is none yet."""
+    if not project.data.is_dir():
+        return None
+    if not project.description.is_file():
+        return Loaded(None)
+    try:
+        dataset, refused = read_dataset_partly(project.data)
+        short = tuple((file, why.replace(f"{project.data}/", "")) for file, why in refused)
+        return Loaded(check_dataset(dataset), short)
+    except BadInput as error:
+        return Loaded(None, trouble=str(error).replace(f"{project.data}/", ""))

@@ -1,0 +1,100 @@
+"""Who may talk to the page: this machine, with the token; and what the page itself may load."""
+
+from __future__ import annotations
+
+import hmac
+from collections.abc import Awaitable, Callable, MutableMapping
+from http.cookies import SimpleCookie
+from typing import Any
+from urllib.parse import parse_qsl, urlencode, urlsplit
+
+Scope = MutableMapping[str, Any]
+Receive = Callable[[], Awaitable[MutableMapping[str, Any]]]
+Send = Callable[[MutableMapping[str, Any]], Awaitable[None]]
+App = Callable[[Scope, Receive, Send], Awaitable[None]]
+
+_POLICY = (
+    "default-src 'self'; script-src 'self' 'unsafe-inline' 'unsafe-eval' blob:; style-src 'self' 'unsafe-inline'; "
+    "img-src 'self' data: blob:; font-src 'self' data:; connect-src 'self' ws: wss:; worker-src 'self' blob:; "
+    "object-src 'none'; base-uri 'self'; form-action 'self'; frame-ancestors 'none'"
+)
+_HEADERS = (
+    (b"content-security-policy", _POLICY.encode()),
+    (b"x-content-type-options", b"nosniff"),
+    (b"referrer-policy", b"no-referrer"),
+)
+_REFUSED = b"This page needs the address with its token, as pysim app printed it in the terminal.\n"
+
+
+class Guard:
+    """Lets through what carries the token, as a cookie or in the address, and names a host that it knows.
+
+    A page of another site can make a browser send a cookie or look up a name of its own; so the host of every request
+    and the origin of every connection are looked at as well.
+
+    Args:
+        app: behind it.
+        token: that has to be shown.
+        hosts: names of this server, with port; empty: any.
+        cookie: name under which the browser keeps the token.
+    """
+
+    def __init__(self, app: App, token: str, hosts: frozenset[str], cookie: str) -> None:
+        self._app, self._token, self._hosts, self._cookie = app, token, hosts, cookie
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """One request or connection."""
+        if scope["type"] not in ("http", "websocket"):
+            await self._app(scope, receive, send)
+            return
+        headers = {key.decode("latin-1").lower(): value.decode("latin-1") for key, value in scope["headers"]}
+        words = parse_qsl(scope["query_string"].decode("latin-1"), keep_blank_values=True)
+        shown = dict(words).get("token", "")
+        if self._foreign(headers) or not (self._right(shown) or self._right(self._kept(headers))):
+            await _refuse(scope, send)
+        elif shown and scope["type"] == "http" and scope["method"] == "GET":
+            rest = urlencode([(key, value) for key, value in words if key != "token"])
+            await self._welcome(send, scope["path"] + (f"?{rest}" if rest else ""))
+        else:
+            await self._app(scope, receive, _with_headers(send))
+
+    def _right(self, token: str) -> bool:
+        return hmac.compare_digest(token.encode(), self._token.encode())
+
+    def _kept(self, headers: dict[str, str]) -> str:
+        found = SimpleCookie()
+        found.load(headers.get("cookie", ""))
+        return found[self._cookie].value if self._cookie in found else ""
+
+    def _foreign(self, headers: dict[str, str]) -> bool:
+        """Whether a name was asked for that is not ours, or another site's page asks."""
+        host = headers.get("host", "")
+        if self._hosts and host not in self._hosts:
+            return True
+        origin = headers.get("origin")
+        return origin is not None and urlsplit(origin).netloc != host
+
+    async def _welcome(self, send: Send, place: str) -> None:
+        """Keep the token as a cookie, and go on without it in the address."""
+        cookie = f"{self._cookie}={self._token}; Path=/; HttpOnly; SameSite=Strict"
+        headers = [(b"location", b"/" + place.lstrip("/").encode("latin-1")), (b"set-cookie", cookie.encode())]
+        await send({"type": "http.response.start", "status": 303, "headers": [*headers, *_HEADERS]})
+        await send({"type": "http.response.body", "body": b""})
+
+
+def _with_headers(send: Send) -> Send:
+    async def more(message: MutableMapping[str, Any]) -> None:
+        if message["type"] == "http.response.start":
+            message = {**message, "headers": [*message.get("headers", []), *_HEADERS]}
+        await send(message)
+
+    return more
+
+
+async def _refuse(scope: Scope, send: Send) -> None:
+    if scope["type"] == "websocket":
+        await send({"type": "websocket.close", "code": 4403})
+        return
+    headers = [(b"content-type", b"text/plain; charset=utf-8"), *_HEADERS]
+    await send({"type": "http.response.start", "status": 403, "headers": headers})
+    await send({"type": "http.response.body", "body": _REFUSED})

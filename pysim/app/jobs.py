@@ -1,0 +1,296 @@
+"""Work in a process of its own: the command line itself, followed by what it writes, stopped when the user asks."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Any
+
+from pysim.app.project import Project
+from pysim.io import write_file
+from pysim.types import BadInput
+
+RUNNING, DONE, STOPPED, FAILED = "running", "done", "stopped", "failed"
+_JOB, _STORY, _OUTPUT = "job.json", "story.jsonl", "output.txt"
+ANSWER, RECORDS, REPORT = "answer.json", "records.npz", "report.html"
+_PATIENCE = 3.0  # s between asking a process to end and ending it
+
+
+@dataclass(frozen=True)
+class Work:
+    """What is to be run.
+
+    Args:
+        name: of the result's folder.
+        title: for people.
+        words: of the command line, behind `pysim`.
+        effects: that the model has when it is done, as far as that was asked for.
+    """
+
+    name: str
+    title: str
+    words: tuple[str, ...]
+    effects: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Job:
+    """Where a piece of work stands.
+
+    Args:
+        state: RUNNING, DONE, STOPPED or FAILED.
+        begun, ended: s since 1970; ended is None while it runs.
+        fingerprint: of what it was run on.
+        stage: what it is doing, in a few words.
+        left: s, or None where nobody knows.
+        steps: of the ledger, as far as they are done.
+        learned: lines, the last ones last.
+        message: why it failed.
+    """
+
+    work: Work
+    state: str
+    begun: float
+    ended: float | None
+    fingerprint: str
+    stage: str = ""
+    left: float | None = None
+    steps: tuple[dict[str, Any], ...] = ()
+    learned: tuple[str, ...] = ()
+    message: str = ""
+
+    @property
+    def seconds(self) -> float:
+        """That it has taken so far."""
+        return (self.ended or time.time()) - self.begun
+
+    @property
+    def command(self) -> str:
+        """The line that does the same in the project's folder."""
+        import shlex
+
+        return shlex.join(["pysim", *self.work.words])
+
+
+def works(project: Project) -> dict[str, Work]:
+    """What can be run on a project as it is, by the first word of the command.
+
+    Raises:
+        BadInput: no model or no data yet.
+    """
+    settings = project.settings()
+    if not settings.model:
+        raise BadInput("no model yet; name one on the page Data")
+    if not project.description.is_file():
+        raise BadInput("no data set yet; drop one on the page Data")
+    more = [word for library in settings.libraries for word in ("--library", library)]
+    more += ["--free", ",".join(settings.free)] if settings.free else []
+    behind = ["data", "--model", settings.model, *more]
+    return {
+        "compare": _work("compare", "Compare and refit", [settings.model, "--data", "data", *more, "--refit"]),
+        "locate": _work("locate", "Locate what is missing", behind),
+        "rank": _work("rank", "Rank the candidates", behind),
+        "diagnose": _work("diagnose", "Find what is missing", behind),
+    }
+
+
+def adding(project: Project, effects: Sequence[str]) -> Work:
+    """The work that refits the model with some effects.
+
+    Raises:
+        BadInput: as `works`.
+    """
+    base = works(project)["diagnose"].words[1:]
+    own = base[: base.index("--json")]
+    safe = "+".join("".join(c if c.isalnum() or c in "._-" else "_" for c in name) for name in effects)
+    title = f"Add {effects[-1]}"
+    words = [*own, *(word for name in effects for word in ("--effect", name))]
+    return replace(_work("add", title, words, f"add-{safe[:80]}"), effects=tuple(effects))
+
+
+def _work(command: str, title: str, words: Sequence[str], name: str = "") -> Work:
+    """With all results in a folder of its own."""
+    folder = f"results/{name or command}"
+    files = ["--json", f"{folder}/{ANSWER}", "--records", f"{folder}/{RECORDS}", "--story", f"{folder}/{_STORY}"]
+    return Work(name or command, title, (command, *words, *files, "--output", folder))
+
+
+def read_job(folder: Path) -> Job | None:
+    """Where the work of a folder stands; None where none was begun. One whose process is gone counts as stopped."""
+    try:
+        head = json.loads((folder / _JOB).read_text(encoding="utf-8"))
+        words, effects = tuple(head["work"]["words"]), tuple(head["work"]["effects"])
+        work = Work(head["work"]["name"], head["work"]["title"], words, effects)
+        job = Job(work, head["state"], head["begun"], head["ended"], head["fingerprint"], message=head["message"])
+    except (OSError, ValueError, KeyError, TypeError):
+        return None
+    return _told(job, folder)
+
+
+def _told(job: Job, folder: Path) -> Job:
+    """With what its story says."""
+    lines: list[dict[str, Any]] = []
+    with contextlib.suppress(OSError):
+        for line in (folder / _STORY).read_text(encoding="utf-8").splitlines():
+            with contextlib.suppress(ValueError):  # the last line may be half written
+                lines.append(json.loads(line))
+    if not lines:
+        return job
+    left = lines[-1]["left"]
+    steps = tuple(line["step"] for line in lines if line["step"] is not None)
+    learned = tuple(line["text"] for line in lines if line["text"])
+    return replace(job, stage=lines[-1]["stage"], left=left, steps=steps, learned=learned)
+
+
+@dataclass
+class Runner:
+    """Runs one piece of work at a time.
+
+    Args:
+        project: whose.
+        limit: s after which a process is ended.
+    """
+
+    project: Project
+    limit: float = 3600.0
+    _process: subprocess.Popen[bytes] | None = field(default=None, repr=False)
+    _job: Job | None = None
+    _stop_asked: float | None = None
+    _seen: tuple[float, int] = (0.0, 0)
+
+    @property
+    def running(self) -> Job | None:
+        """The job that runs, with its story; None where none does."""
+        return self._job if self._process is not None else None
+
+    def start(self, work: Work) -> None:
+        """Begin.
+
+        Raises:
+            BadInput: something runs already.
+        """
+        if self._process is not None and self._job is not None:
+            raise BadInput(f"{self._job.work.title} is running; wait for it, or stop it first")
+        folder, now = self.project.results(work.name), self.project.fingerprint()
+        before = read_job(folder)
+        if before is not None and (before.fingerprint != now or before.state == DONE):
+            shutil.rmtree(folder)  # of other data or another model, or to be done anew
+        folder.mkdir(parents=True, exist_ok=True)
+        (folder / _STORY).unlink(missing_ok=True)
+        self._job = Job(work, RUNNING, time.time(), None, now, stage="starting")
+        self._write()
+        with (folder / _OUTPUT).open("wb") as output:
+            self._process = run_pysim(work.words, self.project.folder, output)
+        self._stop_asked = None
+
+    def stop(self) -> None:
+        """Ask the process to end; what it has found stays in its journal."""
+        if self._process is not None and self._stop_asked is None:
+            self._stop_asked = time.monotonic()
+            _signal(self._process, hard=False)
+
+    def poll(self) -> bool:
+        """See how far it is; whether anything is new."""
+        if self._process is None or self._job is None:
+            return False
+        folder = self.project.results(self._job.work.name)
+        if self._stop_asked is not None and time.monotonic() - self._stop_asked > _PATIENCE:
+            _signal(self._process, hard=True)
+        elif self._stop_asked is None and self._job.seconds > self.limit:
+            self._job = replace(self._job, message=f"it took longer than {self.limit:g} s (--limit-s raises that)")
+            self.stop()
+        code = self._process.poll()
+        if code is not None:
+            self._end(code, folder)
+            return True
+        with contextlib.suppress(OSError):
+            stat = (folder / _STORY).stat()
+            if (stat.st_mtime, stat.st_size) != self._seen:
+                self._seen = (stat.st_mtime, stat.st_size)
+                self._job = _told(self._job, folder)
+                return True
+        return False
+
+    def close(self) -> None:
+        """End what runs, now."""
+        if self._process is not None:
+            _signal(self._process, hard=False)
+            with contextlib.suppress(subprocess.TimeoutExpired):
+                self._process.wait(_PATIENCE)
+            _signal(self._process, hard=True)
+            self._process.wait()
+            self._stop_asked = self._stop_asked or time.monotonic()
+            self.poll()
+
+    def _end(self, code: int, folder: Path) -> None:
+        assert self._job is not None
+        _signal(self._process, hard=True)  # whatever it has left behind
+        self._process, job = None, _told(self._job, folder)
+        finished = (folder / ANSWER).is_file() and code in (0, 1)
+        state, message = (DONE, "") if finished else (FAILED, job.message)
+        if self._stop_asked is not None and not finished:
+            state = FAILED if job.message else STOPPED
+        elif not finished:
+            message = last_words(folder / _OUTPUT)
+        self._job = replace(job, state=state, ended=time.time(), message=message)
+        self._write()
+
+    def _write(self) -> None:
+        job = self._job
+        assert job is not None
+        work = {"name": job.work.name, "title": job.work.title, "words": job.work.words, "effects": job.work.effects}
+        head = {"work": work, "state": job.state, "begun": job.begun, "ended": job.ended}
+        head |= {"fingerprint": job.fingerprint, "message": job.message}
+        write_file(self.project.results(job.work.name) / _JOB, json.dumps(head, indent=1) + "\n")
+
+
+def settle(project: Project) -> None:
+    """Jobs that a server left running when it ended count as stopped."""
+    for path in (project.folder / "results").glob(f"*/{_JOB}"):
+        job = read_job(path.parent)
+        if job is not None and job.state == RUNNING:
+            head = json.loads(path.read_text(encoding="utf-8"))
+            write_file(path, json.dumps({**head, "state": STOPPED, "ended": path.stat().st_mtime}, indent=1) + "\n")
+
+
+def run_pysim(words: Sequence[str], folder: Path, output: Any) -> subprocess.Popen[bytes]:
+    """`pysim` with these words in a process of its own, in that folder; nothing of the folder is imported."""
+    root = str(Path(__file__).resolve().parents[2])
+    path = os.pathsep.join([root, *filter(None, [os.environ.get("PYTHONPATH")])])
+    environment = {**os.environ, "PYTHONPATH": path, "PYTHONUNBUFFERED": "1"}
+    command = [sys.executable, "-P", "-m", "pysim", *words]
+    own: dict[str, Any] = {"creationflags": 0x200} if sys.platform == "win32" else {}  # CREATE_NEW_PROCESS_GROUP
+    return subprocess.Popen(
+        command, cwd=folder, env=environment, stdin=subprocess.DEVNULL, stdout=output, stderr=subprocess.STDOUT,
+        start_new_session=True, **own,
+    )  # fmt: skip
+
+
+def last_words(path: Path) -> str:
+    """What a command said in the end, for a user."""
+    with contextlib.suppress(OSError):
+        lines = path.read_text(encoding="utf-8", errors="replace").splitlines()
+        said = [line for line in lines if line.startswith("pysim")]
+        if said or lines:
+            return (said or lines)[-1].partition(": ")[2] or (said or lines)[-1]
+    return "the process ended without a word; look at output.txt in the folder of the result"
+
+
+def _signal(process: subprocess.Popen[bytes] | None, *, hard: bool) -> None:
+    """End a process with all that it has started."""
+    if process is None:
+        return
+    with contextlib.suppress(OSError):
+        if sys.platform == "win32":
+            process.kill() if hard else process.terminate()
+        else:
+            os.killpg(process.pid, signal.SIGKILL if hard else signal.SIGTERM)

@@ -1,0 +1,181 @@
+"""Page 5: the error, step by step, moving while the fit runs; parameters before and after; undo."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from pysim.app.answers import Answer, ledger
+from pysim.app.desk import Desk
+from pysim.app.figures import CRITERIA, parameters_figure, staircase_figure
+from pysim.app.pages.common import attempt, busy, ended, nothing, start
+from pysim.app.parts import Chart, Table, box, button, card, head, live, note, text
+
+
+def add_page(desk: Desk) -> None:
+    """The falling error."""
+    live(lambda: desk.version, lambda: _top(desk), "gap")
+    with card("Error over noise, step by step") as place:
+        text("p", "Root-mean-square residual in units of the noise: 1 is all a model can reach.", "small")
+        stairs = _Stairs(desk, place)
+        live(lambda: (desk.beat, desk.version), stairs.show)
+    live(lambda: desk.version, lambda: _below(desk), "gap")
+
+
+def _top(desk: Desk) -> None:
+    settings, running = desk.project.settings(), desk.runner.running
+    answer = desk.answers.with_effects(settings.added)
+    head("Watch the error fall", "" if answer is None else str(answer.data["reason"]))
+    ended(desk)
+    if answer is None and running is None:
+        with box("row"):
+            button("Find what is missing", lambda: start(desk, lambda: desk.work("diagnose")), "main", off=busy(desk))
+            text("span", "or try a candidate on the page Candidates", "small")
+    if answer is not None:
+        _chain(desk, settings.added)
+
+
+def _chain(desk: Desk, added: Sequence[str]) -> None:
+    """What the model has now, and the way back."""
+    with box("row end"):
+        with box("chain"):
+            for k, words in enumerate(("as it is", "refitted", *(f"+ {name}" for name in added))):
+                if k:
+                    text("span", "→", "arrow").props('aria-hidden="true"')
+                text("span", words, "chip")
+        if added:
+            button(f"Undo {added[-1]}", lambda: attempt(desk.undo), "small", off=busy(desk))
+
+
+class _Stairs:
+    """One figure that moves while steps come in."""
+
+    def __init__(self, desk: Desk, place: Any) -> None:
+        self._desk, self._place = desk, place
+        self._chart: Chart | None = None
+
+    def show(self) -> None:
+        """What is known now."""
+        steps, doing = self._steps()
+        if not steps and not doing:
+            if self._chart is not None:
+                self._chart.delete()
+                self._chart = None
+            self._place.set_visibility(False)
+            return
+        self._place.set_visibility(True)
+        told = "; ".join(f"{s['step']} {s['fit'] or s['validate'] or 0:.2f}" for s in steps)
+        figure, label = staircase_figure(steps, doing=doing), f"Error over noise, step by step: {told}"
+        if self._chart is None:
+            with self._place:
+                self._chart = Chart(figure, label, height=350)
+        else:
+            self._chart.show(figure, label)
+
+    def _steps(self) -> tuple[Sequence[Mapping[str, Any]], str]:
+        job = self._desk.runner.running
+        if job is not None and job.work.words[0] in ("diagnose", "add", "compare", "rank", "locate"):
+            return job.steps, _doing(job.stage)
+        added = self._desk.project.settings().added
+        answer = self._desk.answers.with_effects(added)
+        return ([], "") if answer is None else (ledger(answer, added), "")
+
+
+def _doing(stage: str) -> str:
+    """The stage in the words that fit below a step."""
+    words = stage.split()
+    return " ".join(words[:3])
+
+
+def _below(desk: Desk) -> None:
+    settings = desk.project.settings()
+    answer = desk.answers.with_effects(settings.added)
+    if answer is None:
+        if desk.runner.running is None:
+            nothing("Nothing was fitted yet", "The staircase begins with the model as it is.")
+        return
+    _criteria(answer, settings.added)
+    _parameters(answer)
+    for line in answer.data["notes"]:
+        note(str(line))
+
+
+def _criteria(answer: Answer, added: Sequence[str]) -> None:
+    """Worst value of each criterion of thesis Tables 1.3 and 1.4, per step, with its limit."""
+    steps = ledger(answer, tuple(added))
+    symbols = [s for s in CRITERIA if any(s in step["criteria"] for step in steps)]
+    if not symbols:
+        return
+    columns = [("criterion", "words"), ("limit", "number")]
+    columns += [({"prior": "as it is", "refit": "refitted"}.get(s["step"], f"+ {s['step']}"), "number") for s in steps]
+    rows = []
+    for symbol in symbols:
+        one = CRITERIA[symbol]
+        cells: list[Any] = [one.name, {"text": f"{one.limit:g} {one.unit}", "value": one.limit}]
+        for step in steps:
+            value = step["criteria"].get(symbol)
+            met = value is not None and value <= one.limit
+            told = "–" if value is None else f"{value:.3g} {'✓' if met else '✗'}"
+            cells.append({"text": told, "value": value, "mark": "low" if met else "high"})
+        rows.append(cells)
+    with card("Criteria of thesis Tables 1.3 and 1.4"):
+        text("p", "The worst record counts. ✓ within the limit, ✗ beyond it.", "small")
+        Table("Worst value of each criterion", columns, rows)
+
+
+def _parameters(answer: Answer) -> None:
+    """Before and after, with 95 percent intervals."""
+    before = {e["name"]: e for e in answer.base["estimates"]}
+    after = {e["name"]: e for e in answer.last["estimates"]} if answer.added else {}
+    names = list(dict.fromkeys([*before, *after]))
+    if not names:
+        return
+    columns = [("parameter", "words"), ("unit", "words"), ("as it is", "number"), ("refitted", "number")]
+    columns += [("95 % from", "number"), ("to", "number")]
+    columns += [("now", "number"), ("95 % from", "number"), ("to", "number")] if after else []
+    rows, drawn = [], []
+    for name in names:
+        first, last = before.get(name), after.get(name)
+        one = last or first
+        assert one is not None
+        rows.append(
+            [name, one["unit"], _number(first and first["start"]), *_three(first), *(_three(last) if after else [])]
+        )
+        if one["lower"] is not None and one["upper"] is not None:
+            drawn.append(
+                {
+                    "name": name,
+                    "lower": one["lower"],
+                    "upper": one["upper"],
+                    "before": _point(first),
+                    "after": _point(last),
+                }
+            )
+    with card("Parameters before and after"):
+        text(
+            "p",
+            "Estimates with 95 percent intervals; a dash where the measurements do not determine one by itself.",
+            "small",
+        )
+        if drawn:
+            Chart(parameters_figure(drawn), "Parameters between their bounds", height=80 + 27 * len(drawn))
+        Table("Parameters", columns, rows)
+        for direction in answer.last["undetermined"]:
+            text("p", f"The measurements leave open: {direction['words']}", "small")
+
+
+def _three(e: Mapping[str, Any] | None) -> list[str]:
+    if e is None:
+        return ["", "", ""]
+    return [_number(e["value"]), *((_number(e["low"]), _number(e["high"])) if e["determined"] else ("–", "–"))]
+
+
+def _point(e: Mapping[str, Any] | None) -> tuple[float, float, float] | None:
+    if e is None:
+        return None
+    low, high = (e["low"], e["high"]) if e["determined"] else (e["value"], e["value"])
+    return float(e["value"]), float(low), float(high)
+
+
+def _number(value: float | None) -> str:
+    return "" if value is None else f"{value:.4g}"

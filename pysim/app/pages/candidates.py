@@ -1,0 +1,124 @@
+"""Page 4: which effects may be missing, with evidence, equation and sketch; none and unknown are answers too."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from nicegui import ui
+
+from pysim.app.answers import Answer
+from pysim.app.desk import Desk
+from pysim.app.pages.common import attempt, busy, ended, nothing, start
+from pysim.app.parts import box, button, card, curve, head, live, text
+from pysim.app.sketch import sketch
+from pysim.types.diagnosis import NONE, UNKNOWN
+
+
+def candidates_page(desk: Desk) -> None:
+    """The ranking."""
+    live(lambda: desk.version, lambda: _build(desk), "gap")
+
+
+def _build(desk: Desk) -> None:
+    answer = desk.answers.newest("ranking")
+    head("What may be missing", "Every effect of the catalogue that fits a slot of the model, by what it would gain.")
+    ended(desk)
+    with box("row"):
+        main = "main" if answer is None else ""
+        button("Rank the candidates", lambda: start(desk, lambda: desk.work("rank")), main, off=busy(desk))
+        button(
+            "Find what is missing", lambda: start(desk, lambda: desk.work("diagnose"), then="/add"), "", off=busy(desk)
+        )
+        text("span", "Ranking decides nothing; finding adds what the measurements demand, and says why.", "small")
+    if desk.answers.verdict is not None:
+        _verdict(desk.answers.verdict)
+    effects = (desk.model or {}).get("effects", [])
+    if answer is None and not effects:
+        nothing("No candidates yet", "Name a model with slots on the page Data.")
+        return
+    with card("Candidates" if answer else "Effects that fit the model's slots"):
+        rows = _rows(answer)
+        if not rows:
+            rows = [{"effect": one["name"]} for one in effects]
+        top = max((row["score"] for row in rows if row.get("score")), default=1.0)
+        groups = [] if answer is None else [set(group) for group in answer.data["confusable"]]
+        with box("tight").props('role="list"'):
+            for rank, row in enumerate(rows, 1):
+                _candidate(desk, rank, row, top, groups)
+
+
+def _rows(answer: Answer | None) -> list[Mapping[str, Any]]:
+    """Of the first round, best first; a later round is told by the verdict."""
+    if answer is None:
+        return []
+    first = [row for row in answer.data["ranking"] if row["round"] == 1]
+    return sorted(first, key=lambda row: -(row["score"] or 0.0))
+
+
+def _verdict(answer: Answer) -> None:
+    """The diagnosis in its own words."""
+    verdict, reason = str(answer.data["verdict"]), str(answer.data["reason"])
+    titles = {
+        NONE: "Nothing is missing",
+        UNKNOWN: "Unknown: more than noise is left, and none of these explains all of it",
+    }
+    with card():
+        text("p", f"{titles.get(verdict, 'The measurements ask for an effect')}: {reason}.", "statement")
+        for group in answer.data["confusable"]:
+            text("p", f"These measurements do not tell {' and '.join(group)} apart.", "note")
+        test = answer.data["next_test"]
+        if test is not None:
+            text("p", f"The test that would: {test['about']}", "note")
+
+
+def _candidate(desk: Desk, rank: int, row: Mapping[str, Any], top: float, groups: list[set[str]]) -> None:
+    name = str(row["effect"])
+    known = next((one for one in (desk.model or {}).get("effects", []) if one["name"] == name), None)
+    tied = any(name in group for group in groups)
+    added = name in desk.project.settings().added
+    with box(f"candidate {'first' if rank == 1 and 'score' in row else ''} {'tied' if tied else ''}").props(
+        'role="listitem"'
+    ):
+        text("span", str(rank) if "score" in row else "·", "rank")
+        curve(_points(desk, known))
+        with box("tight"):
+            with box("row"):
+                text("h3", str(known["about"]).removesuffix(f"({name})").strip() if known else name)
+                text("span", name, "chip mono")
+                if tied:
+                    text("span", "tied", "chip").props('title="These measurements do not tell the tied apart"')
+            if known:
+                text("div", str(known["law"]), "law")
+        _gain(row, top)
+        if added:
+            text("span", "in the model", "chip good")
+        else:
+            button("Try", lambda: _try(desk, name), "small", off=busy(desk))
+
+
+def _gain(row: Mapping[str, Any], top: float) -> None:
+    with box("gain"):
+        if "score" not in row:
+            return
+        score = float(row["score"] or 0.0)
+        with box("bar"):
+            ui.element("i").style(f"width: {max(0.0, min(100.0, 100 * score / top)):.1f}%")
+        how = "refitted" if row["refitted"] else "screened"
+        share = f"takes {100 * float(row['explained'] or 0.0):.1f} % of the misfit"
+        text("span", f"{share} ({how})" if score > 0 else f"does not pay ({how})")
+        sizes = ", ".join(f"{name} {value:.4g}" for name, value in row["parameters"].items() if value is not None)
+        text("span", sizes, "small mono")
+
+
+def _points(desk: Desk, known: Mapping[str, Any] | None) -> tuple[list[float], list[float]] | None:
+    if known is None:
+        return None
+    slots = (desk.model or {}).get("slots", [])
+    sees = next((slot["sees"] for slot in slots if slot["name"] == known["slot"]), ())
+    return sketch(str(known["law"]), sees, {p["name"]: p["nominal"] or p["default"] for p in known["parameters"]})
+
+
+def _try(desk: Desk, name: str) -> None:
+    if attempt(lambda: desk.add(name)):
+        ui.navigate.to("/add")

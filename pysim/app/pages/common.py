@@ -1,0 +1,73 @@
+"""What several pages do alike."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+
+from nicegui import ui
+
+from pysim.app.desk import Desk
+from pysim.app.jobs import FAILED, STOPPED, Work
+from pysim.app.parts import box, button, note, say, text
+from pysim.types import BadInput
+
+
+def attempt(action: Callable[[], None]) -> bool:
+    """Do what a button says; what cannot be is said in a sentence."""
+    try:
+        action()
+    except BadInput as error:
+        say(str(error), bad=True)
+        return False
+    return True
+
+
+def start(desk: Desk, work: Callable[[], Work], *, then: str = "") -> None:
+    """Start a piece of work, and go to a page."""
+    if attempt(lambda: desk.start(work())) and then:
+        ui.navigate.to(then)
+
+
+def busy(desk: Desk) -> str:
+    """Why nothing can be started now; "" where something can."""
+    if desk.runner.running is not None:
+        return f"{desk.runner.running.work.title} is running"
+    check = desk.loaded.check if desk.loaded else None
+    if check is None or not check.records:
+        return "Drop a data set first"
+    if desk.loaded is not None and desk.loaded.refused:
+        return "Some logs were refused; mend them or leave them out on the page Data"
+    if not desk.project.settings().model:
+        return "Name a model first"
+    return "The model is being built" if desk.model_busy else desk.model_trouble and "The model cannot be used"
+
+
+def ended(desk: Desk) -> None:
+    """What became of the last piece of work, where that needs words; how to go on."""
+    job = desk.last if desk.last is not None and desk.last.state in (FAILED, STOPPED) else None
+    job = job or (desk.unfinished() if desk.runner.running is None else None)
+    if job is None or desk.runner.running is not None:
+        return
+    if job.state == FAILED:
+        note(f"{job.work.title} failed: {job.message}", "bad")
+    else:
+        with box("note row end"):
+            text("span", f"{job.work.title} was stopped; what it had found is kept.")
+            button("Go on", lambda: attempt(lambda: desk.start(job.work)), "small", off=busy(desk))
+
+
+def nothing(title: str, words: str) -> None:
+    """Where there is nothing to show yet."""
+    with box("card empty"):
+        text("b", title)
+        text("span", words)
+
+
+def segments(options: list[tuple[str, str]], chosen: str, pick: Callable[[str], None], label: str) -> None:
+    """A few choices of which one is on."""
+    with box("seg").props('role="group"') as group:
+        group._props["aria-label"] = label
+        for key, words in options:
+            one = button(words, partial(pick, key), "on" if key == chosen else "")
+            one._props["aria-pressed"] = "true" if key == chosen else "false"

@@ -1,0 +1,196 @@
+"""Page 2: measured beside simulated: a map of the error, any record with what is left over, Bode plots."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import partial
+from typing import Any
+
+from nicegui import ui
+
+from pysim.app.answers import Answer
+from pysim.app.desk import Desk
+from pysim.app.error_map import ErrorMap, error_maps
+from pysim.app.figures import bode_figure, map_figure
+from pysim.app.pages.common import busy, ended, nothing, segments, start
+from pysim.app.parts import Chart, Table, box, button, card, head, live, text
+from pysim.app.records import MOST, compared_overlay, measured_overlay, stage_keys
+from pysim.types import Record
+
+
+@dataclass
+class _View:
+    """What one tab looks at."""
+
+    record: str = ""
+    model: str = ""
+    response: int = 0
+
+
+def compare_page(desk: Desk, record: str = "") -> None:
+    """Measured and simulated."""
+    view = _View(record)
+    live(lambda: desk.version, lambda: _top(desk), "gap")
+    live(lambda: (desk.version, view.model), lambda: _maps(desk, view), "gap")
+    live(lambda: (desk.version, view.record), lambda: _record(desk, view), "gap")
+    live(lambda: (desk.version, view.model, view.response), lambda: _bode(desk, view), "gap")
+
+
+def _answer(desk: Desk) -> Answer | None:
+    return desk.answers.with_effects(desk.project.settings().added) or desk.answers.with_effects(())
+
+
+def _top(desk: Desk) -> None:
+    answer = _answer(desk)
+    head("Measured and simulated", "Every record beside the model, in units of the noise: 1 is noise alone.")
+    ended(desk)
+    with box("row"):
+        kind = "main" if answer is None else ""
+        button("Compare and refit", lambda: start(desk, lambda: desk.work("compare")), kind, off=busy(desk))
+        if answer is not None:
+            for step in answer.data["error"]:
+                value = step["fit"] or step["validate"]
+                name = {"prior": "as it is", "refit": "refitted"}.get(step["step"], f"+ {step['step']}")
+                text("span", f"{name}: {value:.2f}" if value else name, f"chip {'good' if step['passes'] else ''}")
+
+
+def _maps(desk: Desk, view: _View) -> None:
+    """Which record to open: the error over offset, amplitude and frequency, and over the time of other logs."""
+    answer = _answer(desk)
+    check = desk.loaded.check if desk.loaded else None
+    if answer is None or check is None:
+        return
+    keys = stage_keys(answer)
+    chosen = next((one for one in keys if one[0] == view.model), keys[-1])
+    with card():
+        with box("row end"):
+            text("h2", "Where the error is")
+            segments([(key, words) for key, words, _ in keys], chosen[0], lambda key: _set(view, model=key), "Model")
+        text("p", "Times the noise, as root mean square. Click a cell to open its record.", "small")
+        for k, one in enumerate(error_maps(chosen[2], check.dataset)):
+            figure = map_figure(one.rows, one.columns, one.values, one.title, scale=not k)
+            label = f"Map of the error: {len(one.rows)} rows, {len(one.columns)} columns"
+            Chart(figure, label, height=76 + 30 * len(one.rows), on_pick=partial(_pick, view, one))
+
+
+def _pick(view: _View, one: ErrorMap, at: Mapping[str, Any]) -> None:
+    """Open the record of a cell; its place on the map tells which."""
+    index = at.get("index")
+    if isinstance(index, list) and len(index) == 2:
+        source = one.sources[int(index[0])][int(index[1])]
+        if source:
+            _open(view, source)
+
+
+def _open(view: _View, source: str) -> None:
+    view.record = source
+    ui.run_javascript("document.getElementById('record')?.scrollIntoView({block: 'start'})")
+
+
+def _set(view: _View, **values: Any) -> None:
+    for name, value in values.items():
+        setattr(view, name, value)
+
+
+def _record(desk: Desk, view: _View) -> None:
+    """One record with all models, and the list of all."""
+    check = desk.loaded.check if desk.loaded else None
+    logs = check.dataset.logs() if check else ()
+    if not logs:
+        if check is None or not check.records:
+            nothing("No records yet", "Drop a data set on the page Data.")
+        return
+    answer = _answer(desk)
+    errors = _errors(answer)
+    worst = max(
+        logs,
+        key=lambda log: (errors.get(log.source, [0.0])[-1], log.data.time.size if isinstance(log.data, Record) else 0),
+    )
+    source = view.record if any(log.source == view.record for log in logs) else worst.source
+    number = next(k for k, log in enumerate(logs) if log.source == source)
+    overlay = compared_overlay(answer, source) if answer else None
+    overlay = overlay or measured_overlay(logs[number])
+    of = answer.job.work.name if answer and overlay.models else "data"
+    with card() as place:
+        place.props('id="record"')
+        with box("row end"):
+            text("h2", source)
+            text("span", "held out" if logs[number].use == "validate" else "fitted", "chip")
+        text(
+            "p",
+            "Drag to zoom, double click for all; with the keyboard: arrows, + and −, 0. Grey holds 95 % of noise.",
+            "small",
+        )
+        series = {"url": f"/series?of={of}&record={number}", "traces": list(range(len(overlay.lines)))}
+        panels = len(overlay.names) * (1.6 if overlay.models else 1.0)
+        Chart(
+            overlay.figure(), f"{source}: measured and simulated over time", height=round(120 + 165 * panels),
+            series={**series, "span": overlay.span, "most": MOST},
+        )  # fmt: skip
+    _list(view, logs, errors, source)
+
+
+def _errors(answer: Answer | None) -> dict[str, list[float]]:
+    """Source -> error over noise of the base and of the last model, the worst signal of each."""
+    found: dict[str, list[float]] = {}
+    for stage in [] if answer is None else [answer.base, answer.last][: 2 if answer.added else 1]:
+        for record in stage["records"]:
+            found.setdefault(record["source"], []).append(max((v for v in record["rms"] if v is not None), default=0.0))
+    return found
+
+
+def _list(view: _View, logs: Any, errors: dict[str, list[float]], source: str) -> None:
+    columns = [("record", "words"), ("use", "words"), ("offset", "number"), ("amplitude", "number"), ("Hz", "number")]
+    count = max((len(one) for one in errors.values()), default=0)
+    columns += [("error, refitted" if k == 0 else "error, now", "number") for k in range(count)]
+    rows = []
+    for log in logs:
+        told = [_told(value) for value in (log.offset, log.amplitude, log.frequency)]
+        cells = [
+            {"text": f"{v:.2f}", "value": v, "mark": "high" if v > 1.5 else "low"} for v in errors.get(log.source, [])
+        ]
+        cells += [""] * (count - len(cells))  # type: ignore[list-item]
+        rows.append([log.source, "held out" if log.use == "validate" else "fitted", *told, *cells])
+    picked = next(k for k, log in enumerate(logs) if log.source == source)
+    with card("All records"):
+        Table("Records", columns, rows, on_row=lambda k: _open(view, logs[k].source), picked=picked, height="330px")
+
+
+def _told(value: float | None) -> str:
+    return "" if value is None else f"{value:g}"
+
+
+def _bode(desk: Desk, view: _View) -> None:
+    """A frequency response with the band of Table 1.3 and its verdict."""
+    answer = _answer(desk)
+    if answer is None or not answer.base["responses"]:
+        return
+    tests = answer.base["responses"]
+    number = view.response if view.response < len(tests) else 0
+    one = tests[number]
+    models = []
+    for key, words, stage in stage_keys(answer):
+        side = stage["responses"][number]["simulated"] if number < len(stage["responses"]) else None
+        if side is not None:
+            models.append((key, words, side))
+    last = answer.last["responses"][number]
+    with card():
+        with box("row end"):
+            text("h2", "Frequency responses")
+            text(
+                "span",
+                "passes Table 1.3" if last["passes"] else "beyond Table 1.3",
+                f"chip {'good' if last['passes'] else 'bad'}",
+            )
+        options = [(str(k), f"{t['offset']:g} ± {t['amplitude']:g}") for k, t in enumerate(tests)]
+        segments(options, str(number), lambda key: _set(view, response=int(key)), "Operating point")
+        if last["message"]:
+            text("p", str(last["message"]), "note bad")
+        Chart(bode_figure(one, models), f"Bode plot of {one['output']} to {one['input']}", height=440)
+        told = ", ".join(
+            f"{d['name']} {d['value']:.2g} of {d['limit']:g} {d['unit']}"
+            for d in last["deviations"]
+            if d["value"] is not None
+        )
+        text("p", f"{told}." if told else "", "small")

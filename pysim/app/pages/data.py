@@ -1,0 +1,263 @@
+"""Page 1: the data set and the model: what was read, what was refused and why, signals, noise, what is held out."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from functools import partial
+from typing import Any
+
+from nicegui import ui
+
+from pysim.app.description import UNITS, change_description, read_description
+from pysim.app.desk import Desk, Loaded
+from pysim.app.pages.bare import describe_form
+from pysim.app.pages.common import attempt, busy, ended, start
+from pysim.app.parts import Chart, Drop, Table, box, button, card, head, live, note, say, text
+from pysim.app.records import MOST, measured_overlay
+from pysim.identify.data_check import DataCheck, RecordCheck
+from pysim.types import BadInput
+
+MODELS = ("HydraulicTestBench.Pump.FreeGreyBox", "HydraulicTestBench.Pump.LockedGreyBox")
+
+
+def data_page(desk: Desk) -> None:
+    """Data and model."""
+    preview: dict[str, int] = {}
+    head("Data and model", "Drop what the bench has logged, name the model, and look at what was read.")
+    live(lambda: desk.version, lambda: _ready(desk), "gap")
+    Drop(
+        "Drop a data set here",
+        "A folder, a .zip or single logs (text, CSV, LabVIEW, Parquet). An .fmu or a Modelica library is the model.",
+        limits=desk.limits, on_text=lambda words, good: say(words, bad=not good),
+    )  # fmt: skip
+    live(lambda: desk.version, lambda: _model(desk), "gap")
+    live(lambda: desk.version, lambda: _data(desk), "gap")
+    live(lambda: (desk.version, preview.get("record")), lambda: _records(desk, preview), "gap")
+
+
+def _ready(desk: Desk) -> None:
+    """What to do next."""
+    ended(desk)
+    if busy(desk) and desk.runner.running is None:
+        return
+    with box("card row end"):
+        with box("tight"):
+            text("b", "Ready to compare")
+            text(
+                "span",
+                "Compare refits the model and shows where it fails. Find also tries every effect that fits.",
+                "small",
+            )
+        with box("row"):
+            button(
+                "Compare and refit", lambda: start(desk, lambda: desk.work("compare"), then="/compare"), off=busy(desk)
+            )
+            find = lambda: start(desk, lambda: desk.work("diagnose"), then="/add")  # noqa: E731
+            button("Find what is missing", find, "main", off=busy(desk))
+
+
+def _model(desk: Desk) -> None:
+    settings, info = desk.project.settings(), desk.model
+    with card("Model"):
+        with box("row"):
+            names = list(dict.fromkeys([*MODELS, *([settings.model] if settings.model else [])]))
+            field = ui.input(value=settings.model, autocomplete=names).props("dense outlined").style("min-width: 430px")
+            field.props('aria-label="Modelica class, or the name of an .fmu below model"')
+            off = "Wait until the running work has ended" if desk.runner.running else ""
+            button("Use this model", lambda: _use(desk, str(field.value)), "" if settings.model else "main", off=off)
+            if desk.model_busy:
+                box("spin")
+                text("span", "building the model", "small")
+        if not settings.model:
+            text("p", f"A Modelica class, such as {MODELS[0]}, or drop an .fmu or a library above.", "small")
+        if desk.model_trouble:
+            note(desk.model_trouble, "bad")
+        if settings.libraries:
+            text("p", f"Libraries of yours: {', '.join(settings.libraries)}", "small")
+        if info is not None:
+            free = [p for p in info["parameters"] if None not in (p["min"], p["max"], p["start"])]
+            told = (len(info["states"]), len(free), len(info["slots"]), len(info["effects"]))
+            with box("row"):
+                for count, words in zip(
+                    told, ("states", "parameters with bounds", "slots", "effects that fit"), strict=True
+                ):
+                    text("span", f"{count} {words}", "chip")
+            if not info["slots"]:
+                note("Its Modelica class is not at hand, so no effect can be added; drop its library above.")
+
+
+def _use(desk: Desk, name: str) -> None:
+    desk.project.change(model=name.strip(), added=())
+    ui.timer(0.01, desk.read_model, once=True)
+
+
+def _data(desk: Desk) -> None:
+    loaded = desk.loaded
+    if loaded is None:
+        return
+    if loaded.trouble:
+        with card("The data set was refused"):
+            note(loaded.trouble, "bad")
+    elif loaded.check is None:
+        describe_form(desk)
+    else:
+        _refused(desk, loaded)
+        _signals(desk, loaded.check)
+
+
+def _refused(desk: Desk, loaded: Loaded) -> None:
+    """Files that could not be read, why, and what to do."""
+    if not loaded.refused:
+        return
+    count = len(loaded.refused)
+    with card(f"{count} {'log was' if count == 1 else 'logs were'} refused"):
+        Table(
+            "Refused logs", [("file", "words"), ("why, and what to do", "words")], [list(row) for row in loaded.refused]
+        )
+        with box("row"):
+            files = {file for file, _ in loaded.refused}
+            button("Leave them out", lambda: _change(desk, lambda c: _without(c, files)), "small")
+            text("span", "or mend them and drop the folder again", "small")
+
+
+def _without(content: dict[str, Any], files: set[str]) -> None:
+    content["records"] = [r for r in content["records"] if str(r.get("file")).replace("\\", "/") not in files]
+    if not content["records"]:
+        raise BadInput("no record would be left; mend at least one and drop the folder again")
+
+
+def _change(desk: Desk, edit: Callable[[dict[str, Any]], Any]) -> None:
+    """Edit the description; what is refused is said, and nothing is changed."""
+
+    def change() -> None:
+        if desk.runner.running is not None:
+            raise BadInput("wait until the running work has ended, or stop it")
+        content = read_description(desk.project.description)
+        edit(content)
+        change_description(desk.project.description, content)
+        desk.project.change(added=())
+
+    attempt(change)
+    ui.timer(0.01, desk.read_data, once=True)
+
+
+def _signals(desk: Desk, check: DataCheck) -> None:
+    """Which column is which variable of the model, its unit in the files, and its noise."""
+    content = read_description(desk.project.description)
+    variables = [] if desk.model is None else [str(v[0]) for v in desk.model["variables"]]
+    with card("Signals"):
+        text(
+            "p",
+            "Noise is one standard deviation in the unit of the files; left empty, it is seen in the logs.",
+            "small",
+        )
+        with box("form").style("grid-template-columns: 1.1fr 0.7fr 0.7fr 1.5fr 0.8fr 0.8fr"):
+            for words in ("signal", "role", "unit in the files", "variable of the model", "noise", "resolution"):
+                text("span", words, "head")
+            for name, section in content["signals"].items():
+                _signal(desk, name, section, variables)
+    if desk.model is not None:
+        for signal in check.dataset.signals:
+            if variables and signal.variable not in variables:
+                note(f"The model has no variable {signal.variable}; choose another one for {signal.name}.", "bad")
+
+
+def _signal(desk: Desk, name: str, section: Mapping[str, Any], variables: list[str]) -> None:
+    def put(key: str, value: Any) -> None:
+        _change(desk, lambda content: content["signals"][name].update({key: value}))
+
+    text("b", name)
+    text("span", str(section.get("role", "")))
+    choose(UNITS, str(section.get("unit", "")), lambda value: put("unit", value), f"unit of {name}")
+    variable = str(section.get("variable", name))
+    if variables:
+        options = list(dict.fromkeys([variable, *variables]))
+        choose(options, variable, lambda value: put("variable", value), f"variable for {name}")
+    else:
+        text("span", variable)
+    for key in ("noise", "resolution"):
+        amount(section.get(key), partial(put, key), f"{key} of {name}")
+
+
+def choose(options: Any, chosen: str, pick: Callable[[str], Any], label: str) -> None:
+    """A plain list to choose from; its texts are texts."""
+    with ui.element("select") as field:
+        field._props["aria-label"] = label
+        for one in options:
+            option = text("option", str(one))
+            option._props["value"] = str(one)
+            if one == chosen:
+                option._props["selected"] = True
+    field.on("change", lambda event: pick(str(event.args)), js_handler="(e) => emit(e.target.value)")
+
+
+def amount(value: Any, put: Callable[[float | None], Any], label: str) -> None:
+    """A number that may be left empty."""
+    field = ui.element("input").props("type=number step=any min=0")
+    field._props["aria-label"], field._props["value"] = label, "" if value is None else value
+
+    def changed(written: str) -> None:
+        try:
+            put(float(written) if written else None)
+        except ValueError:
+            say(f"{label}: {written!r} is no number; write one, or leave it empty", bad=True)
+
+    field.on("change", lambda event: changed(str(event.args)), js_handler="(e) => emit(e.target.value)")
+
+
+def _records(desk: Desk, preview: dict[str, int]) -> None:
+    check = desk.loaded.check if desk.loaded else None
+    if check is None or not check.records:
+        return
+    columns = [("record", "words"), ("held out", "tick"), ("kind", "words"), ("rows", "number"), ("s", "number")]
+    columns += [
+        ("samples/s", "number"),
+        ("offset", "number"),
+        ("amplitude", "number"),
+        ("Hz", "number"),
+        ("look at", "words"),
+    ]
+    held = sum(record.use == "validate" for record in check.records)
+    with card(f"{len(check.records)} records, {held} held out"):
+        text(
+            "p",
+            "What is held out is never fitted: it shows whether the model foresees. Click a row to see the record.",
+            "small",
+        )
+        Table(
+            "Records", columns, [_row(record) for record in check.records], height="360px",
+            on_row=lambda k: preview.update(record=k), picked=preview.get("record", -1),
+            on_tick=lambda k, on: _change(desk, lambda c: _hold(c, check.records[k].source, on)),
+        )  # fmt: skip
+    logs = [record.source for record in check.dataset.logs()]
+    source = check.records[preview["record"]].source if preview.get("record", -1) in range(len(check.records)) else ""
+    if source in logs:
+        number = logs.index(source)
+        overlay = measured_overlay(check.dataset.logs()[number])
+        series = {"url": f"/series?of=data&record={number}", "traces": list(range(len(overlay.lines)))}
+        with card(source):
+            Chart(
+                overlay.figure(), f"{source} over time", height=110 + 130 * len(overlay.names),
+                series={**series, "span": overlay.span, "most": MOST},
+            )  # fmt: skip
+
+
+def _hold(content: dict[str, Any], source: str, on: bool) -> None:
+    for record in content["records"]:
+        if str(record.get("file")).replace("\\", "/") == source:
+            record["use"] = "validate" if on else "fit"
+
+
+def _row(record: RecordCheck) -> list[Any]:
+    base = record.clock
+    clock = ["", ""] if base is None else [f"{base.duration:.4g}", f"{base.rate:.4g}"]
+    told = ["" if v is None else f"{v:g}" for v in (record.offset, record.amplitude, record.frequency)]
+    return [
+        record.source,
+        record.use == "validate",
+        record.kind,
+        record.rows,
+        *clock,
+        *told,
+        "; ".join(record.warnings),
+    ]

@@ -1,0 +1,164 @@
+"""The frame around every page: project, steps of the work, and what is running."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from nicegui import ui
+
+from pysim.app.desk import Desk
+from pysim.app.jobs import FAILED, Job
+from pysim.app.pages.add import add_page
+from pysim.app.pages.candidates import candidates_page
+from pysim.app.pages.compare import compare_page
+from pysim.app.pages.data import data_page
+from pysim.app.pages.locate import locate_page
+from pysim.app.pages.take import take_page
+from pysim.app.parts import box, button, live, text
+from pysim.app.project import LOOKS
+
+_PAGES = (
+    ("/", "Data", data_page),
+    ("/compare", "Compare", compare_page),
+    ("/locate", "Locate", locate_page),
+    ("/candidates", "Candidates", candidates_page),
+    ("/add", "Add", add_page),
+    ("/take", "Take away", take_page),
+)
+_MARK = (
+    '<svg viewBox="0 0 24 24" aria-hidden="true"><path class="second" d="M2 5h5v6h6"/><path d="M2 9h4v6h6v5h10"/></svg>'
+)
+
+
+def shell(desk: Desk) -> None:
+    """One tab."""
+    ui.add_head_html('<link rel="stylesheet" href="/static/app.css">')
+    _look(desk)
+    with box("shell"):
+        text("a", "To the page", "skip").props('href="#page"')
+        with box("top", "header"):
+            with box("brand"):
+                ui.html(_MARK, sanitize=False)
+                text("span", "Workbench")
+            live(lambda: desk.version, lambda: _what(desk), "what")
+            live(lambda: (desk.beat, _seconds(desk)), lambda: _job(desk))
+            live(lambda: desk.project.settings().look, lambda: _look_button(desk))
+        with box("rail", "nav").props('aria-label="Steps"'):
+            _rail(desk)
+        with box("main", "main").props('id="page"'):
+            ui.sub_pages({path: _page(build, desk) for path, _, build in _PAGES})
+
+
+def _page(build: Callable[[Desk], None], desk: Desk) -> Callable[[], None]:
+    def show() -> None:
+        with box("page"):
+            build(desk)
+
+    return show
+
+
+def _look(desk: Desk) -> None:
+    """Light or dark, as the system has it or as was chosen."""
+    dark = ui.dark_mode()
+
+    def follow() -> None:
+        dark.value = {"auto": None, "light": False, "dark": True}[desk.project.settings().look]
+
+    live(lambda: desk.project.settings().look, follow)
+
+
+def _look_button(desk: Desk) -> None:
+    look = desk.project.settings().look
+    after = LOOKS[(LOOKS.index(look) + 1) % len(LOOKS)]
+    words = {"auto": "◐ Auto", "light": "☀ Light", "dark": "☾ Dark"}[look]
+    button(words, lambda: desk.project.change(look=after), "quiet").props(f'title="Look: {look}; press for {after}"')
+
+
+def _what(desk: Desk) -> None:
+    """Data set and model."""
+    check = desk.loaded.check if desk.loaded else None
+    model = desk.project.settings().model
+    text("b", check.dataset.name if check else "no data set yet")
+    text("span", "against")
+    text("b", model or "no model yet")
+
+
+def _seconds(desk: Desk) -> int:
+    """So that the clock of a running job goes on."""
+    return int(desk.runner.running.seconds) if desk.runner.running else 0
+
+
+def _job(desk: Desk) -> None:
+    """What runs, with the time that it may still take, and a button that stops it; what became of it."""
+    job = desk.runner.running
+    with box("row").props('role="status" aria-live="polite"'):
+        if job is not None:
+            with box("job"):
+                box("spin")
+                text("span", job.stage, "stage").props(f'title="{job.work.title.replace(chr(34), "")}"')
+                text("span", _time(job), "time")
+                button("Stop", desk.runner.stop, "small")
+        elif desk.last is not None and desk.last.state == FAILED:
+            text("span", "Failed", "chip bad")
+        elif desk.last is not None:
+            words = {"done": "Done", "stopped": "Stopped"}[desk.last.state]
+            text("span", f"{words} after {clock(desk.last.seconds)}", f"chip {'good' if words == 'Done' else ''}")
+
+
+def _time(job: Job) -> str:
+    left = "" if job.left is None else f" · about {clock(job.left)} left"
+    return f"{clock(job.seconds)}{left}"
+
+
+def clock(seconds: float) -> str:
+    """Minutes and seconds."""
+    return f"{int(seconds) // 60}:{int(seconds) % 60:02d}"
+
+
+def _rail(desk: Desk) -> None:
+    links = []
+    for number, (path, name, _) in enumerate(_PAGES, 1):
+        link = ui.link(target=path).classes(replace="")
+        with link:
+            text("span", str(number), "number").props('aria-hidden="true"')
+            text("span", name, "name")
+            state = text("span", "", "state")
+        links.append((link, state))
+
+    def follow() -> None:
+        states = _states(desk)
+        for (link, state), (words, done) in zip(links, states, strict=True):
+            state.set_text(words)
+            link.classes(add="done" if done else "", remove="" if done else "done")
+
+    live(lambda: (desk.version, desk.beat), follow)
+    ui.add_body_html('<script src="/static/rail.js"></script>')
+
+
+def _states(desk: Desk) -> list[tuple[str, bool]]:
+    """Per page a few words and whether it has something to show."""
+    check = desk.loaded.check if desk.loaded else None
+    answers = desk.answers
+    settings = desk.project.settings()
+    compared, ranked = answers.with_effects(()), answers.newest("ranking")
+    located, whole = answers.newest("missing"), answers.verdict
+    now = answers.with_effects(settings.added)
+    error = "" if compared is None else f"{_rms(compared.base['step'], compared.data['error'])} × noise"
+    first = "" if located is None else str(located.data["missing"][0]["slot"])
+    best = "" if ranked is None else str(ranked.data["ranking"][0]["effect"])
+    verdict = best if whole is None else str(whole.data["verdict"])
+    last = "" if now is None or not settings.added else f"{_rms(settings.added[-1], now.data['error'])} × noise"
+    return [
+        (f"{len(check.records)} records" if check else "drop your logs", check is not None),
+        (error or "model beside data", compared is not None),
+        (first or "where it fails", located is not None),
+        (verdict or "what may be missing", ranked is not None),
+        (last or "watch the error fall", bool(last)),
+        ("class, FMU, report" if last else "files and commands", bool(last)),
+    ]
+
+
+def _rms(step: str, error: list[dict[str, object]]) -> str:
+    found = next((row for row in error if row["step"] == step), None)
+    value = None if found is None else found["fit"] or found["validate"]
+    return "–" if value is None else f"{value:.2f}"

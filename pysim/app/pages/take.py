@@ -1,0 +1,74 @@
+"""Page 6: what to take away: the extended class, its FMU, parameters, the report, and the commands that do it again."""
+
+from __future__ import annotations
+
+from urllib.parse import quote
+
+from nicegui import ui
+
+from pysim.app.answers import Answer
+from pysim.app.desk import Desk
+from pysim.app.pages.common import nothing
+from pysim.app.parts import box, button, card, head, live, say, text
+
+_FILES = (
+    (
+        "modelica",
+        "Modelica class",
+        "Yours extended by what was added, with the fitted values; your own files stay as they are.",
+    ),
+    ("fmu", "FMU", "The same class compiled; its defaults are the fitted values."),
+    ("parameters", "Parameters", "The fitted values as lines NAME = VALUE, for --parameters."),
+    ("report", "Report", "The whole story on one page that needs nothing else."),
+    ("plan", "Next test", "A plan of the test that separates what these measurements do not, for pysim bench."),
+)
+
+
+def take_page(desk: Desk) -> None:
+    """Files and commands."""
+    live(lambda: desk.version, lambda: _build(desk), "gap")
+
+
+def _build(desk: Desk) -> None:
+    head("Take it away", "Everything is a file in the project's folder already; the commands make all of it again.")
+    added = desk.project.settings().added
+    answer = desk.answers.with_effects(added)
+    if answer is None:
+        nothing("Nothing to take yet", "Compare, find what is missing, or try a candidate first.")
+    else:
+        if added:
+            text("p", f"The model with {' and '.join(added)}.", "statement")
+        _files(answer)
+    with card("Commands"):
+        text(
+            "p",
+            f"In the folder {desk.project.folder}; what was stopped here goes on there, and the other way round.",
+            "small",
+        )
+        lines = "\n".join(one.job.command for one in reversed(desk.answers.all)) or "pysim data check data"
+        text("pre", lines, "code").props('tabindex="0"')
+        button("Copy", lambda: _copy(lines), "small")
+
+
+def _files(answer: Answer) -> None:
+    files = {name: str(path) for name, path in answer.data["files"].items()}
+    with box("files"):
+        for key, title, about in _FILES:
+            if key in files:
+                with box("file"):
+                    text("h2", title)
+                    text("p", about, "small")
+                    text("span", files[key], "mono path")
+                    words = "Open" if key == "report" else "Download"
+                    link = text("a", words, "plain")
+                    link._props["href"] = f"/result/{quote(answer.folder.name)}/{quote(files[key])}"
+                    link._props["target" if key == "report" else "download"] = "_blank" if key == "report" else ""
+    source = answer.folder / files["modelica"] if "modelica" in files else None
+    if source is not None and source.is_file():
+        with card("The class"):
+            text("pre", source.read_text(encoding="utf-8"), "code").props('tabindex="0"')
+
+
+def _copy(lines: str) -> None:
+    ui.clipboard.write(lines)
+    say("Copied")

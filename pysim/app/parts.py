@@ -1,0 +1,179 @@
+"""What the page is made of: texts, buttons, cards, tables, figures. Every name and text is shown as text."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import nicegui.elements.plotly  # registers the library that chart.js loads
+from nicegui import ui
+from nicegui.element import Element
+from nicegui.elements.mixins.text_element import TextElement
+
+from pysim.app.upload import Limits
+
+_STATIC = Path(__file__).parent / "static"
+_PULSE = 0.3  # s between two looks at what has changed
+
+assert nicegui.elements.plotly
+
+
+class Chart(Element, component=str(_STATIC / "chart.js")):
+    """A figure of `pysim.app.figures`.
+
+    Args:
+        figure: its data and layout.
+        label: what is to be seen, for those who cannot see it.
+        series: where the samples of a window come from: `url`, `traces`, `span` (s, s) and `most` points.
+        on_pick: told the place that was clicked: x, y, curve, index.
+        height: px.
+    """
+
+    def __init__(
+        self,
+        figure: Mapping[str, Any],
+        label: str,
+        *,
+        series: Mapping[str, Any] | None = None,
+        on_pick: Callable[[dict[str, Any]], Any] | None = None,
+        height: int = 360,
+    ) -> None:
+        super().__init__()
+        self._props["figure"], self._props["label"], self._props["series"] = figure, label, series
+        self.style(f"height: {height}px")
+        if on_pick is not None:
+            self.on("pick", lambda event: on_pick(event.args))
+
+    def show(self, figure: Mapping[str, Any], label: str) -> None:
+        """Another figure in its place."""
+        self._props["figure"], self._props["label"] = figure, label
+        self.update()
+
+
+class Table(Element, component=str(_STATIC / "table.js")):
+    """Rows of texts.
+
+    Args:
+        columns: title and kind: "words", "number" or "tick".
+        rows: cells: a text, a number, or `{"text", "value", "mark"}`; true or false below "tick".
+        on_row: told the row that was picked.
+        on_tick: told the row, and whether it is ticked.
+    """
+
+    def __init__(
+        self,
+        label: str,
+        columns: Sequence[tuple[str, str]],
+        rows: Sequence[Sequence[Any]],
+        *,
+        on_row: Callable[[int], Any] | None = None,
+        on_tick: Callable[[int, bool], Any] | None = None,
+        picked: int = -1,
+        height: str = "",
+    ) -> None:
+        super().__init__()
+        self._props["columns"] = [{"title": title, "kind": kind} for title, kind in columns]
+        self._props["rows"], self._props["label"] = [list(row) for row in rows], label
+        self._props["picked"], self._props["height"], self._props["pickable"] = picked, height, on_row is not None
+        if on_row is not None:
+            self.on("row", lambda event: on_row(int(event.args)))
+        if on_tick is not None:
+            self.on("tick", lambda event: on_tick(int(event.args["row"]), bool(event.args["on"])))
+
+    def pick(self, row: int) -> None:
+        """Mark a row."""
+        self._props["picked"] = row
+        self.update()
+
+
+class Drop(Element, component=str(_STATIC / "drop.js")):
+    """A place to drop files and folders on."""
+
+    def __init__(self, title: str, hint: str, *, limits: Limits, on_text: Callable[[str, bool], Any]) -> None:
+        super().__init__()
+        self._props["title"], self._props["hint"] = title, hint
+        self._props["bytes"], self._props["files"], self._props["limit"] = limits.size, limits.files, limits.words
+        self.on("taken", lambda event: on_text(str(event.args), True))
+        self.on("refused", lambda event: on_text(str(event.args), False))
+
+
+def text(tag: str, words: str, kind: str = "") -> TextElement:
+    """A paragraph, heading or word; never markup."""
+    element = TextElement(tag=tag, text=words)
+    return element.classes(kind) if kind else element
+
+
+def box(kind: str, tag: str = "div") -> Element:
+    """An element that holds others."""
+    return ui.element(tag).classes(kind)
+
+
+def button(words: str, action: Callable[[], Any], kind: str = "", *, off: str = "") -> TextElement:
+    """A button.
+
+    Args:
+        kind: "main" for the one thing to do next, "quiet", or "".
+        off: why it cannot be pressed now; shown beside the pointer.
+    """
+    element = text("button", words, f"button {kind}").props("type=button")
+    if off:
+        element._props["disabled"] = True
+        element._props["title"] = off
+    return element.on("click", lambda: action())
+
+
+def head(title: str, lead: str = "") -> None:
+    """Of a page."""
+    text("h1", title)
+    if lead:
+        text("p", lead, "lead")
+
+
+def card(title: str = "", kind: str = "") -> Element:
+    """A part of a page with its title."""
+    element = box(f"card {kind}", "section")
+    if title:
+        with element:
+            text("h2", title)
+    return element
+
+
+def note(words: str, kind: str = "") -> None:
+    """What a reader must know; kind is "bad", "good" or ""."""
+    text("p", words, f"note {kind}").props("role=note")
+
+
+def say(words: str, *, bad: bool = False) -> None:
+    """A sentence that goes away by itself; an error stays until it is read."""
+    kind = {"type": "negative", "timeout": 0, "close_button": "Close"} if bad else {"type": "positive", "timeout": 3500}
+    ui.notify(words, position="bottom", multi_line=True, **kind)  # type: ignore[arg-type]
+
+
+def live(key: Callable[[], object], build: Callable[[], Any], kind: str = "") -> Element:
+    """A part that is built anew whenever its key changes, in every tab."""
+    place = box(kind) if kind else ui.element("div")
+    known: list[object] = []
+
+    def look() -> None:
+        now = key()
+        if known and known[0] == now:
+            return
+        known[:] = [now]
+        place.clear()
+        with place:
+            build()
+
+    look()
+    ui.timer(_PULSE, look)
+    return place
+
+
+def curve(points: tuple[list[float], list[float]] | None) -> None:
+    """A sketch of a law between -1 and 1; only numbers go into the drawing."""
+    path = ""
+    if points is not None:
+        path = "M" + " L".join(f"{36 + 30 * x:.1f},{26 - 20 * y:.1f}" for x, y in zip(*points, strict=True))
+    axes = '<path class="axes" d="M4,26 H68 M36,4 V48"/>'
+    inner = f'{axes}<path class="law" d="{path}"/>' if path else '<path class="axes" d="M14,26 H58"/>'
+    ui.html(f'<svg viewBox="0 0 72 52" aria-hidden="true">{inner}</svg>', sanitize=False).classes("sketch")

@@ -1,0 +1,135 @@
+"""A project: a folder with a data set, settings and results, all in files that the command line reads as well."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import shutil
+import tomllib
+from dataclasses import dataclass, fields, replace
+from pathlib import Path
+from typing import Any
+
+from pysim.io import write_file
+from pysim.types import BadInput
+
+_SETTINGS = "project.toml"
+LOOKS = ("auto", "light", "dark")
+
+
+@dataclass(frozen=True)
+class Settings:
+    """What the user chose.
+
+    Args:
+        model: a Modelica class, or the name of an .fmu below `model/`.
+        libraries: of the user's, below the project.
+        free: parameters that may be refitted; empty: all that the model bounds.
+        added: effects that the model has now, in order.
+        look: of the page, one of LOOKS.
+    """
+
+    model: str = ""
+    libraries: tuple[str, ...] = ()
+    free: tuple[str, ...] = ()
+    added: tuple[str, ...] = ()
+    look: str = "auto"
+
+
+@dataclass(frozen=True)
+class Project:
+    """The folder; everything is read from it again when it is asked for, so that two pages never differ."""
+
+    folder: Path
+
+    @classmethod
+    def at(cls, folder: Path) -> Project:
+        """The project in a folder, which is made where it is missing.
+
+        Raises:
+            BadInput: a folder that cannot be written, or one that holds something else.
+        """
+        folder = folder.resolve()
+        if folder.is_dir() and any(folder.iterdir()) and not (folder / _SETTINGS).is_file():
+            raise BadInput(f"{folder} holds files but no {_SETTINGS}; name a new folder, or that of a project")
+        try:
+            folder.mkdir(parents=True, exist_ok=True)
+            project = cls(folder)
+            if not (folder / _SETTINGS).is_file():
+                project.save(Settings())
+        except OSError as error:
+            raise BadInput(
+                f"{folder}: cannot write there ({error.strerror or error}); choose another folder"
+            ) from error
+        project.settings()
+        return project
+
+    @property
+    def data(self) -> Path:
+        """Where the data set is; not there before one was dropped."""
+        return self.folder / "data"
+
+    @property
+    def models(self) -> Path:
+        """Where the user's models and libraries are."""
+        return self.folder / "model"
+
+    @property
+    def description(self) -> Path:
+        """The data set's dataset.toml."""
+        return self.data / "dataset.toml"
+
+    def results(self, name: str) -> Path:
+        """The folder of one result."""
+        return self.folder / "results" / name
+
+    def settings(self) -> Settings:
+        """As they are on disk.
+
+        Raises:
+            BadInput: a file that somebody broke.
+        """
+        path = self.folder / _SETTINGS
+        try:
+            found = tomllib.loads(path.read_text(encoding="utf-8"))
+            known = {f.name for f in fields(Settings)}
+            values: dict[str, Any] = {k: tuple(v) if isinstance(v, list) else v for k, v in found.items() if k in known}
+            settings = Settings(**values)
+        except (OSError, ValueError, TypeError) as error:
+            raise BadInput(f"{path}: {error}; correct it, or remove it to begin anew") from error
+        for one in fields(Settings):
+            if not isinstance(getattr(settings, one.name), type(one.default)):
+                raise BadInput(f"{path}: {one.name} is {getattr(settings, one.name)!r}; correct it or remove the line")
+        return settings
+
+    def save(self, settings: Settings) -> None:
+        """Write them."""
+        values = {f.name: getattr(settings, f.name) for f in fields(Settings)}
+        lines = [f"{name} = {json.dumps(value, ensure_ascii=False)}" for name, value in values.items()]
+        write_file(self.folder / _SETTINGS, "\n".join(["# of pysim app", *lines, ""]))
+
+    def change(self, **values: Any) -> Settings:
+        """Some of them changed, and written."""
+        settings = replace(self.settings(), **values)
+        self.save(settings)
+        return settings
+
+    def fingerprint(self) -> str:
+        """Of all that a result depends on: data, model and what may be refitted."""
+        settings = self.settings()
+        digest = hashlib.sha256(repr((settings.model, settings.libraries, settings.free)).encode())
+        for root in (self.data, self.models):
+            for path in sorted(root.rglob("*")) if root.is_dir() else ():
+                if path.is_file():
+                    stat = path.stat()
+                    digest.update(repr((path.relative_to(root).as_posix(), stat.st_size, stat.st_mtime_ns)).encode())
+        return digest.hexdigest()
+
+    def replace_data(self, folder: Path) -> None:
+        """Take a folder's content as the data set; what was there before is kept below `earlier`."""
+        if self.data.exists():
+            earlier = self.folder / "earlier"
+            earlier.mkdir(exist_ok=True)
+            number = 1 + len(list(earlier.iterdir()))
+            shutil.move(str(self.data), str(earlier / f"data-{number}"))
+        shutil.move(str(folder), str(self.data))

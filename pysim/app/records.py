@@ -1,0 +1,128 @@
+"""One record for the screen: what was measured, what the models say, what they leave over; any window of it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pysim.app.answers import Answer
+from pysim.app.decimate import decimated, window
+from pysim.app.figures import LOOKS, SHOWN, Figure, overlay_figure, signal_trace
+from pysim.types import MeasuredRecord, Record
+
+Array = NDArray[np.float64]
+
+MOST = 1600  # points of a line on the screen
+
+
+@dataclass(frozen=True)
+class Line:
+    """One line of an overlay: key of LOOKS, words, panel from 1, unit, and its samples (n,)."""
+
+    key: str
+    words: str
+    panel: int
+    unit: str
+    time: Array = field(repr=False)
+    values: Array = field(repr=False)
+
+
+@dataclass(frozen=True)
+class Overlay:
+    """A record with all its lines.
+
+    Args:
+        names, units: of its signals.
+        models: key of LOOKS and words.
+        lines: panel by panel.
+    """
+
+    names: tuple[str, ...]
+    units: tuple[str, ...]
+    models: tuple[tuple[str, str], ...]
+    lines: tuple[Line, ...]
+
+    @property
+    def span(self) -> tuple[float, float]:
+        """First and last time, s."""
+        return float(self.lines[0].time[0]), float(self.lines[0].time[-1])
+
+    def samples(self, begin: float, end: float, most: int = MOST) -> tuple[list[Any], list[Any], bool]:
+        """Times and values of every line in a window, and whether these are all samples."""
+        xs, ys, exact = [], [], True
+        for line in self.lines:
+            part = window(line.time, begin, end)
+            x, y = decimated(line.time[part], line.values[part], most)
+            exact = exact and x.size == line.time[part].size
+            xs.append(x.tolist())
+            ys.append(y.tolist())
+        return xs, ys, exact
+
+    def figure(self) -> Figure:
+        """The whole record."""
+        xs, ys, _ = self.samples(*self.span)
+        seen: set[str] = set()
+        traces = []
+        for line, x, y in zip(self.lines, xs, ys, strict=True):
+            traces.append(
+                signal_trace(line.key, line.words, line.panel, x, y, legend=line.key not in seen, unit=line.unit)
+            )
+            seen.add(line.key)
+        return overlay_figure(self.names, self.units, self.models, traces)
+
+
+def stage_keys(answer: Answer) -> list[tuple[str, str, Mapping[str, Any]]]:
+    """Key of LOOKS, words, and stage of the untouched, the refitted and the final model."""
+    found = [(step, LOOKS[step][1 - 1], answer.stage(step)) for step in ("prior", "refit")]
+    if answer.added:
+        found.append(("last", f"with {' and '.join(answer.added)}", answer.last))
+    return [(key, words, stage) for key, words, stage in found if stage is not None]
+
+
+def measured_overlay(record: MeasuredRecord) -> Overlay:
+    """A log as it was measured, before anything was compared with it."""
+    data = record.data
+    assert isinstance(data, Record)
+    units, scales = _shown(data.units)
+    lines = [
+        Line("measured", "measured", j + 1, units[j], data.time, data.values[:, j] * scales[j])
+        for j in range(len(data.names))
+    ]
+    return Overlay(data.names, units, (), tuple(lines))
+
+
+def compared_overlay(answer: Answer, source: str) -> Overlay | None:
+    """A log beside the models of an answer; None where it was not compared."""
+    sides = [(key, words, _of(stage, source)) for key, words, stage in stage_keys(answer)]
+    found = [(key, words, own) for key, words, own in sides if own is not None]
+    if not found:
+        return None
+    first = found[0][2]
+    time, measured = answer.stages.array(first["time"]), answer.stages.array(first["measured"])
+    units, scales = _shown(first["units"])
+    simulated = {key: answer.stages.array(own["simulated"]) for key, _, own in found}
+    against = {key: answer.stages.array(own["measured"]) for key, _, own in found}
+    lines: list[Line] = []
+    for j in range(len(first["names"])):
+        lines.append(Line("measured", "measured", 2 * j + 1, units[j], time, measured[:, j] * scales[j]))
+        for key, words, _ in found:
+            lines.append(Line(key, words, 2 * j + 1, units[j], time, simulated[key][:, j] * scales[j]))
+        for key, words, own in found[1:] or found:  # what the untouched model leaves would hide the others
+            left = (against[key][:, j] - simulated[key][:, j]) / own["noise"][j]
+            lines.append(Line(key, words, 2 * j + 2, "times the noise", time, left))
+    models = tuple((key, words) for key, words, _ in found)
+    return Overlay(tuple(first["names"]), units, models, tuple(lines))
+
+
+def _of(stage: Mapping[str, Any], source: str) -> Mapping[str, Any] | None:
+    return next((record for record in stage["records"] if record["source"] == source), None)
+
+
+def _shown(units: Sequence[str]) -> tuple[tuple[str, ...], tuple[float, ...]]:
+    """Units as people read them, and the factors to them."""
+    pairs = [SHOWN.get(unit, (unit, 1.0)) for unit in units]
+    return tuple(unit for unit, _ in pairs), tuple(scale for _, scale in pairs)

@@ -1,0 +1,165 @@
+"""The server of the page: one project, this machine, a token."""
+
+from __future__ import annotations
+
+import json
+import socket
+from pathlib import Path
+from secrets import token_urlsafe
+from typing import Any
+
+from fastapi import Request
+from fastapi.responses import FileResponse, PlainTextResponse, Response
+from nicegui import app, ui
+
+from pysim.app.desk import Desk
+from pysim.app.guard import Guard
+from pysim.app.jobs import Runner, settle
+from pysim.app.pages.shell import shell
+from pysim.app.project import Project
+from pysim.app.records import MOST, Overlay, compared_overlay, measured_overlay
+from pysim.app.upload import Batch, Limits, adopt
+from pysim.types import BadInput
+
+_STATIC = Path(__file__).parent / "static"
+_LOOPBACK = ("127.0.0.1", "localhost", "::1")
+_TICK = 0.2  # s
+
+
+def serve(
+    folder: Path, *, host: str = "127.0.0.1", port: int = 0, show: bool = True, limits: Limits, limit_s: float = 3600.0
+) -> None:
+    """Show a project until the process is ended.
+
+    Args:
+        folder: of the project; made where it is missing.
+        host: to listen at; loopback unless others are to come in, who need the token as well.
+        port: 0 takes a free one.
+        show: whether to open the browser.
+        limits: of what may be dropped.
+        limit_s: of any piece of work, s.
+    Raises:
+        BadInput: a folder that is no project, or a port that is taken.
+    """
+    project = Project.at(folder)
+    settle(project)
+    desk = Desk(project, Runner(project, limit_s), limits)
+    port = _port(host, port)
+    token = token_urlsafe(24)
+    known = {f"{name}:{port}" for name in ("127.0.0.1", "localhost", "[::1]")} if host in _LOOPBACK else set()
+    app.add_middleware(Guard, token=token, hosts=frozenset(known), cookie=f"pysim_app_{port}")
+    address = f"http://{'127.0.0.1' if host in (*_LOOPBACK, '0.0.0.0') else host}:{port}/?token={token}"
+    _routes(desk)
+    app.add_static_files("/static", _STATIC)
+    app.timer(_TICK, desk.tick)
+    app.on_startup(lambda: print(f"Workbench: {address}\nProject: {project.folder}\nCtrl-C ends it.", flush=True))
+    app.on_startup(desk.read_data)
+    app.on_startup(desk.read_model)
+    app.on_shutdown(desk.runner.close)
+    ui.run(
+        root=lambda: shell(desk),
+        host=host,
+        port=port,
+        title="Workbench",
+        favicon=_STATIC / "icon.svg",
+        dark=None,
+        reload=False,
+        show=address.partition(str(port))[2] if show else False,
+        tailwind=False,
+        show_welcome_message=False,
+        reconnect_timeout=10.0,
+    )
+
+
+def _port(host: str, port: int) -> int:
+    """A port that is free.
+
+    Raises:
+        BadInput: the wanted one is not.
+    """
+    try:
+        with socket.socket(socket.AF_INET6 if ":" in host else socket.AF_INET) as probe:
+            probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+            probe.bind((host, port))
+            return int(probe.getsockname()[1])
+    except OSError as error:
+        raise BadInput(f"--port {port} at {host}: {error.strerror}; name another, or leave it out") from error
+
+
+def _routes(desk: Desk) -> None:
+    """What the page asks for besides itself."""
+
+    @app.post("/upload")
+    def begin() -> Response:
+        for old in list(desk.batches.values()):  # one drop at a time; what was left half way goes
+            old.end()
+        desk.batches.clear()
+        batch = Batch(desk.project.folder / "uploads", desk.limits)
+        desk.batches[batch.name] = batch
+        (batch.folder / batch.name).mkdir(parents=True)
+        return PlainTextResponse(batch.name)
+
+    @app.put("/upload/{name}")
+    async def take(name: str, request: Request) -> Response:
+        batch = desk.batches.get(name)
+        if batch is None:
+            return PlainTextResponse("another drop has begun since; drop it again", 409)
+        try:
+            await batch.take(request.query_params.get("name", ""), request.stream())
+        except BadInput as error:
+            desk.batches.pop(name).end()
+            return PlainTextResponse(str(error), 413)
+        except OSError as error:
+            desk.batches.pop(name).end()
+            return PlainTextResponse(f"it cannot be kept ({error.strerror}); make room on the disk", 507)
+        return PlainTextResponse("kept")
+
+    @app.post("/upload/{name}/done")
+    async def done(name: str) -> Response:
+        batch = desk.batches.pop(name, None)
+        if batch is None:
+            return PlainTextResponse("another drop has begun since; drop it again", 409)
+        if desk.runner.running is not None:
+            batch.end()
+            return PlainTextResponse("wait until the running work has ended, or stop it; then drop it again", 409)
+        try:
+            adopted = adopt(batch, desk.project)
+        except BadInput as error:
+            return PlainTextResponse(str(error), 422)
+        if adopted.kind == "model":
+            settings = desk.project.settings()
+            libraries = tuple(dict.fromkeys((*settings.libraries, *adopted.libraries)))
+            desk.project.change(model=adopted.model or settings.model, libraries=libraries, added=())
+            await desk.read_model()
+        else:
+            desk.project.change(added=())
+            await desk.read_data()
+        return PlainTextResponse(adopted.text)
+
+    @app.get("/series")
+    def series(of: str, record: int, begin: float, end: float, most: int = MOST) -> Response:
+        overlay = overlay_of(desk, of, record)
+        if overlay is None:
+            return PlainTextResponse("no such record", 404)
+        x, y, exact = overlay.samples(begin, end, min(max(most, 4), 20000))
+        return Response(json.dumps({"x": x, "y": y, "exact": exact}), media_type="application/json")
+
+    @app.get("/result/{name}/{file}")
+    def result(name: str, file: str) -> Response:
+        path = (desk.project.folder / "results" / name / file).resolve()
+        if not path.is_relative_to((desk.project.folder / "results").resolve()) or not path.is_file():
+            return PlainTextResponse("no such file", 404)
+        shown = path.suffix in (".html", ".png", ".svg")
+        return FileResponse(path, filename=path.name, content_disposition_type="inline" if shown else "attachment")
+
+
+def overlay_of(desk: Desk, of: str, record: int) -> Overlay | None:
+    """A record of the data set (`of` is "data") or beside the models of a result; None where there is none such."""
+    check = desk.loaded.check if desk.loaded else None
+    records: tuple[Any, ...] = check.dataset.logs() if check else ()
+    if not 0 <= record < len(records):
+        return None
+    if of == "data":
+        return measured_overlay(records[record])
+    answer = next((one for one in desk.answers.all if one.job.work.name == of), None)
+    return None if answer is None else compared_overlay(answer, records[record].source)

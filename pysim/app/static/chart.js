@@ -1,0 +1,96 @@
+// A Plotly figure in the look of the page: colours by name, long signals by window, clicks and keys.
+const palette = (el) => {
+  const style = getComputedStyle(el);
+  return (name) => style.getPropertyValue(`--${name}`).trim() || "#888";
+};
+
+function dressed(value, colour) {
+  if (typeof value === "string") {
+    if (value === "@heat") return [0, 1, 2, 3].map((k) => [k / 3, colour(`heat${k}`)]);
+    if (value === "inherit") return "Roboto, system-ui, sans-serif";
+    return value.startsWith("@") ? colour(value.slice(1)) : value;
+  }
+  if (Array.isArray(value)) {
+    return value.length && typeof value[0] === "number" ? value : value.map((one) => dressed(one, colour));
+  }
+  if (value && typeof value === "object") {
+    return Object.fromEntries(Object.entries(value).map(([key, one]) => [key, dressed(one, colour)]));
+  }
+  return value;
+}
+
+export default {
+  template: `<div class="chart" role="img" :aria-label="label" :tabindex="series ? 0 : -1" @keydown="key"></div>`,
+  props: { figure: Object, series: Object, label: String },
+  async mounted() {
+    const { Plotly } = await import("nicegui-plotly");
+    this.Plotly = Plotly;
+    if (!this.$el.isConnected) return;
+    await this.draw();
+    this.$el.on("plotly_click", (event) => {
+      const point = event.points[0];
+      this.$emit("pick", { x: point.x, y: point.y, curve: point.curveNumber, index: point.pointIndex });
+    });
+    this.$el.on("plotly_relayout", (change) => this.moved(change));
+    this.look = new MutationObserver(() => this.draw());
+    this.look.observe(document.body, { attributes: true, attributeFilter: ["class"] });
+    this.size = new ResizeObserver(() => this.$el.offsetParent && Plotly.Plots.resize(this.$el));
+    this.size.observe(this.$el);
+    this.$el.dataset.ready = "yes";
+  },
+  unmounted() {
+    this.look?.disconnect();
+    this.size?.disconnect();
+    if (this.Plotly) this.Plotly.purge(this.$el);
+  },
+  watch: {
+    figure() {
+      if (this.Plotly) this.draw();
+    },
+  },
+  methods: {
+    async draw() {
+      const { data, layout } = dressed(this.figure, palette(this.$el));
+      const config = { displaylogo: false, displayModeBar: this.series ? "hover" : false, doubleClick: "reset" };
+      config.modeBarButtons = [["zoom2d", "pan2d", "zoomIn2d", "zoomOut2d", "resetScale2d", "toImage"]];
+      await this.Plotly.react(this.$el, data, layout, config);
+      if (this.series && this.range) await this.fetch(this.range);
+    },
+    moved(change) {
+      if (!this.series) return;
+      const keys = Object.keys(change);
+      if (keys.some((key) => key.startsWith("xaxis.autorange"))) this.range = null;
+      else if (keys.some((key) => key.startsWith("xaxis.range"))) this.range = [...this.$el.layout.xaxis.range];
+      else return;
+      clearTimeout(this.later);
+      this.later = setTimeout(() => this.fetch(this.range), 40);
+    },
+    async fetch(range) {
+      const [low, high] = range ?? this.series.span;
+      const room = (high - low) / 2; // what comes into sight while it is moved is there already
+      const url = `${this.series.url}&begin=${low - room}&end=${high + room}&most=${this.series.most}`;
+      const number = (this.asked = (this.asked ?? 0) + 1);
+      const answer = await fetch(url);
+      if (!answer.ok || number !== this.asked) return; // another window was asked for since
+      const { x, y, exact } = await answer.json();
+      await this.Plotly.restyle(this.$el, { x, y }, this.series.traces);
+      this.$el.dataset.exact = exact ? "yes" : "no";
+      this.$el.dataset.points = Math.max(...x.map((one) => one.length));
+    },
+    key(event) {
+      if (!this.series || event.altKey || event.ctrlKey || event.metaKey) return;
+      const [low, high] = this.range ?? this.series.span;
+      const size = high - low;
+      const to = {
+        ArrowLeft: [low - size / 4, high - size / 4],
+        ArrowRight: [low + size / 4, high + size / 4],
+        "+": [low + size / 4, high - size / 4],
+        "-": [low - size / 2, high + size / 2],
+        0: this.series.span,
+      }[event.key];
+      if (!to) return;
+      event.preventDefault();
+      this.Plotly.relayout(this.$el, { "xaxis.range": to });
+    },
+  },
+};

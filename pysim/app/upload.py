@@ -1,0 +1,210 @@
+"""What is dropped on the page: taken in pieces, limited, unpacked within the project, and put where it belongs."""
+
+from __future__ import annotations
+
+import shutil
+import zipfile
+import zlib
+from collections.abc import AsyncIterator, Iterator
+from dataclasses import dataclass, field
+from pathlib import Path, PurePosixPath, PureWindowsPath
+from secrets import token_urlsafe
+
+from pysim.app.description import refuse_outside
+from pysim.app.project import Project
+from pysim.types import BadInput
+
+LOGS = (".txt", ".csv", ".dat", ".log", ".asc", ".lvm", ".parquet", ".tdms")
+_DAMAGED = (zipfile.BadZipFile, zlib.error, EOFError, NotImplementedError, RuntimeError)
+_PIECE = 2**20
+
+
+@dataclass(frozen=True)
+class Limits:
+    """How much may be dropped at a time, in bytes and files; unpacked content counts as well."""
+
+    size: int = 256 * 2**20
+    files: int = 5000
+
+    @property
+    def words(self) -> str:
+        """For messages."""
+        return f"{self.size / 2**20:g} MB in {self.files} files"
+
+
+@dataclass
+class Batch:
+    """One drop while it comes in.
+
+    Args:
+        folder: where its files are kept until it is complete.
+        limits: refused beyond.
+    """
+
+    folder: Path
+    limits: Limits
+    name: str = field(default_factory=lambda: token_urlsafe(9))
+    size: int = 0
+    files: int = 0
+
+    async def take(self, name: str, pieces: AsyncIterator[bytes]) -> None:
+        """One file, as it comes in.
+
+        Raises:
+            BadInput: too much, or a name that would leave the folder.
+        """
+        target = self.target(name)
+        with target.open("wb") as file:
+            async for piece in pieces:
+                self.count(len(piece), name)
+                file.write(piece)
+
+    def target(self, name: str) -> Path:
+        """Where a file of that name goes; its folders are made.
+
+        Raises:
+            BadInput: a name that would leave the folder, or one file too many.
+        """
+        parts = [part for part in PurePosixPath(name.replace("\\", "/")).parts if part != "."]
+        bad = not parts or ".." in parts or parts[0] == "/" or PureWindowsPath(name).drive or "\0" in name
+        if bad or not name.isprintable() or any(len(part) > 200 for part in parts) or len(parts) > 20:
+            raise BadInput(f"{name[:80]!r} is no name of a file below the dropped folder; rename it")
+        self.files += 1
+        if self.files > self.limits.files:
+            raise BadInput(f"more than {self.limits.files} files; drop at most {self.limits.words}")
+        target = self.folder / self.name / Path(*parts)
+        try:
+            target.parent.mkdir(parents=True, exist_ok=True)
+        except OSError as error:
+            raise BadInput(f"{name}: cannot be kept ({error.strerror}); rename it") from error
+        return target
+
+    def count(self, size: int, name: str) -> None:
+        """So many bytes more.
+
+        Raises:
+            BadInput: too many.
+        """
+        self.size += size
+        if self.size > self.limits.size:
+            raise BadInput(f"{name} goes beyond the limit; drop at most {self.limits.words} (--limit-mb raises it)")
+
+    def end(self) -> None:
+        """Remove what is left of it."""
+        shutil.rmtree(self.folder / self.name, ignore_errors=True)
+
+    def unpack(self) -> None:
+        """Put the content of every .zip in its place.
+
+        Raises:
+            BadInput: a damaged archive, a name that leaves the folder, or too much.
+        """
+        for path in sorted((self.folder / self.name).rglob("*")):
+            if path.is_file() and path.suffix.lower() == ".zip":
+                try:
+                    self._unpack(path)
+                except _DAMAGED as error:
+                    raise BadInput(f"{path.name} cannot be unpacked: {error}; pack it again") from error
+                path.unlink()
+
+    def _unpack(self, path: Path) -> None:
+        inside = path.parent.relative_to(self.folder / self.name)
+        with zipfile.ZipFile(path) as archive:
+            for member in archive.infolist():
+                if member.is_dir():
+                    continue
+                target = self.target((inside / member.filename).as_posix() if inside.parts else member.filename)
+                with archive.open(member) as source, target.open("wb") as file:
+                    while piece := source.read(_PIECE):  # what the archive says of sizes is not believed
+                        self.count(len(piece), member.filename)
+                        file.write(piece)
+
+
+@dataclass(frozen=True)
+class Adopted:
+    """What a drop turned out to be: "dataset", "logs" that nobody has described yet, or "model"."""
+
+    kind: str
+    text: str
+    model: str = ""
+    libraries: tuple[str, ...] = ()
+
+
+def adopt(batch: Batch, project: Project) -> Adopted:
+    """Put a complete drop where it belongs in the project.
+
+    Raises:
+        BadInput: nothing in it that could be used, or two data sets.
+    """
+    try:
+        batch.unpack()
+        root = batch.folder / batch.name
+        descriptions = [path for path in _files(root) if path.name == "dataset.toml"]
+        if descriptions:
+            return _dataset(descriptions, project)
+        models = [path for path in _files(root) if path.suffix.lower() in (".fmu", ".mo")]
+        if models:
+            return _model(root, models, project)
+        logs = [path for path in _files(root) if path.suffix.lower() in LOGS]
+        if not logs:
+            found = ", ".join(sorted({path.suffix or path.name for path in _files(root)})[:6]) or "nothing"
+            raise BadInput(f"no data set, no logs and no model in this: {found}; drop logs as {', '.join(LOGS)}")
+        project.replace_data(_single(root))
+        return Adopted("logs", f"{len(logs)} logs without a dataset.toml; say below what their columns are")
+    finally:
+        batch.end()
+
+
+def _files(root: Path) -> list[Path]:
+    return sorted(path for path in root.rglob("*") if path.is_file() and not _hidden(path.relative_to(root)))
+
+
+def _hidden(path: Path) -> bool:
+    """What systems leave beside a user's files."""
+    return any(part.startswith(".") or part == "__MACOSX" for part in path.parts)
+
+
+def _dataset(descriptions: list[Path], project: Project) -> Adopted:
+    top = min(descriptions, key=lambda path: len(path.parts))
+    if len(descriptions) > 1:
+        raise BadInput(f"{len(descriptions)} files dataset.toml in this; drop one data set at a time")
+    refuse_outside(top)
+    project.replace_data(top.parent)
+    return Adopted("dataset", "A data set was taken over")
+
+
+def _single(root: Path) -> Path:
+    """The folder that was dropped, where it is the only thing in the drop."""
+    inside = list(root.iterdir())
+    return inside[0] if len(inside) == 1 and inside[0].is_dir() else root
+
+
+def _model(root: Path, models: list[Path], project: Project) -> Adopted:
+    """An FMU becomes the model; a package or .mo file a library."""
+    fmus = [path for path in models if path.suffix.lower() == ".fmu"]
+    if len(fmus) > 1:
+        raise BadInput(f"{len(fmus)} FMUs in this; drop the one to be compared")
+    project.models.mkdir(exist_ok=True)
+    tops = list(_tops(root, [path for path in models if path not in fmus]))
+    moved = [_moved(path, project.models) for path in [*tops, *fmus]]
+    names = [path.relative_to(project.folder).as_posix() for path in moved]
+    text = ", ".join(path.name for path in moved)
+    return Adopted("model", f"taken over: {text}", names[-1] if fmus else "", tuple(names[: len(tops)]))
+
+
+def _tops(root: Path, sources: list[Path]) -> Iterator[Path]:
+    """Folders of packages, and .mo files that belong to none."""
+    packages = sorted({p.parent for p in sources if p.name == "package.mo"}, key=lambda p: len(p.parts))
+    outer = [p for p in packages if p != root and not any(p != q and p.is_relative_to(q) for q in packages)]
+    yield from outer
+    yield from (p for p in sources if not any(p.is_relative_to(q) for q in outer))
+
+
+def _moved(path: Path, folder: Path) -> Path:
+    target = folder / path.name
+    if target.is_dir():
+        shutil.rmtree(target)
+    elif target.exists():
+        target.unlink()
+    shutil.move(str(path), str(target))
+    return target

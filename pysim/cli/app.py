@@ -1,0 +1,39 @@
+"""Open the workbench in the browser: compare, locate, add an effect, and watch the error fall."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The words behind `pysim app`."""
+    parser.add_argument(
+        "project", metavar="PROJECT", type=Path, nargs="?", default=Path("workbench"), help="its folder (workbench)"
+    )
+    parser.add_argument("--port", metavar="N", type=int, default=0, help="to listen at; a free one by default")
+    parser.add_argument(
+        "--host", metavar="NAME", default="127.0.0.1", help="to listen at (127.0.0.1: this machine alone)"
+    )
+    parser.add_argument("--no-browser", action="store_true", help="print the address and open nothing")
+    parser.add_argument(
+        "--limit-mb", metavar="N", type=float, default=256.0, help="that may be dropped at a time (256)"
+    )
+    parser.add_argument(
+        "--limit-s", metavar="S", type=float, default=3600.0, help="that any piece of work may take (3600)"
+    )
+
+
+def run(args: argparse.Namespace) -> int:
+    """Serve until Ctrl-C; 0."""
+    from pysim.types import BadInput
+
+    try:
+        from pysim.app import Limits, serve
+    except ModuleNotFoundError as error:
+        raise BadInput(f"the workbench needs {error.name}; pip install 'hydraulic-test-bench[app]'") from error
+    if not (args.limit_mb > 0 and args.limit_s > 0):
+        raise BadInput("--limit-mb and --limit-s: write numbers above zero")
+    limits = Limits(size=round(args.limit_mb * 2**20))
+    serve(args.project, host=args.host, port=args.port, show=not args.no_browser, limits=limits, limit_s=args.limit_s)
+    return 0

@@ -1,0 +1,85 @@
+"""Say what a model holds: inputs, outputs, parameters, slots, and the effects that its slots take."""
+
+from __future__ import annotations
+
+import argparse
+import json
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from pysim.effects import Slot
+    from pysim.types import Effect, Model, Variable
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The words behind `pysim model`."""
+    parser.add_argument("model", metavar="MODEL", help="a Modelica class, or an .fmu")
+    parser.add_argument(
+        "--library", metavar="PATH", type=Path, action="append", default=[], help="of the class; repeat"
+    )
+    parser.add_argument("--json", metavar="FILE", type=Path, help="write all of it here")
+
+
+def run(args: argparse.Namespace) -> int:
+    """Print what it holds; 0."""
+    from pysim.cli._outputs import prepare_file
+    from pysim.cli._subject import read_inside
+    from pysim.io import write_file
+
+    if args.json:
+        prepare_file(args.json, "--json")
+    model, class_name, slots, effects = read_inside(args)
+    print(_text(model, slots, effects))
+    if args.json:
+        found = _data(model, class_name, slots, effects)
+        write_file(args.json, json.dumps(found, indent=1, allow_nan=False) + "\n")
+    return 0
+
+
+def _text(model: Model, slots: tuple[Slot, ...], effects: tuple[Effect, ...]) -> str:
+    lines = [f"{model.name}, FMI {model.abilities.fmi}, {len(model.abilities.states)} states"]
+    for causality in ("input", "output"):
+        lines += [f"{causality}s", *(f"  {v.name} [{v.unit}] {v.description}".rstrip() for v in _of(model, causality))]
+    lines.append("parameters with bounds")
+    lines += [f"  {v.name} = {v.start:g}, {v.min:g} to {v.max:g} [{v.unit}] {v.description}" for v in _bounded(model)]
+    for slot in slots:
+        own = ", ".join(effect.name for effect in effects if effect.slot == slot.name) or "no effect of the libraries"
+        lines.append(f"slot {slot.name}: {own}")
+    return "\n".join(lines)
+
+
+def _data(model: Model, class_name: str, slots: tuple[Slot, ...], effects: tuple[Effect, ...]) -> dict[str, Any]:
+    variables = [v for v in model.variables if v.causality in ("input", "output", "local") and v.type == "Real"]
+    if model.abilities.fmi == 3:
+        variables = [v for v in model.variables if v.causality in ("input", "output", "local")]
+    return {
+        "name": model.name,
+        "class": class_name,
+        "fmi": model.abilities.fmi,
+        "states": list(model.abilities.states),
+        "variables": [[v.name, v.causality, v.unit, v.description] for v in variables],
+        "parameters": [
+            {"name": v.name, "unit": v.unit, "start": v.start, "min": v.min, "max": v.max, "about": v.description}
+            for v in _of(model, "parameter")
+        ],
+        "slots": [{"name": s.name, "about": s.description, "sees": s.sees, "gives": s.gives} for s in slots],
+        "effects": [_effect(effect) for effect in effects],
+    }
+
+
+def _effect(effect: Effect) -> dict[str, Any]:
+    parameters = [
+        {"name": p.name, "unit": p.unit, "nominal": p.nominal, "default": p.default, "about": p.description}
+        for p in effect.parameters
+    ]
+    about = {"name": effect.name, "slot": effect.slot, "class": effect.class_name, "about": effect.description}
+    return {**about, "law": effect.law, "parameters": parameters}
+
+
+def _of(model: Model, causality: str) -> list[Variable]:
+    return [v for v in model.variables if v.causality == causality]
+
+
+def _bounded(model: Model) -> list[Variable]:
+    return [v for v in _of(model, "parameter") if None not in (v.start, v.min, v.max)]

@@ -1,0 +1,35 @@
+"""What a log calls its columns."""
+
+from pathlib import Path
+
+import pytest
+
+from pysim.io import column_names
+from pysim.types import BadInput
+
+
+@pytest.mark.parametrize(
+    ("content", "names"),
+    [
+        ("time\tcmd\tangle\n0\t1\t2\n", ("time", "cmd", "angle")),
+        ("0;1,5;2\n1;2,5;3\n", ("time", "column 2", "column 3")),
+        ("a story of a log\ntime cmd\n0 1\n", ("time", "cmd")),
+        ("# time cmd\n0 1 2\n", ("time", "column 2", "column 3")),
+        ("x,x\n0,1\n", ("time", "column 2")),  # a name that stands twice is none
+    ],
+)
+def test_names_come_from_the_line_above_the_numbers(content: str, names: tuple[str, ...], tmp_path: Path) -> None:
+    (tmp_path / "a.txt").write_text(content)
+    assert column_names(tmp_path / "a.txt") == names
+
+
+def test_named_columns_of_parquet_are_read(tmp_path: Path) -> None:
+    arrow, parquet = pytest.importorskip("pyarrow"), pytest.importorskip("pyarrow.parquet")
+    parquet.write_table(arrow.table({"time": [0.0], "p": [1.0]}), tmp_path / "a.parquet")
+    assert column_names(tmp_path / "a.parquet") == ("time", "p")
+
+
+def test_a_file_without_numbers_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "a.txt").write_text("nothing\nhere\n")
+    with pytest.raises(BadInput, match=r"a.txt holds no rows of numbers; it needs a column of times"):
+        column_names(tmp_path / "a.txt")
