@@ -215,8 +215,3 @@ def test_a_member_that_has_not_started_goes_to_another_process(folder: Path) -> 
     again = pickle.loads(pickle.dumps(Fmu("lag", model, parameters={"K": 3.0}, solver=FINE)))
     assert (again.name, again.parameters, again.solver) == ("lag", {"K": 3.0}, FINE)
     assert again.inputs == Fmu("l", model).inputs
-        "lag",
-        {"K": 3.0},
-        FINE,
-        Fmu("l", model).inputs,
-    )
