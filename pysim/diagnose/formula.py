@@ -109,6 +109,8 @@ def formula(
     for term, width in _tried(k):
         if term.form == "saturation" and unit_in != unit_out:
             continue  # a limited signal is a signal; of forces that saturate the hyperbolic tangent is the smooth form
+        if "sign" in term.form and k[0] * k[-1] > 0:
+            continue  # nothing changes its sign
         columns = term.columns(k, width)
         if np.linalg.norm(columns - absorbed @ (absorbed.T @ columns)) < 1e-3 * np.linalg.norm(columns):
             continue  # refitting takes all of it
@@ -202,6 +204,12 @@ _LIBRARY = (
         True,
         lambda z, w: (np.sign(z) / (np.abs(z) + w))[:, None] if np.min(z) > 0 else np.zeros((z.size, 1)),
         lambda a, w, z, i, o: f"{_number(a[0], f'{o} {i}')}/({z} + {_number(w, i)})",
+    ),
+    _Term(
+        "falling",
+        True,
+        lambda z, w: ((np.abs(z) + w) ** -2.0)[:, None] if np.min(z) > 0 else np.zeros((z.size, 1)),
+        lambda a, w, z, i, o: f"{_number(a[0], f'{o} {i}2')}/({z} + {_number(w, i)})^2",
     ),
     _Term(
         "constant and linear",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from pysim.diagnose.fitted import Fitted
 from pysim.diagnose.formula import Formula, formula
 from pysim.diagnose.outside import outside
-from pysim.diagnose.probe_fit import Estimate, Solution, Table, across, advance, begin, first_order, knots
+from pysim.diagnose.probe_fit import Estimate, Table, across, advance, first_order, knots
 from pysim.diagnose.probe_laws import KNOTS, Law, Term, slot_laws, state_laws
 from pysim.diagnose.probe_runs import seen, thinned
 from pysim.diagnose.probe_shape import Told, shape, told, units
@@ -37,14 +37,16 @@ _TIE = 5.0
 
 @dataclass(frozen=True)
 class _Found:
-    """One term with what speaks for it: logarithm of the likelihood over that without a term, and its share."""
+    """One term with what speaks for it: logarithm of the likelihood over that without a term, and its share.
+
+    `estimate` is of first order where it is not yet `fitted`.
+    """
 
     law: Law
-    table: Table = field(repr=False)
-    solution: Solution = field(repr=False)
+    estimate: Estimate = field(repr=False)
+    fitted: bool
     evidence: float
     share: float
-    estimate: Estimate | None = field(default=None, repr=False)
     told: Told | None = field(default=None, repr=False)
     formula: Formula | None = None
 
@@ -91,7 +93,7 @@ def locate(
             continue
         found = first_order(few, base.at, base.span, Table(law, model, knots(samples[f"{law.slot}|{law.argument}"])))
         if found is not None:
-            tried.append(base.found(law, *found))
+            tried.append(base.found(found))
     tried.sort(key=lambda found: -found.evidence)
     say(f"looked at {len(tried)} terms: " + ", ".join(f"{f.law.slot} {100 * f.share:.0f} %" for f in tried[:3]))
     rows = _missing(subject, few, base, tried, say)
@@ -122,14 +124,15 @@ class _Base:
         rest = across(at.point.residual, span)
         return cls(at, span, float(rest @ rest), at.point.residual.size)
 
-    def found(self, law: Law, table: Table, solution: Solution, estimate: Estimate | None = None) -> _Found:
+    def found(self, at: Estimate, *, fitted: bool = False) -> _Found:
         """How much better it gets with a term."""
+        solution = at.solution
         evidence = 0.5 * self.rows * math.log(self.left / self.rows) - solution.loss
         noise = max(1.0, solution.left / self.rows)
         avoidable = self.left - (self.rows - self.span.shape[1])
         gain = self.left - solution.left - solution.freedom * noise
         share = float(np.clip(gain / avoidable, 0.0, 1.0)) if avoidable > 0 else 0.0
-        return _Found(law, table, solution, evidence, share, estimate)
+        return _Found(at.table.law, at, fitted, evidence, share)
 
 
 def _laws(subject: Subject, model: Model, slots: Sequence[Slot]) -> tuple[Law, ...]:
@@ -145,16 +148,16 @@ def _missing(subject: Subject, ruler: Ruler, base: _Base, tried: Sequence[_Found
     for count, rounds in _STAGES:
         ahead = [_advanced(ruler, base, found, rounds) for found in running[:count]]
         running = [*sorted(ahead, key=lambda found: -found.evidence), *running[count:]]
-    fitted = sorted((f for f in running if f.estimate is not None), key=lambda found: -found.evidence)
-    done = [_described(subject, found) for found in [*fitted, *(f for f in running if f.estimate is None)]]
+    done = [_described(subject, found) for found in running]
     done += [_described(subject, _as(found, twin)) for found in done for twin in twins.get(id(found.law), ())]
-    rows: dict[str, Missing] = {}
-    for found in _named_first(sorted(done, key=lambda found: (found.estimate is None, -found.evidence))):
-        if found.law.slot not in rows:
-            rows[found.law.slot] = _row(found)
-    for row in rows.values():
-        say(f"{row.slot} over {row.depends_on}: {100 * row.share:.1f} % of the misfit. {row.formula}".strip())
-    return tuple(rows.values())
+    best: dict[str, _Found] = {}
+    for found in _named_first(sorted(done, key=lambda found: (not found.fitted, -found.evidence))):
+        best.setdefault(found.law.slot, found)
+    rows = tuple(_row(base, found, _alike(found, best.values())) for found in best.values())
+    for row in rows:
+        also = f" {', '.join(row.alike)} would do as well." if row.alike else ""
+        say(f"{row.slot} over {row.depends_on}: {100 * row.share:.1f} % of the misfit.{also} {row.formula}".strip())
+    return rows
 
 
 def _different(tried: Sequence[_Found]) -> tuple[list[_Found], dict[int, list[Law]]]:
@@ -181,19 +184,16 @@ def _same(one: _Found, other: _Found) -> bool:
 
 def _as(found: _Found, law: Law) -> _Found:
     """The same term at another place."""
-    return replace(found, law=law, table=replace(found.table, law=law))
+    return replace(found, law=law)
 
 
 def _advanced(ruler: Ruler, base: _Base, found: _Found, rounds: int) -> _Found:
-    start = found.estimate or begin(ruler, base.at, found.table)
-    if start is None:
-        return found
-    end = advance(ruler, base.at, start, rounds=rounds)
-    return base.found(found.law, found.table, end.solution, end)
+    end = advance(ruler, base.at, found.estimate, rounds=rounds)
+    return found if end is found.estimate else base.found(end, fitted=True)
 
 
 def _described(subject: Subject, found: _Found) -> _Found:
-    if found.estimate is None:
+    if not found.fitted:
         return found
     of, law = told(found.estimate), found.law
     unit_in, unit_out = units(law, found.estimate.table.model)
@@ -220,15 +220,29 @@ def _named_first(found: list[_Found]) -> list[_Found]:
     return near + [f for f in found if not any(f is g for g in near)]
 
 
-def _row(found: _Found) -> Missing:
+def _alike(found: _Found, others: Iterable[_Found]) -> tuple[str, ...]:
+    """Other places whose term the data do not tell from this one."""
+    return tuple(
+        other.law.slot
+        for other in others
+        if other is not found and other.fitted is found.fitted and abs(other.evidence - found.evidence) < _TIE
+    )
+
+
+def _row(base: _Base, found: _Found, alike: tuple[str, ...]) -> Missing:
     """What is told of one place; a term that was not worth a fit is told as it is to first order."""
     law, of, said = found.law, found.told, found.formula
     if of is None or said is None:
-        unit = found.table.unit
-        values, covariance = unit * found.solution.values, unit**2 * found.solution.covariance
-        of = Told(found.table.knots, values, covariance, np.zeros((KNOTS, 0)))
+        unit, solution = found.estimate.table.unit, found.estimate.solution
+        values, covariance = unit * solution.values, unit**2 * solution.covariance
+        of = Told(found.estimate.table.knots, values, covariance, np.zeros((KNOTS, 0)))
         said = Formula("", "", "", np.zeros(0), np.zeros((0, 0)))
     text = f"{said.text} ({said.effect})" if said.effect else said.text
-    return Missing(
-        law.slot, found.share, law.argument, shape(of, law, found.table.model, said.along, said.spread), text
-    )
+    shown = shape(of, law, found.estimate.table.model, said.along, said.spread)
+    return Missing(law.slot, found.share, law.argument, shown, text, alike, _parameters(base, found))
+
+
+def _parameters(base: _Base, found: _Found) -> dict[str, float]:
+    """The model's own free numbers beside the term."""
+    values = found.estimate.table.space(base.at).values(found.estimate.point.x)
+    return {name: values[name] for name in base.at.what.space.keys}

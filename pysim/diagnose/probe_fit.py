@@ -30,8 +30,11 @@ _LEVEL = 1e-4
 _BOTH = 0.05
 # What lies beyond these quantiles of a variable is too rare to say anything about.
 RANGE = (0.002, 0.998)
-# Steps that are tried before a fit ends, and the gain that ends it: a sum of squares, or a share of what exceeds noise.
-_TRIALS, _SMALL, _ENOUGH = 4, 3.0, 1e-2
+# A variable whose largest value is so many times its least spans a decade.
+_DECADE = 10.0
+# Steps that are tried with one set of slopes, and the gain that ends a fit: a sum of squares, or a share of what
+# exceeds noise.
+_TRIALS, _SMALL, _ENOUGH = 6, 3.0, 1e-2
 
 
 @dataclass(frozen=True)
@@ -104,9 +107,10 @@ def knots(z: Array) -> Array:
     """Places (KNOTS,) for a table over a variable's samples z (n,): dense around zero where z goes through it.
 
     Laws that change their sign do so at zero, and often abruptly: friction, dead bands, play. Elsewhere they follow the
-    square root of the density of samples.
+    square root of the density of samples; over a variable that spans a decade or more they stand half way between that
+    and equal ratios, since what falls with a pressure does so at its low end.
     """
-    low, high = np.quantile(z, RANGE)
+    low, high = (float(end) for end in np.quantile(z, RANGE))
     reach = max(-low, high)
     if np.mean(z < -0.02 * reach) > _BOTH and np.mean(z > 0.02 * reach) > _BOTH:
         side = np.array(_SIDE)
@@ -116,7 +120,8 @@ def knots(z: Array) -> Array:
     edges = np.linspace(low, high, 401)
     count = np.histogram(z, edges)[0]
     weight = np.cumsum(np.sqrt(count / max(count.sum(), 1) + 1e-4))
-    return np.interp(np.linspace(0, weight[-1], KNOTS), np.append(0.0, weight), edges)
+    found = np.interp(np.linspace(0, weight[-1], KNOTS), np.append(0.0, weight), edges)
+    return (found + np.geomspace(low, high, KNOTS)) / 2 if 0 < _DECADE * low < high else found
 
 
 def bends(k: Array) -> Array:
@@ -175,13 +180,29 @@ def across(rows: Array, span: Array) -> Array:
     return rows - span @ (span.T @ rows)
 
 
-def first_order(ruler: Ruler, current: Fitted, span: Array, table: Table) -> tuple[Table, Solution] | None:
-    """The table at the fitted model, from the slopes by its values alone; None where it cannot be simulated.
+@dataclass(frozen=True)
+class Estimate:
+    """A table fitted together with the model's parameters.
+
+    Args:
+        table: its law, knots and unit.
+        point: of the model with the table, slopes by the parameters first, then by the values.
+        solution: the table's values at that point, and their doubt; of a table at zero those that first order promises.
+    """
+
+    table: Table
+    point: Evaluation = field(repr=False)
+    solution: Solution = field(repr=False)
+
+
+def first_order(ruler: Ruler, current: Fitted, span: Array, table: Table) -> Estimate | None:
+    """The table at zero in the fitted model, from the slopes by its values alone; None where it cannot be simulated.
 
     Args:
         span: (n_r, rank) orthonormal, what refitting takes; of the ruler's own runs.
     Returns:
-        the table with the unit that changes the residuals by about as much as they are, and its solution in that unit.
+        the table with the unit that changes the residuals by about as much as they are, its slopes beside those of the
+        model's parameters, and its solution in that unit.
     """
     point = bad_point(np.zeros(KNOTS), "")
     for power in (0, -3, -6, -9):  # nobody knows how much of it the model bears
@@ -191,40 +212,22 @@ def first_order(ruler: Ruler, current: Fitted, span: Array, table: Table) -> tup
             break
     else:
         return None
-    columns, left_over = across(point.jacobian, span), across(point.residual, span)
+    here = current.point
+    columns, left_over = across(point.jacobian, span), across(here.residual, span)
     size = float(np.linalg.norm(columns)) / math.sqrt(KNOTS)
     if not size > 0:
         return None
     factor = float(np.linalg.norm(left_over)) / size
-    return replace(table, unit=factor * table.unit), solve(left_over, columns * factor, table.knots)
-
-
-@dataclass(frozen=True)
-class Estimate:
-    """A table fitted together with the model's parameters.
-
-    Args:
-        table: its law, knots and unit.
-        point: of the model with the table, slopes by the parameters first, then by the values.
-        solution: the table's values at that point, and their doubt.
-    """
-
-    table: Table
-    point: Evaluation = field(repr=False)
-    solution: Solution = field(repr=False)
-
-
-def begin(ruler: Ruler, current: Fitted, table: Table) -> Estimate | None:
-    """The point from which a table is fitted: the current model, the table at zero."""
-    x = np.append(current.point.x, np.zeros(KNOTS))
-    return _estimate(ruler.evaluation(table.what(current), x), table, None)
+    slopes = np.hstack([here.jacobian, point.jacobian * factor])
+    start = Evaluation(np.append(here.x, np.zeros(KNOTS)), here.cost, here.residual, slopes)
+    return Estimate(replace(table, unit=factor * table.unit), start, solve(left_over, columns * factor, table.knots))
 
 
 def advance(ruler: Ruler, current: Fitted, at: Estimate, *, rounds: int) -> Estimate:
     """Gauss-Newton steps of parameters and values together, smoothness as the data ask for it at each point.
 
     Args:
-        rounds: steps at most; it ends where one gains next to nothing.
+        rounds: sets of slopes at most, some steps with each; it ends where one gains next to nothing.
     """
     what = at.table.what(current)
     bounds = Bounds(*what.space.bounds())
@@ -234,10 +237,11 @@ def advance(ruler: Ruler, current: Fitted, at: Estimate, *, rounds: int) -> Esti
         here = _penalised(at.point, penalty)
         optimiser = GaussNewton(max_iterations=_TRIALS + 1, tolerance=0.05, radius=radius)
         state = optimiser.begin(here, bounds, True)
-        while state.outcome is None and state.best is here and state.tried < _TRIALS:
+        while state.outcome is None and state.tried < _TRIALS:
             proposal = optimiser.propose(state, bounds)
             residual = ruler.at(what, proposal.x)
-            trial = bad_point(proposal.x, "") if residual is None else _trial(here, proposal.x, residual, penalty)
+            best = state.best
+            trial = bad_point(proposal.x, "") if residual is None else _trial(best, proposal.x, residual, penalty)
             state = optimiser.tell(state, proposal, trial, bounds)
         if state.best is here:
             return at
@@ -253,11 +257,11 @@ def advance(ruler: Ruler, current: Fitted, at: Estimate, *, rounds: int) -> Esti
     return at
 
 
-def _estimate(point: Evaluation, table: Table, before: Array | None) -> Estimate | None:
+def _estimate(point: Evaluation, table: Table, before: Array) -> Estimate | None:
     """A point, with the weight of bends that suits the table there.
 
     Args:
-        before: the weights so far; None at the start, where the table is zero and first order says all.
+        before: the weights so far.
     Source: the step of the weight is that of Wood and Fasiolo 2017, Biometrics 73:1071. It needs the values and the
         slopes at this point only: how the residuals were without the table, a straight line from here does not tell.
     """
@@ -265,9 +269,6 @@ def _estimate(point: Evaluation, table: Table, before: Array | None) -> Estimate
         return None
     slopes, x = point.jacobian, point.x
     columns = across(slopes[:, -KNOTS:], column_space(slopes[:, :-KNOTS]))
-    if before is None:
-        left_over = across(point.residual, column_space(slopes[:, :-KNOTS]))
-        return Estimate(table, point, solve(left_over, columns, table.knots))
     k, c, n, gram = table.knots, x[-KNOTS:], point.residual.size, columns.T @ columns
     rough = bends(k).T @ bends(k)
     prior = math.exp(before[0]) * rough + math.exp(before[1]) * lines(k) @ lines(k).T

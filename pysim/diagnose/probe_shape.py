@@ -20,6 +20,10 @@ _POINTS = 81
 # A level or slope known no better than to this share of the term is taken as one that refitting absorbs.
 _ABSORBED = 0.5
 _Z95 = 1.959964
+# Curvature at an end, over that at the next knot, at most.
+_GROWS = 4.0
+# The band is that of a table held smooth with this share of the weight that fits best.
+_UNDER = 0.1
 
 
 @dataclass(frozen=True)
@@ -43,7 +47,8 @@ class Told:
         k, slope = self.knots, np.diff(self.values) / np.diff(self.knots)
         curvature = np.zeros(k.size)
         curvature[1:-1] = np.abs(2 * np.diff(slope) / (k[2:] - k[:-2]))
-        curvature[0], curvature[-1] = curvature[1], curvature[-2]
+        ends = curvature[1:3], curvature[-2:-4:-1]  # where it grows towards an end, it goes on to do so
+        curvature[0], curvature[-1] = (c[0] * np.clip(c[0] / max(c[1], 1e-300), 1.0, _GROWS) for c in ends)
         return np.asarray(np.maximum(curvature[1:], curvature[:-1]) * np.diff(k) ** 2 / 8)
 
     @property
@@ -54,20 +59,30 @@ class Told:
 
 
 def told(estimate: Estimate) -> Told:
-    """Split off level or slope where the model's own parameters do the same and the data cannot tell them apart."""
+    """Split off level or slope where the model's own parameters do the same and the data cannot tell them apart.
+
+    The fit holds level and slope near zero by a small weight, so that what nothing determines stays where it is, and
+    bends small by the weight that predicts best. What that took of what the data do determine is given back to first
+    order, all but a small share of the bends' weight: a band around the smoothest table that fits would be about
+    something smoother than the truth.
+
+    Source: undersmoothing, Hall 1992, Annals of Statistics 20:675.
+    """
     k, unit, solution = estimate.table.knots, estimate.table.unit, estimate.solution
     slopes, values = estimate.point.jacobian, estimate.point.x[-KNOTS:]
     columns = across(slopes[:, -KNOTS:], column_space(slopes[:, :-KNOTS]))
     rows = columns.shape[0]
     scale = max(1.0, solution.left / max(rows - solution.freedom, 1.0))
     rough = bends(k).T @ bends(k) * math.exp(solution.smoothing[0])
-    precision = (columns.T @ columns + rough) / scale
+    precision = (columns.T @ columns + _UNDER * rough) / scale
     floor = 1e-12 * float(np.trace(precision)) / KNOTS
     covariance = np.linalg.inv(precision + floor * np.eye(KNOTS))
     line = lines(k)
     spread, ways = np.linalg.eigh(line.T @ covariance @ line)
     size = float(np.linalg.norm(values))
     absorbed = line @ ways[:, np.sqrt(spread) > _ABSORBED * size]
+    held = (1 - _UNDER) * rough @ values + math.exp(solution.smoothing[1]) * line @ (line.T @ values)
+    values = values + covariance @ held / scale
     keep = np.eye(KNOTS) - absorbed @ absorbed.T
     return Told(k, unit * (keep @ values), unit**2 * (keep @ covariance @ keep), absorbed)
 

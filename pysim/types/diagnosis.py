@@ -131,6 +131,8 @@ class Missing:
         depends_on: variable over which the term is best described; "time" where none describes it.
         shape: of the term over that variable.
         formula: a short expression for it, "" where none fits.
+        alike: other places whose best term these data do not tell from this one.
+        parameters: free numbers of the model, by name, refitted beside the term.
     """
 
     slot: str
@@ -138,6 +140,11 @@ class Missing:
     depends_on: str
     shape: Shape
     formula: str = ""
+    alike: tuple[str, ...] = ()
+    parameters: Mapping[str, float] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "parameters", FrozenMapping(self.parameters))
 
 
 @dataclass(frozen=True)

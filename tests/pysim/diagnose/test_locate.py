@@ -67,7 +67,9 @@ def test_dry_friction_is_a_force_over_velocity() -> None:
 def test_the_band_covers_the_true_friction() -> None:
     found = rubbing()[0]
     assert covered(found, -0.4 * np.tanh(found.shape.argument / 0.02)) > 0.9
-    assert np.max(found.shape.high - found.shape.low) < 0.4  # a band that says something
+    width = found.shape.high - found.shape.low
+    assert np.median(width) < 0.1  # a band that says something
+    assert np.max(width) < 0.8  # even where the force jumps from one side to the other
 
 
 def test_the_damping_that_refitting_absorbs_is_told() -> None:
