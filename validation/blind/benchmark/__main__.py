@@ -1,4 +1,4 @@
-"""`python -m validation.blind.benchmark run | report`."""
+"""`python -m validation.blind.benchmark run | locate | report`."""
 
 from __future__ import annotations
 
@@ -16,13 +16,14 @@ def main(argv: Sequence[str] | None = None) -> int:
     parser = argparse.ArgumentParser(prog="python -m validation.blind.benchmark", description=__doc__)
     commands = parser.add_subparsers(dest="command", required=True)
     _add_run(commands.add_parser("run", help="answer the cases that the store does not hold of this code"))
+    _add_run(commands.add_parser("locate", help="of cases with one effect, only look where it is, and keep that apart"))
     report = commands.add_parser("report", help="write the figures and pictures into README.md")
     report.add_argument("--store", metavar="DIR", type=Path, help="folder of answers; that of this package")
     try:
         args = parser.parse_args(argv)
     except SystemExit as end:
         return int(end.code or 0)
-    return _run(args) if args.command == "run" else _report(args)
+    return _report(args) if args.command == "report" else _run(args)
 
 
 def _add_run(parser: argparse.ArgumentParser) -> None:
@@ -42,8 +43,9 @@ def _run(args: argparse.Namespace) -> int:
     from pysim.types import BadInput
     from validation.blind.benchmark.examine import examine
     from validation.blind.benchmark.fingerprint import fingerprint
+    from validation.blind.benchmark.place import locate_case
     from validation.blind.benchmark.runs import Choice, run
-    from validation.blind.benchmark.store import ANSWERS, Store
+    from validation.blind.benchmark.store import ANSWERS, PLACES, Store
     from validation.blind.plant import cases
 
     kinds = tuple(kind.strip() for kind in args.kinds.split(",") if kind.strip())
@@ -52,9 +54,10 @@ def _run(args: argparse.Namespace) -> int:
     except BadInput as error:
         print(f"benchmark: {error}", file=sys.stderr)
         return 2
-    chosen = choice.of(cases(TABLE_SEED))
-    store = Store(args.store or ANSWERS)
-    run(chosen, store, examine, fingerprint(), workers=args.workers, limit=args.limit, say=_say)
+    places = args.command == "locate"
+    chosen = choice.of([case for case in cases(TABLE_SEED) if case.kind == "named" or not places])
+    store, task = Store(args.store or (PLACES if places else ANSWERS)), locate_case if places else examine
+    run(chosen, store, task, fingerprint(), workers=args.workers, limit=args.limit, say=_say)
     return 0
 
 
@@ -69,13 +72,13 @@ def _shard(text: str) -> tuple[int, int]:
 
 def _report(args: argparse.Namespace) -> int:
     from validation.blind.benchmark.report import write_report
-    from validation.blind.benchmark.store import ANSWERS, Store
+    from validation.blind.benchmark.store import ANSWERS, PLACES, Store
     from validation.blind.plant import cases
 
     table = cases(TABLE_SEED)
     store = Store(args.store or ANSWERS)
     store.tidy(table)
-    for path in write_report(table, store.read(), store.folder.parent):
+    for path in write_report(table, store.read(), store.folder.parent, Store(PLACES).read()):
         print(path)
     return 0
 

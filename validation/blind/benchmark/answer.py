@@ -30,7 +30,11 @@ class Answer:
         floor: what the true model with the true parameters leaves there.
         determined: intervals of the final model that could be looked at, and
         missed: parameters whose interval does not hold the truth.
-        slot: that the diagnosis located first.
+        slot: that the diagnosis located first, and
+        alike: those tied with it.
+        rank: of the effect's own slot among all places, 1 for the first, 0 where it was not looked at.
+        over, share, said: what the term at that slot depends on, its share of the misfit, its formula.
+        cover: share of its range in which that term's band holds the true one; None where it is no function of that.
         wall, cpu: s of the diagnosis, models compiled.
         trouble: why there is no verdict.
     """
@@ -52,6 +56,12 @@ class Answer:
     determined: int = 0
     missed: tuple[str, ...] = ()
     slot: str = ""
+    alike: tuple[str, ...] = ()
+    rank: int = 0
+    over: str = ""
+    share: float | None = None
+    said: str = ""
+    cover: float | None = None
     wall: float = 0.0
     cpu: float = 0.0
     trouble: str = ""
@@ -77,7 +87,7 @@ class Answer:
         unknown = set(given) - {f.name for f in fields(cls)} if isinstance(given, dict) else {"a line"}
         if unknown:
             raise ValueError(f"an answer has no {', '.join(sorted(unknown))}")
-        for name in ("added", "ranking", "missed"):
+        for name in ("added", "ranking", "missed", "alike"):
             given[name] = tuple(given.get(name, ()))
         given["confusable"] = tuple(tuple(group) for group in given.get("confusable", ()))
         return cls(**given)

@@ -15,6 +15,7 @@ VISIBLE = 100.0
 """Footprint from which an effect ought to be named."""
 WALL = 60.0  # s
 _HELD = 1.05  # residual over noise
+_RANGE = 0.9  # in which a band has to hold the true term
 _TENTH, _TWICE = 0.1, 2.0  # of the base model's error, of the Cramer-Rao bound
 
 Pair = tuple[Case, Answer]
@@ -84,9 +85,6 @@ def figures(table: Sequence[Case], answers: Mapping[str, Answer]) -> tuple[Figur
         *_both(of_kind["pair"]),
         *_repair(of_kind["named"]),
         *_cover(of_kind),
-        _share(
-            "the slot of the effect located first", of_kind["named"], _located, (90, 100), lambda p: bool(p[1].slot)
-        ),
         *_cost(pairs),
     )
 
@@ -215,10 +213,32 @@ def _cover(of_kind: Mapping[str, Sequence[Pair]]) -> Iterator[Figure]:
         yield Figure(label, total - sum(len(a.missed) for a in rows), total, target)
 
 
-def _located(pair: Pair) -> bool:
+def place_figures(
+    table: Sequence[Case], answers: Mapping[str, Answer], places: Mapping[str, Answer]
+) -> Iterator[Figure]:
+    """Where effects were located without being named; footprints are those of the answers."""
+    pairs = paired(table, places)
+    large = [pair for pair in pairs if pair[0].name not in answers or visible((pair[0], answers[pair[0].name]))]
+    told = [pair for pair in pairs if pair[1].cover is not None]
+    yield _share("the slot of the effect located first", pairs, _first_place, (90, 100))
+    yield _share("the same, footprint 100 or more", large, _first_place)
+    yield _share("the same, or tied with that which is first", large, _tied_place)
+    yield _share("the band holds the true term over nine tenths of its range", told, _covered, (90, 100))
+    yield _share("the same, its slot located first", told, _covered, None, _first_place)
+
+
+def _first_place(pair: Pair) -> bool:
+    return pair[1].rank == 1
+
+
+def _tied_place(pair: Pair) -> bool:
     from validation.blind.benchmark.slots import SLOTS
 
-    return pair[1].slot == SLOTS[pair[0].effects[0][0]]
+    return pair[1].rank == 1 or SLOTS[pair[0].effects[0][0]] in pair[1].alike
+
+
+def _covered(pair: Pair) -> bool:
+    return (pair[1].cover or 0.0) >= _RANGE
 
 
 def _cost(pairs: Sequence[Pair]) -> Iterator[Figure]:

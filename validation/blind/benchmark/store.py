@@ -12,6 +12,8 @@ from validation.blind.benchmark.answer import Answer
 from validation.blind.plant import Case
 
 ANSWERS = Path(__file__).parent / "answers"
+PLACES = Path(__file__).parent / "places"
+"""Where effects were located, the rest of the diagnosis left out."""
 
 
 @dataclass(frozen=True)

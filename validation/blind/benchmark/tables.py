@@ -10,6 +10,7 @@ import numpy as np
 from validation.blind.benchmark.figures import VISIBLE, Figure, Pair, right_first, tied
 from validation.blind.benchmark.logistic import rise
 from validation.blind.benchmark.pictures import confusion
+from validation.blind.benchmark.slots import SLOTS
 from validation.blind.plant.effects import SIZES, STANDARD
 from validation.blind.plant.table import NOISES
 
@@ -110,3 +111,18 @@ def misses(answered: Sequence[Pair]) -> Iterator[str]:
     if counts:
         told = ", ".join(f"{name} {n}" for name, n in counts.most_common(12))
         yield f"Intervals that missed the truth, in {len(rows)} cases rightly repaired: {told}."
+
+
+def places(located: Sequence[Pair]) -> Iterator[str]:
+    """Per effect how often its slot came first or tied, how far its band held the true term, and what came first."""
+    yield "| effect | cases | first | tied | band holds, mean share of the range | first instead |"
+    yield "|---|---|---|---|---|---|"
+    for effect in STANDARD:
+        rows = [answer for case, answer in located if case.effects[0][0] == effect]
+        covers = [answer.cover for answer in rows if answer.cover is not None]
+        wrong = Counter(answer.slot or "nothing" for answer in rows if answer.rank != 1)
+        tied = sum(answer.rank > 1 and SLOTS[effect] in answer.alike for answer in rows)
+        held = f"{100 * float(np.mean(covers)):.0f} % of {len(covers)}" if covers else "-"
+        other = ", ".join(f"{slot} {n}" for slot, n in wrong.most_common())
+        if rows:
+            yield f"| {effect} | {len(rows)} | {sum(a.rank == 1 for a in rows)} | {tied} | {held} | {other} |"

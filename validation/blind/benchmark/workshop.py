@@ -5,6 +5,7 @@ The compiler's cache lets go of what was not asked for lately, and a run meets m
 
 from __future__ import annotations
 
+import hashlib
 import os
 import tempfile
 import time
@@ -15,6 +16,7 @@ from functools import cache
 from pathlib import Path
 
 import fmu_build
+from pysim.diagnose.probe_laws import Term, wrapped
 from pysim.effects import STANDARD_LIBRARY, fitting, read_catalogue, variant
 from pysim.io import cache_folder, read_model
 from pysim.types import BadInput, Effect, Model
@@ -55,6 +57,25 @@ class Workshop:
                 self.seconds += time.monotonic() - begun
         return self._built[key]
 
+    def probed(self, effects: Sequence[Effect], law: Term) -> Model:
+        """The base model with a term at one of its places.
+
+        Raises:
+            BadInput: effects beside it, or a term that does not compile.
+        """
+        if effects:
+            raise BadInput("terms are looked for in the base model alone; leave the effects out")
+        text = wrapped(BASE, law, "Located")
+        path = self.folder / f"term-{hashlib.sha256(f'{text} {law.probes}'.encode()).hexdigest()[:12]}.fmu"
+        if not path.is_file():
+            begun = time.monotonic()
+            with tempfile.TemporaryDirectory(prefix="blind-benchmark-") as folder:
+                source = Path(folder) / "Located.mo"
+                source.write_text(text, encoding="utf-8")
+                _build("Located", path, [STANDARD_LIBRARY, source], law.probes)
+            self.seconds += time.monotonic() - begun
+        return read_model(path)
+
     def effect(self, name: str) -> Effect:
         """Of that standard name."""
         return next(effect for effect in self.catalogue if effect.name == name)
@@ -70,11 +91,11 @@ class Workshop:
         return read_model(path), made.places
 
 
-def _build(class_name: str, path: Path, libraries: Sequence[Path]) -> None:
+def _build(class_name: str, path: Path, libraries: Sequence[Path], probes: Sequence[str] = ()) -> None:
     """Compile to that path, whole or not at all."""
     partial = path.with_name(f"{uuid.uuid4().hex}.fmu")
     try:
-        fmu_build.build(class_name, partial, libraries=libraries)
+        fmu_build.build(class_name, partial, libraries=libraries, probes=probes)
         os.replace(partial, path)
     except fmu_build.BuildError as error:
         raise BadInput(str(error)) from error

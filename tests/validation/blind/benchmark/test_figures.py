@@ -6,7 +6,7 @@ import pytest
 from scipy import stats
 
 from validation.blind.benchmark.answer import Answer
-from validation.blind.benchmark.figures import Figure, figures, repaired, right_first, tied
+from validation.blind.benchmark.figures import Figure, figures, place_figures, repaired, right_first, tied
 from validation.blind.plant import Case
 
 NAMED = Case("n", "named", (("oil.air", "small"),))
@@ -118,9 +118,22 @@ def test_cover_pools_intervals_and_leaves_nuisances_out() -> None:
     assert count(rows, "the same of the base model") == (9, 9)
 
 
-def test_the_slot_and_the_time() -> None:
-    first, second = replace(RIGHT, slot="oil", wall=59.0), replace(RIGHT, slot="spool", wall=61.0)
-    rows = found((NAMED, first), (NAMED, second), (NAMED, RIGHT))
-    label = "the slot of the effect located first"
-    assert (rows[label].hits, rows[label].of) == (1, 2)
+def test_the_time() -> None:
+    rows = found((NAMED, replace(RIGHT, wall=59.0)), (NAMED, replace(RIGHT, wall=61.0)), (NAMED, RIGHT))
     assert count(rows, "diagnosed within 60 s") == (1, 2)
+
+
+def test_where_effects_were_located() -> None:
+    table = [replace(NAMED, name=name) for name in "abcd"]
+    places = {
+        "a": Answer("a", "c", "d", slot="oil", rank=1, cover=0.95),
+        "b": Answer("b", "c", "d", slot="supply", alike=("oil",), rank=2, cover=0.95),
+        "c": Answer("c", "c", "d", slot="spool", rank=3, cover=0.85),
+    }
+    small = {"c": replace(RIGHT, case="c", footprint=3.0)}
+    rows = {figure.label: (figure.hits, figure.of) for figure in place_figures(table, small, places)}
+    assert rows["the slot of the effect located first"] == (1, 3)
+    assert rows["the same, footprint 100 or more"] == (1, 2)
+    assert rows["the same, or tied with that which is first"] == (2, 2)
+    assert rows["the band holds the true term over nine tenths of its range"] == (2, 3)
+    assert rows["the same, its slot located first"] == (1, 1)
