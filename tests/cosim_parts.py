@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from scipy.linalg import expm
 
-from pysim.cosim import MemberFailed, Setup
+from pysim.cosim import Bond, Connection, MemberFailed, Setup, System
 from pysim.types import BadInput, Outcome, Port
 
 
@@ -134,3 +134,42 @@ def spring(name: str, k: float, d: float, **more: Any) -> Linear:
         D=[[-k, -d, k, d], [k, d, -k, -d]],
         **more,
     )
+
+
+STIFFNESS, DAMPING = (10.0, 40.0, 30.0), (0.1, 0.3, 0.5)  # left, right, between; N/m and N.s/m
+MASSES = (1.0, 2.0)  # kg
+
+
+def oscillators(**more: Any) -> System:
+    """Two masses on springs, with a spring and damper between them that belongs to the right one.
+
+    The left takes a force and gives position and velocity; the right takes those and gives the force, at once.
+    """
+    (_, k, c), (_, d, b), (_, m) = STIFFNESS, DAMPING, MASSES
+    left = mass("left", MASSES[0], STIFFNESS[0], DAMPING[0], 1.0, **more)
+    right = Linear(
+        "right",
+        (Port("x", "m"), Port("v", "m/s")),
+        (Port("F", "N"), Port("x_r", "m")),
+        A=[[0, 1], [-(k + c) / m, -(d + b) / m]],
+        B=[[0, 0], [c / m, b / m]],
+        C=[[c, b], [1, 0]],
+        D=[[-c, -b], [0, 0]],
+        **more,
+    )
+    wires = (Connection("left.x", "right.x"), Connection("left.v", "right.v"), Connection("right.F", "left.F"))
+    return System((left, right), wires, (Bond("between", effort="left.F", flow="right.v"),))
+
+
+def oscillation(times: Any) -> Any:
+    """Position of the left and of the right mass (n_t, 2) at times (n_t,) s, in closed form."""
+    (k_l, k_r, c), (d_l, d_r, b), (m_l, m_r) = STIFFNESS, DAMPING, MASSES
+    whole = np.array(
+        [
+            [0, 1, 0, 0],
+            [-(k_l + c) / m_l, -(d_l + b) / m_l, c / m_l, b / m_l],
+            [0, 0, 0, 1],
+            [c / m_r, b / m_r, -(k_r + c) / m_r, -(d_r + b) / m_r],
+        ]
+    )
+    return np.array([(expm(whole * t) @ [1.0, 0, 0, 0])[[0, 2]] for t in times])

@@ -31,6 +31,7 @@ class Plain:
     def __init__(self, core: Core, stepper: Stepper, start: float, step: float) -> None:
         self._core, self._stepper, self._start, self._step = core, stepper, start, step
         self._advance = stepper.advance
+        self._eventful = [member for member in core.layout.members if member.may_return_early]
 
     @property
     def memory(self) -> Any:
@@ -59,16 +60,22 @@ class Plain:
             reached = self._advance(time, end, tick)
             if balance is not None:
                 if self._stepper.lines:  # outputs that follow inputs at once: those of the inputs at the end
-                    self._core.exchange.between(reached, tick if reached == end else None)
+                    self._core.exchange.between(reached, tick if reached == end else None, events=False)
                 balance.accept()
             if reached == end:
+                if self._eventful and any(member.event for member in self._eventful):
+                    self._note_event()
                 return
             stalled = stalled + 1 if reached == time else 0
             check_stall("the system", stalled)
-            self._core.counts["events"] += 1
-            self._stepper.memory = None
+            self._note_event()
             self._core.exchange.between(reached)
             time = reached
+
+    def _note_event(self) -> None:
+        """Nothing is extrapolated over an event."""
+        self._core.counts["events"] += 1
+        self._stepper.memory = None
 
 
 class _Place(NamedTuple):
@@ -113,7 +120,6 @@ class Doubled:
                 continue
             place += size
             self._core.counts["parts"] += 2
-            self._core.enlarge_scale()
             # A step twice as large has 2^(p+1) times the error; half of that is kept as a margin.
             may_grow = self._level > 0 and place % (2 * size) == 0
             if may_grow and error < 0.25 / (self._gain + 1):
@@ -150,9 +156,10 @@ class Doubled:
         return error
 
     def _error(self, whole: np.ndarray) -> float:
-        halves = self._core.outputs
-        scale = np.maximum(self._core.scale, np.abs(halves))
-        scale[scale == 0] = 1.0
+        """Largest difference over its tolerance. What was tried counts for the magnitudes: an output at rest till now
+        has no other, and any step's share of it would be large."""
+        self._core.enlarge_scale()
+        halves, scale = self._core.outputs, np.where(self._core.scale > 0, self._core.scale, 1.0)
         worst = float(np.max(np.abs(whole - halves) / scale, initial=0.0))
         return worst / self._gain / self._doubling.rtol
 

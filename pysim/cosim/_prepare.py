@@ -71,7 +71,7 @@ def overrides_of(system: System, experiment: Experiment) -> Mapping[str, Mapping
     return by_member
 
 
-def tick_of(time: float, start: float, step: float, what: str = "time") -> int:
+def tick_of(time: float, start: float, step: float, what: str = "time", *, least: int = 0) -> int:
     """The number of the communication point at a time, s.
 
     Raises:
@@ -79,7 +79,7 @@ def tick_of(time: float, start: float, step: float, what: str = "time") -> int:
     """
     exact = (time - start) / step
     number = round(exact)
-    if abs(exact - number) > _NEAR * max(1.0, abs(exact) * 1e-6):
+    if abs(exact - number) > _NEAR or number < least:
         raise BadInput(
             f"{what} {time:.12g} s is no whole number of steps of {step:g} s from {start:g} s ({exact:.6g}); take a "
             "step that divides it"

@@ -137,7 +137,7 @@ class _Stepper:
         reached = self._sweep(time, end)
         if reached != end:
             raise _Early(reached)
-        self._core.exchange.between(end, tick)
+        self._core.exchange.between(end, tick, events=False)
         return self._core.sources[self._coupled]
 
     def _not_converged(self, error: NotConverged, size: float) -> Fault:

@@ -27,7 +27,7 @@ class Stepper(Protocol):
 
 
 class Order(Protocol):
-    """Frozen settings of one way to step. A new one is a file, an export, and a line in tests/cases.py."""
+    """Frozen settings of one way to step. A new one is a file, an export, and a line in its tests' order_cases.py."""
 
     @property
     def accuracy(self) -> int:

@@ -26,6 +26,9 @@ from pysim.cosim.order import Order
 from pysim.cosim.system import System
 from pysim.types import BadInput, Experiment, Outcome, Record, SimulationError
 
+# Members of runs that are open; a member can be in one at a time.
+_at_work: set[int] = set()
+
 
 @dataclass(frozen=True)
 class Kept:
@@ -63,20 +66,14 @@ class Run:
         self._rows = ticks(experiment, self.step)
         self._layout = lay_out(system, (*experiment.inputs, *experiment.rates))
         self._tick = self._counted = 0
+        self._failed: Fault | None = None
         self._open = False
 
     def __enter__(self) -> Run:
-        row = Row(self._layout)
-        self._trace = Trace(self.system, self.experiment, self._rows, self._layout, row.array)
-        self._samplers = self._make_samplers(self._layout, row)
-        self._core = Core(
-            self.system, self._layout, row, self._samplers, Signals(self.experiment, self._layout, self.step)
-        )
-        self._mover = self._make_mover()
-        self._failed: Fault | None = None
-        self._tick, self._counted, self._open = 0, 0, True
+        _claim(self.system)
         try:
-            self._start(row)
+            self._build()
+            self._start(self._core.row)
         except BaseException:
             self._close()
             raise
@@ -124,8 +121,8 @@ class Run:
             while tick < last:
                 move(tick)
                 tick += 1
-                at(tick, start + tick * step)
                 self._tick = tick
+                at(tick, start + tick * step)
                 if tick == due:
                     due = trace.take(tick)
         finally:
@@ -171,11 +168,20 @@ class Run:
         self._failed = None
         self._trace.rewind(kept.tick)
 
+    def _build(self) -> None:
+        row = Row(self._layout)
+        signals = Signals(self.experiment, self._layout, self.step)
+        self._trace = Trace(self.system, self.experiment, self._rows, self._layout, row.array)
+        self._samplers = self._make_samplers(self._layout, row)
+        self._core = Core(self.system, self._layout, row, self._samplers, signals)
+        self._mover = self._make_mover()
+        self._tick, self._counted, self._open, self._failed = 0, 0, True, None
+
     def _make_samplers(self, layout: Layout, row: Row) -> dict[str, Sampler]:
         samplers = {}
         for block in layout.blocks:
-            every = tick_of(block.every, 0.0, self.step, f"{block.name}: every")
-            delay = tick_of(block.delay, 0.0, self.step, f"{block.name}: delay")
+            every = tick_of(block.every, 0.0, self.step, f"{block.name}: every =", least=1)
+            delay = tick_of(block.delay, 0.0, self.step, f"{block.name}: delay =", least=int(block.delay > 0))
             samplers[block.name] = Sampler(block, row, layout, every, delay, self.step)
         return samplers
 
@@ -219,10 +225,10 @@ class Run:
         self._trace.take(0)
 
     def _settle(self) -> None:
-        parts = len(self._layout.members)
-        if not self._core.exchange.settle(parts + 2 if not self._order.solves_loops else 200):
-            names = ", ".join(member.name for member in self._layout.members)
-            raise Fault(names, "their initial values go round in a circle and do not settle", Outcome.NOT_CONVERGED)
+        names = [member.name for member in self._layout.members]
+        if not self._core.exchange.settle(self.experiment.start, len(names) + 2, exact=not self.system.loops):
+            why = "their initial values go round in a circle and do not settle"
+            raise Fault(", ".join(names), why, Outcome.NOT_CONVERGED)
 
     def _guard(self, name: str, call: Callable[[], None]) -> None:
         try:
@@ -241,6 +247,14 @@ class Run:
         self._open = False
         for member in self._layout.members:
             member.close()
+        _at_work.difference_update(map(id, self.system.members))
+
+
+def _claim(system: System) -> None:
+    busy = [member.name for member in system.members if id(member) in _at_work]
+    if busy:
+        raise BadInput(f"co-simulation: {busy[0]} is at work in another run; close that first, or make another member")
+    _at_work.update(map(id, system.members))
 
 
 def cosimulate(

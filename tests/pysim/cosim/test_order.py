@@ -1,0 +1,75 @@
+"""What every order of stepping has to do: converge as it claims on two coupled oscillators, and repeat from a state."""
+
+import numpy as np
+import pytest
+
+from pysim.control import PI
+from pysim.cosim import Connection, Doubling, Order, Run, Sampled, System, cosimulate
+from pysim.types import Experiment, Signal
+from tests.cosim_parts import Linear, oscillation, oscillators
+from tests.pysim.cosim.order_cases import ORDERS
+
+END = 2.0  # s
+
+
+def errors(order: Order, counts: tuple[int, ...], **more: bool) -> tuple[np.ndarray, np.ndarray]:
+    """Largest error of both positions over the run, and the energy that the coupling made (J), for counts of steps."""
+    system, times = oscillators(**more), np.linspace(0, END, 21)
+    experiment = Experiment(times, ("left.x", "right.x_r"))
+    records = [cosimulate(system, experiment, step=END / count, order=order) for count in counts]
+    return (
+        np.array([np.abs(record.values[:, :2] - oscillation(times)).max() for record in records]),
+        np.array([abs(record["between.residual"][-1]) for record in records]),
+    )
+
+
+@pytest.mark.parametrize("takes_rates", [False, True])
+@pytest.mark.parametrize("order", ORDERS, ids=str)
+def test_converges_as_claimed(order: Order, takes_rates: bool) -> None:
+    found, energy = errors(order, (400, 800, 1600), takes_rates=takes_rates)
+    slopes = np.log2(found[:-1] / found[1:])
+    # An extrapolation starts one order below its own, which shows in coarse steps as more than the claim.
+    assert (slopes > order.accuracy - 0.1).all()
+    assert (slopes < order.accuracy + 0.6).all()
+    assert energy[-1] < 1e-6 or (np.log2(energy[:-1] / energy[1:]) > order.accuracy - 0.2).all()
+
+
+def test_second_order_with_a_quarter_of_the_steps_is_better() -> None:
+    first = errors(ORDERS[0], (1600,))[0][0]
+    assert all(errors(order, (400,))[0][0] < first / 5 for order in ORDERS if order.accuracy == 2)
+
+
+def controlled() -> System:
+    """The oscillators, with a controller that pushes the left one towards a reference, late by two steps."""
+    system = oscillators()
+    left, right = system.members
+    push = Sampled("push", PI(5.0, 0.5, 0.01), every=0.01, delay=0.02, hold=1)
+    extra = Linear(
+        "sum", (right.outputs[0], push.outputs[0]), (left.inputs[0],), A=[[0]], B=[[0, 0]], C=[[0]], D=[[1, 1]]
+    )
+    wires = [c for c in system.connections if c.source != "right.F"]
+    wires += [Connection("right.F", "sum.F"), Connection("push.u", "sum.u"), Connection("sum.F", "left.F")]
+    wires += [Connection("left.x", "push.measured", factor=1.0)]
+    return System((*system.members, extra, push), tuple(wires))
+
+
+@pytest.mark.parametrize("doubling", [None, Doubling(rtol=1e-3)], ids=["fixed", "doubled"])
+@pytest.mark.parametrize("order", [o for o in ORDERS if getattr(o, "order", ()) == ()], ids=str)
+def test_save_and_restore_repeat_bit_for_bit(order: Order, doubling: Doubling | None) -> None:
+    names = ("left.x", "left.F", "right.F", "right.x_r", "push.u", "push.measured")
+    drive = {"push.reference": Signal.steps([0.0, 0.055], [0.0, 0.3])}
+    experiment = Experiment(np.linspace(0, 0.4, 41), names, drive)
+    with Run(controlled(), experiment, step=0.005, order=order, doubling=doubling) as run:
+        run.advance(0.135)
+        kept = run.save()
+        run.advance()
+        first = run.record()
+        run.restore(kept)
+        assert run.time == pytest.approx(0.135, abs=1e-15)
+        run.advance()
+        again = run.record()
+    straight = cosimulate(controlled(), experiment, step=0.005, order=order, doubling=doubling)
+    assert np.array_equal(first.values, again.values)
+    assert np.array_equal(first.values, straight.values)
+    assert first.statistics == again.statistics
+    assert np.ptp(first["push.u"]) > 0.1

@@ -1,0 +1,140 @@
+"""Sampled blocks: rate, delay and hold, to one sample."""
+
+from collections.abc import Sequence
+
+import numpy as np
+import pytest
+
+from pysim.control import PI, Gain, Stateless
+from pysim.cosim import Connection, Sampled, System, cosimulate
+from pysim.types import BadInput, Experiment, Outcome, Port, Signal, SimulationError
+from tests.cosim_parts import Linear
+
+
+class Clock(Stateless):
+    """Its own time, squared, and what it read."""
+
+    inputs = (Port("u"),)
+    outputs = (Port("y", start=-1.0), Port("read"))
+
+    def step(self, time: float, inputs: Sequence[float]) -> tuple[float, float]:
+        return time**2, inputs[0]
+
+
+def run(sampled: Sampled, *, step: float, end: float = 1.0, start: float = 0.0) -> dict[str, np.ndarray]:
+    times = start + step * np.arange(round(end / step) + 1)
+    experiment = Experiment(times, ("c.y", "c.read"), {"c.u": Signal.lines([start, start + 10], [0, 10])}, start=start)
+    record = cosimulate(System((sampled,)), experiment, step=step)
+    return {"time": times, "y": record["c.y"], "read": record["c.read"]}
+
+
+@pytest.mark.parametrize("start", [0.0, -3.0, 17.3])
+def test_a_block_is_stepped_at_its_rate(start: float) -> None:
+    found = run(Sampled("c", Clock(), every=0.03), step=0.01, start=start)
+    ticks = np.arange(found["time"].size) // 3 * 3
+    assert found["y"] == pytest.approx((start + ticks * 0.01) ** 2, rel=1e-12)
+    assert found["read"] == pytest.approx(ticks * 0.01, abs=1e-12)
+
+
+@pytest.mark.parametrize("late", [1, 3, 7])
+def test_a_delay_is_a_number_of_steps(late: int) -> None:
+    found = run(Sampled("c", Clock(), every=0.03, delay=late * 0.01), step=0.01)
+    ticks = (np.arange(found["time"].size) - late) // 3 * 3
+    assert found["y"] == pytest.approx(np.where(ticks < 0, -1.0, (ticks * 0.01) ** 2), rel=1e-12)
+
+
+def test_first_order_hold_runs_on_along_its_line() -> None:
+    found = run(Sampled("c", Clock(), every=0.05, hold=1), step=0.01)
+    tick = np.arange(found["time"].size)
+    sample = tick // 5 * 5
+    last, before = (sample * 0.01) ** 2, (np.maximum(sample - 5, 0) * 0.01) ** 2
+    assert found["y"] == pytest.approx(last + (tick - sample) / 5 * (last - before), rel=1e-12, abs=1e-15)
+    assert found["read"] == pytest.approx(tick * 0.01, abs=0.05 + 1e-9)
+
+
+def test_a_controller_on_a_plant_is_its_difference_equation() -> None:
+    plant = Linear("plant", (Port("u"),), (Port("y"),), A=[[-2.0]], B=[[1.0]], C=[[1.0]])
+    wires = (Connection("plant.y", "c.measured"), Connection("c.u", "plant.u"))
+    system = System((plant, Sampled("c", PI(3.0, 0.4, 0.02), every=0.02)), wires)
+    times = np.arange(0, 401) * 0.005
+    drive = {"c.reference": Signal.steps([0, 0.1], [0, 1.0])}
+    record = cosimulate(system, Experiment(times, ("plant.y", "c.u"), drive), step=0.005)
+    y, u, error, known = 0.0, 0.0, None, []
+    for tick in range(401):
+        if tick % 4 == 0:
+            now = (1.0 if tick >= 20 else 0.0) - y
+            before = now if error is None else error
+            u, error = u + 3.0 * (now - before) + 3.0 * 0.02 / 0.4 * before, now
+        known.append((y, u))
+        y = np.exp(-0.01) * y + (1 - np.exp(-0.01)) / 2 * u
+    assert record.values == pytest.approx(np.array(known), rel=1e-9, abs=1e-12)
+
+
+def test_a_run_forgets_the_one_before() -> None:
+    system = System((Sampled("c", PI(1.0, 1.0, 0.1), every=0.1),))
+    experiment = Experiment(
+        np.linspace(0, 1, 11), ("c.u",), {"c.reference": Signal.constant(1.0), "c.measured": Signal.constant(0.0)}
+    )
+    first, second = (cosimulate(system, experiment, step=0.1).values for _ in range(2))
+    assert np.array_equal(first, second)
+    assert first[-1] > 1
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        ({"every": 0.0}, "every = 0.0 s"),
+        ({"every": 0.1, "delay": -0.1}, "delay = -0.1 s"),
+        ({"every": 0.1, "hold": 2}, "hold is 2; give 0 or 1"),
+    ],
+)
+def test_settings_are_checked(arguments: dict[str, float], words: str) -> None:
+    with pytest.raises(BadInput, match=words):
+        Sampled("c", Gain(1.0), **arguments)  # type: ignore[arg-type]
+
+
+def test_a_block_made_for_another_rate_is_refused() -> None:
+    with pytest.raises(BadInput, match=r"the block has dt = 0.01 s but is sampled every 0.02 s"):
+        Sampled("c", PI(1.0, 1.0, 0.01), every=0.02)
+    with pytest.raises(BadInput, match="has no 'inputs'"):
+        Sampled("c", object(), every=0.02)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(("every", "delay"), [(0.015, 0.0), (0.02, 0.005), (0.001, 0.0)])
+def test_rates_are_whole_numbers_of_steps(every: float, delay: float) -> None:
+    with pytest.raises(BadInput, match=r"no whole number of steps of 0.01 s"):
+        run(Sampled("c", Clock(), every=every, delay=delay), step=0.01)
+
+
+class Failing(Clock):
+    """Goes wrong at 0.25 s, in one of several ways."""
+
+    def __init__(self, way: str) -> None:
+        self.way = way
+
+    def step(self, time: float, inputs: Sequence[float]) -> tuple[float, ...]:  # type: ignore[override]
+        if time < 0.2499:
+            return 1.0, 2.0
+        return {
+            "raise": lambda: 1 // 0,
+            "nan": lambda: (1.0, float("nan")),
+            "few": lambda: (1.0,),
+            "text": lambda: "ab",
+        }[self.way]()
+
+
+@pytest.mark.parametrize(
+    ("way", "words"),
+    [
+        ("raise", "t = 0.25 s: c: ZeroDivisionError: integer division or modulo by zero"),
+        ("nan", "t = 0.25 s: c: its step returned read = nan"),
+        ("few", "t = 0.25 s: c: its step returned 1 values for 2 outputs"),
+        ("text", "t = 0.25 s: c: TypeError"),
+    ],
+)
+def test_a_block_that_goes_wrong_is_named(way: str, words: str) -> None:
+    with pytest.raises(SimulationError, match=words) as caught:
+        run(Sampled("c", Failing(way), every=0.05), step=0.01)
+    record = caught.value.record
+    assert record.time[-1] == pytest.approx(0.24)
+    assert record.outcome is (Outcome.NOT_FINITE if way == "nan" else Outcome.MODEL_ERROR)
