@@ -14,7 +14,7 @@ from pysim.diagnose.formula import Formula, formula
 from pysim.diagnose.outside import outside
 from pysim.diagnose.probe_fit import Estimate, Table, across, advance, first_order, knots
 from pysim.diagnose.probe_laws import KNOTS, Law, Term, slot_laws, state_laws
-from pysim.diagnose.probe_runs import seen, thinned
+from pysim.diagnose.probe_runs import patient, seen, thinned
 from pysim.diagnose.probe_shape import Told, shape, told, units
 from pysim.diagnose.probe_tone import tones
 from pysim.diagnose.residuals import Ruler
@@ -77,7 +77,7 @@ def locate(
     say = progress or (lambda line: None)
     if probed is None:
         return outside(ruler, current)
-    few = thinned(ruler, current.point)
+    few = patient(thinned(ruler, current.point), current)
     point = few.evaluation(current.what, current.point.x)
     if not point.good:
         return ()

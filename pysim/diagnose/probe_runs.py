@@ -14,7 +14,7 @@ from pysim.diagnose.residuals import Ruler
 from pysim.identify.greybox.evaluation import Evaluation
 from pysim.identify.greybox.sine_target import SineTarget
 from pysim.identify.greybox.target import Target
-from pysim.simulate import simulate_many
+from pysim.simulate import Esdirk, Rodas, simulate_many
 from pysim.types import Experiment
 
 Array = NDArray[np.float64]
@@ -23,6 +23,8 @@ Array = NDArray[np.float64]
 _SHARE = 0.22
 # How strongly long tests are shunned: misfit over time to this power.
 _POWER = 1.5
+# A run with a term may take so many times the steps of the longest without: a term that drives a model wild is wrong.
+_PATIENCE = 20
 # Between two looks at a variable, s.
 _STEP = 4e-3
 
@@ -48,6 +50,16 @@ def thinned(ruler: Ruler, point: Evaluation) -> Ruler:
             near += [ruler.near[starts[number] + log] for log in sorted(logs)]
     skips = tuple(ruler.skips[number] for number in sorted(kept))
     return ruler.with_other(targets=tuple(chosen), skips=skips, near=tuple(near))
+
+
+def patient(ruler: Ruler, current: Fitted) -> Ruler:
+    """The ruler whose runs end as failed once they take far more steps than those of the fitted model."""
+    if not isinstance(ruler.solver, Rodas | Esdirk):
+        return ruler
+    runs = ruler.experiments(current.what.space.values(current.point.x))
+    records = simulate_many(current.what.model, runs, solver=ruler.solver, workers=ruler.workers)
+    most = _PATIENCE * max((r.statistics["steps"] + r.statistics["rejected"] for r in records), default=0)
+    return replace(ruler, solver=replace(ruler.solver, max_steps=max(most, 1)))
 
 
 def _pieces(ruler: Ruler, residual: Array) -> Iterator[tuple[float, float, int, int]]:

@@ -1,10 +1,12 @@
 """Which tests a term is looked for in, and what of its argument these see."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from pysim.diagnose.fitted import Fitted
 from pysim.diagnose.probe_laws import slot_laws
-from pysim.diagnose.probe_runs import seen, thinned
+from pysim.diagnose.probe_runs import patient, seen, thinned
 from pysim.diagnose.residuals import rulers
 from pysim.diagnose.subject import extended
 from pysim.effects import slots
@@ -33,3 +35,15 @@ def test_the_argument_is_seen_on_the_models_own_way() -> None:
     x, v = found["force|force.x"], found["force|force.v"]
     times = np.linspace(0, 11.98, x.size)
     np.testing.assert_allclose(np.gradient(x, times)[2:-2], v[2:-2], atol=0.02 * np.max(np.abs(v)))
+
+
+def test_a_run_of_far_too_many_steps_has_failed() -> None:
+    given = toy_subject(measured(1))
+    ruler, _ = rulers(given.targets)
+    what = extended(given, ())
+    current = Fitted(what, ruler.evaluation(what, what.space.to_search(what.space.start)))
+    limited = patient(ruler, current)
+    np.testing.assert_array_equal(limited.at(what, current.point.x), current.point.residual)
+    assert limited.solver.max_steps < 1e6
+    short = replace(limited, solver=replace(limited.solver, max_steps=10))
+    assert short.at(what, current.point.x) is None
