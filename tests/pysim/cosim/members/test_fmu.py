@@ -193,7 +193,7 @@ def test_what_is_wrong_with_the_settings(folder: Path) -> None:
         member.step(0.0, 0.1)
     with pytest.raises(BadInput, match=r"lag\.u is an input; give it a signal"), driven(member, u=1.0):
         pass
-    with pytest.raises(BadInput, match="has no variable .W."), driven(member, W=1.0):
+    with pytest.raises(BadInput, match="has no variable"), driven(member, W=1.0):
         pass
 
 

@@ -1,0 +1,100 @@
+import os
+import signal
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from pysim.cosim import MemberFailed
+from pysim.cosim.members import Fmu, Isolated
+from pysim.io import read_model
+from pysim.types import BadInput, Model, Outcome
+from tests.pysim.cosim.members.driving import driven
+from tests.pysim.simulate.fixture_fmus import FRAGILE, build
+from tests.pysim.simulate.text_models import LAG, text_model
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return tmp_path_factory.mktemp("isolated")
+
+
+@pytest.fixture(scope="module")
+def fragile(folder: Path) -> Model:
+    return read_model(build(FRAGILE, 2, folder))
+
+
+def test_in_a_process_of_its_own_it_does_the_same_bit_for_bit(folder: Path) -> None:
+    own, other = (Fmu("lag", text_model(LAG, folder), parameters={"K": 3.0}) for _ in range(2))
+    u = np.sin(np.arange(12.0))
+    with driven(own, T=0.4) as here, driven(Isolated(other), T=0.4) as there:
+        assert there.rows("y", u) == here.rows("y", u)
+        states = [there.member.save() for _ in range(3)]
+        states[1] = there.member.save(states[1])
+        first = there.rows("y", u)
+        del states[0]
+        states.append(there.member.save())
+        there.member.restore(states[0])
+        there.time = here.time
+        assert there.rows("y", u) == first
+        there.give(u=2.0)
+        there.member.update()
+        assert there["power"] == pytest.approx(3.0 * 2.0 * there["y"], abs=1e-12)
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="signals have other names there")
+@pytest.mark.parametrize(("manner", "signal_name"), [(3.0, "SIGABRT"), (4.0, "SIGSEGV")])
+def test_a_crash_is_an_error_message(fragile: Model, manner: float, signal_name: str) -> None:
+    with driven(Isolated(Fmu("root", fragile)), step=1.0, manner=manner) as run:
+        run.go()
+        with pytest.raises(MemberFailed, match=rf"its process crashed \({signal_name}\)") as caught:
+            _go_twice(run)
+    assert caught.value.outcome is Outcome.MODEL_ERROR
+
+
+def test_a_step_that_never_ends_is_ended(fragile: Model) -> None:
+    with driven(Isolated(Fmu("root", fragile), time_limit=1.0), step=1.0, manner=5.0) as run:
+        run.go()
+        with pytest.raises(MemberFailed, match="did not answer within 1 s and was ended"):
+            _go_twice(run)
+
+
+def _go_twice(run) -> None:  # type: ignore[no-untyped-def]
+    """At 2 s the root's argument is zero."""
+    run.go()
+    run.go()
+
+
+def test_what_the_member_says_of_itself_comes_through(fragile: Model) -> None:
+    with driven(Isolated(Fmu("root", fragile)), step=1.0, manner=2.0) as run:
+        run.go()
+        with pytest.raises(MemberFailed, match="root of a negative number"):
+            _go_twice(run)
+    with pytest.raises(BadInput, match="has no variable"), driven(Isolated(Fmu("root", fragile)), Q=2.0):
+        pass
+
+
+def test_closing_ends_the_process_and_a_closed_one_starts_anew(fragile: Model) -> None:
+    member = Isolated(Fmu("root", fragile))
+    numbers = []
+    for _ in range(2):
+        with driven(member, step=1.0) as run:
+            numbers.append(member._process.pid)
+            run.go()
+            assert run["root"] == pytest.approx(0.5, abs=2e-3)
+    assert numbers[0] != numbers[1]
+    if os.name == "posix":
+        with pytest.raises(ProcessLookupError):
+            os.kill(numbers[1], signal.SIGTERM)
+    with pytest.raises(BadInput, match="has not been started"):
+        member.update()
+
+
+def test_what_cannot_be_isolated(fragile: Model) -> None:
+    member = Fmu("root", fragile)
+    with pytest.raises(BadInput, match="time limit is 0 s; give a positive one"):
+        Isolated(member, time_limit=0.0)
+    member.solver = lambda: None  # type: ignore[assignment]
+    with pytest.raises(BadInput, match="root cannot be sent to another process"):
+        Isolated(member)
