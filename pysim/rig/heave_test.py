@@ -65,7 +65,7 @@ class HeaveTest:
 
     def experiment(self) -> Experiment:
         """For `rig_system` with a crane, a row every 2 ms."""
-        times = np.arange(round((self.rest + self.length) / _ROW) + 1) * _ROW
+        times = np.arange(round((self.rest + self.length) / _ROW) + 1, dtype=np.float64) * _ROW
         return Experiment(times, (*OUTPUTS, *REFERENCES), {"crane.z_v_t": self.velocity()})
 
 

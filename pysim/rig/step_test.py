@@ -71,7 +71,7 @@ class StepTest:
         inputs = {"speed.reference": self.reference("speed"), "load.reference": self.reference("load")}
         if feed == "reference":
             inputs["load.speed"] = self.reference("speed")
-        times = np.arange(round((self.at + self.length) / _ROW) + 1) * _ROW
+        times = np.arange(round((self.at + self.length) / _ROW) + 1, dtype=np.float64) * _ROW
         return Experiment(times, (*OUTPUTS, "speed.pi", "load.pi"), inputs)
 
 
