@@ -238,6 +238,7 @@ def _row(base: _Base, found: _Found, alike: tuple[str, ...]) -> Missing:
         of = Told(found.estimate.table.knots, values, covariance, np.zeros((KNOTS, 0)))
         said = Formula("", "", "", np.zeros(0), np.zeros((0, 0)))
     text = f"{said.text} ({said.effect})" if said.effect else said.text
+    text += f", {1e3 * law.lag:g} ms late" if text and law.lag else ""
     shown = shape(of, law, found.estimate.table.model, said.along, said.spread)
     return Missing(law.slot, found.share, law.argument, shown, text, alike, _parameters(base, found))
 

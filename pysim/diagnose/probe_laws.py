@@ -11,8 +11,9 @@ from pysim.effects import Slot
 from pysim.types import Model
 
 KNOTS = 15
-# A flow or a pressure that answers to its own pressure or flow would close an algebraic loop: it sees it so much later.
-LAG = 1e-3
+# A flow or a pressure that answers to its own pressure or flow would close an algebraic loop: it sees it later, by one
+# of these, s; a supply answers within milliseconds, or as slowly as its pump is controlled.
+LAGS = (1e-3, 5e-3, 20e-3)
 # A rate that the model does not know is taken over so long, s.
 RATE = 1e-3
 _C, _K, _H, _W = "missing_c", "missing_k", "missing_term", "missing_seen"
@@ -181,8 +182,8 @@ def _laws_of(slot: Slot, sees: tuple[str, ...], states: set[str]) -> Iterator[La
         y_t = f"{y}_t" if f"{y}_t" in slot.gives else ""
         for z in sees:
             z_t = f"{z}_t" if f"{z}_t" in sees else ""
-            late = LAG if z in slot.nodes else 0.0
-            yield Law(slot.name, full(z), (Copy(full(y), full(z), full(y_t), full(z_t)),), late)
+            for late in LAGS if z in slot.nodes else (0.0,):
+                yield Law(slot.name, full(z), (Copy(full(y), full(z), full(y_t), full(z_t)),), late)
             if z == "s" and not y_t and not z_t:
                 yield Law(slot.name, f"der({full(z)})", (Copy(full(y), full(z)),), of_rate=True)
 
