@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pysim.diagnose.descent import Bowl, descend, mean_square
+from pysim.diagnose.graduated import WIDTHS, graduated, is_far
 from pysim.diagnose.residuals import Ruler
 from pysim.diagnose.subject import Extended
 from pysim.identify.greybox.evaluation import Evaluation
@@ -25,6 +26,8 @@ _BLUR = 0.5
 def refit(ruler: Ruler, what: Extended, first: Evaluation, *, rounds: int = 4, steps: int = 6) -> Evaluation:
     """Gauss-Newton within the bounds; slopes are run once a round and corrected by each step in between.
 
+    Where that ends far from the measurements, what is slow is fitted first; the better end counts.
+
     Args:
         first: a good point with its slopes.
         rounds: how often the slopes may be run again.
@@ -39,9 +42,20 @@ def refit_from(
     ruler: Ruler, what: Extended, first: Evaluation, *, rounds: int = 4, steps: int = 6
 ) -> tuple[Evaluation, Array]:
     """The same, and where the slopes were run, (n,)."""
+    best, slopes_at = _rounds(ruler, what, first, rounds, steps)
+    if not is_far(ruler, best):
+        return best, slopes_at
+    other = graduated(ruler, what, first)
+    if other is None:
+        return best, slopes_at
+    again, again_at = _rounds(ruler, what, other, rounds, steps)
+    return (again, again_at) if again.cost < best.cost else (best, slopes_at)
+
+
+def _rounds(ruler: Ruler, what: Extended, first: Evaluation, rounds: int, steps: int) -> tuple[Evaluation, Array]:
     best = first
     for _ in range(rounds):
-        end = chord_refit(ruler, what, best, steps=steps)
+        end = _chord(ruler, what, best, steps)
         if best.cost - end.cost < _NEAR * mean_square(best):
             return _polished(ruler, what, best, end), best.x
         again = ruler.evaluation(what, end.x)
@@ -60,6 +74,14 @@ def chord_refit(ruler: Ruler, what: Extended, first: Evaluation, *, steps: int =
     Returns:
         the best point; its slopes are good enough to step by, not to give intervals.
     """
+    end = _chord(ruler, what, first, steps)
+    if not is_far(ruler, end):
+        return end
+    other = graduated(ruler, what, first, widths=WIDTHS[:1], rounds=2)
+    return end if other is None or other.cost > end.cost else other
+
+
+def _chord(ruler: Ruler, what: Extended, first: Evaluation, steps: int) -> Evaluation:
     return descend(partial(ruler.at, what), first, Bounds(*what.space.bounds()), steps=steps)
 
 
