@@ -12,7 +12,7 @@ from scipy import stats
 from pysim.diagnose.blame import Blame, Evidence
 from pysim.diagnose.fitted import Fitted
 from pysim.diagnose.nuisance import GAIN, OFFSET, SHIFT, Suspect, suspects
-from pysim.diagnose.refit import chord_refit
+from pysim.diagnose.refit import refit
 from pysim.diagnose.residuals import Ruler
 from pysim.diagnose.screen import across, column_space
 from pysim.diagnose.subject import Extended
@@ -178,12 +178,18 @@ def _settled(ruler: Ruler, whole: Fitted, lean: Ruler, x: Array, rows: Array) ->
 
 
 def _nearer(ruler: Ruler, at: Fitted) -> tuple[Ruler, Fitted]:
-    """With the shapes of the nuisances from a model."""
+    """With the shapes of the nuisances from a model, and without starts that are wrong beside it.
+
+    An effect that moves the place of rest has the plant start where the model does not.
+    """
     near = _answers(ruler, at.what, at.point.x)
     if near is None:
         return ruler, at
-    closer = ruler.with_other(near=tuple(near))
-    return closer, recounted(ruler, closer, at)
+    closer = ruler.with_other(near=tuple(near), skips=_skips(ruler, near))
+    if closer.skips == ruler.skips:
+        return closer, recounted(ruler, closer, at)
+    first = closer.evaluation(at.what, at.point.x)
+    return closer, Fitted(at.what, refit(closer, at.what, first) if first.good else first)
 
 
 def held_beside(ruler: Ruler, held: Ruler, at: Fitted) -> Ruler:
@@ -220,7 +226,7 @@ def _lean_refit(ruler: Ruler, what: Extended, x: Array, rows: Array) -> tuple[Ar
     if float(np.sum((reach.T @ first.residual) ** 2)) < _WORTH:
         return x, rows
     plain = ruler.plain
-    end = plain.evaluation(what, chord_refit(ruler, what, first).x)
+    end = plain.evaluation(what, refit(ruler, what, first, rounds=3).x)
     if not end.good or ruler.counted(end.x, plain.whole(end)).cost >= first.cost:
         return x, rows
     return end.x, plain.whole(end)
@@ -264,21 +270,25 @@ def allowing(ruler: Ruler, held: Ruler | None, what: Extended, x: Array) -> tupl
     Args:
         x: (n,) of the model, near the plant; the rulers stay as they are where it cannot be simulated there.
     """
-    found = []
-    for one in (ruler, held):
-        values = None if one is None else _answers(one, what, x)
-        if one is None or values is None:
-            found.append(one)
-            continue
-        skips = tuple(
-            _OVER if skip or (isinstance(t, LogTarget) and _wrong_start(one, t, values[place])) else 0.0
-            for t, skip, place in zip(one.targets, one.skips, _places(one), strict=True)
-        )
-        if one is ruler:
-            one = one.with_other(suspected=suspects(one.targets), near=tuple(values))
-        found.append(one.with_other(skips=skips))
-    assert found[0] is not None
-    return found[0], found[1]
+    near = _answers(ruler, what, x)
+    if near is not None:
+        everyone = suspects(ruler.targets)
+        ruler = ruler.with_other(suspected=everyone, near=tuple(near), skips=_skips(ruler, near))
+    return ruler, None if held is None else started(held, what, x)
+
+
+def started(ruler: Ruler, what: Extended, x: Array) -> Ruler:
+    """The ruler without the starts that are wrong beside a model."""
+    answers = _answers(ruler, what, x)
+    return ruler if answers is None else ruler.with_other(skips=_skips(ruler, answers))
+
+
+def _skips(ruler: Ruler, answers: Sequence[Array]) -> tuple[float, ...]:
+    """Per target s at its start that do not count; what was left out once stays so."""
+    return tuple(
+        _OVER if skip or (isinstance(t, LogTarget) and _wrong_start(ruler, t, answers[place])) else 0.0
+        for t, skip, place in zip(ruler.targets, ruler.skips, _places(ruler), strict=True)
+    )
 
 
 def _answers(ruler: Ruler, what: Extended, x: Array) -> list[Array] | None:

@@ -82,11 +82,7 @@ def against(
     told: dict[str, object] = {"step": "against"}
     story = begin(subject, seed=0, workers=workers, progress=progress, journal=journal, settings=told)
     prior = _prior(story)
-    last = (
-        _refit(story, prior)
-        if refitted
-        else Settled.as_is(story.ruler.plain, recounted(story.ruler, story.ruler.plain, prior))
-    )
+    last = _refit(story, prior) if refitted else Settled.as_is(story.ruler.plain, prior)
     return answered(story, last.at, *decided(story, last, last, tried=False))
 
 
@@ -207,7 +203,7 @@ def _with(story: Story, effects: Sequence[Effect]) -> tuple[Settled, Settled]:
 
 
 def _prior(story: Story) -> Fitted:
-    """The base model as it is."""
+    """The base model as it is, counted without nuisances."""
     what = extended(story.subject, ())
     story.now("comparing the model as it is")
     first = story.allow(what, what.space.to_search(what.space.start))
@@ -215,16 +211,17 @@ def _prior(story: Story) -> Fitted:
         story.note(line)
     if not first.good:
         raise BadInput(f"{what.model.path.name} cannot be simulated through the tests at its own parameters")
-    nominal = Fitted(what, first)
+    nominal = recounted(story.ruler, story.ruler.plain, Fitted(what, first))
     story.stage("compare")
-    story.enter("prior", recounted(story.ruler, story.ruler.plain, nominal))
+    story.enter("prior", nominal)
     return nominal
 
 
 def _refit(story: Story, nominal: Fitted) -> Settled:
     """The base model refitted."""
     story.now("refitting the model")
-    base = story.fitted(nominal.what, "base", lambda: refit_from(story.ruler, nominal.what, nominal.point))
+    start = recounted(story.ruler.plain, story.ruler, nominal)
+    base = story.fitted(nominal.what, "base", lambda: refit_from(story.ruler, nominal.what, start.point))
     assert base is not None  # the start was good, so the end is
     end = story.settle(base, "base")
     story.stage("refit")
@@ -236,7 +233,8 @@ def _added(story: Story, current: Fitted, nominal: Fitted | None, effect: Effect
     """The model refitted with an effect, whether that is any use or not."""
     contender = story.extended(current, effect)
     footprints = screen(current, [contender])
-    tried = Tried(current, {effect.name: contender}, footprints, {}, 0.0)
+    ruler = story.ruler_of(current.what)
+    tried = Tried(current, ruler, {effect.name: contender}, footprints, {}, 0.0, story.blame(current).cost)
     found = refitted(story, tried, nominal if tried.bent else None, least=-1.0)
     if effect.name in found:
         return found[effect.name]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,14 +25,18 @@ def beside(subject: Subject, what: Extended, x: Array) -> Compared:
     return compared(Problem(what.model, fixed, subject.targets), nothing, Simulation(Esdirk(rtol=1e-6, atol=1e-6)))
 
 
-def ledger_step(name: str, found: Compared, cost: float) -> LedgerStep:
-    """One step of the story from a model beside every record."""
+def ledger_step(name: str, found: Compared, cost: float, skips: Mapping[str, float] | None = None) -> LedgerStep:
+    """One step of the story from a model beside every record.
+
+    Args:
+        skips: of records by name, s at their start that do not count.
+    """
     deviations = [d for record in found.records for own in record.deviations.values() for d in own]
     deviations += [d for response in found.responses for d in response.comparison.deviations]
     return LedgerStep(
         name,
-        root_mean_square(found.records, "fit"),
-        root_mean_square(found.records, "validate"),
+        root_mean_square(found.records, "fit", skips or {}),
+        root_mean_square(found.records, "validate", skips or {}),
         {d.criterion.symbol: d.value for d in _worst(deviations)},
         all(d.passes for d in deviations),
         cost,
@@ -44,7 +48,11 @@ def _worst(deviations: Sequence[Deviation]) -> Iterator[Deviation]:
         yield max((d for d in deviations if d.criterion.symbol == symbol), key=lambda d: d.value)
 
 
-def root_mean_square(records: Sequence[RecordFit], use: str) -> float | None:
-    """Of all samples over their noise, of records of one use; None where there are none."""
-    values = [record.residual.values.ravel() for record in records if record.use == use]
+def root_mean_square(records: Sequence[RecordFit], use: str, skips: Mapping[str, float]) -> float | None:
+    """Of all samples that count over their noise, of records of one use; None where there are none."""
+    values = []
+    for record in records:
+        if record.use == use:
+            since = record.measured.time - record.measured.time[0]
+            values.append(record.residual.values[since >= skips.get(record.source, 0.0)].ravel())
     return float(np.sqrt(np.mean(np.concatenate(values) ** 2))) if values else None

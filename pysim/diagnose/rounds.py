@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, astuple, dataclass, replace
 from typing import Any
 
@@ -13,11 +13,12 @@ from numpy.typing import NDArray
 from pysim.diagnose import decide
 from pysim.diagnose.blame import Blame
 from pysim.diagnose.contenders import Contender
-from pysim.diagnose.corrections import evidence
+from pysim.diagnose.corrections import evidence, recounted
 from pysim.diagnose.fitted import Fitted
 from pysim.diagnose.nuisance import Suspect
 from pysim.diagnose.null import chance
 from pysim.diagnose.refit import chord_refit, refit_from
+from pysim.diagnose.residuals import Ruler
 from pysim.diagnose.screen import Footprint, across, column_space, footprint, per_effect, screen
 from pysim.diagnose.start import start_at, start_off
 from pysim.diagnose.story import Story
@@ -45,23 +46,27 @@ class Tried:
 
     Args:
         current: the model so far.
-        contenders: by the name of the effect.
+        ruler: that counts it.
+        contenders: by the name of the effect, each with the ruler that allows for the nuisances it leaves to blame.
         footprints: of all, the best gain first; every nuisance is allowed for.
         instead: by the name of the effect, by how much it is more likely, with the nuisances that it leaves to blame,
             than those that are to blame without it.
         limit: gain that chance alone exceeds seldom.
+        left: sum of squares that the model so far leaves beside the nuisances that are to blame without any effect.
     """
 
     current: Fitted
+    ruler: Ruler
     contenders: dict[str, Contender]
     footprints: tuple[Footprint, ...]
     instead: dict[str, float]
     limit: float
+    left: float
 
     @property
     def bent(self) -> bool:
         """Whether so much is left that the parameters have left their place to make up for it."""
-        return self.current.point.cost > 2 * self.current.point.residual.size
+        return self.left > 2 * self.current.point.residual.size
 
     @property
     def promises(self) -> bool:
@@ -72,6 +77,17 @@ class Tried:
     def heads(self) -> list[Footprint]:
         """The best footprint of each effect, the most promising effect first."""
         return sorted(per_effect(self.footprints), key=lambda head: -self.worth(head))
+
+    def beside(self, one: Contender) -> tuple[Fitted, list[Footprint]]:
+        """The model so far as a contender's ruler counts it, and the contender's footprints there, the best first."""
+        current, own = recounted(self.ruler, one.ruler, self.current), list[Footprint]()
+        span = column_space(current.point.jacobian)
+        left_over = across(span, current.point.residual)
+        for f in self.footprints:
+            if f.effect.name == one.effect.name:
+                change = one.ruler.span.across(f.plain[:, None])[:, 0]
+                own += footprint(f.effect, f.values, change, span, left_over)
+        return current, sorted(own, key=lambda f: -f.gain)
 
     def worth(self, head: Footprint) -> float:
         """What an effect promises: what it explains itself, or what it explains in place of nuisances."""
@@ -92,19 +108,41 @@ def screened(story: Story, current: Fitted) -> Tried:
     story.now(f"screening {len(contenders)} candidates")
     footprints = screen(current, list(contenders.values()))
     limit = chance(footprints, scale=1.0, seed=story.seed).limit
-    tried = Tried(current, contenders, footprints, _instead(story, current, footprints), limit)
+    ruler = story.ruler_of(current.what)
+    blamed, none = _blamed(ruler, current, footprints), story.blame(current)
+    for name, blame in blamed.items():
+        one = contenders[name]
+        lean = one.ruler.with_other(suspected=tuple(s for s in one.ruler.suspected if s in blame.suspects))
+        contenders[name] = replace(one, ruler=lean)
+    note_mimics(story, none, blamed)
+    instead = {name: blame.over(none) for name, blame in blamed.items()}
+    tried = Tried(current, ruler, contenders, footprints, instead, limit, none.cost)
     story.stage("screen")
     heads = ", ".join(f"{f.effect.name} {tried.worth(f):.4g}" for f in tried.heads[:3])
     story.say(f"screened {len(contenders)} effects: {heads}; by chance up to {limit:.3g}")
     return tried
 
 
-def _instead(story: Story, current: Fitted, footprints: Sequence[Footprint]) -> dict[str, float]:
-    found = evidence(story.ruler_of(current.what), current.point, [f.plain for f in footprints])
-    none, best = found.alone(), dict[str, float]()
+def _blamed(ruler: Ruler, current: Fitted, footprints: Sequence[Footprint]) -> dict[str, Blame]:
+    """By the name of the effect the nuisances that it leaves to blame."""
+    found = evidence(ruler, current.point, [f.plain for f in footprints])
+    best = dict[str, Blame]()
     for f, blame in zip(footprints, found.beside([f.signed for f in footprints]), strict=True):
-        best[f.effect.name] = max(best.get(f.effect.name, 0.0), blame.over(none))
+        if f.effect.name not in best or blame.total < best[f.effect.name].total:
+            best[f.effect.name] = blame
     return best
+
+
+def note_mimics(story: Story, none: Blame, blamed: Mapping[str, Blame]) -> None:
+    """Tells which effects would do what one nuisance does."""
+    mimics: dict[Suspect, list[str]] = {}
+    for name, blame in blamed.items():
+        spared = none.suspects - blame.suspects
+        if len(spared) == 1 and abs(blame.over(none)) < decide.TIE:
+            mimics.setdefault(next(iter(spared)), []).append(name)
+    for suspect, names in mimics.items():
+        of = f"the {suspect.kind} of {suspect.signal}" if suspect.signal else "the shift of clocks"
+        story.note(f"{' or '.join(sorted(names))} would do what {of} does: these data cannot tell them apart")
 
 
 def refitted(
@@ -113,7 +151,8 @@ def refitted(
     """The promising candidates refitted: all on probation, the leaders with slopes of their own.
 
     Args:
-        nominal: the base model at its own parameters, where refits start too if those found have been bent.
+        nominal: the base model at its own parameters, counted without nuisances, where refits start too if those found
+            have been bent.
         least: share of the misfit that a refit on probation has to take for slopes of its own.
     """
     story.now("refitting the promising candidates")
@@ -121,13 +160,13 @@ def refitted(
     for head in _promising(tried):
         one = tried.contenders[head.effect.name]
         part = f"{name_of(tried.current)} + {head.effect.name} on probation"
-        kept = story.journal.once(part, lambda one=one: _kept(one, _probation(tried, one, nominal)))  # type: ignore[misc]
+        kept = story.journal.once(part, lambda one=one: _kept(tried, one, _probation(tried, one, nominal)))  # type: ignore[misc]
         if kept is not None:
             x, cost = np.array(kept["x"]), float(kept["cost"])
             found[head.effect.name] = Fitted(one.what, Evaluation(x, cost, np.zeros(0), np.zeros((0, x.size))))
             story.know(found[head.effect.name], Blame(frozenset(Suspect(*s) for s in kept["blame"]), *kept["evidence"]))
     story.stage("refit candidates")
-    worth = not tried.bent or _share(tried.current, found) > least
+    worth = not tried.bent or any(share(story, tried.current, one) > least for one in found.values())
     order = by_score(story, tried.current, found) if worth else []
     best = score(story, tried.current, found[order[0]]) if order else 0.0
     for name in order[:_FINAL]:
@@ -143,13 +182,6 @@ def refitted(
     return found
 
 
-def _share(current: Fitted, found: dict[str, Fitted]) -> float:
-    """Of the misfit that the best refit takes."""
-    cost = min((fitted.point.cost for fitted in found.values()), default=current.point.cost)
-    freedom = current.point.residual.size - current.point.x.size
-    return decide.explained(current.point.cost - cost, current.point.cost, freedom)
-
-
 def _promising(tried: Tried) -> list[Footprint]:
     """The first of the ranking; several always, since the promise is one to first order only."""
     heads = tried.heads
@@ -157,24 +189,27 @@ def _promising(tried: Tried) -> list[Footprint]:
     return [f for f, good in zip(heads[:_PROBATION], enough, strict=False) if good]
 
 
-def _kept(one: Contender, point: Evaluation | None) -> dict[str, Any] | None:
+def _kept(tried: Tried, one: Contender, point: Evaluation | None) -> dict[str, Any] | None:
     if point is None:
         return None
-    blame = evidence(one.ruler, point).alone()
+    whole = replace(tried.ruler, solver=one.ruler.solver)
+    blame = evidence(whole, whole.counted(point.x, one.ruler.whole(point))).alone()
     suspects = sorted(astuple(suspect) for suspect in blame.suspects)
     return {"x": point.x.tolist(), "cost": point.cost, "blame": suspects, "evidence": [blame.cost, blame.price]}
 
 
 def _probation(tried: Tried, one: Contender, nominal: Fitted | None) -> Evaluation | None:
     """The best end of a few cheap refits; None where nothing is better than the model so far."""
-    own = sorted((f for f in tried.footprints if f.effect.name == one.effect.name), key=lambda f: -f.gain)
-    ends = [_end(one, tried.current, own[0], _STEPS)]
-    before = tried.current.point.cost
+    current, own = tried.beside(one)
+    if not own:
+        return None
+    ends = [_end(one, current, own[0], _STEPS)]
+    before = current.point.cost
     if (ends[0] is None or ends[0].cost > before) and len(own) > 1:
-        ends.append(_end(one, tried.current, min(own, key=lambda f: f.size), _STEPS))
+        ends.append(_end(one, current, min(own, key=lambda f: f.size), _STEPS))
     reached = before - min(end.cost for end in ends if end is not None) if any(ends) else 0.0
     if nominal is not None and reached < _KEPT * own[0].gain:
-        ends.append(_end(one, nominal, own[0], _FAR_STEPS))
+        ends.append(_end(one, recounted(one.ruler.plain, one.ruler, nominal), own[0], _FAR_STEPS))
     good = [end for end in ends if end is not None and end.cost < before]
     return min(good, key=lambda end: end.cost) if good else None
 
@@ -200,7 +235,7 @@ def _leader(story: Story, tried: Tried, one: Contender, at: Fitted) -> Fitted | 
         first = one.ruler.evaluation(one.what, at.point.x)
         return refit_from(one.ruler, one.what, first, rounds=3 if tried.bent else 2) if first.good else None
 
-    return story.fitted(one.what, f"{name_of(tried.current)} + {one.effect.name}", find)
+    return story.fitted(one.what, f"{name_of(tried.current)} + {one.effect.name}", find, one.ruler)
 
 
 def score(story: Story, current: Fitted, fitted: Fitted) -> float:
@@ -212,6 +247,12 @@ def score(story: Story, current: Fitted, fitted: Fitted) -> float:
 def gain(story: Story, current: Fitted, fitted: Fitted) -> float:
     """Fall of the sum of squares, each model with the nuisances that are to blame beside it."""
     return story.blame(fitted).over(story.blame(current))
+
+
+def share(story: Story, current: Fitted, fitted: Fitted) -> float:
+    """Of the avoidable misfit that the effects added take, 0 ... 1."""
+    freedom = current.point.residual.size - current.point.x.size
+    return decide.explained(gain(story, current, fitted), story.blame(current).cost, freedom)
 
 
 def by_score(story: Story, current: Fitted, found: dict[str, Fitted]) -> list[str]:
@@ -249,17 +290,17 @@ def finer(story: Story, one: Fitted, other: Fitted) -> float:
 def rows(story: Story, tried: Tried, found: dict[str, Fitted], number: int) -> list[Candidate]:
     """Every candidate considered, the refitted ones first, the best of each first."""
     current = tried.current.point
-    freedom = current.residual.size - current.x.size
+    freedom, before = current.residual.size - current.x.size, story.blame(tried.current).cost
     order = by_score(story, tried.current, found)
     listed = []
     for name in order:
         extra = found[name].point.x.size - current.x.size
         fall = gain(story, tried.current, found[name])
         scale = decide.inflation(current, found[name].point.cost)
-        share = decide.explained(fall, current.cost, freedom)
+        part = share(story, tried.current, found[name])
         values = own_values(found[name], name)
         worth = score(story, tried.current, found[name])
-        listed.append(Candidate(name, worth, decide.p_value(fall, extra, scale=scale), share, True, values, number))
+        listed.append(Candidate(name, worth, decide.p_value(fall, extra, scale=scale), part, True, values, number))
     useless = [f for f in _promising(tried) if found and f.effect.name not in found]
     for f in useless:
         price = decide.price(len(f.effect.parameters), current.residual.size)
@@ -268,9 +309,9 @@ def rows(story: Story, tried: Tried, found: dict[str, Fitted], number: int) -> l
         if f.effect.name not in [row.effect for row in listed]:
             promised = tried.worth(f)
             worth = promised - decide.price(len(f.effect.parameters), current.residual.size)
-            share = decide.explained(promised, current.cost, freedom)
+            part = decide.explained(promised, before, freedom)
             by_chance = decide.p_value(promised, 1, scale=1.0)
-            listed.append(Candidate(f.effect.name, worth, by_chance, share, False, f.values, number))
+            listed.append(Candidate(f.effect.name, worth, by_chance, part, False, f.values, number))
     return listed
 
 

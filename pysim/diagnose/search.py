@@ -27,6 +27,7 @@ from pysim.diagnose.rounds import (
     rows,
     score,
     screened,
+    share,
     start_amount,
 )
 from pysim.diagnose.screen import across, column_space
@@ -96,9 +97,9 @@ def _played(story: Story, current: Fitted, nominal: Fitted | None, number: int, 
         answer["ties"] = [ties] if len(ties) > 1 else []
         trouble = _objection(story, current, found[leader])
         if not trouble:
-            share = next(row.explained for row in listed if row.effect == leader)
+            taken = next(row.explained for row in listed if row.effect == leader)
             part = f"{name_of(current)} + {leader}"
-            said = f"added {leader}: {100 * share:.1f} % of the misfit explained"
+            said = f"added {leader}: {100 * taken:.1f} % of the misfit explained"
             done = _nothing_left(story, tried, found[leader])
             return {**answer, "chosen": [leader], "part": part, "said": said, "done": done}
         answer["said"] = trouble
@@ -233,12 +234,12 @@ def _objection(story: Story, current: Fitted, best: Fitted) -> str:
     name, point = best.what.effects[-1].name, current.point
     freedom = point.residual.size - point.x.size
     fall, extra = gain(story, current, best), best.point.x.size - point.x.size
-    share = decide.explained(fall, point.cost, freedom)
+    part = share(story, current, best)
     chance = decide.p_value(fall, extra, scale=decide.inflation(best.point)) * len(story.subject.catalogue)
     if score(story, current, best) <= 0 or chance > ALARM:
         return f"{name} gains no more than chance"
-    if point.cost > 2 * freedom and share < decide.FAIR:
-        return f"{name} takes {100 * share:.1f} % of the misfit: not enough to be named"
+    if story.blame(current).cost > 2 * freedom and part < decide.FAIR:
+        return f"{name} takes {100 * part:.1f} % of the misfit: not enough to be named"
     before, after = story.held_out(current), story.held_out(best)
     if before is None or after is None or decide.disagreement(before, after) <= decide.AGAINST:
         return ""

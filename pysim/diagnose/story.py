@@ -25,6 +25,7 @@ from pysim.diagnose.corrections import (
     recounted,
     settled,
     settled_before,
+    started,
     told_apart,
     undisturbed,
 )
@@ -37,6 +38,7 @@ from pysim.diagnose.residuals import Ruler, rulers
 from pysim.diagnose.subject import Extended, Subject, extended
 from pysim.diagnose.where import failures
 from pysim.identify.greybox.evaluation import Evaluation
+from pysim.identify.greybox.log_target import LogTarget
 from pysim.identify.greybox.target import Target
 from pysim.identify.greybox.uncertainty import untold
 from pysim.simulate import Esdirk, Rodas
@@ -107,7 +109,10 @@ class Story:
     def enter(self, name: str, at: Fitted) -> LedgerStep:
         """A model joins the ledger."""
         found = beside(self.subject, at.what, at.point.x)
-        step = ledger_step(name, found, at.point.cost)
+        counted = [self.ruler, *([self.held] if self.held else [])]
+        each = [pair for one in counted for pair in zip(one.targets, one.skips, strict=True)]
+        skips = {target.source: skip for target, skip in each if isinstance(target, LogTarget)}
+        step = ledger_step(name, found, at.point.cost, skips)
         self.ledger.append(step)
         estimates, directions = ((), ()) if name == "prior" else held_still(self.subject, at)
         where = failures(found.records, self.subject.dataset)
@@ -136,34 +141,38 @@ class Story:
             self.suits[key] = suited(self.ruler, current, what, effects)
         return Contender(effects[-1], what, self.suits[key])
 
-    def fitted(self, what: Extended, part: str, find: Callable[[], tuple[Evaluation, Array] | None]) -> Fitted | None:
-        """A refit that is done once; None where it came to nothing.
+    def fitted(
+        self,
+        what: Extended,
+        part: str,
+        find: Callable[[], tuple[Evaluation, Array] | None],
+        lean: Ruler | None = None,
+    ) -> Fitted | None:
+        """A refit that is done once, as the ruler of the model counts it; None where it came to nothing.
 
         Args:
             part: its name in the journal.
             find: a point with slopes, and where these were run.
+            lean: the ruler of that point where it is not the model's, because it allows for fewer nuisances.
         """
         point: list[Evaluation] = []
+        ruler = self.ruler_of(what)
 
         def found() -> Any:
             end = find()
             if end is None:
                 return None
             point.append(end[0])
-            return {"x": end[0].x.tolist(), "slopes": end[1].tolist()}
+            suspects = [astuple(s) for s in (lean or ruler).suspected]
+            return {"x": end[0].x.tolist(), "slopes": end[1].tolist(), "nuisances": suspects}
 
         kept = self.journal.once(part, found)
-        if kept is not None and not point:
-            point.append(self._again(what, np.array(kept["x"]), np.array(kept["slopes"])))
-        return Fitted(what, point[0]) if point else None
-
-    def _again(self, what: Extended, x: Array, slopes: Array) -> Evaluation:
-        """A point of an earlier run, bit for bit."""
-        ruler = self.ruler_of(what)
-        near = ruler.evaluation(what, slopes)
-        residual = near.residual if np.array_equal(x, slopes) else ruler.at(what, x)
-        assert residual is not None  # it was there when it was written
-        return replace(near, x=x, cost=float(residual @ residual), residual=residual)
+        if kept is None:
+            return None
+        lean = ruler.with_other(suspected=tuple(Suspect(*row) for row in kept["nuisances"]))
+        if not point:
+            point.append(_again(lean, what, np.array(kept["x"]), np.array(kept["slopes"])))
+        return recounted(lean, ruler, Fitted(what, point[0]))
 
     def allow(self, what: Extended, x: Array) -> Evaluation:
         """From now on residuals are counted across nuisances, and without wrong starts.
@@ -204,6 +213,10 @@ class Story:
         self.ruler = replace(end.ruler, solver=self.ruler.solver)
         self.suits = {key: replace(end.ruler, solver=one.solver) for key, one in self.suits.items()}
         self.blames.clear()
+        if self.held is not None:
+            self.held = started(self.held, end.at.what, end.at.point.x)
+        for line in self.counting():
+            self.note(line)
         self.subject = replace(self.subject, targets=undisturbed(self.measured, end.amounts))
         self.nuisances = end.seen if end.at.point.cost < decide.LEVEL * end.lean.freedom else ()
         for line in self.disturbed():
@@ -249,6 +262,14 @@ def begin(
     kept = Journal(journal, identity(subject, {"seed": seed, **(settings or {})}))
     ruler, held = rulers(subject.targets, workers, told=not untold(subject.notes))
     return Story(subject, progress or (lambda told: None), seed, ruler, held, kept, notes=list(subject.notes))
+
+
+def _again(ruler: Ruler, what: Extended, x: Array, slopes: Array) -> Evaluation:
+    """A point of an earlier run, bit for bit."""
+    near = ruler.evaluation(what, slopes)
+    residual = near.residual if np.array_equal(x, slopes) else ruler.at(what, x)
+    assert residual is not None  # it was there when it was written
+    return replace(near, x=x, cost=float(residual @ residual), residual=residual)
 
 
 def _where(at: Fitted) -> tuple[object, ...]:

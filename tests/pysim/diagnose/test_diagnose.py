@@ -3,6 +3,7 @@
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from pysim.diagnose import add, against, diagnose, rank
@@ -51,6 +52,18 @@ def test_says_none_where_nothing_is_missing(seed: int) -> None:
     assert found.verdict == "none"
     assert found.added == ()
     assert found.confusable == ()
+
+
+def test_an_offset_of_the_sensor_is_no_physics() -> None:
+    data = measured(2)
+    shifted = [
+        replace(one, data=replace(one.data, values=one.data.values + np.array([0.0, 0.004])))  # of the position alone
+        for one in data.records
+    ]
+    found = diagnose(toy_subject(replace(data, records=tuple(shifted))))
+    assert found.verdict == "none"
+    assert any("x is off by +0.00" in note for note in found.notes)
+    assert found.error[-1].validate == pytest.approx(1.0, abs=0.1)
 
 
 def test_says_unknown_where_the_catalogue_lacks_the_effect() -> None:

@@ -5,11 +5,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from pysim.diagnose.blame import Blame
 from pysim.diagnose.contenders import Contender, suited
 from pysim.diagnose.fitted import Fitted
+from pysim.diagnose.nuisance import Suspect
 from pysim.diagnose.refit import chord_refit, refit, refit_from
 from pysim.diagnose.residuals import Ruler, rulers
-from pysim.diagnose.rounds import Tried, by_score, own_values, promise, rows, score, start_amount
+from pysim.diagnose.rounds import Tried, by_score, note_mimics, own_values, promise, rows, score, start_amount
 from pysim.diagnose.screen import screen
 from pysim.diagnose.start import start_at, start_off
 from pysim.diagnose.story import begin
@@ -73,7 +75,7 @@ def test_slopes_of_a_refit_are_those_of_the_point_it_names() -> None:
 def test_rows_and_promises_of_a_round() -> None:
     ruler, base, what = rubbing()
     one = Contender(CATALOGUE["toy.friction"], what, ruler)
-    tried = Tried(base, {"toy.friction": one}, screen(base, [one]), {}, 8.0)
+    tried = Tried(base, ruler, {"toy.friction": one}, screen(base, [one]), {}, 8.0, base.point.cost)
     assert tried.promises
     end = Fitted(what, refit(ruler, what, ruler.evaluation(what, what.space.to_search(what.space.start))))
     rubbed = measured(1, "toy.friction", F_c=0.1)
@@ -85,6 +87,21 @@ def test_rows_and_promises_of_a_round() -> None:
     assert (row.effect, row.round, row.refitted) == ("toy.friction", 2, True)
     assert row.explained > 0.9
     assert promise(tried, end) == 0.0  # it is in; nothing else was tried
+
+
+def test_what_one_nuisance_does_as_well_is_told() -> None:
+    story = begin(toy_subject(measured(1)), seed=0, workers=None, progress=None)
+    offset, gain = Suspect("offset", "toy", "x", 0.01), Suspect("gain", "toy", "x", 0.01)
+    none = Blame(frozenset({offset}), 100.0, 14.0)
+    blamed = {
+        "toy.bias": Blame(frozenset(), 99.0, 0.0),
+        "toy.friction": Blame(frozenset(), 60.0, 0.0),
+        "toy.hardening": Blame(frozenset({offset, gain}), 95.0, 25.0),
+    }
+    note_mimics(story, none, blamed)
+    assert story.notes[-1] == "toy.bias would do what the offset of x does: these data cannot tell them apart"
+    note_mimics(story, Blame(frozenset({offset, gain}), 100.0, 28.0), {"toy.bias": blamed["toy.bias"]})
+    assert len([note for note in story.notes if "would do" in note]) == 1
 
 
 def test_only_the_linear_implicit_method_is_exchanged() -> None:
