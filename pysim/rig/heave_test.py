@@ -106,7 +106,7 @@ def heave_figures(record: Record, test: HeaveTest) -> HeaveFigures:
     time, speed = record.time[counts], record["rig.omega"][counts]
     reference = record["crane.omegaS_ref"][counts]
     error, pressure = speed - reference, record["rig.pL"] - record["crane.pL_ref"]
-    slow = _slow(pressure, record.time)[counts]
+    slow = slow_part(pressure, record.time)[counts]
     pressure, supply = pressure[counts], record["rig.pS"][counts]
     held, wanted = standstills(time, speed), standstills(time, reference)
     return HeaveFigures(
@@ -131,8 +131,8 @@ def _longest(spans: Array) -> float:
     return float((spans[:, 1] - spans[:, 0]).max(initial=0.0))
 
 
-def _slow(values: Array, time: Array) -> Array:
-    """Below 1 Hz, without lag."""
+def slow_part(values: Array, time: Array) -> Array:
+    """What of values (n_t,) at evenly spaced times is below 1 Hz, without lag."""
     rate = (time.size - 1) / (time[-1] - time[0])
     return np.asarray(sosfiltfilt(butter(4, 1.0, fs=rate, output="sos"), values), dtype=np.float64)
 

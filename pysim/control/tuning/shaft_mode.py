@@ -21,8 +21,8 @@ _SPEEDS = np.geomspace(100.0, 1.0, 400)
 def coupled_poles(K_p: float, T_i: float, *, speed: float, friction: bool = True) -> Complex:
     """Poles (6,) rad/s of shaft, both circuits, servo valve and load controller, the pump's flow held.
 
-    States: speed, supply pressure, load pressure, integral, spool and its rate. K_qp is that of the opening at which the
-    valve passes what the motor pumps at this speed, without load; the friction's slope is that of Eq. 5.38.
+    States: speed, supply pressure, load pressure, integral, spool and its rate. K_qp is that of the opening at which
+    the valve passes what the motor pumps at this speed, without load; the friction's slope is that of Eq. 5.38.
 
     Args:
         K_p, T_i: of the load controller, 1/Pa and s.
