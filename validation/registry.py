@@ -128,6 +128,16 @@ CASES: Mapping[str, Case] = MappingProxyType(
             "circuits",
             seconds=60,
         ),
+        "examples": Case(
+            "validation.examples.case",
+            "every model that runs by itself against another solver's stored result",
+            "circuits",
+            quick=True,
+            seconds=60,
+        ),
+        "every-class": Case(
+            "validation.examples.every_class", "every model and block of the library compiles", "circuits", seconds=240
+        ),
         "fit-bench-01": Case(
             "validation.fit_bench.case", "an independent plant's logs fitted to their noise", "methods", seconds=60
         ),
