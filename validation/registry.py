@@ -56,6 +56,8 @@ GROUPS: Mapping[str, str] = MappingProxyType(
 )
 
 
+_THESIS = "validation.thesis."
+
 CASES: Mapping[str, Case] = MappingProxyType(
     {
         "pump-frequency": Case(
@@ -189,5 +191,15 @@ CASES: Mapping[str, Case] = MappingProxyType(
             "fmus",
             seconds=60,
         ),
+        "figure-2-1": Case(_THESIS + "figure_2_1.case", "command of a stepped-sine test", "thesis", True, 2),
+        "figure-2-2": Case(_THESIS + "figure_2_2.case", "sines fitted to responses; Figure 2.3", "thesis", True, 10),
+        "figure-2-4": Case(_THESIS + "figure_2_4.case", "Bode plot and five poles; Figure 2.5", "thesis", True, 15),
+        "figure-4-2": Case(_THESIS + "figure_4_2.case", "load against no load; Figure 4.3", "thesis", True, 3),
+        "figure-4-4": Case(_THESIS + "figure_4_4.case", "chirp; Figures 2.6, 2.7, 4.5", "thesis", seconds=40),
+        "figure-4-6": Case(_THESIS + "figure_4_6.case", "models over time; Figure 4.7, Table 4.9", "thesis", True, 20),
+        "appendix-a": Case(_THESIS + "appendix_a.case", "wave spectrum and a wave of it", "thesis", True, 4),
+        "appendix-c": Case(_THESIS + "appendix_c.case", "Bode plots at every offset", "thesis", True, 20),
+        "table-4-2": Case(_THESIS + "table_4_2.case", "pressure drop over the orifice", "thesis", True, 2),
+        "table-5-1": Case(_THESIS + "table_5_1.case", "parameters of the linear models", "thesis", True, 1),
     }
 )

@@ -2,10 +2,17 @@
 
 from validation.thesis.explanation import Difference, differences, explain
 from validation.thesis.published import PublishedDeviations, published_deviations
-from validation.thesis.table_4_1.responses import FREQUENCIES_HZ, loaded_responses, measured_responses, write_dataset
+from validation.thesis.table_4_1.responses import (
+    FREQUENCIES_HZ,
+    NOTE,
+    loaded_responses,
+    measured_responses,
+    write_dataset,
+)
 
 __all__ = [
     "FREQUENCIES_HZ",
+    "NOTE",
     "Difference",
     "PublishedDeviations",
     "differences",

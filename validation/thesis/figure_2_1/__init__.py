@@ -1,0 +1,1 @@
+"""Figure 2.1: the command of a stepped-sine test."""

@@ -1,0 +1,1 @@
+"""Table 4.2: the pressure drop over the orifice."""
