@@ -22,7 +22,7 @@ _ABSORBED = 0.5
 _Z95 = 1.959964
 # Curvature at an end, over that at the next knot, at most.
 _GROWS = 4.0
-# The band is that of a table held smooth with this share of the weight that fits best.
+# The band's doubt is that of a table held smooth with this share of the weight that fits best.
 _UNDER = 0.1
 
 
@@ -63,10 +63,10 @@ def told(estimate: Estimate) -> Told:
 
     The fit holds level and slope near zero by a small weight, so that what nothing determines stays where it is, and
     bends small by the weight that predicts best. What that took of what the data do determine is given back to first
-    order, all but a small share of the bends' weight: a band around the smoothest table that fits would be about
-    something smoother than the truth.
+    order where it is level or slope; of bends, the band counts what a tenth of the weight would give back, and the
+    doubt of a table held by that tenth: around the smoothest table that fits it would be one of something smoother.
 
-    Source: undersmoothing, Hall 1992, Annals of Statistics 20:675.
+    Source: Hall 1992, Annals of Statistics 20:675, on bias and undersmoothing.
     """
     k, unit, solution = estimate.table.knots, estimate.table.unit, estimate.solution
     slopes, values = estimate.point.jacobian, estimate.point.x[-KNOTS:]
@@ -81,8 +81,10 @@ def told(estimate: Estimate) -> Told:
     spread, ways = np.linalg.eigh(line.T @ covariance @ line)
     size = float(np.linalg.norm(values))
     absorbed = line @ ways[:, np.sqrt(spread) > _ABSORBED * size]
-    held = (1 - _UNDER) * rough @ values + math.exp(solution.smoothing[1]) * line @ (line.T @ values)
-    values = values + covariance @ held / scale
+    known = line @ (line.T @ values) - absorbed @ (absorbed.T @ values)
+    values = values + covariance @ known * math.exp(solution.smoothing[1]) / scale
+    bias = covariance @ (rough @ values) * (1 - _UNDER) / scale
+    covariance = covariance + np.outer(bias, bias) / _Z95**2
     keep = np.eye(KNOTS) - absorbed @ absorbed.T
     return Told(k, unit * (keep @ values), unit**2 * (keep @ covariance @ keep), absorbed)
 
