@@ -17,6 +17,7 @@ import fmu_build
 from pysim.io import read_model
 from pysim.simulate import Rodas, simulate
 from pysim.types import Experiment, Record
+from tests.modelica.declared import without_description
 from tests.modelica.library import LIBRARY
 
 JOINED = LIBRARY.parent / "HydraulicTestBenchMSL"
@@ -38,7 +39,12 @@ def test_file_is_in_its_place_and_documented(file: Path) -> None:
     *outer, name = name_of(file).split(".")
     assert source.startswith(f"within {'.'.join(outer)};\n")
     assert re.search(rf"^end {name};$", source, re.MULTILINE)
-    assert "<b>Source:</b>" in source
+    assert re.search(rf'\b(package|model|block) {name}\s+"[^"]+"', source)
+    documentation = re.search(r'Documentation\(info="((?:\\.|[^"\\])*)"', source)
+    assert documentation
+    assert documentation[1].strip().startswith("<html>")
+    assert "<b>Source:</b>" in documentation[1]
+    assert without_description(file, source) == []
     assert max(map(len, source.splitlines())) <= 120
     assert [found.message for found in rumoca.validate(str(file)) if found.rule == "syntax-error"] == []
 

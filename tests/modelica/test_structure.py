@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 import rumoca
 
+from tests.modelica.declared import without_description
 from tests.modelica.library import FILES, FOLDERS, LIBRARY, class_name
 
 ALL_FILES = pytest.mark.parametrize("file", FILES, ids=class_name)
@@ -67,6 +68,28 @@ def test_class_is_described_and_names_its_source(file: Path) -> None:
 @pytest.mark.parametrize("file", [file for file in COMPONENTS if file.stem != "package"], ids=class_name)
 def test_component_says_its_limits(file: Path) -> None:
     assert re.search(r"<b>Valid[:,]|<b>Leaves out:", read(file))
+
+
+@ALL_FILES
+def test_every_declaration_is_described(file: Path) -> None:
+    assert without_description(file, read(file)) == []
+
+
+def test_a_silent_declaration_is_seen() -> None:
+    text = """model M "Text"
+  extends Icons.Component;
+  parameter Real a = f("no description", 1) "Described";
+  parameter Real b = f("no description", 1) annotation(Dialog(group="x"));
+  Real c, d(start=1) "Both"; // "comment"
+protected
+  Volume e(V=1e-3);
+initial equation
+  x = 0;
+equation
+  y = "z";
+end M;
+"""
+    assert without_description(Path("M.mo"), text) == ["parameter Real b = f ( ) annotation ( )", "Volume e ( )"]
 
 
 @ALL_FILES
