@@ -110,12 +110,10 @@ def rig_heave_figure(record: Record, test: HeaveTest) -> Figure:
 
 
 def _reversal(time: Array, spans: Array, test: HeaveTest) -> tuple[float, float]:
-    """Two seconds around the longest standstill that the figures count."""
+    """Three seconds around the longest standstill that the figures count."""
     late = spans[spans[:, 0] >= test.settle]
-    if not late.size:
-        middle = 0.5 * (time[0] + time[-1])
-    else:
-        middle = float(late[np.argmax(late[:, 1] - late[:, 0])].mean())
+    longest = late[np.argmax(late[:, 1] - late[:, 0])] if late.size else time[[0, -1]]
+    middle = float(longest.mean())
     return middle - 1.5, middle + 1.5
 
 

@@ -23,14 +23,14 @@ _HEAVE_HEAD = (
 )
 _STEP_METHOD = (
     "Both references come up by ramps within a second; one of them steps, the other one is held (thesis Section 6.4).",
-    "The steady error is the mean of the last second less the reference. Rise: from a tenth to nine tenths of the step. "
-    "Settling: until the answer stays within 5 percent of the step.",
+    "The steady error is the mean of the last second less the reference. Rise: from a tenth to nine tenths of the "
+    "step. Settling: until the answer stays within 5 percent of the step.",
 )
 _HEAVE_METHOD = (
     "A vessel heaves in a stochastic wave; the crane makes references of it, drum speed and load pressure, and the rig "
     "follows (thesis Sections 5.7 and 6.3).",
-    "Errors are true speed and load pressure less their references, the start left out. Below 1 Hz: what the waves leave, "
-    "without stick and slip.",
+    "Errors are true speed and load pressure less their references, the start left out. Below 1 Hz: what the waves "
+    "leave, without stick and slip.",
     "The shaft stands still where it turns by less than 0.5 rad/s for 50 ms or more; the reference's own longest such "
     "span is given beside it.",
 )

@@ -1,0 +1,36 @@
+import json
+from pathlib import Path
+
+import pytest
+
+from pysim.cli import main
+
+
+def test_steps_come_to_rest(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    words = ["rig", "step", "--length", "3", "--json", str(tmp_path / "s.json"), "--output", str(tmp_path / "out")]
+    assert main(words) == 0
+    speed, load = json.loads((tmp_path / "s.json").read_text())
+    assert (speed["kind"], load["kind"]) == ("speed", "load")
+    assert abs(load["steady_error"]) < 0.01 * 40e5
+    assert 0.1 < load["overshoot"] < 0.6
+    assert "load pressure" in capsys.readouterr().out
+    for name in ("step_speed.png", "step_load.svg", "report.html"):
+        assert (tmp_path / "out" / name).stat().st_size > 1000
+
+
+def test_heave_compares_controllers(tmp_path: Path) -> None:
+    words = ["rig", "heave", "--length", "4", "--fmi", "3", "--interface", "model-exchange", "--dt", "0.002"]
+    assert main([*words, "--json", str(tmp_path / "h.json"), "--output", str(tmp_path / "out")]) == 0
+    found = json.loads((tmp_path / "h.json").read_text())
+    assert list(found["controllers"]) == ["thesis", "compensated", "gain for the shaft", "both"]
+    assert found["wave"]["length_s"] == 4.0
+    assert all(one["pressure_rms"] > one["pressure_slow_rms"] > 0 for one in found["controllers"].values())
+    assert "--fmi=3" in (tmp_path / "out" / "report.html").read_text()
+    assert (tmp_path / "out" / "heave_error.png").stat().st_size > 1000
+
+
+def test_wrong_use(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["rig", "heave", "--period", "0"]) == 2
+    assert "peak period" in capsys.readouterr().err
+    assert main(["rig", "step", "--speed", "0"]) == 2
+    assert "other than zero" in capsys.readouterr().err
