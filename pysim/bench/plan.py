@@ -21,10 +21,12 @@ class Plan:
         tests: in the order in which they are run.
         logger: of all logs.
         inputs: values of the model's inputs that no test drives, in their units.
+        follows: input -> (another input, how many of its units per unit of that one): it goes along whenever the other
+            is driven, and is logged with it.
         units: signal -> (unit in the files, how many SI units that is); the SI unit where not told.
     Raises:
-        BadInput: no test, a signal named twice, a test of an unknown signal or of one in the wrong role, or two tests
-            that would write the same file.
+        BadInput: no test, a signal named twice, a test of an unknown signal or of one in the wrong role, an input that
+            follows itself or what is none, or two tests that would write the same file.
     """
 
     name: str
@@ -34,6 +36,7 @@ class Plan:
     tests: tuple[BenchTest, ...]
     logger: Logger
     inputs: Mapping[str, float] = field(default_factory=dict)
+    follows: Mapping[str, tuple[str, float]] = field(default_factory=dict)
     units: Mapping[str, tuple[str, float]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
@@ -43,6 +46,11 @@ class Plan:
                 raise BadInput(f"plan {self.name!r}: the signal {name!r} stands there twice; name each once")
         if not self.tests:
             raise BadInput(f"plan {self.name!r} has no tests; add one")
+        driven = [sensor.signal.name for sensor in self.sensors if sensor.signal.role == "input"]
+        for name, (other, _) in self.follows.items():
+            if name not in driven or other not in driven or other in self.follows or name == other:
+                free = ", ".join(d for d in driven if d not in self.follows)
+                raise BadInput(f"plan {self.name!r}: {name!r} follows {other!r}; an input can follow one of {free}")
         for test in self.tests:
             self._check(test)
         sources = [run.source for run in self.runs()]
@@ -66,6 +74,10 @@ class Plan:
     def sensor(self, name: str) -> Sensor:
         """The sensor of that signal."""
         return next(sensor for sensor in self.sensors if sensor.signal.name == name)
+
+    def along(self, driven: str) -> dict[str, float]:
+        """Inputs that go along with a driven one, and by how much, in SI units per SI unit."""
+        return {name: ratio for name, (other, ratio) in self.follows.items() if other == driven}
 
     def runs(self) -> tuple[Run, ...]:
         """Every run of every test, in order."""

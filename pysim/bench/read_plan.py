@@ -45,22 +45,39 @@ def read_plan(source: Path | str) -> Plan:
     signals = {name: _signal(name, section) for name, section in sections.items()}
     lead = _lead(toml.optional_table("lead"), LeadIn())
     inputs = toml.optional_table("inputs")
+    follows = _follows(sections, signals)
+    driven = tuple(name for name, signal in signals.items() if signal.role == "input" and name not in follows)
     return Plan(
         name=head.text("name"),
         description=head.text("description", "-"),
         system=head.text("system", "-"),
         sensors=tuple(_sensor(signals[name], section) for name, section in sections.items()),
-        tests=tuple(_test(section, signals, lead) for section in toml.rows("tests", "test")),
+        tests=tuple(_test(section, signals, driven, lead) for section in toml.rows("tests", "test")),
         logger=_logger(toml.table("logging")),
         inputs={name: inputs.number(name) for name in inputs.values},
         units={name: (signal.unit, SI[signal.unit][1]) for name, signal in signals.items()},
+        follows=follows,
     )
 
 
 def _signal(name: str, section: Section) -> MeasuredSignal:
     """In the unit of the file."""
-    section.refuse_unknown((*SIGNAL_KEYS, "low", "high", "rate"))
+    section.refuse_unknown((*SIGNAL_KEYS, "low", "high", "rate", "follows", "ratio"))
     return described_signal(name, section)
+
+
+def _follows(sections: Mapping[str, Section], signals: Mapping[str, MeasuredSignal]) -> dict[str, tuple[str, float]]:
+    """Inputs that go along with another, with the ratio in SI units."""
+    found = {}
+    for name, section in sections.items():
+        if ("follows" in section.values) != ("ratio" in section.values):
+            raise BadInput(f"{section.place}: follows and ratio go together; give both, or none")
+        if "follows" in section.values:
+            inputs = tuple(s.name for s in signals.values() if s.role == "input" and s.name != name)
+            other = section.text("follows", among=inputs)
+            to_si = SI[signals[name].unit][1] / SI[signals[other].unit][1]
+            found[name] = (other, section.number("ratio") * to_si)
+    return found
 
 
 def _sensor(signal: MeasuredSignal, section: Section) -> Sensor:
@@ -87,11 +104,10 @@ def _lead(section: Section, usual: LeadIn) -> LeadIn:
     return _told(section, lambda: LeadIn(**durations))
 
 
-def _test(section: Section, signals: Mapping[str, MeasuredSignal], lead: LeadIn) -> BenchTest:
+def _test(section: Section, signals: Mapping[str, MeasuredSignal], inputs: tuple[str, ...], lead: LeadIn) -> BenchTest:
     kind = section.text("kind", among=tuple(_KINDS))
     keys, make = _KINDS[kind]
     section.refuse_unknown((*_COMMON, *keys))
-    inputs = tuple(signal.name for signal in signals.values() if signal.role == "input")
     if len(inputs) != 1 and "input" not in section.values:
         raise BadInput(f"{section.place}: {len(inputs)} signals are inputs; say which one is driven: input = ...")
     driven = section.text("input", inputs[0] if inputs else None, among=inputs)

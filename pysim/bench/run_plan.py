@@ -32,11 +32,12 @@ class BenchData:
 
 @dataclass(frozen=True)
 class _Job:
-    """A run with the instants of its log, (n_t,) s, and the experiment that records all that its sensors need."""
+    """A run with the instants of its log, (n_t,) s, the signals that drive it, by their names in the plan, and the
+    experiment that records all that its sensors need."""
 
     run: Run
     instants: Array
-    command: Signal
+    commands: Mapping[str, Signal]
     experiment: Experiment
 
 
@@ -115,16 +116,17 @@ def _job(model: Model, plan: Plan, run: Run, seed: int, parameters: Mapping[str,
     if instants.size < 2:
         raise BadInput(f"{run.source}: the test is shorter than a sampling interval; lengthen it, or log faster")
     sensors = [plan.sensor(name) for name in run.outputs]
-    variable = plan.sensor(run.input).signal.variable
-    rate = model.rate_input(variable)
+    commands = {run.input: command} | {name: command.times(r) for name, r in plan.along(run.input).items()}
+    driven = {plan.sensor(name).signal.variable: signal for name, signal in commands.items()}
+    rates = {rate: variable for rate, variable in model.rate_inputs(driven).items() if rate not in plan.inputs}
     experiment = Experiment(
         np.unique(np.concatenate([instants, *(sensor.sampled_at(instants) for sensor in sensors)])),
         record=tuple(dict.fromkeys(sensor.signal.variable for sensor in sensors)),
-        inputs={name: Signal.constant(value) for name, value in plan.inputs.items()} | {variable: command},
+        inputs={name: Signal.constant(value) for name, value in plan.inputs.items()} | driven,
         overrides=parameters,
-        rates={} if rate is None or rate in plan.inputs else {rate: variable},
+        rates=rates,
     )
-    return _Job(run, instants, command, experiment)
+    return _Job(run, instants, commands, experiment)
 
 
 def _refuse_folding(run: Run, rate: float) -> None:
@@ -139,7 +141,7 @@ def _refuse_folding(run: Run, rate: float) -> None:
 
 def _clean(job: _Job, plan: Plan, record: Record) -> MeasuredRecord:
     """The true signals at the instants of the log."""
-    columns = [job.command.value(job.instants)]
+    columns = [command.value(job.instants) for command in job.commands.values()]
     rows = np.searchsorted(record.time, job.instants)
     columns += [record[plan.sensor(name).signal.variable][rows] for name in job.run.outputs]
     return _log(job, plan, job.instants, columns, "noise-free")
@@ -148,11 +150,11 @@ def _clean(job: _Job, plan: Plan, record: Record) -> MeasuredRecord:
 def _measured(job: _Job, plan: Plan, record: Record, seed: int) -> MeasuredRecord:
     """What the sensors and the logger make of it."""
     columns = []
-    for name in (job.run.input, *job.run.outputs):
+    for name in (*job.commands, *job.run.outputs):
         sensor = plan.sensor(name)
         taken, rows = np.unique(sensor.sampled_at(job.instants), return_inverse=True)
-        if name == job.run.input:
-            true = job.command.value(taken)
+        if name in job.commands:
+            true = job.commands[name].value(taken)
         else:
             true = record[sensor.signal.variable][np.searchsorted(record.time, taken)]
         random = np.random.default_rng([seed, zlib.crc32(job.run.source.encode()), zlib.crc32(name.encode())])
@@ -162,7 +164,7 @@ def _measured(job: _Job, plan: Plan, record: Record, seed: int) -> MeasuredRecor
 
 def _log(job: _Job, plan: Plan, time: Array, columns: list[Array], origin: str) -> MeasuredRecord:
     run = job.run
-    names = (run.input, *run.outputs)
+    names = (*job.commands, *run.outputs)
     units = tuple(plan.sensor(name).signal.unit for name in names)
     data = Record(time, np.column_stack(columns), names, units, origin=origin or f"measured, {run.source}")
     return MeasuredRecord(

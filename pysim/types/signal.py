@@ -121,6 +121,12 @@ class Signal:
         (cubics, sines), (more, waves) = self._pieces_at(starts), other._pieces_at(starts)
         return Signal(starts, cubics + more, np.concatenate([sines, waves], axis=1))
 
+    def times(self, factor: float) -> Signal:
+        """The signal so many times as large."""
+        sines = self.sines.copy()
+        sines[:, :, 0] *= factor
+        return Signal(self.starts, factor * self.cubics, sines)
+
     def breaks(self) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
         """Per piece (n_k,), whether the value jumps and whether the rate jumps where the piece starts."""
         k, at_start, at_end = np.arange(self.starts.size), np.zeros(self.starts.size), np.diff(self.starts)

@@ -71,3 +71,12 @@ def test_the_truth_as_data() -> None:
         "plan": "p",
         "seed": 3,
     }
+
+
+def test_an_input_follows_another() -> None:
+    also = Sensor(MeasuredSignal("v", "input", "1", "", "v"))
+    made = Plan("p", "-", "-", (COMMAND, also, ANSWER), (CHIRP,), LOGGER, follows={"v": ("u", -2.0)})
+    assert (made.along("u"), made.along("v")) == ({"v": -2.0}, {})
+    for follows in ({"v": ("y", 1.0)}, {"v": ("v", 1.0)}, {"y": ("u", 1.0)}, {"v": ("u", 1.0), "u": ("v", 1.0)}):
+        with pytest.raises(BadInput, match="an input can follow one of"):
+            Plan("p", "-", "-", (COMMAND, also, ANSWER), (CHIRP,), LOGGER, follows=follows)

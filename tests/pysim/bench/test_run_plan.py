@@ -6,8 +6,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from fmu_build import build
 from pysim.bench import BenchData, Plan, read_plan, run_plan
-from pysim.io import read_dataset, write_dataset
+from pysim.io import read_dataset, read_model, write_dataset
 from pysim.types import BadInput, Model, Record, SimulationError
 from tests.pysim.bench.plans import PLAN
 
@@ -147,3 +148,70 @@ def test_refusals(oscillator: Model, plan: Plan) -> None:
 def test_a_run_that_stops_is_an_error_with_its_record(oscillator: Model, plan: Plan) -> None:
     with pytest.raises(SimulationError, match=r"step/O\+0_H\+0\.004\.txt: .* stopped early"):
         run_plan(oscillator, replace(plan, tests=plan.tests[:1]), 1, parameters={"w": 1e200})
+
+
+TWO = """model Two
+  input Real u(unit="N", start=0);
+  input Real v(unit="rad", start=0);
+  input Real v_t(unit="rad/s", start=0);
+  output Real y(unit="N") = u + 10*v;
+  output Real rate(unit="rad/s") = v_t;
+end Two;
+"""
+FOLLOWING = """
+[plan]
+name = "two"
+
+[signals.u]
+role = "input"
+unit = "kN"
+
+[signals.v]
+role = "input"
+unit = "rad"
+follows = "u"
+ratio = 50
+
+[signals.y]
+role = "output"
+unit = "kN"
+
+[signals.rate]
+role = "output"
+unit = "rad/s"
+
+[logging]
+rate = 100
+
+[[tests]]
+kind = "chirp"
+outputs = ["y", "rate"]
+offset = 0.002
+amplitude = 0.001
+start_hz = 0.5
+stop_hz = 2
+sweep = 3
+"""
+
+
+def test_an_input_that_follows_goes_along_and_is_logged(tmp_path: Path) -> None:
+    (tmp_path / "Two.mo").write_text(TWO, encoding="utf-8")
+    (tmp_path / "plan.toml").write_text(FOLLOWING, encoding="utf-8")
+    two = read_model(build("Two", tmp_path / "two.fmu", libraries=[tmp_path / "Two.mo"]))
+    data = run_plan(two, read_plan(tmp_path / "plan.toml"), 1).dataset
+    ((record,), clean) = data.records, data.records[0].data
+    assert isinstance(clean, Record)
+    assert (clean.names, record.command) == (("u", "v", "y", "rate"), "u")
+    assert np.ptp(clean["u"]) == pytest.approx(2.0, rel=0.01)
+    np.testing.assert_allclose(clean["v"], 0.05 * clean["u"], rtol=1e-12)  # 50 per kN
+    np.testing.assert_allclose(clean["y"], 1.5 * clean["u"], rtol=1e-12)
+    slope = np.gradient(clean["v"], clean.time)[3:-3]
+    np.testing.assert_allclose(clean["rate"][3:-3], slope, atol=0.01 * np.abs(slope).max())
+    write_dataset(tmp_path / "set", data)
+    assert read_dataset(tmp_path / "set").records[0].command == "u"
+
+
+def test_follows_without_ratio_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "plan.toml").write_text(FOLLOWING.replace("ratio = 50\n", ""), encoding="utf-8")
+    with pytest.raises(BadInput, match="follows and ratio go together"):
+        read_plan(tmp_path / "plan.toml")

@@ -49,6 +49,14 @@ def test_a_sum_has_the_values_and_rates_of_both(one, other, times):
     assert set(one.starts) | set(other.starts) == set(total.starts)
 
 
+@given(signals(), st.floats(-3, 3), st.lists(st.floats(-8, 20), min_size=1, max_size=8))
+def test_a_multiple_has_its_values_and_rates(signal, factor, times):
+    t = np.array(times)
+    scale = 1 + np.abs(signal.cubics).max() * 20**3
+    np.testing.assert_allclose(signal.times(factor).value(t), factor * signal.value(t), atol=1e-12 * scale)
+    np.testing.assert_allclose(signal.times(factor).derivative(t), factor * signal.derivative(t), atol=1e-12 * scale)
+
+
 @given(signals(), st.floats(0, 1), st.integers(0, 4))
 @settings(max_examples=200)
 def test_derivative_is_the_limit_of_differences(signal, share, piece):
