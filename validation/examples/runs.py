@@ -46,25 +46,31 @@ def by_cvode(fmu: Path, times: Array, names: Sequence[str], tolerance: float = C
     """By FMPy's loop with CVODE on the model-exchange side; values (n_t,) by name."""
     for parts in _PARTS:  # CVODE gives up after 500 steps without an output
         try:
-            return _by_cvode(fmu, times, names, tolerance, parts)
+            return _recorded(
+                fmu, times, names, parts, fmi_type="ModelExchange", solver="CVode", relative_tolerance=tolerance
+            )
         except RuntimeError as error:
             if "mxstep" not in str(error) or parts == _PARTS[-1]:
                 raise
     raise AssertionError("there is a last part")
 
 
-def _by_cvode(fmu: Path, times: Array, names: Sequence[str], tolerance: float, parts: int) -> Mapping[str, Array]:
+def by_cosimulation(fmu: Path, times: Array, names: Sequence[str]) -> Mapping[str, Array]:
+    """By the solver inside the FMU, from one time to the next; values (n_t,) by name."""
+    return _recorded(fmu, times, names, 1, fmi_type="CoSimulation")
+
+
+def _recorded(fmu: Path, times: Array, names: Sequence[str], parts: int, **options: object) -> Mapping[str, Array]:
+    """FMPy's result at `times`, with `parts` communication steps from one to the next."""
     result = simulate_fmu(
         str(fmu),
         start_time=float(times[0]),
         stop_time=float(times[-1]),
         output_interval=float(times[1] - times[0]) / parts,
-        solver="CVode",
-        relative_tolerance=tolerance,
-        fmi_type="ModelExchange",
         output=list(names),
         record_events=False,
         logger=lambda *words: None,
+        **options,
     )[::parts]
     got = np.asarray(result["time"])
     if got.size != times.size or np.abs(got - times).max() > 1e-9 * max(float(times[-1]), 1.0):

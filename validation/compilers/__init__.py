@@ -1,0 +1,1 @@
+"""Every example compiled by our own chain and by OpenModelica, compared variable by variable."""
