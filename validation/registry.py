@@ -140,6 +140,12 @@ CASES: Mapping[str, Case] = MappingProxyType(
         "every-class": Case(
             "validation.examples.every_class", "every model and block of the library compiles", "circuits", seconds=240
         ),
+        "compilers": Case(
+            "validation.compilers.case",
+            "every example by our own compiler and by OpenModelica, where that is installed",
+            "fmus",
+            seconds=600,
+        ),
         "fit-bench-01": Case(
             "validation.fit_bench.case", "an independent plant's logs fitted to their noise", "methods", seconds=60
         ),
