@@ -11,6 +11,7 @@ from pysim.cosim.order import Order
 from pysim.cosim.run import Kept, Run, cosimulate
 from pysim.cosim.sampled import Sampled
 from pysim.cosim.system import System
+from pysim.cosim.system_file import SystemFile, read_system_file
 
 __all__ = [
     "Bond",
@@ -27,5 +28,7 @@ __all__ = [
     "Sampled",
     "Setup",
     "System",
+    "SystemFile",
     "cosimulate",
+    "read_system_file",
 ]

@@ -3,6 +3,7 @@
 from pysim.plot.blackbox import blackbox_figure
 from pysim.plot.bode import bode_figure
 from pysim.plot.chirp import chirp_figure
+from pysim.plot.cosim import cosim_figure
 from pysim.plot.deviation import deviation_figure
 from pysim.plot.diagnosis import diagnosis_ledger_figure, diagnosis_ranking_figure
 from pysim.plot.diagnosis_parameters import diagnosis_parameters_figure
@@ -27,6 +28,7 @@ __all__ = [
     "blackbox_figure",
     "bode_figure",
     "chirp_figure",
+    "cosim_figure",
     "deviation_figure",
     "diagnosis_failures_figure",
     "diagnosis_ledger_figure",

@@ -60,6 +60,14 @@ class Isolated:
         self._event, self._count = False, 0
         self._unused: list[int] = []
 
+    def __repr__(self) -> str:
+        return f"Isolated({self._member!r})"
+
+    @property
+    def member(self) -> Member:
+        """What is isolated; it is never started here."""
+        return self._member
+
     @property
     def name(self) -> str:
         """That of the member."""

@@ -1,0 +1,213 @@
+"""A system and its run from a TOML file."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from pysim.cosim._python_class import made, python_class
+from pysim.cosim.bond import Bond
+from pysim.cosim.connection import Connection
+from pysim.cosim.doubling import Doubling
+from pysim.cosim.gauss_seidel import GaussSeidel
+from pysim.cosim.iterated import Iterated
+from pysim.cosim.jacobi import Jacobi
+from pysim.cosim.members import Fmu, Isolated
+from pysim.cosim.order import Order
+from pysim.cosim.sampled import Sampled
+from pysim.cosim.system import System
+from pysim.io import Section, TomlFile, read_model, read_signal, read_toml
+from pysim.simulate import Rodas
+from pysim.types import BadInput, Experiment, Signal
+
+_FMU = ("fmu", "interface", "parameters", "record", "tolerance", "events", "undeclared", "isolated", "time_limit")
+_BLOCK = ("block", "settings", "every", "delay", "hold")
+_MEMBER = ("member", "settings")
+_RUN = ("start", "stop", "step", "rows_every", "order", "lines", "sequence", "tolerance", "record")
+_ORDERS = ("jacobi", "gauss-seidel", "iterated")
+_MOST_ROWS = 10_000_000
+
+
+@dataclass(frozen=True)
+class SystemFile:
+    """What stands in a file: arguments of `cosimulate`.
+
+    Args:
+        name: of the whole, for headings.
+        step: s between two communication points.
+    """
+
+    name: str
+    system: System
+    experiment: Experiment
+    step: float
+    order: Order
+    doubling: Doubling | None
+
+
+def read_system_file(path: Path | str, *, stop: float | None = None, step: float | None = None) -> SystemFile:
+    """A system with its run.
+
+    Files it names are relative to its own folder. Python classes it names are imported: whoever wrote it can run code.
+
+    Args:
+        stop, step: s, in place of the file's own.
+    Raises:
+        BadInput: what is wrong, with file, line and remedy.
+    """
+    path = Path(path)
+    toml = read_toml(path, "system")
+    toml.whole.refuse_unknown(("system", "members", "connections", "bonds", "inputs", "overrides", "run"))
+    head = toml.optional_table("system")
+    head.refuse_unknown(("name",))
+    members = tuple(_member(name, section, path.parent) for name, section in toml.tables("members").items())
+    connections = _connections(toml, _told(str(path), lambda: System(members)))
+    system = _told(str(path), lambda: System(members, connections, _bonds(toml)))
+    run = toml.table("run")
+    run.refuse_unknown(_RUN)
+    size = run.positive("step") if step is None else step
+    if size is None:
+        raise BadInput(f"{run.place}: step is missing; write step = and the seconds between two communication points")
+    return SystemFile(
+        name=head.text("name", path.stem),
+        system=system,
+        experiment=_told(run.place, lambda: _experiment(toml, run, system, size, stop)),
+        step=size,
+        order=_order(run),
+        doubling=_told(run.place, lambda: _doubling(run)),
+    )
+
+
+def _told(place: str, make: Callable[[], Any]) -> Any:
+    """What a value object refuses is said with its place in the file."""
+    try:
+        return make()
+    except BadInput as error:
+        raise error if place in str(error) else BadInput(f"{place}: {error}") from error
+
+
+def _member(name: str, section: Section, folder: Path) -> Any:
+    kinds = [key for key in ("fmu", "block", "member") if key in section.values]
+    if len(kinds) != 1:
+        raise BadInput(f'{section.place}: say what {name} is: fmu = "FILE.fmu", block = "CLASS" or member = "CLASS"')
+    return {"fmu": _fmu, "block": _block, "member": _other}[kinds[0]](name, section, folder)
+
+
+def _fmu(name: str, section: Section, folder: Path) -> Any:
+    section.refuse_unknown(_FMU)
+    tolerance, limit = section.positive("tolerance"), section.positive("time_limit")
+    parameters = _numbers(section.inner("parameters"))
+
+    def make() -> Any:
+        fmu = Fmu(
+            name,
+            read_model(folder / section.text("fmu")),
+            parameters=parameters,
+            record=section.texts("record") if "record" in section.values else (),
+            interface=section.text("interface") if "interface" in section.values else "",
+            solver=Rodas() if tolerance is None else Rodas(rtol=tolerance, atol=tolerance),
+            events=section.flag("events", True),
+            undeclared=section.flag("undeclared", True),
+        )
+        if not section.flag("isolated", limit is not None):
+            return fmu
+        return Isolated(fmu) if limit is None else Isolated(fmu, time_limit=limit)
+
+    return _told(section.place, make)
+
+
+def _block(name: str, section: Section, folder: Path) -> Any:
+    section.refuse_unknown(_BLOCK)
+    text, settings = section.text("block"), section.inner("settings").values
+    block = made(python_class(text, folder, section.place), settings, text, section.place)
+    every = section.number("every")
+    delay, hold = section.not_negative("delay") or 0.0, section.integer("hold", 0)
+    return _told(section.place, lambda: Sampled(name, block, every, delay, hold))
+
+
+def _other(name: str, section: Section, folder: Path) -> Any:
+    section.refuse_unknown(_MEMBER)
+    text, settings = section.text("member"), section.inner("settings").values
+    return made(python_class(text, folder, section.place), {"name": name, **settings}, text, section.place)
+
+
+def _connections(toml: TomlFile, unwired: System) -> tuple[Connection, ...]:
+    """Each checked by itself, so that what is wrong with it is said with its own line."""
+    sections = toml.rows("connections", "connection") if "connections" in toml.whole.values else ()
+    return tuple(_told(section.place, partial(_connection, section, unwired)) for section in sections)
+
+
+def _connection(section: Section, unwired: System) -> Connection:
+    section.refuse_unknown(("from", "to", "factor"))
+    connection = Connection(section.text("from"), section.text("to"), section.optional_number("factor"))
+    source, target = unwired.port("output", connection.source), unwired.port("input", connection.target)
+    connection.check_units(source.unit, target.unit)
+    return connection
+
+
+def _bonds(toml: TomlFile) -> tuple[Bond, ...]:
+    if "bonds" not in toml.whole.values:
+        return ()
+    found = []
+    for section in toml.rows("bonds", "bond"):
+        section.refuse_unknown(("name", "effort", "flow"))
+        found.append(Bond(section.text("name"), section.text("effort"), section.text("flow")))
+    return tuple(found)
+
+
+def _order(run: Section) -> Order:
+    name, lines = run.text("order", "jacobi", among=_ORDERS), run.flag("lines", False)
+    if name == "iterated":
+        if lines:
+            raise BadInput(f"{run.place}: iterated steps join the inputs' values by lines anyhow; remove lines")
+        return Iterated()
+    if name == "gauss-seidel":
+        return GaussSeidel(run.texts("sequence") if "sequence" in run.values else (), lines)
+    return Jacobi(lines)
+
+
+def _doubling(run: Section) -> Doubling | None:
+    rtol = run.positive("tolerance")
+    return None if rtol is None else Doubling(rtol=rtol)
+
+
+def _experiment(toml: TomlFile, run: Section, system: System, step: float, stop: float | None) -> Experiment:
+    start, end = run.optional_number("start") or 0.0, run.number("stop") if stop is None else stop
+    every = run.positive("rows_every") or step
+    if not start + every <= end:
+        raise BadInput(f"{run.place}: no row lies between start = {start:g} s and stop = {end:g} s; move the stop")
+    if (end - start) / every > _MOST_ROWS:
+        raise BadInput(f"{run.place}: {(end - start) / every:.3g} rows are more than {_MOST_ROWS:,}; widen rows_every")
+    rows = start + every * np.arange(int((end - start) / every + 1e-6) + 1)
+    record = run.texts("record") if "record" in run.values else tuple(system.outputs)
+    inputs = {name: _signal(name, value, toml) for name, value in _flat(toml.whole.inner("inputs").values).items()}
+    overrides = _numbers(toml.optional_table("overrides"))
+    return Experiment(rows, record, inputs, overrides, start)
+
+
+def _signal(name: str, value: Any, toml: TomlFile) -> Signal:
+    place = f"{toml.path}, [inputs], {name}"
+    if isinstance(value, str):
+        return read_signal(toml.path.parent / value, place)
+    if isinstance(value, bool) or not isinstance(value, (int, float)):
+        raise BadInput(f'{place} is {value!r}; write a number, or the name of a file as "reference.csv"')
+    return _told(place, lambda: Signal.constant(float(value)))  # type: ignore[no-any-return]
+
+
+def _numbers(section: Section) -> dict[str, float]:
+    """Numbers by name; a name with a dot need not be quoted."""
+    flat = Section(section.place, _flat(section.values))
+    return {name: flat.number(name) for name in flat.values}
+
+
+def _flat(table: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
+    """pump.tau = 1 is read as a table within a table: the names are put together again."""
+    found: dict[str, Any] = {}
+    for key, value in table.items():
+        found |= _flat(value, f"{prefix}{key}.") if isinstance(value, dict) else {prefix + key: value}
+    return found
