@@ -40,6 +40,8 @@ def missing_figure(missing: Missing) -> Figure:
     quiet(axes)
     legend_above(figure, [line, band], [f"takes {100 * missing.share:.0f} % of the misfit", "95 % band"])
     notes = [missing.formula] if missing.formula else []
+    if missing.alike:
+        notes.append(f"these data do not tell it from a term at {', '.join(missing.alike)}")
     if shape.absorbed.size:
         notes.append("up to a level or slope that the model's own parameters do as well")
     if notes:

@@ -88,6 +88,8 @@ def _missing(one: Missing) -> dict[str, object]:
         "depends_on": one.depends_on,
         "shape": shape,
         "formula": one.formula,
+        "alike": list(one.alike),
+        "parameters": {name: _finite(value) for name, value in one.parameters.items()},
     }
 
 

@@ -63,6 +63,8 @@ def missing_sentence(diagnosis: Diagnosis) -> str:
     shape = f"; {first.formula}" if first.formula else ""
     texts = [f"What is missing fits best at {first.slot}, over {first.depends_on}{shape}."]
     texts.append(f"It takes {share_text(first.share)} of the misfit.")
+    if first.alike:
+        texts.append(f"These data do not tell it from a term at {', '.join(first.alike)}.")
     rest = [f"{one.slot} {share_text(one.share)}" for one in diagnosis.missing[1:4]]
     return " ".join([*texts, *([f"Next: {', '.join(rest)}."] if rest else [])])
 

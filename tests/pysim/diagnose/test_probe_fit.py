@@ -23,6 +23,12 @@ def test_knots_of_what_stays_on_one_side_follow_the_samples() -> None:
     assert np.diff(k)[0] < 0.5 * np.diff(k)[-1]
 
 
+def test_knots_over_decades_are_closer_where_it_is_small() -> None:
+    k = knots(np.random.default_rng(1).uniform(1.0, 50.0, 20_000))
+    assert np.all(np.diff(np.diff(k)) > 0)
+    assert (k[0], k[-1]) == pytest.approx((1.0, 50.0), rel=0.15)
+
+
 def test_knots_of_a_constant_still_increase() -> None:
     assert np.all(np.diff(knots(np.full(100, 3.0))) > 0)
 

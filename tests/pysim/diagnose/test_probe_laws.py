@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from fmu_build import build
-from pysim.diagnose.probe_laws import KNOTS, Copy, Law, slot_laws, state_laws, wrapped
+from pysim.diagnose.probe_laws import KNOTS, LAGS, Copy, Law, slot_laws, state_laws, wrapped
 from pysim.effects import STANDARD_LIBRARY, slots
 from pysim.io import read_model
 from pysim.simulate import Rodas, simulate
@@ -26,6 +26,8 @@ def test_the_places_of_the_pump() -> None:
     assert [copy.argument for copy in laws["oil", "oil.p"].copies] == ["oil.p1", "oil.p2"]
     assert laws["spoolOpening", "der(spoolOpening.s)"].of_rate
     assert laws["supply", "supply.Q"].lag > 0 == laws["oil", "oil.p"].lag
+    late = [law.lag for law in slot_laws(slots(PUMP, [STANDARD_LIBRARY]), pump) if law.slot == "supply"]
+    assert tuple(late) == LAGS
     assert {c.output for law in laws.values() if law.slot == "spool" for c in law.copies} == {"spool.u_tt", "spool.u"}
 
 

@@ -1,9 +1,11 @@
 """What of a table is shown: what refitting absorbs is split off, and the band holds."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
-from pysim.diagnose.probe_fit import Estimate, Table, knots, solve
+from pysim.diagnose.probe_fit import Estimate, Table, bends, knots, lines, solve
 from pysim.diagnose.probe_laws import KNOTS, Copy, Law
 from pysim.diagnose.probe_shape import Told, per_second, shape, told
 from pysim.identify.greybox.evaluation import Evaluation
@@ -52,6 +54,20 @@ def test_the_band_holds_the_term_over_nine_tenths_of_its_range(with_damping: boo
         shares.append(np.mean(np.abs(rest) <= 0.5 * (found.high - found.low)))
     assert np.mean(shares) > 0.9
     assert np.max(found.high - found.low) < 3
+
+
+def test_what_the_weight_of_level_and_slope_took_is_given_back() -> None:
+    plain = estimate(2, with_damping=False)
+    line = lines(plain.table.knots)
+    slopes = plain.point.jacobian
+    gram = slopes[:, -KNOTS:].T @ slopes[:, -KNOTS:]
+    weight = 0.1 * np.trace(gram) / KNOTS
+    rough = np.exp(plain.solution.smoothing[0]) * bends(plain.table.knots).T @ bends(plain.table.knots)
+    held = np.linalg.solve(gram + rough + weight * line @ line.T, (gram + rough) @ plain.solution.values)
+    solution = replace(plain.solution, smoothing=np.array([plain.solution.smoothing[0], np.log(weight)]))
+    pulled = replace(plain, point=replace(plain.point, x=np.append(0.0, held)), solution=solution)
+    off = [np.linalg.norm(line.T @ (values - plain.solution.values)) for values in (held, told(pulled).values)]
+    assert off[1] < 0.5 * off[0]
 
 
 def test_a_bend_widens_the_band_between_knots() -> None:

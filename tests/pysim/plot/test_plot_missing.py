@@ -1,5 +1,7 @@
 """The missing term's picture: units that people read, the band, and what it says below."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -33,6 +35,11 @@ def test_what_refitting_absorbs_is_said() -> None:
     assert told.splitlines()[0] == "-80 N sign(pistonForce.v)"
     assert "parameters do as well" in told
     assert render(missing_figure(friction()), "svg").startswith(b"<?xml")
+
+
+def test_places_that_would_do_as_well_are_said() -> None:
+    told = missing_figure(replace(friction(), alike=("supply", "oil")))._supxlabel.get_text()
+    assert told == "these data do not tell it from a term at supply, oil"
 
 
 def test_a_single_point_is_refused() -> None:

@@ -49,6 +49,8 @@ def test_a_missing_term_is_told_by_place_shape_and_share() -> None:
     )
     assert "force" in evidence_text(story(missing=(MISSING,)))
     assert missing_sentence(story()).startswith("Nothing could be looked at")
+    tied = replace(MISSING, alike=("supply",))
+    assert "do not tell it from a term at supply." in missing_sentence(story(missing=(tied, other)))
 
 
 def test_the_steps_alone_have_sentences_of_their_own() -> None:

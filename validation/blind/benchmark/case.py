@@ -11,8 +11,8 @@ import numpy as np
 from validation.blind.benchmark.__main__ import TABLE_SEED
 from validation.blind.benchmark.answer import Answer
 from validation.blind.benchmark.examine import examine
-from validation.blind.benchmark.figures import figures
-from validation.blind.benchmark.store import Store
+from validation.blind.benchmark.figures import figures, place_figures
+from validation.blind.benchmark.store import PLACES, Store
 from validation.blind.plant import Case, cases
 from validation.findings import Finding
 
@@ -23,7 +23,10 @@ NEAR = {"held": 0.01, "base": 0.05, "final": 0.15, "footprint": 0.05}
 
 
 def run(
-    seed: int | None = None, task: Callable[[Case], Answer] = examine, store: Store | None = None
+    seed: int | None = None,
+    task: Callable[[Case], Answer] = examine,
+    store: Store | None = None,
+    places: Store | None = None,
 ) -> Iterator[Finding]:
     """The sample, then the targets.
 
@@ -31,10 +34,11 @@ def run(
         seed: of the sample; the day's number where None, so that every day looks at others.
         task: answers a case.
         store: what was answered before.
+        places: where effects were located before.
     """
     table, answers = cases(TABLE_SEED), (store or Store()).read()
     yield from _sampled(table, answers, seed, task)
-    yield from targets(table, answers)
+    yield from targets(table, answers, (places or Store(PLACES)).read())
 
 
 def _sampled(
@@ -67,10 +71,16 @@ def compared(stored: Answer, again: Answer) -> Iterator[Finding]:
 _FLOORS = {"base": 0.01, "final": 0.01, "footprint": 10.0}
 
 
-def targets(table: Sequence[Case], answers: Mapping[str, Answer]) -> Iterator[Finding]:
-    """Every figure with a target as a claim: by how many percent it is beyond."""
+def targets(
+    table: Sequence[Case], answers: Mapping[str, Answer], places: Mapping[str, Answer] | None = None
+) -> Iterator[Finding]:
+    """Every figure with a target as a claim: by how many percent it is beyond.
+
+    Args:
+        places: case -> where its effect was located.
+    """
     yield Finding("cases of the table without a stored answer", float(sum(c.name not in answers for c in table)), 0, "")
-    for figure in figures(table, answers):
+    for figure in (*figures(table, answers), *place_figures(table, answers, places or {})):
         if figure.target is not None:
             low, high = figure.target
             beyond = max(low - figure.percent, figure.percent - high, 0.0) if figure.of else math.nan

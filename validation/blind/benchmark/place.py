@@ -11,7 +11,7 @@ from pysim.diagnose.subject import Inside
 from pysim.effects import STANDARD_LIBRARY, slots
 from pysim.types import Missing
 from validation.blind.benchmark.answer import Answer
-from validation.blind.benchmark.fingerprint import fingerprint
+from validation.blind.benchmark.examine import code
 from validation.blind.benchmark.slots import SLOTS
 from validation.blind.benchmark.terms import covered, true_term
 from validation.blind.benchmark.workshop import BASE, workshop
@@ -21,14 +21,14 @@ from validation.blind.plant.effects import told
 
 def locate_case(case: Case) -> Answer:
     """Of a case with one effect, in this process and with one thread."""
-    shop, code = workshop(), fingerprint()
+    shop = workshop()
     inside = Inside(slots(BASE, [STANDARD_LIBRARY]), shop.probed)
     given = subject(shop.model, measure(case).dataset, shop.catalogue, shop.variant, inside=inside)
     compiled, wall, cpu = shop.seconds, time.monotonic(), time.process_time()
     found = located(given, workers=1).missing
     wall, cpu = time.monotonic() - wall - (shop.seconds - compiled), time.process_time() - cpu
     day = datetime.now(UTC).date().isoformat()
-    return Answer(case.name, code, day, wall=wall, cpu=cpu, **judged(case, found))
+    return Answer(case.name, code(), day, wall=wall, cpu=cpu, **judged(case, found))
 
 
 def judged(case: Case, found: tuple[Missing, ...]) -> dict[str, Any]:
