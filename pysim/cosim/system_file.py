@@ -183,7 +183,7 @@ def _experiment(toml: TomlFile, run: Section, system: System, step: float, stop:
         raise BadInput(f"{run.place}: no row lies between start = {start:g} s and stop = {end:g} s; move the stop")
     if (end - start) / every > _MOST_ROWS:
         raise BadInput(f"{run.place}: {(end - start) / every:.3g} rows are more than {_MOST_ROWS:,}; widen rows_every")
-    rows = start + every * np.arange(int((end - start) / every + 1e-6) + 1)
+    rows = np.asarray(start + every * np.arange(int((end - start) / every + 1e-6) + 1), dtype=np.float64)
     record = run.texts("record") if "record" in run.values else tuple(system.outputs)
     inputs = {name: _signal(name, value, toml) for name, value in _flat(toml.whole.inner("inputs").values).items()}
     overrides = _numbers(toml.optional_table("overrides"))
@@ -196,7 +196,7 @@ def _signal(name: str, value: Any, toml: TomlFile) -> Signal:
         return read_signal(toml.path.parent / value, place)
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         raise BadInput(f'{place} is {value!r}; write a number, or the name of a file as "reference.csv"')
-    return _told(place, lambda: Signal.constant(float(value)))  # type: ignore[no-any-return]
+    return _told(place, lambda: Signal.constant(float(value)))
 
 
 def _numbers(section: Section) -> dict[str, float]:

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import ctypes
 import threading
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -14,13 +15,19 @@ from fmpy import platform, platform_tuple, sharedLibraryExtension
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Slave
 from fmpy.fmi3 import FMU3Slave
+from numpy.typing import NDArray
 
 from pysim.cosim.member import MemberFailed
 from pysim.io import extracted
 from pysim.simulate import FmuValues, Mailbox
 from pysim.types import BadInput, CoSimulation, Model
 
+Array = NDArray[np.float64]
+
 FATAL = 4
+
+_P, _N, _STATUS = ctypes.c_void_p, ctypes.c_size_t, ctypes.c_int
+_EXCHANGE = {2: ctypes.CFUNCTYPE(_STATUS, _P, _P, _N, _P), 3: ctypes.CFUNCTYPE(_STATUS, _P, _P, _N, _P, _N)}
 
 _loading = threading.Lock()  # FMPy changes the working directory while it loads
 
@@ -30,6 +37,7 @@ class SteppingInstance:
 
     def __init__(self, name: str, model: Model, stepping: CoSimulation) -> None:
         self.model, self.stepping, self.mailbox = model, stepping, Mailbox(model.abilities.fmi)
+        self._kept: list[NDArray[np.uint32]] = []  # what the library is given addresses of
         self.status = 0  # worst one; after a fatal error nothing may be called any more
         folder = extracted(model.path)
         _check_binary(model, stepping, folder)
@@ -60,6 +68,23 @@ class SteppingInstance:
     def address(self, function: str) -> int:
         """Address of one of the library's functions."""
         return ctypes.cast(getattr(self.fmu.dll, function), ctypes.c_void_p).value or 0
+
+    def exchange(self, verb: str, names: tuple[str, ...], array: Array) -> Callable[[], int]:
+        """A function that moves all values in one go, and returns the status.
+
+        Args:
+            verb: "Set" takes the variables from the array (n,), "Get" puts them there.
+            names: (n,) of the variables.
+        """
+        fmi, variables = self.model.abilities.fmi, [self.model[name] for name in names]
+        values = FmuValues(fmi, variables, array, self.address)
+        if not values.is_plain:
+            return partial(values.write if verb == "Set" else values.read, self.fmu.component)
+        references = np.array([variable.reference for variable in variables], dtype=np.uint32)
+        self._kept.append(references)  # numbers alone: straight into the library, past two calls of Python's
+        arguments = [references.ctypes.data, references.size, array.ctypes.data, references.size]
+        function = _EXCHANGE[fmi](self.address(f"fmi{fmi}{verb}{'Real' if fmi == 2 else 'Float64'}"))
+        return partial(function, self.fmu.component, *arguments[: 3 if fmi == 2 else 4])
 
     @contextmanager
     def refusal(self) -> Iterator[None]:

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import ctypes
 from collections.abc import Mapping
+from functools import partial
 from typing import Any
 
 from pysim.cosim.member import MemberFailed, Setup
 from pysim.cosim.members._library import SteppingInstance
-from pysim.simulate import FmuState, FmuStates, FmuValues
+from pysim.simulate import FmuState, FmuStates
 from pysim.types import CoSimulation, Model, Outcome
 
 _WARNING, _DISCARD = 1, 2
@@ -33,17 +34,15 @@ class Stepping2:
 
     def start(self, setup: Setup, overrides: Mapping[str, float]) -> None:
         """See Member."""
-        instance, model = self._instance, self._model
+        instance = self._instance
         self._component = component = instance.instantiate()
         instance.set_values(overrides)
         with instance.refusal():
             instance.fmu.setupExperiment(startTime=setup.time, stopTime=setup.stop)
             instance.fmu.enterInitializationMode()
-        inputs, outputs = ([model[name] for name in names] for names in self._ports)
-        self._in = FmuValues(2, inputs, setup.inputs, instance.address)
-        self._out = FmuValues(2, outputs, setup.outputs, instance.address)
-        self._write, self._read = self._in.write, self._out.read
-        self._do_step = _DO_STEP(instance.address("fmi2DoStep"))
+        self._write = instance.exchange("Set", self._ports[0], setup.inputs)
+        self._read = instance.exchange("Get", self._ports[1], setup.outputs)
+        self._do_step = partial(_DO_STEP(instance.address("fmi2DoStep")), component)
         self._keeps = int(not self._stepping.state_handling)  # 1: it is never asked to go back
         if self._stepping.state_handling:
             self._states = FmuStates(2, component, instance.address)
@@ -53,21 +52,20 @@ class Stepping2:
         """See Member."""
         with self._instance.refusal():
             self._instance.fmu.exitInitializationMode()
-        self._instance.check(self._read(self._component), "an output could not be read")
+        self._instance.check(self._read(), "an output could not be read")
 
     def update(self) -> None:
         """See Member."""
-        self._instance.check(self._write(self._component), "an input could not be set")
-        self._instance.check(self._read(self._component), "an output could not be read")
+        self._instance.check(self._write(), "an input could not be set")
+        self._instance.check(self._read(), "an output could not be read")
 
     def step(self, time: float, end: float) -> float:
         """See Member."""
-        component = self._component
-        status = self._write(component)
+        status = self._write()
         if status <= _WARNING:
-            status = self._do_step(component, time, end - time, self._keeps)
+            status = self._do_step(time, end - time, self._keeps)
             if status <= _WARNING:
-                status = self._read(component)
+                status = self._read()
                 if status <= _WARNING:
                     return end
                 self._instance.check(status, "an output could not be read")

@@ -6,16 +6,18 @@ import ctypes
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
 from pysim.cosim.member import MemberFailed, Setup
 from pysim.cosim.members._library import SteppingInstance
-from pysim.simulate import FmuState, FmuStates, FmuValues, is_smooth
+from pysim.simulate import FmuState, FmuStates, is_smooth
 from pysim.types import CoSimulation, Model, Outcome
 
 _WARNING, _DISCARD = 1, 2
 _ROUNDS = 1000  # of one event iteration
+_NOTHING = bytes(3)  # no event, no end, no early return
 
 _P, _D, _I, _B = ctypes.c_void_p, ctypes.c_double, ctypes.c_int, ctypes.c_bool
 _DO_STEP = ctypes.CFUNCTYPE(_I, _P, _D, _D, _B, _P, _P, _P, _P)
@@ -24,14 +26,17 @@ _MODE = ctypes.CFUNCTYPE(_I, _P)
 
 
 class _Answers:
-    """What fmi3DoStep and fmi3UpdateDiscreteStates tell, where they write it."""
+    """What fmi3DoStep and fmi3UpdateDiscreteStates tell, where they write it: a byte for each bool."""
 
     def __init__(self) -> None:
-        self.flags = (ctypes.c_bool * 5)()
+        self.step, self.update = bytearray(3), bytearray(5)
         self.time = ctypes.c_double(0.0)
-        start = ctypes.addressof(self.flags)
-        self.of_step = (start, start + 1, start + 2, ctypes.addressof(self.time))
-        self.of_update = (*(start + i for i in range(5)), ctypes.addressof(self.time))
+        of_step, of_update = (
+            ctypes.addressof((ctypes.c_char * len(flags)).from_buffer(flags)) for flags in (self.step, self.update)
+        )
+        time = ctypes.addressof(self.time)
+        self.of_step = (*(of_step + i for i in range(3)), time)
+        self.of_update = (*(of_update + i for i in range(5)), time)
 
 
 @dataclass(frozen=True)
@@ -74,11 +79,9 @@ class Stepping3:
         instance.set_values(overrides)
         with instance.refusal():
             instance.fmu.enterInitializationMode(startTime=setup.time, stopTime=setup.stop)
-        inputs, outputs = ([model[name] for name in names] for names in self._ports)
-        self._in = FmuValues(3, inputs, setup.inputs, instance.address)
-        self._out = FmuValues(3, outputs, setup.outputs, instance.address)
-        self._write, self._read = self._in.write, self._out.read
-        self._do_step = _DO_STEP(instance.address("fmi3DoStep"))
+        self._write = instance.exchange("Set", self._ports[0], setup.inputs)
+        self._read = instance.exchange("Get", self._ports[1], setup.outputs)
+        self._do_step = partial(_DO_STEP(instance.address("fmi3DoStep")), component)
         self._enter_event_mode, self._enter_step_mode = (
             _MODE(instance.address(f"fmi3Enter{mode}Mode")) for mode in ("Event", "Step")
         )
@@ -98,7 +101,7 @@ class Stepping3:
         if self._event_mode:
             self._settle()
         self._held = self._discrete_values()
-        self._instance.check(self._read(self._component), "an output could not be read")
+        self._instance.check(self._read(), "an output could not be read")
 
     def update(self) -> None:
         """See Member."""
@@ -115,19 +118,19 @@ class Stepping3:
         return self._values[self._discrete].tobytes() if self._discrete.size else b""
 
     def _exchange(self) -> None:
-        self._instance.check(self._write(self._component), "an input could not be set")
-        self._instance.check(self._read(self._component), "an output could not be read")
+        self._instance.check(self._write(), "an input could not be set")
+        self._instance.check(self._read(), "an output could not be read")
 
     def _handle_event(self) -> None:
         self._instance.check(self._enter_event_mode(self._component), "event mode could not be entered")
-        self._instance.check(self._write(self._component), "an input could not be set")
+        self._instance.check(self._write(), "an input could not be set")
         self._held = self._discrete_values()
         self._settle()
-        self._instance.check(self._read(self._component), "an output could not be read")
+        self._instance.check(self._read(), "an output could not be read")
 
     def _settle(self) -> None:
         """Event iteration, then step mode."""
-        component, flags = self._component, self._answers.flags
+        component, flags = self._component, self._answers.update
         for _ in range(_ROUNDS):
             status = self._update_discrete(component, *self._answers.of_update)
             self._instance.check(status, "an event could not be handled")
@@ -143,25 +146,29 @@ class Stepping3:
 
     def step(self, time: float, end: float) -> float:
         """See Member."""
-        component = self._component
         if self._discrete.size and self._in_event_mode():
             self._handle_event()
         goal = end if end <= self._next_event else max(self._next_event, time)
         if goal == time:
             self.event = True  # due at once
             return time
-        status = self._write(component)
-        self._instance.check(status, "an input could not be set")
-        status = self._do_step(component, time, goal - time, self._keeps, *self._answers.of_step)
+        status = self._write()
+        if status > _WARNING:
+            self._instance.check(status, "an input could not be set")
+        status = self._do_step(time, goal - time, self._keeps, *self._answers.of_step)
         if status > _WARNING:
             self._explain(status)
-        needed, ended, early, _, _ = self._answers.flags
-        if ended:
-            raise MemberFailed(f"it ended the run{self._instance.mailbox.text()}", Outcome.TERMINATED)
-        reached = self._answers.time.value if early else goal
+        reached, needed = goal, False
+        if self._answers.step != _NOTHING:
+            needed, ended, early = (flag != 0 for flag in self._answers.step)
+            if ended:
+                raise MemberFailed(f"it ended the run{self._instance.mailbox.text()}", Outcome.TERMINATED)
+            reached = self._answers.time.value if early else goal
         self.event = needed or (self._event_mode and reached >= self._next_event)
-        self._instance.check(self._read(component), "an output could not be read")
-        return min(reached, end)
+        status = self._read()
+        if status > _WARNING:
+            self._instance.check(status, "an output could not be read")
+        return reached if reached < end else end
 
     def _explain(self, status: int) -> None:
         """A step that was not done."""

@@ -37,7 +37,11 @@ class Worker:
         n = setup.inputs.size
         both = np.frombuffer(inputs)
         setup.inputs[:], setup.rates[:] = both[:n], both[n:]
-        result = getattr(self, f"_{name}")(*arguments) if name != "start" else self._member.start(setup)
+        result = None
+        if name == "start":
+            self._member.start(setup)
+        else:
+            result = getattr(self, f"_{name}")(*arguments)
         return result, setup.outputs.tobytes(), self._member.event
 
     def _start(self, time: float, stop: float, step: float, overrides: dict[str, float]) -> None:

@@ -155,5 +155,5 @@ def _experiment(
     if not start + step <= end < np.inf:
         raise BadInput(f"{path}: no step lies between {start:g} s and {end:g} s; give the end of the run (--stop)")
     every = step if run is None or run.get("every") is None else max(float(run.get("every", "")), step)
-    rows = start + every * np.arange(int((end - start) / every + 1e-6) + 1)
+    rows = np.asarray(start + every * np.arange(int((end - start) / every + 1e-6) + 1), dtype=np.float64)
     return Experiment(rows, names, start=start)
