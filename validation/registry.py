@@ -130,6 +130,15 @@ CASES: Mapping[str, Case] = MappingProxyType(
             "circuits",
             seconds=60,
         ),
+        "tuning": Case(
+            "validation.tuning.case", "gains of thesis Table 6.1 back from their margins", "circuits", True, 10
+        ),
+        "rig-control": Case(
+            "validation.rig_control.case",
+            "the rig under Python controllers: every way alike, steps, heave, cost",
+            "circuits",
+            seconds=90,
+        ),
         "examples": Case(
             "validation.examples.case",
             "every model that runs by itself against another solver's stored result",
@@ -200,12 +209,22 @@ CASES: Mapping[str, Case] = MappingProxyType(
         "figure-2-1": Case(_THESIS + "figure_2_1.case", "command of a stepped-sine test", "thesis", True, 2),
         "figure-2-2": Case(_THESIS + "figure_2_2.case", "sines fitted to responses; Figure 2.3", "thesis", True, 10),
         "figure-2-4": Case(_THESIS + "figure_2_4.case", "Bode plot and five poles; Figure 2.5", "thesis", True, 15),
+        "figure-3-9": Case(_THESIS + "figure_3_9.case", "ripple flow; Figures 3.10, 3.11", "thesis", True, 10),
+        "figure-4-1": Case(_THESIS + "figure_4_1.case", "steady flow over the command", "thesis", True, 10),
         "figure-4-2": Case(_THESIS + "figure_4_2.case", "load against no load; Figure 4.3", "thesis", True, 3),
         "figure-4-4": Case(_THESIS + "figure_4_4.case", "chirp; Figures 2.6, 2.7, 4.5", "thesis", seconds=40),
         "figure-4-6": Case(_THESIS + "figure_4_6.case", "models over time; Figure 4.7, Table 4.9", "thesis", True, 20),
+        "figure-4-9": Case(_THESIS + "figure_4_9.case", "ripple before and after a hose", "thesis", seconds=30),
+        "figure-4-11": Case(_THESIS + "figure_4_11.case", "relief valve shaken by the ripple", "thesis", seconds=60),
+        "figure-5-15": Case(_THESIS + "figure_5_15.case", "heave of a vessel; Figure 5.16", "thesis", True, 10),
+        "figure-6-1": Case(_THESIS + "figure_6_1.case", "both loops; Figure 6.2, Table 6.1", "thesis", True, 3),
+        "figure-6-3": Case(_THESIS + "figure_6_3.case", "friction of both motors; Table 6.2", "thesis", True, 10),
         "appendix-a": Case(_THESIS + "appendix_a.case", "wave spectrum and a wave of it", "thesis", True, 4),
         "appendix-c": Case(_THESIS + "appendix_c.case", "Bode plots at every offset", "thesis", True, 20),
         "table-4-2": Case(_THESIS + "table_4_2.case", "pressure drop over the orifice", "thesis", True, 2),
         "table-5-1": Case(_THESIS + "table_5_1.case", "parameters of the linear models", "thesis", True, 1),
+        "importers": Case(
+            "validation.importers.case", "what importers and the checker make of our FMUs", "fmus", True, 60
+        ),
     }
 )
