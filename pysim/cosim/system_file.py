@@ -25,7 +25,7 @@ from pysim.io import Section, TomlFile, read_model, read_signal, read_toml
 from pysim.simulate import Rodas
 from pysim.types import BadInput, Experiment, Signal
 
-_FMU = ("fmu", "interface", "parameters", "record", "tolerance", "events", "undeclared", "isolated", "time_limit")
+_FMU = ("fmu", "interface", "parameters", "record", "tolerance", "events", "feedthrough", "isolated", "time_limit")
 _BLOCK = ("block", "settings", "every", "delay", "hold")
 _MEMBER = ("member", "settings")
 _RUN = ("start", "stop", "step", "rows_every", "order", "lines", "sequence", "tolerance", "record")
@@ -112,7 +112,7 @@ def _fmu(name: str, section: Section, folder: Path) -> Any:
             interface=section.text("interface") if "interface" in section.values else "",
             solver=Rodas() if tolerance is None else Rodas(rtol=tolerance, atol=tolerance),
             events=section.flag("events", True),
-            undeclared=section.flag("undeclared", True),
+            feedthrough=section.text("feedthrough", "standard"),
         )
         if not section.flag("isolated", limit is not None):
             return fmu

@@ -30,6 +30,7 @@ class Exchange:
     def begin(self) -> None:
         """See Member."""
         with _failures():
+            self._stepper.update()  # initial equations may depend on the inputs, which have their values by now
             self._stepper.begin()
 
     def update(self) -> None:

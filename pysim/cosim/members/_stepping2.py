@@ -50,6 +50,7 @@ class Stepping2:
 
     def begin(self) -> None:
         """See Member."""
+        self._instance.check(self._write(), "an input could not be set")
         with self._instance.refusal():
             self._instance.fmu.exitInitializationMode()
         self._instance.check(self._read(), "an output could not be read")

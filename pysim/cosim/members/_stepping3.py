@@ -96,6 +96,7 @@ class Stepping3:
 
     def begin(self) -> None:
         """See Member."""
+        self._instance.check(self._write(), "an input could not be set")
         with self._instance.refusal():
             self._instance.fmu.exitInitializationMode()
         if self._event_mode:

@@ -13,6 +13,7 @@ from pysim.simulate import Rodas, Solver, can_be_saved, check_override, is_numbe
 from pysim.types import BadInput, Model, Port, Variable
 
 _INTERFACES = ("", "co-simulation", "model-exchange")
+_FEEDTHROUGH = ("standard", "declared", "none")
 _NOTHING: Mapping[str, float] = {}
 
 
@@ -45,8 +46,9 @@ class Fmu:
             them that it offers.
         solver: for model exchange.
         events: False lets an FMI 3 FMU handle its events alone, at the price of events that others see a step later.
-        undeclared: what is taken of an output whose dependencies the FMU does not declare: True, as the standard says,
-            that it follows all inputs at once; False, that it follows none.
+        feedthrough: which outputs follow inputs at once. "standard": as the FMU declares it, and where it does not,
+            all inputs; "declared": as it declares it, and no more; "none": outputs are what a step leaves, which is all
+            that FMI 2.0 co-simulation asks of an FMU, and what most other masters take.
     Raises:
         BadInput: an unknown name, a value that cannot be set, an interface the FMU does not offer.
     """
@@ -61,19 +63,19 @@ class Fmu:
         interface: str = "",
         solver: Solver = Rodas(),  # noqa: B008
         events: bool = True,
-        undeclared: bool = True,
+        feedthrough: str = "standard",
     ) -> None:
         if not isinstance(model, Model):
             raise BadInput(f"{name}: model is {model!r}; give what pysim.io.read_model makes of an .fmu file")
         self.name, self.model, self.solver, self.events = name, model, solver, events
-        self.parameters, self.record, self.undeclared = dict(parameters), tuple(record), undeclared
+        self.parameters, self.record = dict(parameters), tuple(record)
         for parameter, value in self.parameters.items():
             check_override(model, parameter, value)
         self.interface = _interface(name, model, interface)
         self.inputs = tuple(self._input(v) for v in model.variables if v.causality == "input" and _fits(model, v))
         outputs = [v for v in model.variables if v.causality == "output" and _fits(model, v)]
         self.outputs = tuple(_output(v) for v in (*outputs, *_recorded(model, self.record)))
-        self.feedthrough = self._feedthrough()
+        self.feedthrough = self._feedthrough(feedthrough)
         self._names = (tuple(p.name for p in self.inputs), tuple(p.name for p in self.outputs))
         self._run: _Run = _Closed(name)
 
@@ -84,10 +86,12 @@ class Fmu:
         start = self.parameters.get(variable.name)
         return Port(variable.name, variable.unit, None if start is None else float(start))
 
-    def _feedthrough(self) -> Mapping[str, frozenset[str]]:
+    def _feedthrough(self, wanted: str) -> Mapping[str, frozenset[str]]:
+        if wanted not in _FEEDTHROUGH:
+            raise BadInput(f"{self.name}: feedthrough {wanted!r} is not known; write one of {', '.join(_FEEDTHROUGH)}")
         ports = frozenset(port.name for port in self.inputs)
-        told = dict(self.model.abilities.feedthrough)
-        unknown = ports if self.undeclared else frozenset()
+        told = {} if wanted == "none" else dict(self.model.abilities.feedthrough)
+        unknown = ports if wanted == "standard" else frozenset()
         found = {}
         for port in self.outputs:
             depends = told.get(port.name, frozenset())

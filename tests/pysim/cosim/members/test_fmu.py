@@ -80,7 +80,7 @@ def test_an_fmu_of_another_tool(folder: Path, tmp_path: Path, fmi: int, interfac
     model = read_model(made_foreign(folder / f"Lag_{fmi}.fmu", tmp_path / "foreign.fmu"))
     member = Fmu("lag", model, interface=interface)
     assert dict(member.feedthrough) == {name: frozenset({"u"}) for name in ("y", "power")}
-    assert not Fmu("lag", model, interface=interface, undeclared=False).feedthrough
+    assert not Fmu("lag", model, interface=interface, feedthrough="declared").feedthrough
     assert member.can_rollback == (interface == "model-exchange")
     with driven(member) as run:
         np.testing.assert_allclose(run.rows("y", np.ones(5)), lagged(np.ones(5)), atol=1e-5)
@@ -90,6 +90,7 @@ def test_an_fmu_of_another_tool(folder: Path, tmp_path: Path, fmi: int, interfac
 def test_outputs_follow_inputs_at_once_where_they_say_so(folder: Path, fmi: int, interface: str) -> None:
     member = Fmu("lag", text_model(LAG, folder, fmi=fmi), interface=interface)
     assert member.feedthrough == {"power": frozenset({"u"})}
+    assert not Fmu("lag", member.model, feedthrough="none").feedthrough
     with driven(member) as run:
         run.go(u=1.0)
         run.give(u=3.0)
@@ -186,6 +187,8 @@ def test_what_is_wrong_with_the_settings(folder: Path) -> None:
         Fmu("lag", model, record=("z",))
     with pytest.raises(BadInput, match="interface 'CS' is not known; write one of co-simulation, model-exchange"):
         Fmu("lag", model, interface="CS")
+    with pytest.raises(BadInput, match="feedthrough 'all' is not known; write one of standard, declared, none"):
+        Fmu("lag", model, feedthrough="all")
     with pytest.raises(BadInput, match=r"read_model makes of an \.fmu file"):
         Fmu("lag", "Lag.fmu")  # type: ignore[arg-type]
     member = Fmu("lag", model)
@@ -215,3 +218,29 @@ def test_a_member_that_has_not_started_goes_to_another_process(folder: Path) -> 
     again = pickle.loads(pickle.dumps(Fmu("lag", model, parameters={"K": 3.0}, solver=FINE)))
     assert (again.name, again.parameters, again.solver) == ("lag", {"K": 3.0}, FINE)
     assert again.inputs == Fmu("l", model).inputs
+
+
+INITIAL = """model Balanced "Starts in balance with its input"
+  input Real u(start=0);
+  output Real y;
+initial equation
+  y = 2*u;
+equation
+  der(y) = 2*u - y;
+end Balanced;
+"""
+
+
+@pytest.mark.parametrize(("fmi", "interface"), KINDS)
+def test_initial_equations_see_the_inputs_that_are_there_at_the_end_of_initialisation(
+    folder: Path, fmi: int, interface: str
+) -> None:
+    member = Fmu("balanced", text_model(INITIAL, folder, fmi=fmi), interface=interface)
+    run = Driven(member, {}, H)
+    member.start(run.setup)
+    run.give(u=3.0)
+    member.begin()
+    assert run["y"] == pytest.approx(6.0, abs=1e-12)
+    run.go()
+    assert run["y"] == pytest.approx(6.0, abs=1e-9)
+    member.close()
