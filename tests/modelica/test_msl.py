@@ -6,7 +6,6 @@ own compiler; OpenModelica brings its own.
 
 import os
 import re
-import shutil
 from pathlib import Path
 
 import numpy as np
@@ -14,6 +13,7 @@ import pytest
 import rumoca
 
 import fmu_build
+from fmu_build.openmodelica import what_is_missing
 from pysim.io import read_model
 from pysim.simulate import Rodas, simulate
 from pysim.types import Experiment, Record
@@ -25,7 +25,8 @@ FILES = sorted(JOINED.rglob("*.mo"))
 PLACES = [Path(place) for place in os.environ.get("MODELICAPATH", "").split(os.pathsep) if place]
 STANDARD = next((place for place in PLACES if (place / "Modelica" / "package.mo").is_file()), None)
 with_standard_library = pytest.mark.skipif(STANDARD is None, reason="no Modelica 4.0.0 on MODELICAPATH")
-with_omc = pytest.mark.skipif(shutil.which("omc") is None, reason="OpenModelica's omc is not installed")
+MISSING = what_is_missing()
+with_omc = pytest.mark.skipif(bool(MISSING), reason=MISSING)
 
 
 def name_of(file: Path) -> str:

@@ -1,13 +1,15 @@
 """The library under OpenModelica, where it is installed: it loads, is balanced, and simulates as our FMUs do."""
 
 import re
-import shutil
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+
+from fmu_build.openmodelica import what_is_missing
+from fmu_build.openmodelica.session import quoted
 
 LIBRARY = Path(__file__).parents[2] / "modelica" / "HydraulicTestBench"
 MODELS = sorted(
@@ -18,14 +20,16 @@ MODELS = sorted(
 )
 PUMPS = ("HydraulicTestBench.Pump.FreeGreyBox", "HydraulicTestBench.Pump.LockedGreyBox")
 
-pytestmark = pytest.mark.skipif(shutil.which("omc") is None, reason="OpenModelica's omc is not installed")
+MISSING = what_is_missing()
+
+pytestmark = pytest.mark.skipif(bool(MISSING), reason=MISSING)
 
 
 @pytest.fixture(scope="module")
 def omc(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Any]:
     session = pytest.importorskip("OMPython").OMCSessionLocal()
-    session.sendExpression(f'cd("{tmp_path_factory.mktemp("omc").as_posix()}")')
-    assert session.sendExpression(f'loadFile("{(LIBRARY / "package.mo").as_posix()}")')
+    assert session.sendExpression(f"cd({quoted(tmp_path_factory.mktemp('omc'))})")
+    assert session.sendExpression(f"loadFile({quoted(LIBRARY / 'package.mo')})")
     yield session
     session.sendExpression("quit()")
 
