@@ -72,14 +72,14 @@ CASES: Mapping[str, Case] = MappingProxyType(
             "FMU against the independent simulation over time, ME and CS",
             "fmus",
             quick=True,
-            seconds=30,
+            seconds=6,
         ),
         "demo-table": Case(
             "validation.demo_table.case",
             "the demo against the independent result and the thesis",
             "thesis",
             quick=True,
-            seconds=25,
+            seconds=12,
         ),
         "native-loop": Case(
             "validation.benchmarks.native_loop", "time and accuracy against FMPy's CVODE loop", "speed", seconds=60
@@ -132,6 +132,13 @@ CASES: Mapping[str, Case] = MappingProxyType(
         ),
         "tuning": Case(
             "validation.tuning.case", "gains of thesis Table 6.1 back from their margins", "circuits", True, 10
+        ),
+        "cosim": Case(
+            "validation.cosim.case",
+            "co-simulation against closed forms and a monolithic rig; cost of a step",
+            "circuits",
+            quick=True,
+            seconds=15,
         ),
         "rig-control": Case(
             "validation.rig_control.case",
@@ -224,7 +231,7 @@ CASES: Mapping[str, Case] = MappingProxyType(
         "table-4-2": Case(_THESIS + "table_4_2.case", "pressure drop over the orifice", "thesis", True, 2),
         "table-5-1": Case(_THESIS + "table_5_1.case", "parameters of the linear models", "thesis", True, 1),
         "importers": Case(
-            "validation.importers.case", "what importers and the checker make of our FMUs", "fmus", True, 60
+            "validation.importers.case", "what importers and the checker make of our FMUs", "fmus", seconds=90
         ),
     }
 )

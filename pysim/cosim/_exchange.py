@@ -30,7 +30,7 @@ class Exchange:
         self._row, self._layout, self._signals = row, layout, signals
         self._samplers = {sampler.name: sampler for sampler in samplers}
         self._members = {member.name: member for member in layout.members}
-        self._write = signals.writer(row.view) if layout.signals else None
+        self._driven = row.view[len(layout.outputs) : layout.sources.stop] if layout.signals else None
         self._late = [self._samplers[b.name] for b in layout.blocks if b.delay > 0]
         self._moving = [self._samplers[b.name] for b in layout.blocks if b.delay > 0 or b.hold]
         self._wires = tuple(w for m in layout.members for w in layout.wires_to(m.name))
@@ -44,8 +44,8 @@ class Exchange:
         Raises:
             Fault: a member or block could not go on, or a loop did not settle.
         """
-        if self._write is not None:
-            self._write(self._signals.at(tick))
+        if self._driven is not None:
+            self._driven[:] = self._signals.at(tick)
         for sampler in self._moving:
             sampler.deliver(tick, time)
         if self._eventful:
@@ -65,8 +65,8 @@ class Exchange:
             tick: where the time is that of a communication point; the signals are known there.
             events: False leaves events for later, and members that have one as they are.
         """
-        if self._write is not None:
-            self._write(self._signals.between(time) if tick is None else self._signals.at(tick))
+        if self._driven is not None:
+            self._driven[:] = self._signals.between(time) if tick is None else self._signals.at(tick)
         for sampler in self._moving:
             sampler.deliver(-1, time)
         if self._eventful and events:
@@ -124,12 +124,7 @@ class Exchange:
         name = owner(nodes[0])
         if name in self._samplers:
             sampler = self._samplers[name]
-
-            def sample(tick: int | None, time: float) -> None:
-                if tick is not None:
-                    sampler.sample(tick, time)
-
-            return sample, self._layout.wires_to(name)
+            return sampler.sample, self._layout.wires_to(name)
         member = self._members[name]
         wires = self._layout.wires_to(name, {port for node in nodes for port in system.depends(node)})
         carry, outputs = self._row.carry, self._row.part(self._layout.places[name].outputs)

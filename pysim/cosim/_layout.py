@@ -106,12 +106,17 @@ def lay_out(system: System, signals: Iterable[str]) -> Layout:
     return Layout(members, blocks, places, outputs, driven, inputs, bonds, tuple(sorted(wires)), size + 2 * len(bonds))
 
 
+def view_of(array: Array) -> memoryview[float]:
+    """The same memory, for one number or one stretch at a time."""
+    return memoryview(array)  # type: ignore[arg-type]
+
+
 class Row:
     """The numbers of a run, as an array for all at once and as a view for one at a time (which is faster)."""
 
     def __init__(self, layout: Layout) -> None:
         self.array: Array = np.zeros(layout.size)
-        self.view: memoryview[float] = memoryview(self.array)  # type: ignore[arg-type]
+        self.view = view_of(self.array)
 
     def carry(self, wires: tuple[Wire, ...]) -> None:
         """Bring the drivers' values to the inputs."""

@@ -47,7 +47,7 @@ class Lines:
             share = (end - time) / (time - before)
             self.ends[:outputs] += share * (self.begins[:outputs] - values[:outputs])
         if core.layout.signals:
-            self.ends[self._signals] = core.signals.at(tick) if tick is not None else core.signals.between(end)
+            self.ends[self._signals] = core.signals.between(end) if tick is None else core.signals.at(tick)
         for slots, sampler in self._moving:
             self.ends[slots] = sampler.ahead(end)
 

@@ -32,6 +32,7 @@ class Plain:
         self._core, self._stepper, self._start, self._step = core, stepper, start, step
         self._advance = stepper.advance
         self._eventful = [member for member in core.layout.members if member.may_return_early]
+        self._simple = not self._eventful and core.balance is None
 
     @property
     def memory(self) -> Any:
@@ -45,7 +46,10 @@ class Plain:
     def move(self, number: int) -> None:
         """See Mover."""
         end = self._start + (number + 1) * self._step
-        self.stretch(self._start + number * self._step, end, number + 1)
+        if self._simple:
+            self._advance(self._start + number * self._step, end, number + 1)
+        else:
+            self.stretch(self._start + number * self._step, end, number + 1)
 
     def stretch(self, time: float, end: float, tick: int | None) -> None:
         """From `time` to `end` (s).

@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 from collections import deque
+from collections.abc import Callable, Sequence
+from functools import partial
 from math import isfinite
+from operator import itemgetter
+from struct import Struct
 from typing import NamedTuple
 
 from pysim.cosim._fault import Fault, fault
-from pysim.cosim._layout import Layout, Row
+from pysim.cosim._layout import Layout, Row, Wire
 from pysim.cosim.sampled import Sampled
 from pysim.types import Outcome
 
@@ -23,94 +27,113 @@ class SamplerState(NamedTuple):
     waiting: tuple[tuple[int, tuple[float, ...]], ...]
 
 
+def _gatherer(slots: slice, wires: Sequence[Wire]) -> Callable[[memoryview[float]], tuple[float, ...]] | None:
+    """A function that takes all inputs from where they come, without a stop in their slots; None where a factor is in
+    the way, or where there are too few inputs for it."""
+    sources = {wire.target: wire.source for wire in wires}
+    if slots.stop - slots.start < 2 or any(wire.factor != 1 for wire in wires):
+        return None
+    return itemgetter(*(sources.get(slot, slot) for slot in range(slots.start, slots.stop)))
+
+
 class Sampler:
     """One block of a run. Its samples lie at ticks that `every` divides.
 
     Args:
         every, delay: in communication steps.
         step: s, of a communication step.
+        keeps_inputs: whether somebody looks at its inputs' slots.
     """
 
-    def __init__(self, sampled: Sampled, row: Row, layout: Layout, every: int, delay: int, step: float) -> None:
+    def __init__(
+        self, sampled: Sampled, row: Row, layout: Layout, every: int, delay: int, step: float, *, keeps_inputs: bool
+    ) -> None:
         place = layout.places[sampled.name]
         self.name, self.hold, self._block, self._initial = sampled.name, sampled.hold, sampled.block, sampled.initial
         self._step, self._every, self._delay, self._period = sampled.block.step, every, delay, every * step
-        self._view, self._inputs = row.view, row.view[place.inputs]
+        self._view, self._ports = row.view, sampled.outputs
         self._wires = layout.wires_to(sampled.name)
-        self._slots = tuple(range(place.outputs.start, place.outputs.stop))
-        self._ports = sampled.outputs
+        self._gather = None if keeps_inputs else _gatherer(place.inputs, self._wires)
+        inputs, outputs = (Struct(f"{slots.stop - slots.start}d") for slots in (place.inputs, place.outputs))
+        self._read = partial(inputs.unpack_from, row.view, 8 * place.inputs.start)
+        self._write = partial(outputs.pack_into, row.view, 8 * place.outputs.start)
         self.reset()
 
     def reset(self) -> None:
         """Be as ahead of the first sample."""
         self._block.restore(self._initial)
         values = tuple(port.start or 0.0 for port in self._ports)
-        self._values = self._before = values
+        self._values: Sequence[float] = values
+        self._before = values
         self._time = 0.0
         self._waiting: deque[tuple[int, tuple[float, ...]]] = deque()
         self._fresh = True
-        self._write(values)
+        self._write(*values)
 
-    def sample(self, tick: int, time: float) -> None:
-        """Step the block if its time has come.
+    def sample(self, tick: int | None, time: float) -> None:
+        """Step the block if its time has come; it never has between communication points, where tick is None.
 
         Raises:
             Fault: it raised, or returned what are no finite numbers.
         """
-        if tick % self._every:
+        if tick is None or tick % self._every:
             return
         view = self._view
-        for target, source, factor in self._wires:
-            view[target] = factor * view[source]
+        if self._gather is not None:
+            inputs = self._gather(view)
+        else:
+            for target, source, factor in self._wires:
+                view[target] = factor * view[source]
+            inputs = self._read()
         try:
-            values = tuple(self._step(time, self._inputs.tolist()))
-            good = len(values) == len(self._slots) and all(map(isfinite, values))
+            values = self._step(time, inputs)
+            total = sum(values)
+            good = total - total == 0 and len(values) == len(self._ports)
         except Exception as error:
             raise fault(self.name, error) from error
         if not good:
-            raise self._refused(values)
+            values = self._checked(values)
         if self._delay:
-            self._waiting.append((tick + self._delay, values))
+            self._waiting.append((tick + self._delay, tuple(values)))
+        elif self.hold:
+            self._set(time, tuple(values))
         else:
-            self._set(time, values)
+            self._values = values
+            self._write(*values)
 
     def deliver(self, tick: int, time: float) -> None:
         """Set what was waiting for this tick, and go on along the line of a first-order hold."""
         while self._waiting and self._waiting[0][0] <= tick:
             self._set(time, self._waiting.popleft()[1])
         if self.hold:
-            self._write(self.ahead(time))
+            self._write(*self.ahead(time))
 
     def ahead(self, time: float) -> tuple[float, ...]:
-        """The outputs at a time ahead of the next sample."""
-        if not self.hold:
-            return self._values
+        """The outputs at a time ahead of the next sample, on the line through the last two values."""
         share = (time - self._time) / self._period
         return tuple(now + share * (now - old) for now, old in zip(self._values, self._before, strict=True))
 
     def _set(self, time: float, values: tuple[float, ...]) -> None:
-        self._before = values if self._fresh else self._values
+        self._before = values if self._fresh else tuple(self._values)
         self._values, self._time, self._fresh = values, time, False
-        self._write(values)
+        self._write(*values)
 
-    def _write(self, values: tuple[float, ...]) -> None:
-        view = self._view
-        for slot, value in zip(self._slots, values, strict=True):
-            view[slot] = value
-
-    def _refused(self, values: tuple[float, ...]) -> Fault:
+    def _checked(self, values: Sequence[float]) -> Sequence[float]:
+        """The values, if only their sum is too large; what is wrong with them otherwise."""
         names = [port.name for port in self._ports]
         if len(values) != len(names):
-            return Fault(
+            raise Fault(
                 self.name, f"its step returned {len(values)} values for {len(names)} outputs", Outcome.MODEL_ERROR
             )
-        bad = next(f"{n} = {v}" for n, v in zip(names, values, strict=True) if not isfinite(v))
-        return Fault(self.name, f"its step returned {bad}", Outcome.NOT_FINITE)
+        for name, value in zip(names, values, strict=True):
+            if not isfinite(value):
+                raise Fault(self.name, f"its step returned {name} = {value}", Outcome.NOT_FINITE)
+        return values
 
     def save(self) -> SamplerState:
         """All that the next samples depend on."""
         return SamplerState(
-            tuple(self._block.state()), self._values, self._before, self._time, self._fresh, tuple(self._waiting)
+            tuple(self._block.state()), tuple(self._values), self._before, self._time, self._fresh, tuple(self._waiting)
         )
 
     def restore(self, state: SamplerState) -> None:

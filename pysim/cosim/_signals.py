@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import NDArray
 
-from pysim.cosim._layout import Layout
+from pysim.cosim._layout import Layout, view_of
 from pysim.cosim.member import Array
 from pysim.types import Experiment
 
@@ -21,34 +21,23 @@ class Signals:
     def __init__(self, experiment: Experiment, layout: Layout, step: float) -> None:
         self._start, self._step = experiment.start, step
         self._functions = [_function(experiment, name) for name in layout.signals]
-        self._first = len(layout.outputs)
-        self._part, self._table = -1, [[0.0]]
+        self._tick = 0
+        self._rows: list[memoryview[float]] = []
 
-    def at(self, tick: int) -> Sequence[float]:
+    def at(self, tick: int) -> memoryview[float]:
         """Values at start + tick * step."""
-        part, line = divmod(tick, _PART)
-        if part != self._part:
-            times = _after(self._start + np.arange(part * _PART, (part + 1) * _PART) * self._step)
-            self._table = np.column_stack([of(times) for of in self._functions]).tolist()
-            self._part = part
-        return self._table[line]
+        line = tick - self._tick
+        if not 0 <= line < len(self._rows):
+            self._tick, line = tick, 0
+            times = _after(self._start + np.arange(tick, tick + _PART) * self._step)
+            table = np.column_stack([of(times) for of in self._functions])
+            self._rows = [view_of(row) for row in table]
+        return self._rows[line]
 
-    def between(self, time: float) -> Sequence[float]:
+    def between(self, time: float) -> memoryview[float]:
         """Values at any time, s."""
         times = _after(np.array([time]))
-        return [float(of(times)[0]) for of in self._functions]
-
-    def writer(self, view: memoryview[float]) -> Callable[[Sequence[float]], None]:
-        """A function that writes values to their slots."""
-        first = self._first
-
-        def write(values: Sequence[float]) -> None:
-            slot = first
-            for value in values:
-                view[slot] = value
-                slot += 1
-
-        return write
+        return view_of(np.array([of(times)[0] for of in self._functions], dtype=np.float64))
 
 
 def _after(times: NDArray[np.floating]) -> Array:

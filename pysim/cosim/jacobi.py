@@ -47,11 +47,7 @@ class _Held:
     lines = False
 
     def __init__(self, sweep: Sweep) -> None:
-        self._sweep = sweep
-
-    def advance(self, time: float, end: float, tick: int | None) -> float:
-        """See Stepper."""
-        return self._sweep(time, end)
+        self.advance = sweep.__call__
 
 
 class _Lines:

@@ -178,11 +178,12 @@ class Run:
         self._tick, self._counted, self._open, self._failed = 0, 0, True, None
 
     def _make_samplers(self, layout: Layout, row: Row) -> dict[str, Sampler]:
-        samplers = {}
+        samplers, recorded = {}, frozenset(self.experiment.record)
         for block in layout.blocks:
             every = tick_of(block.every, 0.0, self.step, f"{block.name}: every =", least=1)
             delay = tick_of(block.delay, 0.0, self.step, f"{block.name}: delay =", least=int(block.delay > 0))
-            samplers[block.name] = Sampler(block, row, layout, every, delay, self.step)
+            looked_at = bool(self.system.bonds) or any(f"{block.name}.{p.name}" in recorded for p in block.inputs)
+            samplers[block.name] = Sampler(block, row, layout, every, delay, self.step, keeps_inputs=looked_at)
         return samplers
 
     def _make_mover(self) -> Mover:

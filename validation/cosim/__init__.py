@@ -1,0 +1,1 @@
+"""The co-simulation master against monolithic solutions, closed forms and a plain loop."""
