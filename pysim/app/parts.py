@@ -41,6 +41,7 @@ class Chart(Element, component=str(_STATIC / "chart.js")):
     ) -> None:
         super().__init__()
         self._props["figure"], self._props["label"], self._props["series"] = figure, label, series
+        self._props["stamp"] = 0
         self.style(f"height: {height}px")
         if on_pick is not None:
             self.on("pick", lambda event: on_pick(event.args))
@@ -48,6 +49,7 @@ class Chart(Element, component=str(_STATIC / "chart.js")):
     def show(self, figure: Mapping[str, Any], label: str) -> None:
         """Another figure in its place."""
         self._props["figure"], self._props["label"] = figure, label
+        self._props["stamp"] += 1
         self.update()
 
 

@@ -166,6 +166,8 @@ def unfold(
     Raises:
         KeyboardInterrupt: stopped by the user; says how to go on.
     """
+    from pysim.types import Told
+
     journal = args.output / JOURNAL if args.output else None
     try:
         with Story(f"{given.dataset.name}: {given.model_name}") as story:
@@ -175,7 +177,10 @@ def unfold(
                 for one in told:
                     one(what)
 
-            return work(tell, journal)
+            found = work(tell, journal)
+            for one in told[1:]:  # a program that follows is told why it does not end yet
+                one(Told("writing report and files"))
+            return found
     except KeyboardInterrupt:
         cure = "the same command goes on where it was" if journal else "with --output DIR a run can be gone on with"
         raise KeyboardInterrupt(cure) from None

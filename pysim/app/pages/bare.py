@@ -6,7 +6,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from nicegui import ui
+from nicegui import background_tasks, ui
 from nicegui.events import GenericEventArguments
 
 from pysim.app.description import UNITS, change_description, described
@@ -84,7 +84,7 @@ def _use(desk: Desk, logs: list[Path], columns: list[dict[str, Any]], kind: str)
         change_description(desk.project.description, content)
 
     if attempt(write):
-        ui.timer(0.01, desk.read_data, once=True)
+        background_tasks.create(desk.read_data())
 
 
 def _others(folder: Path, logs: list[Path], kind: str) -> list[dict[str, Any]]:

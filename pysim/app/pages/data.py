@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from functools import partial
 from typing import Any
 
-from nicegui import ui
+from nicegui import background_tasks, ui
 
 from pysim.app.description import UNITS, change_description, read_description
 from pysim.app.desk import Desk, Loaded
@@ -88,7 +88,7 @@ def _model(desk: Desk) -> None:
 
 def _use(desk: Desk, name: str) -> None:
     desk.project.change(model=name.strip(), added=())
-    ui.timer(0.01, desk.read_model, once=True)
+    background_tasks.create(desk.read_model())
 
 
 def _data(desk: Desk) -> None:
@@ -138,7 +138,7 @@ def _change(desk: Desk, edit: Callable[[dict[str, Any]], Any]) -> None:
         desk.project.change(added=())
 
     attempt(change)
-    ui.timer(0.01, desk.read_data, once=True)
+    background_tasks.create(desk.read_data())
 
 
 def _signals(desk: Desk, check: DataCheck) -> None:

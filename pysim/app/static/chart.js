@@ -21,7 +21,7 @@ function dressed(value, colour) {
 
 export default {
   template: `<div class="chart" role="img" :aria-label="label" :tabindex="series ? 0 : -1" @keydown="key"></div>`,
-  props: { figure: Object, series: Object, label: String },
+  props: { figure: Object, series: Object, label: String, stamp: Number },
   async mounted() {
     const { Plotly } = await import("nicegui-plotly");
     this.Plotly = Plotly;
@@ -32,9 +32,18 @@ export default {
       this.$emit("pick", { x: point.x, y: point.y, curve: point.curveNumber, index: point.pointIndex });
     });
     this.$el.on("plotly_relayout", (change) => this.moved(change));
-    this.look = new MutationObserver(() => this.draw());
+    let dark = document.body.classList.contains("body--dark");
+    this.look = new MutationObserver(() => {
+      const now = document.body.classList.contains("body--dark");
+      if (now !== dark) this.draw();
+      dark = now;
+    });
     this.look.observe(document.body, { attributes: true, attributeFilter: ["class"] });
-    this.size = new ResizeObserver(() => this.$el.offsetParent && Plotly.Plots.resize(this.$el));
+    let width = this.$el.clientWidth;
+    this.size = new ResizeObserver(() => {
+      if (this.$el.offsetParent && this.$el.clientWidth !== width) Plotly.Plots.resize(this.$el);
+      width = this.$el.clientWidth;
+    });
     this.size.observe(this.$el);
     this.$el.dataset.ready = "yes";
   },
@@ -44,13 +53,13 @@ export default {
     if (this.Plotly) this.Plotly.purge(this.$el);
   },
   watch: {
-    figure() {
-      if (this.Plotly) this.draw();
+    stamp() {
+      if (this.Plotly) this.draw(); // the figure itself is handed over anew with every change of the page
     },
   },
   methods: {
     async draw() {
-      const { data, layout } = dressed(this.figure, palette(this.$el));
+      const { data, layout } = dressed(JSON.parse(JSON.stringify(this.figure)), palette(this.$el));
       const config = { displaylogo: false, displayModeBar: this.series ? "hover" : false, doubleClick: "reset" };
       config.modeBarButtons = [["zoom2d", "pan2d", "zoomIn2d", "zoomOut2d", "resetScale2d", "toImage"]];
       await this.Plotly.react(this.$el, data, layout, config);
