@@ -133,6 +133,18 @@ CASES: Mapping[str, Case] = MappingProxyType(
         "tuning": Case(
             "validation.tuning.case", "gains of thesis Table 6.1 back from their margins", "circuits", True, 10
         ),
+        "libcosim": Case(
+            "validation.libcosim.case",
+            "the test bench as three FMUs under libcosim, wired and as .ssp",
+            "circuits",
+            seconds=10,
+        ),
+        "cosim-speed": Case(
+            "validation.benchmarks.cosim_speed",
+            "a co-simulation step beside FMPy's and libcosim's",
+            "speed",
+            seconds=20,
+        ),
         "cosim": Case(
             "validation.cosim.case",
             "co-simulation against closed forms and a monolithic rig; cost of a step",

@@ -1,0 +1,1 @@
+"""Which importers take our FMUs, and whether they get the same out of them."""

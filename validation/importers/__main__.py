@@ -1,0 +1,29 @@
+"""`python -m validation.importers`: write COMPATIBILITY.md anew."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from pysim.io import write_file
+from validation.importers.case import compatibility
+from validation.importers.try_one import IMPORTERS
+from validation.results import this_machine
+
+FILE = Path(__file__).with_name("COMPATIBILITY.md")
+
+
+def text() -> str:
+    """The table as Markdown."""
+    head = ["class", "version", "options", "inputs", *IMPORTERS, "checker"]
+    rows = [[cell.partition(": ")[2] or cell for cell in row] for row in compatibility()]
+    lines = [f"| {' | '.join(row)} |" for row in (head, ["---"] * len(head), *rows)]
+    intro = (
+        "# Compatibility of exported FMUs\n\n"
+        f"Written by `python -m validation.importers` on {this_machine()}. Numbers are the largest difference of any "
+        "output from the stored results in `reference/`, as a share of its range.\n\n"
+    )
+    return intro + "\n".join(lines) + "\n"
+
+
+if __name__ == "__main__":
+    write_file(FILE, text())

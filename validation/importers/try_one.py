@@ -1,0 +1,133 @@
+"""`python -m validation.importers.try_one IMPORTER NAME FMI`: one importer in a process of its own, as JSON.
+
+{"values": rows} at the communication points, or {"error": text}; a crash of the importer ends this process only.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import sys
+import tempfile
+import zipfile
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from validation.importers.exported import EXPORTED, Exported
+
+Array = NDArray[np.float64]
+_TIGHT, _DEFAULT = 1e-9, 1e-6
+
+
+def ours(exported: Exported, fmi: int) -> Array:
+    """pysim.simulate, model exchange, at its usual tolerance."""
+    from pysim.io import read_model
+    from pysim.simulate import Rodas, simulate
+    from pysim.types import Experiment, Signal
+
+    inputs = {name: Signal.steps([0.0], [value]) for name, value in exported.inputs.items()}
+    experiment = Experiment(exported.times, exported.outputs, inputs)
+    return simulate(read_model(exported.build(fmi)), experiment, solver=Rodas(rtol=1e-6, atol=1e-6)).values
+
+
+def fmpy_model_exchange(exported: Exported, fmi: int) -> Array:
+    """FMPy with its CVODE."""
+    return _fmpy(exported, fmi, "ModelExchange", _TIGHT)
+
+
+def fmpy_co_simulation(exported: Exported, fmi: int) -> Array:
+    """FMPy's co-simulation loop."""
+    return _fmpy(exported, fmi, "CoSimulation", _DEFAULT)
+
+
+def _fmpy(exported: Exported, fmi: int, kind: str, tolerance: float) -> Array:
+    from fmpy import simulate_fmu
+
+    names = list(exported.inputs)
+    kinds = np.dtype([("time", np.float64), *((name, np.float64) for name in names)])
+    signals = np.array([(0.0, *exported.inputs.values())], dtype=kinds) if names else None
+    result = simulate_fmu(
+        str(exported.build(fmi)),
+        fmi_type=kind,
+        start_time=0.0,
+        stop_time=exported.stop,
+        output_interval=exported.step,
+        relative_tolerance=tolerance,
+        input=signals,
+        output=list(exported.outputs),
+        record_events=False,
+    )
+    return np.column_stack([np.interp(exported.times, result["time"], result[name]) for name in exported.outputs])
+
+
+def libcosimpy(exported: Exported, fmi: int) -> Array:
+    """libcosim's fixed-step master with one slave."""
+    from libcosimpy.CosimExecution import CosimExecution  # type: ignore[import-untyped]
+    from libcosimpy.CosimObserver import CosimObserver  # type: ignore[import-untyped]
+    from libcosimpy.CosimSlave import CosimLocalSlave  # type: ignore[import-untyped]
+
+    from pysim.io import read_model
+
+    model = read_model(exported.build(fmi))
+    execution = CosimExecution.from_step_size(round(exported.step * 1e9))
+    slave = execution.add_local_slave(CosimLocalSlave(fmu_path=str(model.path), instance_name="slave"))
+    observer = CosimObserver.create_last_value()
+    execution.add_observer(observer)
+    for name, value in exported.inputs.items():
+        execution.real_initial_value(slave, model[name].reference, value)
+    rows, references = [], [model[name].reference for name in exported.outputs]
+    for _ in exported.times:
+        if not execution.step():
+            raise RuntimeError("a step was refused")
+        rows.append(observer.last_real_values(slave, references))
+    return np.array(rows)
+
+
+def casadi(exported: Exported, fmi: int) -> Array:
+    """CasADi's FMU import, integrated by its CVODES."""
+    import casadi as ca
+
+    with tempfile.TemporaryDirectory() as folder:
+        with zipfile.ZipFile(exported.build(fmi)) as archive:
+            archive.extractall(folder)
+        dae = ca.DaeBuilder("imported", folder)
+        names = dae.y()
+        right = dae.create("right", ["x", "u"], ["ode", "y"])
+        inputs = ca.DM([exported.inputs.get(name, 0.0) for name in dae.u()])
+        x, u = ca.MX.sym("x", right.size1_in(0)), ca.MX.sym("u", inputs.size1())
+        problem = {"x": x, "u": u, "ode": right(x, u)[0]}
+        run = ca.integrator("run", "cvodes", problem, 0.0, list(exported.times), {"reltol": 1e-8, "abstol": 1e-8})
+        states = run(x0=dae.start(dae.x()), u=inputs)["xf"]
+        rows = [np.array(right(states[:, k], inputs)[1]).ravel() for k in range(exported.times.size)]
+    return np.array(rows)[:, [names.index(name) for name in exported.outputs]]
+
+
+IMPORTERS: Mapping[str, Callable[[Exported, int], Array]] = {
+    "pysim": ours,
+    "FMPy, model exchange": fmpy_model_exchange,
+    "FMPy, co-simulation": fmpy_co_simulation,
+    "libcosimpy": libcosimpy,
+    "CasADi": casadi,
+}
+
+
+def main(words: Sequence[str]) -> None:
+    """Nothing but the answer goes to standard output."""
+    channel = os.fdopen(os.dup(1), "w", encoding="utf-8")
+    os.dup2(2, 1)
+    exported = next(e for e in EXPORTED if e.name == words[1])
+    answer: dict[str, Any]
+    try:
+        answer = {"values": IMPORTERS[words[0]](exported, int(words[2])).tolist()}
+    except Exception as error:  # what an importer says is what is to be known
+        answer = {"error": f"{type(error).__name__}: {' '.join(str(error).split())[:300]}"}
+    channel.write(json.dumps(answer))
+    channel.flush()
+    os._exit(0)  # an importer that crashes while it cleans up has answered already
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])

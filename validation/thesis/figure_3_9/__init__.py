@@ -1,0 +1,1 @@
+"""Figures 3.9 to 3.11: the pump's ripple flow."""

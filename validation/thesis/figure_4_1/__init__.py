@@ -1,0 +1,1 @@
+"""Figure 4.1: steady flow over the command."""

@@ -1,0 +1,1 @@
+"""Figure 4.11: a relief valve shaken by the ripple."""
