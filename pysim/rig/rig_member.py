@@ -16,9 +16,9 @@ def rig_member(
 ) -> Fmu:
     """LoadCircuit.Rig as the member "rig", for `rig_system`.
 
-    The pulses' speed takes its sign from the pump's command, and so follows it at once by what the FMU declares. But a
-    sign changes by an event, and between two samples the controller has no use for it: here it is seen with the next
-    step, and there is no algebraic loop from speed to command to speed.
+    The one output that follows a command at once is the pulses' speed, by its sign. But a sign changes by an event, and
+    between two samples the controller has no use for it: here it is seen with the next step, and there is no algebraic
+    loop from speed to command to speed.
 
     Args:
         model: an FMU of LoadCircuit.Rig, or of a class that extends it.
@@ -26,7 +26,5 @@ def rig_member(
         parameters: of the model.
     """
     solver = Rodas() if solver is None else solver
-    rig = Fmu("rig", model, interface=interface, solver=solver, parameters={"alphaCMD_t": 0.0, **parameters})
-    needs = {name: inputs - {"alphaCMD"} if name == "omegaS" else inputs for name, inputs in rig.feedthrough.items()}
-    rig.feedthrough = {name: inputs for name, inputs in needs.items() if inputs}
-    return rig
+    own = {"alphaCMD_t": 0.0, **parameters}
+    return Fmu("rig", model, interface=interface, solver=solver, parameters=own, feedthrough="none")

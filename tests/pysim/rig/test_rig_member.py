@@ -18,6 +18,13 @@ def test_there_is_no_loop_and_nothing_is_left_to_drive() -> None:
     }
 
 
+def test_only_the_pulses_speed_follows_a_command_at_once() -> None:
+    """What the member takes off; anything else would be seen a step late."""
+    declared = dict(model("LoadCircuit.Rig").abilities.feedthrough)
+    follows = {name: set(inputs or ()) for name, inputs in declared.items() if inputs is None or inputs}
+    assert follows == {"omegaS": {"alphaCMD"}}
+
+
 def test_parameters_and_interface_are_passed_on() -> None:
     rig = rig_member(model("LoadCircuit.Rig"), interface="co-simulation", parameters={"Jeff": 0.1})
     assert rig.interface == "co-simulation"
