@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Sequence
 
 import numpy as np
@@ -36,7 +37,7 @@ class Exchange:
         self._wires = tuple(w for m in layout.members for w in layout.wires_to(m.name))
         self._eventful = [m for m in layout.members if m.may_return_early]
         self._actions = self._plan(system)
-        self.evaluations = 0
+        self.counts: Counter[str] = Counter()
 
     def at(self, tick: int, time: float) -> None:
         """Communication point `tick`: blocks are sampled.
@@ -86,7 +87,7 @@ class Exchange:
             before = now.copy()
             for member in self._members.values():
                 self._row.carry(self._layout.wires_to(member.name))
-                _call(member)
+                update(member)
                 check_finite(member, self._row.part(self._layout.places[member.name].outputs))
             for action in self._actions:
                 action(None, time)
@@ -99,7 +100,7 @@ class Exchange:
         for member in self._eventful:
             if member.event:
                 self._row.carry(self._layout.wires_to(member.name))
-                _call(member)
+                update(member)
 
     def _plan(self, system: System) -> list[Action]:
         """Actions in an order in which each comes after what it needs."""
@@ -129,14 +130,14 @@ class Exchange:
         wires = self._layout.wires_to(name, {port for node in nodes for port in system.depends(node)})
         carry, outputs = self._row.carry, self._row.part(self._layout.places[name].outputs)
 
-        def update(tick: int | None, time: float) -> None:
+        def follow(tick: int | None, time: float) -> None:
             carry(wires)
             if member.event:  # left for later
                 return
-            _call(member)
+            update(member)
             check_finite(member, outputs)
 
-        return update, wires
+        return follow, wires
 
     def _circle(self, system: System, group: tuple[str, ...]) -> Action:
         """Solve a loop for the values that are needed before they are known."""
@@ -173,12 +174,17 @@ class Exchange:
                 name = names[int(tears[error.worst])]
                 why = f"the algebraic loop through {name} does not settle in {_LIMIT} evaluations, it {error}"
                 raise Fault(owner(name), why, Outcome.NOT_CONVERGED) from error
-            self.evaluations += count
+            self.counts["loop_evaluations"] += count
 
         return solve
 
 
-def _call(member: Member) -> None:
+def update(member: Member) -> None:
+    """Let a member read its inputs and write its outputs.
+
+    Raises:
+        Fault: it could not.
+    """
     try:
         member.update()
     except Exception as error:

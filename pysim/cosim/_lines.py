@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from pysim.cosim._core import Core
+from pysim.cosim._exchange import update
 from pysim.cosim._layout import Wire, indices
-from pysim.cosim.member import Array
+from pysim.cosim.member import Array, Member
 
 
 class Lines:
@@ -56,6 +57,19 @@ class Lines:
         holder = self._all if name is None else self._one[name]
         holder.hold(self.begins, self.ends, end - time)
 
+    def know(self, member: Member) -> None:
+        """A member has stepped: take its outputs at the end.
+
+        Those that follow an input at once were made with the input's mean over the step; they are brought to its end.
+        """
+        row, place = self._core.row.array, self._core.layout.places[member.name]
+        if member.feedthrough and not member.takes_rates and not member.event:
+            held = row[place.inputs].copy()
+            self._one[member.name].finish(self.ends)
+            update(member)
+            row[place.inputs] = held
+        self.ends[place.outputs] = row[place.outputs]
+
     def done(self, time: float) -> None:
         """The step from `time` (s) was made: remember where it began."""
         self.memory = (time, self.begins.copy())
@@ -75,6 +89,11 @@ class _Holder:
         self._lines = indices(w for w in wires if w.target in rating)
         self._means = indices(w for w in wires if w.target not in rating)
         self._shift = len(core.layout.inputs)
+
+    def finish(self, ends: Array) -> None:
+        """Set the inputs to their last values."""
+        targets, sources, factors = self._means
+        self._row[targets] = factors * ends[sources]
 
     def hold(self, begins: Array, ends: Array, size: float) -> None:
         targets, sources, factors = self._means

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from functools import partial
 
-from pysim.cosim._core import Core
+from pysim.cosim._core import Core, restore, save
 from pysim.cosim._exchange import check_finite
 from pysim.cosim._fault import Fault, fault
 from pysim.cosim.member import Member
@@ -48,7 +48,7 @@ class Sweep:
             Fault: a member could not go on, or put out what is no finite number.
         """
         if self._again:
-            self._kept = [m.save(old) for m, old in zip(self._again, self._kept, strict=True)]
+            self._kept = [save(m, old) for m, old in zip(self._again, self._kept, strict=True)]
         goal = end
         for number, (member, step, prepare) in enumerate(self._plan):
             try:
@@ -61,7 +61,7 @@ class Sweep:
                 reached = self._early(member, time, reached, goal)
                 if reached != goal and number:
                     for one, state in zip(self._again[: number + 1], self._kept, strict=False):
-                        one.restore(state)
+                        restore(one, state)
                     return self(time, reached)
                 goal = reached
         total = self._total()

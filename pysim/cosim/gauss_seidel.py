@@ -96,11 +96,12 @@ def _interpolator(core: Core, lines: Lines, name: str, stepped: Sequence[str]) -
     """Let a member's inputs run to what those that stepped already have reached."""
     if carrier(core, name, stepped) is None:
         return None
-    places = [core.layout.places[other].outputs for other in stepped]
+    drivers = {core.layout.owner(wire.source) for wire in core.layout.wires_to(name)}
+    known = [member for member in core.layout.members if member.name in drivers and member.name in set(stepped)]
 
     def prepare(time: float, end: float) -> None:
-        for slots in places:
-            lines.ends[slots] = core.row.array[slots]
+        for member in known:
+            lines.know(member)
         lines.hold(time, end, name)
 
     return prepare

@@ -3,28 +3,30 @@
 from __future__ import annotations
 
 import math
-from collections import Counter
 from collections.abc import Callable
+from contextlib import ExitStack
 from dataclasses import dataclass, field
 from functools import partial
 from types import TracebackType
-from typing import Any
+from typing import Any, TypeVar
 
 from pysim.cosim._core import Core
-from pysim.cosim._fault import Fault, fault
+from pysim.cosim._fault import Fault
 from pysim.cosim._layout import Layout, Row, lay_out
 from pysim.cosim._mover import Doubled, Mover, Plain
-from pysim.cosim._prepare import check_experiment, overrides_of, tick_of, ticks
+from pysim.cosim._prepare import check_experiment, tick_of, ticks
 from pysim.cosim._sampler import Sampler
 from pysim.cosim._signals import Signals
+from pysim.cosim._start import start
 from pysim.cosim._trace import Trace
 from pysim.cosim.doubling import Doubling
 from pysim.cosim.iterated import check_rollback
 from pysim.cosim.jacobi import Jacobi
-from pysim.cosim.member import Setup
 from pysim.cosim.order import Order
 from pysim.cosim.system import System
 from pysim.types import BadInput, Experiment, Outcome, Record, SimulationError
+
+Result = TypeVar("Result")
 
 # Members of runs that are open; a member can be in one at a time.
 _at_work: set[int] = set()
@@ -73,7 +75,8 @@ class Run:
         _claim(self.system)
         try:
             self._build()
-            self._start(self._core.row)
+            self._or_stop(partial(start, self._core, self.experiment, self.step))
+            self._trace.take(0)
         except BaseException:
             self._close()
             raise
@@ -103,14 +106,22 @@ class Run:
             raise BadInput(f"co-simulation: cannot go to {to} s from {self.time:.12g} s; stay within the experiment")
         while self._tick < last:
             stop = last if progress is None else min(last, self._tick + 1000)
-            try:
-                self._loop(stop)
-            except Fault as error:
-                self._failed = error
-                record = self.record()
-                raise SimulationError(record.message, record) from error.__cause__
+            self._or_stop(partial(self._loop, stop))
             if progress is not None:
                 progress(self.time)
+
+    def _or_stop(self, call: Callable[[], Result]) -> Result:
+        """What a call returns.
+
+        Raises:
+            SimulationError: a member could not go on; the run is over.
+        """
+        try:
+            return call()
+        except Fault as error:
+            self._failed = error
+            record = self.record()
+            raise SimulationError(record.message, record) from error.__cause__
 
     def _loop(self, last: int) -> None:
         """The hot loop: everything it calls was looked up before."""
@@ -141,12 +152,13 @@ class Run:
 
         Raises:
             BadInput: a member that cannot save its state.
+            SimulationError: one that can, and failed to.
         """
         check_rollback("save", self._core)
         core = self._core
         blocks = {name: sampler.save() for name, sampler in self._samplers.items()}
-        members = core.save([None] * len(self._layout.members))
-        parts = (members, blocks, core.row.array.copy(), core.scale.copy(), self._mover.memory, Counter(core.counts))
+        members = self._or_stop(core.save)
+        parts = (members, blocks, core.row.array.copy(), core.scale.copy(), self._mover.memory, dict(core.counts))
         return Kept(self._tick, self._core, parts)
 
     def restore(self, kept: Kept) -> None:
@@ -154,16 +166,19 @@ class Run:
 
         Raises:
             BadInput: kept in another run.
+            SimulationError: a member could not be put back.
         """
         if kept.run is not self._core:
             raise BadInput("restore: this was kept in another run; states live as long as the run they come from")
         core = self._core
         members, blocks, row, scale, memory, counts = kept.parts
-        core.restore(members)
+        self._or_stop(partial(core.restore, members))
         for name, state in blocks.items():
             self._samplers[name].restore(state)
         core.row.array[:], core.scale[:] = row, scale
-        self._mover.memory, core.counts = memory, Counter(counts)
+        self._mover.memory = memory
+        core.counts.clear()
+        core.counts.update(counts)
         self._tick = self._counted = kept.tick
         self._failed = None
         self._trace.rewind(kept.tick)
@@ -192,63 +207,15 @@ class Run:
             return Doubled(self._core, self._order, start, self.step, self._doubling)
         return Plain(self._core, self._order.stepper(self._core), start, self.step)
 
-    def _start(self, row: Row) -> None:
-        """Initialise all members, let their initial values settle, do what is due at the first point."""
-        for name, slot in self._layout.inputs.items():
-            row.array[slot] = self.system.inputs[name].start or 0.0
-        for slot, value in zip(
-            self._layout.signals.values(), self._core.signals.at(0) if self._layout.signals else (), strict=True
-        ):
-            row.array[slot] = value
-        row.carry(self._layout.wires)
-        overrides = overrides_of(self.system, self.experiment)
-        try:
-            for member in self._layout.members:
-                place = self._layout.places[member.name]
-                setup = Setup(
-                    time=self.experiment.start,
-                    stop=float(self.experiment.times[-1]),
-                    step=self.step,
-                    inputs=row.part(place.inputs),
-                    rates=row.part(place.rates),
-                    outputs=row.part(place.outputs),
-                    overrides=overrides[member.name],
-                )
-                self._guard(member.name, partial(member.start, setup))
-            self._settle()
-            for member in self._layout.members:
-                self._guard(member.name, member.begin)
-            self._core.exchange.at(0, self.experiment.start)
-        except Fault as error:
-            self._failed = error
-            record = self.record()
-            raise SimulationError(record.message, record) from error.__cause__
-        self._trace.take(0)
-
-    def _settle(self) -> None:
-        names = [member.name for member in self._layout.members]
-        if not self._core.exchange.settle(self.experiment.start, len(names) + 2, exact=not self.system.loops):
-            why = "their initial values go round in a circle and do not settle"
-            raise Fault(", ".join(names), why, Outcome.NOT_CONVERGED)
-
-    def _guard(self, name: str, call: Callable[[], None]) -> None:
-        try:
-            call()
-        except BadInput:
-            raise
-        except Exception as error:
-            raise fault(name, error) from error
-
     def _counts(self) -> dict[str, int]:
-        counts = dict(self._core.counts)
-        loops = self._core.exchange.evaluations
-        return {**counts, "loop_evaluations": loops} if loops else counts
+        return dict(self._core.counts)
 
     def _close(self) -> None:
         self._open = False
-        for member in self._layout.members:
-            member.close()
-        _at_work.difference_update(map(id, self.system.members))
+        with ExitStack() as stack:  # every one is closed, whatever the others do
+            stack.callback(_at_work.difference_update, [id(member) for member in self.system.members])
+            for member in self._layout.members:
+                stack.callback(member.close)
 
 
 def _claim(system: System) -> None:

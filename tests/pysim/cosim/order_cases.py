@@ -8,5 +8,6 @@ ORDERS = (
     GaussSeidel(),
     GaussSeidel(lines=True),
     GaussSeidel(order=("right", "left")),
+    GaussSeidel(order=("right", "left"), lines=True),
     Iterated(),
 )

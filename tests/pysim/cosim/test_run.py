@@ -4,7 +4,20 @@ import numpy as np
 import pytest
 
 from pysim.control import Gain
-from pysim.cosim import Connection, Doubling, GaussSeidel, Iterated, Jacobi, Order, Run, Sampled, System, cosimulate
+from pysim.cosim import (
+    Connection,
+    Doubling,
+    GaussSeidel,
+    Iterated,
+    Jacobi,
+    MemberFailed,
+    Order,
+    Run,
+    Sampled,
+    Setup,
+    System,
+    cosimulate,
+)
 from pysim.types import BadInput, Experiment, Outcome, Port, Signal, SimulationError
 from tests.cosim_parts import Linear, oscillation, oscillators
 
@@ -108,7 +121,7 @@ def test_initial_values_go_round_until_they_rest() -> None:
     assert record["a.y"] == pytest.approx(16 * (1 + TIMES))
 
 
-@pytest.mark.parametrize("order", [Jacobi(), GaussSeidel(), Iterated()], ids=str)
+@pytest.mark.parametrize("order", [Jacobi(), GaussSeidel(), GaussSeidel(order=("a", "k")), Iterated()], ids=str)
 def test_all_meet_at_an_event(order: Order) -> None:
     """A member is kicked within a step: what depends on it sees that at the event's own time."""
     kicked = integrator("k", breaks=(0.25, 0.5), kick=1.0)
@@ -158,6 +171,53 @@ def test_a_short_step_without_leave_is_an_error() -> None:
     member = Lazy("c", (), (Port("y"),), A=[[0.0]], B=np.zeros((1, 0)), C=[[1.0]])
     with pytest.raises(SimulationError, match=r"c: a step to 0\.1 s ended at 0\.05 s, which it does not say"):
         cosimulate(System((member,)), Experiment(TIMES, ("c.y",)), step=0.1)
+
+
+def test_members_start_with_what_drives_them() -> None:
+    seen = []
+
+    class Careful(Linear):
+        def start(self, setup: Setup) -> None:
+            seen.append(float(setup.inputs[0]))
+            super().start(setup)
+
+    last = Careful("last", (Port("u"),), (Port("y"),), A=[[0.0]], B=[[1.0]], C=[[1.0]])
+    block = Sampled("g", Gain(3.0), 0.1)
+    wires = (Connection("first.y", "last.u"), Connection("g.y", "first.u"))
+    system = System((last, integrator("first", x0=[5.0]), block), wires)
+    cosimulate(system, Experiment(TIMES, ("last.y",), {"g.u": Signal.constant(1.0)}), step=0.1)
+    assert seen == [5.0]
+
+
+def test_a_state_that_cannot_be_saved_is_named() -> None:
+    class Forgetful(Linear):
+        def save(self, into: object = None) -> object:
+            raise MemberFailed("out of memory")
+
+    member = Forgetful("i", (Port("u", start=0.0),), (Port("y"),), A=[[0.0]], B=[[1.0]], C=[[1.0]])
+    experiment = Experiment(TIMES, ("i.y",))
+    with Run(System((member,)), experiment, step=0.1) as run:
+        run.advance(0.2)
+        with pytest.raises(SimulationError, match=r"t = 0\.2 s: i: out of memory"):
+            run.save()
+    with pytest.raises(SimulationError, match="i: out of memory"):
+        cosimulate(System((member,)), experiment, step=0.1, order=Iterated())
+
+
+def test_all_are_closed_whatever_one_does() -> None:
+    class Clinging(Linear):
+        def close(self) -> None:
+            raise OSError("cannot be freed")
+
+    parts = [
+        kind(n, (), (Port("y"),), A=[[0.0]], B=np.zeros((1, 0)), C=[[1.0]])
+        for kind, n in ((Linear, "a"), (Clinging, "b"), (Linear, "c"))
+    ]
+    system = System(parts)
+    for _ in range(2):  # and none is taken to be at work still
+        with pytest.raises(OSError, match="cannot be freed"):
+            cosimulate(system, Experiment(TIMES, ("a.y",)), step=0.1)
+    assert parts[0].closed == parts[2].closed == 2
 
 
 def test_blocks_alone_are_a_system() -> None:
