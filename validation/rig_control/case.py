@@ -37,8 +37,10 @@ def pictures() -> Mapping[str, Figure]:
         ),
         "Load-pressure error before and after.": rig_error_figure(runs),
     }
-    for test, number in zip(STEPS, ("6.8", "6.7"), strict=True):
-        found[f"Figure {number}: step of the {test.kind}."] = rig_step_figure(experiments.step(test), test)
+    for test, number in zip(STEPS, ("6.7", "6.8"), strict=True):
+        found[f"Figure {number}, as the text numbers it: step of the {test.kind}."] = rig_step_figure(
+            experiments.step(test), test
+        )
     return found
 
 
