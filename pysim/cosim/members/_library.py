@@ -5,7 +5,7 @@ from __future__ import annotations
 import ctypes
 import threading
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -24,7 +24,7 @@ from pysim.types import BadInput, CoSimulation, Model
 
 Array = NDArray[np.float64]
 
-FATAL = 4
+_ERROR, FATAL = 3, 4
 
 _P, _N, _STATUS = ctypes.c_void_p, ctypes.c_size_t, ctypes.c_int
 _EXCHANGE = {2: ctypes.CFUNCTYPE(_STATUS, _P, _P, _N, _P), 3: ctypes.CFUNCTYPE(_STATUS, _P, _P, _N, _P, _N)}
@@ -52,7 +52,7 @@ class SteppingInstance:
                 )
             except Exception as error:  # FMPy raises a bare Exception
                 raise MemberFailed(f"its shared library cannot be loaded ({error}); export it again") from error
-        self._alive = False
+        self._alive = self.is_running = False
 
     def instantiate(self, **options: bool) -> int:
         """Make the instance; its pointer."""
@@ -111,6 +111,10 @@ class SteppingInstance:
 
     def close(self) -> None:
         """Free the instance and unload the library; twice does no harm."""
+        if self._alive and self.is_running and self.status < _ERROR:
+            with suppress(FMICallException):  # it may close files; what it says of that comes too late to matter
+                self.fmu.terminate()
+        self.is_running = False
         if self._alive and self.status < FATAL:
             free = self.fmu.fmi2FreeInstance if self.model.abilities.fmi == 2 else self.fmu.fmi3FreeInstance
             free(self.fmu.component)

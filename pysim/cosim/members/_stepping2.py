@@ -53,6 +53,7 @@ class Stepping2:
         self._instance.check(self._write(), "an input could not be set")
         with self._instance.refusal():
             self._instance.fmu.exitInitializationMode()
+        self._instance.is_running = True
         self._instance.check(self._read(), "an output could not be read")
 
     def update(self) -> None:

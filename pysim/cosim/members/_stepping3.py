@@ -99,6 +99,7 @@ class Stepping3:
         self._instance.check(self._write(), "an input could not be set")
         with self._instance.refusal():
             self._instance.fmu.exitInitializationMode()
+        self._instance.is_running = True
         if self._event_mode:
             self._settle()
         self._held = self._discrete_values()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from pathlib import Path
 from typing import Any, Protocol
 
 from pysim.cosim.member import Setup
@@ -15,6 +16,8 @@ from pysim.types import BadInput, Model, Port, Variable
 _INTERFACES = ("", "co-simulation", "model-exchange")
 _FEEDTHROUGH = ("standard", "declared", "none")
 _NOTHING: Mapping[str, float] = {}
+
+_alone: dict[Path, str] = {}  # FMUs that can be there only once in a process, and who has them now
 
 
 class _Run(Protocol):
@@ -142,8 +145,27 @@ class Fmu:
                 raise BadInput(f"experiment: {self.name}.{name} is an input; give it a signal instead of an override")
         inputs, _ = self._names
         own = {name: value for name, value in self.parameters.items() if name not in inputs}
+        self._claim()
         self._run = self._new_run()
         self._run.start(setup, {**own, **setup.overrides})
+
+    def _claim(self) -> None:
+        """Some FMUs can be there only once in a process.
+
+        Raises:
+            BadInput: it is there already.
+        """
+        stepping, abilities = self.model.abilities.stepping, self.model.abilities
+        steps_itself = self.interface == "co-simulation" and stepping is not None
+        if not (stepping if steps_itself else abilities).single_instance:  # type: ignore[union-attr]
+            return
+        other = _alone.get(self.model.path)
+        if other is not None:
+            raise BadInput(
+                f"{self.name}: {self.model.path.name} allows one instance per process, and {other} is it; put one of "
+                "them into a process of its own, Isolated(...)"
+            )
+        _alone[self.model.path] = self.name
 
     def _new_run(self) -> _Run:
         stepping = self.model.abilities.stepping
@@ -177,6 +199,8 @@ class Fmu:
         """See Member."""
         run, self._run = self._run, _Closed(self.name)
         run.close()
+        if _alone.get(self.model.path) == self.name:
+            del _alone[self.model.path]
 
 
 class _Closed:

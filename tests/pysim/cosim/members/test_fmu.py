@@ -1,4 +1,5 @@
 import pickle
+import zipfile
 from pathlib import Path
 
 import numpy as np
@@ -244,3 +245,24 @@ def test_initial_equations_see_the_inputs_that_are_there_at_the_end_of_initialis
     run.go()
     assert run["y"] == pytest.approx(6.0, abs=1e-9)
     member.close()
+
+
+@pytest.mark.parametrize(("fmi", "interface"), KINDS)
+def test_an_fmu_that_can_be_there_only_once(folder: Path, tmp_path: Path, fmi: int, interface: str) -> None:
+    model = text_model(LAG, folder, fmi=fmi)
+    kind = "CoSimulation" if interface == "co-simulation" else "ModelExchange"
+    once = tmp_path / "once.fmu"
+    with zipfile.ZipFile(model.path) as old, zipfile.ZipFile(once, "w") as new:
+        for item in old.infolist():
+            text = old.read(item)
+            if item.filename == "modelDescription.xml":
+                flag = f'<{kind} canBeInstantiatedOnlyOncePerProcess="true" '.encode()
+                text = text.replace(f"<{kind} ".encode(), flag)
+            new.writestr(item, text)
+    first, second = (Fmu(name, read_model(once), interface=interface) for name in ("first", "second"))
+    with driven(first):
+        with pytest.raises(BadInput, match=r"second: once\.fmu allows one instance per process, and first is it; put"):
+            second.start(Driven(second, {}, H).setup)
+        second.close()
+    with driven(second) as run:
+        assert run["y"] == 0.3
