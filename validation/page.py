@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 
 from pysim.plot import render
 from pysim.plot.style import COLOURS, MARKERS, SMALL, TEXT, new_figure, quiet
-from pysim.report.page import cell, heading, items, page, paragraph, picture, statement, table
+from pysim.report.page import cell, commands, heading, items, page, paragraph, picture, statement, table
 from validation.findings import Finding
 from validation.registry import CASES, GROUPS
 from validation.results import FAILS, HOLDS, SKIPPED, CaseResult, verdict_of
@@ -68,7 +68,7 @@ def _overview(results: Sequence[CaseResult]) -> str:
 
 def _case(result: CaseResult) -> list[str]:
     notes = CASES[result.case].notes() if result.case in CASES else ()
-    parts = [paragraph(result.about + ".")]
+    parts = [paragraph(f"{result.about[:1].upper()}{result.about[1:]}."), commands(f"pysim validate {result.case}")]
     if result.error:
         parts.append(paragraph(f"Stopped: {result.error}", note=True))
     if notes:

@@ -24,22 +24,22 @@ def short_summary(results: Iterable[CaseResult]) -> str:
     return "\n".join([*_table(head, rows), "", *_failing(last), ""])
 
 
-def full_summary(results: Iterable[CaseResult]) -> str:
-    """A table of cases per group, and below each what fails or was skipped, with the numbers."""
+def full_summary(results: Iterable[CaseResult], *, kept: bool = True) -> str:
+    """A table of cases per group, and below each what fails or was skipped, with the numbers.
+
+    Args:
+        kept: of all that is kept, where cases without a result are named too; else of one run.
+    """
     last = newest(results)
-    lines = [
-        "# What holds, and what does not",
-        "",
-        "Written by `pysim validate --record`; a row per case, its last run.",
-    ]
+    written = "by `pysim validate --record`: each case's last run" if kept else "by `pysim validate`: one run"
+    lines = ["# What holds, and what does not", "", f"Written {written}."]
+    head = ["case", "what", "holds", "fails", "skipped", "s", "date"]
     for group, title in GROUPS.items():
-        names = [name for name, case in CASES.items() if case.group == group]
-        done = {name: last[name] for name in names if name in last}
-        lines += ["", f"## {title}", ""]
-        lines += _table(
-            ["case", "what", "holds", "fails", "skipped", "s", "date"], [_row(n, done.get(n)) for n in names]
-        )
-        lines += [f"\n- {text}" for result in done.values() for text in _not_held(result)]
+        names = [name for name, case in CASES.items() if case.group == group and (kept or name in last)]
+        if names:
+            rows = [_row(name, last.get(name)) for name in names]
+            told = [f"\n- {text}" for name in names if name in last for text in _not_held(last[name])]
+            lines += ["", f"## {title}", "", *_table(head, rows), *told]
     machines = sorted({str(result.machine) for result in last.values()})
     return "\n".join([*lines, "", "Machines: " + "; ".join(machines) + ".", ""])
 

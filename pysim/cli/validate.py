@@ -111,7 +111,7 @@ def _write_page(folder: Path, results: Sequence[CaseResult]) -> None:
             write_file(folder / f"{result.case}-{k}.png", render(figure, "png"))
     history = read_results(_results_file())
     write_file(folder / "report.html", suite_page(results, history, drawn))
-    write_file(folder / "summary.md", full_summary(results))
+    write_file(folder / "summary.md", full_summary(results, kept=False))
     print(f"wrote {folder / 'report.html'}")
 
 

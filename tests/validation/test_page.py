@@ -15,7 +15,15 @@ def test_page(monkeypatch: pytest.MonkeyPatch) -> None:
     results = [result("good", *GOOD), result("bad", *BAD, error="ValueError: <no>")]
     text = suite_page(results, (), {"good": {"the caption": Figure()}})
     assert "2 claims hold, 1 fail, 1 could not be tried here. 1 cases stopped early." in text
-    for words in ("no Wine here", "the caption", "a note", "Stopped: ValueError: &lt;no&gt;", 'class="fail">fails'):
+    for words in (
+        "no Wine here",
+        "the caption",
+        "a note",
+        "pysim validate good",
+        "About bad",
+        "Stopped: ValueError: &lt;no&gt;",
+        'class="fail">fails',
+    ):
         assert words in text
     assert "Costs over time" not in text
 

@@ -25,6 +25,10 @@ def test_full() -> None:
     assert "| good | about good | 1 | 0 | 1 | 2 | 2026-01-02 |" in text
     assert "| bad | about bad |  |  |  |  | not recorded |" in text
     assert "- skipped: b: no Wine here" in text
+    run = full_summary([result("good", *GOOD)], kept=False)
+    assert "| good |" in run
+    assert "not recorded" not in run
+    assert "Circuits" not in run
     assert "- stopped: ValueError: no good" in text
     assert "a processor, 2 cores" in text
 

@@ -65,9 +65,9 @@ def _fmpy(exported: Exported, fmi: int, kind: str, tolerance: float) -> Array:
 
 def libcosimpy(exported: Exported, fmi: int) -> Array:
     """libcosim's fixed-step master with one slave."""
-    from libcosimpy.CosimExecution import CosimExecution  # type: ignore[import-untyped]
-    from libcosimpy.CosimObserver import CosimObserver  # type: ignore[import-untyped]
-    from libcosimpy.CosimSlave import CosimLocalSlave  # type: ignore[import-untyped]
+    from libcosimpy.CosimExecution import CosimExecution
+    from libcosimpy.CosimObserver import CosimObserver
+    from libcosimpy.CosimSlave import CosimLocalSlave
 
     from pysim.io import read_model
 

@@ -75,9 +75,11 @@ def _ratios() -> Figure:
     figure = new_figure(7.2, 3.0)
     axes = _axes(figure, "Number of pistons", "Ripple over mean flow (%)")
     ratios = [100 * Geometry(n).ripple()[1] / Geometry(n).mean for n in PISTONS]
-    colours = [COLOURS[1] if n % 2 else COLOURS[0] for n in PISTONS]
-    axes.bar(PISTONS, ratios, 0.6, color=colours)
+    for odd, label in ((0, "even"), (1, "odd")):
+        chosen = [k for k, n in enumerate(PISTONS) if n % 2 == odd]
+        axes.bar([PISTONS[k] for k in chosen], [ratios[k] for k in chosen], 0.6, color=COLOURS[odd], label=label)
     axes.set_xticks(PISTONS)
+    axes.legend(frameon=False, fontsize=SMALL)
     return figure
 
 

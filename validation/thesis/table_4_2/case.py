@@ -34,12 +34,12 @@ def run() -> Iterator[Finding]:
     claim = "drop against (c (angle - a))^2 with one c and one a, within the rounding of the table"
     yield Finding(claim, float(off.max()), _ROUNDING, "bar")
     beside = -zero / slope
-    claim = (
-        f"the flow of {beside:.1f} % of the angle ({beside * MEAN_FLOW / 100:.0f} l/min) goes past the orifice; none:"
-    )
     alone = float(np.abs(_alone(angle, drop) - drop).max())
-    yield Finding(f"{claim} an orifice alone misses the table by {alone:.1f} bar, short of the rounding by",
-                  max(0.0, _ROUNDING - alone), 0.0, "bar")  # fmt: skip
+    claim = (
+        f"an orifice alone misses the table by {alone:.1f} bar; the law above has {beside * MEAN_FLOW / 100:.0f} l/min "
+        f"({beside:.0f} % of full flow) go past it; short of the rounding by"
+    )
+    yield Finding(claim, max(0.0, _ROUNDING - alone), 0.0, "bar")
 
 
 def _table() -> tuple[NDArray[np.float64], NDArray[np.float64]]:
