@@ -1,0 +1,74 @@
+"""FMUs that offer less, and FMI 3: what cannot be tried is skipped, and the rest still finds faults."""
+
+import re
+import zipfile
+from pathlib import Path
+
+import pytest
+
+from fmu_build import build
+from pysim.fmu_check.checks import CHECKS
+from pysim.fmu_check.subject import Subject, read_subject
+from tests.foreign import made_foreign
+from tests.planted import planted
+
+QUIET = [name for name in CHECKS if not name.startswith("call order")]
+
+
+def without(kind: str, fmu: Path, output: Path) -> Path:
+    """A copy that does not offer this kind."""
+    with zipfile.ZipFile(fmu) as old, zipfile.ZipFile(output, "w") as new:
+        for item in old.infolist():
+            content = old.read(item)
+            if item.filename == "modelDescription.xml":
+                text = content.decode("utf-8")
+                content = re.sub(rf"<{kind} [^>]*/>", "", text).encode("utf-8")
+            new.writestr(item, content)
+    return output
+
+
+def verdicts(subject: Subject) -> dict[str, set[str]]:
+    return {name: {result.verdict for result in CHECKS[name](subject)} for name in QUIET}
+
+
+def test_co_simulation_alone(tmp_path: Path) -> None:
+    good = verdicts(read_subject(without("ModelExchange", planted("NONE", tmp_path), tmp_path / "good.fmu")))
+    assert {name for name, found in good.items() if found == {"skipped"}} == {"derivatives", "dependencies", "order"}
+    assert set().union(*good.values()) == {"holds", "skipped"}
+    for fault, check in (
+        ("IGNORED_START", "start values"),
+        ("HALF_RESTORED", "restore"),
+        ("SHARED_DAMPING", "instances"),
+    ):
+        bad = verdicts(read_subject(without("ModelExchange", planted(fault, tmp_path), tmp_path / f"{check}.fmu")))
+        assert "fails" in bad[check]
+
+
+def test_model_exchange_alone(tmp_path: Path) -> None:
+    good = verdicts(read_subject(without("CoSimulation", planted("NONE", tmp_path), tmp_path / "good.fmu")))
+    assert good["runs"] == {"skipped"}
+    assert set().union(*good.values()) == {"holds", "skipped"}
+    bad = verdicts(read_subject(without("CoSimulation", planted("IDLE_GAIN", tmp_path), tmp_path / "bad.fmu")))
+    assert "doubtful" in bad["parameters"]
+
+
+TEXT = """model Lag "Follows its input"
+  parameter Real T(min = 0.01, fixed = true) = 0.5;
+  input Real u(start = 0);
+  output Real y(start = 0.2, fixed = true);
+equation
+  T*der(y) = u - y;
+end Lag;
+"""
+
+
+@pytest.mark.parametrize("fmi", [2, 3])
+def test_our_own_and_a_foreign_one(fmi: int, tmp_path: Path) -> None:
+    (tmp_path / "Lag.mo").write_text(TEXT, encoding="utf-8")
+    own = build("Lag", tmp_path / f"Lag_{fmi}.fmu", libraries=[tmp_path / "Lag.mo"], fmi=fmi)
+    assert set().union(*verdicts(read_subject(own)).values()) == {"holds"}
+    foreign = verdicts(read_subject(made_foreign(own, tmp_path / "foreign.fmu")))
+    assert foreign["restore"] == {"skipped"}
+    assert foreign["dependencies"] == {"skipped"}
+    assert "skipped" in foreign["derivatives"]
+    assert "fails" not in set().union(*foreign.values())
