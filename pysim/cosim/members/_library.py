@@ -26,6 +26,9 @@ Array = NDArray[np.float64]
 
 _ERROR, FATAL = 3, 4
 
+# FMUs need not be able to do that in co-simulation, but for initialisation and the event mode of FMI 3.
+READ_AT_ONCE = 'an output could not be read behind an input that was set; take Fmu(..., feedthrough="none")'
+
 _P, _N, _STATUS = ctypes.c_void_p, ctypes.c_size_t, ctypes.c_int
 _EXCHANGE = {2: ctypes.CFUNCTYPE(_STATUS, _P, _P, _N, _P), 3: ctypes.CFUNCTYPE(_STATUS, _P, _P, _N, _P, _N)}
 

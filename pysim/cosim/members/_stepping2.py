@@ -8,7 +8,7 @@ from functools import partial
 from typing import Any
 
 from pysim.cosim.member import MemberFailed, Setup
-from pysim.cosim.members._library import SteppingInstance
+from pysim.cosim.members._library import READ_AT_ONCE, SteppingInstance
 from pysim.simulate import FmuState, FmuStates
 from pysim.types import CoSimulation, Model, Outcome
 
@@ -59,7 +59,7 @@ class Stepping2:
     def update(self) -> None:
         """See Member."""
         self._instance.check(self._write(), "an input could not be set")
-        self._instance.check(self._read(), "an output could not be read")
+        self._instance.check(self._read(), READ_AT_ONCE)
 
     def step(self, time: float, end: float) -> float:
         """See Member."""

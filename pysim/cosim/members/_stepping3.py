@@ -11,7 +11,7 @@ from functools import partial
 import numpy as np
 
 from pysim.cosim.member import MemberFailed, Setup
-from pysim.cosim.members._library import SteppingInstance
+from pysim.cosim.members._library import READ_AT_ONCE, SteppingInstance
 from pysim.simulate import FmuState, FmuStates, is_smooth
 from pysim.types import CoSimulation, Model, Outcome
 
@@ -100,14 +100,15 @@ class Stepping3:
         with self._instance.refusal():
             self._instance.fmu.exitInitializationMode()
         self._instance.is_running = True
+        self._held = self._discrete_values()
         if self._event_mode:
             self._settle()
-        self._held = self._discrete_values()
-        self._instance.check(self._read(), "an output could not be read")
+        else:
+            self._instance.check(self._read(), "an output could not be read")
 
     def update(self) -> None:
-        """See Member."""
-        if self._in_event_mode():
+        """See Member. In step mode the standard lets nobody read after he has written; in event mode it does."""
+        if self._instance.is_running and self._event_mode:
             self._handle_event()
         else:
             self._exchange()
@@ -121,17 +122,16 @@ class Stepping3:
 
     def _exchange(self) -> None:
         self._instance.check(self._write(), "an input could not be set")
-        self._instance.check(self._read(), "an output could not be read")
+        self._instance.check(self._read(), READ_AT_ONCE)
 
     def _handle_event(self) -> None:
         self._instance.check(self._enter_event_mode(self._component), "event mode could not be entered")
         self._instance.check(self._write(), "an input could not be set")
         self._held = self._discrete_values()
         self._settle()
-        self._instance.check(self._read(), "an output could not be read")
 
     def _settle(self) -> None:
-        """Event iteration, then step mode."""
+        """Event iteration, and then step mode."""
         component, flags = self._component, self._answers.update
         for _ in range(_ROUNDS):
             status = self._update_discrete(component, *self._answers.of_update)
@@ -144,6 +144,7 @@ class Stepping3:
             raise MemberFailed(f"its event iteration does not end after {_ROUNDS} rounds")
         self._next_event = self._answers.time.value if flags[4] else math.inf
         self.event = False
+        self._instance.check(self._read(), "an output could not be read")
         self._instance.check(self._enter_step_mode(component), "step mode could not be entered")
 
     def step(self, time: float, end: float) -> float:
