@@ -6,6 +6,7 @@ import difflib
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
+from inspect import getattr_static
 
 from pysim.cosim._graph import Graph, components, is_circle, one_circle
 from pysim.cosim.bond import Bond, is_power
@@ -16,7 +17,8 @@ from pysim.types import BadInput, Port
 
 Part = Member | Sampled
 
-_MEMBER = ("name", "inputs", "outputs", "feedthrough", "can_rollback", "can_vary_step", "start", "update", "step")
+_NOTHING = object()
+_MEMBER = tuple(name for name in vars(Member) if not name.startswith("_"))
 
 
 @dataclass(frozen=True)
@@ -193,11 +195,9 @@ def _row(name: str, given: object, kind: type) -> tuple[object, ...]:
 
 
 def _check_member(member: object) -> None:
-    if isinstance(member, Sampled):
-        needed: tuple[str, ...] = ("name",)
-    else:
-        needed = _MEMBER
-    missing = [attribute for attribute in needed if not hasattr(member, attribute)]
+    needed = () if isinstance(member, Sampled) else _MEMBER
+    # Not `hasattr`: it would ask a member that is not at work for its event.
+    missing = [name for name in needed if getattr_static(member, name, _NOTHING) is _NOTHING]
     if missing:
         raise BadInput(
             f"system: {member!r} has no {missing[0]!r}; give an FMU, or a controller as Sampled(name, block, every=...)"
