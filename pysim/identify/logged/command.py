@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -15,8 +17,10 @@ def logged_command(record: MeasuredRecord, column: str) -> Signal:
     """The command as a function of time, with its derivative.
 
     A stepped sine and a chirp run by their closed form, fitted to the logged column; what leads to them and what
-    follows by straight lines through the samples. Anything else runs by the natural cubic spline through its samples,
-    which overshoots by a tenth where the command jumps. Before the first sample its value holds.
+    follows by straight lines through the samples. Anything else runs by natural cubic splines through its samples, from
+    jump to jump: a command that stood exactly still, to the last digit, for three samples before or after a change
+    has jumped when the change is more than three times that of its other side, and did so at the sample that shows it
+    first. Where noise hides that, the spline overshoots by a tenth. Before the first sample its value holds.
 
     Args:
         record: a log over time.
@@ -30,8 +34,42 @@ def logged_command(record: MeasuredRecord, column: str) -> Signal:
         raise BadInput(f"{record.source}: holds a response over frequency; only a log over time has a command")
     time, values = record.data.time, record.data[column]
     if record.kind not in (STEPPED_SINE, CHIRP):
-        return Signal.through(time, values)
+        return _from_jump_to_jump(time, values)
     return _around(logged_wave(record, column), time, values)
+
+
+# A jump is more than so many times what the command moves by beside it.
+_JUMP = 3.0
+
+
+def _from_jump_to_jump(time: Array, values: Array) -> Signal:
+    edges = [0, *_jumps(values), values.size]
+    parts = []
+    for first, end in pairwise(edges):
+        if end - first < 2:
+            parts.append(Signal.steps(time[first:end], values[first:end]))
+        else:
+            parts.append(Signal.through(time[first:end], values[first:end]))
+    if len(parts) == 1:
+        return parts[0]
+    starts, cubics, sines = (
+        np.concatenate([getattr(part, name) for part in parts]) for name in ("starts", "cubics", "sines")
+    )
+    keep = np.append(np.diff(starts) > 0, True)
+    return Signal(starts[keep], cubics[keep], sines[keep])
+
+
+def _jumps(values: Array) -> list[int]:
+    """Samples (of n_t) that a jump shows in first."""
+    change = np.abs(np.diff(values))
+    if change.size < 3:
+        return []
+    still = np.concatenate([[False], (change[:-1] == 0) & (change[1:] == 0), [False]])  # the middle one of three
+    before = np.concatenate([[False], still[:-2]])  # change k lies between samples k and k + 1
+    after = np.append(still[2:], False)
+    last, following = np.append(0.0, change[:-1]), np.append(change[1:], 0.0)
+    jumped = (before & (change > _JUMP * following)) | (after & (change > _JUMP * last))
+    return (np.flatnonzero(jumped & (change > 0)) + 1).tolist()
 
 
 def _around(wave: LoggedWave, time: Array, values: Array) -> Signal:

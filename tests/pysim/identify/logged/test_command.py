@@ -1,13 +1,15 @@
 """Commands as functions of time, from their logs."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.interpolate import CubicSpline
 
-from pysim.excitation import Chirp, SteppedSineCommand, StochasticWave
+from pysim.excitation import Chirp, LeadIn, Step, SteppedSineCommand, StochasticWave
 from pysim.excitation import PiersonMoskowitz as Sea
 from pysim.identify import logged_command
-from pysim.types import BadInput, FrequencyResponse, MeasuredRecord, SineTest
+from pysim.types import BadInput, FrequencyResponse, MeasuredRecord, Record, SineTest
 from tests.pysim.identify.logs import log
 
 
@@ -50,6 +52,39 @@ def test_anything_else_runs_by_the_natural_spline(kind: str) -> None:
     t = np.linspace(2.0, 11.9, 3001)
     np.testing.assert_allclose(signal.value(t), spline(t), atol=1e-9)
     np.testing.assert_allclose(signal.derivative(t), spline(t, 1), atol=1e-6)
+
+
+@pytest.mark.parametrize(("back", "height"), [(True, 18.0), (False, -7.0)])
+def test_a_step_jumps_where_the_log_shows_it(back: bool, height: float) -> None:
+    step = Step(5.0, height, 2.0, back, LeadIn(0.5, 0.3, 0.5, ramp_down=0.0))
+    record = log(step, "step", first=0.0, last=5.2)
+    signal, true = logged_command(record, "cmd"), step.signal()
+    t = np.random.default_rng(2).uniform(0.0, 5.2, 4000)
+    corners = np.array([0.5, 0.8])  # of the ramp, which the spline rounds
+    away = np.min(np.abs(t[:, None] - corners), axis=1) > 0.03
+    np.testing.assert_allclose(signal.value(t)[away], true.value(t)[away], atol=1e-3)
+    jumps, _ = signal.breaks()
+    edges = [1.3, 3.3] if back else [1.3]
+    np.testing.assert_allclose(signal.starts[jumps], edges, atol=1e-9)
+
+
+def test_a_wave_that_starts_with_a_jump_is_smooth_behind_it() -> None:
+    def true(t: np.ndarray) -> np.ndarray:
+        return np.where(t < 2.0, 0.0, 4 + 3 * np.sin(2 * np.pi * 0.8 * (t - 2.0)))
+
+    time = np.arange(1000) / 250
+    record = MeasuredRecord("wave.txt", "other", "fit", Record(time, true(time)[:, None], ("cmd",), ("%",)))
+    signal, t = logged_command(record, "cmd"), np.linspace(0.0, time[-1], 5001)
+    np.testing.assert_allclose(signal.value(t), true(t), atol=1e-3)
+    jumps, _ = signal.breaks()
+    np.testing.assert_allclose(signal.starts[jumps], [2.0])
+
+
+def test_a_noisy_jump_is_left_to_the_spline() -> None:
+    record = log(Step(0.0, 10.0, 2.0, False), "step", first=1.0, last=3.9)
+    rows = record.data.values + 1e-3 * np.random.default_rng(3).standard_normal(record.data.values.shape)  # type: ignore[union-attr]
+    noisy = replace(record, data=Record(record.data.time, rows, record.data.names, record.data.units))  # type: ignore[union-attr]
+    assert not logged_command(noisy, "cmd").breaks()[0].any()
 
 
 def test_refuses_tables_and_unknown_columns() -> None:
