@@ -1,6 +1,8 @@
 """`pysim validate`: what is run, printed, written and kept."""
 
 import json
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -73,3 +75,10 @@ def test_fmu(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["validate", "fmu", str(planted("OTHER_START", tmp_path))]) == 1
     assert main(["validate", "fmu"]) == 2
     assert main(["validate", "fmu", str(tmp_path / "none.fmu")]) == 2
+
+
+def test_the_module_is_the_same_command() -> None:
+    root = Path(__file__).parents[3]
+    words = [sys.executable, "-m", "validation", "--list", "--quick"]
+    done = subprocess.run(words, cwd=root, capture_output=True, text=True, check=True)
+    assert "table-5-1" in done.stdout
