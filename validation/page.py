@@ -58,11 +58,12 @@ def _overview(results: Sequence[CaseResult]) -> str:
             cell(CASES[result.case].about if result.case in CASES else result.about, "words"),
             *(cell(str(result.count(verdict))) for verdict in (HOLDS, FAILS, SKIPPED)),
             cell(f"{result.seconds:.1f}"),
+            cell(f"{result.cpu:.1f}"),
             cell(result.verdict, _KIND[result.verdict]),
         ]
         for result in results
     ]
-    head = ["case", "what", "holds", "fails", "skipped", "seconds", "verdict"]
+    head = ["case", "what", "holds", "fails", "skipped", "seconds", "CPU s", "verdict"]
     return table("Every case of this run.", head, rows)
 
 

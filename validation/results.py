@@ -38,6 +38,7 @@ class CaseResult:
     group: str
     date: str  # UTC, ISO 8601, to the second
     seconds: float  # by the wall clock
+    cpu: float  # s of all processors, of processes started too; not what others on the machine make one wait for
     machine: Machine
     findings: tuple[Finding, ...]
     error: str = ""
@@ -102,7 +103,7 @@ def to_line(result: CaseResult) -> str:
             finding[name] = float(f"{number:.6g}") if math.isfinite(number) else None
         if not finding["skipped"]:
             del finding["skipped"]
-    data["seconds"] = round(result.seconds, 1)
+    data["seconds"], data["cpu"] = round(result.seconds, 1), round(result.cpu, 1)
     return json.dumps(data, ensure_ascii=False)
 
 

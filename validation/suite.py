@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import time
 import traceback
 from collections.abc import Callable, Iterator, Sequence
@@ -37,7 +38,7 @@ def run_cases(names: Sequence[str], watch: Callable[[str, Finding | None], None]
 
 
 def _run_case(name: str, watch: Callable[[str, Finding | None], None]) -> CaseResult:
-    case, started, error = CASES[name], time.monotonic(), ""
+    case, started, before, error = CASES[name], time.monotonic(), _cpu(), ""
     date = datetime.now(UTC).strftime("%Y-%m-%dT%H:%M:%SZ")
     findings: list[Finding] = []
     try:
@@ -47,5 +48,10 @@ def _run_case(name: str, watch: Callable[[str, Finding | None], None]) -> CaseRe
     except Exception as stop:  # whatever it is, the page has to say so, and the other cases are still to be run
         traceback.print_exc()
         error = f"{type(stop).__name__}: {stop}".splitlines()[0][:300]
-    seconds = time.monotonic() - started
-    return CaseResult(name, case.about, case.group, date, seconds, this_machine(), tuple(findings), error)
+    seconds, cpu = time.monotonic() - started, _cpu() - before
+    return CaseResult(name, case.about, case.group, date, seconds, cpu, this_machine(), tuple(findings), error)
+
+
+def _cpu() -> float:
+    """s used so far, by this process and by those it started that have ended."""
+    return sum(os.times()[:4])

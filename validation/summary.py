@@ -33,7 +33,7 @@ def full_summary(results: Iterable[CaseResult], *, kept: bool = True) -> str:
     last = newest(results)
     written = "by `pysim validate --record`: each case's last run" if kept else "by `pysim validate`: one run"
     lines = ["# What holds, and what does not", "", f"Written {written}."]
-    head = ["case", "what", "holds", "fails", "skipped", "s", "date"]
+    head = ["case", "what", "holds", "fails", "skipped", "CPU s", "date"]
     for group, title in GROUPS.items():
         names = [name for name, case in CASES.items() if case.group == group and (kept or name in last)]
         if names:
@@ -48,7 +48,7 @@ def _row(name: str, result: CaseResult | None) -> list[str]:
     if result is None:
         return [name, CASES[name].about, "", "", "", "", "not recorded"]
     counts = [str(result.count(verdict)) for verdict in (HOLDS, FAILS, SKIPPED)]
-    return [name, CASES[name].about, *counts, f"{result.seconds:.0f}", result.date[:10]]
+    return [name, CASES[name].about, *counts, f"{result.cpu:.0f}", result.date[:10]]
 
 
 def _failing(last: Mapping[str, CaseResult]) -> list[str]:

@@ -92,7 +92,7 @@ class _Show:
         """One more case is done."""
         self._done += 1
         end = f"FAILED, {result.error}" if result.error else {"fails": "FAILED"}.get(result.verdict, result.verdict)
-        print(f"  {end} in {result.seconds:.1f} s", flush=True)
+        print(f"  {end} in {result.seconds:.1f} s, {result.cpu:.1f} s of CPU", flush=True)
         self._bar(self._done, self._total)
 
 

@@ -37,7 +37,7 @@ CASES = {name: Case(name, f"about {name}", "methods", quick=name == "good") for 
 
 
 def result(name: str, *findings: Finding, date: str = "2026-01-02T03:04:05Z", error: str = "") -> CaseResult:
-    return CaseResult(name, f"about {name}", "methods", date, 1.5, MACHINE, findings, error)
+    return CaseResult(name, f"about {name}", "methods", date, 1.5, 2.5, MACHINE, findings, error)
 
 
 def use(monkeypatch) -> None:

@@ -30,7 +30,7 @@ def test_page(monkeypatch: pytest.MonkeyPatch) -> None:
 
 def cost(day: int, seconds: float) -> CaseResult:
     findings = (Finding("a run takes", seconds, 10.0, "s"), Finding("difference", 1e-6, 1e-3, "%"))
-    return CaseResult("speed", "", "speed", f"2026-01-0{day}T00:00:00Z", 1.0, MACHINE, findings)
+    return CaseResult("speed", "", "speed", f"2026-01-0{day}T00:00:00Z", 1.0, 1.0, MACHINE, findings)
 
 
 def test_costs_over_time() -> None:
