@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from contextlib import ExitStack, contextmanager
 
 from pysim.cosim.member import MemberFailed, Setup
-from pysim.simulate import SavedStep, Solver, StepFailed, Wires, open_stepwise
+from pysim.simulate import SavedStep, Solver, StepFailed, Wires, is_smooth, open_stepwise
 from pysim.types import Model
 
 
@@ -23,20 +23,32 @@ class Exchange:
         inputs, outputs = self._ports
         wires = Wires(inputs, outputs, setup.inputs, setup.rates, setup.outputs)
         self._stepper = self._opened.enter_context(open_stepwise(self._model, wires, solver=self._solver))
-        self._go_on = self._stepper.step
+        self._go_on, self._inputs, self._seen = self._stepper.step, setup.inputs, b""
+        self._is_rough = not all(is_smooth(self._model, name) for name in inputs)
         with _failures():
             self._stepper.start(setup.time, setup.stop, overrides)
 
     def begin(self) -> None:
         """See Member."""
         with _failures():
+            self._seen = b""
             self._stepper.update()  # initial equations may depend on the inputs, which have their values by now
             self._stepper.begin()
+        self._note()
 
     def update(self) -> None:
         """See Member."""
+        # Inputs that are no continuous numbers may be set at events only; where nothing changed there is nothing to do.
+        if self._is_rough and self._seen == self._inputs.tobytes():
+            return
         with _failures():
             self._stepper.update()
+        self._note()
+
+    def _note(self) -> None:
+        """What the outputs belong to now."""
+        if self._is_rough:
+            self._seen = self._inputs.tobytes()
 
     def step(self, time: float, end: float) -> float:
         """See Member."""
@@ -44,6 +56,7 @@ class Exchange:
             self._go_on(end)
         except StepFailed as error:
             raise MemberFailed(str(error), error.outcome) from error
+        self._note()
         return end
 
     def save(self, into: SavedStep | None = None) -> SavedStep:
@@ -55,6 +68,7 @@ class Exchange:
         """See Member."""
         with _failures():
             self._stepper.restore(state)
+        self._seen = state.held
 
     def close(self) -> None:
         """See Member."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, Protocol
@@ -15,6 +16,7 @@ from pysim.types import BadInput, Model, Port, Variable
 
 _INTERFACES = ("", "co-simulation", "model-exchange")
 _FEEDTHROUGH = ("standard", "declared", "none")
+_NOT_READ = frozenset(("Int8", "UInt8", "Int16", "UInt16", "UInt32", "UInt64"))  # by the native loop
 _NOTHING: Mapping[str, float] = {}
 
 _alone: dict[Path, str] = {}  # FMUs that can be there only once in a process, and who has them now
@@ -73,11 +75,11 @@ class Fmu:
         self.name, self.model, self.solver, self.events = name, model, solver, events
         self.parameters, self.record = dict(parameters), tuple(record)
         for parameter, value in self.parameters.items():
-            check_override(model, parameter, value)
+            _check(model, parameter, value)
         self.interface = _interface(name, model, interface)
         self.inputs = tuple(self._input(v) for v in model.variables if v.causality == "input" and _fits(model, v))
-        outputs = [v for v in model.variables if v.causality == "output" and _fits(model, v)]
-        self.outputs = tuple(_output(v) for v in (*outputs, *_recorded(model, self.record)))
+        outputs = [v for v in model.variables if v.causality == "output" and _fits(model, v, self.interface)]
+        self.outputs = tuple(_output(v) for v in (*outputs, *_recorded(model, self.record, self.interface)))
         self.feedthrough = self._feedthrough(feedthrough)
         self._names = (tuple(p.name for p in self.inputs), tuple(p.name for p in self.outputs))
         self._run: _Run = _Closed(name)
@@ -236,23 +238,39 @@ class _Closed:
         raise BadInput(f"{self._name} has not been started; call start first")
 
 
-def _fits(model: Model, variable: Variable) -> bool:
-    """Whether it can be a port: a single number, and no clock or text."""
-    return is_number(model.abilities.fmi, variable.type)
+def _fits(model: Model, variable: Variable, interface: str = "") -> bool:
+    """Whether it can be a port: a single number, no clock or text, and of a size that our own loop can read."""
+    is_read = interface == "model-exchange" and variable.causality != "input"
+    return is_number(model.abilities.fmi, variable.type) and not (is_read and variable.type in _NOT_READ)
+
+
+def _check(model: Model, name: str, value: float) -> None:
+    """Check that a parameter, start value or input can have a value.
+
+    Raises:
+        BadInput: it cannot.
+    """
+    variable = model[name]
+    if variable.causality != "input":
+        check_override(model, name, value)
+    elif not _fits(model, variable):
+        raise BadInput(f"{model.path.name}: {name} is {variable.type}, no single number; leave it at its start")
+    elif not math.isfinite(value):
+        raise BadInput(f"{model.path.name}: {name} cannot be set to {value}; give a finite number")
 
 
 def _output(variable: Variable) -> Port:
     return Port(variable.name, variable.unit, variable.start)
 
 
-def _recorded(model: Model, names: tuple[str, ...]) -> list[Variable]:
+def _recorded(model: Model, names: tuple[str, ...], interface: str) -> list[Variable]:
     """Variables that are no outputs yet.
 
     Raises:
         BadInput: an unknown name, or no single number.
     """
     for name in names:
-        if not _fits(model, model[name]):
+        if not _fits(model, model[name], interface):
             raise BadInput(f"{model.path.name}: {name} is {model[name].type} and cannot be recorded; record a number")
     return [model[name] for name in names if model[name].causality != "output"]
 

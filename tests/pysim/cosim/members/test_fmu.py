@@ -266,3 +266,23 @@ def test_an_fmu_that_can_be_there_only_once(folder: Path, tmp_path: Path, fmi: i
         second.close()
     with driven(second) as run:
         assert run["y"] == 0.3
+
+
+@pytest.mark.parametrize(("fmi", "interface"), KINDS)
+def test_an_update_without_news_calls_nothing_that_a_strict_fmu_refuses(folder: Path, fmi: int, interface: str) -> None:
+    member = Fmu("stairs", text_model(STAIRS, folder, fmi=fmi), interface=interface, events=False)
+    with driven(member) as run:
+        run.go(jump=1.0)
+        for _ in range(2):
+            member.update()
+            assert run["stair"] == 1.0
+        run.give(jump=0.0)
+        member.update()
+        run.go()
+        assert run["stair"] == 1.0
+        assert run["way"] == pytest.approx(0.2, abs=1e-6)
+
+
+def test_an_input_is_given_a_finite_number(folder: Path) -> None:
+    with pytest.raises(BadInput, match="u cannot be set to inf; give a finite number"):
+        Fmu("lag", text_model(LAG, folder), parameters={"u": float("inf")})
