@@ -29,6 +29,7 @@ class Lines:
         wires = [wire for member in core.layout.members for wire in core.layout.wires_to(member.name)]
         self._all = _Holder(core, wires)
         self._one = {m.name: _Holder(core, core.layout.wires_to(m.name)) for m in core.layout.members}
+        self._at_once = {m.name for m in core.layout.members if any(m.feedthrough.values()) and not m.takes_rates}
         self._signals = slice(len(core.layout.outputs), core.sources.size)
         self._moving = [
             (core.layout.places[b.name].outputs, core.samplers[b.name]) for b in core.layout.blocks if b.hold
@@ -63,7 +64,7 @@ class Lines:
         Those that follow an input at once were made with the input's mean over the step; they are brought to its end.
         """
         row, place = self._core.row.array, self._core.layout.places[member.name]
-        if member.feedthrough and not member.takes_rates and not member.event:
+        if member.name in self._at_once and not member.event:
             held = row[place.inputs].copy()
             self._one[member.name].finish(self.ends)
             update(member)

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+import numpy as np
+
 from pysim.cosim.sampled import Sampled
 from pysim.cosim.system import System
 from pysim.types import BadInput, Experiment
@@ -93,7 +95,10 @@ def ticks(experiment: Experiment, step: float) -> list[int]:
     Raises:
         BadInput: a time lies between two, or two at one.
     """
-    numbers = [tick_of(float(time), experiment.start, step) for time in experiment.times]
-    if len(set(numbers)) < len(numbers):
+    exact = (experiment.times - experiment.start) / step
+    numbers = np.rint(exact)
+    for time in experiment.times[np.abs(exact - numbers) > _NEAR]:
+        tick_of(float(time), experiment.start, step)  # says so
+    if np.any(np.diff(numbers) < 1):
         raise BadInput(f"experiment: its times lie closer than the step of {step:g} s; take a smaller step")
-    return numbers
+    return [int(number) for number in numbers]

@@ -93,15 +93,15 @@ class _Stepper:
 
 
 def _interpolator(core: Core, lines: Lines, name: str, stepped: Sequence[str]) -> Prepare | None:
-    """Let a member's inputs run to what those that stepped already have reached."""
-    if carrier(core, name, stepped) is None:
+    """Take what the member before has reached, and let this one's inputs run to what all before it have."""
+    if not stepped:
         return None
-    drivers = {core.layout.owner(wire.source) for wire in core.layout.wires_to(name)}
-    known = [member for member in core.layout.members if member.name in drivers and member.name in set(stepped)]
+    last = next(member for member in core.layout.members if member.name == stepped[-1])
+    follows = carrier(core, name, stepped) is not None
 
     def prepare(time: float, end: float) -> None:
-        for member in known:
-            lines.know(member)
-        lines.hold(time, end, name)
+        lines.know(last)
+        if follows:
+            lines.hold(time, end, name)
 
     return prepare
