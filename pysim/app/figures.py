@@ -108,7 +108,6 @@ def staircase_figure(steps: Sequence[Mapping[str, Any]], *, doing: str = "") -> 
         ),
         shapes=shapes,
         annotations=notes,
-        transition={"duration": 450, "easing": "cubic-in-out"},
     )  # fmt: skip
 
 

@@ -67,7 +67,7 @@ def serve(
         show=address.partition(str(port))[2] if show else False,
         tailwind=False,
         show_welcome_message=False,
-        reconnect_timeout=10.0,
+        reconnect_timeout=60.0,
     )
 
 

@@ -1,0 +1,74 @@
+"""Who comes in, seen without a server."""
+
+import asyncio
+from collections.abc import MutableMapping
+from typing import Any
+
+import pytest
+
+from pysim.app.guard import Guard
+
+Message = MutableMapping[str, Any]
+
+
+def asked(kind: str, query: str = "", **headers: str) -> list[Message]:
+    """What a request of that kind is answered with by a server that says "inside"."""
+    sent: list[Message] = []
+
+    async def inside(scope: Message, receive: Any, send: Any) -> None:
+        await send({"type": "http.response.start", "status": 200, "headers": []})
+        await send({"type": "http.response.body", "body": b"inside"})
+
+    async def send(message: Message) -> None:
+        sent.append(message)
+
+    async def receive() -> Message:
+        return {"type": "http.request"}
+
+    own = {"host": "127.0.0.1:80", **headers}
+    scope = {"type": kind, "path": "/a b", "method": "GET", "query_string": query.encode()}
+    scope["headers"] = [(key.encode(), value.encode()) for key, value in own.items()]
+    guard = Guard(inside, "secret", frozenset({"127.0.0.1:80"}), "own")
+    asyncio.run(guard(scope, receive, send))
+    return sent
+
+
+def test_the_token_in_the_address_becomes_a_cookie_and_leaves_the_address() -> None:
+    start, _ = asked("http", "x=1&token=secret")
+    headers = dict(start["headers"])
+    assert start["status"] == 303
+    assert headers[b"location"] == b"/a b?x=1"
+    assert headers[b"set-cookie"] == b"own=secret; Path=/; HttpOnly; SameSite=Strict"
+
+
+def test_the_cookie_lets_in_and_the_policy_goes_along() -> None:
+    start, body = asked("http", cookie="other=1; own=secret")
+    assert (start["status"], body["body"]) == (200, b"inside")
+    policy = dict(start["headers"])[b"content-security-policy"].decode()
+    assert "default-src 'self'" in policy
+    assert "http:" not in policy
+
+
+def test_it_never_leads_to_another_host() -> None:
+    start, _ = asked("http", "token=secret")
+    assert not dict(start["headers"])[b"location"].startswith(b"//")
+
+
+@pytest.mark.parametrize(
+    ("query", "headers"),
+    [
+        ("", {}),
+        ("token=secre", {}),
+        ("", {"cookie": "own=secre"}),
+        ("", {"cookie": "other=secret"}),
+        ("token=secret", {"host": "evil.example:80"}),
+        ("token=secret", {"origin": "http://evil.example"}),
+        ("", {"cookie": "own=secret", "origin": "null"}),
+    ],
+)
+def test_all_others_stay_outside(query: str, headers: dict[str, str]) -> None:
+    start, body = asked("http", query, **headers)
+    assert start["status"] == 403
+    assert b"inside" not in body["body"]
+    (closed,) = asked("websocket", query, **headers)
+    assert (closed["type"], closed["code"]) == ("websocket.close", 4403)

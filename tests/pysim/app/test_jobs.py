@@ -1,0 +1,173 @@
+"""Work in a process of its own: done, failed, stopped, too slow; and what a server that ended leaves."""
+
+import json
+import time
+from pathlib import Path
+
+import pytest
+
+from pysim.app import jobs
+from pysim.app.jobs import DONE, FAILED, RUNNING, STOPPED, Runner, Work, adding, read_job, settle, works
+from pysim.app.project import Project
+from pysim.types import BadInput
+
+_WAIT = 60.0  # s
+
+
+@pytest.fixture
+def project(tmp_path: Path) -> Project:
+    return Project.at(tmp_path / "project")
+
+
+def work(project: Project, code: str) -> Work:
+    """A piece of work that is a few lines of Python in place of the command line."""
+    return Work("try", "Try", ("-c", code))
+
+
+@pytest.fixture(autouse=True)
+def python_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Runs words as Python itself would."""
+    import subprocess
+    import sys
+
+    def run(words: tuple[str, ...], folder: Path, output: object) -> object:
+        return subprocess.Popen(
+            [sys.executable, *words], cwd=folder, stdout=output, stderr=output, start_new_session=True
+        )
+
+    monkeypatch.setattr(jobs, "run_pysim", run)
+
+
+def wait(runner: Runner) -> None:
+    begun = time.monotonic()
+    while runner.running is not None:
+        assert time.monotonic() - begun < _WAIT
+        runner.poll()
+        time.sleep(0.01)
+
+
+ANSWERED = "open('results/try/answer.json', 'w').write('{}')"
+
+
+def test_what_has_written_its_answer_is_done_whatever_the_answer(project: Project) -> None:
+    runner = Runner(project)
+    runner.start(work(project, f"{ANSWERED}; raise SystemExit(1)"))
+    wait(runner)
+    job = read_job(project.results("try"))
+    assert job is not None
+    assert (job.state, job.fingerprint, job.message) == (DONE, project.fingerprint(), "")
+
+
+def test_what_failed_says_why_in_the_command_s_own_words(project: Project) -> None:
+    runner = Runner(project)
+    runner.start(work(project, "print('pysim compare: no such thing; name another'); raise SystemExit(2)"))
+    wait(runner)
+    job = read_job(project.results("try"))
+    assert job is not None
+    assert (job.state, job.message) == (FAILED, "no such thing; name another")
+
+
+def test_one_at_a_time_and_stopped_with_all_that_it_has_started(project: Project) -> None:
+    runner = Runner(project)
+    line = json.dumps({"seconds": 1, "left": 7.5, "stage": "refitting", "text": "a", "step": {"step": "prior"}})
+    code = f"""
+import subprocess, sys, time
+open('results/try/story.jsonl', 'w').write({line + chr(10)!r} + '{{"half')
+child = subprocess.Popen([sys.executable, '-c', 'import time; time.sleep(60)'])
+open('child', 'w').write(str(child.pid))
+time.sleep(60)
+"""
+    runner.start(work(project, code))
+    with pytest.raises(BadInput, match="Try is running; wait for it, or stop it first"):
+        runner.start(work(project, ANSWERED))
+    while not ((project.folder / "child").exists() and (project.folder / "child").read_text()):
+        time.sleep(0.01)
+        runner.poll()
+    runner.poll()
+    assert runner.running is not None
+    assert (runner.running.stage, runner.running.left, runner.running.learned) == ("refitting", 7.5, ("a",))
+    assert runner.running.steps == ({"step": "prior"},)
+    runner.stop()
+    wait(runner)
+    job = read_job(project.results("try"))
+    assert job is not None
+    assert job.state == STOPPED
+    assert not alive(int((project.folder / "child").read_text()))
+
+
+def alive(pid: int) -> bool:
+    """Whether a process still runs; one that has ended and nobody has asked for does not."""
+    begun = time.monotonic()
+    while time.monotonic() - begun < 5:
+        try:
+            state = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0]
+        except OSError:
+            return False
+        if state == "Z":
+            return False
+        time.sleep(0.02)
+    return True
+
+
+def test_what_takes_too_long_is_ended_and_says_so(project: Project) -> None:
+    runner = Runner(project, limit=0.2)
+    runner.start(work(project, "import time; time.sleep(60)"))
+    wait(runner)
+    job = read_job(project.results("try"))
+    assert job is not None
+    assert (job.state, job.message) == (FAILED, "it took longer than 0.2 s (--limit-s raises that)")
+
+
+def test_a_journal_is_kept_for_the_same_data_and_removed_for_others(project: Project) -> None:
+    runner, journal = Runner(project), project.results("try") / "journal.jsonl"
+    runner.start(work(project, "open('results/try/journal.jsonl', 'w'); raise SystemExit(2)"))
+    wait(runner)
+    runner.start(work(project, "raise SystemExit(2)"))
+    wait(runner)
+    assert journal.exists()
+    project.change(model="Other.Model")
+    runner.start(work(project, "raise SystemExit(2)"))
+    wait(runner)
+    assert not journal.exists()
+
+
+def test_what_a_server_left_running_counts_as_stopped(project: Project) -> None:
+    runner = Runner(project)
+    runner.start(work(project, "import time; time.sleep(60)"))
+    found = read_job(project.results("try"))
+    assert found is not None
+    assert found.state == RUNNING
+    other = Runner(project)  # as after a crash: nobody has written how it ended
+    settle(project)
+    found = read_job(project.results("try"))
+    assert found is not None
+    assert found.state == STOPPED
+    assert other.running is None
+    runner.close()
+    assert runner.running is None
+
+
+def test_words_are_those_of_the_command_line(project: Project) -> None:
+    with pytest.raises(BadInput, match="no model yet"):
+        works(project)
+    project.change(model="A.B", libraries=("model/L",), free=("m", "k"))
+    with pytest.raises(BadInput, match="no data set yet"):
+        works(project)
+    project.data.mkdir()
+    project.description.touch()
+    words = works(project)
+    assert words["diagnose"].words[:6] == ("diagnose", "data", "--model", "A.B", "--library", "model/L")
+    assert words["compare"].words[:4] == ("compare", "A.B", "--data", "data")
+    parse(words["compare"].words, words["diagnose"].words, words["rank"].words, words["locate"].words)
+    added = adding(project, ["valve.deadband", "../evil name"])
+    assert added.name == "add-valve.deadband+.._evil_name"
+    assert added.effects == ("valve.deadband", "../evil name")
+    parse(added.words)
+
+
+def parse(*lines: tuple[str, ...]) -> None:
+    """The command line takes them."""
+    from pysim.cli._main import argument_parser
+
+    for words in lines:
+        assert argument_parser().parse_args(list(words)).command == words[0]

@@ -1,0 +1,82 @@
+"""A record on the screen: the samples that were measured and simulated, and what is left over."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from pysim.app.answers import Answers, ledger
+from pysim.app.figures import parameters_figure, staircase_figure
+from pysim.app.jobs import ANSWER, RECORDS
+from pysim.app.project import Project
+from pysim.app.records import compared_overlay, measured_overlay, stage_keys
+from pysim.io import write_stages
+from pysim.report.diagnosis import diagnosis_data
+from tests.pysim.diagnosis_story import dataset, story
+
+
+@pytest.fixture
+def project(tmp_path: Path) -> Project:
+    """With the toy's diagnosis as its only result."""
+    project = Project.at(tmp_path / "project")
+    folder = project.results("diagnose")
+    folder.mkdir(parents=True)
+    (folder / ANSWER).write_text(json.dumps(diagnosis_data(story())))
+    write_stages(folder / RECORDS, story().stages)
+    work = {"name": "diagnose", "title": "Find", "words": ["diagnose"], "effects": []}
+    head = {"work": work, "state": "done", "begun": 1.0, "ended": 2.0, "message": ""}
+    (folder / "job.json").write_text(json.dumps({**head, "fingerprint": project.fingerprint()}))
+    return project
+
+
+def test_answers_are_those_of_the_data_and_model_as_they_are(project: Project) -> None:
+    (answer,) = Answers.of(project).all
+    assert Answers.of(project).with_effects(("toy.offset",)) == answer
+    assert Answers.of(project).with_effects(()) == answer  # it has the refitted model too
+    assert Answers.of(project).with_effects(("toy.twin",)) is None
+    assert [step["step"] for step in ledger(answer, ())] == ["prior", "refit"]
+    assert [step["fit"] for step in ledger(answer, answer.added)] == [8.1, 4.2, 1.0]
+    project.change(model="Another")
+    assert Answers.of(project).all == ()
+
+
+def test_lines_are_the_samples_and_the_residual_over_noise(project: Project) -> None:
+    (answer,) = Answers.of(project).all
+    overlay = compared_overlay(answer, "wave.txt")
+    assert overlay is not None
+    assert [key for key, _, _ in stage_keys(answer)] == ["prior", "refit", "last"]
+    truth = next(record for record in story().stages[-1].records if record.source == "wave.txt")
+    lines = {(line.key, line.panel): line for line in overlay.lines}
+    assert lines["measured", 1].values == pytest.approx(1000 * story().stages[0].records[2].measured["x"])  # mm
+    assert lines["last", 2].values == pytest.approx(truth.residual["x"])
+    assert ("prior", 2) not in lines
+    assert overlay.units == ("mm",)
+    x, y, exact = overlay.samples(*overlay.span)
+    assert exact
+    assert len(x) == len(y) == len(overlay.lines)
+    _, part, exact = overlay.samples(*overlay.span, most=100)
+    assert not exact
+    assert max(len(one) for one in part) <= 100
+    assert compared_overlay(answer, "nobody.txt") is None
+
+
+def test_before_anything_was_compared_the_log_alone_is_shown() -> None:
+    overlay = measured_overlay(dataset().records[0])
+    assert [line.panel for line in overlay.lines] == [1, 2]
+    assert np.array_equal(overlay.lines[0].time, np.arange(2.0))
+
+
+def test_the_staircase_tells_every_error_and_what_is_being_worked_on() -> None:
+    steps = diagnosis_data(story())["error"]
+    figure = staircase_figure(steps, doing="<b>screening</b>")  # type: ignore[arg-type]
+    told = [note["text"] for note in figure["layout"]["annotations"]]
+    assert told[:6] == ["<b>8.10</b>", "<b>8.00</b>", "<b>4.20</b>", "<b>3.20</b>", "<b>1.01</b>", "<b>1.00</b>"]
+    assert figure["layout"]["xaxis"]["ticktext"][-1] == "<i>&lt;b&gt;screening&lt;/b&gt; …</i>"
+
+
+def test_parameters_stand_between_their_bounds() -> None:
+    row = {"name": "m", "lower": 0.0, "upper": 10.0, "before": (2.0, 1.0, 4.0), "after": None}
+    (before,) = parameters_figure([row])["data"]
+    assert before["x"] == [20.0]
+    assert (before["error_x"]["array"], before["error_x"]["arrayminus"]) == ([20.0], [10.0])

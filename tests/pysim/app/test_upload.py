@@ -1,0 +1,110 @@
+"""Drops: what they become, and what never leaves or fills the project's folder."""
+
+import asyncio
+import io
+import zipfile
+from collections.abc import AsyncIterator
+from pathlib import Path
+
+import pytest
+
+from pysim.app.project import Project
+from pysim.app.upload import Batch, Limits, adopt
+from pysim.types import BadInput
+
+TOML = '[dataset]\nname = "a"\n'
+
+
+@pytest.fixture
+def project(tmp_path: Path) -> Project:
+    return Project.at(tmp_path / "project")
+
+
+def batch(project: Project, files: dict[str, bytes], limits: Limits = Limits()) -> Batch:  # noqa: B008 - frozen
+    """A drop that has come in."""
+    found = Batch(project.folder / "uploads", limits)
+    (found.folder / found.name).mkdir(parents=True)
+
+    async def pieces(data: bytes) -> AsyncIterator[bytes]:
+        for k in range(0, len(data), 7):
+            yield data[k : k + 7]
+
+    for name, data in files.items():
+        asyncio.run(found.take(name, pieces(data)))
+    return found
+
+
+def packed(files: dict[str, bytes]) -> bytes:
+    data = io.BytesIO()
+    with zipfile.ZipFile(data, "w", zipfile.ZIP_DEFLATED) as archive:
+        for name, content in files.items():
+            archive.writestr(name, content)
+    return data.getvalue()
+
+
+@pytest.mark.parametrize("as_zip", [False, True])
+def test_a_data_set_is_taken_over_with_its_folders(project: Project, as_zip: bool) -> None:
+    files = {"bench/dataset.toml": TOML.encode(), "bench/logs/a.txt": b"0 1\n", "__MACOSX/dataset.toml": b"?"}
+    if as_zip:
+        files = {"bench.zip": packed(files)}
+    assert adopt(batch(project, files), project).kind == "dataset"
+    assert (project.data / "logs/a.txt").read_bytes() == b"0 1\n"
+    assert list((project.folder / "uploads").iterdir()) == []
+
+
+def test_bare_logs_wait_for_their_description(project: Project) -> None:
+    adopted = adopt(batch(project, {"logs/a.csv": b"0,1\n", "logs/b.csv": b"0,1\n"}), project)
+    assert (adopted.kind, adopted.text.split(";")[0]) == ("logs", "2 logs without a dataset.toml")
+    assert (project.data / "a.csv").is_file()
+
+
+def test_a_library_and_an_fmu_become_the_model(project: Project) -> None:
+    files = {"Lib/package.mo": b"package Lib end Lib;", "Lib/Sub/package.mo": b"", "pump.fmu": b"PK"}
+    adopted = adopt(batch(project, files), project)
+    assert (adopted.kind, adopted.model, adopted.libraries) == ("model", "model/pump.fmu", ("model/Lib",))
+    assert (project.models / "Lib/Sub/package.mo").is_file()
+
+
+@pytest.mark.parametrize(
+    "name", ["../a.txt", "/etc/a.txt", "x/../../a.txt", "C:\\a.txt", "..\\a.txt", "", "a\0b", "a\nb"]
+)
+def test_no_name_leaves_the_folder(project: Project, name: str) -> None:
+    with pytest.raises(BadInput, match="is no name of a file below the dropped folder"):
+        batch(project, {name: b""})
+    if name:
+        inside = batch(project, {"a.zip": packed({name.replace("\0", "\x01"): b"x"})})
+        with pytest.raises(BadInput, match="below the dropped folder"):
+            adopt(inside, project)
+    assert not (project.folder.parent / "a.txt").exists()
+
+
+def test_limits_hold_for_what_comes_in_and_for_what_is_unpacked(project: Project) -> None:
+    small = Limits(size=1000, files=3)
+    with pytest.raises(BadInput, match="goes beyond the limit"):
+        batch(project, {"a.txt": b"x" * 1001}, small)
+    with pytest.raises(BadInput, match="more than 3 files"):
+        batch(project, {f"{k}.txt": b"" for k in range(4)}, small)
+    bomb = batch(project, {"a.zip": packed({"zeros.txt": bytes(10**6)})}, Limits(size=5000))
+    with pytest.raises(BadInput, match=r"zeros.txt goes beyond the limit"):
+        adopt(bomb, project)
+    assert not project.data.exists()
+
+
+def test_a_description_cannot_name_files_elsewhere(project: Project) -> None:
+    toml = TOML + '[[records]]\nfile = "../../project.toml"\n'
+    with pytest.raises(BadInput, match=r"'../../project.toml' lies outside the data set"):
+        adopt(batch(project, {"d/dataset.toml": toml.encode()}), project)
+
+
+@pytest.mark.parametrize(
+    ("files", "message"),
+    [
+        ({"a.jpg": b"x"}, r"no data set, no logs and no model in this: .jpg"),
+        ({"a/dataset.toml": b"", "b/dataset.toml": b""}, r"2 files dataset.toml in this"),
+        ({"a.fmu": b"", "b.fmu": b""}, "2 FMUs in this"),
+        ({"a.zip": b"no zip"}, r"a.zip cannot be unpacked"),
+    ],
+)
+def test_what_is_no_use_is_refused_with_a_remedy(project: Project, files: dict[str, bytes], message: str) -> None:
+    with pytest.raises(BadInput, match=message):
+        adopt(batch(project, files), project)
