@@ -61,6 +61,10 @@ class Run:
     ) -> None:
         if not (isinstance(step, (int, float)) and 0 < step < math.inf):
             raise BadInput(f"co-simulation: the step is {step!r}; give a positive number of seconds")
+        if order is not None and (isinstance(order, type) or not hasattr(order, "stepper")):
+            raise BadInput(f"co-simulation: order is {order!r}; give one with its settings, as GaussSeidel()")
+        if doubling is not None and not isinstance(doubling, Doubling):
+            raise BadInput(f"co-simulation: doubling is {doubling!r}; give Doubling(rtol=...)")
         self.system, self.experiment, self.step = system, experiment, float(step)
         self._order: Order = Jacobi() if order is None else order
         self._doubling = doubling

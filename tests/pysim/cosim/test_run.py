@@ -46,6 +46,16 @@ def test_what_does_not_fit_is_refused(experiment: Experiment, step: float, words
         cosimulate(System((integrator(),)), experiment, step=step)
 
 
+def test_settings_are_what_their_names_say() -> None:
+    experiment = Experiment(TIMES, ("left.x",))
+    with pytest.raises(BadInput, match=r"order is <class .*as GaussSeidel\(\)"):
+        cosimulate(oscillators(), experiment, step=0.1, order=GaussSeidel)  # type: ignore[arg-type]
+    with pytest.raises(BadInput, match=r"doubling is 0\.1; give Doubling"):
+        cosimulate(oscillators(), experiment, step=0.1, doubling=0.1)  # type: ignore[arg-type]
+    with pytest.raises(BadInput, match=r"give System\(\.\.\.\) and Experiment"):
+        cosimulate(integrator(), experiment, step=0.1)  # type: ignore[arg-type]
+
+
 def test_an_input_is_driven_once() -> None:
     system = System((integrator("a"), integrator("b")), (Connection("a.y", "b.u"), Connection("b.y", "a.u")))
     with pytest.raises(BadInput, match=r"a\.u has a signal and is driven by b\.y"):
