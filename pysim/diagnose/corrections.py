@@ -35,6 +35,8 @@ _BY_CHANCE, _STILL = 1e-6, 0.25
 _ALIKE = 1e-2
 # Fall of the sum of squares from which another refit is worth its runs.
 _WORTH = 1.0
+# Mean square from which a model is too far off for saying who is to blame.
+_OFF = 2.0
 # Refits at most until the blamed are the same again.
 _ROUNDS = 3
 
@@ -109,6 +111,22 @@ def _share(rest: Array, column: Array) -> float:
     return float(np.linalg.norm(rest) / max(float(np.linalg.norm(column)), np.finfo(float).tiny))
 
 
+def blamed(ruler: Ruler, point: Evaluation) -> Blame:
+    """Who is to blame at a fitted point; every suspect a little where the model is so far off that sizes tell nothing.
+
+    Args:
+        ruler: that allows for every suspect.
+    """
+    if is_off(ruler, point):
+        return Blame(frozenset(ruler.suspected), point.cost, 0.0)
+    return evidence(ruler, point).alone()
+
+
+def is_off(ruler: Ruler, point: Evaluation) -> bool:
+    """Whether much more than noise is left with every suspect allowed for: straight lines do not reach the truth."""
+    return point.cost > _OFF * ruler.freedom
+
+
 @dataclass(frozen=True)
 class Settled:
     """A fitted model with the nuisances that are to blame beside it, and no others.
@@ -147,9 +165,9 @@ def settled(ruler: Ruler, at: Fitted) -> Settled:
     share of an effect that looks like it.
     """
     ruler, whole = _nearer(ruler, at)
-    what, x, rows = at.what, at.point.x, ruler.whole(whole.point)
-    blame = evidence(ruler, whole.point).alone()
-    for _ in range(_ROUNDS):
+    what, x, rows = at.what, whole.point.x, ruler.whole(whole.point)
+    blame, lean = blamed(ruler, whole.point), ruler
+    for _ in range(0 if is_off(ruler, whole.point) else _ROUNDS):
         lean = ruler.with_other(suspected=tuple(s for s in ruler.suspected if s in blame.suspects))
         x, rows = _lean_refit(lean, what, x, rows)
         before, blame = blame, evidence(ruler, ruler.counted(x, rows)).alone()
@@ -173,8 +191,8 @@ def settled_before(ruler: Ruler, at: Fitted, x: Array, suspected: Sequence[Suspe
 
 
 def _settled(ruler: Ruler, whole: Fitted, lean: Ruler, x: Array, rows: Array) -> Settled:
-    at, blame = Fitted(whole.what, lean.counted(x, rows)), evidence(ruler, ruler.counted(x, rows)).alone()
-    return Settled(whole, ruler, at, lean, blame, nuisances(lean, at.point))
+    at, blame = Fitted(whole.what, lean.counted(x, rows)), blamed(ruler, ruler.counted(x, rows))
+    return Settled(whole, ruler, at, lean, blame, () if is_off(ruler, whole.point) else nuisances(lean, at.point))
 
 
 def _nearer(ruler: Ruler, at: Fitted) -> tuple[Ruler, Fitted]:

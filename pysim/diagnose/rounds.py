@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from pysim.diagnose import decide
 from pysim.diagnose.blame import Blame
 from pysim.diagnose.contenders import Contender
-from pysim.diagnose.corrections import evidence, recounted
+from pysim.diagnose.corrections import blamed, evidence, is_off, recounted
 from pysim.diagnose.fitted import Fitted
 from pysim.diagnose.nuisance import Suspect
 from pysim.diagnose.null import chance
@@ -22,6 +22,7 @@ from pysim.diagnose.residuals import Ruler
 from pysim.diagnose.screen import Footprint, across, column_space, footprint, per_effect, screen
 from pysim.diagnose.start import start_at, start_off
 from pysim.diagnose.story import Story
+from pysim.diagnose.strengths import translated
 from pysim.identify.greybox.evaluation import Evaluation
 from pysim.simulate import Rodas
 from pysim.types import BadInput, Candidate, Effect
@@ -36,6 +37,8 @@ _FINAL, _NEAR = 3, 0.8
 _KEPT = 0.5
 # Points tried on probation, and from parameters far off.
 _STEPS, _FAR_STEPS = 6, 9
+# Mean square residual from which the parameters of the model so far count as bent.
+_BENT = 2.0
 # Integration of ties.
 _FINE = Rodas(rtol=1e-7, atol=1e-7)
 
@@ -66,7 +69,7 @@ class Tried:
     @property
     def bent(self) -> bool:
         """Whether so much is left that the parameters have left their place to make up for it."""
-        return self.left > 2 * self.current.point.residual.size
+        return self.left > _BENT * self.current.point.residual.size
 
     @property
     def promises(self) -> bool:
@@ -109,13 +112,14 @@ def screened(story: Story, current: Fitted) -> Tried:
     footprints = screen(current, list(contenders.values()))
     limit = chance(footprints, scale=1.0, seed=story.seed).limit
     ruler = story.ruler_of(current.what)
-    blamed, none = _blamed(ruler, current, footprints), story.blame(current)
-    for name, blame in blamed.items():
+    none = story.blame(current)
+    left_to = {} if is_off(ruler, current.point) else _left_to(ruler, current, footprints)
+    for name, blame in left_to.items():
         one = contenders[name]
         lean = one.ruler.with_other(suspected=tuple(s for s in one.ruler.suspected if s in blame.suspects))
         contenders[name] = replace(one, ruler=lean)
-    note_mimics(story, none, blamed)
-    instead = {name: blame.over(none) for name, blame in blamed.items()}
+    note_mimics(story, none, left_to)
+    instead = {name: blame.over(none) for name, blame in left_to.items()}
     tried = Tried(current, ruler, contenders, footprints, instead, limit, none.cost)
     story.stage("screen")
     heads = ", ".join(f"{f.effect.name} {tried.worth(f):.4g}" for f in tried.heads[:3])
@@ -123,7 +127,7 @@ def screened(story: Story, current: Fitted) -> Tried:
     return tried
 
 
-def _blamed(ruler: Ruler, current: Fitted, footprints: Sequence[Footprint]) -> dict[str, Blame]:
+def _left_to(ruler: Ruler, current: Fitted, footprints: Sequence[Footprint]) -> dict[str, Blame]:
     """By the name of the effect the nuisances that it leaves to blame."""
     found = evidence(ruler, current.point, [f.plain for f in footprints])
     best = dict[str, Blame]()
@@ -133,10 +137,10 @@ def _blamed(ruler: Ruler, current: Fitted, footprints: Sequence[Footprint]) -> d
     return best
 
 
-def note_mimics(story: Story, none: Blame, blamed: Mapping[str, Blame]) -> None:
+def note_mimics(story: Story, none: Blame, left_to: Mapping[str, Blame]) -> None:
     """Tells which effects would do what one nuisance does."""
     mimics: dict[Suspect, list[str]] = {}
-    for name, blame in blamed.items():
+    for name, blame in left_to.items():
         spared = none.suspects - blame.suspects
         if len(spared) == 1 and abs(blame.over(none)) < decide.TIE:
             mimics.setdefault(next(iter(spared)), []).append(name)
@@ -172,7 +176,7 @@ def refitted(
     for name in order[:_FINAL]:
         if score(story, tried.current, found[name]) < _NEAR * best and name != order[0]:
             continue
-        end = _leader(story, tried, tried.contenders[name], found[name])
+        end = _leader(story, tried, tried.contenders[name], found[name], nominal if name == order[0] else None)
         if end is not None:
             found[name] = end
             story.say(
@@ -193,7 +197,7 @@ def _kept(tried: Tried, one: Contender, point: Evaluation | None) -> dict[str, A
     if point is None:
         return None
     whole = replace(tried.ruler, solver=one.ruler.solver)
-    blame = evidence(whole, whole.counted(point.x, one.ruler.whole(point))).alone()
+    blame = blamed(whole, whole.counted(point.x, one.ruler.whole(point)))
     suspects = sorted(astuple(suspect) for suspect in blame.suspects)
     return {"x": point.x.tolist(), "cost": point.cost, "blame": suspects, "evidence": [blame.cost, blame.price]}
 
@@ -230,12 +234,30 @@ def start_amount(effect: Effect, amount: float) -> float:
     return math.copysign(float(np.clip(abs(amount), 1 / 3, 3.0)), amount)
 
 
-def _leader(story: Story, tried: Tried, one: Contender, at: Fitted) -> Fitted | None:
-    def find() -> tuple[Evaluation, Array] | None:
-        first = one.ruler.evaluation(one.what, at.point.x)
+def _leader(story: Story, tried: Tried, one: Contender, at: Fitted, nominal: Fitted | None) -> Fitted | None:
+    """With slopes of its own; from the model's own parameters too where much is left from where it stands."""
+
+    def refitted_from(x: Array) -> tuple[Evaluation, Array] | None:
+        first = one.ruler.evaluation(one.what, x)
         return refit_from(one.ruler, one.what, first, rounds=3 if tried.bent else 2) if first.good else None
 
+    def find() -> tuple[Evaluation, Array] | None:
+        end = refitted_from(at.point.x)
+        if nominal is None or (end is not None and not is_off(one.ruler, end[0])):
+            return end
+        other = refitted_from(_beside(nominal, one, at))
+        ends = [e for e in (end, other) if e is not None]
+        return min(ends, key=lambda e: e[0].cost, default=None)
+
     return story.fitted(one.what, f"{name_of(tried.current)} + {one.effect.name}", find, one.ruler)
+
+
+def _beside(nominal: Fitted, one: Contender, at: Fitted) -> Array:
+    """The effects as they were found, (n,), beside the model's own parameters."""
+    space = one.what.space
+    own = translated(nominal.what, one.what, nominal.what.space.values(nominal.point.x))
+    values = {**space.values(at.point.x), **own}
+    return space.to_search(np.array([values[key] for key in space.keys]))
 
 
 def score(story: Story, current: Fitted, fitted: Fitted) -> float:

@@ -18,8 +18,8 @@ from pysim.diagnose.corrections import (
     Nuisance,
     Settled,
     allowing,
+    blamed,
     counting_in_words,
-    evidence,
     held_beside,
     in_words,
     recounted,
@@ -192,7 +192,7 @@ class Story:
         """Who is to blame beside a model that was refitted with every suspect allowed for."""
         key = _where(at)
         if key not in self.blames:
-            self.blames[key] = evidence(self.ruler_of(at.what), at.point).alone()
+            self.blames[key] = blamed(self.ruler_of(at.what), at.point)
         return self.blames[key]
 
     def know(self, at: Fitted, blame: Blame) -> None:
