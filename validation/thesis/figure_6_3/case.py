@@ -23,7 +23,7 @@ def notes() -> Sequence[str]:
     return (
         "The measured torques were never published. A driven shaft with the friction of Table 6.2 stands in, with the "
         "bench's ten pulses per revolution and noise of the pressures: the method finds the printed numbers again.",
-        "r cannot be told from below by pulses, as none comes at standstill: its interval has no upper end. What a "
+        "Pulses tell r from below only, as none comes at standstill: its interval has no upper end. What a "
         "filter makes of it is shown by the case `friction`.",
     )
 
