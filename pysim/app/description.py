@@ -40,16 +40,20 @@ def _table(header: str, values: Mapping[str, Any]) -> str:
     return "\n".join([header, *lines]) + "\n"
 
 
-def change_description(path: Path, content: Mapping[str, Any]) -> Dataset:
+def change_description(path: Path, content: Mapping[str, Any], *, read: bool = True) -> Dataset | None:
     """Write other content into a dataset.toml, which stays as it was where the content is refused.
 
+    Args:
+        read: whether to see if it is; an edit that cannot be wrong needs not.
     Returns:
-        what it reads as now.
+        what it reads as now; None where it was not read.
     Raises:
         BadInput: what is wrong with it.
     """
     before = path.read_bytes() if path.is_file() else None
     write_file(path, description_text(content))
+    if not read:
+        return None
     try:
         return read_dataset_partly(path.parent)[0]
     except BadInput:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import json
 import socket
 from pathlib import Path
@@ -10,7 +11,7 @@ from typing import Any
 
 from fastapi import Request
 from fastapi.responses import FileResponse, PlainTextResponse, Response
-from nicegui import app, ui
+from nicegui import app, background_tasks, ui
 
 from pysim.app.desk import Desk
 from pysim.app.guard import Guard
@@ -52,7 +53,7 @@ def serve(
     _routes(desk)
     app.add_static_files("/static", _STATIC)
     app.timer(_TICK, desk.tick)
-    app.on_startup(lambda: print(f"Workbench: {address}\nProject: {project.folder}\nCtrl-C ends it.", flush=True))
+    app.on_startup(lambda: _announce(f"Workbench: {address}\nProject: {project.folder}\nCtrl-C ends it.", host, port))
     app.on_startup(desk.read_data)
     app.on_startup(desk.read_model)
     app.on_shutdown(desk.runner.close)
@@ -69,6 +70,23 @@ def serve(
         show_welcome_message=False,
         reconnect_timeout=60.0,
     )
+
+
+async def _announce(words: str, host: str, port: int) -> None:
+    """Say where the page is, once it is there."""
+
+    async def listening() -> None:
+        while True:
+            try:
+                _, writer = await asyncio.open_connection("127.0.0.1" if host == "0.0.0.0" else host, port)
+            except OSError:
+                await asyncio.sleep(0.02)
+            else:
+                writer.close()
+                print(words, flush=True)
+                return
+
+    background_tasks.create(listening())
 
 
 def _port(host: str, port: int) -> int:

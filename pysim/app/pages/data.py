@@ -116,7 +116,7 @@ def _refused(desk: Desk, loaded: Loaded) -> None:
         )
         with box("row"):
             files = {file for file, _ in loaded.refused}
-            button("Leave them out", lambda: _change(desk, lambda c: _without(c, files)), "small")
+            button("Leave them out", lambda: _change(desk, lambda c: _without(c, files), safe=True), "small")
             text("span", "or mend them and drop the folder again", "small")
 
 
@@ -126,15 +126,19 @@ def _without(content: dict[str, Any], files: set[str]) -> None:
         raise BadInput("no record would be left; mend at least one and drop the folder again")
 
 
-def _change(desk: Desk, edit: Callable[[dict[str, Any]], Any]) -> None:
-    """Edit the description; what is refused is said, and nothing is changed."""
+def _change(desk: Desk, edit: Callable[[dict[str, Any]], Any], *, safe: bool = False) -> None:
+    """Edit the description; what is refused is said, and nothing is changed.
+
+    Args:
+        safe: whether the edit cannot make it one that is refused, so that nothing has to be read to know.
+    """
 
     def change() -> None:
         if desk.runner.running is not None:
             raise BadInput("wait until the running work has ended, or stop it")
         content = read_description(desk.project.description)
         edit(content)
-        change_description(desk.project.description, content)
+        change_description(desk.project.description, content, read=not safe)
         desk.project.change(added=())
 
     attempt(change)
@@ -227,7 +231,7 @@ def _records(desk: Desk, preview: dict[str, int]) -> None:
         Table(
             "Records", columns, [_row(record) for record in check.records], height="360px",
             on_row=lambda k: preview.update(record=k), picked=preview.get("record", -1),
-            on_tick=lambda k, on: _change(desk, lambda c: _hold(c, check.records[k].source, on)),
+            on_tick=lambda k, on: _change(desk, lambda c: _hold(c, check.records[k].source, on), safe=True),
         )  # fmt: skip
     logs = [record.source for record in check.dataset.logs()]
     source = check.records[preview["record"]].source if preview.get("record", -1) in range(len(check.records)) else ""

@@ -44,6 +44,7 @@ def test_bare_logs_get_a_description_that_reads(tmp_path: Path) -> None:
     ]
     content = described("logs", columns, [{"file": "a.txt", "kind": "other", "use": "fit"}])
     found = change_description(tmp_path / "dataset.toml", content)
+    assert found is not None
     assert found.signal('odd "name"').variable == "cmd"
     assert found.logs()[0].data["p"].tolist() == [2e5, 3e5]  # type: ignore[index]
     assert found.signal("p").noise == 0.5e5

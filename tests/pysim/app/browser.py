@@ -1,0 +1,134 @@
+"""The workbench in a process of its own, and Debian's Chromium in front of it."""
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+ROOT = Path(__file__).parents[3]
+_STARTED = 60.0  # s
+
+
+def chromium() -> str:
+    """Where the browser is; the test is skipped where there is none."""
+    pytest.importorskip("nicegui", reason="the extra app is not installed")
+    pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
+    found = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
+    if found is None:
+        pytest.skip("no Chromium on this machine; apt-get install chromium")
+    return found
+
+
+@contextmanager
+def server(folder: Path, *words: str) -> Iterator[str]:
+    """The address of `pysim app` on a project, with its token; ended afterwards."""
+    log = folder.parent / f"{folder.name}.log"
+    command = [sys.executable, "-m", "pysim", "app", str(folder), "--no-browser", *words]
+    own = {k: v for k, v in os.environ.items() if not k.startswith("PYTEST")}  # by which NiceGUI knows its own tests
+    environment = {**own, "PYTHONPATH": str(ROOT), "OPENBLAS_NUM_THREADS": "1"}
+    with log.open("wb") as output:
+        process = subprocess.Popen(command, cwd=ROOT, env=environment, stdout=output, stderr=subprocess.STDOUT)
+    try:
+        yield _address(log, process)
+    finally:
+        process.terminate()
+        process.wait(30)
+
+
+def _address(log: Path, process: "subprocess.Popen[bytes]") -> str:
+    begun = time.monotonic()
+    while time.monotonic() - begun < _STARTED and process.poll() is None:
+        found = re.search(r"^Workbench: (\S+)$", log.read_text(encoding="utf-8"), re.M)
+        if found:
+            return found[1]
+        time.sleep(0.05)
+    raise AssertionError(f"the workbench did not start: {log.read_text(encoding='utf-8')}")
+
+
+def base(address: str) -> str:
+    """Without path and token."""
+    return address.partition("/?")[0]
+
+
+@contextmanager
+def browser() -> Iterator[Any]:
+    """A browser without a window."""
+    path = chromium()
+    from playwright.sync_api import sync_playwright
+
+    with sync_playwright() as play:
+        found = play.chromium.launch(executable_path=path, args=["--no-sandbox"])
+        try:
+            yield found
+        finally:
+            found.close()
+
+
+class Tab:
+    """One tab, with what went wrong in it and every address that it asked.
+
+    Args:
+        shown: a browser.
+        address: with the token.
+        artefacts: where screenshots are kept; none where None.
+    """
+
+    def __init__(self, shown: Any, address: str, artefacts: Path | None = None, **options: Any) -> None:
+        context = shown.new_context(viewport={"width": 1280, "height": 800}, accept_downloads=True, **options)
+        self.page = context.new_page()
+        self.errors: list[str] = []
+        self.asked: list[str] = []
+        self.page.on("pageerror", lambda error: self.errors.append(str(error)))
+        self.page.on("console", lambda m: self.errors.append(m.text) if m.type == "error" else None)
+        self.page.on("request", lambda request: self.asked.append(request.url))
+        self.page.on("dialog", lambda dialog: self.errors.append(f"dialog {dialog.message}"))
+        self._base, self._artefacts = base(address), artefacts
+        self.page.goto(address)
+        self.page.wait_for_selector(".page h1")
+
+    def go(self, name: str) -> None:
+        """To a page, by its link."""
+        self.page.get_by_role("link", name=re.compile(name)).first.click()
+        self.page.wait_for_selector(f".rail a[aria-current=page]:has-text('{name}')")
+
+    def press(self, name: str) -> None:
+        """A button."""
+        self.page.get_by_role("button", name=name, exact=True).first.click()
+
+    def see(self, words: str, *, timeout: float = 40.0) -> None:
+        """Wait until some words are to be seen."""
+        self.page.get_by_text(words).first.wait_for(timeout=1000 * timeout)
+
+    def drop(self, kind: str, *paths: Path) -> None:
+        """Choose files or a folder for the drop; kind is "files" or "folder"."""
+        self.page.locator(f"input[aria-label={kind}]").set_input_files([str(path) for path in paths])
+
+    def idle(self, *, timeout: float = 120.0) -> None:
+        """Wait until nothing runs."""
+        self.page.locator(".job").wait_for(state="detached", timeout=1000 * timeout)
+
+    def shot(self, name: str) -> None:
+        """Keep a screenshot as an artefact."""
+        if self._artefacts is not None:
+            self._artefacts.mkdir(parents=True, exist_ok=True)
+            self.page.wait_for_timeout(700)
+            self.page.screenshot(path=self._artefacts / f"{name}.png")
+
+    def foreign(self) -> list[str]:
+        """Addresses that were asked of anybody else."""
+        own = (self._base, self._base.replace("http", "ws"), "data:", "blob:")
+        return [url for url in self.asked if not url.startswith(own)]
+
+
+def artefacts() -> Path | None:
+    """Where screenshots go: the folder that PYSIM_ARTEFACTS names."""
+    folder = os.environ.get("PYSIM_ARTEFACTS")
+    return Path(folder) if folder else None

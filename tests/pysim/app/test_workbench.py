@@ -1,0 +1,184 @@
+"""The page in a real browser: what it refuses, what it shows, and that two tabs agree."""
+
+import re
+import urllib.error
+import urllib.request
+import zipfile
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from tests.pysim.app.browser import Tab, artefacts, base, browser, server
+
+HOSTILE = '<img src=x onerror="alert(1)">'
+LONG = 500_000  # samples of the long log
+_FIRST_PAINT = 1500.0  # ms
+
+
+@pytest.fixture(scope="module")
+def shown() -> Iterator[Any]:
+    with browser() as found:
+        yield found
+
+
+@pytest.fixture(scope="module")
+def address(shown: Any, tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
+    """A workbench that takes at most 100 MB."""
+    with server(tmp_path_factory.mktemp("workbench") / "project", "--limit-mb", "100") as found:
+        yield found
+
+
+@pytest.fixture
+def dropped(tmp_path: Path) -> Path:
+    """A log of half a million samples, one with a fault in line 6, one without, and a signal that wants to run code."""
+    folder = tmp_path / "dropped"
+    folder.mkdir()
+    time = np.arange(LONG) / 1000
+    wave = np.sin(time) + (np.arange(LONG) == 123_456) * 5.0  # a spike of one sample
+    np.savetxt(folder / "long.txt", np.column_stack([time, wave, wave]), fmt="%.4f")
+    short = [f"{k / 10} {k} {k}" for k in range(20)]
+    (folder / "good.txt").write_text("\n".join(short))
+    (folder / "bad.txt").write_text("\n".join([*short[:5], "0.5 5 open", *short[6:]]))
+    records = "".join(
+        f'[[records]]\nfile = "{name}.txt"\ncolumns = ["time", "cmd", {quoted(HOSTILE)}]\nkind = "other"\n'
+        for name in ("long", "good", "bad")
+    )
+    signals = f'[signals.cmd]\nrole = "input"\nunit = "%"\n[signals.{quoted(HOSTILE)}]\nrole = "output"\nunit = "bar"\n'
+    (folder / "dataset.toml").write_text(f"[dataset]\nname = {quoted(HOSTILE)}\n{signals}{records}")
+    return folder
+
+
+def quoted(text: str) -> str:
+    """As TOML writes it."""
+    return '"' + text.replace('"', '\\"') + '"'
+
+
+def status(url: str, **headers: str) -> int:
+    """Of a request without the browser's cookie."""
+    try:
+        with urllib.request.urlopen(urllib.request.Request(url, headers=headers)) as answer:
+            return int(answer.status)
+    except urllib.error.HTTPError as error:
+        return error.code
+
+
+def test_nobody_comes_in_without_the_token(address: str) -> None:
+    for place in ("/", "/series?of=data&record=0&begin=0&end=1", "/static/app.css", "/_nicegui_ws/socket.io/"):
+        assert status(base(address) + place) == 403
+    assert status(base(address) + "/?token=guessed") == 403
+    assert status(address, Host="evil.example") == 403  # a name of somebody else's that leads here
+    assert status(address, Origin="http://evil.example") == 403
+
+
+def test_what_is_dropped_is_read_refused_with_a_remedy_and_shown_as_text(
+    shown: Any, address: str, dropped: Path
+) -> None:
+    tab, other = Tab(shown, address, artefacts()), Tab(shown, address)
+    tab.drop("folder", dropped)
+    tab.see("1 log was refused")
+    tab.see("bad.txt, line 6: 'open' is no number")
+    tab.shot("refused")
+    assert tab.page.get_by_text(HOSTILE).count() >= 2  # name of the data set, and of the signal
+    assert tab.page.locator("img[src=x]").count() == 0
+    tab.press("Leave them out")
+    tab.see("2 records, 0 held out")
+    other.see("2 records, 0 held out")  # the other tab has followed
+    other.page.get_by_label("held out, good.txt").check()
+    tab.see("2 records, 1 held out")
+    tab.page.reload()
+    tab.see("2 records, 1 held out")
+    assert tab.errors == []
+    assert tab.foreign() == []
+    _long_record(tab)
+
+
+def _long_record(tab: Tab) -> None:
+    """Half a million samples: few points on the screen with every spike among them, all samples once zoomed."""
+    tab.go("Compare")
+    tab.page.locator("tr", has_text="long.txt").click()
+    chart = tab.page.locator("#record .chart[data-ready=yes]")
+    chart.wait_for()
+    drawn = "(el) => ({n: el.data[0].x.length, high: Math.max(...el.data[0].y)})"
+    whole = chart.evaluate(drawn)
+    assert whole["n"] < 2000
+    assert whole["high"] == pytest.approx(5 + np.sin(123.456), abs=1e-3)
+    assert chart.evaluate("(el) => el.layout.yaxis2.title.text").startswith("&lt;img src=x")
+    chart.focus()
+    for _ in range(10):  # by keyboard, into the middle
+        tab.page.keyboard.press("+")
+        tab.page.wait_for_timeout(60)
+    tab.page.locator("#record .chart[data-exact=yes]").wait_for()
+    x = chart.evaluate("(el) => el.data[0].x")
+    assert np.diff(x) == pytest.approx(0.001)
+    assert tab.page.locator("img[src=x]").count() == 0
+    assert tab.errors == []
+    tab.shot("long")
+
+
+def test_it_paints_at_once_and_can_be_used_without_a_mouse(shown: Any, address: str) -> None:
+    tab = Tab(shown, address)
+    tab.page.reload()
+    tab.page.wait_for_selector(".page h1")
+    paint = tab.page.evaluate("performance.getEntriesByName('first-contentful-paint')[0].startTime")
+    busy = 1.0 if load() < 1 else load()  # a machine that does other things too paints later
+    assert paint < _FIRST_PAINT * busy
+    for _ in range(4):
+        tab.page.keyboard.press("Tab")
+    names = []
+    for _ in range(8):
+        names.append(tab.page.evaluate("document.activeElement.innerText"))
+        tab.page.keyboard.press("Tab")
+    assert any("Compare" in name for name in names), names
+    tab.page.get_by_role("link", name=re.compile("Candidates")).focus()
+    tab.page.keyboard.press("Enter")
+    tab.page.wait_for_url("**/candidates")
+    assert tab.errors == []
+
+
+def load() -> float:
+    """Processes that want to run, per core."""
+    import os
+
+    return os.getloadavg()[0] / (os.cpu_count() or 1) if hasattr(os, "getloadavg") else 1.0
+
+
+def test_light_and_dark_follow_the_system_and_the_choice(shown: Any, address: str) -> None:
+    dark = Tab(shown, address, color_scheme="dark")
+    paper = "getComputedStyle(document.body).backgroundColor"
+    assert dark.page.evaluate(paper) == "rgb(15, 21, 27)"
+    dark.page.get_by_title(re.compile("Look: auto")).click()
+    dark.page.wait_for_function(f"{paper} === 'rgb(245, 247, 249)'")
+    dark.page.get_by_title(re.compile("Look: light")).click()
+    dark.page.wait_for_function(f"{paper} === 'rgb(15, 21, 27)'")
+    dark.page.get_by_title(re.compile("Look: dark")).click()
+    dark.page.get_by_title(re.compile("Look: auto")).wait_for()
+
+
+def test_a_wrong_file_is_refused_in_a_sentence(shown: Any, address: str, tmp_path: Path) -> None:
+    (tmp_path / "picture.jpg").write_bytes(b"\xff\xd8")
+    tab = Tab(shown, address)
+    tab.drop("files", tmp_path / "picture.jpg")
+    tab.see("no data set, no logs and no model in this: .jpg; drop logs as .txt")
+    with zipfile.ZipFile(tmp_path / "sly.zip", "w") as archive:
+        archive.writestr("../../outside.txt", "0 1 2")
+    tab.drop("files", tmp_path / "sly.zip")
+    tab.see("is no name of a file below the dropped folder")
+
+
+def test_200_mb_are_too_many_for_this_page_and_for_its_server(shown: Any, address: str, tmp_path: Path) -> None:
+    with (tmp_path / "big.txt").open("wb") as file:
+        file.truncate(200 * 2**20)
+    tab = Tab(shown, address)
+    tab.drop("files", tmp_path / "big.txt")
+    tab.see("200 MB in 1 files are too much; drop at most 100 MB")
+    script = """async () => {
+        const name = await (await fetch("/upload", { method: "POST" })).text();
+        const body = new Blob([new Uint8Array(120 * 2 ** 20)]);
+        const answer = await fetch(`/upload/${name}?name=big.txt`, { method: "PUT", body });
+        return [answer.status, await answer.text()];
+    }"""
+    code, words = tab.page.evaluate(script)  # who does not ask the page first
+    assert (code, "goes beyond the limit; drop at most 100 MB" in words) == (413, True)
