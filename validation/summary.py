@@ -20,8 +20,8 @@ def short_summary(results: Iterable[CaseResult]) -> str:
         done = [last[name] for name in names if name in last]
         counts = [str(sum(result.count(verdict) for result in done)) for verdict in (HOLDS, FAILS, SKIPPED)]
         rows.append([title, f"{len(done)} of {len(names)}", *counts])
-    head = ["", "cases run", "claims that hold", "fail", "skipped"]
-    return "\n".join([*_table(head, rows), "", *_failing(last), ""])
+    head = ["", "cases recorded", "claims that hold", "fail", "skipped"]
+    return "\n".join([*_table(head, rows), "", *_failing(last), "", "[Case by case](validation/RESULTS.md).", ""])
 
 
 def full_summary(results: Iterable[CaseResult], *, kept: bool = True) -> str:
@@ -55,7 +55,7 @@ def _failing(last: Mapping[str, CaseResult]) -> list[str]:
     texts = [
         f"- {name}: {text}" for name, result in last.items() for text in _not_held(result) if result.verdict == FAILS
     ]
-    return ["Claims that do not hold:", "", *texts] if texts else ["No claim fails."]
+    return ["Claims that do not hold:", "", *texts] if texts else ["No claim of a recorded case fails."]
 
 
 def _not_held(result: CaseResult) -> list[str]:
