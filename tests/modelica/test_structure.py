@@ -89,7 +89,10 @@ equation
   y = "z";
 end M;
 """
-    assert without_description(Path("M.mo"), text) == ["parameter Real b = f ( ) annotation ( )", "protected Volume e ( )"]
+    assert without_description(Path("M.mo"), text) == [
+        "parameter Real b = f ( ) annotation ( )",
+        "protected Volume e ( )",
+    ]
 
 
 @ALL_FILES
