@@ -118,7 +118,7 @@ def _write_page(folder: Path, results: Sequence[CaseResult]) -> None:
 def _results_file() -> Path:
     import validation
 
-    return Path(str(validation.__file__)).parent / "results" / "results.jsonl"
+    return Path(str(validation.__file__)).parent / "recorded.jsonl"
 
 
 def _checkout() -> Path:
