@@ -130,6 +130,12 @@ CASES: Mapping[str, Case] = MappingProxyType(
             "circuits",
             seconds=60,
         ),
+        "rig-diagnosis": Case(
+            "validation.rig_diagnosis.case",
+            "the test bench's missing friction is named and added, and nothing where nothing is missing",
+            "diagnosis",
+            seconds=240,
+        ),
         "tuning": Case(
             "validation.tuning.case", "gains of thesis Table 6.1 back from their margins", "circuits", True, 10
         ),
