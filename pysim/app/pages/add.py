@@ -57,7 +57,7 @@ class _Stairs:
     def show(self) -> None:
         """What is known now."""
         steps, doing = self._steps()
-        if not steps and not doing:
+        if not steps:
             if self._chart is not None:
                 self._chart.delete()
                 self._chart = None

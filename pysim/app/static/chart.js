@@ -41,7 +41,7 @@ export default {
     this.look.observe(document.body, { attributes: true, attributeFilter: ["class"] });
     let width = this.$el.clientWidth;
     this.size = new ResizeObserver(() => {
-      if (this.$el.offsetParent && this.$el.clientWidth !== width) Plotly.Plots.resize(this.$el);
+      if (this.$el.offsetParent && this.$el.clientWidth !== width) this.draw();
       width = this.$el.clientWidth;
     });
     this.size.observe(this.$el);
@@ -58,12 +58,21 @@ export default {
     },
   },
   methods: {
-    async draw() {
-      const { data, layout } = dressed(JSON.parse(JSON.stringify(this.figure)), palette(this.$el));
-      const config = { displaylogo: false, displayModeBar: this.series ? "hover" : false, doubleClick: "reset" };
-      config.modeBarButtons = [["zoom2d", "pan2d", "zoomIn2d", "zoomOut2d", "resetScale2d", "toImage"]];
-      await this.Plotly.react(this.$el, data, layout, config);
-      if (this.series && this.range) await this.fetch(this.range);
+    draw() {
+      // one drawing at a time: Plotly does not bear two at once in one place
+      this.wanted = true;
+      this.drawing ??= this.redraw().finally(() => (this.drawing = null));
+      return this.drawing;
+    },
+    async redraw() {
+      while (this.wanted && this.$el.isConnected) {
+        this.wanted = false;
+        const { data, layout } = dressed(JSON.parse(JSON.stringify(this.figure)), palette(this.$el));
+        const config = { displaylogo: false, displayModeBar: this.series ? "hover" : false, doubleClick: "reset" };
+        config.modeBarButtons = [["zoom2d", "pan2d", "zoomIn2d", "zoomOut2d", "resetScale2d", "toImage"]];
+        await this.Plotly.react(this.$el, data, layout, config);
+        if (this.series && this.range) await this.fetch(this.range);
+      }
     },
     moved(change) {
       if (!this.series) return;
