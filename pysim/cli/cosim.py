@@ -44,7 +44,7 @@ def run(args: argparse.Namespace) -> int:
         prepare_folder(args.output)
     if args.json:
         prepare_file(args.json, "--json")
-    record, seconds = _simulated(file)
+    record, seconds = _simulated(args.system, file)
     _write(args, file, record, seconds)
     return 0 if record.outcome is Outcome.DONE else 1
 
@@ -69,25 +69,29 @@ def _export(args: argparse.Namespace, file: SystemFile) -> int:
     return 0
 
 
-def _simulated(file: SystemFile) -> tuple[Record, float]:
+def _simulated(path: Path, file: SystemFile) -> tuple[Record, float]:
     import time
 
     from pysim.cli._progress import ProgressBar, announce_compilation
     from pysim.cosim import cosimulate
+    from pysim.types import BadInput
 
     announce_compilation()
     start, stop = file.experiment.start, float(file.experiment.times[-1])
     begun = time.perf_counter()
     with ProgressBar("co-simulating") as bar:
-        record = cosimulate(
-            file.system,
-            file.experiment,
-            step=file.step,
-            order=file.order,
-            doubling=file.doubling,
-            check=False,
-            progress=lambda at: bar(round(1000 * (at - start) / (stop - start)), 1000),
-        )
+        try:
+            record = cosimulate(
+                file.system,
+                file.experiment,
+                step=file.step,
+                order=file.order,
+                doubling=file.doubling,
+                check=False,
+                progress=lambda at: bar(round(1000 * (at - start) / (stop - start)), 1000),
+            )
+        except BadInput as error:  # parts that are right each, and do not go together
+            raise BadInput(f"{path}: {error}") from error
     return record, time.perf_counter() - begun
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import json
+import math
 from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -14,6 +15,8 @@ if TYPE_CHECKING:
     from pysim.control import CompensatedLoadController, LoadController
     from pysim.types import Experiment, Record
 
+# s; the least time between two rows of a record, and a sampling time that is none for loops of a few hertz
+_ROW, _COARSEST = 2e-3, 0.1
 _RIG, _CRANE = "HydraulicTestBench.LoadCircuit.Rig", "HydraulicTestBench.Crane.IdealCompensation"
 
 
@@ -39,7 +42,10 @@ def run(args: argparse.Namespace) -> int:
     """Print a table of what the answers are worth."""
     from pysim.cli._outputs import prepare_file, prepare_folder
     from pysim.cli._progress import announce_compilation
+    from pysim.types import BadInput
 
+    if not 0 < args.dt < _COARSEST:
+        raise BadInput(f"--dt {args.dt:g}: give seconds, more than none and less than {_COARSEST:g}")
     if args.output:
         prepare_folder(args.output)
     if args.json:
@@ -59,7 +65,7 @@ def _step(args: argparse.Namespace) -> None:
         StepTest("speed", args.speed, at=2.0, length=length),
         StepTest("load", 1e5 * args.load, speed=args.speed, at=10.0, length=length),
     )
-    records = [_run(args, test.experiment(), None, f"step of {test.kind}") for test in tests]
+    records = [_run(args, test.experiment(every=_row(args.dt)), None, f"step of {test.kind}") for test in tests]
     found = [(test, step_figures(record, test)) for test, record in zip(tests, records, strict=True)]
     print(step_text(found))
     figures = {
@@ -76,7 +82,8 @@ def _heave(args: argparse.Namespace) -> None:
     from pysim.rig import HeaveTest, heave_figures
 
     test = HeaveTest(args.height, args.period, 60.0 if args.length is None else args.length, args.seed)
-    records = {label: _run(args, test.experiment(), load, label) for label, load in _load_controllers(args.dt).items()}
+    experiment = test.experiment(every=_row(args.dt))
+    records = {label: _run(args, experiment, load, label) for label, load in _load_controllers(args.dt).items()}
     found = {label: heave_figures(record, test) for label, record in records.items()}
     print(heave_text(found))
     first = next(iter(records))
@@ -87,6 +94,11 @@ def _heave(args: argparse.Namespace) -> None:
         figures["heave_error"] = ("Load-pressure error of each controller.", rig_error_figure(records))
     data = heave_data(found, test)
     _write(args, data, figures, lambda pictures, redo: heave_page(found, test, pictures=pictures, redo=redo))
+
+
+def _row(dt: float) -> float:
+    """The least whole number of steps that is 2 ms or more, s."""
+    return dt * max(1, math.ceil(_ROW / dt - 1e-6))
 
 
 def _load_controllers(dt: float) -> Mapping[str, LoadController | CompensatedLoadController]:

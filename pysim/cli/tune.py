@@ -34,7 +34,10 @@ def run(args: argparse.Namespace) -> int:
     from pysim.control.tuning import TABLE_6_1, known_pi
     from pysim.io import write_file
     from pysim.report.tuning import tuning_data, tuning_text
+    from pysim.types import BadInput
 
+    if not 0 < args.dt < float("inf"):
+        raise BadInput(f"--dt {args.dt:g}: give a positive number of seconds")
     if args.output:
         prepare_folder(args.output)
     if args.json:

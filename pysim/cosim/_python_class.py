@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib
 import importlib.util
+import inspect
 import sys
 from pathlib import Path
 from types import ModuleType
@@ -35,11 +36,15 @@ def python_class(text: str, folder: Path, place: str) -> Any:
         raise BadInput(f"{place}: {where} cannot be imported ({type(error).__name__}: {error}); mend it") from error
     found = getattr(module, last, None)
     if not callable(found):
-        classes = ", ".join(
-            n for n, v in vars(module).items() if isinstance(v, type) and v.__module__ == module.__name__
-        )
-        raise BadInput(f"{place}: {where} has no class {last!r}; its classes: {classes or 'none'}")
+        raise BadInput(f"{place}: {where} has no class {last!r}; its classes: {', '.join(_classes(module)) or 'none'}")
     return found
+
+
+def _classes(module: ModuleType) -> list[str]:
+    """Those it defines itself, and those that a package offers as its own."""
+    offered = getattr(module, "__all__", ())
+    classes = {name: value for name, value in vars(module).items() if isinstance(value, type)}
+    return sorted(name for name, value in classes.items() if name in offered or value.__module__ == module.__name__)
 
 
 def _from_file(path: Path) -> ModuleType:
@@ -69,4 +74,12 @@ def made(make: Any, settings: dict[str, Any], text: str, place: str) -> Any:
     except BadInput as error:
         raise BadInput(f"{place}: {error}") from error
     except (TypeError, ValueError) as error:
-        raise BadInput(f"{place}: {text} does not take these settings ({error}); correct them") from error
+        raise BadInput(f"{place}: {text} does not take these settings ({error}); {_takes(make)}") from error
+
+
+def _takes(make: Any) -> str:
+    try:
+        names = ", ".join(inspect.signature(make).parameters)
+    except (TypeError, ValueError):  # some written in C tell nothing
+        return "correct them"
+    return f"it takes {names}" if names else "it takes none"

@@ -84,11 +84,12 @@ def read_system_file(path: Path | str, *, stop: float | None = None, step: float
 
 
 def _told(place: str, make: Callable[[], Any]) -> Any:
-    """What a value object refuses is said with its place in the file."""
+    """What a value object refuses is said with its place in the file, if it does not yet begin with one."""
     try:
         return make()
     except BadInput as error:
-        raise error if place in str(error) else BadInput(f"{place}: {error}") from error
+        told = str(error).startswith(place.partition(", line ")[0])
+        raise error if told or place in str(error) else BadInput(f"{place}: {error}") from error
 
 
 def _member(name: str, section: Section, folder: Path) -> Any:
@@ -185,15 +186,23 @@ def _experiment(toml: TomlFile, run: Section, system: System, step: float, stop:
         raise BadInput(f"{run.place}: {(end - start) / every:.3g} rows are more than {_MOST_ROWS:,}; widen rows_every")
     rows = np.asarray(start + every * np.arange(int((end - start) / every + 1e-6) + 1), dtype=np.float64)
     record = run.texts("record") if "record" in run.values else tuple(system.outputs)
-    inputs = {name: _signal(name, value, toml) for name, value in _flat(toml.whole.inner("inputs").values).items()}
-    overrides = _numbers(toml.optional_table("overrides"))
-    return Experiment(rows, record, inputs, overrides, start)
+    overrides = _numbers(_table(toml, "overrides"))
+    return Experiment(rows, record, _inputs(toml), overrides, start)
 
 
-def _signal(name: str, value: Any, toml: TomlFile) -> Signal:
-    place = f"{toml.path}, [inputs], {name}"
+def _table(toml: TomlFile, key: str) -> Section:
+    """[key], which may as well be absent or empty."""
+    return Section(f"{toml.path}, [{key}]", {}) if toml.whole.values.get(key) == {} else toml.optional_table(key)
+
+
+def _inputs(toml: TomlFile) -> dict[str, Signal]:
+    section = _table(toml, "inputs")
+    return {name: _signal(value, f"{section.place}, {name}", toml) for name, value in _flat(section.values).items()}
+
+
+def _signal(value: Any, place: str, toml: TomlFile) -> Signal:
     if isinstance(value, str):
-        return read_signal(toml.path.parent / value, place)
+        return _told(place, lambda: read_signal(toml.path.parent / value, place))
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         raise BadInput(f'{place} is {value!r}; write a number, or the name of a file as "reference.csv"')
     return _told(place, lambda: Signal.constant(float(value)))

@@ -63,9 +63,9 @@ class HeaveTest:
             return Signal(np.zeros(1), np.zeros((1, 4)), sines[None])
         return Signal(np.array([0.0, self.rest]), np.zeros((2, 4)), np.stack([0 * sines, sines]))
 
-    def experiment(self) -> Experiment:
-        """For `rig_system` with a crane, a row every 2 ms."""
-        times = np.arange(round((self.rest + self.length) / _ROW) + 1, dtype=np.float64) * _ROW
+    def experiment(self, *, every: float = _ROW) -> Experiment:
+        """For `rig_system` with a crane, a row every so many seconds, a whole number of communication steps."""
+        times = np.arange(round((self.rest + self.length) / every) + 1, dtype=np.float64) * every
         return Experiment(times, (*OUTPUTS, *REFERENCES), {"crane.z_v_t": self.velocity()})
 
 

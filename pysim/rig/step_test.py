@@ -66,12 +66,12 @@ class StepTest:
             [0.0, 1.0, self.at, self.at + 1e-9, end], [0.0, base, base, base + self.size, base + self.size]
         )
 
-    def experiment(self, feed: Feed = "reference") -> Experiment:
-        """For `rig_system` without a crane, a row every 2 ms."""
+    def experiment(self, feed: Feed = "reference", *, every: float = _ROW) -> Experiment:
+        """For `rig_system` without a crane, a row every so many seconds, a whole number of communication steps."""
         inputs = {"speed.reference": self.reference("speed"), "load.reference": self.reference("load")}
         if feed == "reference":
             inputs["load.speed"] = self.reference("speed")
-        times = np.arange(round((self.at + self.length) / _ROW) + 1, dtype=np.float64) * _ROW
+        times = np.arange(round((self.at + self.length) / every) + 1, dtype=np.float64) * every
         return Experiment(times, (*OUTPUTS, "speed.pi", "load.pi"), inputs)
 
 

@@ -29,8 +29,20 @@ def test_heave_compares_controllers(tmp_path: Path) -> None:
     assert (tmp_path / "out" / "heave_error.png").stat().st_size > 1000
 
 
+def test_slow_controllers_are_recorded_at_their_own_steps(tmp_path: Path) -> None:
+    """At 10 ms the valve's loop still holds; it overshoots more than at 1 ms, as the sampling turns the phase."""
+    found = {}
+    for dt in ("0.01", "0.0007", "0.001"):
+        assert main(["rig", "step", "--length", "2", "--dt", dt, "--json", str(tmp_path / "s.json")]) == 0
+        found[dt] = json.loads((tmp_path / "s.json").read_text())[1]
+        assert abs(found[dt]["steady_error"]) < 0.05 * 40e5
+    assert found["0.01"]["overshoot"] > found["0.001"]["overshoot"]
+
+
 def test_wrong_use(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["rig", "heave", "--period", "0"]) == 2
     assert "peak period" in capsys.readouterr().err
+    assert main(["rig", "step", "--dt", "0"]) == 2
+    assert "--dt 0: give seconds" in capsys.readouterr().err
     assert main(["rig", "step", "--speed", "0"]) == 2
     assert "other than zero" in capsys.readouterr().err

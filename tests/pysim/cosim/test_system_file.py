@@ -107,18 +107,26 @@ def test_what_is_wrong_is_said_with_its_line(folder: Path, old: str, new: str, m
         read_system_file(written(folder, OSCILLATOR.replace(old, new, 1)))
 
 
+def test_empty_tables_are_none(folder: Path) -> None:
+    text = OSCILLATOR.replace("spring.k = 100.0", "") + "[inputs]\n"
+    assert "[overrides]" in text
+    found = read_system_file(written(folder, text))
+    assert not found.experiment.inputs
+    assert not found.experiment.overrides
+
+
 @pytest.mark.parametrize(
     ("old", "new", "message"),
     [
         ("pysim.control.PI", "PI", "line 5: 'PI' names no class; write \"package.module.Class\""),
-        ("pysim.control.PI", "pysim.control.PD", "line 5: pysim.control has no class 'PD'"),
+        ("pysim.control.PI", "pysim.control.PD", "line 5: pysim.control has no class 'PD'; its classes: .*PI, "),
         ("pysim.control.PI", "no_such_package.PI", "line 5: no_such_package cannot be imported"),
         ("pysim.control.PI", "nowhere.py:PI", "line 5: there is no file"),
-        ("K_p = 1.0, ", "", r"line 5: pysim\.control\.PI does not take these settings"),
+        ("K_p = 1.0, ", "", r"line 5: pysim\.control\.PI does not take these settings .*; it takes K_p, T_i, dt"),
         ("T_i = 0.5", "T_i = -0.5", "line 5: PI: K_p"),
         ("dt = 0.01 }", "dt = 0.02 }", "line 5: controller: the block has dt = 0.02 s but is sampled every 0.01 s"),
-        ('"reference.csv"', '"lost.csv"', r"lost\.csv"),
-        ('"reference.csv"', "true", r"\[inputs\], controller\.reference is True; write a number"),
+        ('"reference.csv"', '"lost.csv"', r"^\S+\.toml, line \d+, controller\.reference: cannot read .*lost\.csv"),
+        ('"reference.csv"', "true", r"line \d+, controller\.reference is True; write a number"),
     ],
 )
 def test_what_is_wrong_with_a_block(folder: Path, old: str, new: str, message: str) -> None:
