@@ -3,7 +3,7 @@ export default {
   template: `
     <div class="table-scroll" :style="height ? { maxHeight: height } : {}">
       <table class="table">
-        <caption class="hidden">{{ label }}</caption>
+        <caption class="unseen">{{ label }}</caption>
         <thead><tr>
           <th v-for="(c, j) in columns" :key="j" scope="col" :class="c.kind" :aria-sort="by === j ? (down ? 'descending' : 'ascending') : 'none'">
             <button type="button" @click="sort(j)">{{ c.title }}<span aria-hidden="true">{{ by === j ? (down ? ' ↓' : ' ↑') : '' }}</span></button>
