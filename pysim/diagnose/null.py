@@ -31,6 +31,8 @@ BANDS = (0.0, 0.25, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0, math.inf)
 _WHITE_DOUBT, _COLOURED_DOUBT = 0.03, 0.15
 # s between the lags of the command that residuals are held against, and their number.
 _LAG, _LAGS = 0.02, 8
+# Draws beyond a height from which they are counted rather than extrapolated.
+_COUNTED = 10
 # A part is told where noise alone would make any part stick out so far with this chance.
 _TELL = 0.02
 
@@ -141,7 +143,7 @@ class Expected:
         seen = np.array([[turned[part.rows] @ turned[part.rows] for part in self.parts]])
         tall = [_height(seen[:, list(members)], self.drawn[:, list(members)]) for members in self.groups.values()]
         top, tops = np.array([t for t, _ in tall]), np.max([many for _, many in tall], axis=0)
-        p_parts = (1 + float(np.sum(tops >= top.max()))) / (1 + tops.size)
+        p_parts = beyond(float(top.max()), tops)
         p_command = self._command(residual)
         limit, names = np.quantile(tops, 1 - _TELL), list(self.groups)
         where = ["along the command and its powers"] if p_command < _TELL else []
@@ -155,6 +157,20 @@ class Expected:
         doubts = [_COLOURED_DOUBT if noise.coloured else _WHITE_DOUBT for noise in self.ruler.noise.values()]
         gain = float(np.sum((self.along.T @ residual) ** 2)) / (1 + 2 * max(doubts, default=_WHITE_DOUBT))
         return float(stats.chi2.sf(gain, self.along.shape[1]))
+
+
+def beyond(height: float, drawn: Array) -> float:
+    """Chance of so large a maximum, from draws (n,) of it; further out than a few of these by their Gumbel tail.
+
+    Maxima of many parts are nearly Gumbel's (Gumbel 1958, Statistics of Extremes); its tail is heavier than the normal
+    one of each part, so that what it calls unlikely is.
+    """
+    seen = int(np.sum(drawn >= height))
+    if seen >= _COUNTED:
+        return (1 + seen) / (1 + drawn.size)
+    scale = float(drawn.std()) * math.sqrt(6) / math.pi
+    place = (height - float(drawn.mean())) / max(scale, 1e-12) + float(np.euler_gamma)
+    return min(-math.expm1(-math.exp(-place)), (1 + seen) / (1 + drawn.size))
 
 
 def _turned(ruler: Ruler, rows: Array) -> tuple[list[_Part], Array]:

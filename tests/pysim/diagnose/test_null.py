@@ -103,3 +103,11 @@ def test_a_structure_that_a_sum_of_squares_cannot_see_is_told(where: str) -> Non
     found = null.leftover(ruler, point)
     assert found.p_value < 0.002
     assert any(where in told for told in found.where)
+
+
+def test_a_tail_goes_on_beyond_the_draws() -> None:
+    drawn = np.random.default_rng(4).gumbel(2.0, 0.5, 2000)
+    for chance in (0.3, 0.02, 1e-4, 1e-6):
+        height = 2.0 - 0.5 * np.log(-np.log1p(-chance))
+        assert null.beyond(float(height), drawn) == pytest.approx(chance, rel=0.6)
+    assert null.beyond(1e3, drawn) < 1e-100
