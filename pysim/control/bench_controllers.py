@@ -117,6 +117,9 @@ class CompensatedLoadController:
     loop's gain does not change with the load, and the motor's flow is fed forward as a flow. The integral keeps within
     what the fully open valve would let through.
 
+    The load pressure that turns the characteristic round is smoothed. Taken as it is, it would also take away that the
+    valve lets through less as the load pressure rises; this damps the shaft, which swings at 12 Hz.
+
     Args:
         dt: s between two steps.
         K_p: m3/(s Pa); that of the thesis' controller times K_qu, so that both loops are alike at its working point.
@@ -125,9 +128,11 @@ class CompensatedLoadController:
         valve: m2, flow over opening and root of pressure over density.
         rho: kg/m3.
         least: Pa, pressure drop below which the valve is taken to have this one.
+        smoothing: s, time constant of the first-order lag of the load pressure for the characteristic; 0 is none.
     Raises:
-        BadInput: numbers that PI refuses, or a number of the valve or the motor that is not positive.
-    Source: thesis Eq. 5.2 solved for the opening; proposed in its Section 6.1.
+        BadInput: numbers that PI refuses, a number of the valve or the motor that is not positive, or a smoothing
+            below zero.
+    Source: thesis Eq. 5.2 solved for the opening; proposed in its Section 6.1. Differs: the smoothing.
     """
 
     dt: float
@@ -137,12 +142,16 @@ class CompensatedLoadController:
     valve: float = 1.863e-5
     rho: float = 875.0
     least: float = 5e5
+    smoothing: float = 0.1
 
     def __post_init__(self) -> None:
         for name in ("motor", "valve", "rho", "least"):
             if not 0 < getattr(self, name) < math.inf:
                 raise BadInput(f"compensated load controller: {name} = {getattr(self, name):g}; give a positive number")
+        if not 0 <= self.smoothing < math.inf:
+            raise BadInput(f"compensated load controller: smoothing = {self.smoothing:g} s; give zero or more")
         self._pi = PI(self.K_p, self.T_i, self.dt, "Pa", "m3/s")
+        self._share, self._smooth = self.dt / max(self.smoothing, self.dt), 0.0
         self.inputs = (
             Port("reference", "Pa"),
             Port("measured", "Pa"),
@@ -154,17 +163,19 @@ class CompensatedLoadController:
     def step(self, time: float, inputs: Sequence[float]) -> tuple[float, float]:
         """(reference, measured, speed, supply) -> (u_ref, pi)."""
         reference, measured, speed, supply = inputs
-        upwards = self.valve * math.sqrt(max(supply - measured, self.least) / self.rho)
-        downwards = self.valve * math.sqrt(max(supply + measured, self.least) / self.rho)
+        self._smooth = smooth = self._share * measured + (1 - self._share) * self._smooth
+        upwards = self.valve * math.sqrt(max(supply - smooth, self.least) / self.rho)
+        downwards = self.valve * math.sqrt(max(supply + smooth, self.least) / self.rho)
         feed = -self.motor * speed
         pi = self._pi.advance(reference - measured, -downwards - feed, upwards - feed)
         flow = pi + feed
         return min(max(flow / (upwards if flow > 0 else downwards), -1.0), 1.0), pi
 
     def state(self) -> tuple[float, ...]:
-        """That of its PI part."""
-        return self._pi.state()
+        """That of its PI part, and the smoothed load pressure."""
+        return (*self._pi.state(), self._smooth)
 
     def restore(self, state: Sequence[float]) -> None:
         """Go on from a state that was kept."""
-        self._pi.restore(state)
+        *pi, self._smooth = state
+        self._pi.restore(pi)

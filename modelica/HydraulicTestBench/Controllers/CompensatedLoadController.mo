@@ -10,6 +10,7 @@ block CompensatedLoadController "Load pressure by the servo valve whose characte
   parameter Types.Area valve(min=1e-9) = bench.K_sv "Flow over opening and root of pressure over density";
   parameter Types.Density rho(min=1) = 875 "Density of oil";
   parameter Types.Pressure least(min=1) = 5e5 "Pressure drop below which the valve is taken to have this one";
+  parameter Types.Duration smoothing(min=0) = 0.1 "Time constant of the load pressure's lag, 0 = none";
   Interfaces.RealInput reference(unit="Pa") "Reference"
     annotation(Placement(transformation(extent={{-140, 60}, {-100, 100}})));
   Interfaces.RealInput measured(unit="Pa") "Pressure across the load motor"
@@ -28,6 +29,7 @@ protected
   discrete Real begun(unit="1", start=0, fixed=true) "1 after the first sample";
   discrete Types.Pressure before(start=0, fixed=true) "Error of the sample before, or this one at the first";
   discrete Types.VolumeFlowRate ahead(start=0, fixed=true) "Feed forward";
+  discrete Types.Pressure smooth(start=0, fixed=true) "Load pressure, smoothed";
   discrete Types.VolumeFlowRate upwards(start=1, fixed=true) "Flow of the fully open valve that raises the pressure";
   discrete Types.VolumeFlowRate downwards(start=1, fixed=true) "The same, lowering it";
   discrete Real command(unit="1", start=0, fixed=true) "Command";
@@ -37,8 +39,9 @@ equation
     begun = 1;
     before = if pre(begun) > 0.5 then pre(error) else error;
     ahead = -motor*speed;
-    upwards = valve*sqrt(max(supply - measured, least)/rho);
-    downwards = valve*sqrt(max(supply + measured, least)/rho);
+    smooth = dt/max(smoothing, dt)*measured + (1 - dt/max(smoothing, dt))*pre(smooth);
+    upwards = valve*sqrt(max(supply - smooth, least)/rho);
+    downwards = valve*sqrt(max(supply + smooth, least)/rho);
     q = min(max(pre(q) + K_p*(error - before) + K_p/T_i*dt*before, -downwards - ahead), upwards - ahead);
     command = min(max((q + ahead)/(if q + ahead > 0 then upwards else downwards), -1), 1);
   end when;
@@ -46,8 +49,10 @@ equation
   pi = q;
   annotation(Documentation(info="<html>
 <p>PI and feed forward ask for a flow; the opening is what lets it through at the pressure drop that is there. The
-loop's gain does not change with the load, and the motor's flow is fed forward as a flow.</p>
-<p><b>Source:</b> thesis Eq. 5.2 solved for the opening; proposed in its Section 6.1.</p>
+loop's gain does not change with the load, and the motor's flow is fed forward as a flow. The load pressure is
+smoothed for it: taken as it is, the valve would no longer damp the shaft by letting through less as the load pressure
+rises.</p>
+<p><b>Source:</b> thesis Eq. 5.2 solved for the opening; proposed in its Section 6.1. Differs: the smoothing.</p>
 <p><b>Valid:</b> as <code>ValveCompensation</code>.</p>
 <p><b>Leaves out:</b> overlap of the edges, the time its calculation takes.</p>
 </html>"));

@@ -67,7 +67,7 @@ def test_load_controller_stays_within_the_valve_and_comes_back_at_once() -> None
 
 
 def test_compensated_controller_opens_for_the_flow_that_is_asked_for() -> None:
-    controller = CompensatedLoadController(DT, K_p=1e-12)
+    controller = CompensatedLoadController(DT, K_p=1e-12, smoothing=0.0)
     pi, valve = PI(1e-12, 0.03, DT), ValveCompensation(1.863e-5, 875.0)
     for e in errors(3, 5e5):
         opening, part = controller.step(0.0, (100e5, 100e5 - e, -20.0, 310e5))
@@ -84,6 +84,15 @@ def test_its_gain_is_that_of_the_thesis_at_the_working_point() -> None:
     compensated.step(0.0, (0.0, 0.0, 0.0, 310e5))
     ratio = compensated.step(0.0, (small, 0.0, 0.0, 310e5))[0] / plain.step(0.0, (small, 0.0, 0.0))[0]
     assert ratio == pytest.approx(1.0, rel=0.01)  # 0.0035 is printed for 1.863e-5 sqrt(310e5/875) = 0.003507
+
+
+def test_the_characteristic_follows_the_load_pressure_with_a_lag() -> None:
+    """No PI part to speak of: opening times root of the drop at the smoothed pressure is the same flow throughout."""
+    controller = CompensatedLoadController(DT, K_p=0.0, smoothing=0.05)
+    controller.step(0.0, (0.0, 0.0, -20.0, 310e5))
+    openings = np.array([controller.step(0.0, (0.0, 100e5, -20.0, 310e5))[0] for _ in range(200)])
+    lag = 100e5 * (1 - (1 - DT / 0.05) ** np.arange(1, 201))
+    assert openings == pytest.approx(60e-6 / (2 * math.pi) * 20.0 / (1.863e-5 * np.sqrt((310e5 - lag) / 875.0)))
 
 
 def test_compensated_controller_never_divides_by_nothing() -> None:
@@ -112,3 +121,5 @@ def test_wrong_numbers_are_refused() -> None:
         LoadController(0.0)
     with pytest.raises(BadInput, match="valve = 0"):
         CompensatedLoadController(DT, valve=0.0)
+    with pytest.raises(BadInput, match="smoothing = -1 s"):
+        CompensatedLoadController(DT, smoothing=-1.0)
