@@ -101,7 +101,8 @@ def rig_heave_figure(record: Record, test: HeaveTest) -> Figure:
         field = close.axvspan(begin, end, color=BAND, alpha=0.7, linewidth=0)
         handles["standing still"] = field
     close.set_ylabel("Speed, a reversal (rad/s)", fontsize=TEXT)
-    close.set_xlabel("Time (s)", fontsize=TEXT)
+    for axes in (supply, close):  # the first three share one span of time
+        axes.set_xlabel("Time (s)", fontsize=TEXT)
     for axes in (speed, load, supply, close):
         quiet(axes)
     figure.align_ylabels([speed, load, supply, close])
