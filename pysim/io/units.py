@@ -18,6 +18,8 @@ SI: Mapping[str, tuple[str, float]] = MappingProxyType(
         "deg": ("rad", math.pi / 180),
         "deg/s": ("rad/s", math.pi / 180),
         "rpm": ("rad/s", math.pi / 30),
+        "rev/min": ("rad/s", math.pi / 30),
+        "1/min": ("rad/s", math.pi / 30),
         "mm": ("m", 1e-3),
         "mm/s": ("m/s", 1e-3),
         "mm2": ("m2", 1e-6),
