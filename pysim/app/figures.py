@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from html import escape
+from textwrap import wrap
 from typing import Any
 
 from pysim.identify import FREQUENCY_CRITERIA
@@ -71,14 +72,14 @@ def staircase_figure(steps: Sequence[Mapping[str, Any]], *, doing: str = "") -> 
         steps: of the ledger.
         doing: name of the step that is being found; "" where nothing runs.
     """
-    names = [plain(step_name(s["step"])) for s in steps] + ([f"<i>{plain(doing)} …</i>"] if doing else [])
+    names = [plain(step_name(s["step"])) for s in steps] + ([f"<i>{_wrapped(doing)} …</i>"] if doing else [])
     places = list(range(len(names)))
     lines = {
         "fitted": ([s["fit"] for s in steps], "@final", "solid", "circle", -0.16),
         "held out": ([s["validate"] for s in steps], "@base", "dash", "square", 0.16),
     }
     known = [v for values, *_ in lines.values() for v in values if v]
-    low, high = min([0.7, *(0.75 * v for v in known)]), max([3.0, *(1.9 * v for v in known)])
+    low, high = min([0.6, *(0.62 * v for v in known)]), max([3.0, *(1.9 * v for v in known)])
     data: list[dict[str, Any]] = []
     notes: list[dict[str, Any]] = []
     for name, (values, colour, dash, symbol, _) in lines.items():
@@ -108,7 +109,13 @@ def staircase_figure(steps: Sequence[Mapping[str, Any]], *, doing: str = "") -> 
         ),
         shapes=shapes,
         annotations=notes,
+        margin={"l": 62, "r": 18, "t": 34, "b": 30},
     )  # fmt: skip
+
+
+def _wrapped(words: str) -> str:
+    """In lines that fit below a step."""
+    return "<br>".join(plain(line) for line in wrap(words, 20))
 
 
 def _stairs(name: str, values: Sequence[float | None], colour: str, dash: str, symbol: str) -> list[dict[str, Any]]:

@@ -56,7 +56,7 @@ class _Stairs:
 
     def show(self) -> None:
         """What is known now."""
-        steps = self._steps()
+        steps, doing = self._steps()
         if not steps:
             if self._chart is not None:
                 self._chart.delete()
@@ -65,20 +65,21 @@ class _Stairs:
             return
         self._place.set_visibility(True)
         told = "; ".join(f"{s['step']} {s['fit'] or s['validate'] or 0:.2f}" for s in steps)
-        figure, label = staircase_figure(steps), f"Error over noise, step by step: {told}"
+        figure, label = staircase_figure(steps, doing=doing), f"Error over noise, step by step: {told}"
         if self._chart is None:
             with self._place:
                 self._chart = Chart(figure, label, height=350)
         else:
             self._chart.show(figure, label)
 
-    def _steps(self) -> Sequence[Mapping[str, Any]]:
+    def _steps(self) -> tuple[Sequence[Mapping[str, Any]], str]:
+        """Of what runs, or of the model as it is now; and what is being worked on."""
         job = self._desk.runner.running
         if job is not None and job.work.words[0] in ("diagnose", "add", "compare", "rank", "locate"):
-            return job.steps
+            return job.steps, job.stage
         added = self._desk.project.settings().added
         answer = self._desk.answers.with_effects(added)
-        return [] if answer is None else ledger(answer, added)
+        return ([], "") if answer is None else (ledger(answer, added), "")
 
 
 def _below(desk: Desk) -> None:

@@ -19,6 +19,13 @@ function dressed(value, colour) {
   return value;
 }
 
+// Handed over with the first drawing only: Plotly 3.1.1 and later find that lists of buttons differ from themselves,
+// and then draw anew without end (plotly.js issue 7572).
+function settings(series) {
+  const modeBarButtons = [["zoom2d", "pan2d", "zoomIn2d", "zoomOut2d", "resetScale2d", "toImage"]];
+  return { displaylogo: false, displayModeBar: series ? "hover" : false, doubleClick: "reset", modeBarButtons };
+}
+
 export default {
   template: `<div class="chart" role="img" :aria-label="label" :tabindex="series ? 0 : -1" @keydown="key"></div>`,
   props: { figure: Object, series: Object, label: String, stamp: Number },
@@ -68,9 +75,10 @@ export default {
       while (this.wanted && this.$el.isConnected) {
         this.wanted = false;
         const { data, layout } = dressed(JSON.parse(JSON.stringify(this.figure)), palette(this.$el));
-        const config = { displaylogo: false, displayModeBar: this.series ? "hover" : false, doubleClick: "reset" };
-        config.modeBarButtons = [["zoom2d", "pan2d", "zoomIn2d", "zoomOut2d", "resetScale2d", "toImage"]];
-        await this.Plotly.react(this.$el, data, layout, config);
+        const { clientWidth: width, clientHeight: height } = this.$el; // Plotly looks at it for the first drawing only
+        if (width && height) Object.assign(layout, { width, height });
+        await this.Plotly.react(this.$el, data, layout, this.drawn ? undefined : settings(this.series));
+        this.drawn = true;
         if (this.series && this.range) await this.fetch(this.range);
       }
     },

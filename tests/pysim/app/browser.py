@@ -6,7 +6,7 @@ import shutil
 import subprocess
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -28,10 +28,10 @@ def chromium() -> str:
 
 
 @contextmanager
-def server(folder: Path, *words: str) -> Iterator[str]:
+def server(folder: Path, *words: str, program: Sequence[str] = ("-m", "pysim")) -> Iterator[str]:
     """The address of `pysim app` on a project, with its token; ended afterwards."""
     log = folder.parent / f"{folder.name}.log"
-    command = [sys.executable, "-m", "pysim", "app", str(folder), "--no-browser", *words]
+    command = [sys.executable, *program, "app", str(folder), "--no-browser", *words]
     own = {k: v for k, v in os.environ.items() if not k.startswith("PYTEST")}  # by which NiceGUI knows its own tests
     environment = {**own, "PYTHONPATH": str(ROOT), "OPENBLAS_NUM_THREADS": "1"}
     with log.open("wb") as output:

@@ -1,0 +1,111 @@
+"""The page Add while a fit runs, in a real browser: the test tells the story of the job, step by step."""
+
+import json
+import re
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from tests.pysim.app.browser import Tab, artefacts, browser, server
+from tests.pysim.diagnose.toy import TEXT
+
+DESCRIPTION = """
+[dataset]
+name = "toy"
+[signals.F]
+role = "input"
+unit = "N"
+[signals.x]
+role = "output"
+unit = "m"
+[[records]]
+file = "a.txt"
+columns = ["time", "F", "x"]
+kind = "other"
+"""
+# The workbench whose work does nothing: what it tells is written by the test.
+SLOW = """
+import subprocess, sys
+import pysim.app.jobs
+from pysim.cli import main
+sleep = [sys.executable, "-c", "import time; time.sleep(600)"]
+pysim.app.jobs.run_pysim = lambda words, folder, output: subprocess.Popen(sleep, start_new_session=True)
+sys.exit(main(sys.argv[1:]))
+"""
+_PATIENCE = 15e3  # ms
+
+
+@pytest.fixture(scope="module")
+def shown() -> Iterator[Any]:
+    with browser() as found:
+        yield found
+
+
+@pytest.fixture
+def project(tmp_path: Path) -> Path:
+    """With data and a model."""
+    folder = tmp_path / "project"
+    (folder / "data").mkdir(parents=True)
+    (folder / "model").mkdir()
+    (folder / "data/dataset.toml").write_text(DESCRIPTION)
+    (folder / "data/a.txt").write_text("\n".join(f"{k / 10} {k % 7} {k % 5}" for k in range(50)))
+    (folder / "model/Toy.mo").write_text(TEXT)
+    (folder / "project.toml").write_text('model = "Toy.Mass"\nlibraries = ["model/Toy.mo"]\n')
+    return folder
+
+
+def tell(project: Path, step: str, fit: float) -> None:
+    """What a job writes when it has a step."""
+    told = {"step": step, "fit": fit, "validate": 0.8 * fit, "criteria": {}, "passes": False, "cost": fit**2}
+    line = {"seconds": 1.0, "left": 60.0, "stage": "refitting the model", "text": f"{step} {fit}", "step": told}
+    with (project / "results/diagnose/story.jsonl").open("a") as file:
+        file.write(json.dumps(line) + "\n")
+
+
+def drawn(tab: Tab, number: str) -> None:
+    """Wait until the staircase shows a number; a page that hangs never does."""
+    words = tab.page.locator(".chart .annotation-text", has_text=re.compile(f"^{re.escape(number)}$"))
+    words.wait_for(state="attached", timeout=_PATIENCE)
+
+
+def test_the_staircase_moves_while_the_fit_runs_and_stays_usable(shown: Any, project: Path) -> None:
+    with server(project, program=("-c", SLOW)) as address:
+        tab = Tab(shown, address, artefacts())
+        tab.go("Add")
+        tab.page.get_by_role("button", name="Find what is missing", disabled=False).click()
+        tab.see("Stop")
+        for step, fit, number in (("prior", 63.8, "63.8"), ("refit", 20.3, "20.3"), ("toy.friction", 0.97, "0.97")):
+            tell(project, step, fit)
+            drawn(tab, number)
+        assert tab.page.locator(".chart .main-svg").count() == 3  # one figure: below, above, and what hovers
+        tab.shot("running")
+        _follows_the_look(tab)
+        _follows_the_window(tab)
+        tab.press("Stop")
+        tab.see("was stopped; what it had found is kept")
+        tab.page.reload()
+        tab.press("Go on")
+        tab.see("Stop")
+        tell(project, "prior", 55.5)
+        drawn(tab, "55.5")
+        assert tab.errors == []
+
+
+def _follows_the_look(tab: Tab) -> None:
+    """Drawn again in the other colours, more than once."""
+    colour = "getComputedStyle(document.querySelector('.chart .ytick text')).fill"
+    for ink, scheme in (("rgb(231, 237, 243)", "dark"), ("rgb(23, 33, 43)", "light"), ("rgb(231, 237, 243)", "dark")):
+        tab.page.emulate_media(color_scheme=scheme)
+        tab.page.wait_for_function(f"{colour} === '{ink}'", timeout=_PATIENCE)
+    tab.shot("running-dark")
+
+
+def _follows_the_window(tab: Tab) -> None:
+    """As wide as its place."""
+    for width in (900, 1280):
+        tab.page.set_viewport_size({"width": width, "height": 800})
+        same = "(() => { const c = document.querySelector('.chart'); return "
+        same += "Math.abs(c.querySelector('.main-svg').clientWidth - c.clientWidth) < 2 && c.clientWidth > 400; })()"
+        tab.page.wait_for_function(same, timeout=_PATIENCE)
