@@ -2,12 +2,12 @@
 
 import pytest
 
-from pysim.effects import STANDARD_LIBRARY, Variant, read_catalogue
+from pysim.effects import STANDARD_LIBRARY, Variant, fitting, read_catalogue
 from pysim.types import BadInput
 from validation.blind.catalogue import BASE, _overrides
 from validation.blind.plant.effects import STANDARD
 
-EFFECTS = {effect.name: effect for effect in read_catalogue(STANDARD_LIBRARY)}
+EFFECTS = {e.name: e for e in fitting(read_catalogue(STANDARD_LIBRARY), BASE, [STANDARD_LIBRARY])}
 
 
 def test_plant_and_catalogue_have_the_same_effects_with_the_same_symbols() -> None:
