@@ -46,6 +46,7 @@ def figure(data: Sequence[Mapping[str, Any]], **layout: Any) -> Figure:
         "hoverlabel": {"bgcolor": "@raised", "bordercolor": "@line", "font": {"color": "@ink", "size": 12.5}},
         "legend": {"orientation": "h", "x": 0, "y": 1.0, "yanchor": "bottom", "bgcolor": "rgba(0,0,0,0)"},
         "showlegend": True,
+        "modebar": {"bgcolor": "rgba(0,0,0,0)", "color": "@quiet", "activecolor": "@ink"},
         "uirevision": "keep",
     }
     return {"data": list(data), "layout": {**base, **layout}}

@@ -25,7 +25,8 @@ def add_page(desk: Desk) -> None:
 def _top(desk: Desk) -> None:
     settings, running = desk.project.settings(), desk.runner.running
     answer = desk.answers.with_effects(settings.added)
-    head("Watch the error fall", "" if answer is None else str(answer.data["reason"]))
+    told = answer is not None and answer.added == settings.added  # what was undone is not what is shown
+    head("Watch the error fall", str(answer.data["reason"]) if answer is not None and told else "")
     ended(desk)
     if answer is None and running is None:
         with box("row"):

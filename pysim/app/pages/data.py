@@ -11,7 +11,7 @@ from nicegui import background_tasks, ui
 from pysim.app.description import UNITS, change_description, read_description
 from pysim.app.desk import Desk, Loaded
 from pysim.app.pages.bare import describe_form
-from pysim.app.pages.common import attempt, busy, ended, start
+from pysim.app.pages.common import attempt, busy, counted, ended, start
 from pysim.app.parts import Chart, Drop, Table, box, button, card, head, live, note, say, text
 from pysim.app.records import MOST, measured_overlay
 from pysim.identify.data_check import DataCheck, RecordCheck
@@ -222,7 +222,7 @@ def _records(desk: Desk, preview: dict[str, int]) -> None:
         ("look at", "words"),
     ]
     held = sum(record.use == "validate" for record in check.records)
-    with card(f"{len(check.records)} records, {held} held out"):
+    with card(f"{counted(len(check.records), 'record')}, {held} held out"):
         text(
             "p",
             "What is held out is never fitted: it shows whether the model foresees. Click a row to see the record.",

@@ -10,6 +10,7 @@ from pysim.app.desk import Desk
 from pysim.app.jobs import FAILED, Job
 from pysim.app.pages.add import add_page
 from pysim.app.pages.candidates import candidates_page
+from pysim.app.pages.common import counted
 from pysim.app.pages.compare import compare_page
 from pysim.app.pages.data import data_page
 from pysim.app.pages.locate import locate_page
@@ -149,7 +150,7 @@ def _states(desk: Desk) -> list[tuple[str, bool]]:
     verdict = best if whole is None else str(whole.data["verdict"])
     last = "" if now is None or not settings.added else f"{_rms(settings.added[-1], now.data['error'])} × noise"
     return [
-        (f"{len(check.records)} records" if check else "drop your logs", check is not None),
+        (counted(len(check.records), "record") if check else "drop your logs", check is not None),
         (error or "model beside data", compared is not None),
         (first or "where it fails", located is not None),
         (verdict or "what may be missing", ranked is not None),

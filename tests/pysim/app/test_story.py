@@ -1,0 +1,115 @@
+"""The whole story in a real browser: logs of a plant that rubs are dropped, and its FMU is taken away."""
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from pysim.io import read_model, write_dataset
+from tests.pysim.app.browser import Tab, artefacts, browser, server
+from tests.pysim.diagnose.toy import TEXT, measured
+
+pytestmark = pytest.mark.slow
+PATIENCE = 400.0  # s, on a machine that does other things too
+
+
+@pytest.fixture(scope="module")
+def shown() -> Iterator[Any]:
+    with browser() as found:
+        yield found
+
+
+@pytest.fixture
+def dropped(tmp_path: Path) -> tuple[Path, Path]:
+    """A data set with a hidden effect, and the library of the model."""
+    write_dataset(tmp_path / "rubbing", measured(1, "toy.friction", F_c=0.4))
+    (tmp_path / "Toy.mo").write_text(TEXT)
+    return tmp_path / "rubbing", tmp_path / "Toy.mo"
+
+
+def begun(shown: Any, address: str, dropped: tuple[Path, Path]) -> Tab:
+    """A tab that has data and model."""
+    tab = Tab(shown, address, artefacts())
+    tab.drop("folder", dropped[0])
+    tab.see("2 records, 1 held out")
+    tab.drop("files", dropped[1])
+    tab.see("Libraries of yours: model/Toy.mo")
+    tab.page.get_by_label("Modelica class").fill("Toy.Mass")
+    tab.press("Use this model")
+    tab.see("4 effects that fit", timeout=PATIENCE)
+    return tab
+
+
+def test_from_the_dropped_folder_to_the_downloaded_fmu(shown: Any, dropped: tuple[Path, Path], tmp_path: Path) -> None:
+    with server(tmp_path / "project") as address:
+        tab = begun(shown, address, dropped)
+        tab.shot("data")
+        tab.press("Compare and refit")
+        tab.see("Where the error is", timeout=PATIENCE)
+        _a_cell_opens_its_record(tab)
+        tab.shot("compare")
+        tab.go("Locate")
+        tab.press("Locate")
+        tab.see("What force would need", timeout=PATIENCE)
+        tab.shot("locate")
+        tab.go("Candidates")
+        tab.press("Rank the candidates")
+        tab.see("of the misfit (refitted)", timeout=PATIENCE)
+        first = tab.page.locator(".candidate").first
+        assert "Dry friction" in first.inner_text()
+        tab.shot("candidates")
+        tab.page.locator(".candidate", has_text="toy.friction").get_by_role("button", name="Try").click()
+        tab.see("Undo toy.friction", timeout=PATIENCE)
+        tab.shot("add")
+        numbers = tab.page.locator(".chart .annotation-text").all_text_contents()
+        assert min(float(text) for text in numbers if text[:1].isdigit()) < 1.1  # nothing but noise is left
+        tab.go("Take away")
+        with tab.page.expect_download() as download:
+            tab.page.locator(".file", has_text="FMU").get_by_text("Download").first.click()
+        fmu = tmp_path / "taken.fmu"
+        download.value.save_as(fmu)
+        tab.shot("take")
+        model = read_model(fmu)
+        assert model.name == "MassWithRubbing"
+        assert model["force.F_c"].start == pytest.approx(0.4, abs=0.02)
+        assert tab.errors == []
+        assert tab.foreign() == []
+
+
+def _a_cell_opens_its_record(tab: Tab) -> None:
+    """A click into the map's second row, of two; the frame of the page stays where it is."""
+    assert tab.page.locator("#record h2").inner_text() == "a.txt"  # the worse one
+    cells = tab.page.locator(".chart .heatmaplayer").first.bounding_box()
+    tab.page.mouse.click(cells["x"] + 0.5 * cells["width"], cells["y"] + 0.75 * cells["height"])
+    tab.page.locator("#record h2", has_text="b.txt").wait_for()
+    tab.page.wait_for_timeout(700)  # it scrolls there
+    assert tab.page.evaluate("document.querySelector('.top').getBoundingClientRect().top") == 0
+    assert tab.page.evaluate("document.querySelector('.main').scrollTop") > 0
+
+
+def test_a_stopped_diagnosis_goes_on_and_a_reload_finds_it(
+    shown: Any, dropped: tuple[Path, Path], tmp_path: Path
+) -> None:
+    project = tmp_path / "project"
+    with server(project) as address:
+        tab = begun(shown, address, dropped)
+        other = Tab(shown, address)
+        tab.press("Find what is missing")
+        tab.see("Stop")
+        other.see("Stop")  # two tabs agree
+        tab.page.reload()
+        tab.see("Stop")
+        while not (project / "results/diagnose/journal.jsonl").exists():
+            tab.page.wait_for_timeout(50)
+        other.press("Stop")
+        tab.see("was stopped; what it had found is kept")
+        assert (project / "results/diagnose/journal.jsonl").exists()
+    with server(project) as address:  # a server that ended loses nothing
+        tab = Tab(shown, address)
+        tab.press("Go on")
+        tab.go("Add")
+        tab.see("Undo toy.friction", timeout=PATIENCE)
+        tab.press("Undo toy.friction")
+        tab.page.get_by_role("button", name="Undo toy.friction").wait_for(state="detached")
+        assert tab.errors == []
