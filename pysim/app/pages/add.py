@@ -74,20 +74,26 @@ class _Stairs:
             self._chart.show(figure, label)
 
     def _steps(self) -> tuple[Sequence[Mapping[str, Any]], str]:
-        """Of what runs, or of the model as it is now; and what is being worked on."""
+        """Of what runs, of the model as it is now, or of what was stopped; and what is being worked on."""
         job = self._desk.runner.running
         if job is not None and job.work.words[0] in ("diagnose", "add", "compare", "rank", "locate"):
             return job.steps, job.stage
         added = self._desk.project.settings().added
         answer = self._desk.answers.with_effects(added)
-        return ([], "") if answer is None else (ledger(answer, added), "")
+        return (_kept(self._desk) if answer is None else ledger(answer, added)), ""
+
+
+def _kept(desk: Desk) -> Sequence[Mapping[str, Any]]:
+    """Steps that a stopped job had found."""
+    job = desk.unfinished()
+    return [] if job is None else job.steps
 
 
 def _below(desk: Desk) -> None:
     settings = desk.project.settings()
     answer = desk.answers.with_effects(settings.added)
     if answer is None:
-        if desk.runner.running is None:
+        if desk.runner.running is None and not _kept(desk):
             nothing("Nothing was fitted yet", "The staircase begins with the model as it is.")
         return
     _criteria(answer, settings.added)

@@ -86,6 +86,8 @@ def test_the_staircase_moves_while_the_fit_runs_and_stays_usable(shown: Any, pro
         tab.press("Stop")
         tab.see("was stopped; what it had found is kept")
         tab.page.reload()
+        drawn(tab, "0.97")
+        assert tab.page.get_by_text("Nothing was fitted yet").count() == 0
         tab.press("Go on")
         tab.see("Stop")
         tell(project, "prior", 55.5)
