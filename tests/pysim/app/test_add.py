@@ -83,6 +83,8 @@ def test_the_staircase_moves_while_the_fit_runs_and_stays_usable(shown: Any, pro
         tab.shot("running")
         _follows_the_look(tab)
         _follows_the_window(tab)
+        tab.page.reload()  # in the middle
+        drawn(tab, "0.97")
         tab.press("Stop")
         tab.see("was stopped; what it had found is kept")
         tab.page.reload()
