@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 from pysim.cosim._core import Core
 from pysim.cosim._graph import components
 from pysim.cosim._lines import Lines
+from pysim.cosim._steppers import Held, Lined
 from pysim.cosim._sweep import Prepare, Sweep, carrier
 from pysim.cosim.order import Stepper
 from pysim.cosim.system import System, owner
@@ -50,7 +50,13 @@ class GaussSeidel:
             raise BadInput(
                 f"Gauss-Seidel: the order is {', '.join(self.order)}; name each of these once: {', '.join(names)}"
             )
-        return _Stepper(core, self.order or stepping_order(core.system, names), self.lines)
+        ordered = self.order or stepping_order(core.system, names)
+        before = [ordered[:number] for number in range(len(ordered))]
+        if not self.lines:
+            return Held(Sweep(core, ordered, [carrier(core, n, b) for n, b in zip(ordered, before, strict=True)]))
+        lines = Lines(core)
+        prepare = [_interpolator(core, lines, n, b) for n, b in zip(ordered, before, strict=True)]
+        return Lined(Sweep(core, ordered, prepare), lines)
 
 
 def stepping_order(system: System, names: Sequence[str]) -> tuple[str, ...]:
@@ -59,37 +65,6 @@ def stepping_order(system: System, names: Sequence[str]) -> tuple[str, ...]:
     graph = {name: frozenset(owner(c.source) for c in system.connections if owner(c.target) == name) for name in parts}
     ordered = [name for group in components(graph) for name in sorted(group, key=parts.__getitem__)]
     return tuple(name for name in ordered if name in set(names))
-
-
-class _Stepper:
-    def __init__(self, core: Core, names: Sequence[str], lines: bool) -> None:
-        self.lines, self._lines = lines, Lines(core) if lines else None
-        before = [names[:number] for number in range(len(names))]
-        if self._lines is None:
-            prepare: list[Prepare | None] = [carrier(core, n, b) for n, b in zip(names, before, strict=True)]
-        else:
-            prepare = [_interpolator(core, self._lines, n, b) for n, b in zip(names, before, strict=True)]
-        self._sweep = Sweep(core, names, prepare)
-
-    @property
-    def memory(self) -> Any:
-        """The point before, with lines."""
-        return self._lines.memory if self._lines is not None else None
-
-    @memory.setter
-    def memory(self, memory: Any) -> None:
-        if self._lines is not None:
-            self._lines.memory = memory
-
-    def advance(self, time: float, end: float, tick: int | None) -> float:
-        """See Stepper."""
-        if self._lines is None:
-            return self._sweep(time, end)
-        self._lines.begin(time, end, tick)
-        self._lines.hold(time, end)
-        reached = self._sweep(time, end)
-        self._lines.done(time)
-        return reached
 
 
 def _interpolator(core: Core, lines: Lines, name: str, stepped: Sequence[str]) -> Prepare | None:

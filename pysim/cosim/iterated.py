@@ -11,6 +11,7 @@ from pysim.cosim._core import Core
 from pysim.cosim._fault import Fault
 from pysim.cosim._fixed_point import NotConverged, fixed_point
 from pysim.cosim._lines import Lines
+from pysim.cosim._steppers import Remembering
 from pysim.cosim._sweep import Sweep
 from pysim.cosim.member import Array
 from pysim.cosim.order import Stepper
@@ -79,26 +80,16 @@ class _Early(Exception):
         self.reached = reached
 
 
-class _Stepper:
-    lines = True
-
+class _Stepper(Remembering):
     def __init__(self, core: Core, settings: Iterated) -> None:
-        self._core, self._settings, self._lines = core, settings, Lines(core)
+        super().__init__(Lines(core))
+        self._core, self._settings = core, settings
         names = [m.name for m in core.layout.members]
         self._sweep = Sweep(core, names, [None] * len(names))
         targets = {slot for m in core.layout.members for slot in _range(core.layout.places[m.name].inputs)}
         coupled = {wire.source for wire in core.layout.wires if wire.target in targets}
         self._coupled = np.array(sorted(coupled & set(_range(core.layout.member_outputs))), dtype=np.intp)
         self._kept: list[Any] | None = None
-
-    @property
-    def memory(self) -> Any:
-        """The point before."""
-        return self._lines.memory
-
-    @memory.setter
-    def memory(self, memory: Any) -> None:
-        self._lines.memory = memory
 
     def advance(self, time: float, end: float, tick: int | None) -> float:
         """See Stepper."""

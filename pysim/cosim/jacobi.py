@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 from pysim.cosim._core import Core
 from pysim.cosim._lines import Lines
+from pysim.cosim._steppers import Held, Lined
 from pysim.cosim._sweep import Sweep
 from pysim.cosim.order import Stepper
 
@@ -37,40 +37,4 @@ class Jacobi:
         # Those that may return early go first: then nobody has gone past their event.
         names = [m.name for m in sorted(core.layout.members, key=lambda m: not m.may_return_early)]
         sweep = Sweep(core, names, [None] * len(names))
-        return _Lines(core, sweep) if self.lines else _Held(sweep)
-
-
-class _Held:
-    """Inputs are what the communication point left in the row."""
-
-    memory: Any = None
-    lines = False
-
-    def __init__(self, sweep: Sweep) -> None:
-        self.advance = sweep.__call__
-
-
-class _Lines:
-    """Inputs are extrapolated."""
-
-    lines = True
-
-    def __init__(self, core: Core, sweep: Sweep) -> None:
-        self._sweep, self._lines = sweep, Lines(core)
-
-    @property
-    def memory(self) -> Any:
-        """The point before."""
-        return self._lines.memory
-
-    @memory.setter
-    def memory(self, memory: Any) -> None:
-        self._lines.memory = memory
-
-    def advance(self, time: float, end: float, tick: int | None) -> float:
-        """See Stepper."""
-        self._lines.begin(time, end, tick)
-        self._lines.hold(time, end)
-        reached = self._sweep(time, end)
-        self._lines.done(time)
-        return reached
+        return Lined(sweep, Lines(core)) if self.lines else Held(sweep)

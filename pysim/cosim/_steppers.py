@@ -1,0 +1,52 @@
+"""Steps in one sweep over the members: with inputs held, or running along lines."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from pysim.cosim._lines import Lines
+from pysim.cosim._sweep import Sweep
+
+
+class Held:
+    """Inputs are what the communication point left in the row."""
+
+    memory: Any = None
+    lines = False
+
+    def __init__(self, sweep: Sweep) -> None:
+        self.advance = sweep.__call__
+
+
+class Remembering:
+    """What every order with lines has to keep from step to step."""
+
+    lines = True
+
+    def __init__(self, lines: Lines) -> None:
+        self._lines = lines
+
+    @property
+    def memory(self) -> Any:
+        """The point before."""
+        return self._lines.memory
+
+    @memory.setter
+    def memory(self, memory: Any) -> None:
+        self._lines.memory = memory
+
+
+class Lined(Remembering):
+    """Inputs run along lines."""
+
+    def __init__(self, sweep: Sweep, lines: Lines) -> None:
+        super().__init__(lines)
+        self._sweep = sweep
+
+    def advance(self, time: float, end: float, tick: int | None) -> float:
+        """See Stepper."""
+        self._lines.begin(time, end, tick)
+        self._lines.hold(time, end)
+        reached = self._sweep(time, end)
+        self._lines.done(time)
+        return reached
