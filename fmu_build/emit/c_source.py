@@ -3,8 +3,10 @@
 from collections.abc import Iterable, Sequence
 
 from fmu_build.emit.c_function import c_function, c_number
+from fmu_build.emit.description import reinitialised
 from fmu_build.emit.functions import model_functions
 from fmu_build.emit.hoist import hoist_parameters
+from fmu_build.emit.table import derivative_rows
 from fmu_build.lower.ode_model import Check, OdeModel, Variable, Vector
 
 _CAUSALITY = {
@@ -65,10 +67,13 @@ def _tables(model: OdeModel) -> list[str]:
         for vector in ("x", "u", "p", "d")
     }
     starts["nominal_x"] = list(model.nominal_x)
+    reinit = reinitialised(model)
+    states = [f"{{{row}, {int(k in reinit)}}}" for k, (row, _) in enumerate(derivative_rows(model))]
     relations = [f"{{{int(r.strict)}, {int(r.instant is not None)}}}" for r in model.relations]
     return [
         _array("ModelVariable", "variables", [_variable(v) for v in model.variables]),
         *(_array("double", name, [c_number(value) for value in values]) for name, values in starts.items()),
+        _array("ModelState", "states", states),
         _array("ModelRelation", "relations", relations),
         _array("ModelCheck", "checks", [_check(check) for check in model.checks]),
         _array("char *const", "terminations", [c_string(check.message) for check in model.terminations]),
@@ -107,6 +112,7 @@ def _model(model: OdeModel, token: str, empty: dict[str, bool]) -> str:
         "start_p": range(s.p.numel()),
         "start_d": range(s.d.numel()),
         "nominal_x": model.nominal_x,
+        "states": range(s.x.numel()),
         "relations": model.relations,
         "checks": model.checks,
         "terminations": model.terminations,

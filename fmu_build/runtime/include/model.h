@@ -44,6 +44,12 @@ typedef struct {
     uint8_t vector, type, causality, variability, initial;
 } ModelVariable;
 
+/* A continuous state's own row of the variable table; others there may share its place. */
+typedef struct {
+    uint32_t row;
+    uint8_t reinit; /* an event may change it */
+} ModelState;
+
 typedef struct {
     const char *message;
     int is_warning; /* a failed warning is logged and the run goes on */
@@ -64,6 +70,7 @@ typedef struct {
     const ModelVariable *variables;
     const double *start_x, *start_u, *start_p, *start_d; /* what a new instance holds */
     const double *nominal_x;
+    const ModelState *states;           /* n_x; null: only all at once can they be set after initialization */
     const ModelRelation *relations;     /* n_r */
     const ModelCheck *checks;           /* n_checks */
     const char *const *terminations;    /* n_terminations: messages */

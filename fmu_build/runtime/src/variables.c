@@ -84,6 +84,16 @@ Status variable_get(Instance *s, const char *function, uint32_t reference, Scala
     return STATUS_DISCARD;
 }
 
+/* Whether it is a continuous state that may be set by its reference now, after initialization: in model exchange, at
+   any point of continuous time, and in event mode where the event itself does not change it. FMI 3.0.2 says so in
+   Sections 2.3.5 and 3.2.1; FMI 2.0 allows it in Section 3.1 and draws no such arrow in the state machine of 3.2.3.
+   CasADi asks for it: it stays in event mode and sets states and inputs together, by fmi2SetReal or fmi3SetFloat64. */
+static bool is_settable_state(const Instance *s, const ModelVariable *v) {
+    if (v->vector != VECTOR_X || s->interface != MODEL_EXCHANGE || !s->model->states) return false;
+    const ModelState *state = &s->model->states[v->index];
+    return v == &s->model->variables[state->row] && (s->memory->phase == PHASE_CONTINUOUS || !state->reinit);
+}
+
 /* Why a variable must not be set now; null if it may be. */
 static const char *objection(const Instance *s, const ModelVariable *v) {
     const unsigned phase = s->memory->phase;
@@ -99,8 +109,9 @@ static const char *objection(const Instance *s, const ModelVariable *v) {
     }
     if (is_input && phase == PHASE_CONTINUOUS && v->variability != CONTINUOUS)
         return "a discrete input can only be set in event mode";
-    if (is_input) return NULL;
-    if (v->causality != PARAMETER) return "only inputs and tunable parameters can be set after initialization";
+    if (is_input || is_settable_state(s, v)) return NULL;
+    if (v->causality != PARAMETER)
+        return "only inputs and tunable parameters, in model exchange also states, can be set after initialization";
     if (v->variability != TUNABLE) return "a fixed parameter can only be set before initialization";
     return phase == PHASE_CONTINUOUS ? "a tunable parameter can only be set in event mode" : NULL;
 }

@@ -56,6 +56,7 @@ static const ModelVariable variables[] = {
     {"bounces", 0, VECTOR_D, TYPE_INTEGER, OUTPUT, DISCRETE, INITIAL_EXACT},
     {"energy", 0, VECTOR_W, TYPE_REAL, LOCAL, CONTINUOUS, INITIAL_CALCULATED},
 };
+static const ModelState states[] = {{1, 0}, {2, 1}};
 static const double start_x[] = {1.0, 0.0}, start_p[] = {9.81, 0.7, 1e9}, start_d[] = {0.0}, nominal_x[] = {1.0, 1.0};
 static const ModelRelation relations[] = {{.strict = 0, .of_time = 0}};
 static const ModelCheck checks[] = {{"The ball is faster than 100 m/s.", 1}, {"Gravity is negative.", 0}};
@@ -75,6 +76,7 @@ const Model model = {
     .n_terminations = 1,
     .start_p = start_p,
     .start_d = start_d,
+    .states = states,
     .relations = relations,
     .checks = checks,
     .terminations = terminations,

@@ -74,6 +74,7 @@ static const ModelVariable variables[] = {
     {"y", X, VECTOR_X, TYPE_REAL, OUTPUT, CONTINUOUS, INITIAL_CALCULATED},
 };
 
+static const ModelState states[] = {{1, 0}, {2, 0}};
 static const double start_x[] = {1.0, 0.0}, start_u[] = {0.0}, start_p[] = {4.0, 0.0}, nominal_x[] = {1.0, 1.0};
 
 const Model model = {
@@ -87,6 +88,7 @@ const Model model = {
     BASICS,
     .start_u = start_u,
     .start_p = start_p,
+    .states = states,
     .tolerance = 1e-6,
     .calculated = calculated,
     .outputs = outputs,

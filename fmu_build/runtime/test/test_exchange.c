@@ -52,7 +52,7 @@ static void parameters_take_effect(void) {
     CHECK(fmi2ExitInitializationMode(c) == fmi2OK);
     CHECK(set(c, "k", 25.0) == fmi2OK && get(c, "omega") == 5.0 && get(c, "der(v)") == -12.5); /* event mode */
     CHECK(set(c, "damping", 1.0) == fmi2Error && logged("damping") && logged("fixed"));
-    CHECK(set(c, "x", 1.0) == fmi2Error && logged("only inputs and tunable"));
+    CHECK(set(c, "y", 1.0) == fmi2Error && logged("only inputs and tunable"));
     handle_event(c);
     CHECK(set(c, "k", 1.0) == fmi2Error && logged("event mode"));
     CHECK(set(c, "u", 1.0) == fmi2OK && get(c, "der(v)") == 12.5);
@@ -60,6 +60,27 @@ static void parameters_take_effect(void) {
     CHECK(fmi2Reset(c) == fmi2OK);
     initialise_from(c, 0.0, 0.0);
     CHECK(get(c, "omega") == 2.0 && get(c, "u") == 0.0 && get(c, "y") == 1.0);
+    fmi2FreeInstance(c);
+}
+
+/* As CasADi does: states and inputs together by fmi2SetReal, in event mode and later. */
+static void states_are_set_by_reference(void) {
+    fmi2Component c = instantiate(fmi2ModelExchange);
+    initialise_from(c, 0.0, 0.0);
+    const fmi2ValueReference vr[] = {reference("x"), reference("u"), reference("v")};
+    for (int continuous = 0; continuous <= 1; continuous++) {
+        double x[2];
+        CHECK(fmi2SetReal(c, vr, 3, (double[]){0.5, 3.0 + continuous, -2.0}) == fmi2OK);
+        CHECK(get(c, "der(x)") == -2.0 && get(c, "der(v)") == 4.0 * (2.5 + continuous) && get(c, "y") == 0.5);
+        CHECK(fmi2GetContinuousStates(c, x, 2) == fmi2OK && x[0] == 0.5 && x[1] == -2.0);
+        CHECK(set(c, "y", 1.0) == fmi2Error && set(c, "der(x)", 1.0) == fmi2Error);
+        if (!continuous) handle_event(c);
+    }
+    CHECK(fmi2Terminate(c) == fmi2OK && set(c, "x", 1.0) == fmi2Error);
+    fmi2FreeInstance(c);
+    c = instantiate(fmi2CoSimulation);
+    initialise_from(c, 0.0, 0.0);
+    CHECK(set(c, "x", 1.0) == fmi2Error && logged("only inputs and tunable"));
     fmi2FreeInstance(c);
 }
 
@@ -114,6 +135,7 @@ static void many_instances_are_independent(void) {
 int main(void) {
     follows_the_closed_form();
     parameters_take_effect();
+    states_are_set_by_reference();
     partial_derivatives_are_exact();
     bad_values_are_discarded();
     many_instances_are_independent();

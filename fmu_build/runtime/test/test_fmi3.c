@@ -147,6 +147,25 @@ static void what_matters_is_always_said(void) {
     }
 }
 
+/* In event mode not the one that a bounce changes; co-simulation keeps them to itself. */
+static void states_are_set_by_reference(void) {
+    fmi3Instance c = fmi3InstantiateModelExchange("ball", model.token, NULL, false, true, NULL, keep_message);
+    const fmi3ValueReference h = reference("h"), v = reference("v");
+    const double value = 2.0;
+    double dx[2];
+    CHECK(c && fmi3EnterInitializationMode(c, false, 0.0, 0.0, false, 0.0) == fmi3OK);
+    CHECK(fmi3ExitInitializationMode(c) == fmi3OK);
+    CHECK(fmi3SetFloat64(c, &h, 1, &value, 1) == fmi3OK && get(c, "energy") == 2.0 * g);
+    CHECK(fmi3SetFloat64(c, &v, 1, &value, 1) == fmi3Error && strstr(last_message, "v cannot be set"));
+    update(c);
+    CHECK(fmi3EnterContinuousTimeMode(c) == fmi3OK && fmi3SetFloat64(c, &v, 1, &value, 1) == fmi3OK);
+    CHECK(fmi3GetContinuousStateDerivatives(c, dx, 2) == fmi3OK && dx[0] == 2.0);
+    fmi3FreeInstance(c);
+    c = cosimulation(true, true, NULL, NULL); /* in event mode */
+    CHECK(fmi3SetFloat64(c, &h, 1, &value, 1) == fmi3Error);
+    fmi3FreeInstance(c);
+}
+
 static void model_exchange_gives_sizes_and_values(void) {
     fmi3Instance c = fmi3InstantiateModelExchange("ball", model.token, NULL, false, true, NULL, keep_message);
     size_t n_x = 0, n_z = 0;
@@ -177,5 +196,6 @@ int main(void) {
     the_importer_stops_a_step();
     what_matters_is_always_said();
     model_exchange_gives_sizes_and_values();
+    states_are_set_by_reference();
     return 0;
 }
