@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from pysim.diagnose.probe_laws import Term
+    from pysim.diagnose.locating.laws import Term
     from pysim.types import Effect, Model
 
 
@@ -83,7 +83,7 @@ class Variants:
         from tempfile import TemporaryDirectory
 
         import fmu_build
-        from pysim.diagnose.probe_laws import wrapped
+        from pysim.diagnose.locating.laws import wrapped
         from pysim.effects import variant
         from pysim.io import read_model
         from pysim.types import BadInput

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import stats
 
-from pysim.diagnose.blame import Blame, Evidence
+from pysim.diagnose.blame import PLAUSIBLE, Blame, Evidence
 from pysim.diagnose.fitted import Fitted
 from pysim.diagnose.nuisance import GAIN, OFFSET, SHIFT, Suspect, suspects
 from pysim.diagnose.refit import refit
@@ -102,8 +102,7 @@ def told_apart(ruler: Ruler, point: Evaluation) -> tuple[Ruler, Evaluation]:
     rows = ruler.whole(point)
     reach = column_space(rows[:, 1:])
     shares = [_share(across(reach, column), column) for column in ruler.span.columns.T]
-    kept = tuple(s for s, share in zip(ruler.suspected, shares, strict=True) if share > _ALIKE)
-    ruler = ruler.with_other(suspected=kept)
+    ruler = ruler.only([s for s, share in zip(ruler.suspected, shares, strict=True) if share > _ALIKE])
     return ruler, ruler.counted(point.x, rows)
 
 
@@ -125,6 +124,13 @@ def blamed(ruler: Ruler, point: Evaluation) -> Blame:
 def is_off(ruler: Ruler, point: Evaluation) -> bool:
     """Whether much more than noise is left with every suspect allowed for: straight lines do not reach the truth."""
     return point.cost > _OFF * ruler.freedom
+
+
+def implausible(ruler: Ruler, point: Evaluation) -> tuple[Suspect, ...]:
+    """Nuisances that a model far off bends to sizes that no sensor and no clock has, so as to hide what it lacks."""
+    if not is_off(ruler, point):
+        return ()
+    return tuple(n.suspect for n in nuisances(ruler, point) if abs(n.value) > PLAUSIBLE * n.suspect.width)
 
 
 @dataclass(frozen=True)
@@ -168,7 +174,7 @@ def settled(ruler: Ruler, at: Fitted) -> Settled:
     what, x, rows = at.what, whole.point.x, ruler.whole(whole.point)
     blame, lean = blamed(ruler, whole.point), ruler
     for _ in range(0 if is_off(ruler, whole.point) else _ROUNDS):
-        lean = ruler.with_other(suspected=tuple(s for s in ruler.suspected if s in blame.suspects))
+        lean = ruler.only(blame.suspects)
         x, rows = _lean_refit(lean, what, x, rows)
         before, blame = blame, evidence(ruler, ruler.counted(x, rows)).alone()
         if blame.suspects == before.suspects:

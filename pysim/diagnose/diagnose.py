@@ -10,7 +10,7 @@ import numpy as np
 from pysim.diagnose.answer import answered, decided
 from pysim.diagnose.corrections import Settled, recounted
 from pysim.diagnose.fitted import Fitted
-from pysim.diagnose.locate import locate
+from pysim.diagnose.locating.locate import locate
 from pysim.diagnose.next_test import next_test
 from pysim.diagnose.refit import refit_from
 from pysim.diagnose.rounds import Tried, name_of, refitted, rows, screened
@@ -223,7 +223,7 @@ def _refit(story: Story, nominal: Fitted) -> Settled:
     start = recounted(story.ruler.plain, story.ruler, nominal)
     base = story.fitted(nominal.what, "base", lambda: refit_from(story.ruler, nominal.what, start.point))
     assert base is not None  # the start was good, so the end is
-    end = story.settle(base, "base")
+    end = story.settle(story.plausible(base, "base", nominal), "base")
     story.stage("refit")
     story.enter("refit", end.at)
     return end

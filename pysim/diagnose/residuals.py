@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -70,6 +70,10 @@ class Ruler:
     def with_other(self, **changed: Any) -> Ruler:
         """The ruler with other targets, noise, skips or nuisances."""
         return replace(self, **{**changed, "whitenings": (), "span": NOTHING})
+
+    def only(self, suspects: Collection[Suspect]) -> Ruler:
+        """The ruler that allows for those of its nuisances that are among others."""
+        return self.with_other(suspected=tuple(s for s in self.suspected if s in suspects))
 
     @property
     def plain(self) -> Ruler:

@@ -116,8 +116,7 @@ def screened(story: Story, current: Fitted) -> Tried:
     left_to = {} if is_off(ruler, current.point) else _left_to(ruler, current, footprints)
     for name, blame in left_to.items():
         one = contenders[name]
-        lean = one.ruler.with_other(suspected=tuple(s for s in one.ruler.suspected if s in blame.suspects))
-        contenders[name] = replace(one, ruler=lean)
+        contenders[name] = replace(one, ruler=one.ruler.only(blame.suspects))
     note_mimics(story, none, left_to)
     instead = {name: blame.over(none) for name, blame in left_to.items()}
     tried = Tried(current, ruler, contenders, footprints, instead, limit, none.cost)

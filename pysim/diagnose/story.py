@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import astuple, dataclass, field, replace
 from pathlib import Path
 from typing import Any
@@ -21,7 +21,9 @@ from pysim.diagnose.corrections import (
     blamed,
     counting_in_words,
     held_beside,
+    implausible,
     in_words,
+    is_off,
     recounted,
     settled,
     settled_before,
@@ -34,6 +36,7 @@ from pysim.diagnose.fitted import Fitted
 from pysim.diagnose.journal import Journal, identity
 from pysim.diagnose.ledger import beside, ledger_step
 from pysim.diagnose.nuisance import Suspect
+from pysim.diagnose.refit import refit, refit_from
 from pysim.diagnose.residuals import Ruler, rulers
 from pysim.diagnose.subject import Extended, Subject, extended
 from pysim.diagnose.where import failures
@@ -82,6 +85,7 @@ class Story:
     tied: tuple[Fitted, Fitted] | None = None
     blames: dict[tuple[object, ...], Blame] = field(default_factory=dict)
     measured: tuple[Target, ...] = ()
+    suspected: tuple[Suspect, ...] = ()
 
     def __post_init__(self) -> None:
         self.measured = self.subject.targets
@@ -186,7 +190,40 @@ class Story:
         point = self.ruler.evaluation(what, x)
         if point.good:
             self.ruler, point = told_apart(self.ruler, point)
+        self.suspected = self.ruler.suspected
         return point
+
+    def plausible(self, at: Fitted, part: str, start: Fitted) -> Fitted:
+        """A model far off refitted without nuisances of sizes that no sensor and no clock has.
+
+        They are left out until a model is near.
+
+        Args:
+            at: with every nuisance allowed for that the ruler has.
+            part: its name in the journal.
+            start: where the refit starts, counted without nuisances: where `at` is, nuisances and parameters hide the
+                misfit together.
+        """
+        what = at.what
+        while absurd := implausible(self.ruler_of(what), at.point):
+            self._suspect([s for s in self.ruler.suspected if s not in absurd])
+            ruler = self.ruler_of(what)
+
+            def found(ruler: Ruler = ruler) -> tuple[Evaluation, Array]:
+                first = Fitted(what, refit(ruler.plain, what, start.point))
+                return refit_from(ruler, what, recounted(ruler.plain, ruler, first).point)
+
+            part = f"{part} without {', '.join(f'{s.kind} {s.signal}'.strip() for s in absurd)}"
+            again = self.fitted(what, part, found)
+            assert again is not None  # the start was good, so the end is
+            at = again
+        return at
+
+    def _suspect(self, suspects: Sequence[Suspect]) -> None:
+        """From now on these nuisances are allowed for."""
+        self.ruler = self.ruler.with_other(suspected=tuple(suspects))
+        self.suits = {key: one.with_other(suspected=tuple(suspects)) for key, one in self.suits.items()}
+        self.blames.clear()
 
     def blame(self, at: Fitted) -> Blame:
         """Who is to blame beside a model that was refitted with every suspect allowed for."""
@@ -201,7 +238,8 @@ class Story:
 
     def settle(self, at: Fitted, part: str) -> Settled:
         """The model with the nuisances that are to blame beside it taken off the measurements."""
-        ruler, done = self.ruler_of(at.what), list[Settled]()
+        at, done = self._with_all(at, part), list[Settled]()
+        ruler = self.ruler_of(at.what)
 
         def found() -> Any:
             done.append(settled(ruler, at))
@@ -223,6 +261,18 @@ class Story:
             self.say(line)
         return end
 
+    def _with_all(self, at: Fitted, part: str) -> Fitted:
+        """The model with nuisances allowed for again that were left out while models were far off."""
+        near = self.ruler_of(at.what)
+        if near.suspected == self.suspected or is_off(near, at.point):
+            return at
+        self._suspect(self.suspected)
+        ruler = self.ruler_of(at.what)
+        first = recounted(near, ruler, at).point
+        again = self.fitted(at.what, f"{part} with all nuisances", lambda: refit_from(ruler, at.what, first))
+        assert again is not None  # the start was good, so the end is
+        return again
+
     def disturbed(self) -> list[str]:
         """The nuisances that were taken off, in words."""
         signals = self.subject.dataset.signals if self.subject.dataset is not None else ()
@@ -240,7 +290,7 @@ class Story:
         solver = ruler.solver
         if isinstance(solver, Rodas | Esdirk):  # one run, so that what speaks for or against is not its error
             solver = replace(solver, rtol=_FINER * solver.rtol, atol=_FINER * solver.atol)
-        lean = ruler.with_other(suspected=tuple(s for s in ruler.suspected if s in self.blame(at).suspects))
+        lean = ruler.only(self.blame(at).suspects)
         right = held_beside(lean, self.held, recounted(ruler, lean, at))
         return replace(right, solver=solver).at(at.what, at.point.x)
 

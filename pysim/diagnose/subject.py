@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 from pysim.diagnose.adequacy import shortcomings
-from pysim.diagnose.probe_laws import Term
+from pysim.diagnose.locating.laws import Term
 from pysim.effects import Slot
 from pysim.identify.greybox import Measurements, Parameter, Rest, Treatment, problem
 from pysim.identify.greybox.parameters import ParameterSpace, parameter_space

@@ -6,6 +6,7 @@ import pytest
 from pysim.diagnose.corrections import (
     allowing,
     held_beside,
+    implausible,
     in_words,
     nuisances,
     settled,
@@ -80,6 +81,13 @@ def test_only_who_is_to_blame_is_taken_off() -> None:
     ruler, _, at = fitted(logged(2))
     assert settled(ruler, at).seen == ()
     assert undisturbed(ruler.targets, {}) == ruler.targets
+
+
+def test_a_size_that_no_sensor_has_is_implausible() -> None:
+    ruler, _, at = fitted(logged(5, offset=2.0))
+    assert [suspect.kind for suspect in implausible(ruler, at.point)] == [OFFSET]
+    ruler, _, at = fitted(logged(5, offset=0.012))
+    assert implausible(ruler, at.point) == ()
 
 
 def test_each_model_is_judged_with_its_own_sensors() -> None:

@@ -57,7 +57,8 @@ def _run(args: argparse.Namespace) -> int:
     places = args.command == "locate"
     chosen = choice.of([case for case in cases(TABLE_SEED) if case.kind == "named" or not places])
     store, task = Store(args.store or (PLACES if places else ANSWERS)), locate_case if places else examine
-    run(chosen, store, task, fingerprint(), workers=args.workers, limit=args.limit, say=_say)
+    code = fingerprint(places=places)
+    run(chosen, store, task, code, workers=args.workers, limit=args.limit, say=_say)
     return 0
 
 

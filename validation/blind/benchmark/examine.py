@@ -40,9 +40,9 @@ def examine(case: Case) -> Answer:
 
 
 @cache
-def code() -> str:
+def code(*, places: bool = False) -> str:
     """The fingerprint of this process' code, from when it began."""
-    return fingerprint()
+    return fingerprint(places=places)
 
 
 @cache

@@ -15,15 +15,22 @@ _SOURCES = (
     *((f"{_LIBRARY}/{part}", "*.mo") for part in ("Data", "Effects", "Functions", "Interfaces", "Pump")),
     ("validation/blind/plant", "*.py"),
 )
+# Tells the place and shape of what is missing once the verdict is found; no verdict depends on it.
+_LOCATING = "pysim/diagnose/locating"
 _COMPILED = (("fmu_build", "*.py"), ("fmu_build", "*.c"), ("fmu_build", "*.h"), (_LIBRARY, "*.mo"))
 # What decides a stored number beside the diagnosis; the rest of this folder only runs and shows.
 _JUDGE = tuple(f"validation/blind/benchmark/{name}.py" for name in ("answer", "examine", "judged", "truth"))
 
 
-def fingerprint(root: Path = _ROOT) -> str:
-    """Of the sources below a root; independent of how lines end."""
+def fingerprint(root: Path = _ROOT, *, places: bool = False) -> str:
+    """Of the sources below a root; independent of how lines end.
+
+    Args:
+        places: of answers that say where a term is missing; else of those that name the effect.
+    """
     judge = [root / name for name in _JUDGE if (root / name).is_file()]
-    return _digest(root, [*_files(root, _SOURCES), *judge])
+    sources = [path for path in _files(root, _SOURCES) if places or (root / _LOCATING) not in path.parents]
+    return _digest(root, [*sources, *judge])
 
 
 def model_fingerprint(root: Path = _ROOT) -> str:

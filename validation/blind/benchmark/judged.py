@@ -25,8 +25,6 @@ def judged(truth: Truth, found: Diagnosis) -> dict[str, Any]:
     first, last = _first_and_last(found.stages)
     base, final = error(truth.measured, first), error(truth.measured, last)
     told: dict[str, Any] = {"held": found.error[-1].validate, "base": base, "final": final}
-    if found.missing:
-        told["slot"] = found.missing[0].slot
     if case.effects:
         told["footprint"] = truth.left((), {e.name: e.value for e in first.estimates} if first is not None else None)
     if case.kind == "pair":

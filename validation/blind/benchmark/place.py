@@ -28,7 +28,7 @@ def locate_case(case: Case) -> Answer:
     found = located(given, workers=1).missing
     wall, cpu = time.monotonic() - wall - (shop.seconds - compiled), time.process_time() - cpu
     day = datetime.now(UTC).date().isoformat()
-    return Answer(case.name, code(), day, wall=wall, cpu=cpu, **judged(case, found))
+    return Answer(case.name, code(places=True), day, wall=wall, cpu=cpu, **judged(case, found))
 
 
 def judged(case: Case, found: tuple[Missing, ...]) -> dict[str, Any]:

@@ -16,7 +16,7 @@ from functools import cache
 from pathlib import Path
 
 import fmu_build
-from pysim.diagnose.probe_laws import Term, wrapped
+from pysim.diagnose.locating.laws import Term, wrapped
 from pysim.effects import STANDARD_LIBRARY, fitting, read_catalogue, variant
 from pysim.io import cache_folder, read_model
 from pysim.types import BadInput, Effect, Model

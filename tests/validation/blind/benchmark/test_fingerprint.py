@@ -9,6 +9,7 @@ def tree(root: Path, **changed: bytes) -> Path:
     files = {
         "pysim/diagnose/a.py": b"a\n",
         "pysim/diagnose/deep/b.py": b"b\n",
+        "pysim/diagnose/locating/l.py": b"l\n",
         "pysim/cli/c.py": b"c\n",
         "modelica/HydraulicTestBench/Effects/E.mo": b"e\n",
         "modelica/HydraulicTestBench/Examples/X.mo": b"x\n",
@@ -31,9 +32,14 @@ def test_what_answers_counts(tmp_path: Path) -> None:
 
 def test_what_only_shows_does_not_nor_how_lines_end(tmp_path: Path) -> None:
     first = fingerprint(tree(tmp_path / "0"))
-    for name in ("c", "X", "report"):
+    for name in ("c", "l", "X", "report"):
         assert fingerprint(tree(tmp_path / name, **{name: b"new\n"})) == first
     assert fingerprint(tree(tmp_path / "ends", a=b"a\r\n")) == first
+
+
+def test_where_a_term_is_missing_counts_only_for_places(tmp_path: Path) -> None:
+    first = fingerprint(tree(tmp_path / "0"), places=True)
+    assert fingerprint(tree(tmp_path / "l", l=b"new\n"), places=True) != first
 
 
 def test_moving_a_line_from_one_file_to_the_next_counts(tmp_path: Path) -> None:

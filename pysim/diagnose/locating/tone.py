@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pysim.diagnose.fitted import Fitted
-from pysim.diagnose.probe_fit import across
-from pysim.diagnose.probe_laws import UNIT, Law, Term
-from pysim.diagnose.probe_shape import units
+from pysim.diagnose.locating.fit import across
+from pysim.diagnose.locating.laws import UNIT, Law, Term
+from pysim.diagnose.locating.shape import units
 from pysim.diagnose.residuals import Ruler
 from pysim.diagnose.screen import column_space
 from pysim.diagnose.where import tone

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from pysim.diagnose.formula import formula
+from pysim.diagnose.locating.formula import formula
 from pysim.types import Effect, EffectParameter
 
 K = np.array([-0.3, -0.1, -0.04, -0.015, -0.005, -0.001, 0.0, 0.001, 0.005, 0.015, 0.04, 0.1, 0.3])

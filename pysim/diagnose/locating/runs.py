@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pysim.diagnose.fitted import Fitted
-from pysim.diagnose.probe_laws import Law
+from pysim.diagnose.locating.laws import Law
 from pysim.diagnose.residuals import Ruler
 from pysim.identify.greybox.evaluation import Evaluation
 from pysim.identify.greybox.sine_target import SineTarget

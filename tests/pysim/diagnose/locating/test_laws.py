@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from fmu_build import build
-from pysim.diagnose.probe_laws import KNOTS, LAGS, Copy, Law, slot_laws, state_laws, wrapped
+from pysim.diagnose.locating.laws import KNOTS, LAGS, Copy, Law, slot_laws, state_laws, wrapped
 from pysim.effects import STANDARD_LIBRARY, slots
 from pysim.io import read_model
 from pysim.simulate import Rodas, simulate

@@ -9,7 +9,7 @@ import pytest
 from fmu_build import build
 from pysim.diagnose import subject
 from pysim.diagnose.fitted import Fitted
-from pysim.diagnose.outside import outside
+from pysim.diagnose.locating.outside import outside
 from pysim.diagnose.refit import refit
 from pysim.diagnose.residuals import rulers
 from pysim.diagnose.subject import extended

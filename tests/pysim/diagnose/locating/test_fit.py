@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from pysim.diagnose.probe_fit import across, bends, knots, lines, solve
-from pysim.diagnose.probe_laws import KNOTS
+from pysim.diagnose.locating.fit import across, bends, knots, lines, solve
+from pysim.diagnose.locating.laws import KNOTS
 
 
 def test_knots_stand_closely_around_a_zero_that_is_crossed() -> None:

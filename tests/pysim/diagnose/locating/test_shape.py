@@ -5,9 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from pysim.diagnose.probe_fit import Estimate, Table, bends, knots, lines, solve
-from pysim.diagnose.probe_laws import KNOTS, Copy, Law
-from pysim.diagnose.probe_shape import Told, per_second, shape, told
+from pysim.diagnose.locating.fit import Estimate, Table, bends, knots, lines, solve
+from pysim.diagnose.locating.laws import KNOTS, Copy, Law
+from pysim.diagnose.locating.shape import Told, per_second, shape, told
 from pysim.identify.greybox.evaluation import Evaluation
 from tests.pysim.diagnose.toy import base
 

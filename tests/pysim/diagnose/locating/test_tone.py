@@ -7,15 +7,15 @@ import numpy as np
 import pytest
 
 from pysim.diagnose.fitted import Fitted
-from pysim.diagnose.probe_laws import slot_laws
-from pysim.diagnose.probe_tone import tones
+from pysim.diagnose.locating.laws import slot_laws
+from pysim.diagnose.locating.tone import tones
 from pysim.diagnose.refit import refit
 from pysim.diagnose.residuals import rulers
 from pysim.diagnose.subject import extended
 from pysim.effects import slots
 from pysim.simulate import Rodas, simulate
 from pysim.types import Dataset, Experiment, Missing, Record, Signal
-from tests.pysim.diagnose.test_locate import probed
+from tests.pysim.diagnose.locating.test_locate import probed
 from tests.pysim.diagnose.toy import base, library, measured, toy_subject
 
 FREQUENCY = 3.71  # Hz

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from scipy import optimize
 
 from pysim.diagnose.fitted import Fitted
-from pysim.diagnose.probe_laws import KNOTS, UNIT, Law
+from pysim.diagnose.locating.laws import KNOTS, UNIT, Law
 from pysim.diagnose.residuals import Ruler
 from pysim.diagnose.screen import column_space
 from pysim.diagnose.subject import Extended

@@ -10,13 +10,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pysim.diagnose.fitted import Fitted
-from pysim.diagnose.formula import Formula, formula
-from pysim.diagnose.outside import outside
-from pysim.diagnose.probe_fit import Estimate, Table, across, advance, first_order, knots
-from pysim.diagnose.probe_laws import KNOTS, Law, Term, slot_laws, state_laws
-from pysim.diagnose.probe_runs import patient, seen, thinned
-from pysim.diagnose.probe_shape import Told, shape, told, units
-from pysim.diagnose.probe_tone import tones
+from pysim.diagnose.locating.fit import Estimate, Table, across, advance, first_order, knots
+from pysim.diagnose.locating.formula import Formula, formula
+from pysim.diagnose.locating.laws import KNOTS, Law, Term, slot_laws, state_laws
+from pysim.diagnose.locating.outside import outside
+from pysim.diagnose.locating.runs import patient, seen, thinned
+from pysim.diagnose.locating.shape import Told, shape, told, units
+from pysim.diagnose.locating.tone import tones
 from pysim.diagnose.residuals import Ruler
 from pysim.diagnose.screen import column_space
 from pysim.diagnose.subject import Subject

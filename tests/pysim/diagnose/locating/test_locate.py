@@ -11,8 +11,8 @@ import pytest
 from fmu_build import build
 from pysim.diagnose import subject
 from pysim.diagnose.fitted import Fitted
-from pysim.diagnose.locate import locate
-from pysim.diagnose.probe_laws import Law, Term, wrapped
+from pysim.diagnose.locating.laws import Law, Term, wrapped
+from pysim.diagnose.locating.locate import locate
 from pysim.diagnose.refit import refit
 from pysim.diagnose.residuals import rulers
 from pysim.diagnose.subject import extended
@@ -110,6 +110,6 @@ def test_a_term_at_zero_leaves_the_model_as_it_is(effects: Sequence[Effect]) -> 
 
 
 def _laws() -> tuple[Law, ...]:
-    from pysim.diagnose.probe_laws import slot_laws
+    from pysim.diagnose.locating.laws import slot_laws
 
     return slot_laws(slots("Toy.Mass", [library()]), base())

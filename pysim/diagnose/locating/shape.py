@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from pysim.diagnose.probe_fit import Estimate, across, bends, lines
-from pysim.diagnose.probe_laws import KNOTS, Law
+from pysim.diagnose.locating.fit import Estimate, across, bends, lines
+from pysim.diagnose.locating.laws import KNOTS, Law
 from pysim.diagnose.screen import column_space
 from pysim.types import Model
 from pysim.types.diagnosis import Shape

@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 
 from pysim.diagnose.fitted import Fitted
-from pysim.diagnose.probe_laws import slot_laws
-from pysim.diagnose.probe_runs import patient, seen, thinned
+from pysim.diagnose.locating.laws import slot_laws
+from pysim.diagnose.locating.runs import patient, seen, thinned
 from pysim.diagnose.residuals import rulers
 from pysim.diagnose.subject import extended
 from pysim.effects import slots

@@ -10,11 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pysim.diagnose.fitted import Fitted
-from pysim.diagnose.formula import formula
-from pysim.diagnose.probe_fit import Estimate, Solution, Table, across, knots, solve
-from pysim.diagnose.probe_laws import KNOTS, Copy, Law
-from pysim.diagnose.probe_runs import thinned
-from pysim.diagnose.probe_shape import shape, told, units
+from pysim.diagnose.locating.fit import Estimate, Solution, Table, across, knots, solve
+from pysim.diagnose.locating.formula import formula
+from pysim.diagnose.locating.laws import KNOTS, Copy, Law
+from pysim.diagnose.locating.runs import thinned
+from pysim.diagnose.locating.shape import shape, told, units
 from pysim.diagnose.residuals import Ruler
 from pysim.diagnose.screen import column_space
 from pysim.identify.greybox.evaluation import Evaluation
