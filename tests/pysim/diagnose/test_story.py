@@ -1,4 +1,4 @@
-"""Nuisances of sizes that no sensor has are left out while a model is far off, and allowed for again beside a near one."""
+"""Nuisances of sizes that no sensor has wait while a model is far off, and are allowed for again beside a near one."""
 
 from pysim.diagnose.corrections import recounted
 from pysim.diagnose.fitted import Fitted
