@@ -6,7 +6,7 @@ from pathlib import Path
 
 from pysim.io import write_file
 from validation.importers.case import compatibility
-from validation.importers.try_one import IMPORTERS
+from validation.importers.try_one import EVALUATORS, IMPORTERS
 from validation.results import this_machine
 
 FILE = Path(__file__).with_name("COMPATIBILITY.md")
@@ -14,13 +14,14 @@ FILE = Path(__file__).with_name("COMPATIBILITY.md")
 
 def text() -> str:
     """The table as Markdown."""
-    head = ["class", "version", "options", "inputs", *IMPORTERS, "checker"]
+    head = ["class", "version", "options", "inputs", *IMPORTERS, *EVALUATORS, "checker"]
     rows = [[cell.partition(": ")[2] or cell for cell in row] for row in compatibility()]
     lines = [f"| {' | '.join(row)} |" for row in (head, ["---"] * len(head), *rows)]
     intro = (
         "# Compatibility of exported FMUs\n\n"
         f"Written by `python -m validation.importers` on {this_machine()}. Numbers are the largest difference of any "
-        "output from the stored results in `reference/`, as a share of its range.\n\n"
+        "output from the stored results in `reference/`, as a share of its range; of partials, those of derivatives "
+        "and of the Jacobian from ours.\n\n"
     )
     return intro + "\n".join(lines) + "\n"
 

@@ -15,21 +15,19 @@ import numpy as np
 from pysim.fmu_check import DOUBTFUL, FAILS, FmuReport, check_fmu
 from pysim.io import read_model
 from validation.findings import Finding
+from validation.importers.derivatives import apart, by_differences
 from validation.importers.exported import EXPORTED, Exported
-from validation.importers.try_one import IMPORTERS
+from validation.importers.try_one import EVALUATORS, IMPORTERS
 
 VERSIONS = (2, 3)
 _CLOSE, _SAME = 1e-4, 1e-6  # of an output's range: solvers at 1e-6 with events, and the stored results' own digits
+_BITS = 1e-13  # the same function called with the same numbers
+_DIFFERENCES = 1e-6  # central ones, where the friction's curve is steep
 _LONGEST_S = 300.0
-_PACKAGES = {"libcosimpy": "libcosimpy", "CasADi": "casadi"}
+_PACKAGES = {"libcosimpy": "libcosimpy", "CasADi": "casadi", "CasADi, partials": "casadi"}
 # What an importer cannot do is no fault of an FMU, and is said in the table; anything else it says is a failure
-_UNSUPPORTED = {("libcosimpy", 3): "libcosim knows FMI 1 and 2, and crashes on an FMI 3 archive"}
-_KNOWN = {
-    (
-        "CasADi",
-        "CV_FIRST_RHSFUNC_ERR",
-    ): "it sets states by fmi2SetReal in event mode; FMI 2.0 Section 3.2.3 forbids that",
-}
+_NO_FMI_3 = "libcosim knows FMI 1 and 2, and crashes on an FMI 3 archive"
+_NO_EVENTS = "its FMU import takes no events into account, and this run goes past some"
 
 
 def notes() -> Sequence[str]:
@@ -45,6 +43,8 @@ def run() -> Iterator[Finding]:
         for fmi in VERSIONS:
             for importer in IMPORTERS:
                 yield _imported(exported, fmi, importer)
+            for evaluator in EVALUATORS:
+                yield from _evaluated(exported, fmi, evaluator)
             report = checked(exported.name, fmi)
             told = "; ".join(f"{r.check}: {r.detail}" for r in report.results if r.verdict == FAILS)
             claim = f"{exported.name}, FMI {fmi}: checks that fail{f' ({told})' if told else ''}"
@@ -53,16 +53,38 @@ def run() -> Iterator[Finding]:
 
 def _imported(exported: Exported, fmi: int, importer: str) -> Finding:
     claim = f"{exported.name}, FMI {fmi}, by {importer}: largest difference from the stored results"
-    if (importer, fmi) in _UNSUPPORTED:
-        return Finding(claim, float("nan"), _CLOSE, "of the range", _UNSUPPORTED[importer, fmi])
+    unsupported = _unsupported(exported, fmi, importer)
+    if unsupported:
+        return Finding(claim, float("nan"), _CLOSE, "of the range", unsupported)
     values, why = answer(exported.name, fmi, importer)
-    if values is not None:
-        return Finding(claim, exported.off(np.array(values)), _CLOSE, "of the range")
-    known = [text for (name, word), text in _KNOWN.items() if name == importer and word in why]
-    missing = "not installed" if why == _MISSING else ""
-    if known or missing:
-        return Finding(claim, float("nan"), _CLOSE, "of the range", missing or known[0])
-    return Finding(f"{claim} ({why})", float("nan"), _CLOSE, "of the range")
+    if values is None:
+        return _unanswered(claim, why, _CLOSE, "of the range")
+    return Finding(claim, exported.off(np.array(values)), _CLOSE, "of the range")
+
+
+def _unsupported(exported: Exported, fmi: int, importer: str) -> str:
+    if importer == "libcosimpy" and fmi == 3:
+        return _NO_FMI_3
+    return _NO_EVENTS if importer == "CasADi" and exported.events else ""
+
+
+def _unanswered(claim: str, why: str, limit: float, unit: str) -> Finding:
+    if why == _MISSING:
+        return Finding(claim, float("nan"), limit, unit, "not installed")
+    return Finding(f"{claim} ({why})", float("nan"), limit, unit)
+
+
+def _evaluated(exported: Exported, fmi: int, evaluator: str) -> Iterator[Finding]:
+    """What it gets from the same point at the same time as we do, be there events or not."""
+    claim = f"{exported.name}, FMI {fmi}, by {evaluator.partition(',')[0]}: derivatives along the run, off ours by"
+    values, why = answer(exported.name, fmi, evaluator)
+    if values is None:
+        yield _unanswered(claim, why, _BITS, "of the largest")
+        return
+    off, jacobian = apart(exported.name, by_differences(exported, fmi), np.array(values))
+    yield Finding(claim, off, _BITS, "of the largest")
+    claim = claim.replace("derivatives along the run, off ours by", "Jacobian there, off differences of ours by")
+    yield Finding(claim, jacobian, _DIFFERENCES, "of the largest in its row")
 
 
 _MISSING = "missing"
@@ -99,6 +121,7 @@ def compatibility() -> list[list[str]]:
             report = checked(exported.name, fmi)
             counts = f"{report.count('holds')} hold, {report.count(DOUBTFUL)} doubtful, {report.count(FAILS)} fail"
             importers = [f"{name}: {_word(exported, fmi, name)}" for name in IMPORTERS]
+            importers += [f"{name}: {_partials(exported, fmi, name)}" for name in EVALUATORS]
             inputs = ", ".join(f"{name} = {value:g}" for name, value in exported.inputs.items()) or "none"
             rows.append([exported.model, f"FMI {fmi}", _options(exported, fmi), inputs, *importers, counts])
     return rows
@@ -107,6 +130,11 @@ def compatibility() -> list[list[str]]:
 def _word(exported: Exported, fmi: int, importer: str) -> str:
     finding = _imported(exported, fmi, importer)
     return finding.skipped or f"{finding.value:.1e}"
+
+
+def _partials(exported: Exported, fmi: int, evaluator: str) -> str:
+    found = list(_evaluated(exported, fmi, evaluator))
+    return found[0].skipped or " and ".join(f"{finding.value:.1e}" for finding in found)
 
 
 def _options(exported: Exported, fmi: int) -> str:

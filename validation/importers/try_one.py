@@ -8,8 +8,6 @@ from __future__ import annotations
 import json
 import os
 import sys
-import tempfile
-import zipfile
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
@@ -88,21 +86,16 @@ def libcosimpy(exported: Exported, fmi: int) -> Array:
 
 def casadi(exported: Exported, fmi: int) -> Array:
     """CasADi's FMU import, integrated by its CVODES."""
-    import casadi as ca
+    from validation.importers.casadi_import import integrated
 
-    with tempfile.TemporaryDirectory() as folder:
-        with zipfile.ZipFile(exported.build(fmi)) as archive:
-            archive.extractall(folder)
-        dae = ca.DaeBuilder("imported", folder)
-        names = dae.y()
-        right = dae.create("right", ["x", "u"], ["ode", "y"])
-        inputs = ca.DM([exported.inputs.get(name, 0.0) for name in dae.u()])
-        x, u = ca.MX.sym("x", right.size1_in(0)), ca.MX.sym("u", inputs.size1())
-        problem = {"x": x, "u": u, "ode": right(x, u)[0]}
-        run = ca.integrator("run", "cvodes", problem, 0.0, list(exported.times), {"reltol": 1e-8, "abstol": 1e-8})
-        states = run(x0=dae.start(dae.x()), u=inputs)["xf"]
-        rows = [np.array(right(states[:, k], inputs)[1]).ravel() for k in range(exported.times.size)]
-    return np.array(rows)[:, [names.index(name) for name in exported.outputs]]
+    return integrated(exported, fmi)
+
+
+def casadi_partials(exported: Exported, fmi: int) -> Array:
+    """Right-hand side and Jacobian by CasADi's FMU import."""
+    from validation.importers.derivatives import by_casadi
+
+    return by_casadi(exported, fmi)
 
 
 IMPORTERS: Mapping[str, Callable[[Exported, int], Array]] = {
@@ -112,6 +105,8 @@ IMPORTERS: Mapping[str, Callable[[Exported, int], Array]] = {
     "libcosimpy": libcosimpy,
     "CasADi": casadi,
 }
+# Values of another kind: derivatives and their partial derivatives, a row per point (derivatives.py)
+EVALUATORS: Mapping[str, Callable[[Exported, int], Array]] = {"CasADi, partials": casadi_partials}
 
 
 def main(words: Sequence[str]) -> None:
@@ -121,7 +116,7 @@ def main(words: Sequence[str]) -> None:
     exported = next(e for e in EXPORTED if e.name == words[1])
     answer: dict[str, Any]
     try:
-        answer = {"values": IMPORTERS[words[0]](exported, int(words[2])).tolist()}
+        answer = {"values": {**IMPORTERS, **EVALUATORS}[words[0]](exported, int(words[2])).tolist()}
     except Exception as error:  # what an importer says is what is to be known
         answer = {"error": f"{type(error).__name__}: {' '.join(str(error).split())[:300]}"}
     channel.write(json.dumps(answer))

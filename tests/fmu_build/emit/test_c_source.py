@@ -96,3 +96,9 @@ def test_strings_survive_c(tmp_path):
     library = compile_shared(f'#include "model.h"\nconst char text[] = {c_string(text)};', tmp_path)
     raw = (ctypes.c_char * (len(text.encode()) + 1)).in_dll(library, "text")
     assert raw.value.decode() == text
+
+
+def test_states_name_their_own_rows_and_whether_an_event_changes_them():
+    model = complete_table(ode_models.bouncing_ball())
+    row = {variable.name: k for k, variable in enumerate(model.variables)}
+    assert f"ModelState states[] = {{\n    {{{row['h']}, 0}},\n    {{{row['v']}, 1}},\n}};" in c_source(model, "token")

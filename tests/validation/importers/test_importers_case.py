@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from validation.importers import case
+from validation.importers.derivatives import by_differences, points
 from validation.importers.exported import EXPORTED
 
 PUMP = EXPORTED[0]
@@ -35,7 +36,7 @@ def test_the_same_values_hold_and_others_fail(monkeypatch: pytest.MonkeyPatch) -
     ("importer", "why", "skipped"),
     [
         ("libcosimpy", "it ended with -11: ", True),
-        ("CasADi", "RuntimeError: CVode returned CV_FIRST_RHSFUNC_ERR", True),
+        ("CasADi", "RuntimeError: CVode returned CV_FIRST_RHSFUNC_ERR", False),
         ("CasADi", case._MISSING, True),
         ("CasADi", "RuntimeError: something new", False),
         ("pysim", "RuntimeError: Unsupported", False),
@@ -48,3 +49,19 @@ def test_what_an_importer_cannot_do_is_told_apart(
     found = case._imported(PUMP, 3, importer)
     assert bool(found.skipped) is skipped
     assert not found.holds
+
+
+def test_events_are_beyond_casadi_and_its_partials_are_judged(monkeypatch: pytest.MonkeyPatch) -> None:
+    bench = EXPORTED[2]
+    assert "events" in case._imported(bench, 2, "CasADi").skipped
+    mine = by_differences(bench, 2)
+    n = len(points(bench.name).states)
+    answering(monkeypatch, mine.tolist())
+    assert all(found.holds and found.value == 0.0 for found in case._evaluated(bench, 2, "CasADi, partials"))
+    missed = mine.copy()
+    missed[:, n + np.abs(mine[-1, n:]).argmax()] = 0.0  # a dependency that the description keeps quiet about
+    answering(monkeypatch, missed.tolist())
+    derivatives, jacobian = case._evaluated(bench, 2, "CasADi, partials")
+    assert derivatives.holds
+    assert not jacobian.holds
+    assert jacobian.value > 0.1
