@@ -52,3 +52,5 @@ def test_refuses_what_has_no_value() -> None:
         SEA.frequency_of_energy(1.0)
     with pytest.raises(BadInput, match="the peak period is 0 s"):
         PiersonMoskowitz(1.0, 0.0)
+    with pytest.raises(BadInput, match="the significant height is 0; it must be positive"):  # of no unit of its own
+        PiersonMoskowitz(0.0, 2.0)
