@@ -16,15 +16,18 @@ _METHOD = (
     "usual.",
 )
 _HEAD = ("K_p", "T_i (s)", "K_p/T_i", "crossover (Hz)", "phase margin (deg)", "gain margin (dB)", "delay (s)", "M_s")
+_SHORT = ("K_p", "T_i (s)", "K_p/T_i", "cross (Hz)", "phase (deg)", "gain (dB)", "delay (s)", "M_s")  # of a terminal
 
 
 def tuning_text(loops: Mapping[str, Gains]) -> str:
-    """A row per loop."""
-    width = max(len(label) for label in loops)
-    lines = ["".join([" " * width, *(f"{name:>20}" for name in _HEAD), "  stable"])]
-    for label, gains in loops.items():
-        cells = "".join(f"{text:>20}" for text in _cells(gains))
-        lines.append(f"{label:<{width}}{cells}  {'yes' if gains.loop.stable else 'NO'}")
+    """A row per loop: gains, crossover, phase, gain and delay margin, largest sensitivity."""
+    rows = [["", *_SHORT], *([label, *_cells(gains)] for label, gains in loops.items())]
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    ends = ["stable", *("yes" if gains.loop.stable else "NO" for gains in loops.values())]
+    lines = []
+    for (label, *cells), end in zip(rows, ends, strict=True):
+        numbers = "".join(f"  {text:>{width}}" for text, width in zip(cells, widths[1:], strict=True))
+        lines.append(f"{label:<{widths[0]}}{numbers}  {end}")
     return "\n".join(lines)
 
 

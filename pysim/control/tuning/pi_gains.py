@@ -15,6 +15,7 @@ from pysim.types import BadInput
 Array = NDArray[np.float64]
 
 _TIMES = 400  # integration times that are tried
+_ALIKE = 0.99  # of the largest K_p/T_i: as fast
 
 
 @dataclass(frozen=True)
@@ -91,6 +92,9 @@ def fastest_pi(plant: Plant, *, phase_margin: float, gain_margin: float = 2.0) -
     or one of those in antiphase to 1/gain_margin. So |L| < 1 wherever the phase is beyond the margin, but for the
     lowest frequencies of a plant with an integrator, where |L| has to be above 1.
 
+    Where an integral alone is as fast as any (a plant that is quick beside its resonance), all short T_i with the same
+    K_p/T_i are alike; of those within a hundredth the longest is taken.
+
     Args:
         plant: without poles to the right.
         phase_margin: rad, the least at any crossover.
@@ -109,8 +113,13 @@ def fastest_pi(plant: Plant, *, phase_margin: float, gain_margin: float = 2.0) -
     steps = np.geomspace(1e-2 / omega[-1], 1 / omega[0], _TIMES)
     integrals = [_largest_integral(response, omega, T_i, phase_margin, gain_margin) for T_i in steps]
     best = int(np.argmax(integrals))
-    if not 0 < integrals[best] < math.inf:
-        raise BadInput(f"{plant.name}: nothing limits the gain, or all of it; add the dead time of the loop")
+    if integrals[best] == 0.0:
+        raise BadInput(f"{plant.name}: no gain keeps these margins; ask for smaller ones")
+    if integrals[best] == math.inf:
+        raise BadInput(f"{plant.name}: nothing limits the gain; add the dead time of the loop (delay)")
+    alike = np.array(integrals) > _ALIKE * integrals[best]
+    if alike[0]:  # an integral alone is as fast: of all that are, the one with the most phase
+        best = int(np.argmin(alike)) - 1
     T_i = float(steps[best])
     K_p = float(integrals[best]) * T_i * _steady_sign(plant)
     return known_pi(plant, K_p, T_i)

@@ -82,6 +82,16 @@ def test_fastest_of_an_integrator_behind_a_dead_time() -> None:
     assert 0.5 * math.pi / 0.6 < found.K_p < math.pi / 0.6
 
 
+def test_an_integral_has_a_time_that_can_be_built() -> None:
+    """Only K_p/T_i counts on the shaft, so T_i is free below; Table 6.1 has 0.16 ms."""
+    found = fastest_pi(shaft_speed_plant(), phase_margin=math.radians(60))
+    assert 1e-4 < found.T_i < 1e-3
+    alone = known_pi(found.plant, 1e-4 * found.K_p, 1e-4 * found.T_i)
+    assert found.integral == pytest.approx(alone.integral)
+    assert found.loop.crossover == pytest.approx(alone.loop.crossover, rel=1e-3)
+    assert found.loop.gain_margin >= 1.999
+
+
 def test_fastest_needs_a_limit_and_a_stable_plant() -> None:
     with pytest.raises(BadInput, match="dead time"):
         fastest_pi(LAG, phase_margin=math.radians(60))
