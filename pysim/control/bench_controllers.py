@@ -6,6 +6,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from pysim.control._check import check_numbers
 from pysim.control.pi import PI
 from pysim.types import BadInput, Port
 
@@ -42,6 +43,7 @@ class SpeedController:
     largest: float = _ALPHA_MAX
 
     def __post_init__(self) -> None:
+        check_numbers("speed controller", self, "dt", "K_p", "T_i", "feed", "omega_zero", "largest")
         if not self.omega_zero >= 0 or not 0 < self.largest < math.inf:
             raise BadInput(
                 f"speed controller: omega_zero = {self.omega_zero:g} rad/s, largest = {self.largest:g} rad; give zero "
@@ -89,6 +91,7 @@ class LoadController:
     feed: float = _MOTOR / 0.0035
 
     def __post_init__(self) -> None:
+        check_numbers("load controller", self, "dt", "K_p", "T_i", "feed")
         self._pi = PI(self.K_p, self.T_i, self.dt, "Pa", "1")
         self.inputs = (Port("reference", "Pa"), Port("measured", "Pa"), Port("speed", "rad/s"))
         self.outputs = (Port("u_ref", "1"), Port("pi", "1"))
@@ -145,6 +148,8 @@ class CompensatedLoadController:
     smoothing: float = 0.1
 
     def __post_init__(self) -> None:
+        names = ("dt", "K_p", "T_i", "motor", "valve", "rho", "least", "smoothing")
+        check_numbers("compensated load controller", self, *names)
         for name in ("motor", "valve", "rho", "least"):
             if not 0 < getattr(self, name) < math.inf:
                 raise BadInput(f"compensated load controller: {name} = {getattr(self, name):g}; give a positive number")

@@ -6,6 +6,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from pysim.control._check import check_numbers
 from pysim.types import BadInput, Port
 
 
@@ -25,7 +26,8 @@ class PI:
         low, high: limits of the output.
         start: output ahead of the first step.
     Raises:
-        BadInput: times that are not positive, a gain that is not finite, limits the wrong way round, a start outside.
+        BadInput: what is no number, times that are not positive, a gain that is not finite, limits the wrong way
+            round, a start outside.
     Source: thesis Eq. 5.33. Differs: output limits, bumpless start.
     """
 
@@ -39,6 +41,7 @@ class PI:
     start: float = 0.0
 
     def __post_init__(self) -> None:
+        check_numbers("PI", self, "K_p", "T_i", "dt", "low", "high", "start")
         if not (math.isfinite(self.K_p) and 0 < self.T_i < math.inf and 0 < self.dt < math.inf):
             raise BadInput(
                 f"PI: K_p = {self.K_p:g}, T_i = {self.T_i:g} s, dt = {self.dt:g} s; give a finite gain, positive times"

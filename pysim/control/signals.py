@@ -6,6 +6,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from pysim.control._check import check_numbers
 from pysim.control.block import Stateless
 from pysim.types import BadInput, Port
 
@@ -25,6 +26,7 @@ class Gain(Stateless):
     output_unit: str = "1"
 
     def __post_init__(self) -> None:
+        check_numbers("gain", self, "gain")
         if not math.isfinite(self.gain):
             raise BadInput(f"gain: {self.gain} is no finite number; give one")
         self.inputs, self.outputs = (Port("u", self.unit),), (Port("y", self.output_unit),)
@@ -68,6 +70,7 @@ class Limiter(Stateless):
     unit: str = "1"
 
     def __post_init__(self) -> None:
+        check_numbers("limiter", self, "low", "high")
         if not self.low < self.high:
             raise BadInput(f"limiter: low = {self.low:g} is not below high = {self.high:g}; exchange them")
         self.inputs, self.outputs = (Port("u", self.unit),), (Port("y", self.unit),)
@@ -93,6 +96,7 @@ class ZeroSwitch(Stateless):
     unit: str = "1"
 
     def __post_init__(self) -> None:
+        check_numbers("zero switch", self, "threshold")
         if not self.threshold >= 0:
             raise BadInput(f"zero switch: the threshold is {self.threshold:g} rad/s; give zero or more")
         self.inputs = (Port("u", self.unit), Port("speed", "rad/s"))
@@ -116,6 +120,7 @@ class NormalizeSignal(Stateless):
     largest: float
 
     def __post_init__(self) -> None:
+        check_numbers("normalize", self, "largest")
         if not 0 < self.largest < math.inf:
             raise BadInput(f"normalize: the largest angle is {self.largest:g} rad; give a positive one")
         self.inputs, self.outputs = (Port("angle", "rad"),), (Port("percent", "%"),)

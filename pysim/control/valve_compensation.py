@@ -6,6 +6,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from pysim.control._check import check_numbers
 from pysim.control.block import Stateless
 from pysim.types import BadInput, Port
 
@@ -31,6 +32,7 @@ class ValveCompensation(Stateless):
     least: float = 5e5
 
     def __post_init__(self) -> None:
+        check_numbers("valve compensation", self, "K", "rho", "least")
         for name in ("K", "rho", "least"):
             if not 0 < getattr(self, name) < math.inf:
                 raise BadInput(f"valve compensation: {name} = {getattr(self, name):g}; give a positive number")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from numbers import Real
 
 from pysim.control import Block
 from pysim.types import BadInput, Port
@@ -36,6 +37,9 @@ class Sampled:
         for attribute in ("inputs", "outputs", "step", "state", "restore"):
             if not hasattr(self.block, attribute):
                 raise BadInput(f"{self.name}: {self.block!r} has no {attribute!r}; give a block (docs/cosim.md)")
+        for name in ("every", "delay"):
+            if not isinstance(getattr(self, name), Real):
+                raise BadInput(f"{self.name}: {name} is {getattr(self, name)!r}; give seconds")
         if not 0 < self.every < math.inf or not 0 <= self.delay < math.inf:
             raise BadInput(f"{self.name}: every = {self.every} s, delay = {self.delay} s; give seconds above zero")
         if self.hold not in (0, 1):

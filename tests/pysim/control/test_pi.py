@@ -1,4 +1,5 @@
 import math
+from typing import Any
 
 import numpy as np
 import pytest
@@ -53,10 +54,13 @@ def test_a_kept_state_goes_on_alike() -> None:
         ({"T_i": 0.0}, "positive times"),
         ({"dt": -1.0}, "positive times"),
         ({"K_p": math.nan}, "finite gain"),
+        ({"K_p": "1"}, "PI: K_p is '1'; give a number"),
+        ({"T_i": None}, "PI: T_i is None; give a number"),
+        ({"start": True}, "PI: start is True; give a number"),
         ({"low": 1.0, "high": -1.0}, "in this order"),
         ({"high": 1.0, "start": 2.0}, "in this order"),
     ],
 )
-def test_wrong_numbers_are_refused(values: dict[str, float], told: str) -> None:
+def test_wrong_numbers_are_refused(values: dict[str, Any], told: str) -> None:
     with pytest.raises(BadInput, match=told):
         PI(**{"K_p": 1.0, "T_i": 1.0, "dt": 0.1, **values})
