@@ -126,7 +126,7 @@ def _write_report(args: argparse.Namespace, file: SystemFile, record: Record, se
         record,
         seconds,
         parts=[(m.name, _what(m), len(m.inputs), len(m.outputs)) for m in file.system.members],
-        wires=[(c.source, c.target, c.gain) for c in file.system.connections],
+        wires=[(c.source, c.target, c.gain, c.offset) for c in file.system.connections],
         pictures={"Everything that was recorded, by unit.": svg},
         redo=command_line(words),
     )
@@ -137,8 +137,16 @@ def _write_report(args: argparse.Namespace, file: SystemFile, record: Record, se
 def _what(member: Any) -> str:
     """What a member is, in a few words."""
     from pysim.cosim import Sampled
+    from pysim.cosim.members import Fmu, Isolated
 
+    if isinstance(member, Isolated):
+        return f"{_what(member.member)}, in a process of its own"
+    if isinstance(member, Fmu):
+        how = "stepped by our solver" if member.interface == "model-exchange" else "steps by itself"
+        return (
+            f"{member.model.path.name}, FMI {member.model.abilities.fmi}, {member.interface.replace('-', ' ')}: {how}"
+        )
     if isinstance(member, Sampled):
         delay = f", {1e3 * member.delay:g} ms later" if member.delay else ""
         return f"{type(member.block).__name__}, sampled every {1e3 * member.every:g} ms{delay}"
-    return str(member)
+    return type(member).__name__

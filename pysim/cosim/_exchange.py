@@ -54,8 +54,8 @@ class Exchange:
         for action in self._actions:
             action(tick, time)
         view = self._row.view
-        for target, source, factor in self._wires:
-            view[target] = factor * view[source]
+        for target, source, factor, offset in self._wires:
+            view[target] = factor * view[source] + offset
         for sampler in self._late:
             sampler.sample(tick, time)
 

@@ -15,11 +15,12 @@ from pysim.cosim.system import Part, System
 
 
 class Wire(NamedTuple):
-    """One input and what drives it."""
+    """One input and what drives it: input = factor * source + offset."""
 
     target: int
     source: int
     factor: float
+    offset: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -95,7 +96,7 @@ def lay_out(system: System, signals: Iterable[str]) -> Layout:
     inputs = {name: len(outputs) + len(driven) + i for i, name in enumerate(names)}
     size = len(outputs) + len(driven) + 2 * len(inputs)
     bonds = {bond.name: size + 2 * i for i, bond in enumerate(system.bonds)}
-    wires = [Wire(inputs[c.target], outputs[c.source], c.gain) for c in system.connections]
+    wires = [Wire(inputs[c.target], outputs[c.source], c.gain, c.offset) for c in system.connections]
     wires += [Wire(inputs[name], slot, 1.0) for name, slot in driven.items()]
     places, first_out, first_in = {}, 0, len(outputs) + len(driven)
     for part in parts:
@@ -121,19 +122,20 @@ class Row:
     def carry(self, wires: tuple[Wire, ...]) -> None:
         """Bring the drivers' values to the inputs."""
         view = self.view
-        for target, source, factor in wires:
-            view[target] = factor * view[source]
+        for target, source, factor, offset in wires:
+            view[target] = factor * view[source] + offset
 
     def part(self, slots: slice) -> Array:
         """A view of some slots, contiguous and writable."""
         return self.array[slots]
 
 
-def indices(wires: Iterable[Wire]) -> tuple[NDArray[np.intp], NDArray[np.intp], Array]:
-    """Targets, sources and factors of wires as arrays."""
+def indices(wires: Iterable[Wire]) -> tuple[NDArray[np.intp], NDArray[np.intp], Array, Array]:
+    """Targets, sources, factors and offsets of wires as arrays."""
     row = list(wires)
     return (
         np.array([w.target for w in row], dtype=np.intp),
         np.array([w.source for w in row], dtype=np.intp),
         np.array([w.factor for w in row]),
+        np.array([w.offset for w in row]),
     )

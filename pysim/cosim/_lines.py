@@ -93,14 +93,14 @@ class _Holder:
 
     def finish(self, ends: Array) -> None:
         """Set the inputs to their last values."""
-        targets, sources, factors = self._means
-        self._row[targets] = factors * ends[sources]
+        targets, sources, factors, offsets = self._means
+        self._row[targets] = factors * ends[sources] + offsets
 
     def hold(self, begins: Array, ends: Array, size: float) -> None:
-        targets, sources, factors = self._means
+        targets, sources, factors, offsets = self._means
         if targets.size:
-            self._row[targets] = factors * (0.5 * (begins[sources] + ends[sources]))
-        targets, sources, factors = self._lines
+            self._row[targets] = factors * (0.5 * (begins[sources] + ends[sources])) + offsets
+        targets, sources, factors, offsets = self._lines
         if targets.size:
-            self._row[targets] = factors * begins[sources]
+            self._row[targets] = factors * begins[sources] + offsets
             self._row[targets + self._shift] = factors * ((ends[sources] - begins[sources]) / size)

@@ -41,14 +41,19 @@ def check_experiment(system: System, experiment: Experiment, *, solves_loops: bo
 
 
 def _check_driven(system: System, experiment: Experiment) -> None:
-    driven = {*system.drivers, *experiment.inputs, *experiment.rates}
-    free = [name for name, port in system.inputs.items() if name not in driven and port.start is None]
+    free = undriven(system, experiment)
     if free:
         outputs = ", ".join(system.outputs) or "there are none"
         raise BadInput(
-            f"system: nothing drives {', '.join(free)}; connect an output ({outputs}) "
-            f"or give the experiment a signal, inputs={{{free[0]!r}: Signal.constant(...)}}"
+            f"system: nothing drives {', '.join(free)}; connect an output ({outputs}), give the experiment a signal, "
+            f"inputs={{{free[0]!r}: Signal.constant(...)}}, or an FMU a value of that name among its parameters"
         )
+
+
+def undriven(system: System, experiment: Experiment) -> list[str]:
+    """Inputs without a start that no connection and no signal drives."""
+    driven = {*system.drivers, *experiment.inputs, *experiment.rates}
+    return [name for name, port in system.inputs.items() if name not in driven and port.start is None]
 
 
 def overrides_of(system: System, experiment: Experiment) -> Mapping[str, Mapping[str, float]]:

@@ -28,10 +28,10 @@ class SamplerState(NamedTuple):
 
 
 def _gatherer(slots: slice, wires: Sequence[Wire]) -> Callable[[memoryview[float]], tuple[float, ...]] | None:
-    """A function that takes all inputs from where they come, without a stop in their slots; None where a factor is in
-    the way, or where there are too few inputs for it."""
+    """A function that takes all inputs from where they come, without a stop in their slots; None where a factor or an
+    offset is in the way, or where there are too few inputs for it."""
     sources = {wire.target: wire.source for wire in wires}
-    if slots.stop - slots.start < 2 or any(wire.factor != 1 for wire in wires):
+    if slots.stop - slots.start < 2 or any(wire.factor != 1 or wire.offset for wire in wires):
         return None
     return itemgetter(*(sources.get(slot, slot) for slot in range(slots.start, slots.stop)))
 
@@ -82,8 +82,8 @@ class Sampler:
         if self._gather is not None:
             inputs = self._gather(view)
         else:
-            for target, source, factor in self._wires:
-                view[target] = factor * view[source]
+            for target, source, factor, offset in self._wires:
+                view[target] = factor * view[source] + offset
             inputs = self._read()
         try:
             values = self._step(time, inputs)

@@ -121,7 +121,7 @@ def carrier(core: Core, name: str, stepped: Sequence[str]) -> Prepare | None:
     view = core.row.view
 
     def carry(time: float, end: float) -> None:
-        for target, source, factor in wires:
-            view[target] = factor * view[source]
+        for target, source, factor, offset in wires:
+            view[target] = factor * view[source] + offset
 
     return carry if wires else None

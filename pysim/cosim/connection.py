@@ -8,30 +8,37 @@ from dataclasses import dataclass
 from pysim.io import SI
 from pysim.types import BadInput
 
-# Two factors that are the same number, written with fewer digits.
-_SAME_FACTOR = 1e-6
+# Two factors, or offsets, that are the same number, written with fewer digits.
+_SAME = 1e-6
+
+# Units with a zero of their own: kelvin = factor * value + offset.
+_KELVIN = {"K": (1.0, 0.0), "degC": (1.0, 273.15), "degF": (5 / 9, 459.67 * 5 / 9)}
 
 
 @dataclass(frozen=True)
 class Connection:
-    """input = factor * output.
+    """input = factor * output + offset.
 
     Args:
         source: "member.output".
         target: "member.input".
         factor: target's unit over source's; None where both have the same. A negative one turns the sign round. Between
             units of different kinds it is taken as what you know of them.
+        offset: in the target's unit, as between degC and K, or between gauge and absolute pressure.
     Raises:
-        BadInput: a factor of zero, or one that is no number.
+        BadInput: a factor of zero, or a number that is not finite.
     """
 
     source: str
     target: str
     factor: float | None = None
+    offset: float = 0.0
 
     def __post_init__(self) -> None:
-        if self.factor is not None and not (math.isfinite(self.factor) and self.factor != 0):
+        if self.factor is not None and not (_finite(self.factor) and self.factor != 0):
             raise BadInput(f"connection {self}: the factor is {self.factor}; give a finite one that is not zero")
+        if not _finite(self.offset):
+            raise BadInput(f"connection {self}: the offset is {self.offset}; give a finite one")
 
     def __str__(self) -> str:
         return f"{self.source} -> {self.target}"
@@ -42,31 +49,54 @@ class Connection:
         return 1.0 if self.factor is None else self.factor
 
     def check_units(self, source: str, target: str) -> None:
-        """Check the factor against the units of both ends.
+        """Check factor and offset against the units of both ends.
 
         Raises:
-            BadInput: units that differ without the factor between them.
+            BadInput: units that differ without the factor and the offset between them.
         """
+        if source == target:
+            return
         needed = conversion(source, target)
-        if self.factor is None:
-            if source != target and needed != 1.0:
-                cure = (
-                    "connect another, or give the factor you know" if needed is None else f"give factor={needed:.12g}"
-                )
-                raise BadInput(f"connection {self}: the output is in {source!r}, the input in {target!r}; {cure}")
-        elif (
-            needed is not None and source != target and not math.isclose(abs(self.factor), needed, rel_tol=_SAME_FACTOR)
-        ):
+        if needed is None:
+            if self.factor is None:
+                self._refuse(source, target, "connect another, or give the factor you know")
+        elif self.factor is None and not self.offset and needed != (1.0, 0.0):
+            self._refuse(source, target, _cure(*needed))
+        elif not self._is(*needed):
             raise BadInput(
-                f"connection {self}: from {source!r} to {target!r} the factor is {needed:.12g}, not {self.factor:g}; "
-                f"give factor={needed:.12g}"
+                f"connection {self}: from {source!r} to {target!r} the factor is {needed[0]:.12g}"
+                f"{f', the offset {needed[1]:.12g}' if needed[1] else ''}, not {self.gain:g}"
+                f"{f' and {self.offset:g}' if needed[1] else ''}; {_cure(*needed)}"
             )
 
+    def _is(self, factor: float, offset: float) -> bool:
+        """Whether this converts so. Where no offset is needed, the sign may be turned and any offset added."""
+        if offset == 0.0:
+            return math.isclose(abs(self.gain), factor, rel_tol=_SAME)
+        return math.isclose(self.gain, factor, rel_tol=_SAME) and math.isclose(self.offset, offset, rel_tol=_SAME)
 
-def conversion(source: str, target: str) -> float | None:
-    """How many of the target unit one of the source unit is; None where they are of different kinds or unknown."""
+    def _refuse(self, source: str, target: str, cure: str) -> None:
+        raise BadInput(f"connection {self}: the output is in {source!r}, the input in {target!r}; {cure}")
+
+
+def conversion(source: str, target: str) -> tuple[float, float] | None:
+    """Factor and offset from one unit to another; None where they are of different kinds or unknown."""
+    if source == target:
+        return 1.0, 0.0
     if {source, target} == {"1", "%"}:
-        return 100.0 if target == "%" else 0.01
-    if source == target or source not in SI or target not in SI or SI[source][0] != SI[target][0]:
-        return 1.0 if source == target else None
-    return SI[source][1] / SI[target][1]
+        return (100.0 if target == "%" else 0.01), 0.0
+    if source in _KELVIN and target in _KELVIN:
+        (slope, zero), (other, other_zero) = _KELVIN[source], _KELVIN[target]
+        return slope / other, (zero - other_zero) / other
+    if source not in SI or target not in SI or SI[source][0] != SI[target][0]:
+        return None
+    return SI[source][1] / SI[target][1], 0.0
+
+
+def _cure(factor: float, offset: float) -> str:
+    parts = [f"factor={factor:.12g}"] if factor != 1.0 or not offset else []
+    return f"give {', '.join([*parts, *([f'offset={offset:.12g}'] if offset else [])])}"
+
+
+def _finite(value: object) -> bool:
+    return isinstance(value, (int, float)) and math.isfinite(value)

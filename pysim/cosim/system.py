@@ -172,6 +172,11 @@ class System:
                 f"bond {bond.name}: {effort} and {flow} do not go to and fro between two members; name the input that "
                 "receives the effort and the other's input that receives the flow"
             )
+        if effort.offset or flow.offset:
+            raise BadInput(
+                f"bond {bond.name}: {effort if effort.offset else flow} adds an offset, which no power has; "
+                "connect the two without one"
+            )
         units = self.outputs[effort.source].unit, self.inputs[flow.target].unit
         if not is_power(*units):
             raise BadInput(

@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from pysim.cosim._prepare import undriven
 from pysim.cosim._python_class import made, python_class
 from pysim.cosim.bond import Bond
 from pysim.cosim.connection import Connection
@@ -73,14 +74,25 @@ def read_system_file(path: Path | str, *, stop: float | None = None, step: float
     size = run.positive("step") if step is None else step
     if size is None:
         raise BadInput(f"{run.place}: step is missing; write step = and the seconds between two communication points")
+    experiment = _told(run.place, lambda: _experiment(toml, run, system, size, stop))
+    _check_driven(path, system, experiment)
     return SystemFile(
         name=head.text("name", path.stem),
         system=system,
-        experiment=_told(run.place, lambda: _experiment(toml, run, system, size, stop)),
+        experiment=experiment,
         step=size,
         order=_order(run),
         doubling=_told(run.place, lambda: _doubling(run)),
     )
+
+
+def _check_driven(path: Path, system: System, experiment: Experiment) -> None:
+    free = undriven(system, experiment)
+    if free:
+        raise BadInput(
+            f'{path}: nothing drives {", ".join(free)}; add [[connections]] with to = "{free[0]}", or under [inputs] a '
+            f"number or a file, {free[0]} = 0.0"
+        )
 
 
 def _told(place: str, make: Callable[[], Any]) -> Any:
@@ -144,8 +156,9 @@ def _connections(toml: TomlFile, unwired: System) -> tuple[Connection, ...]:
 
 
 def _connection(section: Section, unwired: System) -> Connection:
-    section.refuse_unknown(("from", "to", "factor"))
-    connection = Connection(section.text("from"), section.text("to"), section.optional_number("factor"))
+    section.refuse_unknown(("from", "to", "factor", "offset"))
+    factor, offset = section.optional_number("factor"), section.optional_number("offset") or 0.0
+    connection = Connection(section.text("from"), section.text("to"), factor, offset)
     source, target = unwired.port("output", connection.source), unwired.port("input", connection.target)
     connection.check_units(source.unit, target.unit)
     return connection

@@ -10,9 +10,9 @@ import numpy as np
 from pysim.report.page import cell, commands, heading, page, paragraph, picture, table
 from pysim.types import Outcome, Record
 
-# Name, what it is, inputs and outputs of a member; source, target and factor of a connection.
+# Name, what it is, inputs and outputs of a member; source, target, factor and offset of a connection.
 Parts = Sequence[tuple[str, str, int, int]]
-Wires = Sequence[tuple[str, str, float]]
+Wires = Sequence[tuple[str, str, float, float]]
 
 
 def cosim_text(name: str, record: Record, seconds: float) -> str:
@@ -73,11 +73,19 @@ def cosim_page(
     body += [heading("Signals"), table("In SI units or %", ["", "unit", "lowest", "highest", "at the end"], rows)]
     rows = [[cell(n, "words"), cell(what, "words"), cell(str(i)), cell(str(o))] for n, what, i, o in parts]
     body += [heading("Members"), table("What the system is made of", ["", "", "inputs", "outputs"], rows)]
-    rows = [[cell(source, "words"), cell(target, "words"), cell(f"{factor:g}")] for source, target, factor in wires]
-    if rows:
-        body += [heading("Connections"), table("input = factor * output", ["from", "to", "factor"], rows)]
+    if wires:
+        body += [heading("Connections"), _wiring(wires)]
     body += [heading("Do it again"), commands(redo)]
     return page(f"Co-simulation {name}", "Members stepped side by side and wired at communication points.", body)
+
+
+def _wiring(wires: Wires) -> str:
+    """The connections, with a column of offsets where there are any."""
+    law, head, last = "input = factor * output", ["from", "to", "factor"], 3
+    if any(offset for *_, offset in wires):
+        law, head, last = f"{law} + offset", [*head, "offset"], 4
+    rows = [[cell(w[0], "words"), cell(w[1], "words"), *(cell(f"{number:.9g}") for number in w[2:last])] for w in wires]
+    return table(law, head, rows)
 
 
 def _how(name: str, record: Record, seconds: float) -> str:

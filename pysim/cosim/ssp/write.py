@@ -177,8 +177,9 @@ def _wire(wires: Element, connection: Connection) -> None:
     (start, output), (end, target) = (name.split(".", 1) for name in (connection.source, connection.target))
     ends = {"startElement": start, "startConnector": output, "endElement": end, "endConnector": target}
     wire = _sub(wires, f"{{{SSD}}}Connection", ends)
-    if connection.gain != 1.0:
-        _sub(wire, f"{{{SSC}}}LinearTransformation", {"factor": repr(connection.gain)})
+    if (connection.gain, connection.offset) != (1.0, 0.0):
+        law = {"factor": repr(connection.gain)} | ({"offset": repr(connection.offset)} if connection.offset else {})
+        _sub(wire, f"{{{SSC}}}LinearTransformation", law)
 
 
 def _experiment(root: Element, file: SystemFile, fmus: Mapping[str, Fmu]) -> None:

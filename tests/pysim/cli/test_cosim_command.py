@@ -26,7 +26,14 @@ def test_a_system_is_run_and_reported(folder: Path, tmp_path: Path, capsys: pyte
     assert (numbers["outcome"], numbers["rows"], numbers["end_s"]) == ("done", 1201, 12.0)
     assert {s["name"]: s["end"] for s in numbers["signals"]}["plant.y"] == pytest.approx(3.0, abs=1e-3)
     page = (tmp_path / "out" / "report.html").read_text()
-    for text in ("PI, sampled every 10 ms", "controller.u", "plant.u", "--stop 12", "image/svg+xml"):
+    for text in (
+        "PI, sampled every 10 ms",
+        "Lag_2.fmu, FMI 2, model exchange: stepped by our solver",
+        "controller.u",
+        "plant.u",
+        "--stop 12",
+        "image/svg+xml",
+    ):
         assert text in page
     assert (tmp_path / "out" / "record.csv").read_text().count("\n") >= 1201
     assert (tmp_path / "out" / "cosim.png").stat().st_size > 10_000

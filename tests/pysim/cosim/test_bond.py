@@ -32,6 +32,13 @@ def test_a_bond_needs_its_wires() -> None:
         System(system.members, system.connections[::2], (Bond("b", "left.F", "right.v"),))
 
 
+def test_a_bond_has_no_offset() -> None:
+    system = oscillators()
+    wires = (*system.connections[:2], Connection("right.F", "left.F", offset=1.0))
+    with pytest.raises(BadInput, match=r"bond between: right\.F -> left\.F adds an offset"):
+        System(system.members, wires, system.bonds)
+
+
 def test_power_and_residual_of_held_inputs() -> None:
     h, times = 1e-3, np.arange(0, 401) * 1e-3
     record = cosimulate(oscillators(), Experiment(times, ("right.F", "left.v", "left.x")), step=h)

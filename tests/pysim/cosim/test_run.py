@@ -32,7 +32,7 @@ def integrator(name: str = "i", **more: object) -> Linear:
 @pytest.mark.parametrize(
     ("experiment", "step", "words"),
     [
-        (Experiment(TIMES, ("i.y",)), 0.1, r"nothing drives i\.u; connect an output \(i\.y\) or .* inputs={'i.u'"),
+        (Experiment(TIMES, ("i.y",)), 0.1, r"nothing drives i\.u; connect an output \(i\.y\), give .* inputs={'i.u'"),
         (Experiment(TIMES, ("i.z",), {"i.u": Signal.constant(1)}), 0.1, r"there is no output 'i\.z'.*of i: i\.y"),
         (Experiment(TIMES, ("i.y",), {"i.v": Signal.constant(1)}), 0.1, r"there is no input 'i\.v'.*inputs of i: i\.u"),
         (Experiment(TIMES, ("i.y",), {"i.u": Signal.constant(1)}, {"x0": 1}), 0.1, "override 'x0' is of no member"),

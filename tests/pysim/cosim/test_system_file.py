@@ -82,6 +82,12 @@ def written(folder: Path, text: str, name: str = "other.toml") -> Path:
     ("old", "new", "message"),
     [
         ("spring.F", "spring.G", r"other\.toml, line 12: system: there is no output 'spring\.G'; .*spring\.F"),
+        (
+            '[[connections]]\nfrom = "mass.v"\nto = "spring.v"',
+            "",
+            r"nothing drives spring\.v; add \[\[connections\]\] with ",
+        ),
+        ('to = "mass.F"', 'to = "mass.F"\noffset = "a"', "line 12: offset = 'a' is no finite number"),
         ('to = "mass.F"', 'to = "spring.v"', r"line 12: connection .*in 'N', the input in 'm/s'"),
         ('"mass.F"\n', '"mass.F"\nfactor = 2.0\ngain = 1\n', "line 12: the key 'gain' is not known"),
         ("m = 4.0", "M = 4.0", r"line 4: Mass_2\.fmu has no variable 'M'"),

@@ -29,9 +29,18 @@ def test_page_escapes_and_shows_all() -> None:
         STOPPED,
         0.5,
         parts=[("rig", "an FMU", 2, 3)],
-        wires=[("rig.p", "card.p", 1e-5)],
+        wires=[("rig.p", "card.p", 1e-5, 0.0)],
         pictures={"All": b"<svg/>"},
         redo="pysim cosim a.toml",
     )
     for text in ("A&lt;B", "it broke at 0.5 s", "an FMU", "card.p", "1e-05", "pysim cosim a.toml"):
         assert text in html
+    assert "offset" not in html
+
+
+def test_page_shows_offsets_where_there_are_some() -> None:
+    html = cosim_page(
+        "A", RECORD, 0.5, parts=[], wires=[("a.T", "b.T", 1.0, 273.15), ("a.p", "b.p", 1e5, 0.0)], pictures={}, redo=""
+    )
+    assert "input = factor * output + offset" in html
+    assert "273.15" in html

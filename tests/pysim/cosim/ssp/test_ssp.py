@@ -57,8 +57,10 @@ def test_the_description_follows_the_standards_schema(folder: Path, tmp_path: Pa
         assert sorted(archive.namelist()) == ["SystemStructure.ssd", "resources/Mass_2.fmu", "resources/Spring_2.fmu"]
 
 
-def test_a_factor_and_constant_inputs_go_with_it(folder: Path, tmp_path: Path) -> None:
-    text = (folder / "oscillator.toml").read_text().replace('to = "mass.F"', 'to = "mass.F"\nfactor = -1.0')
+def test_a_factor_an_offset_and_constant_inputs_go_with_it(folder: Path, tmp_path: Path) -> None:
+    text = (
+        (folder / "oscillator.toml").read_text().replace('to = "mass.F"', 'to = "mass.F"\nfactor = -1.0\noffset = 8.0')
+    )
     text = text.replace('from = "mass.v"\nto = "spring.v"\n', "").replace("[[connections]]\n\n", "")
     text += "\n[inputs]\nspring.v = -0.5\n"
     (folder / "factor.toml").write_text(text)
@@ -66,9 +68,9 @@ def test_a_factor_and_constant_inputs_go_with_it(folder: Path, tmp_path: Path) -
     write_ssp(file, tmp_path / "factor.ssp")
     read_ssd(str(tmp_path / "factor.ssp"), validate=True)
     record = ran(read_ssp(tmp_path / "factor.ssp"))
-    # F = -k (0.1 - 0.5 t) with k = 100, turned round; m = 4; each step takes the force at its end
+    # F = -k (0.1 - 0.5 t) with k = 100, turned round, and 8 N more; m = 4; each step takes the force at its end
     t = record.time
-    np.testing.assert_allclose(record["mass.v"], 25.0 * (0.1 * t - 0.25 * t * (t + 1e-3)), atol=1e-9)
+    np.testing.assert_allclose(record["mass.v"], 25.0 * (0.1 * t - 0.25 * t * (t + 1e-3)) + 2.0 * t, atol=1e-9)
 
 
 def test_python_cannot_be_exported_unless_left_out(folder: Path, tmp_path: Path) -> None:
@@ -100,7 +102,7 @@ def test_a_signal_over_time_has_no_room(folder: Path, tmp_path: Path) -> None:
         ('source="resources/Mass_2.fmu"', 'source="../Mass_2.fmu"', "outside the package"),
         ("ssd:Component", "ssd:System", "is a System; flatten"),
         ('implementation="CoSimulation"', 'type="application/x-ssp-package"', "only FMUs with shared libraries"),
-        ('startElement="spring" ', "", "ends at the system's own connector"),
+        ('startElement="spring" ', "", "is driven by the system's own connector F"),
         ('startConnector="F"', 'startConnector="G"', r"no output 'spring\.G'"),
         ('name="m"', 'name="weight"', "no variable 'weight'"),
         ('value="4.0"', 'value="four"', "m = 'four' is no number"),
