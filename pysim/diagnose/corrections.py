@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy import stats
 
 from pysim.diagnose.blame import PLAUSIBLE, Blame, Evidence
+from pysim.diagnose.descent import mean_square
 from pysim.diagnose.fitted import Fitted
-from pysim.diagnose.nuisance import GAIN, OFFSET, SHIFT, Suspect, suspects
+from pysim.diagnose.nuisance import GAIN, OFFSET, SHIFT, Suspect, suspects, undisturbed
 from pysim.diagnose.refit import refit
 from pysim.diagnose.residuals import Ruler
 from pysim.diagnose.screen import across, column_space
@@ -19,9 +20,6 @@ from pysim.diagnose.subject import Extended
 from pysim.diagnose.whiten import whitening
 from pysim.identify.greybox.evaluation import Evaluation
 from pysim.identify.greybox.log_target import LogTarget
-from pysim.identify.greybox.sine_log import SineLog
-from pysim.identify.greybox.sine_target import SineTarget
-from pysim.identify.greybox.target import Target
 from pysim.simulate import simulate_many
 from pysim.types import Outcome
 
@@ -37,8 +35,8 @@ _ALIKE = 1e-2
 _WORTH = 1.0
 # Mean square from which a model is too far off for saying who is to blame.
 _OFF = 2.0
-# Refits at most until the blamed are the same again.
-_ROUNDS = 3
+# Refits at most until the blamed are the same again, and until shapes and shifts of nuisances are.
+_ROUNDS, _CLOSER = 3, 4
 
 
 @dataclass(frozen=True)
@@ -190,9 +188,9 @@ def settled_before(ruler: Ruler, at: Fitted, x: Array, suspected: Sequence[Suspe
         suspected: who was to blame.
     """
     ruler, whole = _nearer(ruler, at)
-    lean = ruler.with_other(suspected=tuple(suspected))
+    lean = ruler.only(suspected)
     moved = not np.array_equal(x, whole.point.x)
-    rows = ruler.plain.whole(ruler.plain.evaluation(at.what, x)) if moved else ruler.whole(whole.point)
+    rows = lean.whole(lean.evaluation(at.what, x)) if moved else ruler.whole(whole.point)
     return _settled(ruler, whole, lean, x, rows)
 
 
@@ -204,16 +202,24 @@ def _settled(ruler: Ruler, whole: Fitted, lean: Ruler, x: Array, rows: Array) ->
 def _nearer(ruler: Ruler, at: Fitted) -> tuple[Ruler, Fitted]:
     """With the shapes of the nuisances from a model, and without starts that are wrong beside it.
 
-    An effect that moves the place of rest has the plant start where the model does not.
+    An effect that moves the place of rest has the plant start where the model does not. Shapes taken from a model that
+    was far off fit what they should not, and a long shift of clocks is no straight line: refits until neither matters.
     """
-    near = _answers(ruler, at.what, at.point.x)
-    if near is None:
-        return ruler, at
-    closer = ruler.with_other(near=tuple(near), skips=_skips(ruler, near))
-    if closer.skips == ruler.skips:
-        return closer, recounted(ruler, closer, at)
-    first = closer.evaluation(at.what, at.point.x)
-    return closer, Fitted(at.what, refit(closer, at.what, first) if first.good else first)
+    for _ in range(_CLOSER):
+        shifts = {n.suspect: n.value for n in nuisances(ruler, at.point) if n.suspect.kind == SHIFT}
+        moved = ruler if is_off(ruler, at.point) else ruler.moved(shifts)
+        near = _answers(moved, at.what, at.point.x)
+        if near is None:
+            break
+        closer = moved.with_other(near=tuple(near), skips=_skips(moved, near))
+        first = closer.evaluation(at.what, at.point.x)
+        if not first.good:
+            break
+        same = closer.skips == ruler.skips and abs(first.cost - at.point.cost) < _WORTH * mean_square(first)
+        ruler, at = closer, Fitted(at.what, first if same else refit(closer, at.what, first))
+        if same:
+            break
+    return ruler, at
 
 
 def held_beside(ruler: Ruler, held: Ruler, at: Fitted) -> Ruler:
@@ -233,13 +239,10 @@ def corrected(ruler: Ruler, amounts: Mapping[Suspect, float]) -> Ruler:
     return ruler.with_other(targets=undisturbed(ruler.targets, amounts)) if amounts else ruler
 
 
-def undisturbed(targets: Sequence[Target], amounts: Mapping[Suspect, float]) -> tuple[Target, ...]:
-    """What would have been measured without nuisances of these sizes."""
-    return tuple(_target(target, amounts) for target in targets) if amounts else tuple(targets)
-
-
 def recounted(old: Ruler, new: Ruler, at: Fitted) -> Fitted:
-    """The same point where only nuisances are allowed for otherwise; nothing is run that was run before."""
+    """The same point where only nuisances are allowed for otherwise; it is run again where other rows count."""
+    if old.skips != new.skips:
+        return Fitted(at.what, new.evaluation(at.what, at.point.x))
     return Fitted(at.what, new.counted(at.point.x, old.whole(at.point)))
 
 
@@ -249,41 +252,8 @@ def _lean_refit(ruler: Ruler, what: Extended, x: Array, rows: Array) -> tuple[Ar
     reach = column_space(first.jacobian)
     if float(np.sum((reach.T @ first.residual) ** 2)) < _WORTH:
         return x, rows
-    plain = ruler.plain
-    end = plain.evaluation(what, refit(ruler, what, first, rounds=3).x)
-    if not end.good or ruler.counted(end.x, plain.whole(end)).cost >= first.cost:
-        return x, rows
-    return end.x, plain.whole(end)
-
-
-def _target(target: Target, amounts: Mapping[Suspect, float]) -> Target:
-    """A target as it would have been measured without nuisances of these sizes."""
-    if isinstance(target, LogTarget):
-        late = amounts.get(Suspect(SHIFT, target.dataset, ""), 0.0)
-        values, noise = _undone(target, target.dataset, amounts)
-        run = target.run.experiment
-        times = np.maximum(run.times + late, run.start + 1e-9 * np.arange(run.times.size))
-        measured = replace(target.measured, values=values, time=target.measured.time + late)
-        moved = replace(target.run, experiment=replace(run, times=times))
-        return replace(target, measured=measured, noise=noise, run=moved)
-    if isinstance(target, SineTarget):
-        late, logs = amounts.get(Suspect(SHIFT, target.dataset, ""), 0.0), []
-        for log in target.logs:
-            values, noise = _undone(log, target.dataset, amounts)
-            measured = replace(log.measured, values=values, time=log.measured.time + late)
-            logs.append(replace(log, measured=measured, noise=noise))
-        return replace(target, logs=tuple(logs))
-    return target
-
-
-def _undone(
-    log: LogTarget | SineLog, dataset: str, amounts: Mapping[Suspect, float]
-) -> tuple[Array, tuple[float, ...]]:
-    """Values and noise with gains and offsets taken off."""
-    names = log.measured.names
-    gains = np.array([1 + amounts.get(Suspect(GAIN, dataset, name), 0.0) for name in names])
-    offsets = np.array([amounts.get(Suspect(OFFSET, dataset, name), 0.0) for name in names])
-    return (log.measured.values - offsets) / gains, tuple((np.array(log.noise) / gains).tolist())
+    end = ruler.evaluation(what, refit(ruler, what, first, rounds=3).x)
+    return (end.x, ruler.whole(end)) if end.good and end.cost < first.cost else (x, rows)
 
 
 def allowing(ruler: Ruler, held: Ruler | None, what: Extended, x: Array) -> tuple[Ruler, Ruler | None]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -178,3 +178,38 @@ def _sine_columns(dataset: str, log: SineLog, values: Array, suspected: Sequence
     rates[1::2], rates[2::2] = -turn * swings[2::2], turn * swings[1::2]
     one = np.tile(q.sum(axis=0)[:, None], (1, level.shape[1]))
     return _placed(dataset, log.measured.names, np.array(log.noise), suspected, (level, one, r @ rates))
+
+
+def undisturbed(targets: Sequence[Target], amounts: Mapping[Suspect, float]) -> tuple[Target, ...]:
+    """What would have been measured without nuisances of these sizes."""
+    return tuple(_target(target, amounts) for target in targets) if amounts else tuple(targets)
+
+
+def _target(target: Target, amounts: Mapping[Suspect, float]) -> Target:
+    """A target as it would have been measured without nuisances of these sizes."""
+    if isinstance(target, LogTarget):
+        late = amounts.get(Suspect(SHIFT, target.dataset, ""), 0.0)
+        values, noise = _undone(target, target.dataset, amounts)
+        run = target.run.experiment
+        times = np.maximum(run.times + late, run.start + 1e-9 * np.arange(run.times.size))
+        measured = replace(target.measured, values=values, time=target.measured.time + late)
+        moved = replace(target.run, experiment=replace(run, times=times))
+        return replace(target, measured=measured, noise=noise, run=moved)
+    if isinstance(target, SineTarget):
+        late, logs = amounts.get(Suspect(SHIFT, target.dataset, ""), 0.0), []
+        for log in target.logs:
+            values, noise = _undone(log, target.dataset, amounts)
+            measured = replace(log.measured, values=values, time=log.measured.time + late)
+            logs.append(replace(log, measured=measured, noise=noise))
+        return replace(target, logs=tuple(logs))
+    return target
+
+
+def _undone(
+    log: LogTarget | SineLog, dataset: str, amounts: Mapping[Suspect, float]
+) -> tuple[Array, tuple[float, ...]]:
+    """Values and noise with gains and offsets taken off."""
+    names = log.measured.names
+    gains = np.array([1 + amounts.get(Suspect(GAIN, dataset, name), 0.0) for name in names])
+    offsets = np.array([amounts.get(Suspect(OFFSET, dataset, name), 0.0) for name in names])
+    return (log.measured.values - offsets) / gains, tuple((np.array(log.noise) / gains).tolist())

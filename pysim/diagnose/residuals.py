@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pysim.diagnose.noise import Column, Noise, estimated_noise
-from pysim.diagnose.nuisance import NOTHING, Span, Suspect, columns
+from pysim.diagnose.nuisance import NOTHING, Span, Suspect, columns, undisturbed
 from pysim.diagnose.subject import Extended
 from pysim.diagnose.whiten import Whitening, whitening
 from pysim.identify.greybox import Simulation, Threads
@@ -39,7 +39,9 @@ class Ruler:
         skips: per target, s at its start that do not count; none where empty.
         suspected: nuisances that are allowed for: residuals and slopes are counted across what they span.
         near: per run, what a model near the plant answers (n_t, n_y): the shape of the nuisances.
-        whitenings, span: what follows from all that; left out, they are worked out.
+        taken: shifts of clocks that the targets have lost, s. Residuals are counted with them put back in a straight
+            line: so what is counted is what it was, but for the error of the straight line.
+        whitenings, span, back: what follows from all that; left out, they are worked out.
     """
 
     targets: tuple[Target, ...]
@@ -49,23 +51,26 @@ class Ruler:
     skips: tuple[float, ...] = ()
     suspected: tuple[Suspect, ...] = ()
     near: tuple[Array, ...] = field(default=(), repr=False)
+    taken: Mapping[Suspect, float] = field(default_factory=dict)
     whitenings: tuple[Whitening, ...] = field(default=(), repr=False)
     span: Span = field(default=NOTHING, repr=False)
+    back: Array = field(default_factory=lambda: np.zeros(0), repr=False)
 
     def __post_init__(self) -> None:
         if self.whitenings:
             return
         skips = self.skips or (0.0,) * len(self.targets)
         maps = tuple(whitening(t, self.noise, skip) for t, skip in zip(self.targets, skips, strict=True))
-        rows, rest = [np.zeros((0, len(self.suspected)))], list(self.near)
+        everyone = (*self.suspected, *self.taken)
+        rows, rest = [np.zeros((0, len(everyone)))], list(self.near)
         for target, made in zip(self.targets, maps, strict=True):
             own, rest = rest[: len(target.runs)], rest[len(target.runs) :]
-            rows.append(made.of(columns(target, own, self.suspected)) if self.suspected else rows[0])
+            rows.append(made.of(columns(target, own, everyone)) if everyone else rows[0])
+        each, count = np.concatenate(rows), len(self.suspected)
         object.__setattr__(self, "skips", skips)
         object.__setattr__(self, "whitenings", maps)
-        object.__setattr__(
-            self, "span", Span.of(np.concatenate(rows), np.array([suspect.width for suspect in self.suspected]))
-        )
+        object.__setattr__(self, "span", Span.of(each[:, :count], np.array([s.width for s in self.suspected])))
+        object.__setattr__(self, "back", each[:, count:] @ np.array(list(self.taken.values())))
 
     def with_other(self, **changed: Any) -> Ruler:
         """The ruler with other targets, noise, skips or nuisances."""
@@ -73,11 +78,24 @@ class Ruler:
 
     def only(self, suspects: Collection[Suspect]) -> Ruler:
         """The ruler that allows for those of its nuisances that are among others."""
-        return self.with_other(suspected=tuple(s for s in self.suspected if s in suspects))
+        kept = tuple(s for s in self.suspected if s in suspects)
+        return self.with_other(suspected=kept).moved({s: v for s, v in self.taken.items() if s in suspects})
+
+    def moved(self, shifts: Mapping[Suspect, float]) -> Ruler:
+        """The ruler with these shifts of clocks taken off its targets, s, and no others."""
+        if shifts == self.taken:
+            return self
+        change = {s: shifts.get(s, 0.0) - self.taken.get(s, 0.0) for s in {**self.taken, **shifts}}
+        return self.with_other(targets=undisturbed(self.targets, change), taken=dict(shifts))
 
     @property
     def plain(self) -> Ruler:
         """The ruler that allows for no nuisance."""
+        return self.only(())
+
+    @property
+    def bare(self) -> Ruler:
+        """The ruler of the same rows before any nuisance is allowed for."""
         return replace(self, suspected=(), span=NOTHING)
 
     @property
@@ -117,7 +135,9 @@ class Ruler:
             own, rest = rest[: len(target.runs)], rest[len(target.runs) :]
             residual = target.weighted(own)
             parts.append(made.of(np.column_stack([residual.values, residual.slopes])))
-        return np.concatenate(parts)
+        rows = np.concatenate(parts)
+        rows[:, 0] += self.back if self.taken else 0.0
+        return rows
 
     def at(self, what: Extended, x: Array) -> Array | None:
         """Residuals (n_r,) of an extended model at x (n,) of its space."""
@@ -125,7 +145,7 @@ class Ruler:
 
     def evaluation(self, what: Extended, x: Array) -> Evaluation:
         """Residuals and their slopes: exact for a model without events, else by one-sided differences."""
-        whole = self.plain
+        whole = self.bare
         residual = whole.at(what, x)
         if residual is None:
             return bad_point(x, "the model could not be simulated")

@@ -159,6 +159,8 @@ def refitted(
         least: share of the misfit that a refit on probation has to take for slopes of its own.
     """
     story.now("refitting the promising candidates")
+    if nominal is not None:
+        nominal = recounted(story.first, tried.ruler, nominal)
     found: dict[str, Fitted] = {}
     for head in _promising(tried):
         one = tried.contenders[head.effect.name]
@@ -212,7 +214,7 @@ def _probation(tried: Tried, one: Contender, nominal: Fitted | None) -> Evaluati
         ends.append(_end(one, current, min(own, key=lambda f: f.size), _STEPS))
     reached = before - min(end.cost for end in ends if end is not None) if any(ends) else 0.0
     if nominal is not None and reached < _KEPT * own[0].gain:
-        ends.append(_end(one, recounted(one.ruler.plain, one.ruler, nominal), own[0], _FAR_STEPS))
+        ends.append(_end(one, recounted(tried.ruler, one.ruler, nominal), own[0], _FAR_STEPS))
     good = [end for end in ends if end is not None and end.cost < before]
     return min(good, key=lambda end: end.cost) if good else None
 

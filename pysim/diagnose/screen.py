@@ -96,7 +96,7 @@ def _footprints(
 ) -> Iterator[Footprint]:
     settings = [setting(current.what, one.what, one.effect, current.point.x, values) for values in grid]
     before = one.ruler.whole(current.point)[:, 0]
-    for values, residual in zip(grid, one.ruler.plain.residuals(one.what.model, settings), strict=True):
+    for values, residual in zip(grid, one.ruler.bare.residuals(one.what.model, settings), strict=True):
         if residual is not None:
             plain = residual - before
             change = one.ruler.span.across(plain[:, None])[:, 0]

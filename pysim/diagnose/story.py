@@ -29,13 +29,12 @@ from pysim.diagnose.corrections import (
     settled_before,
     started,
     told_apart,
-    undisturbed,
 )
 from pysim.diagnose.doubt import held_still
 from pysim.diagnose.fitted import Fitted
 from pysim.diagnose.journal import Journal, identity
 from pysim.diagnose.ledger import beside, ledger_step
-from pysim.diagnose.nuisance import Suspect
+from pysim.diagnose.nuisance import Suspect, undisturbed
 from pysim.diagnose.refit import refit, refit_from
 from pysim.diagnose.residuals import Ruler, rulers
 from pysim.diagnose.subject import Extended, Subject, extended
@@ -86,9 +85,10 @@ class Story:
     blames: dict[tuple[object, ...], Blame] = field(default_factory=dict)
     measured: tuple[Target, ...] = ()
     suspected: tuple[Suspect, ...] = ()
+    first: Ruler = field(init=False)
 
     def __post_init__(self) -> None:
-        self.measured = self.subject.targets
+        self.measured, self.first = self.subject.targets, self.ruler.plain
 
     def now(self, doing: str) -> None:
         """A new stage begins, in a few words."""
@@ -173,7 +173,7 @@ class Story:
         kept = self.journal.once(part, found)
         if kept is None:
             return None
-        lean = ruler.with_other(suspected=tuple(Suspect(*row) for row in kept["nuisances"]))
+        lean = ruler.only([Suspect(*row) for row in kept["nuisances"]])
         if not point:
             point.append(_again(lean, what, np.array(kept["x"]), np.array(kept["slopes"])))
         return recounted(lean, ruler, Fitted(what, point[0]))
@@ -190,7 +190,7 @@ class Story:
         point = self.ruler.evaluation(what, x)
         if point.good:
             self.ruler, point = told_apart(self.ruler, point)
-        self.suspected = self.ruler.suspected
+        self.suspected, self.first = self.ruler.suspected, self.ruler.plain
         return point
 
     def plausible(self, at: Fitted, part: str, start: Fitted) -> Fitted:

@@ -12,10 +12,9 @@ from pysim.diagnose.corrections import (
     settled,
     settled_before,
     told_apart,
-    undisturbed,
 )
 from pysim.diagnose.fitted import Fitted
-from pysim.diagnose.nuisance import OFFSET, SHIFT
+from pysim.diagnose.nuisance import OFFSET, SHIFT, undisturbed
 from pysim.diagnose.refit import refit
 from pysim.diagnose.residuals import rulers
 from pysim.diagnose.subject import extended
@@ -70,6 +69,19 @@ def test_sizes_of_bad_sensors_and_clocks() -> None:
     again = settled_before(ruler, at, found.at.point.x, found.lean.suspected)
     assert again.at.point.residual == pytest.approx(found.at.point.residual, abs=1e-12)
     assert again.blame.suspects == found.blame.suspects
+
+
+def test_a_shift_too_long_for_a_straight_line() -> None:
+    ruler, _, at = fitted(logged(6, late=0.014))
+    found = settled(ruler, at)
+    (shift,) = found.seen
+    assert shift.suspect.kind == SHIFT
+    assert abs(shift.value - 0.014) < shift.high - shift.low
+    assert found.ruler.taken == {shift.suspect: pytest.approx(shift.value, abs=1e-4)}
+    freedom = found.lean.freedom - at.what.space.size
+    assert abs(found.at.point.cost - freedom) < 4 * np.sqrt(2 * freedom)
+    assert found.at.point.cost < at.point.cost - 25
+    assert found.ruler.only(()).targets[0].measured.time == pytest.approx(ruler.targets[0].measured.time, abs=1e-12)  # type: ignore[attr-defined]
 
 
 def test_only_who_is_to_blame_is_taken_off() -> None:
