@@ -13,6 +13,7 @@ from nicegui import run
 
 from pysim.app.answers import Answers
 from pysim.app.jobs import DONE, FAILED, STOPPED, Job, Runner, Work, adding, last_words, read_job, run_pysim, works
+from pysim.app.layout import Layout, layout
 from pysim.app.project import Project
 from pysim.app.upload import Batch, Limits
 from pysim.identify.data_check import DataCheck, check_dataset
@@ -42,6 +43,7 @@ class Desk:
     """One per server.
 
     Args:
+        drawing: of the model's parts; None where its class is not at hand.
         version: changes with everything that a page shows, but for what a running job tells;
         beat: changes with that too.
     """
@@ -53,6 +55,7 @@ class Desk:
     beat: int = 0
     loaded: Loaded | None = None
     model: Mapping[str, Any] | None = None
+    drawing: Layout | None = None
     model_trouble: str = ""
     model_busy: bool = False
     last: Job | None = None
@@ -143,7 +146,7 @@ class Desk:
     async def read_model(self) -> None:
         """Build or open the model in a process of its own, and keep what it says of itself."""
         settings, path = self.project.settings(), self.project.folder / "model.json"
-        self.model, self.model_trouble, self.model_busy = None, "", bool(settings.model)
+        self.model, self.drawing, self.model_trouble, self.model_busy = None, None, "", bool(settings.model)
         self.changed()
         if not settings.model:
             return
@@ -168,7 +171,11 @@ class Desk:
             self.model_trouble = f"the model was not ready within {_MODEL_LIMIT:g} s; check that it can be simulated"
             return
         if path.is_file():
-            self.model = json.loads(path.read_text(encoding="utf-8"))
+            model = json.loads(path.read_text(encoding="utf-8"))
+            parts = model["structure"]
+            if parts is not None:
+                self.drawing = await run.io_bound(layout, parts["nodes"], parts["links"])
+            self.model = model
         else:
             self.model_trouble = last_words(log)
 

@@ -89,6 +89,43 @@ class Table(Element, component=str(_STATIC / "table.js")):
         self.update()
 
 
+class Drawing(Element, component=str(_STATIC / "drawing.js")):
+    """Boxes and lines; those that can be picked are buttons, with the arrow keys between them.
+
+    Args:
+        label: what is to be seen.
+        size: width and height, px.
+        boxes: `name`, `rows` of its text, `x` and `y` of its middle, `wide`, `high`, `kind`, `told` below the name,
+            `share` from 0 to 1 or None, `words` for those who cannot see it, `pick`: whether it is a button.
+        lines: `points`: corners, and `kind`: "to", "both" or "joint".
+        dots: where a line branches.
+        on_pick: told the name of the box.
+        picked: name of a box.
+    """
+
+    def __init__(
+        self,
+        label: str,
+        size: tuple[float, float],
+        boxes: Sequence[Mapping[str, Any]],
+        lines: Sequence[Mapping[str, Any]],
+        dots: Sequence[tuple[float, float]],
+        *,
+        on_pick: Callable[[str], Any],
+        picked: str,
+    ) -> None:
+        super().__init__()
+        self._props["label"], self._props["width"], self._props["height"] = label, *size
+        self._props["boxes"], self._props["lines"], self._props["dots"] = list(boxes), list(lines), list(dots)
+        self._props["picked"] = picked
+        self.on("pick", lambda event: on_pick(str(event.args)))
+
+    def pick(self, name: str) -> None:
+        """Mark another box."""
+        self._props["picked"] = name
+        self.update()
+
+
 class Drop(Element, component=str(_STATIC / "drop.js")):
     """A place to drop files and folders on."""
 

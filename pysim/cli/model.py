@@ -32,7 +32,7 @@ def run(args: argparse.Namespace) -> int:
     model, class_name, slots, effects = read_inside(args)
     print(_text(model, slots, effects))
     if args.json:
-        found = _data(model, class_name, slots, effects)
+        found = _data(model, class_name, slots, effects) | {"structure": _structure(class_name, args.library)}
         write_file(args.json, json.dumps(found, indent=1, allow_nan=False) + "\n")
     return 0
 
@@ -66,6 +66,16 @@ def _data(model: Model, class_name: str, slots: tuple[Slot, ...], effects: tuple
         "slots": [{"name": s.name, "about": s.description, "sees": s.sees, "gives": s.gives} for s in slots],
         "effects": [_effect(effect) for effect in effects],
     }
+
+
+def _structure(class_name: str, libraries: list[Path]) -> dict[str, Any] | None:
+    """Parts and what links them; None for an FMU without its class."""
+    from dataclasses import asdict
+
+    from pysim.cli._structure import structure
+    from pysim.effects import STANDARD_LIBRARY
+
+    return asdict(structure(class_name, [STANDARD_LIBRARY, *libraries])) if class_name else None
 
 
 def _effect(effect: Effect) -> dict[str, Any]:

@@ -76,25 +76,41 @@ def _candidate(desk: Desk, rank: int, row: Mapping[str, Any], top: float, groups
     name = str(row["effect"])
     known = next((one for one in (desk.model or {}).get("effects", []) if one["name"] == name), None)
     tied = any(name in group for group in groups)
-    added = name in desk.project.settings().added
     with box(f"candidate {'first' if rank == 1 and 'score' in row else ''} {'tied' if tied else ''}").props(
         'role="listitem"'
     ):
         text("span", str(rank) if "score" in row else "·", "rank")
         curve(_points(desk, known))
         with box("tight"):
-            with box("row"):
-                text("h3", str(known["about"]).removesuffix(f"({name})").strip() if known else name)
-                text("span", name, "chip mono")
-                if tied:
-                    text("span", "tied", "chip").props('title="These measurements do not tell the tied apart"')
-            if known:
-                text("div", str(known["law"]), "law")
+            _named(known or {"name": name}, tied=tied)
         _gain(row, top)
-        if added:
-            text("span", "in the model", "chip good")
-        else:
-            button("Try", lambda: _try(desk, name), "small", off=busy(desk))
+        _trying(desk, name)
+
+
+def effect_row(desk: Desk, effect: Mapping[str, Any]) -> None:
+    """An effect in three cells: sketch, name with law, and what tries it."""
+    curve(_points(desk, effect))
+    with box("tight candidate-words"):
+        _named(effect)
+    _trying(desk, str(effect["name"]))
+
+
+def _named(effect: Mapping[str, Any], *, tied: bool = False) -> None:
+    name = str(effect["name"])
+    with box("row"):
+        text("h3", str(effect.get("about", name)).removesuffix(f"({name})").strip())
+        text("span", name, "chip mono")
+        if tied:
+            text("span", "tied", "chip").props('title="These measurements do not tell the tied apart"')
+    if effect.get("law"):
+        text("div", str(effect["law"]), "law")
+
+
+def _trying(desk: Desk, name: str) -> None:
+    if name in desk.project.settings().added:
+        text("span", "in the model", "chip good")
+    else:
+        button("Try", lambda: _try(desk, name), "small", off=busy(desk))
 
 
 def _gain(row: Mapping[str, Any], top: float) -> None:

@@ -1,76 +1,154 @@
-"""Page 3: the model as its slots, each with its share of the misfit, and the term that would close the gap."""
+"""Page 3: the model drawn as its parts and slots, each slot with its share of the misfit, and what a slot misses."""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from typing import Any
 
-from pysim.app.answers import Answer
 from pysim.app.desk import Desk
 from pysim.app.figures import missing_figure
+from pysim.app.layout import HIGH, WIDE
+from pysim.app.pages.candidates import effect_row
 from pysim.app.pages.common import busy, ended, nothing, start
-from pysim.app.parts import Chart, box, button, card, head, live, note, text
+from pysim.app.parts import Chart, Drawing, box, button, card, live, note, text
+
+_LONG = 9  # letters that fit beside each other in a box
+_Found = Mapping[str, Mapping[str, Any]]
 
 
 def locate_page(desk: Desk) -> None:
     """Where something is missing."""
     chosen: dict[str, str] = {}
-    live(lambda: (desk.version, chosen.get("slot")), lambda: _build(desk, chosen), "gap")
+    live(lambda: desk.version, lambda: _build(desk, chosen), "gap")
+    live(lambda: (desk.version, chosen.get("slot")), lambda: _below(desk, chosen), "gap")
+
+
+def _found(desk: Desk) -> _Found:
+    """Slot -> the best term there, the best slot first."""
+    answer = desk.answers.newest("missing")
+    return {} if answer is None else {str(one["slot"]): one for one in answer.data["missing"]}
+
+
+def _slots(desk: Desk) -> dict[str, Mapping[str, Any]]:
+    return {str(slot["name"]): slot for slot in (desk.model or {}).get("slots", [])}
 
 
 def _build(desk: Desk, chosen: dict[str, str]) -> None:
-    answer = desk.answers.newest("missing")
-    head(
-        "Where is something missing?",
-        "No effect is named for this: each place is given the term that closes the gap best.",
-    )
+    found = _found(desk)
+    chosen["slot"] = chosen.get("slot") or next(iter(found), "")
+    with box("row end"):
+        text("h1", "Where is something missing?")
+        button("Locate", lambda: start(desk, lambda: desk.work("locate")), "" if found else "main", off=busy(desk))
+    text("p", "No effect is named for this: each place is given the term that closes the gap best.", "lead")
     ended(desk)
-    with box("row"):
-        kind = "main" if answer is None else ""
-        button("Locate", lambda: start(desk, lambda: desk.work("locate")), kind, off=busy(desk))
-    slots = (desk.model or {}).get("slots", [])
-    found = {} if answer is None else {str(one["slot"]): one for one in answer.data["missing"]}
-    if not slots and not found:
-        nothing("Nothing to look into yet", "Name a model on the page Data, then press Locate.")
+    if desk.drawing is None or not _slots(desk):
+        if not found:
+            nothing("Nothing to look into yet", "Name a model with slots on the page Data, then press Locate.")
         return
-    _flow(slots, found, chosen)
-    if answer is not None:
-        _term(answer, found, chosen)
+    _drawing(desk, found, chosen)
 
 
-def _flow(slots: list[Mapping[str, Any]], found: Mapping[str, Mapping[str, Any]], chosen: dict[str, str]) -> None:
-    """The places of the model in its own order; those that were looked at with the share that they would take."""
-    first = next(iter(found), "")
-    about = {str(slot["name"]): str(slot["about"]) for slot in slots}
-    with card("Places of the model"):
-        text("p", "How much of the avoidable misfit the best term at each place would take.", "small")
-        with box("flow"):
-            for name in dict.fromkeys([*about, *found]):
-                one = found.get(name)
-                on = chosen.get("slot", first) == name and bool(one)
-                kind = "on" if on else "" if one else "dim"
-                with box(f"slot {kind} {'first' if name == first else ''}", "button").props("type=button") as place:
-                    place._props["aria-pressed"] = "true" if on else "false"
-                    text("span", f"{100 * one['share']:.1f} %" if one else "not looked at" if found else "–", "share")
-                    text("span", name, "name")
-                    text("span", about.get(name, ""), "about")
-                    if one:
-                        box("fill").style(f"width: {max(0.0, min(100.0, 100 * one['share'])):.1f}%")
-                        place.on("click", lambda name=name: chosen.update(slot=name))
-                    else:
-                        place._props["disabled"] = True
+def _drawing(desk: Desk, found: _Found, chosen: dict[str, str]) -> None:
+    """Every part; the slots with the share of the misfit that a term there would take."""
+    assert desk.drawing is not None
+    assert desk.model is not None
+    lay, parts = desk.drawing, desk.model["structure"]
+    nodes = {str(node["name"]): node for node in parts["nodes"]}
+    boxes = [_box(nodes[one.name], found, _slots(desk)) | {"x": one.x, "y": one.y} for one in lay.boxes]
+    lines = [{"points": points, "kind": link["kind"]} for points, link in zip(lay.lines, parts["links"], strict=True)]
+
+    def pick(name: str) -> None:
+        chosen["slot"] = name
+        drawing.pick(name)
+
+    with card("The model, along its signals"):
+        told = "How much of the avoidable misfit the best term at each place would take. Pick a slot to see it."
+        text("p", told if found else "Pick a slot to see what may stand there.", "small")
+        label = f"{desk.model['name']}: {len(boxes)} places, {len(_slots(desk))} of them slots"
+        drawing = Drawing(
+            label, (lay.width, lay.height), boxes, lines, lay.dots, on_pick=pick, picked=chosen["slot"],
+        )  # fmt: skip
+        with box("legend small"):
+            for kind, words in _legend(bool(found)):
+                with box("", "span"):
+                    box(kind, "i")
+                    text("span", words)
 
 
-def _term(answer: Answer, found: Mapping[str, Mapping[str, Any]], chosen: dict[str, str]) -> None:
-    one = found.get(chosen.get("slot", "")) or next(iter(found.values()))
-    with card(f"What {one['slot']} would need"):
-        if one["formula"]:
+def _legend(looked: bool) -> list[tuple[str, str]]:
+    if not looked:
+        return [("", "slot: a term can be put there"), ("part", "fixed part")]
+    return [("seen", "slot with its share"), ("", "slot that was not looked at"), ("part", "fixed part")]
+
+
+def _box(node: Mapping[str, Any], found: _Found, slots: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:
+    """One place as the drawing takes it."""
+    name, kind = str(node["name"]), str(node["kind"])
+    slot = name in slots
+    one = found.get(name)
+    share = None if one is None else max(0.0, min(1.0, float(one["share"])))
+    told = "" if share is None else f"{100 * share:.1f} %"
+    words = f"{name}: {node['about']}" if node["about"] else name
+    if slot:
+        words += f"; {told} of the misfit" if told else "; not looked at" if found else ""
+    look = [kind if slot or kind != "slot" else "part", "seen" if told else "", "first" if name in [*found][:1] else ""]
+    return {
+        "name": name, "rows": broken(name), "wide": WIDE, "high": HIGH, "kind": " ".join(filter(None, look)),
+        "told": told, "share": share, "words": words, "pick": slot,
+    }  # fmt: skip
+
+
+def broken(name: str) -> list[str]:
+    """A name in one row, or in two where it is long: parted near its middle, ahead of a capital or a low line."""
+    if len(name) <= _LONG:
+        return [name]
+    places = [m.start() for m in re.finditer(r"(?<=[a-z0-9])(?=[A-Z])|_", name) if m.start() > 1]
+    at = min(places, key=lambda k: abs(k - len(name) / 2), default=len(name) // 2)
+    return [_short(name[:at]), _short(name[at:])]
+
+
+def _short(words: str) -> str:
+    return words if len(words) <= _LONG + 2 else f"{words[:_LONG]}…"
+
+
+def _below(desk: Desk, chosen: dict[str, str]) -> None:
+    """What the chosen slot would need, and which effects may stand there."""
+    found, slots = _found(desk), _slots(desk)
+    name = chosen.get("slot", "")
+    one = found.get(name)
+    if one is None and name not in slots:
+        return
+    with card(f"What {name} would need" if one else name):
+        if one and one["formula"]:
             text("p", str(one["formula"]), "statement")
-        shape = one["shape"]
-        if len(shape["argument"]) > 1:
-            words = f"Missing term at {one['slot']} over {one['depends_on']} with its 95 percent band"
-            Chart(missing_figure(one), words, height=340)
-        took = f"Over {one['depends_on']} it takes {100 * one['share']:.1f} % of the misfit."
-        text("p", f"{took} The band holds 95 percent.", "small")
-    for line in answer.data["notes"]:
+        about = str(slots[name]["about"]) if name in slots else ""
+        if about:
+            text("p", f"{about}.", "small")
+        answer = desk.answers.newest("missing")
+        if one is not None and answer is not None:
+            _term(one)
+        elif found:
+            text("p", "No term was looked for here: others take more.", "note")
+    _effects(desk, name)
+    answer = desk.answers.newest("missing")
+    for line in answer.data["notes"] if answer is not None else ():
         note(str(line))
+
+
+def _term(one: Mapping[str, Any]) -> None:
+    """The term over what it depends on."""
+    if len(one["shape"]["argument"]) > 1:
+        words = f"Missing term at {one['slot']} over {one['depends_on']} with its 95 percent band"
+        Chart(missing_figure(one), words, height=340)
+    took = f"Over {one['depends_on']} it takes {100 * one['share']:.1f} % of the misfit."
+    text("p", f"{took} The band holds 95 percent.", "small")
+
+
+def _effects(desk: Desk, slot: str) -> None:
+    """Those of the catalogue that fit the slot."""
+    own = [one for one in (desk.model or {}).get("effects", []) if one["slot"] == slot]
+    if own:
+        with card("Effects that fit here"), box("effects"):
+            for one in own:
+                effect_row(desk, one)

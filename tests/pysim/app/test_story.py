@@ -1,5 +1,6 @@
 """The whole story in a real browser: logs of a plant that rubs are dropped, and its FMU is taken away."""
 
+import re
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -52,6 +53,7 @@ def test_from_the_dropped_folder_to_the_downloaded_fmu(shown: Any, dropped: tupl
         tab.go("Locate")
         tab.press("Locate")
         tab.see("What force would need", timeout=PATIENCE)
+        _a_slot_is_picked_by_keyboard(tab)
         tab.shot("locate")
         tab.go("Candidates")
         tab.press("Rank the candidates")
@@ -75,6 +77,17 @@ def test_from_the_dropped_folder_to_the_downloaded_fmu(shown: Any, dropped: tupl
         assert model["force.F_c"].start == pytest.approx(0.4, abs=0.02)
         assert tab.errors == []
         assert tab.foreign() == []
+
+
+def _a_slot_is_picked_by_keyboard(tab: Tab) -> None:
+    """The drawing has every place of the model; its one slot tells its share."""
+    names = tab.page.locator(".drawing .box").evaluate_all("(all) => all.map((g) => g.dataset.name)")
+    assert sorted(names) == ["F", "force", "v", "x"]
+    slot = tab.page.get_by_role("button", name=re.compile(r"^force; 9\d\.\d % of the misfit|^force; 100\.0 %"))
+    slot.focus()
+    tab.page.keyboard.press("Enter")
+    assert slot.get_attribute("aria-pressed") == "true"
+    tab.see("Effects that fit here")
 
 
 def _a_cell_opens_its_record(tab: Tab) -> None:

@@ -1,0 +1,268 @@
+"""How the parts of a model hang together, read from its class: what a drawing of its signal flow shows."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from pysim.effects._classes import ClassText, Declaration
+    from pysim.effects._library import Libraries
+
+SLOT, PART, INPUT, OUTPUT, PORT, TERM = "slot", "part", "input", "output", "port", "term"
+TO, BOTH, JOINT = "to", "both", "joint"  # one way, both ways, a connection of ports that has no direction
+_MOST_TERMS = 14  # own variables that are drawn; more of them are drawn as one
+_NAME = re.compile(r"(?<![\w.])[A-Za-z_]\w*(?:\[[^\]]*\])?(?:\s*\.\s*[A-Za-z_]\w*(?:\[[^\]]*\])?)*(?!\s*\()")
+_EXTENT = re.compile(r"\btransformation\s*\(.*?extent\s*=\s*\{\s*\{([^}]*)\}\s*,\s*\{([^}]*)\}\s*\}", re.S)
+_ORIGIN = re.compile(r"\btransformation\s*\(\s*origin\s*=\s*\{([^}]*)\}", re.S)
+
+
+@dataclass(frozen=True)
+class Node:
+    """A place of the drawing.
+
+    Args:
+        name: of the component, or of the class for all that stands in its own equations.
+        kind: SLOT, PART, INPUT, OUTPUT, PORT, or TERM for a variable with an equation of the class itself.
+        about: description.
+        at: middle of its icon in the class' diagram, to the right and up; None where it has none.
+    """
+
+    name: str
+    kind: str
+    about: str = ""
+    at: tuple[float, float] | None = None
+
+
+@dataclass(frozen=True)
+class Link:
+    """Two nodes that depend on each other.
+
+    Args:
+        kind: TO (the target depends on the source), BOTH or JOINT.
+        net: links of one net are one line that branches: what one node gives, or ports that are all connected.
+    """
+
+    source: str
+    target: str
+    kind: str
+    net: str
+
+
+@dataclass(frozen=True)
+class Structure:
+    """Nodes in the order of their declarations, and what links them."""
+
+    nodes: tuple[Node, ...]
+    links: tuple[Link, ...]
+
+
+def structure(class_name: str, libraries: Sequence[Path]) -> Structure:
+    """The parts of a class, its inputs and outputs, and the variables of its own equations.
+
+    A variable that only passes another one on, or that nothing depends on, is left out.
+
+    Args:
+        class_name: full name.
+        libraries: where it and its parts are.
+    """
+    from pysim.effects._library import Libraries
+
+    library = Libraries(libraries)
+    texts = list(_ancestry(library.classes[class_name], library))
+    reader = _Reader(library, {})
+    for text in texts:
+        for declaration in text.declarations:
+            reader.declare(declaration, text)
+    arrows = [arrow for text in texts for arrow in reader.arrows(text)]
+    arrows = [replace(arrow, joint=reader.net(arrow.joint)) for arrow in arrows]
+    return _drawn([node for node, _ in reader.known.values()], arrows, reader.states, class_name)
+
+
+@dataclass(frozen=True)
+class _Arrow:
+    source: str
+    target: str
+    joint: str = ""  # a port of the connection
+
+
+class _Reader:
+    """What the class' declarations and equations say.
+
+    Args:
+        known: name -> node, and the class of a part; None for what is no part.
+    """
+
+    def __init__(self, library: Libraries, known: dict[str, tuple[Node, ClassText | None]]) -> None:
+        self._library, self.known = library, known
+        self.states: set[str] = set()
+        self._joined: dict[str, str] = {}  # port -> another of its connection
+
+    def declare(self, declaration: Declaration, owner: ClassText) -> None:
+        """Take a declaration that the drawing shows."""
+        kind, of = _kind(declaration, owner, self._library)
+        if kind:
+            node = Node(declaration.name, kind, declaration.description, _place(declaration.annotation))
+            self.known.setdefault(declaration.name, (node, of))
+
+    def arrows(self, text: ClassText) -> Iterator[_Arrow]:
+        """What depends on what, by equations, connections, and values of declarations."""
+        for declaration in text.declarations:
+            if declaration.value and declaration.name in self.known:
+                yield from self._equation(declaration.name, declaration.value)
+        for statement in text.equations:
+            words = re.sub(r'"[^"]*"', "", statement).strip().rstrip(";")
+            connected = re.fullmatch(r"connect\s*\(([^,]*),([^,]*)\)", words, re.S)
+            if connected:
+                yield from self._connection(connected[1].strip(), connected[2].strip())
+            elif "=" in words:
+                left, right = _sides(words)
+                yield from self._equation(left, right)
+
+    def _connection(self, first: str, second: str) -> Iterator[_Arrow]:
+        ways = self._way(first), self._way(second)
+        one, other = first.partition(".")[0], second.partition(".")[0]
+        if one not in self.known or other not in self.known:
+            return
+        if ways[0] < ways[1]:
+            one, other = other, one
+        joint = ways[0] == ways[1]
+        if joint:
+            self._joined[self.net(first)] = self.net(second)
+        yield _Arrow(one, other, first if joint else "")
+
+    def net(self, port: str) -> str:
+        """The one port that stands for a connection."""
+        while port in self._joined and self._joined[port] != port:
+            port = self._joined[port]
+        return port
+
+    def _way(self, name: str) -> int:
+        """1 for what gives a signal, -1 for what takes one, 0 for a port."""
+        head, _, inner = name.partition(".")
+        node, of = self.known.get(head, (Node(head, PORT), None))
+        if not inner:
+            return {INPUT: 1, OUTPUT: -1}.get(node.kind, 0)
+        for text in _ancestry(of, self._library) if of is not None else ():
+            for declaration in text.declarations:
+                if declaration.name == inner.partition(".")[0]:
+                    return {INPUT: -1, OUTPUT: 1}.get(_signal(declaration), 0)
+        return 0
+
+    def _equation(self, left: str, right: str) -> Iterator[_Arrow]:
+        """The first variable of the left side, or the one whose derivative it has, from all the others."""
+        derived = re.search(r"\bder\s*\(\s*(\w+)", f"{left} = {right}")
+        names = [name.partition(".")[0].partition("[")[0].strip() for name in _NAME.findall(f"{left} = {right}")]
+        own = [name for name in names if name in self.known]
+        target = derived[1] if derived else next(iter(own), "")
+        if derived:
+            self.states.add(derived[1])
+        if target in self.known:
+            yield from (_Arrow(source, target) for source in own if source != target)
+
+
+def _sides(words: str) -> tuple[str, str]:
+    """Left and right of an equation; what an `if` or `for` around it says stands left of it."""
+    at = re.search(r"(?<![<>=:])=(?!=)", words)
+    if at is None:
+        return words, ""
+    left, right = words[: at.start()], words[at.end() :]
+    return re.split(r"\b(?:then|else|loop)\b", left)[-1], right
+
+
+def _kind(declaration: Declaration, owner: ClassText, library: Libraries) -> tuple[str, ClassText | None]:
+    """What a component is in the drawing ("" for nothing), and its class where it is a part."""
+    if declaration.prefixes & {"parameter", "constant", "outer"}:
+        return "", None
+    if signal := _signal(declaration):
+        return signal, None
+    of = library.resolve(declaration.type_name, owner.full_name)
+    if of is None:
+        return {"Real": TERM, "Integer": "", "Boolean": "", "String": ""}.get(declaration.type_name, PART), None
+    if of.kind in ("model", "block", "class"):
+        return SLOT if "replaceable" in declaration.prefixes else PART, of
+    return {"type": TERM, "connector": PORT}.get(of.kind, ""), None
+
+
+def _signal(declaration: Declaration) -> str:
+    """INPUT, OUTPUT, or "" for anything else."""
+    for kind in (INPUT, OUTPUT):
+        if kind in declaration.prefixes or declaration.type_name.endswith(f"Real{kind.capitalize()}"):
+            return kind
+    return ""
+
+
+def _place(annotation: str) -> tuple[float, float] | None:
+    """Middle of the icon."""
+    found = _EXTENT.search(annotation)
+    if found is None:
+        return None
+    try:
+        (a, b), (c, d) = ([float(v) for v in corner.split(",")] for corner in found.groups())
+        moved = _ORIGIN.search(annotation)
+        x, y = [float(v) for v in moved[1].split(",")] if moved else (0.0, 0.0)
+    except ValueError:
+        return None
+    return x + (a + c) / 2, y + (b + d) / 2
+
+
+def _drawn(nodes: Sequence[Node], arrows: Sequence[_Arrow], states: set[str], class_name: str) -> Structure:
+    """Without what only passes on, and without what leads nowhere."""
+    terms = {node.name for node in nodes if node.kind == TERM}
+    found = _shortened(list(dict.fromkeys(arrows)), terms, states)
+    left = [n for n in nodes if n.kind != TERM or any(n.name in (a.source, a.target) for a in found)]
+    if sum(n.kind == TERM for n in left) > _MOST_TERMS:
+        left, found = _together(left, found, class_name.rpartition(".")[2])
+    return Structure(tuple(left), tuple(_links(found)))
+
+
+def _shortened(arrows: list[_Arrow], terms: set[str], states: set[str]) -> list[_Arrow]:
+    """Own variables are taken out that nothing depends on, that depend on nothing, or that pass one thing on."""
+    for name in [name for name in terms if name in states] + [name for name in terms if name not in states]:
+        if name in states and any(arrow.source == name for arrow in arrows):
+            continue
+        into = [arrow for arrow in arrows if arrow.target == name]
+        out = [arrow for arrow in arrows if arrow.source == name]
+        if len(into) <= 1 or not out:
+            passed = [replace(o, source=i.source) for i in into for o in out if i.source != o.target]
+            arrows = [a for a in arrows if name not in (a.source, a.target)] + passed
+            return _shortened(list(dict.fromkeys(arrows)), terms - {name}, states)
+    return arrows
+
+
+def _together(nodes: list[Node], arrows: list[_Arrow], name: str) -> tuple[list[Node], list[_Arrow]]:
+    """All own variables as one node."""
+    terms = {node.name for node in nodes if node.kind == TERM}
+    moved = [
+        replace(a, source=name if a.source in terms else a.source, target=name if a.target in terms else a.target)
+        for a in arrows
+    ]
+    return [n for n in nodes if n.kind != TERM] + [Node(name, TERM, "its own equations")], moved
+
+
+def _links(arrows: Sequence[_Arrow]) -> Iterator[Link]:
+    """One per pair of nodes."""
+    pairs: dict[frozenset[str], list[_Arrow]] = {}
+    for arrow in arrows:
+        if arrow.source != arrow.target:
+            pairs.setdefault(frozenset((arrow.source, arrow.target)), []).append(arrow)
+    for own in pairs.values():
+        first = own[0]
+        both = any(arrow.source != first.source for arrow in own)
+        joint = next((arrow.joint for arrow in own if arrow.joint), "")
+        yield Link(first.source, first.target, JOINT if joint else BOTH if both else TO, joint or first.source)
+
+
+def _ancestry(text: ClassText, library: Libraries) -> Iterator[ClassText]:
+    """The class, then all it extends, nearest first."""
+    seen, queue = set(), [text]
+    while queue:
+        current = queue.pop(0)
+        if current.full_name not in seen:
+            seen.add(current.full_name)
+            yield current
+            bases = (library.resolve(base.class_name, current.full_name) for base in current.bases)
+            queue += [base for base in bases if base is not None]
