@@ -1,6 +1,7 @@
 """The command `fmu-build`."""
 
 import argparse
+import io
 import os
 import sys
 import traceback
@@ -23,6 +24,8 @@ The first build for a platform compiles the C library's start-up code: seconds, 
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Exit code: 0 done, 2 wrong use or a model that cannot be built, 3 a mistake of ours."""
+    if isinstance(sys.stdout, io.TextIOWrapper):  # a path may have letters that a pipe of Windows has not
+        sys.stdout.reconfigure(errors="replace")
     parser = _parser()
     try:
         arguments = parser.parse_args(argv)

@@ -85,6 +85,7 @@ def _check_library(members: Mapping[str, bytes], identifier: str, platform: Plat
             [sys.executable, "-c", _LOAD, str(library)],
             capture_output=True,
             text=True,
+            errors="replace",
             timeout=_LONGEST_S,
             check=False,
         )

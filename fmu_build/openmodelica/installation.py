@@ -41,7 +41,9 @@ def omc_version() -> str:
     if omc is None:
         raise BuildError(f"building with OpenModelica: {what_is_missing()}.")
     try:
-        done = subprocess.run([str(omc), "--version"], capture_output=True, text=True, timeout=_LONGEST_S, check=False)
+        done = subprocess.run(
+            [str(omc), "--version"], capture_output=True, text=True, errors="replace", timeout=_LONGEST_S, check=False
+        )
     except (OSError, subprocess.TimeoutExpired) as error:
         raise BuildError(f"{omc} cannot be started: {error}; reinstall OpenModelica.") from error
     if done.returncode or not done.stdout.strip():

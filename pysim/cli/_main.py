@@ -33,6 +33,7 @@ from pysim.cli import (
     tune,
     validate,
 )
+from pysim.cli._terminal import print_everything
 
 DONE, NO, WRONG_USE, OUR_BUG = 0, 1, 2, 3
 _COMMANDS = {
@@ -69,6 +70,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     Returns:
         0 done, 1 the answer is no, 2 wrong use, 3 our bug.
     """
+    print_everything()
     try:
         args = argument_parser().parse_args(argv)
     except SystemExit as end:  # argparse has said what is wrong, or shown the help

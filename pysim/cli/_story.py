@@ -12,6 +12,8 @@ from dataclasses import replace
 from types import TracebackType
 from typing import TYPE_CHECKING
 
+from pysim.cli._terminal import draws_over
+
 if TYPE_CHECKING:
     from pathlib import Path
 
@@ -39,7 +41,7 @@ class Story:
         self._learned: list[str] = []
         self._steps: list[LedgerStep] = []
         self._drawn = 0
-        self._live = sys.stderr.isatty()
+        self._live = draws_over(sys.stderr)
         self._lock = threading.Lock()
         self._ended = threading.Event()
         self._clock = threading.Thread(target=self._tick, daemon=True)

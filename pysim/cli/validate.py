@@ -82,9 +82,10 @@ class _Show:
         self._done, self._total = 0, total
 
     def __call__(self, name: str, finding: Finding | None) -> None:
+        from pysim.cli._terminal import draws_over
         from validation.registry import CASES
 
-        clear = "\r\033[K" if sys.stderr.isatty() else ""
+        clear = "\r\033[K" if draws_over(sys.stderr) else ""
         print(clear, end="", file=sys.stderr, flush=True)
         print(f"{name}: {CASES[name].about}" if finding is None else f"  {finding}", flush=True)
 

@@ -13,7 +13,8 @@ def write_file(path: Path, content: bytes | str) -> None:
     A target that is no regular file, such as /dev/null, is written to as it is.
 
     Raises:
-        OSError: the place cannot be written; what was there before is still there.
+        OSError: the place cannot be written, or another program has the file open (on Windows); what was there before
+            is still there.
     """
     data = content.encode() if isinstance(content, str) else content
     path = path.resolve()
@@ -23,6 +24,16 @@ def write_file(path: Path, content: bytes | str) -> None:
     partial = path.with_name(f"{path.name}.{uuid.uuid4().hex[:8]}.part")
     try:
         partial.write_bytes(data)
-        os.replace(partial, path)
+        _replace(partial, path)
     finally:
         partial.unlink(missing_ok=True)
+
+
+def _replace(partial: Path, path: Path) -> None:
+    try:
+        os.replace(partial, path)
+    except PermissionError as error:
+        if not path.exists():
+            raise
+        cure = "cannot be replaced; close the program that shows it, or allow writing to it"
+        raise PermissionError(error.errno, cure, str(path)) from error
