@@ -1,7 +1,8 @@
 """Finds a class in libraries and files, and reads its annotations, which rumoca does not pass on."""
 
+import difflib
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -64,8 +65,16 @@ def find_class(name: str, libraries: Sequence[Path]) -> ClassSource:
             return _read(name, file, inside or [parts[-1]], False)
         if library.is_file() and _declared(parts[0]).search(read_text(library)):
             return _read(name, library, parts, True)
-    where = ", ".join(str(library) for library in libraries) or "no library"
-    raise BuildError(f"class {name} is not in {where}; give its full name, and its library or file")
+    where = ", ".join(dict.fromkeys(str(library) for library in libraries)) or "no library"
+    called = [library for library in libraries if library.is_dir() and _package(library) == parts[0]]
+    cure = f"rename the folder to {parts[0]}, as its package is called" if called else ""
+    cure = cure or "give its full name, and its library or file"
+    raise BuildError(f"class {name} is not in {where}; {cure}")
+
+
+def _package(library: Path) -> str:
+    """What a library's package.mo calls itself, which its folder may not."""
+    return next(iter(read_declarations(library / "package.mo", read_text(library / "package.mo")).classes), "")
 
 
 def file_in_library(library: Path, parts: list[str]) -> tuple[Path, list[str]]:
@@ -104,12 +113,23 @@ def _read(name: str, file: Path, path: list[str], is_single_file: bool) -> Class
     if found is None:
         begin = _declared(path[-1]).search(text)
         if begin is None:
-            raise BuildError(f"class {name} is not here: there is no {path[-1]}", file)
+            near = _near(part, file, classes)
+            hint = f"; near it: {', '.join(near)}" if near else ""
+            raise BuildError(f"class {name} is not here: there is no {part}{hint}", file)
         line = text.count("\n", 0, begin.start()) + 1  # behind a syntax error, whose place rumoca will tell
         return ClassSource(name, file, line, text, is_single_file, "", ())
     description = "".join(_text(word) for word in found.words[:1] if word.startswith('"'))
     annotation = _own_annotation(found.words)
     return ClassSource(name, file, source.line(found.offset), text, is_single_file, description, annotation)
+
+
+def _near(name: str, file: Path, classes: Iterable[str]) -> list[str]:
+    """Classes that somebody may have meant: of this one, and where it is a package, the files and folders beside it."""
+    names = set(classes)
+    if file.name == "package.mo":
+        names |= {f.stem for f in file.parent.glob("*.mo")} | {f.parent.name for f in file.parent.glob("*/package.mo")}
+    small = {one.lower(): one for one in sorted(names - {"package"})}
+    return [small[one] for one in difflib.get_close_matches(name.lower(), list(small), n=3)]
 
 
 def _own_annotation(words: tuple[str, ...]) -> tuple[str, ...]:

@@ -79,8 +79,15 @@ def test_override_of_what_does_not_exist(library):
 def test_unknown_class_and_library(library, tmp_path):
     with pytest.raises(BuildError, match="there is no Pool"):
         load("L.Sub.Pool", [library])
-    with pytest.raises(BuildError, match="class X is not in"):
-        load("X", [library])
+    with pytest.raises(BuildError, match=r"package\.mo: .*there is no Sup; near it: Sub$"):
+        load("L.Sup.Tank", [library])
+    with pytest.raises(BuildError, match=r"there is no tanc; near it: Tank$"):
+        load("L.Sub.tanc", [library])
+    with pytest.raises(BuildError, match=r"class X is not in \S+/L; give its full name"):
+        load("X", [library, library])
+    renamed = library.rename(tmp_path / "L-main")
+    with pytest.raises(BuildError, match=r"class L\.Sub\.Tank is not in \S+/L-main; rename the folder to L, as its"):
+        load("L.Sub.Tank", [renamed])
     with pytest.raises(BuildError, match="does not exist"):
         load("X", [tmp_path / "none"])
 
