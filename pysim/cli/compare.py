@@ -57,7 +57,12 @@ def _story(args: argparse.Namespace) -> int:
     found = unfold(
         given,
         args,
-        lambda story, journal: against(given.subject, refitted=args.refit, progress=story, journal=journal),
+        lambda story, journal: against(
+            given.subject,
+            refitted=args.refit,
+            progress=lambda told: None if told.text.startswith("verdict:") else story(told),  # of a diagnosis
+            journal=journal,
+        ),
     )
     print(comparison_sentence(found), evidence_text(found), sep="\n\n")
     answer = comparison_sentence(found)

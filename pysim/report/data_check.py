@@ -10,6 +10,7 @@ from typing import Any
 from pysim.identify.data_check import DataCheck, RecordCheck
 from pysim.report.page import cell, commands, heading, items, page, paragraph, picture, table
 
+_UNTOLD = "-"  # a description or a system that dataset.toml leaves out
 _WIDTH = 100
 _SHOWN = 20  # warnings in the terminal; all of them stand in JSON and report
 
@@ -17,10 +18,15 @@ _SHOWN = 20  # warnings in the terminal; all of them stand in JSON and report
 def data_check_text(check: DataCheck) -> str:
     """Signals, records by kind and operating point, and warnings."""
     dataset = check.dataset
-    lines = [f"{dataset.name} (system {dataset.system}): {dataset.description}", "signals"]
+    system = "" if dataset.system == _UNTOLD else f" (system {dataset.system})"
+    about = "" if dataset.description == _UNTOLD else f": {dataset.description}"
+    lines = [f"{dataset.name}{system}{about}", "signals"]
     width = max(len(signal.name) for signal in dataset.signals)
     for signal, words in zip(dataset.signals, _signals(check), strict=True):
-        lines.append(f"  {signal.name:<{width}}  {', '.join(words[1:])}")
+        _, role, unit, quantity, variable, *rest = words
+        told = [quantity] if quantity not in ("", signal.name) else []
+        told += [f"{variable} in the model"] if variable != signal.name else []
+        lines.append(f"  {signal.name:<{width}}  {', '.join([role, unit, *told, *rest])}")
     for kind, records in _by_kind(check).items():
         lines += [f"{kind}: {len(records)}", *(f"  {line}" for line in _points(records))]
     warnings = check.warnings
@@ -67,7 +73,12 @@ def data_check_page(check: DataCheck, *, pictures: Mapping[str, bytes], redo: st
     body = [_row(record) for record in check.records]
     parts += [heading("Records"), table("Offset and amplitude in the input's SI unit or %", head, body)]
     parts += [heading("Do it again"), commands(redo)]
-    return page(f"Data set {check.dataset.name}", f"{check.dataset.description}; system {check.dataset.system}.", parts)
+    told = {
+        check.dataset.description: check.dataset.description,
+        check.dataset.system: f"system {check.dataset.system}",
+    }
+    about = "; ".join(words for text, words in told.items() if text != _UNTOLD)
+    return page(f"Data set {check.dataset.name}", f"{about}." if about else "", parts)
 
 
 def _signals(check: DataCheck) -> list[list[str]]:
@@ -78,7 +89,7 @@ def _signals(check: DataCheck) -> list[list[str]]:
             f"no {what} told" if value is None else f"{what} {value:.3g} {signal.unit.removeprefix('1')}".rstrip()
             for what, value in (("noise", signal.noise), ("resolution", signal.resolution))
         )
-        rows.append([signal.name, signal.role, signal.unit, signal.quantity, f"is {signal.variable}", noise, step])
+        rows.append([signal.name, signal.role, signal.unit, signal.quantity, signal.variable, noise, step])
     return rows
 
 

@@ -45,8 +45,8 @@ def test_prints_what_it_holds(folder: Path, capsys: pytest.CaptureFixture[str]) 
     assert lines[:4] == [
         "bench (system mass): by hand",
         "signals",
-        "  cmd  input, Pa, command, is cmd, no noise told, no resolution told",
-        "  y    output, %, angle, is model.y, noise 0.01 %, no resolution told",
+        "  cmd  input, Pa, command, no noise told, no resolution told",
+        "  y    output, %, angle, model.y in the model, noise 0.01 %, no resolution told",
     ]
     text = "\n".join(lines)
     assert "frequency-response: 6\n" in text
