@@ -13,7 +13,18 @@ from scipy import stats
 
 from pysim.identify.residual_spectrum import FEWEST, residual_spectrum
 from pysim.plot.diagnosis_records import stages_compared
-from pysim.plot.style import BAND, COLOURS, LIMIT, SMALL, TEXT, frequency_axis, legend_above, new_figure, quiet
+from pysim.plot.style import (
+    BAND,
+    COLOURS,
+    LIMIT,
+    SMALL,
+    TEXT,
+    frequency_axis,
+    legend_above,
+    new_figure,
+    quiet,
+    size_axis,
+)
 from pysim.types import BadInput, Diagnosis, RecordFit
 
 Array = NDArray[np.float64]
@@ -68,7 +79,7 @@ def _draw(axes: Axes, record: RecordFit, column: int, colour: str) -> Artist:
     frequency, power, freedom = residual_spectrum(residual.time, residual.values[:, column])
     if not axes.lines:
         quiet(axes)
-        axes.set_yscale("log")
+        size_axis(axes)
         low, high = stats.chi2.ppf([0.025, 0.975], freedom) / freedom
         axes.axhspan(low, high, color=BAND, alpha=0.6, linewidth=0, zorder=0)
         axes.axhline(1.0, color=LIMIT, linewidth=0.8, zorder=1)

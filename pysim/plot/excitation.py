@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from pysim.excitation import Excitation, Multisine, StochasticWave
-from pysim.plot.style import BAND, COLOURS, MEASURED, TEXT, frequency_axis, legend_above, new_figure, quiet
+from pysim.plot.style import BAND, COLOURS, MEASURED, TEXT, frequency_axis, legend_above, new_figure, quiet, size_axis
 from pysim.types import Signal
 
 Array = NDArray[np.float64]
@@ -87,7 +87,7 @@ def _draw_density(axes: Axes, test: Excitation, signal: Signal, end: float, unit
         (spectrum,) = axes.plot(f[shown], theory, color=MEASURED, linewidth=1.6)
         legend_above(figure, [line, spectrum], ["this wave", "Pierson-Moskowitz spectrum"])
     frequency_axis(axes, float(f[0]), float(f[shown][-1]))
-    axes.set_yscale("log")
+    size_axis(axes)
     axes.set_ylim(1e-3 * density[keep].max(), 2 * density.max())
     axes.set_ylabel(f"Amplitude density ({unit}/√Hz)", fontsize=TEXT)
 

@@ -19,6 +19,7 @@ from pysim.plot.style import (
     legend_above,
     new_figure,
     quiet,
+    size_axis,
 )
 from pysim.types import BadInput, Estimate, Fit, RecordFit
 
@@ -81,7 +82,7 @@ def fit_harmonics_figure(records: Sequence[RecordFit], title: str) -> Figure:
         handles.append(points)
         labels.append(str(k))
     low.axhspan(0, 1.73, color=BAND, linewidth=0)  # 95 percent of the sizes of complex normal errors
-    top.set_yscale("log")
+    size_axis(top)
     top.set_ylim(bottom=0.1 * least)  # a decade below the smallest noise there is nothing to see
     unit = records[0].measured.units[0]
     top.set_ylabel(f"Amplitude of {rows[0].signal} ({unit if unit != '1' else '-'})", fontsize=TEXT)

@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import MultipleLocator, StrMethodFormatter
+from matplotlib.ticker import MultipleLocator
 
 from pysim.identify import THESIS_REFERENCE_HZ, MeasuredResponse, magnitude_db, standard_deviations
-from pysim.plot.style import COLOURS, DASHES, MARKERS, TEXT, frequency_axis, new_figure, quiet
+from pysim.plot.style import COLOURS, DASHES, MARKERS, TEXT, frequency_axis, new_figure, quiet, size_axis
 from pysim.types import BadInput
 
 _HALF = 1.959964  # half width of a 95 percent interval, in standard deviations
@@ -52,8 +52,7 @@ def frf_figure(responses: Sequence[MeasuredResponse], reference_hz: float | None
     axes[1].set_ylabel("Phase (deg)", fontsize=TEXT)
     axes[1].yaxis.set_major_locator(MultipleLocator(45.0))
     axes[2].set_ylabel("Harmonics (%)", fontsize=TEXT)
-    axes[2].set_yscale("log")
-    axes[2].yaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
+    size_axis(axes[2])
     axes[2].set_xlabel("Frequency (Hz)", fontsize=TEXT)
     figure.align_ylabels(axes)
     labels = [_label(one) for one in responses]

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import FixedLocator, NullLocator, StrMethodFormatter
+from matplotlib.ticker import FixedLocator, Locator, NullLocator, StrMethodFormatter
 
 MEASURED = "#1a1a1a"
 BAND = "#d9d9d9"
@@ -44,6 +45,31 @@ def frequency_axis(axes: Axes, low: float, high: float) -> None:
     axes.xaxis.set_major_locator(FixedLocator(ticks))
     axes.xaxis.set_minor_locator(NullLocator())
     axes.xaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
+
+
+def size_axis(axes: Axes) -> None:
+    """Logarithmic upwards, with plain numbers however few decades there are."""
+    axes.set_yscale("log")
+    axes.yaxis.set_major_locator(_Sizes())
+    axes.yaxis.set_minor_locator(NullLocator())
+    axes.yaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
+
+
+class _Sizes(Locator):
+    """1, 2 and 5 of each decade; fewer where there are many decades."""
+
+    def __call__(self) -> list[float]:
+        assert self.axis is not None
+        return self.tick_values(*self.axis.get_view_interval())
+
+    def tick_values(self, vmin: float, vmax: float) -> list[float]:
+        low, high = sorted((max(vmin, 1e-300), max(vmax, 1e-300)))
+        decades = math.log10(high / low)
+        first, last = math.floor(math.log10(low)), math.ceil(math.log10(high))
+        step = max(1, round(decades / 6))
+        parts = (1, 2, 5) if decades < 2.2 else (1, 3) if decades < 3.6 else (1,)
+        ticks = [part * 10.0**power for power in range(first, last + 1) for part in parts if power % step == 0]
+        return [tick for tick in ticks if low * 0.999 <= tick <= high * 1.001]
 
 
 def legend_above(figure: Figure, handles: Sequence[Artist], labels: Sequence[str]) -> None:
