@@ -203,11 +203,13 @@ def _nearer(ruler: Ruler, at: Fitted) -> tuple[Ruler, Fitted]:
     """With the shapes of the nuisances from a model, and without starts that are wrong beside it.
 
     An effect that moves the place of rest has the plant start where the model does not. Shapes taken from a model that
-    was far off fit what they should not, and a long shift of clocks is no straight line: refits until neither matters.
+    was far off fit what they should not, and a long shift of clocks is no straight line: refits until neither matters,
+    or until it is plain that the misfit is another.
     """
     for _ in range(_CLOSER):
         shifts = {n.suspect: n.value for n in nuisances(ruler, at.point) if n.suspect.kind == SHIFT}
-        moved = ruler if is_off(ruler, at.point) else ruler.moved(shifts)
+        off = is_off(ruler, at.point)
+        moved = ruler if off else ruler.moved(shifts)
         near = _answers(moved, at.what, at.point.x)
         if near is None:
             break
@@ -215,7 +217,8 @@ def _nearer(ruler: Ruler, at: Fitted) -> tuple[Ruler, Fitted]:
         first = closer.evaluation(at.what, at.point.x)
         if not first.good:
             break
-        same = closer.skips == ruler.skips and abs(first.cost - at.point.cost) < _WORTH * mean_square(first)
+        near_enough = abs(first.cost - at.point.cost) < _WORTH * mean_square(first) or (off and is_off(closer, first))
+        same = closer.skips == ruler.skips and near_enough
         ruler, at = closer, Fitted(at.what, first if same else refit(closer, at.what, first))
         if same:
             break

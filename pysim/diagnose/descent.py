@@ -25,6 +25,8 @@ _WEAK = 10.0
 _SPARE = 0.03
 # Range of damping above its least, and how well it is found, in natural logarithms.
 _WIDE, _CLOSE = 40.0, 0.2
+# Residuals beyond are those of a model that ran away, and no guide.
+_RUNAWAY = 1e50
 
 
 @dataclass(frozen=True)
@@ -128,7 +130,7 @@ def descend(
             break
         x = np.clip(best.x + p, bounds.lower, bounds.upper)
         length, residual = float(np.linalg.norm(x - best.x)), at(x)
-        if residual is None:
+        if residual is None or not np.all(np.abs(residual) < _RUNAWAY):
             radius = 0.25 * length
             continue
         slopes = _corrected(best, x, residual)

@@ -25,6 +25,8 @@ Array = NDArray[np.float64]
 # Step of one-sided differences, in the search's numbers (natural logarithms or shares of the scale): ten times shorter,
 # and what step control leaves of the runs' error would be as large as the change by a parameter known to a percent.
 STEP = 1e-2
+# Slopes beyond are none: their products would leave the range of numbers.
+_STEEPEST = 1e100
 
 
 @dataclass(frozen=True)
@@ -144,12 +146,17 @@ class Ruler:
         return self.residuals(what.model, [_values(what, x)])[0]
 
     def evaluation(self, what: Extended, x: Array) -> Evaluation:
-        """Residuals and their slopes: exact for a model without events, else by one-sided differences."""
+        """Residuals and their slopes: exact for a model without events, else by one-sided differences.
+
+        So too where an exact slope is no number, as that of a root at nothing.
+        """
         whole = self.bare
         residual = whole.at(what, x)
         if residual is None:
             return bad_point(x, "the model could not be simulated")
-        slopes = whole._differences(what, x, residual) if self.has_events(what, x) else whole._exact(what, x)
+        slopes = None if self.has_events(what, x) else whole._exact(what, x)
+        if slopes is None or not np.all(np.abs(slopes) < _STEEPEST):
+            slopes = whole._differences(what, x, residual)
         if slopes is None:
             return bad_point(x, "the model could not be simulated beside this point")
         return self.counted(x, np.column_stack([residual, slopes]))

@@ -204,14 +204,15 @@ class Story:
             start: where the refit starts, counted without nuisances: where `at` is, nuisances and parameters hide the
                 misfit together.
         """
-        what = at.what
+        what, plain = at.what, list[Fitted]()
         while absurd := implausible(self.ruler_of(what), at.point):
             self._suspect([s for s in self.ruler.suspected if s not in absurd])
             ruler = self.ruler_of(what)
 
             def found(ruler: Ruler = ruler) -> tuple[Evaluation, Array]:
-                first = Fitted(what, refit(ruler.plain, what, start.point))
-                return refit_from(ruler, what, recounted(ruler.plain, ruler, first).point)
+                if not plain:
+                    plain.append(Fitted(what, refit(ruler.plain, what, start.point)))
+                return refit_from(ruler, what, recounted(ruler.plain, ruler, plain[0]).point)
 
             part = f"{part} without {', '.join(f'{s.kind} {s.signal}'.strip() for s in absurd)}"
             again = self.fitted(what, part, found)
