@@ -192,6 +192,12 @@ CASES: Mapping[str, Case] = MappingProxyType(
         "fit-thesis": Case(
             "validation.fit_thesis.case", "the fits of thesis Section 4.4 done again", "thesis", seconds=180
         ),
+        "accuracy": Case(
+            "validation.accuracy.case",
+            "black box, locked, free and diagnosed model of one pump under thesis Tables 1.3 and 1.4",
+            "thesis",
+            seconds=40,
+        ),
         "fit-coverage": Case(
             "validation.fit_coverage.case",
             "95 percent intervals hold the truth; held-out error",

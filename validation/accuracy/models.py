@@ -1,0 +1,59 @@
+"""The four models of one pump, each fitted to the same logs; what is held out is seen by none of them."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import cache
+
+from pysim.identify.greybox import Parameter, fit, problem
+from pysim.types import Dataset, Fit, Model
+from validation.accuracy.judged import HELD_OUT, Judged, judged
+from validation.accuracy.transfer import black_box
+from validation.blind.benchmark.workshop import workshop
+from validation.diagnosis.answers import read_answers
+from validation.diagnosis.sets import read_set
+from validation.fit_thesis.case import LOCKED, NAMES
+from validation.pump import pump_model
+
+SET = "bench-03"  # its pump has a dead band in the valve, which the base model has not
+HELD_TEST = (75.0, 10.0)  # % offset and amplitude of the stepped sines that are held out, all frequencies
+WAVE = "stochastic/Tp0.5_heldout.txt"  # H_s = 100 %, T_p = 0.5 s: the wave of Table 4.9
+DIAGNOSED = "diagnosed"
+
+
+@cache
+def dataset() -> Dataset:
+    """As measured, with one working point held out besides what the data set itself holds out: wave and chirp."""
+    whole = read_set(SET)
+    records = (replace(r, use=HELD_OUT) if (r.offset, r.amplitude) == HELD_TEST else r for r in whole.records)
+    return replace(whole, records=tuple(records))
+
+
+@cache
+def fitted(label: str) -> Fit:
+    """The grey-box fit of the "locked", "free" or "diagnosed" model, each from the values of its own class."""
+    free = [Parameter(name) for name in NAMES if label != "locked" or name not in LOCKED]
+    if label != DIAGNOSED:
+        return fit(problem(pump_model(label), [dataset()], free))
+    model, strengths = diagnosed()
+    return fit(problem(model, [dataset()], [*free, *strengths]))
+
+
+def diagnosed() -> tuple[Model, list[Parameter]]:
+    """The base model with the effects that the stored diagnosis added, and their strengths as it found them."""
+    answer, shop = read_answers()[SET], workshop()
+    effects = [shop.effect(name) for name in answer.added]
+    model, places = shop.variant(effects)
+    strengths = [
+        Parameter(f"{places[effect.name]}.{parameter.name}", answer.values[f"{effect.name}: {parameter.name}"][0])
+        for effect in effects
+        for parameter in effect.parameters
+    ]
+    return model, strengths
+
+
+@cache
+def models() -> tuple[Judged, ...]:
+    """Black box, locked, free, diagnosed."""
+    grey = (judged(label, fitted(label), WAVE) for label in ("locked", "free", DIAGNOSED))
+    return black_box(dataset(), WAVE), *grey
