@@ -10,7 +10,7 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
@@ -21,6 +21,7 @@ from pysim.types import BadInput
 
 RUNNING, DONE, STOPPED, FAILED = "running", "done", "stopped", "failed"
 _JOB, _STORY, _OUTPUT = "job.json", "story.jsonl", "output.txt"
+_EARLIER = "earlier.jsonl"  # what was told before the job was stopped, until it has come as far again
 ANSWER, RECORDS, REPORT = "answer.json", "records.npz", "report.html"
 _PATIENCE = 3.0  # s between asking a process to end and ending it
 
@@ -137,18 +138,27 @@ def read_job(folder: Path) -> Job | None:
 
 
 def _told(job: Job, folder: Path) -> Job:
-    """With what its story says."""
+    """With what its story says; a job that goes on keeps the steps it had found until it has found them again."""
+    lines = _lines(folder / _STORY)
+    found = _steps(lines)
+    found += _steps(_lines(folder / _EARLIER))[len(found) :]
+    if not lines:
+        return replace(job, steps=found)
+    learned = tuple(line["text"] for line in lines if line["text"])
+    return replace(job, stage=lines[-1]["stage"], left=lines[-1]["left"], steps=found, learned=learned)
+
+
+def _lines(story: Path) -> list[dict[str, Any]]:
     lines: list[dict[str, Any]] = []
     with contextlib.suppress(OSError):
-        for line in (folder / _STORY).read_text(encoding="utf-8").splitlines():
+        for line in story.read_text(encoding="utf-8").splitlines():
             with contextlib.suppress(ValueError):  # the last line may be half written
                 lines.append(json.loads(line))
-    if not lines:
-        return job
-    left = lines[-1]["left"]
-    steps = tuple(line["step"] for line in lines if line["step"] is not None)
-    learned = tuple(line["text"] for line in lines if line["text"])
-    return replace(job, stage=lines[-1]["stage"], left=left, steps=steps, learned=learned)
+    return lines
+
+
+def _steps(lines: Sequence[Mapping[str, Any]]) -> tuple[dict[str, Any], ...]:
+    return tuple(line["step"] for line in lines if line["step"] is not None)
 
 
 @dataclass
@@ -185,8 +195,8 @@ class Runner:
         if before is not None and (before.fingerprint != now or before.state == DONE):
             shutil.rmtree(folder)  # of other data or another model, or to be done anew
         folder.mkdir(parents=True, exist_ok=True)
-        (folder / _STORY).unlink(missing_ok=True)
-        self._job = Job(work, RUNNING, time.time(), None, now, stage="starting")
+        _put_by(folder)
+        self._job = _told(Job(work, RUNNING, time.time(), None, now, stage="starting"), folder)
         self._write()
         with (folder / _OUTPUT).open("wb") as output:
             self._process = run_pysim(work.words, self.project.folder, output)
@@ -251,6 +261,14 @@ class Runner:
         head = {"work": work, "state": job.state, "begun": job.begun, "ended": job.ended}
         head |= {"fingerprint": job.fingerprint, "message": job.message}
         write_file(self.project.results(job.work.name) / _JOB, json.dumps(head, indent=1) + "\n")
+
+
+def _put_by(folder: Path) -> None:
+    """The story so far makes room for the one to come."""
+    story, earlier = folder / _STORY, folder / _EARLIER
+    if story.is_file() and len(_steps(_lines(story))) >= len(_steps(_lines(earlier))):
+        story.replace(earlier)
+    story.unlink(missing_ok=True)
 
 
 def settle(project: Project) -> None:

@@ -7,7 +7,7 @@ from typing import Any
 
 from pysim.app.answers import Answer, ledger
 from pysim.app.desk import Desk
-from pysim.app.figures import CRITERIA, parameters_figure, staircase_figure
+from pysim.app.figures import CRITERIA, criteria_figure, parameters_figure, staircase_figure
 from pysim.app.pages.common import attempt, busy, ended, nothing, start
 from pysim.app.parts import Chart, Table, box, button, card, head, live, note, text
 
@@ -58,14 +58,14 @@ class _Stairs:
     def show(self) -> None:
         """What is known now."""
         steps, doing = self._steps()
-        if not steps:
+        if not steps and not doing:
             if self._chart is not None:
                 self._chart.delete()
                 self._chart = None
             self._place.set_visibility(False)
             return
         self._place.set_visibility(True)
-        told = "; ".join(f"{s['step']} {s['fit'] or s['validate'] or 0:.2f}" for s in steps)
+        told = "; ".join(f"{s['step']} {s['fit'] or s['validate'] or 0:.2f}" for s in steps) or doing
         figure, label = staircase_figure(steps, doing=doing), f"Error over noise, step by step: {told}"
         if self._chart is None:
             with self._place:
@@ -122,6 +122,7 @@ def _criteria(answer: Answer, added: Sequence[str]) -> None:
         rows.append(cells)
     with card("Criteria of thesis Tables 1.3 and 1.4"):
         text("p", "The worst record counts. ✓ within the limit, ✗ beyond it.", "small")
+        Chart(criteria_figure(steps), "Worst value of each criterion over its limit, step by step", height=320)
         Table("Worst value of each criterion", columns, rows)
 
 

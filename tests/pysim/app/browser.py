@@ -93,6 +93,8 @@ class Tab:
         self._base, self._artefacts = base(address), artefacts
         self.page.goto(address)
         self.page.wait_for_selector(".page h1")
+        # what is pressed before waits, and is lost where a link is followed meanwhile
+        self.page.wait_for_function("window.did_handshake")
 
     def go(self, name: str) -> None:
         """To a page, by its link."""

@@ -76,6 +76,7 @@ def test_the_staircase_moves_while_the_fit_runs_and_stays_usable(shown: Any, pro
         tab.go("Add")
         tab.page.get_by_role("button", name="Find what is missing", disabled=False).click()
         tab.see("Stop")
+        drawn(tab, "noise alone")  # the place of the first step, before the process tells anything
         for step, fit, number in (("prior", 63.8, "63.8"), ("refit", 20.3, "20.3"), ("toy.friction", 0.97, "0.97")):
             tell(project, step, fit)
             drawn(tab, number)
@@ -92,8 +93,10 @@ def test_the_staircase_moves_while_the_fit_runs_and_stays_usable(shown: Any, pro
         assert tab.page.get_by_text("Nothing was fitted yet").count() == 0
         tab.press("Go on")
         tab.see("Stop")
+        drawn(tab, "0.97")  # what it had found, until it is found again
         tell(project, "prior", 55.5)
         drawn(tab, "55.5")
+        drawn(tab, "0.97")
         assert tab.errors == []
 
 

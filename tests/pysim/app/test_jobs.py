@@ -171,3 +171,26 @@ def parse(*lines: tuple[str, ...]) -> None:
 
     for words in lines:
         assert argument_parser().parse_args(list(words)).command == words[0]
+
+
+def test_what_goes_on_keeps_its_steps_until_it_has_found_them_again(project: Project) -> None:
+    def line(step: str) -> str:
+        return json.dumps({"seconds": 1, "left": None, "stage": "s", "text": "t", "step": {"step": step}}) + "\n"
+
+    folder, runner = project.results("try"), Runner(project)
+    story = folder / "story.jsonl"
+    for told, seen in ((["a", "b", "c"], "abc"), (["d"], "dbc"), ([], "abc"), (["e", "f", "g", "h"], "efgh")):
+        text = "".join(line(step) for step in told)
+        runner.start(
+            work(project, f"open('results/try/story.jsonl', 'w').write({text!r}); import time; time.sleep(60)")
+        )
+        while not story.exists() or len(story.read_text()) < len(text):
+            time.sleep(0.01)
+        runner.poll()
+        assert runner.running is not None
+        assert "".join(step["step"] for step in runner.running.steps) == seen
+        runner.stop()
+        wait(runner)
+        job = read_job(folder)
+        assert job is not None
+        assert "".join(step["step"] for step in job.steps) == seen

@@ -118,6 +118,7 @@ def test_a_stopped_diagnosis_goes_on_and_a_reload_finds_it(
     with server(project) as address:  # a server that ended loses nothing
         tab = Tab(shown, address)
         tab.press("Go on")
+        tab.see("Stop")
         tab.go("Add")
         tab.see("Undo toy.friction", timeout=PATIENCE)
         tab.press("Undo toy.friction")
