@@ -6,18 +6,35 @@ import argparse
 import math
 import sys
 import tomllib
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from pysim.types import Model, Variable
+    from pysim.types import FrequencyResponse, Model, Variable
+
+THESIS_HZ = 0.1
+_BY_DATA = -1.0  # of `--reference-hz`, where it was not said
 
 
 def add_parameters(parser: argparse.ArgumentParser) -> None:
     """`--set` and `--parameters`."""
     parser.add_argument("--set", metavar="NAME=VALUE", action="append", default=[], help="set a parameter, SI unit")
     parser.add_argument("--parameters", metavar="FILE.toml", type=Path, help="lines NAME = VALUE; --set goes before")
+
+
+def add_reference(parser: argparse.ArgumentParser) -> None:
+    """`--reference-hz`, for `chosen_reference`."""
+    about = f"whose gain is 0 dB; none: absolute ({THESIS_HZ:g} where it was measured everywhere, else none)"
+    parser.add_argument("--reference-hz", metavar="HZ", type=reference_hz, default=_BY_DATA, help=about)
+
+
+def chosen_reference(given: float | None, responses: Iterable[FrequencyResponse]) -> float | None:
+    """The frequency in Hz to which gains are relative, as in the thesis (Eq. 2.12); None for absolute gains."""
+    if given != _BY_DATA:
+        return given
+    lowest = (abs(response.frequency / THESIS_HZ - 1).min() for response in responses)
+    return THESIS_HZ if all(away < 1e-6 for away in lowest) else None
 
 
 def reference_hz(text: str) -> float | None:

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The words behind `pysim compare`."""
-    from pysim.cli._options import add_parameters, reference_hz
+    from pysim.cli._options import add_parameters, add_reference
     from pysim.cli._subject import add_fitted, add_results
 
     parser.add_argument("model", metavar="MODEL", help="an .fmu, or a Modelica class")
@@ -21,9 +21,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--refit", action="store_true", help="refit within the bounds too, and say where it fails")
     add_fitted(parser)
     add_parameters(parser)
-    parser.add_argument(
-        "--reference-hz", metavar="HZ", type=reference_hz, default=0.1, help="whose gain is 0 dB; none: absolute (0.1)"
-    )
+    add_reference(parser)
     add_results(parser, "")
 
 
@@ -71,13 +69,14 @@ def _story(args: argparse.Namespace) -> int:
 
 
 def _responses(args: argparse.Namespace, dataset: Dataset) -> int:
-    from pysim.cli._options import read_parameters
+    from pysim.cli._options import chosen_reference, read_parameters
     from pysim.cli._progress import ProgressBar, announce_compilation
     from pysim.cli._subject import read_base
     from pysim.diagnose import compare
     from pysim.io import write_file
     from pysim.report import comparison_data, comparison_text
 
+    args.reference_hz = chosen_reference(args.reference_hz, dataset.responses())
     model = read_base(args)
     overrides = read_parameters(args, model)
     announce_compilation()

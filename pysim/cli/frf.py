@@ -14,13 +14,11 @@ if TYPE_CHECKING:
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The words behind `pysim frf`."""
-    from pysim.cli._options import reference_hz
+    from pysim.cli._options import add_reference
 
     parser.add_argument("dataset", metavar="DATASET", type=Path, help="folder with a dataset.toml")
     parser.add_argument("--signal", metavar="NAME", help="the responding signal, where the logs hold several")
-    parser.add_argument(
-        "--reference-hz", metavar="HZ", type=reference_hz, default=0.1, help="whose gain is 0 dB; none: absolute (0.1)"
-    )
+    add_reference(parser)
     parser.add_argument(
         "--settle", metavar="SECONDS", type=float, default=0.5, help="left out after the sine starts, at least (0.5)"
     )
@@ -33,6 +31,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Print a table per offset and amplitude."""
+    from pysim.cli._options import chosen_reference
     from pysim.cli._outputs import prepare_file, prepare_folder
     from pysim.identify import Window, measured_responses
     from pysim.io import read_dataset, write_file
@@ -45,6 +44,7 @@ def run(args: argparse.Namespace) -> int:
         prepare_file(args.json, "--json")
     dataset = read_dataset(args.dataset)
     responses = measured_responses(dataset, output=args.signal, window=window)
+    args.reference_hz = chosen_reference(args.reference_hz, (one.response for one in responses))
     print(frf_text(responses, args.reference_hz))
     if args.json:
         data = frf_data(responses, args.reference_hz, dataset=dataset.name)

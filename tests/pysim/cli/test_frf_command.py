@@ -49,6 +49,17 @@ def test_writes_table_numbers_and_report(bench: Path, tmp_path: Path, capsys: py
     assert (tmp_path / "report" / "frf.png").read_bytes().startswith(b"\x89PNG")
 
 
+def test_gains_are_absolute_where_the_thesis_reference_was_not_measured(
+    bench: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["frf", str(bench)]) == 0
+    assert "Magnitudes are relative to 0.1 Hz." in capsys.readouterr().out
+    head, _, *rest = (bench / "dataset.toml").read_text(encoding="utf-8").split("[[records]]")
+    (bench / "dataset.toml").write_text("[[records]]".join([head, *rest]), encoding="utf-8")
+    assert main(["frf", str(bench)]) == 0
+    assert "Magnitudes are absolute." in capsys.readouterr().out
+
+
 def test_wrong_use(bench: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["frf", str(bench), "--reference-hz", "0.3"]) == 2
     assert "magnitudes relative to 0.3 Hz need that frequency" in capsys.readouterr().err
