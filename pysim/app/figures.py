@@ -347,29 +347,6 @@ def map_figure(
     )
 
 
-def bars_figure(
-    names: Sequence[str], values: Sequence[float], title: str, *, marked: frozenset[int] = frozenset()
-) -> Figure:
-    """Shares from above to below, each with its number; the marked ones stand out, and have a pattern too.
-
-    Args:
-        values: percent.
-    """
-    colours = ["@base" if k in marked else "@final" for k in range(len(names))]
-    pattern = {"shape": ["/" if k in marked else "" for k in range(len(names))], "fgcolor": "@raised", "size": 6}
-    bar: dict[str, Any] = {"type": "bar", "orientation": "h", "x": values, "y": list(range(len(names))), "width": 0.62}
-    bar |= {"marker": {"color": colours, "pattern": pattern}, "text": [f"{v:.1f} %" for v in values]}
-    bar |= {"textposition": "outside", "cliponaxis": False, "hoverinfo": "skip"}
-    ticks: dict[str, Any] = {"tickvals": list(range(len(names))), "ticktext": [plain(n) for n in names]}
-    return figure(
-        [bar],
-        xaxis=axis(title, range=[0, max([*values, 1.0]) * 1.12]),
-        yaxis=axis(autorange="reversed", showgrid=False, ticksuffix="  ", **ticks),
-        margin={"l": 40, "r": 30, "t": 8, "b": 46},
-        showlegend=False,
-    )
-
-
 def missing_figure(missing: Mapping[str, Any]) -> Figure:
     """The missing term over what it depends on, with its 95 percent band."""
     shape = missing["shape"]

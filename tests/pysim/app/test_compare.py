@@ -1,0 +1,122 @@
+"""The page Compare in a real browser, on an answer whose numbers are known: Bode plots with the band of Table 1.3."""
+
+import io
+import json
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from tests.pysim.app.browser import Tab, artefacts, browser, server
+
+DESCRIPTION = """
+[dataset]
+name = "sines"
+[signals.u]
+role = "input"
+unit = "%"
+[signals.y]
+role = "output"
+unit = "%"
+"""
+RECORD = """[[records]]
+file = "{name}.txt"
+columns = ["time", "u", "y"]
+kind = "frequency-response"
+offset = {offset}
+amplitude = 10
+frequency = {frequency}
+"""
+F = [1.0, 2.0, 5.0]
+LIMITS = (("E_M max", "maximum magnitude deviation", 2.0, "dB"), ("E_P max", "maximum phase deviation", 35.0, "deg"))
+
+
+@pytest.fixture(scope="module")
+def shown() -> Iterator[Any]:
+    with browser() as found:
+        yield found
+
+
+@pytest.fixture
+def project(tmp_path: Path) -> Path:
+    """Sines at two operating points, compared with a model that fails at the second."""
+    from pysim.app.project import Project
+
+    folder = tmp_path / "project"
+    (folder / "data").mkdir(parents=True)
+    (folder / "results/compare").mkdir(parents=True)
+    text, time = DESCRIPTION, np.arange(0, 4, 0.005)
+    for offset in (0, 25):
+        for frequency in F:
+            name, wave = f"o{offset}_{frequency:g}", 10 * np.sin(2 * np.pi * frequency * time)
+            np.savetxt(folder / f"data/{name}.txt", np.column_stack([time, offset + wave, offset + wave]), fmt="%.5f")
+            text += RECORD.format(name=name, offset=offset, frequency=frequency)
+    (folder / "data/dataset.toml").write_text(text)
+    (folder / "project.toml").write_text('model = ""\n')
+    stages = [stage("prior", (1.0, 3.0)), stage("refit", (0.5, 2.5))]
+    about = np.frombuffer(json.dumps({"form": 1, "stages": stages}).encode(), dtype=np.uint8)
+    archive = io.BytesIO()
+    np.savez(archive, about=about, t=time, m=10 + 0 * time[:, None], s=10 + 0 * time[:, None])
+    (folder / "results/compare/records.npz").write_bytes(archive.getvalue())
+    error = [{"step": s["step"], "fit": 2.0, "validate": None, "criteria": {}, "passes": False} for s in stages]
+    answer = {"added": [], "error": error, "ranking": [], "missing": [], "confusable": [], "notes": [], "reason": ""}
+    (folder / "results/compare/answer.json").write_text(json.dumps(answer))
+    job = {"work": {"name": "compare", "title": "Compare", "words": ["compare"], "effects": []}, "state": "done"}
+    job |= {"begun": 1.0, "ended": 2.0, "fingerprint": Project(folder).fingerprint(), "message": ""}
+    (folder / "results/compare/job.json").write_text(json.dumps(job))
+    return folder
+
+
+def stage(step: str, decibels: tuple[float, float]) -> dict[str, Any]:
+    """A model that is so many dB off above the lowest frequency, at two operating points."""
+    names = [f"o{offset}_{f:g}.txt" for offset in (0, 25) for f in F]
+    own = {"kind": "frequency-response", "use": "fit", "names": ["y"], "units": ["%"], "noise": [0.1], "frequency": 1.0}
+    own |= {"time": "t", "measured": "m", "simulated": "s", "deviations": {}, "rms": [2.0]}
+    responses = []
+    for offset, off in zip((0.0, 25.0), decibels, strict=True):
+        gain = [1.0, 0.8, 0.4]
+        simulated = {"gain": [1.0, *(g * 10 ** (off / 20) for g in gain[1:])], "phase": [-0.1, -0.2, -0.5]}
+        values = (off, 0.0)
+        told = [
+            {"symbol": symbol, "name": name, "limit": limit, "unit": unit, "value": value}
+            for (symbol, name, limit, unit), value in zip(LIMITS, values, strict=True)
+        ]
+        one = {"offset": offset, "amplitude": 10.0, "input": "u", "output": "y", "use": "fit", "frequency": F}
+        one |= {"measured": {"gain": gain, "phase": [-0.1, -0.2, -0.5]}, "simulated": simulated, "message": ""}
+        responses.append({**one, "passes": off <= 2.0, "deviations": told})
+    records = [{**own, "source": name} for name in names]
+    return {
+        "step": step, "estimates": [], "undetermined": [], "where": [], "records": records, "responses": responses,
+    }  # fmt: skip
+
+
+def test_a_bode_plot_stands_in_its_band_and_says_when_it_leaves_it(shown: Any, project: Path) -> None:
+    with server(project) as address:
+        tab = Tab(shown, address, artefacts())
+        tab.go("Compare")
+        tab.see("passes Table 1.3")
+        curves = lines(tab)
+        measured, band, model = curves["measured y"], curves["± 2 dB, ± 35° (Table 1.3) y"], curves["refitted y"]
+        assert max(abs(a - b) for a, b in zip(model, measured, strict=True)) == pytest.approx(0.5)
+        assert band == pytest.approx([v + 2 for v in measured] + [v - 2 for v in reversed(measured)])
+        assert curves["refitted y2"] == pytest.approx(curves["measured y2"])
+        tab.see("maximum magnitude deviation 0.5 of 2 dB")
+        tab.page.get_by_role("button", name="25 ± 10").press("Enter")
+        tab.see("beyond Table 1.3")
+        tab.see("maximum magnitude deviation 2.5 of 2 dB")
+        curves = lines(tab)
+        out = [a - b for a, b in zip(curves["refitted y"], curves["measured y"], strict=True)]
+        assert out == pytest.approx([0, 2.5, 2.5])
+        tab.page.get_by_text("Frequency responses").scroll_into_view_if_needed()
+        tab.shot("bode")
+        assert tab.errors == []
+
+
+def lines(tab: Tab) -> dict[str, list[float]]:
+    """Name and panel of every line of the Bode plot, and its values."""
+    chart = tab.page.locator("[aria-label^='Bode plot'][data-ready=yes]")
+    chart.wait_for()
+    found = chart.evaluate("(el) => el.data.map((t) => [`${t.name} ${t.yaxis}`, Array.from(t.y)])")
+    return dict(found)
