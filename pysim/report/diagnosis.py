@@ -154,7 +154,8 @@ def evidence_text(diagnosis: Diagnosis) -> str:
 
 def _effects(added: Sequence[AddedEffect]) -> list[str]:
     return [
-        f"  {one.effect.name}: {name} = {e.value:.5g} {e.unit}, 95 % from {e.interval[0]:.5g} to {e.interval[1]:.5g}"
+        f"  {one.effect.name}: {name} = {e.value:.5g}{'' if e.unit == '1' else f' {e.unit}'}, "
+        f"95 % from {e.interval[0]:.5g} to {e.interval[1]:.5g}"
         for one in added
         for name, e in zip([p.name for p in one.effect.parameters], one.estimates, strict=True)
     ]

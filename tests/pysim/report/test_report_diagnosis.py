@@ -42,6 +42,13 @@ def test_the_verdict_is_one_plain_sentence() -> None:
     assert verdict_sentence(alone).endswith("falls from 2.00 to 1.00 times the noise on what was fitted.")
 
 
+def test_sizes_of_effects_have_units_where_there_are_some() -> None:
+    force = story(added=(AddedEffect(OFFSET, "force", (estimate("F_o", 0.5, 0.1),)),))
+    assert "toy.offset: F_o = 0.5 N, 95 % from 0.4 to 0.6" in diagnosis_text(force)
+    share = story(added=(AddedEffect(OFFSET, "force", (estimate("F_o", 0.5, 0.1, unit="1"),)),))
+    assert "toy.offset: F_o = 0.5, 95 % from 0.4 to 0.6" in diagnosis_text(share)
+
+
 def test_a_missing_term_is_told_by_place_shape_and_share() -> None:
     other = replace(MISSING, slot="supply", share=0.12)
     assert missing_sentence(story(missing=(MISSING, other))) == (
