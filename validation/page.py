@@ -7,15 +7,13 @@ from collections.abc import Mapping, Sequence
 from matplotlib.figure import Figure
 
 from pysim.plot import render
-from pysim.plot.style import COLOURS, MARKERS, SMALL, TEXT, new_figure, quiet
 from pysim.report.page import cell, commands, heading, items, page, paragraph, picture, statement, table
+from validation.costs import HEAD, cost_figure, cost_rows
 from validation.findings import Finding
 from validation.registry import CASES, GROUPS
 from validation.results import FAILS, HOLDS, SKIPPED, CaseResult, verdict_of
 
 _KIND = {HOLDS: "pass", FAILS: "fail", SKIPPED: ""}
-_COST_UNITS = ("s", "ms", "us", "times", "CPU s")
-_SHOWN = 6  # claims with a cost in one picture
 
 
 def suite_page(
@@ -34,14 +32,26 @@ def suite_page(
             parts += [heading(f"{title}: {result.case}"), *_case(result)]
             figures = drawn.get(result.case, {})
             parts += [picture(render(figure, "svg"), caption) for caption, figure in figures.items()]
-    costs = cost_figure([*history, *results])
-    if costs is not None:
-        parts += [
-            heading("Costs over time"),
-            picture(render(costs, "svg"), "Measured costs of kept runs and this one."),
-        ]
+    parts += _costs([*history, *results])
     lead = f"{len(results)} cases on {results[0].machine}, {results[0].date}" if results else "no case was run"
     return page("Validation", lead, parts)
+
+
+def _costs(results: Sequence[CaseResult]) -> list[str]:
+    figure = cost_figure(results)
+    if figure is None:
+        return []
+    words = ("what", "unit", "other side", "case", "date")
+    rows = [
+        [cell(text, "words" if name in words else "") for name, text in zip(HEAD, row, strict=True)]
+        for row in cost_rows(results)
+    ]
+    caption = "Measured costs of kept runs and this one, each beside the other side of the same run."
+    return [
+        heading("Costs over time"),
+        picture(render(figure, "svg"), caption),
+        table("The last of each.", list(HEAD), rows),
+    ]
 
 
 def _verdict(results: Sequence[CaseResult]) -> str:
@@ -87,27 +97,3 @@ def _claim(finding: Finding) -> list[str]:
     claim = f"{finding.claim} ({said})" if said else finding.claim
     numbers = [cell(value), cell(f"{finding.limit:g}"), cell(finding.unit)]
     return [cell(claim, "words"), *numbers, cell(verdict, _KIND[verdict])]
-
-
-def cost_figure(results: Sequence[CaseResult]) -> Figure | None:
-    """Every claim about a cost over the runs in which it was measured; None where there is none."""
-    series: dict[str, list[tuple[str, float]]] = {}
-    for result in sorted(results, key=lambda result: result.date):
-        if result.group == "speed":
-            for finding in result.findings:
-                if finding.unit in _COST_UNITS and not finding.skipped and finding.value > 0:
-                    series.setdefault(finding.claim, []).append((result.date[:10], finding.value))
-    if not series:
-        return None
-    dates = sorted({date for points in series.values() for date, _ in points})
-    figure = new_figure(7.2, 3.6)
-    axes = figure.subplots()
-    quiet(axes)
-    for k, (claim, points) in enumerate(list(series.items())[:_SHOWN]):
-        places = [dates.index(date) for date, _ in points]
-        values = [value for _, value in points]
-        axes.semilogy(places, values, color=COLOURS[k], marker=MARKERS[k], markersize=4, linewidth=1.0, label=claim)
-    axes.set_xticks(range(len(dates)), dates, rotation=30, ha="right")
-    axes.set_ylabel("Cost, in the claim's unit", fontsize=TEXT)
-    figure.legend(loc="outside lower center", fontsize=SMALL, frameon=False)
-    return figure

@@ -9,8 +9,9 @@ import platform
 from collections.abc import Iterable
 from dataclasses import asdict, dataclass
 from pathlib import Path
+from typing import Any
 
-from validation.findings import Finding
+from validation.findings import Cost, Finding
 
 HOLDS, FAILS, SKIPPED = "holds", "fails", "skipped"
 _CPU_INFO = Path("/proc/cpuinfo")
@@ -101,17 +102,29 @@ def to_line(result: CaseResult) -> str:
         for name in ("value", "limit"):
             number = float(finding[name])
             finding[name] = float(f"{number:.6g}") if math.isfinite(number) else None
-        if not finding["skipped"]:
-            del finding["skipped"]
+        if finding["cost"]:
+            finding["cost"] = {name: _short(value) for name, value in finding["cost"].items()}
+        for name in ("skipped", "cost"):
+            if not finding[name]:
+                del finding[name]
     data["seconds"], data["cpu"] = round(result.seconds, 1), round(result.cpu, 1)
     return json.dumps(data, ensure_ascii=False)
+
+
+def _short(value: Any) -> Any:
+    return float(f"{value:.6g}") if isinstance(value, float) else value
 
 
 def from_line(line: str) -> CaseResult:
     """The other way."""
     data = json.loads(line)
-    findings = tuple(Finding(**{**row, **_numbers(row)}) for row in data.pop("findings"))
+    findings = tuple(_finding(row) for row in data.pop("findings"))
     return CaseResult(machine=Machine(**data.pop("machine")), findings=findings, **data)
+
+
+def _finding(row: dict[str, Any]) -> Finding:
+    cost = {"cost": Cost(**row["cost"])} if "cost" in row else {}
+    return Finding(**{**row, **_numbers(row), **cost})
 
 
 def _numbers(row: dict[str, float | None]) -> dict[str, float]:

@@ -4,10 +4,8 @@ import pytest
 from matplotlib.figure import Figure
 
 from tests.validation import made_up
-from tests.validation.made_up import BAD, GOOD, MACHINE, result
-from validation.findings import Finding
-from validation.page import cost_figure, suite_page
-from validation.results import CaseResult
+from tests.validation.made_up import BAD, GOOD, costly, result
+from validation.page import suite_page
 
 
 def test_page(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -28,15 +26,8 @@ def test_page(monkeypatch: pytest.MonkeyPatch) -> None:
     assert "Costs over time" not in text
 
 
-def cost(day: int, seconds: float) -> CaseResult:
-    findings = (Finding("a run takes", seconds, 10.0, "s"), Finding("difference", 1e-6, 1e-3, "%"))
-    return CaseResult("speed", "", "speed", f"2026-01-0{day}T00:00:00Z", 1.0, 1.0, MACHINE, findings)
-
-
-def test_costs_over_time() -> None:
-    figure = cost_figure([cost(3, 2.0), cost(1, 4.0), result("good", *GOOD)])
-    assert figure is not None
-    (line,) = figure.axes[0].lines
-    assert list(line.get_ydata()) == [4.0, 2.0]
-    assert [label.get_text() for label in figure.axes[0].get_xticklabels()] == ["2026-01-01", "2026-01-03"]
-    assert cost_figure([result("good", *GOOD)]) is None
+def test_costs_stand_at_the_end(monkeypatch: pytest.MonkeyPatch) -> None:
+    made_up.use(monkeypatch)
+    text = suite_page([result("good", *GOOD)], [costly(1, 2.0, 6.0)], {})
+    for words in ("Costs over time", "a plain loop", "The last of each."):
+        assert words in text

@@ -10,7 +10,8 @@ import pytest
 from pysim.cli import main, validate
 from tests.planted import planted
 from tests.validation import made_up
-from validation.results import read_results
+from tests.validation.made_up import costly
+from validation.results import append_results, read_results
 from validation.summary import BEGIN, END
 
 
@@ -42,12 +43,17 @@ def test_list_runs_nothing(capsys: pytest.CaptureFixture[str]) -> None:
     assert [line.split()[0] for line in capsys.readouterr().out.splitlines()] == list(made_up.CASES)
 
 
-def test_what_is_written(tmp_path: Path) -> None:
+def test_what_is_written(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    kept = tmp_path / "kept.jsonl"
+    append_results(kept, [costly(1, 2.0, 6.0)])
+    monkeypatch.setattr(validate, "_results_file", lambda: kept)
     out, numbers = tmp_path / "out", tmp_path / "numbers.jsonl"
     numbers.write_text("old\n")
     assert main(["validate", "good", "bad", "--output", str(out), "--json", str(numbers)]) == 1
     assert [result.case for result in read_results(numbers)] == ["good", "bad"]
-    assert {path.name for path in out.iterdir()} == {"report.html", "summary.md", "good-1.png", "bad-1.png"}
+    assert {path.name for path in out.iterdir()} == {
+        "report.html", "summary.md", "costs.png", "good-1.png", "bad-1.png",
+    }  # fmt: skip
     assert "a picture" in (out / "report.html").read_text(encoding="utf-8")
 
 
