@@ -44,6 +44,7 @@ class Desk:
 
     Args:
         drawing: of the model's parts; None where its class is not at hand.
+        draft: what was chosen so far for logs that nobody has described.
         version: changes with everything that a page shows, but for what a running job tells;
         beat: changes with that too.
     """
@@ -60,6 +61,7 @@ class Desk:
     model_busy: bool = False
     last: Job | None = None
     batches: dict[str, Batch] = field(default_factory=dict)
+    draft: dict[str, Any] = field(default_factory=dict)
     _answers: tuple[int, Answers] | None = None
 
     def changed(self) -> None:

@@ -25,9 +25,12 @@ def column_names(path: Path) -> tuple[str, ...]:
     if suffix in (".parquet", ".tdms"):
         return _named(path, suffix)
     lines = read_text(path, path.name).replace('"', "").split("\n")[:_LINES]
-    rows = [_fields(line) for line in lines if line.strip() and not line.lstrip().startswith("#")]
-    for above, row in pairwise([[], *rows]):
+    rows = [line for line in lines if line.strip() and not line.lstrip().startswith("#")]
+    for heading, line in pairwise(["", *rows]):
+        separator, decimal = dialect(_trimmed(line))
+        row = [field.replace(",", ".") if decimal else field for field in _fields(line, separator)]
         if len(row) > 1 and all(_is_number(field) for field in row):
+            above = _fields(heading, separator)  # a blank or a comma in a name is none of the numbers' business
             named = len(above) == len(row) == len(set(above)) and all(above)
             return tuple(above) if named else ("time", *(f"column {k + 1}" for k in range(1, len(row))))
     raise BadInput(f"{path.name} holds no rows of numbers; it needs a column of times and those of the signals")
@@ -50,11 +53,12 @@ def _named(path: Path, suffix: str) -> tuple[str, ...]:
     return tuple(names if "time" in names else ["time", *names])
 
 
-def _fields(line: str) -> list[str]:
-    line = line.strip().rstrip("\t;,")
-    separator, decimal = dialect(line)
-    fields = [field.strip() for field in line.split(separator)]
-    return [field.replace(",", ".") for field in fields] if decimal else fields
+def _fields(line: str, separator: str | None) -> list[str]:
+    return [field.strip() for field in _trimmed(line).split(separator)]
+
+
+def _trimmed(line: str) -> str:
+    return line.strip().rstrip("\t;,")
 
 
 def _is_number(field: str) -> bool:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import partial
+from typing import Any
 
 from nicegui import ui
 
@@ -76,3 +77,29 @@ def segments(options: list[tuple[str, str]], chosen: str, pick: Callable[[str], 
         for key, words in options:
             one = button(words, partial(pick, key), "on" if key == chosen else "")
             one._props["aria-pressed"] = "true" if key == chosen else "false"
+
+
+def choose(options: Any, chosen: str, pick: Callable[[str], Any], label: str) -> None:
+    """A plain list to choose from; its texts are texts."""
+    with ui.element("select") as field:
+        field._props["aria-label"] = label
+        for one in options:
+            option = text("option", str(one))
+            option._props["value"] = str(one)
+            if one == chosen:
+                option._props["selected"] = True
+    field.on("change", lambda event: pick(str(event.args)), js_handler="(e) => emit(e.target.value)")
+
+
+def amount(value: Any, put: Callable[[float | None], Any], label: str) -> None:
+    """A number that may be left empty."""
+    field = ui.element("input").props("type=number step=any min=0")
+    field._props["aria-label"], field._props["value"] = label, "" if value is None else value
+
+    def changed(written: str) -> None:
+        try:
+            put(float(written) if written else None)
+        except ValueError:
+            say(f"{label}: {written!r} is no number; write one, or leave it empty", bad=True)
+
+    field.on("change", lambda event: changed(str(event.args)), js_handler="(e) => emit(e.target.value)")

@@ -11,7 +11,7 @@ from nicegui import background_tasks, ui
 from pysim.app.description import UNITS, change_description, read_description
 from pysim.app.desk import Desk, Loaded
 from pysim.app.pages.bare import describe_form
-from pysim.app.pages.common import attempt, busy, counted, ended, start
+from pysim.app.pages.common import amount, attempt, busy, choose, counted, ended, start
 from pysim.app.parts import Chart, Drop, Table, box, button, card, head, live, note, say, text
 from pysim.app.records import MOST, measured_overlay
 from pysim.identify.data_check import DataCheck, RecordCheck
@@ -78,10 +78,10 @@ def _model(desk: Desk) -> None:
             free = [p for p in info["parameters"] if None not in (p["min"], p["max"], p["start"])]
             told = (len(info["states"]), len(free), len(info["slots"]), len(info["effects"]))
             with box("row"):
-                for count, words in zip(
-                    told, ("states", "parameters with bounds", "slots", "effects that fit"), strict=True
+                for count, word, more in zip(
+                    told, ("state", "parameter", "slot", "effect"), ("", " with bounds", "", " that fit"), strict=True
                 ):
-                    text("span", f"{count} {words}", "chip")
+                    text("span", f"{counted(count, word)}{more}", "chip")
             if not info["slots"]:
                 note("Its Modelica class is not at hand, so no effect can be added; drop its library above.")
 
@@ -181,32 +181,6 @@ def _signal(desk: Desk, name: str, section: Mapping[str, Any], variables: list[s
         text("span", variable)
     for key in ("noise", "resolution"):
         amount(section.get(key), partial(put, key), f"{key} of {name}")
-
-
-def choose(options: Any, chosen: str, pick: Callable[[str], Any], label: str) -> None:
-    """A plain list to choose from; its texts are texts."""
-    with ui.element("select") as field:
-        field._props["aria-label"] = label
-        for one in options:
-            option = text("option", str(one))
-            option._props["value"] = str(one)
-            if one == chosen:
-                option._props["selected"] = True
-    field.on("change", lambda event: pick(str(event.args)), js_handler="(e) => emit(e.target.value)")
-
-
-def amount(value: Any, put: Callable[[float | None], Any], label: str) -> None:
-    """A number that may be left empty."""
-    field = ui.element("input").props("type=number step=any min=0")
-    field._props["aria-label"], field._props["value"] = label, "" if value is None else value
-
-    def changed(written: str) -> None:
-        try:
-            put(float(written) if written else None)
-        except ValueError:
-            say(f"{label}: {written!r} is no number; write one, or leave it empty", bad=True)
-
-    field.on("change", lambda event: changed(str(event.args)), js_handler="(e) => emit(e.target.value)")
 
 
 def _records(desk: Desk, preview: dict[str, int]) -> None:

@@ -15,6 +15,8 @@ from pysim.types import BadInput
         ("0;1,5;2\n1;2,5;3\n", ("time", "column 2", "column 3")),
         ("a story of a log\ntime cmd\n0 1\n", ("time", "cmd")),
         ("# time cmd\n0 1 2\n", ("time", "column 2", "column 3")),
+        ("t [s],F [N],swash plate\n0.0,1.5,2\n", ("t [s]", "F [N]", "swash plate")),
+        ("t [s];F, N\n0,0;1,5\n", ("t [s]", "F, N")),
         ("x,x\n0,1\n", ("time", "column 2")),  # a name that stands twice is none
     ],
 )
