@@ -129,7 +129,10 @@ def descend(
         if promised < small:
             break
         x = np.clip(best.x + p, bounds.lower, bounds.upper)
-        length, residual = float(np.linalg.norm(x - best.x)), at(x)
+        length = float(np.linalg.norm(x - best.x))
+        if not length:
+            break
+        residual = at(x)
         if residual is None or not np.all(np.abs(residual) < _RUNAWAY):
             radius = 0.25 * length
             continue

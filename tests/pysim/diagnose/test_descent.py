@@ -86,3 +86,10 @@ def test_a_point_where_the_model_ran_away_is_no_guide() -> None:
     end = descend(run, first, Bounds(np.array([-5.0]), np.array([5.0])), steps=20, radius=4.0)
     assert np.isfinite(end.jacobian).all()
     assert 1.0 < end.x[0] < 1.3
+
+
+def test_a_step_that_the_bounds_leave_nothing_of_ends_it() -> None:
+    slopes = np.array([[1e4, 0.0], [0.0, 1e-12]])
+    first = at(np.array([0.0, 1.0]), slopes, np.array([0.0, 1.0]))
+    none = Bounds(np.array([0.0, 1.0]), np.array([0.0, 1.0]))
+    assert descend(lambda x: np.array([1e4 * x[0], 1.0]), first, none, steps=5, tolerance=-1.0) == first
