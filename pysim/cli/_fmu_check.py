@@ -12,7 +12,7 @@ def check_files(args: argparse.Namespace) -> int:
     from pysim.cli._outputs import prepare_file, prepare_folder
     from pysim.cli._progress import ProgressBar
     from pysim.fmu_check import DOUBTFUL, check_fmu
-    from pysim.io import write_file
+    from pysim.io import check_binary, read_model, write_file
     from pysim.report.fmu_check import fmu_check_data, fmu_check_parts, fmu_check_text
     from pysim.report.page import page
     from pysim.types import BadInput
@@ -26,6 +26,9 @@ def check_files(args: argparse.Namespace) -> int:
         prepare_file(args.json, "--json")
     reports = []
     for file in files:
+        model = read_model(file)
+        own = model.abilities.stepping
+        check_binary(model, own.library if own and not model.abilities.model_exchange else model.abilities.library)
         with ProgressBar(file.stem) as progress:
             reports.append(check_fmu(file, progress=progress))
         print(fmu_check_text(reports[-1]), flush=True)

@@ -7,20 +7,18 @@ import threading
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from functools import partial
-from pathlib import Path
 from typing import Any
 
 import numpy as np
-from fmpy import platform, platform_tuple, sharedLibraryExtension
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Slave
 from fmpy.fmi3 import FMU3Slave
 from numpy.typing import NDArray
 
 from pysim.cosim.member import MemberFailed
-from pysim.io import extracted
+from pysim.io import check_binary, extracted
 from pysim.simulate import FmuValues, Mailbox
-from pysim.types import BadInput, CoSimulation, Model
+from pysim.types import CoSimulation, Model
 
 Array = NDArray[np.float64]
 
@@ -43,7 +41,7 @@ class SteppingInstance:
         self._kept: list[NDArray[np.uint32]] = []  # what the library is given addresses of
         self.status = 0  # worst one; after a fatal error nothing may be called any more
         folder = extracted(model.path)
-        _check_binary(model, stepping, folder)
+        check_binary(model, stepping.library)
         kind = FMU2Slave if model.abilities.fmi == 2 else FMU3Slave
         with _loading:
             try:
@@ -128,10 +126,3 @@ class SteppingInstance:
     def _unload(self) -> None:
         if self.status < FATAL:
             self.fmu.freeLibrary()
-
-
-def _check_binary(model: Model, stepping: CoSimulation, folder: Path) -> None:
-    name = platform if model.abilities.fmi == 2 else platform_tuple
-    if not (folder / "binaries" / name / f"{stepping.library}{sharedLibraryExtension}").is_file():
-        present = ", ".join(sorted(p.name for p in (folder / "binaries").glob("*"))) or "none"
-        raise BadInput(f"{model.path.name} has no binary for {name} (it has: {present}); export it for this machine")

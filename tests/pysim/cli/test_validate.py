@@ -3,6 +3,7 @@
 import json
 import subprocess
 import sys
+import zipfile
 from pathlib import Path
 
 import pytest
@@ -81,6 +82,12 @@ def test_fmu(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["validate", "fmu", str(planted("OTHER_START", tmp_path))]) == 1
     assert main(["validate", "fmu"]) == 2
     assert main(["validate", "fmu", str(tmp_path / "none.fmu")]) == 2
+    capsys.readouterr()
+    with zipfile.ZipFile(fmu) as archive, zipfile.ZipFile(tmp_path / "amiga.fmu", "w") as other:
+        other.writestr("modelDescription.xml", archive.read("modelDescription.xml"))
+        other.writestr("binaries/amiga/planted.library", "")
+    assert main(["validate", "fmu", str(tmp_path / "amiga.fmu")]) == 2
+    assert "amiga.fmu has no binary for" in capsys.readouterr().err
 
 
 def test_the_module_is_the_same_command() -> None:
