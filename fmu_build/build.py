@@ -7,7 +7,7 @@ from importlib.resources import files
 from pathlib import Path
 
 from fmu_build.cache import cached, content_key, copy_whole, store
-from fmu_build.errors import BuildError, CannotCompile
+from fmu_build.errors import BuildError, CannotCompile, WrongCall
 from fmu_build.pack import Platform, check_writable, host_platform, select_platforms
 
 BUNDLED_LIBRARY = "HydraulicTestBench"
@@ -108,6 +108,8 @@ def _build_anew(
             f"an expression of {class_name} is nested too deeply: a sum of more than some 300 terms, or as many "
             "parentheses within each other; split it into several equations."
         ) from None
+    except WrongCall:
+        raise
     except BuildError as error:
         if _is_there(class_name, libraries):
             raise CannotCompile(error.message, error.file, error.line) from error

@@ -21,3 +21,7 @@ class BuildError(Exception):
 
 class CannotCompile(BuildError):
     """Our own compiler cannot take a class that is there; another compiler may."""
+
+
+class WrongCall(BuildError):
+    """A name or a value in the call that no compiler could use."""

@@ -1,9 +1,10 @@
 """Front end: Modelica text -> FlatModel."""
 
+import difflib
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from fmu_build.errors import BuildError
+from fmu_build.errors import BuildError, WrongCall
 from fmu_build.front.class_lookup import ClassLookup, FoundClass
 from fmu_build.front.flat_model import FlatModel, Role, Scalar
 from fmu_build.front.redeclaration import refuse_lost_redeclarations
@@ -53,7 +54,8 @@ def _check_is_model(found: FoundClass) -> None:
     written = found.text
     what = "partial " if "partial" in written.prefixes else ""
     if what or written.kind not in ("model", "block", "class"):
-        raise found.error(f"{found.full_name} is a {what}{written.kind}; name a model or a block", written.offset)
+        wrong = found.error(f"{found.full_name} is a {what}{written.kind}; name a model or a block", written.offset)
+        raise WrongCall(wrong.message, wrong.file, wrong.line)
 
 
 def _check_overrides(model: FlatModel, overrides: Mapping[str, float | str]) -> None:
@@ -61,8 +63,10 @@ def _check_overrides(model: FlatModel, overrides: Mapping[str, float | str]) -> 
     parameters = {v.name for v in model.variables if v.role in (Role.PARAMETER, Role.STRUCTURAL)}
     for name in overrides:
         if name not in parameters:
-            raise BuildError(
-                f"{model.name} has no parameter {name} that could be set", model.span.file, model.span.line
+            near = difflib.get_close_matches(name, sorted(parameters), n=3)
+            hint = f"; near it: {', '.join(near)}" if near else ""
+            raise WrongCall(
+                f"{model.name} has no parameter {name} that could be set{hint}", model.span.file, model.span.line
             )
 
 

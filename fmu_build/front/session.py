@@ -12,7 +12,7 @@ from math import isfinite
 from pathlib import Path
 from typing import Any
 
-from fmu_build.errors import BuildError
+from fmu_build.errors import BuildError, WrongCall
 from fmu_build.front.joined import JoinedText, join
 from fmu_build.front.source import ClassSource, read_text
 from fmu_build.front.tokens import tokenise
@@ -105,7 +105,7 @@ def _ask_rumoca(request: Mapping[str, Any], source: ClassSource) -> dict[str, An
 
 
 def modification(overrides: Mapping[str, Override]) -> str:
-    """`{"a.b": 1}` -> `(a(b = 1))`; nothing where there are none. Raises BuildError for what is no value."""
+    """`{"a.b": 1}` -> `(a(b = 1))`; nothing where there are none. Raises WrongCall for what is no value."""
     parts = []
     for name, value in overrides.items():
         *outer, last = name.split(".")
@@ -127,10 +127,10 @@ def _value_text(name: str, value: Override) -> str:
         is_cut = any(word in ";\"'" or (word == "," and depth == 0) for word, depth in zip(words, depths, strict=False))
         has_comment = "".join("".join(words).split()) != "".join(value.split())
         if not words or not is_balanced or is_cut or has_comment:
-            raise BuildError(f"the value set for {name}, {value}, is no single Modelica expression")
+            raise WrongCall(f"the value set for {name}, {value}, is no single Modelica expression")
         return value
     if not isfinite(value):
-        raise BuildError(f"the value set for {name} is {value}; give a finite number")
+        raise WrongCall(f"the value set for {name} is {value}; give a finite number")
     return str(value) if isinstance(value, int) else repr(float(value))
 
 

@@ -6,7 +6,7 @@ from difflib import get_close_matches
 
 import casadi as ca
 
-from fmu_build.errors import BuildError
+from fmu_build.errors import BuildError, WrongCall
 from fmu_build.front.flat_model import FlatModel, FlatVariable, Role
 from fmu_build.front.flat_model import Scalar as ScalarKind
 from fmu_build.lower.continuous import square_blocks
@@ -35,7 +35,7 @@ def with_probe_inputs(flat: FlatModel, probes: Sequence[str]) -> FlatModel:
     A probe "NAME=VARIABLE" gets no input: what is added is a variable of the class, with an equation of its own.
 
     Raises:
-        BuildError: a name is unknown, not that of a continuous variable, or given twice.
+        WrongCall: a name is unknown, not that of a continuous variable, or given twice.
     """
     if not probes:
         return flat
@@ -44,19 +44,19 @@ def with_probe_inputs(flat: FlatModel, probes: Sequence[str]) -> FlatModel:
     names = [probe.partition(GIVEN)[0] for probe in probes]
     for k, (name, probe) in enumerate(zip(names, probes, strict=True)):
         if name in names[:k]:
-            raise BuildError(f"the probe {name} is asked for twice; give it once.")
+            raise WrongCall(f"the probe {name} is asked for twice; give it once.")
         if name not in owner:
-            raise BuildError(_unknown(name, owner, flat))
+            raise WrongCall(_unknown(name, owner, flat))
         variable = owner[name]
         if variable.role in _WHY_NOT or variable.scalar is not ScalarKind.REAL:
-            raise BuildError(f"no probe can be added to {name}: it is {_WHY_NOT.get(variable.role, 'not Real')}.")
+            raise WrongCall(f"no probe can be added to {name}: it is {_WHY_NOT.get(variable.role, 'not Real')}.")
         if GIVEN in probe:
             given = probe.partition(GIVEN)[2]
             if given not in owner or owner[given].role is not Role.ALGEBRAIC:
-                raise BuildError(f"{flat.name} has no continuous variable {given} to add to {name}.")
+                raise WrongCall(f"{flat.name} has no continuous variable {given} to add to {name}.")
             continue
         if PREFIX + name in owner:
-            raise BuildError(f"{flat.name} has a variable {PREFIX}{name} already; rename the component 'probe'.")
+            raise WrongCall(f"{flat.name} has a variable {PREFIX}{name} already; rename the component 'probe'.")
         added.append(_input(name, variable, unit_of(variable.name, flat)))
     return replace(flat, variables=(*flat.variables, *added))
 

@@ -132,3 +132,22 @@ def test_a_class_that_is_there_may_be_for_another_compiler(tmp_path):
     with pytest.raises(BuildError) as unknown:
         build("Near", libraries=[file], use_cache=False)
     assert not isinstance(unknown.value, CannotCompile)
+
+
+@pytest.mark.parametrize(
+    ("name", "options", "message"),
+    [
+        ("Tank", {"overrides": {"Area": 1.0}}, "has no parameter Area that could be set; near it: area"),
+        ("Tank", {"overrides": {"area": float("nan")}}, "the value set for area is nan"),
+        ("Tank", {"probes": ["H"]}, "H"),
+        ("Half", {}, "Half is a partial model; name a model"),
+    ],
+)
+def test_a_wrong_call_is_wrong_for_every_compiler(tmp_path, name, options, message):
+    file = tmp_path / f"{name}.mo"
+    partial = "partial " if name == "Half" else ""
+    text = "parameter Real area = 2;\n  output Real h(start = 1, fixed = true);\nequation\n  area*der(h) = -h;"
+    file.write_text(f"{partial}model {name}\n  {text}\nend {name};\n")
+    with pytest.raises(BuildError, match=message) as caught:
+        build(name, libraries=[file], use_cache=False, **options)
+    assert not isinstance(caught.value, CannotCompile)
