@@ -15,6 +15,7 @@ from pysim.app.answers import Answers
 from pysim.app.jobs import DONE, FAILED, STOPPED, Job, Runner, Work, adding, last_words, read_job, run_pysim, works
 from pysim.app.layout import Layout, layout
 from pysim.app.project import Project
+from pysim.app.sketch import Sketch, sketches
 from pysim.app.upload import Batch, Limits
 from pysim.identify.data_check import DataCheck, check_dataset
 from pysim.io import read_dataset_partly
@@ -44,6 +45,8 @@ class Desk:
 
     Args:
         drawing: of the model's parts; None where its class is not at hand.
+        taking: whether a drop is being put into the project.
+        sketches: of the laws of the effects that fit.
         draft: what was chosen so far for logs that nobody has described.
         version: changes with everything that a page shows, but for what a running job tells;
         beat: changes with that too.
@@ -57,10 +60,12 @@ class Desk:
     loaded: Loaded | None = None
     model: Mapping[str, Any] | None = None
     drawing: Layout | None = None
+    sketches: Mapping[str, Sketch | None] = field(default_factory=dict)
     model_trouble: str = ""
     model_busy: bool = False
     last: Job | None = None
     batches: dict[str, Batch] = field(default_factory=dict)
+    taking: bool = False
     draft: dict[str, Any] = field(default_factory=dict)
     _answers: tuple[int, Answers] | None = None
 
@@ -101,8 +106,10 @@ class Desk:
         """Run something.
 
         Raises:
-            BadInput: something runs already.
+            BadInput: something runs already, or data come in.
         """
+        if self.taking:
+            raise BadInput("a drop is being taken over; try again in a moment")
         self.last = None
         self.runner.start(work)
         self.changed()
@@ -177,6 +184,7 @@ class Desk:
             parts = model["structure"]
             if parts is not None:
                 self.drawing = await run.io_bound(layout, parts["nodes"], parts["links"])
+            self.sketches = await run.io_bound(sketches, model) or {}
             self.model = model
         else:
             self.model_trouble = last_words(log)

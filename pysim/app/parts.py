@@ -11,6 +11,7 @@ from nicegui import ui
 from nicegui.element import Element
 from nicegui.elements.mixins.text_element import TextElement
 
+from pysim.app.sketch import Sketch
 from pysim.app.upload import Limits
 
 _STATIC = Path(__file__).parent / "static"
@@ -126,6 +127,25 @@ class Drawing(Element, component=str(_STATIC / "drawing.js")):
         self.update()
 
 
+class Choice(Element, component=str(_STATIC / "choice.js")):
+    """One of a list of texts.
+
+    Args:
+        label: for those who cannot see it.
+        on_pick: told the one that was chosen.
+    """
+
+    def __init__(self, label: str, options: Sequence[str], chosen: str, on_pick: Callable[[str], Any]) -> None:
+        super().__init__()
+        self._props["label"], self._props["options"], self._props["chosen"] = label, list(options), chosen
+
+        def pick(one: str) -> None:
+            self._props["chosen"] = one
+            on_pick(one)
+
+        self.on("pick", lambda event: pick(str(event.args)))
+
+
 class Drop(Element, component=str(_STATIC / "drop.js")):
     """A place to drop files and folders on."""
 
@@ -208,11 +228,15 @@ def live(key: Callable[[], object], build: Callable[[], Any], kind: str = "") ->
     return place
 
 
-def curve(points: tuple[list[float], list[float]] | None) -> None:
-    """A sketch of a law between -1 and 1; only numbers go into the drawing."""
-    path = ""
-    if points is not None:
-        path = "M" + " L".join(f"{36 + 30 * x:.1f},{26 - 20 * y:.1f}" for x, y in zip(*points, strict=True))
-    axes = '<path class="axes" d="M4,26 H68 M36,4 V48"/>'
-    inner = f'{axes}<path class="law" d="{path}"/>' if path else '<path class="axes" d="M14,26 H58"/>'
-    ui.html(f'<svg viewBox="0 0 72 52" aria-hidden="true">{inner}</svg>', sanitize=False).classes("sketch")
+def curve(shown: Sketch | None) -> None:
+    """A sketch of a law; only numbers go into the drawing, and what is drawn over what is told as text."""
+    curves, over_time = (shown.curves, shown.over_time) if shown is not None else ((), False)
+    main = len(curves) - 1 if over_time else len(curves) // 2
+    lines = [f'<path class="axes" d="{"M4,26 H68" if over_time else "M4,26 H68 M36,4 V48"}"/>']
+    for k, (xs, ys) in enumerate(curves):
+        path = " L".join(f"{36 + 31 * x:.1f},{26 - 20 * y:.1f}" for x, y in zip(xs, ys, strict=True))
+        lines.append(f'<path class="law{"" if k == main else " beside"}" d="M{path}"/>')
+    svg = f'<svg viewBox="0 0 72 52" aria-hidden="true">{"".join(lines)}</svg>'
+    place = ui.html(svg, sanitize=False).classes("sketch")
+    if shown is not None:
+        place._props["title"] = shown.words

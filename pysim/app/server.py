@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import json
+import shutil
 import socket
 from pathlib import Path
 from secrets import token_urlsafe
@@ -11,7 +12,7 @@ from typing import Any
 
 from fastapi import Request
 from fastapi.responses import FileResponse, PlainTextResponse, Response
-from nicegui import app, background_tasks, ui
+from nicegui import app, background_tasks, run, ui
 
 from pysim.app.desk import Desk
 from pysim.app.guard import Guard
@@ -44,6 +45,7 @@ def serve(
     """
     project = Project.at(folder)
     settle(project)
+    shutil.rmtree(project.folder / "uploads", ignore_errors=True)  # what came in half when a server ended
     desk = Desk(project, Runner(project, limit_s), limits)
     port = _port(host, port)
     token = token_urlsafe(24)
@@ -137,13 +139,18 @@ def _routes(desk: Desk) -> None:
         batch = desk.batches.pop(name, None)
         if batch is None:
             return PlainTextResponse("another drop has begun since; drop it again", 409)
-        if desk.runner.running is not None:
+        if desk.runner.running is not None or desk.taking:
             batch.end()
             return PlainTextResponse("wait until the running work has ended, or stop it; then drop it again", 409)
+        desk.taking = True
         try:
-            adopted = adopt(batch, desk.project)
+            adopted = await run.io_bound(adopt, batch, desk.project)  # a large archive does not hold up the page
         except BadInput as error:
             return PlainTextResponse(str(error), 422)
+        finally:
+            desk.taking = False
+        if adopted is None:
+            return PlainTextResponse("the server is ending; start it again, then drop it again", 503)
         if adopted.kind == "model":
             settings = desk.project.settings()
             libraries = tuple(dict.fromkeys((*settings.libraries, *adopted.libraries)))

@@ -1,107 +1,244 @@
-"""A small curve of an effect's law, worked out from its equation, where that is a function of one variable."""
+"""A small picture of an effect's law: a curve, a family of curves, or an answer to a wave where it has a memory."""
 
 from __future__ import annotations
 
-import ast
+import contextlib
 import math
 import re
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
 
-_FUNCTIONS: Mapping[str, Callable[..., float]] = {
-    "tanh": math.tanh, "exp": math.exp, "sqrt": math.sqrt, "abs": abs, "max": max, "min": min, "sin": math.sin,
-    "noEvent": lambda value: value, "smooth": lambda order, value: value,
-}  # fmt: skip
-_POINTS, _STEEP = 81, 25.0
-_IF = re.compile(r"if (.+?) then (.+) else (.+)", re.S)
+import numpy as np
+from numpy.typing import NDArray
+
+from pysim.app.law import FAILED, Law, Moment, read_law
+
+_POINTS, _STEEP, _STEPS = 81, 25.0, 240
+_PERIODS, _SLOW = 1.5, 10.0  # of the wave that is answered; its period over the law's shortest time
+_FAMILY = (-1.0, 0.0, 1.0)  # shares of its range at which a second variable is held
+_ALIKE = 6.0  # times that wave and answer may differ in size and still be drawn to one scale
+_RATES = (("x", "v"), ("phi", "w"))  # names whose second is the first's derivative, beside NAME and NAME_t
+_PER_SECOND, _SECONDS = ("1/s", "rad/s", "Hz"), ("s", "ms")
+
+Array = NDArray[np.float64]
+Curve = tuple[list[float], list[float]]
 
 
-def sketch(law: str, sees: Sequence[str], parameters: Mapping[str, float]) -> tuple[list[float], list[float]] | None:
-    """Points of the law's first equation over the one variable of its slot that it uses, both scaled to -1 ... 1.
+@dataclass(frozen=True)
+class Sketch:
+    """What a few strokes can show.
 
-    A constant that the law names and nobody gives, as the width of a sign change, is taken as a small part of the axis.
+    Args:
+        curves: x and y, between -1 and 1; over time the wave first and the answer behind it.
+        words: what is drawn over what.
+        over_time: whether the law has a memory.
+    """
+
+    curves: tuple[Curve, ...]
+    words: str
+    over_time: bool = False
+
+
+@dataclass(frozen=True)
+class Sizes:
+    """Numbers that a law is drawn with.
+
+    Args:
+        parameters: of the effect, at sizes that show, with their units.
+        fixed: constants of its class.
+        around: parameters of the model, for those that its slot has too.
+        written: the constants, as the class writes them.
+    """
+
+    parameters: Mapping[str, tuple[float, str]]
+    fixed: Mapping[str, float]
+    around: Mapping[str, tuple[float, str]]
+    written: str = ""
+
+    def numbers(self) -> dict[str, float]:
+        """Name -> value."""
+        own = {name: value for name, (value, _) in self.parameters.items()}
+        return {**{name: value for name, (value, _) in self.around.items()}, **self.fixed, **own}
+
+
+def sketch(law: str, sees: Sequence[str], gives: Sequence[str], sizes: Sizes) -> Sketch | None:
+    """A law as a picture.
+
+    A width beside the variable in a quotient, as that of a sign change, is taken as a small part of the axis.
 
     Args:
         law: equations as the class writes them.
-        sees: variables that the slot offers.
-        parameters: of the effect, at sizes that show.
+        sees, gives: variables of its slot.
+        sizes: of all that it names.
     Returns:
-        x and y, or None for a law with a memory or of several variables.
+        None for a law that is more than a few strokes can show.
     """
-    equation = law.partition(";")[0]
-    left, equals, right = equation.partition("=")
-    if not equals or "der(" in law or "when" in law or "pre(" in law or not re.fullmatch(r"\s*\w+\s*", left):
-        return None
-    names = set(re.findall(r"(?<![\w.])[A-Za-z_]\w*(?!\w*\s*\()", right)) - {"if", "then", "else", "and", "or"}
-    argument = [name for name in sees if name in names]
-    if len(argument) > 1:
-        return None
-    span = _span(right, argument, parameters)
-    steep = dict.fromkeys(names - set(argument) - set(parameters) - set(_FUNCTIONS), span / _STEEP)
     try:
-        tree = ast.parse(_python(right), mode="eval").body
-        x = [span * (2 * k / (_POINTS - 1) - 1) for k in range(_POINTS)]
-        known = {**parameters, **steep}
-        y = [_value(tree, {**known, **dict.fromkeys(argument, at)}) for at in x]
-    except (SyntaxError, ValueError, KeyError, TypeError, ZeroDivisionError, OverflowError):
+        read = read_law(law)
+        target = next(name for name in gives if name in read.values or name in read.rates or name in read.sampled)
+        arguments = [name for name in sees if name in read.needs(target)]
+        if read.remembers(target):
+            return _answer(read, law, target, arguments, sizes)
+        return _curves(read, law, target, arguments, sizes)
+    except (*FAILED, StopIteration, np.linalg.LinAlgError):
         return None
-    high = max(map(abs, y))
+
+
+def sketches(model: Mapping[str, Any]) -> dict[str, Sketch | None]:
+    """Of every effect that a model's slots take.
+
+    Args:
+        model: as `pysim model --json` writes it.
+    """
+    around = {p["name"]: (p["start"], p["unit"]) for p in model["parameters"] if p["start"] is not None}
+    slots = {slot["name"]: slot for slot in model["slots"]}
+    found = {}
+    for one in model["effects"]:
+        own = {p["name"]: (p["nominal"] or p["default"], p["unit"]) for p in one["parameters"]}
+        fixed = constants(one["constants"], {name: value for name, (value, _) in (around | own).items()})
+        slot = slots[one["slot"]]
+        found[one["name"]] = sketch(
+            one["law"], slot["sees"], slot["gives"], Sizes(own, fixed, around, " ".join(one["constants"].values()))
+        )
+    return found
+
+
+def constants(written: Mapping[str, str], known: Mapping[str, float]) -> dict[str, float]:
+    """Values of constants that are numbers, or a few functions of numbers and parameters."""
+    found: dict[str, float] = {}
+    for name, text in written.items():
+        with contextlib.suppress(*FAILED):
+            found[name] = Moment(read_law(f"{name} = {text}"), {**known, **found}, {})[name]
+    return found
+
+
+def _curves(read: Law, law: str, target: str, arguments: Sequence[str], sizes: Sizes) -> Sketch | None:
+    """Over the first variable, for some values of the second."""
+    if len(arguments) > 2:
+        return None
+    spans = {name: _span(law, name, sizes) for name in arguments}
+    known = sizes.numbers() | _widths(law, spans)
+    shares = [2 * k / (_POINTS - 1) - 1 for k in range(_POINTS)]
+    over, other = arguments[0] if arguments else "", arguments[1] if len(arguments) > 1 else ""
+
+    def value(share: float, held: float) -> float:
+        at = {name: spans[name] * where for name, where in ((over, share), (other, held)) if name}
+        return Moment(read, known | at, {})[target]
+
+    rows = [[value(share, held) for share in shares] for held in (_FAMILY if other else (0.0,))]
+    if len({tuple(row) for row in rows}) == 1:
+        rows = rows[:1]
+    low, high = (max(map(abs, half)) for half in (rows[0][: _POINTS // 2], rows[0][_POINTS // 2 + 1 :]))
+    if low > 20 * high:  # a floor that only keeps a quotient finite: a pressure is not below zero
+        rows, shares = [row[_POINTS // 2 :] for row in rows], [2 * s - 1 for s in shares[_POINTS // 2 :]]
+    size = max(abs(v) for row in rows for v in row)
+    if not (math.isfinite(size) and size > 0):
+        return None
+    words = f"{target} over {over}" if over else target
+    words += f", for three values of {other}" if len(rows) > 1 else ""
+    return Sketch(tuple((shares, [v / size for v in row]) for row in rows), words)
+
+
+def _answer(read: Law, law: str, target: str, arguments: Sequence[str], sizes: Sizes) -> Sketch | None:
+    """Over time, while the slot's first variable is a wave and a variable that is its rate goes along."""
+    wave = arguments[0]
+    period, size = _period(law, sizes), _span(law, wave, sizes)
+    known = sizes.numbers()
+    rates = [name for name in arguments[1:] if name == f"{wave}_t" or (wave, name) in _RATES]
+    if len(arguments) > 1 + len(rates):
+        return None
+    states = [name for name in read.rates if name in {target, *read.needs(target)}]
+    values = np.zeros(len(states))
+    kept, due, before = dict.fromkeys(read.sampled, 0.0), dict.fromkeys(read.sampled, 0.0), dict[str, float]()
+    step, turn = _PERIODS * period / _STEPS, 2 * math.pi / period
+    ins, outs = [], []
+    for k in range(_STEPS + 1):
+        time = k * step
+        given = known | {wave: size * math.sin(turn * time)}
+        given |= {name: size * turn * math.cos(turn * time) for name in rates}
+
+        def moment(own: Array, given: dict[str, float] = given) -> Moment:
+            return Moment(read, given | kept | dict(zip(states, map(float, own), strict=True)), before)  # noqa: B023
+
+        now = moment(values)
+        for name, (what, interval) in read.sampled.items():
+            if time >= due[name] - 1e-9 * period:
+                kept[name], due[name] = now.value(what), due[name] + max(now.value(interval), step)
+        now = moment(values)
+        ins.append(given[wave])
+        outs.append(now[target])
+        values = _stepped(read, states, values, moment, step, size)
+        after = moment(values)
+        for name, (what, conditions) in read.resets.items():
+            if name in states and any(after.value(c) and not now.value(c) for c in conditions):
+                values[states.index(name)] = after.value(what)
+        before = {name: after[name] for name in _remembered(read)}
+    return _drawn_over_time(ins, outs, f"{target} and {wave} over time")
+
+
+def _stepped(
+    read: Law, states: Sequence[str], values: Array, moment: Callable[[Array], Moment], step: float, size: float
+) -> Array:
+    """One step that stays calm however fast a state follows: implicit in the law's slope."""
+    if not states:
+        return values
+
+    def rate(own: Array) -> Array:
+        now = moment(own)
+        return np.array([now.value(read.rates[n][0]) / now.value(read.rates[n][1]) for n in states])
+
+    first = rate(values)
+    nudge = 1e-6 * size
+    slope = np.column_stack([(rate(values + nudge * unit) - first) / nudge for unit in np.eye(len(states))])
+    return np.asarray(values + np.linalg.solve(np.eye(len(states)) - step * slope, step * first))
+
+
+def _remembered(read: Law) -> list[str]:
+    """Names that stand in a `pre` somewhere."""
+    used = {name for one in read.values for name in read.needs(one)}
+    return [name.removeprefix("pre ") for name in used if name.startswith("pre ")]
+
+
+def _drawn_over_time(ins: list[float], outs: list[float], words: str) -> Sketch | None:
+    size, high = max(map(abs, ins)), max(map(abs, outs))
     if not (math.isfinite(high) and high > 0):
         return None
-    return [v / span for v in x], [v / high for v in y]
+    both = max(size, high)
+    scales = (both, both) if both < _ALIKE * min(size, high) else (size, high)
+    x = [2 * k / (len(ins) - 1) - 1 for k in range(len(ins))]
+    curves = ((x, [v / scales[0] for v in ins]), (x, [v / scales[1] for v in outs]))
+    return Sketch(curves, words, over_time=True)
 
 
-def _span(right: str, argument: Sequence[str], parameters: Mapping[str, float]) -> float:
-    """Half of the axis: some sizes of a parameter that stands beside the variable in a sum or a comparison, else 1."""
-    for name in argument:
-        for other, value in parameters.items():
-            if value and re.search(rf"\b{name}\s*(?:[-+<>]|>=|<=)\s*-?\s*{other}\b", right):
-                return 3 * abs(value)
-            if value and re.search(rf"\babs\({name}\)\s*/\s*{other}\b", right):
-                return 4 * abs(value)
+def _span(law: str, name: str, sizes: Sizes) -> float:
+    """Half of a variable's axis: some sizes of what stands beside it, or beside any variable, in a sum or a comparison;
+    else 1."""
+    numbers = {n: v for n, (v, unit) in sizes.parameters.items() if unit not in (*_SECONDS, *_PER_SECOND)}
+    for other, value in numbers.items():
+        if value and re.search(rf"\b{name}\s*(?:[-+<>]|>=|<=)\s*-?\s*{other}\b", law):
+            return 3 * abs(value)
+        if value and re.search(rf"\babs\({name}\)\s*/\s*{other}\b", law):
+            return 4 * abs(value)
+    for other, value in (numbers | dict(sizes.fixed)).items():
+        if value and re.search(rf"\b{name}\s*\+\s*{other}\b|(?:[<>]=?|[a-z]\s*[-+])\s*-?\s*{other}\b(?!\s*[*/^])", law):
+            return 3 * abs(value)
     return 1.0
 
 
-def _python(text: str) -> str:
-    """An expression of Modelica as one of Python; `if` within brackets too."""
-    text = text.strip().replace("^", "**").replace("\n", " ")
-    inner = re.fullmatch(r"noEvent\((.*)\)", text, re.S)
-    text = inner[1] if inner else text
-    found = _IF.fullmatch(text)
-    if found is None:
-        return text
-    condition, then, other = found.groups()
-    return f"(({_python(then)}) if ({condition}) else ({_python(other)}))"
+def _widths(law: str, spans: Mapping[str, float]) -> dict[str, float]:
+    """What a variable is divided by, as a small part of its axis, where nobody gives it or it is a constant."""
+    found: dict[str, float] = {}
+    for name, span in spans.items():
+        for other in re.findall(rf"\b{name}\s*/\s*([a-z]\w*)", law):
+            found[other] = span / _STEEP
+    return found
 
 
-def _value(node: ast.expr, names: Mapping[str, float]) -> float:
-    """Of a tree of numbers, names and the few functions above; anything else is refused."""
-    if isinstance(node, ast.Constant) and isinstance(node.value, int | float):
-        return float(node.value)
-    if isinstance(node, ast.Name):
-        return names[node.id]
-    if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub):
-        return -_value(node.operand, names)
-    if isinstance(node, ast.BinOp):
-        return _BINARY[type(node.op)](_value(node.left, names), _value(node.right, names))
-    if isinstance(node, ast.IfExp):
-        return _value(node.body if _value(node.test, names) else node.orelse, names)
-    if isinstance(node, ast.Compare) and len(node.ops) == 1:
-        return _COMPARED[type(node.ops[0])](_value(node.left, names), _value(node.comparators[0], names))
-    if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and not node.keywords:
-        return float(_FUNCTIONS[node.func.id](*(_value(one, names) for one in node.args)))
-    raise ValueError("not a law that can be drawn")
-
-
-def _power(a: float, b: float) -> float:
-    if abs(b) > 20:
-        raise ValueError("not a law that can be drawn")
-    return float(math.copysign(abs(a) ** b, a) if b % 2 else abs(a) ** b)
-
-
-_BINARY: Mapping[type[ast.operator], Callable[[float, float], float]] = {
-    ast.Add: lambda a, b: a + b, ast.Sub: lambda a, b: a - b, ast.Mult: lambda a, b: a * b,
-    ast.Div: lambda a, b: a / b, ast.Pow: _power,
-}  # fmt: skip
-_COMPARED: Mapping[type[ast.cmpop], Callable[[float, float], float]] = {
-    ast.Gt: lambda a, b: a > b, ast.Lt: lambda a, b: a < b, ast.GtE: lambda a, b: a >= b, ast.LtE: lambda a, b: a <= b,
-}  # fmt: skip
+def _period(law: str, sizes: Sizes) -> float:
+    """Of a wave that the law's times show in, s; 1 for a law without one."""
+    times = []
+    for name, (value, unit) in {**sizes.around, **sizes.parameters}.items():
+        if value and re.search(rf"\b{name}\b", f"{law} {sizes.written}"):
+            times += [abs(value)] if unit in _SECONDS else [1 / abs(value)] if unit in _PER_SECOND else []
+    return _SLOW * min(times, default=1 / _SLOW)

@@ -103,7 +103,7 @@ class Batch:
             if path.is_file() and path.suffix.lower() == ".zip":
                 try:
                     self._unpack(path)
-                except _DAMAGED as error:
+                except (*_DAMAGED, OSError) as error:
                     raise BadInput(f"{path.name} cannot be unpacked: {error}; pack it again") from error
                 path.unlink()
 

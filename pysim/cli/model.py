@@ -33,6 +33,8 @@ def run(args: argparse.Namespace) -> int:
     print(_text(model, slots, effects))
     if args.json:
         found = _data(model, class_name, slots, effects) | {"structure": _structure(class_name, args.library)}
+        constants = _constants(effects, args.library)
+        found["effects"] = [one | {"constants": constants[one["name"]]} for one in found["effects"]]
         write_file(args.json, json.dumps(found, indent=1, allow_nan=False) + "\n")
     return 0
 
@@ -85,6 +87,20 @@ def _effect(effect: Effect) -> dict[str, Any]:
     ]
     about = {"name": effect.name, "slot": effect.slot, "class": effect.class_name, "about": effect.description}
     return {**about, "law": effect.law, "parameters": parameters}
+
+
+def _constants(effects: tuple[Effect, ...], libraries: list[Path]) -> dict[str, dict[str, str]]:
+    """Effect -> what else its law names: values, as written, of constants and of parameters that nobody sets."""
+    from pysim.effects import STANDARD_LIBRARY
+    from pysim.effects._library import Libraries
+
+    classes = Libraries([STANDARD_LIBRARY, *libraries]).classes
+    found = {}
+    for effect in effects:
+        own = {parameter.name for parameter in effect.parameters}
+        declared = [d for d in classes[effect.class_name].declarations if d.prefixes & {"constant", "parameter"}]
+        found[effect.name] = {d.name: d.value for d in declared if d.value and d.name not in own}
+    return found
 
 
 def _of(model: Model, causality: str) -> list[Variable]:

@@ -12,8 +12,8 @@ from nicegui import background_tasks, ui
 
 from pysim.app.description import UNITS, change_description, described
 from pysim.app.desk import Desk
-from pysim.app.pages.common import amount, attempt, choose, counted
-from pysim.app.parts import box, button, card, note, text
+from pysim.app.pages.common import amount, attempt, counted
+from pysim.app.parts import Choice, box, button, card, note, text
 from pysim.app.upload import LOGS
 from pysim.io import column_names, read_thesis_folder
 from pysim.types import BadInput, MeasuredSignal
@@ -51,7 +51,7 @@ def describe_form(desk: Desk) -> None:
         with box("row"):
             text("span", "They are")
             with box("form").style("width: 220px"):
-                choose(_KINDS, draft["kind"], partial(_set, draft, "kind"), "kind of the logs")
+                Choice("kind of the logs", _KINDS, draft["kind"], partial(_set, draft, "kind"))
             button("Use these logs", lambda: _use(desk, logs, columns, draft["kind"]), "main")
 
 
@@ -75,11 +75,11 @@ def _row(desk: Desk, column: dict[str, Any], *, fixed: bool) -> None:
     name._props["disabled"] = fixed
     name.on("change", lambda event: _set(column, "name", event.args), js_handler="(e) => emit(e.target.value)")
     label = f"of column {column['number']}"
-    choose(_ROLES, column["role"], partial(_set, column, "role"), f"role {label}")
-    choose(("", *UNITS), column["unit"], partial(_set, column, "unit"), f"unit {label}")
+    Choice(f"role {label}", _ROLES, column["role"], partial(_set, column, "role"))
+    Choice(f"unit {label}", ("", *UNITS), column["unit"], partial(_set, column, "unit"))
     variables = [str(v[0]) for v in (desk.model or {}).get("variables", [])]
     options = list(dict.fromkeys(["", column["variable"], *variables]))
-    choose(options, column["variable"], partial(_set, column, "variable"), f"variable {label}")
+    Choice(f"variable {label}", options, column["variable"], partial(_set, column, "variable"))
     amount(column["noise"], partial(_set, column, "noise"), f"noise {label}")
 
 

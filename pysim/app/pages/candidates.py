@@ -11,7 +11,6 @@ from pysim.app.answers import Answer
 from pysim.app.desk import Desk
 from pysim.app.pages.common import attempt, busy, ended, nothing, start
 from pysim.app.parts import box, button, card, curve, head, live, text
-from pysim.app.sketch import sketch
 from pysim.types.diagnosis import NONE, UNKNOWN
 
 
@@ -80,7 +79,7 @@ def _candidate(desk: Desk, rank: int, row: Mapping[str, Any], top: float, groups
         'role="listitem"'
     ):
         text("span", str(rank) if "score" in row else "·", "rank")
-        curve(_points(desk, known))
+        curve(desk.sketches.get(name))
         with box("tight"):
             _named(known or {"name": name}, tied=tied)
         _gain(row, top)
@@ -89,7 +88,7 @@ def _candidate(desk: Desk, rank: int, row: Mapping[str, Any], top: float, groups
 
 def effect_row(desk: Desk, effect: Mapping[str, Any]) -> None:
     """An effect in three cells: sketch, name with law, and what tries it."""
-    curve(_points(desk, effect))
+    curve(desk.sketches.get(str(effect["name"])))
     with box("tight candidate-words"):
         _named(effect)
     _trying(desk, str(effect["name"]))
@@ -125,14 +124,6 @@ def _gain(row: Mapping[str, Any], top: float) -> None:
         text("span", f"{share} ({how})" if score > 0 else f"does not pay ({how})")
         sizes = ", ".join(f"{name} {value:.4g}" for name, value in row["parameters"].items() if value is not None)
         text("span", sizes, "small mono")
-
-
-def _points(desk: Desk, known: Mapping[str, Any] | None) -> tuple[list[float], list[float]] | None:
-    if known is None:
-        return None
-    slots = (desk.model or {}).get("slots", [])
-    sees = next((slot["sees"] for slot in slots if slot["name"] == known["slot"]), ())
-    return sketch(str(known["law"]), sees, {p["name"]: p["nominal"] or p["default"] for p in known["parameters"]})
 
 
 def _try(desk: Desk, name: str) -> None:

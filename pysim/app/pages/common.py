@@ -79,18 +79,6 @@ def segments(options: list[tuple[str, str]], chosen: str, pick: Callable[[str], 
             one._props["aria-pressed"] = "true" if key == chosen else "false"
 
 
-def choose(options: Any, chosen: str, pick: Callable[[str], Any], label: str) -> None:
-    """A plain list to choose from; its texts are texts."""
-    with ui.element("select") as field:
-        field._props["aria-label"] = label
-        for one in options:
-            option = text("option", str(one))
-            option._props["value"] = str(one)
-            if one == chosen:
-                option._props["selected"] = True
-    field.on("change", lambda event: pick(str(event.args)), js_handler="(e) => emit(e.target.value)")
-
-
 def amount(value: Any, put: Callable[[float | None], Any], label: str) -> None:
     """A number that may be left empty."""
     field = ui.element("input").props("type=number step=any min=0")

@@ -11,8 +11,8 @@ from nicegui import background_tasks, ui
 from pysim.app.description import UNITS, change_description, read_description
 from pysim.app.desk import Desk, Loaded
 from pysim.app.pages.bare import describe_form
-from pysim.app.pages.common import amount, attempt, busy, choose, counted, ended, start
-from pysim.app.parts import Chart, Drop, Table, box, button, card, head, live, note, say, text
+from pysim.app.pages.common import amount, attempt, busy, counted, ended, start
+from pysim.app.parts import Chart, Choice, Drop, Table, box, button, card, head, live, note, say, text
 from pysim.app.records import MOST, measured_overlay
 from pysim.identify.data_check import DataCheck, RecordCheck
 from pysim.types import BadInput
@@ -172,11 +172,11 @@ def _signal(desk: Desk, name: str, section: Mapping[str, Any], variables: list[s
 
     text("b", name)
     text("span", str(section.get("role", "")))
-    choose(UNITS, str(section.get("unit", "")), lambda value: put("unit", value), f"unit of {name}")
+    Choice(f"unit of {name}", UNITS, str(section.get("unit", "")), lambda value: put("unit", value))
     variable = str(section.get("variable", name))
     if variables:
         options = list(dict.fromkeys([variable, *variables]))
-        choose(options, variable, lambda value: put("variable", value), f"variable for {name}")
+        Choice(f"variable for {name}", options, variable, lambda value: put("variable", value))
     else:
         text("span", variable)
     for key in ("noise", "resolution"):

@@ -108,3 +108,23 @@ def test_a_description_cannot_name_files_elsewhere(project: Project) -> None:
 def test_what_is_no_use_is_refused_with_a_remedy(project: Project, files: dict[str, bytes], message: str) -> None:
     with pytest.raises(BadInput, match=message):
         adopt(batch(project, files), project)
+
+
+def test_a_link_in_an_archive_is_no_link_any_more(project: Project) -> None:
+    (project.folder.parent / "secret.txt").write_text("0 1\n")
+    data = io.BytesIO()
+    with zipfile.ZipFile(data, "w") as archive:
+        link = zipfile.ZipInfo("logs/a.txt")
+        link.external_attr = 0o120777 << 16  # a symbolic link, as Unix packs it
+        archive.writestr(link, "../../../secret.txt")
+    adopt(batch(project, {"a.zip": data.getvalue()}), project)
+    assert not (project.data / "a.txt").is_symlink()
+    assert (project.data / "a.txt").read_text() == "../../../secret.txt"
+
+
+def test_a_name_that_is_a_folder_too_is_refused_in_a_sentence(project: Project) -> None:
+    inside = batch(project, {"a.zip": packed({"x/b.txt": b"0 1\n", "x": b"0 1\n"})})
+    with pytest.raises(BadInput, match=r"a.zip cannot be unpacked: .*; pack it again"):
+        adopt(inside, project)
+    assert not project.data.exists()
+    assert list((project.folder / "uploads").iterdir()) == []
