@@ -25,7 +25,7 @@ class Case:
     about: str
     group: str = "methods"  # one of GROUPS
     quick: bool = False  # part of the set that continuous integration runs
-    seconds: float = 60.0  # what it takes on two idle cores, roughly; for the progress bar
+    seconds: float = 60.0  # what it takes on two idle cores, roughly, with nothing compiled before
 
     def run(self) -> Iterable[Finding]:
         """Findings, one by one as they come."""
@@ -65,21 +65,21 @@ CASES: Mapping[str, Case] = MappingProxyType(
             "FMU against the independent simulation, every point",
             "thesis",
             quick=True,
-            seconds=20,
+            seconds=11,
         ),
         "pump-time": Case(
             "validation.pump_time.case",
             "FMU against the independent simulation over time, ME and CS",
             "fmus",
             quick=True,
-            seconds=6,
+            seconds=4,
         ),
         "demo-table": Case(
             "validation.demo_table.case",
             "the demo against the independent result and the thesis",
             "thesis",
             quick=True,
-            seconds=12,
+            seconds=6,
         ),
         "native-loop": Case(
             "validation.benchmarks.native_loop", "time and accuracy against FMPy's CVODE loop", "speed", seconds=60
@@ -88,91 +88,99 @@ CASES: Mapping[str, Case] = MappingProxyType(
             "validation.blackbox.case", "Table 4.1 comes back; 95 % intervals hold the truth", "methods", seconds=180
         ),
         "effect-pairs": Case(
-            "validation.effects.case", "every two effects of the catalogue build, vanish and run", "fmus", seconds=600
+            "validation.effects.case", "every two effects of the catalogue build, vanish and run", "fmus", seconds=250
         ),
         "friction": Case(
             "validation.friction.case",
             "thesis Table 6.2 found again from ten pulses per revolution",
             "methods",
-            seconds=120,
+            seconds=29,
         ),
         "chirp": Case(
             "validation.chirp.case",
             "one chirp against stepped sines on a model whose directions differ",
             "methods",
-            seconds=60,
+            seconds=8,
         ),
         "multisine": Case(
             "validation.multisine.case",
             "gain, noise, even and odd distortion where theory knows them",
             "methods",
-            seconds=120,
+            seconds=35,
         ),
         "virtual-bench": Case(
             "validation.virtual_bench.case",
             "the virtual bench against an independent plant's logs",
             "methods",
-            seconds=60,
+            quick=True,
+            seconds=2,
         ),
         "pump-flow": Case(
             "validation.pump_flow.case",
             "mean flow and ripple of the pump: known numbers and the FMU",
             "thesis",
             quick=True,
-            seconds=20,
+            seconds=1,
         ),
         "ripple": Case(
-            "validation.ripple.case", "the pump's ripple behind a hose and at a relief valve", "circuits", seconds=60
+            "validation.ripple.case",
+            "the pump's ripple behind a hose and at a relief valve",
+            "circuits",
+            quick=True,
+            seconds=2,
         ),
         "load-circuit": Case(
             "validation.load_circuit.case",
             "linear models, energy and controllers of the test bench",
             "circuits",
-            seconds=60,
+            quick=True,
+            seconds=1,
         ),
         "rig-diagnosis": Case(
             "validation.rig_diagnosis.case",
             "the test bench's missing friction is named and added, and nothing where nothing is missing",
             "diagnosis",
-            seconds=240,
+            seconds=60,
         ),
         "tuning": Case(
-            "validation.tuning.case", "gains of thesis Table 6.1 back from their margins", "circuits", True, 10
+            "validation.tuning.case",
+            "gains of thesis Table 6.1 back from their margins",
+            "circuits",
+            quick=True,
+            seconds=1,
         ),
         "libcosim": Case(
             "validation.libcosim.case",
             "the test bench as three FMUs under libcosim, wired and as .ssp",
             "circuits",
-            seconds=10,
+            quick=True,
+            seconds=1,
         ),
         "cosim-speed": Case(
-            "validation.benchmarks.cosim_speed",
-            "a co-simulation step beside FMPy's and libcosim's",
-            "speed",
-            seconds=20,
+            "validation.benchmarks.cosim_speed", "a co-simulation step beside FMPy's and libcosim's", "speed", seconds=4
         ),
         "cosim": Case(
             "validation.cosim.case",
             "co-simulation against closed forms and a monolithic rig; cost of a step",
             "circuits",
             quick=True,
-            seconds=15,
+            seconds=8,
         ),
         "rig-control": Case(
             "validation.rig_control.case",
             "the rig under Python controllers: every way alike, steps, heave, cost",
             "circuits",
-            seconds=90,
+            seconds=17,
         ),
         "examples": Case(
             "validation.examples.case",
             "every model that runs by itself against another solver's stored result",
             "circuits",
             quick=True,
-            seconds=60,
+            seconds=2,
         ),
         "every-class": Case(
-            "validation.examples.every_class", "every model and block of the library compiles", "circuits", seconds=240
+            "validation.examples.every_class", "every model and block of the library compiles", "circuits", seconds=120
         ),
         "compilers": Case(
             "validation.compilers.case",
@@ -181,7 +189,7 @@ CASES: Mapping[str, Case] = MappingProxyType(
             seconds=600,
         ),
         "fit-bench-01": Case(
-            "validation.fit_bench.case", "an independent plant's logs fitted to their noise", "methods", seconds=60
+            "validation.fit_bench.case", "an independent plant's logs fitted to their noise", "methods", seconds=6
         ),
         "fit-speed": Case(
             "validation.fit_speed.case",
@@ -196,19 +204,19 @@ CASES: Mapping[str, Case] = MappingProxyType(
             "validation.accuracy.case",
             "black box, locked, free and diagnosed model of one pump under thesis Tables 1.3 and 1.4",
             "thesis",
-            seconds=40,
+            seconds=25,
         ),
         "fit-coverage": Case(
             "validation.fit_coverage.case",
             "95 percent intervals hold the truth; held-out error",
             "methods",
-            seconds=400,
+            seconds=130,
         ),
         "sensitivity": Case(
-            "validation.sensitivity.case", "exact derivatives of a whole fit against differences", "methods", seconds=60
+            "validation.sensitivity.case", "exact derivatives of a whole fit against differences", "methods", seconds=25
         ),
         "blind-plant": Case(
-            "validation.blind.proof", "the blind benchmark's plant against another and the FMU", "diagnosis", seconds=60
+            "validation.blind.proof", "the blind benchmark's plant against another and the FMU", "diagnosis", seconds=9
         ),
         "blind-effects": Case(
             "validation.blind.catalogue",
@@ -223,13 +231,13 @@ CASES: Mapping[str, Case] = MappingProxyType(
             "validation.diagnosis.case",
             "sixteen data sets of another author's plant diagnosed",
             "diagnosis",
-            seconds=300,
+            seconds=400,
         ),
         "real-measurements": Case(
             "validation.real_measurements.case", "why the locked model cannot fit; the load", "diagnosis", seconds=120
         ),
         "slow-tests": Case(
-            "validation.slow_tests.case", "the tests that the test command leaves out", "methods", seconds=900
+            "validation.slow_tests.case", "the tests that the test command leaves out", "methods", seconds=90
         ),
         "wine": Case(
             "validation.wine.case",
@@ -237,25 +245,58 @@ CASES: Mapping[str, Case] = MappingProxyType(
             "fmus",
             seconds=60,
         ),
-        "figure-2-1": Case(_THESIS + "figure_2_1.case", "command of a stepped-sine test", "thesis", True, 2),
-        "figure-2-2": Case(_THESIS + "figure_2_2.case", "sines fitted to responses; Figure 2.3", "thesis", True, 10),
-        "figure-2-4": Case(_THESIS + "figure_2_4.case", "Bode plot and five poles; Figure 2.5", "thesis", True, 15),
-        "figure-3-9": Case(_THESIS + "figure_3_9.case", "ripple flow; Figures 3.10, 3.11", "thesis", True, 10),
-        "figure-4-1": Case(_THESIS + "figure_4_1.case", "steady flow over the command", "thesis", True, 10),
-        "figure-4-2": Case(_THESIS + "figure_4_2.case", "load against no load; Figure 4.3", "thesis", True, 3),
-        "figure-4-4": Case(_THESIS + "figure_4_4.case", "chirp; Figures 2.6, 2.7, 4.5", "thesis", seconds=40),
-        "figure-4-6": Case(_THESIS + "figure_4_6.case", "models over time; Figure 4.7, Table 4.9", "thesis", True, 20),
-        "figure-4-9": Case(_THESIS + "figure_4_9.case", "ripple before and after a hose", "thesis", seconds=30),
-        "figure-4-11": Case(_THESIS + "figure_4_11.case", "relief valve shaken by the ripple", "thesis", seconds=60),
-        "figure-5-15": Case(_THESIS + "figure_5_15.case", "heave of a vessel; Figure 5.16", "thesis", True, 10),
-        "figure-6-1": Case(_THESIS + "figure_6_1.case", "both loops; Figure 6.2, Table 6.1", "thesis", True, 3),
-        "figure-6-3": Case(_THESIS + "figure_6_3.case", "friction of both motors; Table 6.2", "thesis", True, 10),
-        "appendix-a": Case(_THESIS + "appendix_a.case", "wave spectrum and a wave of it", "thesis", True, 4),
-        "appendix-c": Case(_THESIS + "appendix_c.case", "Bode plots at every offset", "thesis", True, 20),
-        "table-4-2": Case(_THESIS + "table_4_2.case", "pressure drop over the orifice", "thesis", True, 2),
-        "table-5-1": Case(_THESIS + "table_5_1.case", "parameters of the linear models", "thesis", True, 1),
+        "figure-2-1": Case(
+            _THESIS + "figure_2_1.case", "command of a stepped-sine test", "thesis", quick=True, seconds=1
+        ),
+        "figure-2-2": Case(
+            _THESIS + "figure_2_2.case", "sines fitted to responses; Figure 2.3", "thesis", quick=True, seconds=2
+        ),
+        "figure-2-4": Case(
+            _THESIS + "figure_2_4.case", "Bode plot and five poles; Figure 2.5", "thesis", quick=True, seconds=1
+        ),
+        "figure-3-9": Case(
+            _THESIS + "figure_3_9.case", "ripple flow; Figures 3.10, 3.11", "thesis", quick=True, seconds=1
+        ),
+        "figure-4-1": Case(
+            _THESIS + "figure_4_1.case", "steady flow over the command", "thesis", quick=True, seconds=1
+        ),
+        "figure-4-2": Case(
+            _THESIS + "figure_4_2.case", "load against no load; Figure 4.3", "thesis", quick=True, seconds=1
+        ),
+        "figure-4-4": Case(
+            _THESIS + "figure_4_4.case", "chirp; Figures 2.6, 2.7, 4.5", "thesis", quick=True, seconds=6
+        ),
+        "figure-4-6": Case(
+            _THESIS + "figure_4_6.case", "models over time; Figure 4.7, Table 4.9", "thesis", quick=True, seconds=1
+        ),
+        "figure-4-9": Case(
+            _THESIS + "figure_4_9.case", "ripple before and after a hose", "thesis", quick=True, seconds=17
+        ),
+        "figure-4-11": Case(
+            _THESIS + "figure_4_11.case", "relief valve shaken by the ripple", "thesis", quick=True, seconds=9
+        ),
+        "figure-5-15": Case(
+            _THESIS + "figure_5_15.case", "heave of a vessel; Figure 5.16", "thesis", quick=True, seconds=2
+        ),
+        "figure-6-1": Case(
+            _THESIS + "figure_6_1.case", "both loops; Figure 6.2, Table 6.1", "thesis", quick=True, seconds=1
+        ),
+        "figure-6-3": Case(
+            _THESIS + "figure_6_3.case", "friction of both motors; Table 6.2", "thesis", quick=True, seconds=2
+        ),
+        "appendix-a": Case(
+            _THESIS + "appendix_a.case", "wave spectrum and a wave of it", "thesis", quick=True, seconds=1
+        ),
+        "appendix-c": Case(_THESIS + "appendix_c.case", "Bode plots at every offset", "thesis", quick=True, seconds=3),
+        "table-4-2": Case(
+            _THESIS + "table_4_2.case", "pressure drop over the orifice", "thesis", quick=True, seconds=1
+        ),
+        "table-4-4": Case(_THESIS + "table_4_4.case", "black boxes of a known plant", "thesis", quick=True, seconds=2),
+        "table-5-1": Case(
+            _THESIS + "table_5_1.case", "parameters of the linear models", "thesis", quick=True, seconds=2
+        ),
         "importers": Case(
-            "validation.importers.case", "what importers and the checker make of our FMUs", "fmus", seconds=90
+            "validation.importers.case", "what importers and the checker make of our FMUs", "fmus", seconds=45
         ),
     }
 )

@@ -1,0 +1,1 @@
+"""Table 4.4: transfer functions against the responses they were fitted to."""
