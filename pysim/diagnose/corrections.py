@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
@@ -35,6 +36,8 @@ _ALIKE = 1e-2
 _WORTH = 1.0
 # Mean square from which a model is too far off for saying who is to blame.
 _OFF = 2.0
+# Standard deviations that noise alone seldom leaves more of.
+_RARE = 3.1
 # Refits at most until the blamed are the same again, and until shapes and shifts of nuisances are.
 _ROUNDS, _CLOSER = 3, 4
 
@@ -122,6 +125,12 @@ def blamed(ruler: Ruler, point: Evaluation) -> Blame:
 def is_off(ruler: Ruler, point: Evaluation) -> bool:
     """Whether much more than noise is left with every suspect allowed for: straight lines do not reach the truth."""
     return point.cost > _OFF * ruler.freedom
+
+
+def as_noise(ruler: Ruler, point: Evaluation) -> bool:
+    """Whether no more is left than noise leaves in 999 of 1000 cases: no other start would end much lower."""
+    freedom = ruler.freedom - point.x.size
+    return point.cost < freedom + _RARE * math.sqrt(2 * freedom)
 
 
 def implausible(ruler: Ruler, point: Evaluation) -> tuple[Suspect, ...]:

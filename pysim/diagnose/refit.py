@@ -39,11 +39,15 @@ def refit(ruler: Ruler, what: Extended, first: Evaluation, *, rounds: int = 4, s
 
 
 def refit_from(
-    ruler: Ruler, what: Extended, first: Evaluation, *, rounds: int = 4, steps: int = 6
+    ruler: Ruler, what: Extended, first: Evaluation, *, rounds: int = 4, steps: int = 6, slow_first: bool = True
 ) -> tuple[Evaluation, Array]:
-    """The same, and where the slopes were run, (n,)."""
+    """The same, and where the slopes were run, (n,).
+
+    Args:
+        slow_first: whether what is slow is fitted first where the end is far off.
+    """
     best, slopes_at = _rounds(ruler, what, first, rounds, steps)
-    if not is_far(ruler, best):
+    if not slow_first or not is_far(ruler, best):
         return best, slopes_at
     other = graduated(ruler, what, first)
     if other is None:

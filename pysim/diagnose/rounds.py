@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from pysim.diagnose import decide
 from pysim.diagnose.blame import Blame
 from pysim.diagnose.contenders import Contender
-from pysim.diagnose.corrections import blamed, evidence, is_off, recounted
+from pysim.diagnose.corrections import as_noise, blamed, evidence, is_off, recounted
 from pysim.diagnose.fitted import Fitted
 from pysim.diagnose.nuisance import Suspect
 from pysim.diagnose.null import chance
@@ -236,7 +236,7 @@ def start_amount(effect: Effect, amount: float) -> float:
 
 
 def _leader(story: Story, tried: Tried, one: Contender, at: Fitted, nominal: Fitted | None) -> Fitted | None:
-    """With slopes of its own; from the model's own parameters too where much is left from where it stands."""
+    """With slopes of its own; from the model's own parameters too where that leaves more than noise does."""
 
     def refitted_from(x: Array) -> tuple[Evaluation, Array] | None:
         first = one.ruler.evaluation(one.what, x)
@@ -244,7 +244,7 @@ def _leader(story: Story, tried: Tried, one: Contender, at: Fitted, nominal: Fit
 
     def find() -> tuple[Evaluation, Array] | None:
         end = refitted_from(at.point.x)
-        if nominal is None or (end is not None and not is_off(one.ruler, end[0])):
+        if nominal is None or (end is not None and as_noise(one.ruler, end[0])):
             return end
         other = refitted_from(_beside(nominal, one, at))
         ends = [e for e in (end, other) if e is not None]

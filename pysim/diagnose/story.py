@@ -35,7 +35,7 @@ from pysim.diagnose.fitted import Fitted
 from pysim.diagnose.journal import Journal, identity
 from pysim.diagnose.ledger import beside, ledger_step
 from pysim.diagnose.nuisance import Suspect, undisturbed
-from pysim.diagnose.refit import refit, refit_from
+from pysim.diagnose.refit import refit_from
 from pysim.diagnose.residuals import Ruler, rulers
 from pysim.diagnose.subject import Extended, Subject, extended
 from pysim.diagnose.where import failures
@@ -211,8 +211,9 @@ class Story:
 
             def found(ruler: Ruler = ruler) -> tuple[Evaluation, Array]:
                 if not plain:
-                    plain.append(Fitted(what, refit(ruler.plain, what, start.point)))
-                return refit_from(ruler, what, recounted(ruler.plain, ruler, plain[0]).point)
+                    plain.append(Fitted(what, refit_from(ruler.plain, what, start.point, slow_first=False)[0]))
+                first = recounted(ruler.plain, ruler, plain[0]).point
+                return refit_from(ruler, what, first, slow_first=False)
 
             part = f"{part} without {', '.join(f'{s.kind} {s.signal}'.strip() for s in absurd)}"
             again = self.fitted(what, part, found)
