@@ -142,39 +142,56 @@ def _curves(read: Law, law: str, target: str, arguments: Sequence[str], sizes: S
 
 def _answer(read: Law, law: str, target: str, arguments: Sequence[str], sizes: Sizes) -> Sketch | None:
     """Over time, while the slot's first variable is a wave and a variable that is its rate goes along."""
-    wave = arguments[0]
+    wave, *others = arguments
     period, size = _period(law, sizes), _span(law, wave, sizes)
-    known = sizes.numbers()
-    rates = [name for name in arguments[1:] if name == f"{wave}_t" or (wave, name) in _RATES]
-    if len(arguments) > 1 + len(rates):
+    if any(name != f"{wave}_t" and (wave, name) not in _RATES for name in others):
         return None
-    states = [name for name in read.rates if name in {target, *read.needs(target)}]
-    values = np.zeros(len(states))
-    kept, due, before = dict.fromkeys(read.sampled, 0.0), dict.fromkeys(read.sampled, 0.0), dict[str, float]()
-    step, turn = _PERIODS * period / _STEPS, 2 * math.pi / period
+    course = _Course(read, [name for name in read.rates if name in {target, *read.needs(target)}], size)
+    known, turn = sizes.numbers(), 2 * math.pi / period
     ins, outs = [], []
     for k in range(_STEPS + 1):
-        time = k * step
-        given = known | {wave: size * math.sin(turn * time)}
-        given |= {name: size * turn * math.cos(turn * time) for name in rates}
-
-        def moment(own: Array, given: dict[str, float] = given) -> Moment:
-            return Moment(read, given | kept | dict(zip(states, map(float, own), strict=True)), before)  # noqa: B023
-
-        now = moment(values)
-        for name, (what, interval) in read.sampled.items():
-            if time >= due[name] - 1e-9 * period:
-                kept[name], due[name] = now.value(what), due[name] + max(now.value(interval), step)
-        now = moment(values)
+        time = k * _PERIODS * period / _STEPS
+        given = known | dict.fromkeys(others, size * turn * math.cos(turn * time))
+        given[wave] = size * math.sin(turn * time)
         ins.append(given[wave])
-        outs.append(now[target])
-        values = _stepped(read, states, values, moment, step, size)
-        after = moment(values)
-        for name, (what, conditions) in read.resets.items():
-            if name in states and any(after.value(c) and not now.value(c) for c in conditions):
-                values[states.index(name)] = after.value(what)
-        before = {name: after[name] for name in _remembered(read)}
+        outs.append(course.go(given, time, _PERIODS * period / _STEPS)[target])
     return _drawn_over_time(ins, outs, f"{target} and {wave} over time")
+
+
+class _Course:
+    """A law with a memory from moment to moment.
+
+    Args:
+        law: its equations.
+        states: names that have a derivative.
+        size: of the wave, by which small steps are judged.
+    """
+
+    def __init__(self, law: Law, states: Sequence[str], size: float) -> None:
+        self._law, self._states, self._size = law, states, size
+        self._values: Array = np.zeros(len(states))
+        self._kept, self._due = dict.fromkeys(law.sampled, 0.0), dict.fromkeys(law.sampled, 0.0)
+        self._before: dict[str, float] = {}
+
+    def go(self, given: Mapping[str, float], time: float, step: float) -> Moment:
+        """What is at a time, s; the states go on by a step, s."""
+
+        def moment(values: Array) -> Moment:
+            own = dict(zip(self._states, map(float, values), strict=True))
+            return Moment(self._law, {**given, **self._kept, **own}, self._before)
+
+        now = moment(self._values)
+        for name, (what, interval) in self._law.sampled.items():
+            if time >= self._due[name] - 1e-6 * step:
+                self._kept[name], self._due[name] = now.value(what), self._due[name] + max(now.value(interval), step)
+        now = moment(self._values)
+        self._values = _stepped(self._law, self._states, self._values, moment, step, self._size)
+        after = moment(self._values)
+        for name, (what, conditions) in self._law.resets.items():
+            if name in self._states and any(after.value(c) and not now.value(c) for c in conditions):
+                self._values[list(self._states).index(name)] = after.value(what)
+        self._before = {name: after[name] for name in _remembered(self._law)}
+        return now
 
 
 def _stepped(
