@@ -2,7 +2,12 @@
 
 from __future__ import annotations
 
+import traceback
+from pathlib import Path
+
 from pysim.types import Outcome
+
+_OURS = Path(__file__).parents[1]
 
 
 class Fault(Exception):
@@ -23,5 +28,14 @@ def fault(name: str, error: Exception) -> Fault:
     if isinstance(error, Fault):
         return error
     outcome = getattr(error, "outcome", Outcome.MODEL_ERROR)
-    kind = "" if hasattr(error, "outcome") else f"{type(error).__name__}: "
-    return Fault(name, f"{kind}{error}", outcome)
+    if hasattr(error, "outcome"):
+        return Fault(name, str(error), outcome)
+    return Fault(name, f"{type(error).__name__}: {error}{_place(error)}", outcome)
+
+
+def _place(error: Exception) -> str:
+    """File and line of a block that is not ours, where it raised."""
+    frames = traceback.extract_tb(error.__traceback__)
+    if not frames or Path(frames[-1].filename).is_relative_to(_OURS):
+        return ""
+    return f" ({Path(frames[-1].filename).name}, line {frames[-1].lineno})"

@@ -6,9 +6,10 @@ from collections import deque
 from collections.abc import Callable, Sequence
 from functools import partial
 from math import isfinite
+from numbers import Real
 from operator import itemgetter
 from struct import Struct
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from pysim.cosim._fault import Fault, fault
 from pysim.cosim._layout import Layout, Row, Wire
@@ -85,12 +86,13 @@ class Sampler:
             for target, source, factor, offset in self._wires:
                 view[target] = factor * view[source] + offset
             inputs = self._read()
+        values: Any = None
         try:
             values = self._step(time, inputs)
             total = sum(values)
             good = total - total == 0 and len(values) == len(self._ports)
         except Exception as error:
-            raise fault(self.name, error) from error
+            raise self._wrong(values, error) from error
         if not good:
             values = self._checked(values)
         if self._delay:
@@ -118,13 +120,19 @@ class Sampler:
         self._values, self._time, self._fresh = values, time, False
         self._write(*values)
 
+    def _wrong(self, values: object, error: Exception) -> Fault:
+        """What to say where the step raised, or what it returned is no row of numbers."""
+        if not isinstance(values, Real):
+            return fault(self.name, error)
+        row = ", ".join(port.name for port in self._ports) + ("," if len(self._ports) == 1 else "")
+        return Fault(self.name, f"its step returned the number {values}; let it return ({row})", Outcome.MODEL_ERROR)
+
     def _checked(self, values: Sequence[float]) -> Sequence[float]:
         """The values, if only their sum is too large; what is wrong with them otherwise."""
         names = [port.name for port in self._ports]
         if len(values) != len(names):
-            raise Fault(
-                self.name, f"its step returned {len(values)} values for {len(names)} outputs", Outcome.MODEL_ERROR
-            )
+            why = f"its step returned {_count(values, 'value')} for {_count(names, 'output')}"
+            raise Fault(self.name, why, Outcome.MODEL_ERROR)
         for name, value in zip(names, values, strict=True):
             if not isfinite(value):
                 raise Fault(self.name, f"its step returned {name} = {value}", Outcome.NOT_FINITE)
@@ -141,3 +149,7 @@ class Sampler:
         self._block.restore(state.block)
         self._values, self._before, self._time, self._fresh = state.values, state.before, state.time, state.fresh
         self._waiting = deque(state.waiting)
+
+
+def _count(row: Sequence[object], what: str) -> str:
+    return f"1 {what}" if len(row) == 1 else f"{len(row)} {what}s"

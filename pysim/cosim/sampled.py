@@ -37,6 +37,11 @@ class Sampled:
         for attribute in ("inputs", "outputs", "step", "state", "restore"):
             if not hasattr(self.block, attribute):
                 raise BadInput(f"{self.name}: {self.block!r} has no {attribute!r}; give a block (docs/cosim.md)")
+        for port in (*self.block.inputs, *self.block.outputs):
+            if not isinstance(port, Port):
+                raise BadInput(
+                    f"{self.name}: its port {port!r} is no Port; write Port(name, unit), as in docs/cosim.md"
+                )
         for name in ("every", "delay"):
             if not isinstance(getattr(self, name), Real):
                 raise BadInput(f"{self.name}: {name} is {getattr(self, name)!r}; give seconds")

@@ -98,6 +98,10 @@ def test_a_block_made_for_another_rate_is_refused() -> None:
         Sampled("c", PI(1.0, 1.0, 0.01), every=0.02)
     with pytest.raises(BadInput, match="has no 'inputs'"):
         Sampled("c", object(), every=0.02)  # type: ignore[arg-type]
+    bare = Gain(1.0)
+    bare.inputs = ("u",)  # type: ignore[assignment]
+    with pytest.raises(BadInput, match="c: its port 'u' is no Port; write Port"):
+        Sampled("c", bare, every=0.02)
 
 
 @pytest.mark.parametrize(("every", "delay"), [(0.015, 0.0), (0.02, 0.005), (0.001, 0.0)])
@@ -120,16 +124,18 @@ class Failing(Clock):
             "nan": lambda: (1.0, float("nan")),
             "few": lambda: (1.0,),
             "text": lambda: "ab",
+            "number": lambda: 3.0,
         }[self.way]()
 
 
 @pytest.mark.parametrize(
     ("way", "words"),
     [
-        ("raise", "t = 0.25 s: c: ZeroDivisionError: integer division or modulo by zero"),
+        ("raise", r"t = 0.25 s: c: ZeroDivisionError: integer .* by zero \(test_sampled\.py, line \d+\)$"),
         ("nan", "t = 0.25 s: c: its step returned read = nan"),
-        ("few", "t = 0.25 s: c: its step returned 1 values for 2 outputs"),
+        ("few", "t = 0.25 s: c: its step returned 1 value for 2 outputs"),
         ("text", "t = 0.25 s: c: TypeError"),
+        ("number", r"t = 0.25 s: c: its step returned the number 3\.0; let it return \(y, read\)"),
     ],
 )
 def test_a_block_that_goes_wrong_is_named(way: str, words: str) -> None:
