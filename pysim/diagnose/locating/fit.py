@@ -13,6 +13,7 @@ from pysim.diagnose.fitted import Fitted
 from pysim.diagnose.locating.laws import KNOTS, UNIT, Law
 from pysim.diagnose.residuals import Ruler
 from pysim.diagnose.screen import column_space
+from pysim.diagnose.strengths import translated
 from pysim.diagnose.subject import Extended
 from pysim.identify.greybox import GaussNewton
 from pysim.identify.greybox.evaluation import Evaluation, bad_point
@@ -255,6 +256,28 @@ def advance(ruler: Ruler, current: Fitted, at: Estimate, *, rounds: int) -> Esti
         if done:
             return at
     return at
+
+
+def begun(ruler: Ruler, current: Fitted, near: Fitted, table: Table, values: Array) -> Estimate | None:
+    """A table that another law is a good guess of; None where it cannot be simulated there.
+
+    Args:
+        current: the model without a term.
+        near: the model with that law, refitted.
+        values: (m,) of that law at the knots.
+    Returns:
+        the table with these values beside the parameters of that model, as smooth as the data ask for around there.
+    """
+    space, told = current.what.space, near.what.space.values(near.point.x)
+    names = translated(current.what, near.what, dict.fromkeys(space.keys, 0.0))
+    x = np.append(space.to_search(np.array([told[name] for name in names])), values / table.unit)
+    point = ruler.evaluation(table.what(current), x)
+    if not point.good:
+        return None
+    span = column_space(point.jacobian[:, :-KNOTS])
+    columns = across(point.jacobian[:, -KNOTS:], span)
+    without = across(point.residual, span) - columns @ x[-KNOTS:]
+    return _estimate(point, table, solve(without, columns, table.knots).smoothing)
 
 
 def _estimate(point: Evaluation, table: Table, before: Array) -> Estimate | None:

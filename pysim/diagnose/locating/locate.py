@@ -1,24 +1,25 @@
-"""Where a term is missing, and what it looks like: no effect is named for it."""
+"""Where a term is missing, and what it looks like."""
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable, Sequence
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from pysim.diagnose.fitted import Fitted
-from pysim.diagnose.locating.fit import Estimate, Table, across, advance, first_order, knots
-from pysim.diagnose.locating.formula import Formula, formula
-from pysim.diagnose.locating.laws import KNOTS, Law, Term, slot_laws, state_laws
+from pysim.diagnose.locating.drawn import Acted, acted
+from pysim.diagnose.locating.fit import Table, advance, begun, first_order, knots
+from pysim.diagnose.locating.found import Base, Found, Named
+from pysim.diagnose.locating.known import Known, known
+from pysim.diagnose.locating.laws import Law, Term, slot_laws, state_laws
 from pysim.diagnose.locating.outside import outside
+from pysim.diagnose.locating.places import TIE, described, in_order, rows
 from pysim.diagnose.locating.runs import patient, seen, thinned
-from pysim.diagnose.locating.shape import Told, shape, told, units
+from pysim.diagnose.locating.same import alike, different, neighbours
 from pysim.diagnose.locating.tone import tones
 from pysim.diagnose.residuals import Ruler
-from pysim.diagnose.screen import column_space
 from pysim.diagnose.subject import Subject
 from pysim.effects import Slot
 from pysim.types import BadInput, Effect, Missing, Model
@@ -29,26 +30,13 @@ Array = NDArray[np.float64]
 Probed = Callable[[Sequence[Effect], Term], Model]
 Say = Callable[[str], None]
 
-# Terms that are fitted together with the parameters, and for how many steps: fewer and fewer go on.
-_STAGES = ((6, 1), (4, 2), (2, 5))
-# Terms whose likelihoods differ by less than this factor's logarithm are not told apart: a named form goes first.
-_TIE = 5.0
-
-
-@dataclass(frozen=True)
-class _Found:
-    """One term with what speaks for it: logarithm of the likelihood over that without a term, and its share.
-
-    `estimate` is of first order where it is not yet `fitted`.
-    """
-
-    law: Law
-    estimate: Estimate = field(repr=False)
-    fitted: bool
-    evidence: float
-    share: float
-    told: Told | None = field(default=None, repr=False)
-    formula: Formula | None = None
+# Terms that are fitted together with the parameters, and for how many steps: fewer and fewer go on. Where the misfit is
+# less than this share of the noise, first order is near the truth.
+_STAGES, _SMALL, _FEW = ((5, 1), (3, 2), (2, 4)), 0.2, ((2, 2),)
+# An effect that takes such a share of the avoidable misfit leaves no term to look for.
+_WHOLE = 0.9
+# Steps for a term that starts near the end of its way.
+_STEPS = 2
 
 
 def locate(
@@ -63,7 +51,8 @@ def locate(
     """Estimate, at each place of the model, the term that would close the gap to the measurements.
 
     A term is a table over one variable that the place sees, straight between its knots and as smooth as the data ask
-    for; the model's free parameters are refitted with it. Tests that show most of the misfit for their time are used.
+    for; the model's free parameters are refitted with it. What no table can hold, because it remembers, is looked for
+    as the effects of the catalogue, each at its place. Tests that show most of the misfit for their time are used.
 
     Args:
         ruler: of what is fitted.
@@ -81,23 +70,46 @@ def locate(
     point = few.evaluation(current.what, current.point.x)
     if not point.good:
         return ()
-    base = _Base.of(Fitted(current.what, point))
+    base = Base.of(Fitted(current.what, point))
+    named = sorted((base.named(one) for one in known(subject, few, base.at, say)), key=lambda one: -one.evidence)
+    say("; ".join(f"{one.one.slot} {100 * one.share:.0f} % ({one.one.text})" for one in named[:3]) or "no effect helps")
     laws = _laws(subject, current.what.model, slots)
-    samples = seen(few, current, laws)
+    samples = seen(few, base.at, laws)
+    spread = [(law, knots(samples[f"{law.slot}|{law.argument}"])) for law in laws]
+    whole = bool(named) and named[0].share > _WHOLE
+    tried = _tried(few, base, _beside(named, spread) if whole else spread, probed, say)
+    running = tried if whole else _fitted(few, base, tried)
+    named = [_acting(base, one, spread) for one in _first_of_place(named)]
+    found = [described(subject, one) for one in (*running, *_drawn(few, base, named, running))]
+    missing = rows(base, in_order(found, named, neighbours(tried)))
+    for row in missing:
+        also = f" {', '.join(row.alike)} would do as well." if row.alike else ""
+        say(f"{row.slot} over {row.depends_on}: {100 * row.share:.1f} % of the misfit.{also} {row.formula}".strip())
+    return missing if whole else _swinging_first(missing, tones(ruler, current, laws, probed), say)
+
+
+def _beside(named: Sequence[Named], laws: Sequence[tuple[Law, Array]]) -> list[tuple[Law, Array]]:
+    """Laws of the places where effects leave nothing, and those over the very same values at other places."""
+    leading = {one.one.slot for one in named if named[0].evidence - one.evidence < TIE}
+    own = [(law, k) for law, k in laws if law.slot in leading]
+    return [(law, k) for law, k in laws if any(law is one or alike(law, k, one, j) for one, j in own)]
+
+
+def _tried(ruler: Ruler, base: Base, laws: Sequence[tuple[Law, Array]], probed: Probed, say: Say) -> list[Found]:
+    """Every law to first order, the best first."""
     tried = []
-    for law in laws:
+    for law, k in laws:
         try:
-            model = probed(current.what.effects, law)
+            model = probed(base.at.what.effects, law)
         except BadInput as error:
             say(f"{law.slot} over {law.argument} could not be looked at: {error}")
             continue
-        found = first_order(few, base.at, base.span, Table(law, model, knots(samples[f"{law.slot}|{law.argument}"])))
+        found = first_order(ruler, base.at, base.span, Table(law, model, k))
         if found is not None:
             tried.append(base.found(found))
     tried.sort(key=lambda found: -found.evidence)
     say(f"looked at {len(tried)} terms: " + ", ".join(f"{f.law.slot} {100 * f.share:.0f} %" for f in tried[:3]))
-    rows = _missing(subject, few, base, tried, say)
-    return _swinging_first(rows, tones(ruler, current, laws, probed), say)
+    return tried
 
 
 def _swinging_first(rows: Sequence[Missing], swings: Sequence[Missing], say: Say) -> tuple[Missing, ...]:
@@ -109,32 +121,6 @@ def _swinging_first(rows: Sequence[Missing], swings: Sequence[Missing], say: Say
     return (*swings, *(row for row in rows if row.slot not in places))
 
 
-@dataclass(frozen=True)
-class _Base:
-    """The model without a term: what refitting takes, and what is left beyond noise."""
-
-    at: Fitted
-    span: Array
-    left: float
-    rows: int
-
-    @classmethod
-    def of(cls, at: Fitted) -> _Base:
-        span = column_space(at.point.jacobian)
-        rest = across(at.point.residual, span)
-        return cls(at, span, float(rest @ rest), at.point.residual.size)
-
-    def found(self, at: Estimate, *, fitted: bool = False) -> _Found:
-        """How much better it gets with a term."""
-        solution = at.solution
-        evidence = 0.5 * self.rows * math.log(self.left / self.rows) - solution.loss
-        noise = max(1.0, solution.left / self.rows)
-        avoidable = self.left - (self.rows - self.span.shape[1])
-        gain = self.left - solution.left - solution.freedom * noise
-        share = float(np.clip(gain / avoidable, 0.0, 1.0)) if avoidable > 0 else 0.0
-        return _Found(at.table.law, at, fitted, evidence, share)
-
-
 def _laws(subject: Subject, model: Model, slots: Sequence[Slot]) -> tuple[Law, ...]:
     """Slots that the catalogue has effects for come first; where it has none for any, all of them."""
     known = {effect.slot for effect in subject.catalogue}
@@ -142,108 +128,53 @@ def _laws(subject: Subject, model: Model, slots: Sequence[Slot]) -> tuple[Law, .
     return slot_laws(chosen, model) if chosen else state_laws(model)
 
 
-def _missing(subject: Subject, ruler: Ruler, base: _Base, tried: Sequence[_Found], say: Say) -> tuple[Missing, ...]:
-    """Fit the best terms, fewer and fewer, and tell all."""
-    running, twins = _different(tried)
-    for count, rounds in _STAGES:
+def _fitted(ruler: Ruler, base: Base, tried: Sequence[Found]) -> list[Found]:
+    """All terms, the best of them fitted, fewer and fewer; what does the same at another place is fitted with it."""
+    running, twins = different(tried)
+    for count, rounds in _FEW if base.left < (1 + _SMALL) * base.rows else _STAGES:
         ahead = [_advanced(ruler, base, found, rounds) for found in running[:count]]
         running = [*sorted(ahead, key=lambda found: -found.evidence), *running[count:]]
-    done = [_described(subject, found) for found in running]
-    done += [_described(subject, _as(found, twin)) for found in done for twin in twins.get(id(found.law), ())]
-    best: dict[str, _Found] = {}
-    for found in _named_first(sorted(done, key=lambda found: (not found.fitted, -found.evidence))):
-        best.setdefault(found.law.slot, found)
-    rows = tuple(_row(base, found, _alike(found, best.values())) for found in best.values())
-    for row in rows:
-        also = f" {', '.join(row.alike)} would do as well." if row.alike else ""
-        say(f"{row.slot} over {row.depends_on}: {100 * row.share:.1f} % of the misfit.{also} {row.formula}".strip())
-    return rows
+    return running + [replace(found, law=twin) for found in running for twin in twins.get(id(found.law), ())]
 
 
-def _different(tried: Sequence[_Found]) -> tuple[list[_Found], dict[int, list[Law]]]:
-    """Terms that do something of their own, and per such a term the laws at other places that do the very same."""
-    different: list[_Found] = []
-    twins: dict[int, list[Law]] = {}
-    for found in tried:
-        same = next((d for d in different if _same(d, found)), None)
-        if same is None:
-            different.append(found)
-        else:
-            twins.setdefault(id(same.law), []).append(found.law)
-    return different, twins
-
-
-def _same(one: _Found, other: _Found) -> bool:
-    return (
-        abs(one.evidence - other.evidence) < 1e-3 * max(abs(one.evidence), 1.0)
-        and abs(one.share - other.share) < 1e-3
-        and one.law.of_rate == other.law.of_rate
-        and one.law.slot != other.law.slot
-    )
-
-
-def _as(found: _Found, law: Law) -> _Found:
-    """The same term at another place."""
-    return replace(found, law=law)
-
-
-def _advanced(ruler: Ruler, base: _Base, found: _Found, rounds: int) -> _Found:
+def _advanced(ruler: Ruler, base: Base, found: Found, rounds: int) -> Found:
     end = advance(ruler, base.at, found.estimate, rounds=rounds)
     return found if end is found.estimate else base.found(end, fitted=True)
 
 
-def _described(subject: Subject, found: _Found) -> _Found:
-    if not found.fitted:
-        return found
-    of, law = told(found.estimate), found.law
-    unit_in, unit_out = units(law, found.estimate.table.model)
-    said = formula(
-        of.knots,
-        of.values,
-        of.doubt,
-        of.absorbed,
-        argument=law.argument,
-        unit_in=unit_in,
-        unit_out=unit_out,
-        slot=law.slot,
-        catalogue=subject.catalogue,
-    )
-    return replace(found, told=of, formula=said)
+def _first_of_place(named: Sequence[Named]) -> list[Named]:
+    """Per place the best effect, the best place first."""
+    best: dict[str, Named] = {}
+    for one in named:
+        best.setdefault(one.one.slot, one)
+    return list(best.values())
 
 
-def _named_first(found: list[_Found]) -> list[_Found]:
-    """Of those that the data do not tell apart, one whose form a catalogue effect has at that very place goes first."""
-    if not found:
-        return found
-    near = [f for f in found if found[0].evidence - f.evidence < _TIE]
-    near.sort(key=lambda f: not (f.formula and f.formula.effect))
-    return near + [f for f in found if not any(f is g for g in near)]
+def _acting(base: Base, one: Named, laws: Sequence[tuple[Law, Array]]) -> Named:
+    """With what the effect does over the variables that its place sees."""
+    own = [(law, k) for law, k in laws if law.slot == one.one.slot]
+    return replace(one, acted=acted(one.one, base.at, own)) if own else one
 
 
-def _alike(found: _Found, others: Iterable[_Found]) -> tuple[str, ...]:
-    """Other places whose term the data do not tell from this one."""
-    return tuple(
-        other.law.slot
-        for other in others
-        if other is not found and other.fitted is found.fitted and abs(other.evidence - found.evidence) < _TIE
-    )
+def _drawn(ruler: Ruler, base: Base, named: Sequence[Named], running: Sequence[Found]) -> list[Found]:
+    """Terms at the places of the effects that lead, estimated from the measurements; none where no table can hold it.
+
+    They start from what the effects do there, which is near the end of their way.
+    """
+    leading = max([found.evidence for found in running if found.fitted] + [one.evidence for one in named], default=0.0)
+    found: list[Found] = []
+    for one in named:
+        own = [f for f in running if f.law.slot == one.one.slot]
+        if not own or one.evidence < leading - TIE:
+            continue
+        if one.acted is None:
+            found.append(_advanced(ruler, base, max(own, key=lambda f: f.evidence), _STEPS))
+        elif not one.acted.remembers:
+            found += _begun(ruler, base, one.one, one.acted, own)
+    return found
 
 
-def _row(base: _Base, found: _Found, alike: tuple[str, ...]) -> Missing:
-    """What is told of one place; a term that was not worth a fit is told as it is to first order."""
-    law, of, said = found.law, found.told, found.formula
-    if of is None or said is None:
-        unit, solution = found.estimate.table.unit, found.estimate.solution
-        values, covariance = unit * solution.values, unit**2 * solution.covariance
-        of = Told(found.estimate.table.knots, values, covariance, np.zeros((KNOTS, 0)))
-        said = Formula("", "", "", np.zeros(0), np.zeros((0, 0)))
-    text = f"{said.text} ({said.effect})" if said.effect else said.text
-    text += f", {1e3 * law.lag:g} ms late" if text and law.lag else ""
-    shown = shape(of, law, found.estimate.table.model, said.along, said.spread)
-    return Missing(law.slot, found.share, law.argument, shown, text, alike, _parameters(base, found))
-
-
-def _parameters(base: _Base, found: _Found) -> dict[str, float]:
-    """The model's own free numbers beside the term."""
-    values = found.estimate.table.space(base.at).values(found.estimate.point.x)
-    return {name: values[name] for name in base.at.what.space.keys}
+def _begun(ruler: Ruler, base: Base, one: Known, does: Acted, own: Sequence[Found]) -> list[Found]:
+    table = next((f.estimate.table for f in own if f.law is does.law), None)
+    start = None if table is None else begun(ruler, base.at, one.at, table, does.values)
+    return [] if start is None else [base.found(advance(ruler, base.at, start, rounds=_STEPS), fitted=True)]

@@ -19,7 +19,7 @@ from pysim.diagnose.subject import extended
 from pysim.effects import slots
 from pysim.io import read_model
 from pysim.types import Dataset, Effect, Missing, Model
-from tests.pysim.diagnose.toy import CATALOGUE, base, library, measured
+from tests.pysim.diagnose.toy import CATALOGUE, base, build_variant, library, measured
 
 
 def probed(effects: Sequence[Effect], law: Term) -> Model:
@@ -30,8 +30,11 @@ def probed(effects: Sequence[Effect], law: Term) -> Model:
     return read_model(build("Located", libraries=[library(), source], probes=law.probes))
 
 
-def located(dataset: Dataset, *, with_slots: bool = True, names: Sequence[str] = ()) -> tuple[Missing, ...]:
-    given = subject(base(), dataset, [CATALOGUE[name] for name in names], None)
+def located(
+    dataset: Dataset, *, with_slots: bool = True, names: Sequence[str] = (), open_: bool = False
+) -> tuple[Missing, ...]:
+    """The class is at hand for effects where `open_`."""
+    given = subject(base(), dataset, [CATALOGUE[name] for name in names], build_variant if open_ else None)
     ruler, _ = rulers(given.targets)
     what = extended(given, ())
     first = ruler.evaluation(what, what.space.to_search(what.space.start))
@@ -83,6 +86,14 @@ def test_a_hardening_spring_is_a_force_over_position() -> None:
     found = located(measured(3, "toy.hardening", k_3=8.0))[0]
     assert (found.slot, found.depends_on) == ("force", "force.x")
     assert covered(found, -8.0 * found.shape.argument**3) > 0.9
+
+
+def test_a_term_that_an_effect_points_at_is_still_estimated_from_the_measurements() -> None:
+    found = located(measured(1, "toy.friction", F_c=0.4), names=("toy.friction", "toy.hardening"), open_=True)[0]
+    assert (found.slot, found.depends_on) == ("force", "force.v")
+    assert found.share > 0.95
+    assert covered(found, -0.4 * np.tanh(found.shape.argument / 0.02)) > 0.9
+    assert found.shape.absorbed.shape[1] == 1  # a law with one number has no slope that refitting takes
 
 
 @pytest.mark.slow
