@@ -2,75 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 
 from pysim.identify._columns import declared_noise, the_column
+from pysim.identify.chirp._extremes import apart_ones, extremes, paired_ones, samples_of, seen_ones
 from pysim.identify.chirp.branch import Branch, mean_branch
-from pysim.identify.chirp.cycle_fit import CycleFit, Extreme, Samples, fit_cycle
+from pysim.identify.chirp.cycle_fit import Extreme, Samples
+from pysim.identify.chirp.result import ChirpAnalysis
 from pysim.identify.logged import CHIRP, LoggedWave, logged_wave
-from pysim.types import BadInput, Dataset, FrequencyResponse, MeasuredRecord, Record, SineTest
+from pysim.types import BadInput, Dataset, MeasuredRecord, Record
 
 Array = NDArray[np.float64]
-
-# An extreme that sticks out of the level by less than this many of its standard deviations is lost in noise.
-_SEEN = 4.0
-# So many lost ones in a row end the search: what comes behind is chance.
-_LOST = 6
-
-
-@dataclass(frozen=True)
-class ChirpAnalysis:
-    """What one chirp says.
-
-    Args:
-        source: the record's.
-        command: the chirp as it was logged.
-        level: what tops and bottoms count from, in the output's unit.
-        top, bottom: (n,) in pairs, each bottom next to its top.
-        mean: (n,) of each pair.
-        apart: places, from low frequency up, of means whose fits share no sample.
-        noise: standard deviation of the output about the local fits, in its unit.
-        input, output: names of the signals.
-        input_unit, output_unit: of them.
-        remarks: what a reader must know before trusting the numbers.
-    """
-
-    source: str
-    command: LoggedWave
-    level: float
-    top: Branch
-    bottom: Branch
-    mean: Branch
-    apart: tuple[int, ...]
-    noise: float
-    input: str
-    output: str
-    input_unit: str
-    output_unit: str
-    remarks: tuple[str, ...]
-
-    @property
-    def response(self) -> FrequencyResponse:
-        """The mean as a frequency response of points whose noise is independent, as a fit to it takes them to be.
-
-        Only those in `apart` are in it; the covariance is scaled to the command's amplitude.
-        """
-        mean, places, amplitude = self.mean, list(self.apart), self.command.amplitude
-        covariance = np.zeros((len(places), 3, 3))
-        covariance[:, 0, 0] = (mean.gain_deviation[places] * amplitude) ** 2
-        covariance[:, 1, 1] = mean.phase_deviation[places] ** 2
-        return FrequencyResponse(
-            frequency=mean.frequency[places],
-            gain=mean.gain[places],
-            phase=mean.phase[places],
-            test=SineTest(self.command.offset, amplitude, self.input, self.output),
-            origin=f"measured, chirp {self.source}",
-            covariance=covariance,
-        )
 
 
 def analyse_chirp(
@@ -98,15 +41,15 @@ def analyse_chirp(
     command = logged_wave(record, input_)
     assert isinstance(record.data, Record)  # logged_wave has refused anything else
     level = _level(record.data, command, input_, output) if level is None else level
-    samples = _samples(record.data, command, output)
-    pairs = list(_extremes(samples, command))
+    samples = samples_of(record.data, command, output)
+    pairs = list(extremes(samples, command))
     if not pairs:
         raise BadInput(f"{record.source}: {output} shows no top or bottom within the sweep; record more periods")
     fitted = np.array([[fit.squares, fit.freedom] for _, _, fit in pairs])
     left_over = float(np.sqrt(np.median(fitted[:, 0] / fitted[:, 1])))
     spread = left_over if noise is None else max(noise, left_over)
-    seen, remarks = _seen(pairs, level, spread, command)
-    paired = _paired(seen, 1 if command.rate >= 0 else -1)
+    seen, remarks = seen_ones(pairs, level, spread, command)
+    paired = paired_ones(seen, 1 if command.rate >= 0 else -1)
     if not paired:
         raise BadInput(f"{record.source}: no pair of top and bottom of {output} rises above the noise; swing more")
     top, bottom = (
@@ -121,7 +64,7 @@ def analyse_chirp(
         top=top,
         bottom=bottom,
         mean=mean_branch(top, bottom),
-        apart=_apart(paired, {number: fit.half for number, _, fit in pairs}),
+        apart=apart_ones(paired, {number: fit.half for number, _, fit in pairs}),
         noise=spread,
         input=input_,
         output=output,
@@ -162,80 +105,6 @@ def _level(data: Record, command: LoggedWave, input_: str, output: str) -> float
             f" the command's offset of {command.offset:.4g} {units[0]}"
         )
     return command.offset
-
-
-def _samples(data: Record, command: LoggedWave, output: str) -> Samples:
-    inside = (data.time >= command.start - 1e-9) & (data.time <= command.end + 1e-9)
-    time = data.time[inside]
-    angle = command.angle(time)
-    per_turn = 2 * np.pi / np.maximum(np.gradient(angle), 1e-9)
-    frequency = np.maximum(command.frequency_at(time), 1e-9)
-    return Samples(angle, data[output][inside], per_turn, abs(command.rate) / frequency**2)
-
-
-def _extremes(samples: Samples, command: LoggedWave) -> Iterator[tuple[int, Extreme, CycleFit]]:
-    """Number of the half turn of the command, and the output's extreme that belongs to it, from low frequency up.
-
-    The command's extremes are at the angles (number + 1/2) pi; even numbers are tops.
-    """
-    first = int(np.ceil(samples.angle[0] / np.pi - 0.5))
-    last = int(np.floor(samples.angle[-1] / np.pi - 0.5))
-    numbers = range(first, last + 1) if command.rate >= 0 else range(last, first - 1, -1)
-    phase = None
-    for number in numbers:
-        at = (number + 0.5) * np.pi
-        here = fit_cycle(samples, at - (phase or 0.0))
-        if here is None:
-            continue
-        # the window follows the answer: its phase there is the one between the two, up to whole turns
-        found = here.phase if phase is None else phase + float(np.angle(np.exp(1j * (here.phase - phase))))
-        if phase is None:
-            here = fit_cycle(samples, at - found) or here
-        phase = found
-        extreme = here.extreme(at - phase, 1 if number % 2 == 0 else -1)
-        if extreme is not None:
-            yield number, extreme, here
-
-
-def _seen(
-    found: list[tuple[int, Extreme, CycleFit]], level: float, noise: float, command: LoggedWave
-) -> tuple[dict[int, Extreme], list[str]]:
-    """Those that stick out of the noise, up to where too many in a row do not."""
-    seen: dict[int, Extreme] = {}
-    lost = 0
-    for number, extreme, _ in found:
-        height = (extreme.value - level) * (1 if number % 2 == 0 else -1)
-        if height > _SEEN * noise * extreme.value_deviation:
-            seen[number], lost = extreme, 0
-            continue
-        lost += 1
-        if lost == _LOST:
-            at = float(command.frequency_at(command.time_of(np.array([(number + 0.5) * np.pi])))[0])
-            return seen, [f"tops and bottoms are lost in noise from {at:.3g} Hz on"]
-    return seen, []
-
-
-def _paired(seen: dict[int, Extreme], step: int) -> list[tuple[int, int]]:
-    """(top, bottom) of extremes next to each other, each in one pair; step, 1 or -1, leads to higher frequency."""
-    pairs, taken = [], None
-    for number in sorted(seen, reverse=step < 0):
-        if number == taken or number + step not in seen:
-            continue
-        taken = number + step
-        pairs.append((number, taken) if number % 2 == 0 else (taken, number))
-    return pairs
-
-
-def _apart(paired: list[tuple[int, int]], half: dict[int, float]) -> tuple[int, ...]:
-    """Places of pairs whose fits, `half` to either side of each extreme (rad), do not overlap."""
-    chosen: list[int] = []
-    reached = (np.inf, -np.inf)  # angles that the last chosen one spans
-    for i, pair in enumerate(paired):
-        low, high = min(n * np.pi - half[n] for n in pair), max(n * np.pi + half[n] for n in pair)
-        if not chosen or low >= reached[1] or high <= reached[0]:
-            chosen.append(i)
-            reached = low, high
-    return tuple(chosen)
 
 
 def _branch(extremes: list[tuple[int, Extreme]], command: LoggedWave, level: float, noise: float, sign: int) -> Branch:

@@ -1,0 +1,62 @@
+"""What one chirp says."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from pysim.identify.chirp.branch import Branch
+from pysim.identify.logged import LoggedWave
+from pysim.types import FrequencyResponse, SineTest
+
+
+@dataclass(frozen=True)
+class ChirpAnalysis:
+    """What one chirp says.
+
+    Args:
+        source: the record's.
+        command: the chirp as it was logged.
+        level: what tops and bottoms count from, in the output's unit.
+        top, bottom: (n,) in pairs, each bottom next to its top.
+        mean: (n,) of each pair.
+        apart: places, from low frequency up, of means whose fits share no sample.
+        noise: standard deviation of the output about the local fits, in its unit.
+        input, output: names of the signals.
+        input_unit, output_unit: of them.
+        remarks: what a reader must know before trusting the numbers.
+    """
+
+    source: str
+    command: LoggedWave
+    level: float
+    top: Branch
+    bottom: Branch
+    mean: Branch
+    apart: tuple[int, ...]
+    noise: float
+    input: str
+    output: str
+    input_unit: str
+    output_unit: str
+    remarks: tuple[str, ...]
+
+    @property
+    def response(self) -> FrequencyResponse:
+        """The mean as a frequency response of points whose noise is independent, as a fit to it takes them to be.
+
+        Only those in `apart` are in it; the covariance is scaled to the command's amplitude.
+        """
+        mean, places, amplitude = self.mean, list(self.apart), self.command.amplitude
+        covariance = np.zeros((len(places), 3, 3))
+        covariance[:, 0, 0] = (mean.gain_deviation[places] * amplitude) ** 2
+        covariance[:, 1, 1] = mean.phase_deviation[places] ** 2
+        return FrequencyResponse(
+            frequency=mean.frequency[places],
+            gain=mean.gain[places],
+            phase=mean.phase[places],
+            test=SineTest(self.command.offset, amplitude, self.input, self.output),
+            origin=f"measured, chirp {self.source}",
+            covariance=covariance,
+        )
