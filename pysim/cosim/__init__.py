@@ -2,13 +2,14 @@
 
 from pysim.cosim.bond import Bond
 from pysim.cosim.connection import Connection
+from pysim.cosim.cosimulate import cosimulate
 from pysim.cosim.doubling import Doubling
 from pysim.cosim.gauss_seidel import GaussSeidel
 from pysim.cosim.iterated import Iterated
 from pysim.cosim.jacobi import Jacobi
 from pysim.cosim.member import Member, MemberFailed, Setup
 from pysim.cosim.order import Order
-from pysim.cosim.run import Kept, Run, cosimulate
+from pysim.cosim.run import Kept, Run
 from pysim.cosim.sampled import Sampled
 from pysim.cosim.system import System
 from pysim.cosim.system_file import SystemFile, read_system_file

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import difflib
-from collections import Counter
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
-from inspect import getattr_static
 
 from pysim.cosim._graph import Graph, components, is_circle, one_circle
+from pysim.cosim._parts import check_member, check_unique, row_of
 from pysim.cosim.bond import Bond, is_power
 from pysim.cosim.connection import Connection
 from pysim.cosim.member import Member
@@ -17,9 +16,6 @@ from pysim.cosim.sampled import Sampled
 from pysim.types import BadInput, Port
 
 Part = Member | Sampled
-
-_NOTHING = object()
-_MEMBER = tuple(name for name in vars(Member) if not name.startswith("_"))
 
 
 @dataclass(frozen=True)
@@ -42,12 +38,12 @@ class System:
 
     def __post_init__(self) -> None:
         for name, kind in (("members", object), ("connections", Connection), ("bonds", Bond)):
-            object.__setattr__(self, name, _row(name, getattr(self, name), kind))
+            object.__setattr__(self, name, row_of(name, getattr(self, name), kind))
         if not self.members:
             raise BadInput("system: it has no members; give at least one")
         for member in self.members:
-            _check_member(member)
-        _check_unique("members", [m.name for m in self.members])
+            check_member(member)
+        check_unique("members", [m.name for m in self.members])
         self._check_blocks()
         ports = {
             "input": {f"{m.name}.{p.name}": p for m in self.members for p in m.inputs},
@@ -58,7 +54,7 @@ class System:
             source, target = self.port("output", connection.source), self.port("input", connection.target)
             connection.check_units(source.unit, target.unit)
         self._check_single()
-        _check_unique("bonds", [bond.name for bond in self.bonds])
+        check_unique("bonds", [bond.name for bond in self.bonds])
         for bond in self.bonds:
             self._check_bond(bond)
 
@@ -188,43 +184,3 @@ class System:
 def owner(name: str) -> str:
     """The member of "member.port"."""
     return name.partition(".")[0]
-
-
-def _row(name: str, given: object, kind: type) -> tuple[object, ...]:
-    if isinstance(given, str) or not isinstance(given, Iterable):
-        raise BadInput(f"system: {name} is {given!r}; give a row of them, as ({name[:-1]},)")
-    row = tuple(given)
-    for item in row:
-        if not isinstance(item, kind):
-            raise BadInput(f"system: {item!r} among its {name} is no {kind.__name__}; give {kind.__name__}(...)")
-    return row
-
-
-def _check_member(member: object) -> None:
-    needed = () if isinstance(member, Sampled) else _MEMBER
-    # Not `hasattr`: it would ask a member that is not at work for its event.
-    missing = [name for name in needed if getattr_static(member, name, _NOTHING) is _NOTHING]
-    if missing:
-        raise BadInput(
-            f"system: {member!r} has no {missing[0]!r}; give an FMU, or a controller as Sampled(name, block, every=...)"
-        )
-    name = member.name  # type: ignore[attr-defined]
-    if not isinstance(name, str) or not name or "." in name:
-        raise BadInput(f"system: a member is called {name!r}; give a name without a dot")
-    for side in ("inputs", "outputs"):
-        _check_unique(f"{side} of {name}", [port.name for port in getattr(member, side)])
-    _check_feedthrough(name, member)
-
-
-def _check_feedthrough(name: str, member: object) -> None:
-    ports = {side: [port.name for port in getattr(member, side)] for side in ("inputs", "outputs")}
-    for output, needs in member.feedthrough.items():  # type: ignore[attr-defined]
-        wrong = sorted({output} - set(ports["outputs"])) + sorted(set(needs) - set(ports["inputs"]))
-        if wrong:
-            raise BadInput(f"system: the feedthrough of {name} names {wrong[0]!r}, which it does not have; correct it")
-
-
-def _check_unique(what: str, names: list[str]) -> None:
-    twice = sorted(name for name, count in Counter(names).items() if count > 1)
-    if twice:
-        raise BadInput(f"system: {what}: {twice[0]!r} is there twice; give each its own name")

@@ -2,38 +2,23 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any
 
 from pysim.cosim.member import Setup
 from pysim.cosim.members._exchange import Exchange
+from pysim.cosim.members._fmu_ports import check_value, chosen_interface, fits, output_port, recorded
+from pysim.cosim.members._fmu_run import Closed, FmuRun
 from pysim.cosim.members._stepping2 import Stepping2
 from pysim.cosim.members._stepping3 import Stepping3
-from pysim.simulate import Rodas, Solver, can_be_saved, check_override, is_number, is_smooth
+from pysim.simulate import Rodas, Solver, can_be_saved, check_override, is_smooth
 from pysim.types import BadInput, Model, Port, Variable
 
-_INTERFACES = ("", "co-simulation", "model-exchange")
 _FEEDTHROUGH = ("standard", "declared", "none")
-_NOT_READ = frozenset(("Int8", "UInt8", "Int16", "UInt16", "UInt32", "UInt64"))  # by the native loop
 _NOTHING: Mapping[str, float] = {}
 
 _alone: dict[Path, str] = {}  # FMUs that can be there only once in a process, and who has them now
-
-
-class _Run(Protocol):
-    """One run of an FMU: the calls of `Member`."""
-
-    event: bool
-
-    def start(self, setup: Setup, overrides: Mapping[str, float]) -> None: ...
-    def begin(self) -> None: ...
-    def update(self) -> None: ...
-    def step(self, time: float, end: float) -> float: ...
-    def save(self, into: Any = None) -> Any: ...
-    def restore(self, state: Any) -> None: ...
-    def close(self) -> None: ...
 
 
 class Fmu:
@@ -75,14 +60,14 @@ class Fmu:
         self.name, self.model, self.solver, self.events = name, model, solver, events
         self.parameters, self.record = dict(parameters), tuple(record)
         for parameter, value in self.parameters.items():
-            _check(model, parameter, value)
-        self.interface = _interface(name, model, interface)
-        self.inputs = tuple(self._input(v) for v in model.variables if v.causality == "input" and _fits(model, v))
-        outputs = [v for v in model.variables if v.causality == "output" and _fits(model, v, self.interface)]
-        self.outputs = tuple(_output(v) for v in (*outputs, *_recorded(model, self.record, self.interface)))
+            check_value(model, parameter, value)
+        self.interface = chosen_interface(name, model, interface)
+        self.inputs = tuple(self._input(v) for v in model.variables if v.causality == "input" and fits(model, v))
+        outputs = [v for v in model.variables if v.causality == "output" and fits(model, v, self.interface)]
+        self.outputs = tuple(output_port(v) for v in (*outputs, *recorded(model, self.record, self.interface)))
         self.feedthrough = self._feedthrough(feedthrough)
         self._names = (tuple(p.name for p in self.inputs), tuple(p.name for p in self.outputs))
-        self._run: _Run = _Closed(name)
+        self._run: FmuRun = Closed(name)
 
     def __repr__(self) -> str:
         return f"Fmu({self.name!r}, {self.model.path.name}, {self.interface})"
@@ -169,7 +154,7 @@ class Fmu:
             )
         _alone[self.model.path] = self.name
 
-    def _new_run(self) -> _Run:
+    def _new_run(self) -> FmuRun:
         stepping = self.model.abilities.stepping
         if self.interface == "model-exchange" or stepping is None:
             return Exchange(self.model, self.solver, self._names)
@@ -199,90 +184,7 @@ class Fmu:
 
     def close(self) -> None:
         """See Member."""
-        run, self._run = self._run, _Closed(self.name)
+        run, self._run = self._run, Closed(self.name)
         run.close()
         if _alone.get(self.model.path) == self.name:
             del _alone[self.model.path]
-
-
-class _Closed:
-    """Between two runs."""
-
-    event = False
-
-    def __init__(self, name: str) -> None:
-        self._name = name
-
-    def start(self, setup: Setup, overrides: Mapping[str, float]) -> None:
-        self._refuse()
-
-    def begin(self) -> None:
-        self._refuse()
-
-    def update(self) -> None:
-        self._refuse()
-
-    def step(self, time: float, end: float) -> float:
-        return self._refuse()
-
-    def save(self, into: Any = None) -> Any:
-        self._refuse()
-
-    def restore(self, state: Any) -> None:
-        self._refuse()
-
-    def close(self) -> None:
-        pass
-
-    def _refuse(self) -> float:
-        raise BadInput(f"{self._name} has not been started; call start first")
-
-
-def _fits(model: Model, variable: Variable, interface: str = "") -> bool:
-    """Whether it can be a port: a single number, no clock or text, and of a size that our own loop can read."""
-    is_read = interface == "model-exchange" and variable.causality != "input"
-    return is_number(model.abilities.fmi, variable.type) and not (is_read and variable.type in _NOT_READ)
-
-
-def _check(model: Model, name: str, value: float) -> None:
-    """Check that a parameter, start value or input can have a value.
-
-    Raises:
-        BadInput: it cannot.
-    """
-    variable = model[name]
-    if variable.causality != "input":
-        check_override(model, name, value)
-    elif not _fits(model, variable):
-        raise BadInput(f"{model.path.name}: {name} is {variable.type}, no single number; leave it at its start")
-    elif not math.isfinite(value):
-        raise BadInput(f"{model.path.name}: {name} cannot be set to {value}; give a finite number")
-
-
-def _output(variable: Variable) -> Port:
-    return Port(variable.name, variable.unit, variable.start)
-
-
-def _recorded(model: Model, names: tuple[str, ...], interface: str) -> list[Variable]:
-    """Variables that are no outputs yet.
-
-    Raises:
-        BadInput: an unknown name, or no single number.
-    """
-    for name in names:
-        if not _fits(model, model[name], interface):
-            raise BadInput(f"{model.path.name}: {name} is {model[name].type} and cannot be recorded; record a number")
-    return [model[name] for name in names if model[name].causality != "output"]
-
-
-def _interface(name: str, model: Model, wanted: str) -> str:
-    offered = [kind for kind, there in zip(_INTERFACES[1:], _offers(model), strict=True) if there]
-    if wanted not in _INTERFACES:
-        raise BadInput(f"{name}: interface {wanted!r} is not known; write one of {', '.join(offered)}")
-    if wanted and wanted not in offered:
-        raise BadInput(f"{name}: {model.path.name} does not offer {wanted}; it offers {', '.join(offered)}")
-    return wanted or offered[0]
-
-
-def _offers(model: Model) -> tuple[bool, bool]:
-    return model.abilities.stepping is not None, model.abilities.model_exchange

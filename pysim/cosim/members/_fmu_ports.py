@@ -1,0 +1,67 @@
+"""What of an FMU can be a port, which interfaces it offers, and what may be set."""
+
+from __future__ import annotations
+
+import math
+
+from pysim.simulate import check_override, is_number
+from pysim.types import BadInput, Model, Port, Variable
+
+_INTERFACES = ("", "co-simulation", "model-exchange")
+_NOT_READ = frozenset(("Int8", "UInt8", "Int16", "UInt16", "UInt32", "UInt64"))  # by the native loop
+
+
+def fits(model: Model, variable: Variable, interface: str = "") -> bool:
+    """Whether it can be a port: a single number, no clock or text, and of a size that our own loop can read."""
+    is_read = interface == "model-exchange" and variable.causality != "input"
+    return is_number(model.abilities.fmi, variable.type) and not (is_read and variable.type in _NOT_READ)
+
+
+def output_port(variable: Variable) -> Port:
+    """An output, or a variable that is recorded as one."""
+    return Port(variable.name, variable.unit, variable.start)
+
+
+def recorded(model: Model, names: tuple[str, ...], interface: str) -> list[Variable]:
+    """Variables that are no outputs yet.
+
+    Raises:
+        BadInput: an unknown name, or no single number.
+    """
+    for name in names:
+        if not fits(model, model[name], interface):
+            raise BadInput(f"{model.path.name}: {name} is {model[name].type} and cannot be recorded; record a number")
+    return [model[name] for name in names if model[name].causality != "output"]
+
+
+def check_value(model: Model, name: str, value: float) -> None:
+    """Check that a parameter, start value or input can have a value.
+
+    Raises:
+        BadInput: it cannot.
+    """
+    variable = model[name]
+    if variable.causality != "input":
+        check_override(model, name, value)
+    elif not fits(model, variable):
+        raise BadInput(f"{model.path.name}: {name} is {variable.type}, no single number; leave it at its start")
+    elif not math.isfinite(value):
+        raise BadInput(f"{model.path.name}: {name} cannot be set to {value}; give a finite number")
+
+
+def chosen_interface(name: str, model: Model, wanted: str) -> str:
+    """The one wanted, or the first that the FMU offers.
+
+    Raises:
+        BadInput: there is none of that name, or the FMU does not offer it.
+    """
+    offered = [kind for kind, there in zip(_INTERFACES[1:], _offers(model), strict=True) if there]
+    if wanted not in _INTERFACES:
+        raise BadInput(f"{name}: interface {wanted!r} is not known; write one of {', '.join(offered)}")
+    if wanted and wanted not in offered:
+        raise BadInput(f"{name}: {model.path.name} does not offer {wanted}; it offers {', '.join(offered)}")
+    return wanted or offered[0]
+
+
+def _offers(model: Model) -> tuple[bool, bool]:
+    return model.abilities.stepping is not None, model.abilities.model_exchange
