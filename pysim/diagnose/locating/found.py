@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -67,6 +68,11 @@ class Base:
         solution = at.solution
         share = self._share(solution.left, solution.freedom)
         return Found(at.table.law, at, fitted, 0.5 * self.rows * math.log(self.left / self.rows) - solution.loss, share)
+
+    def worth(self, found: Iterable[Known]) -> list[Named]:
+        """Effects that are worth their numbers, the likeliest first; others may be there in any amount."""
+        named = [one for one in map(self.named, found) if one.evidence > 0]
+        return sorted(named, key=lambda one: -one.evidence)
 
     def named(self, one: Known) -> Named:
         """How much better it gets with an effect, at Schwarz's price for each of its numbers."""

@@ -71,7 +71,7 @@ def locate(
     if not point.good:
         return ()
     base = Base.of(Fitted(current.what, point))
-    named = sorted((base.named(one) for one in known(subject, few, base.at, say)), key=lambda one: -one.evidence)
+    named = base.worth(known(subject, few, base.at, say))
     say("; ".join(f"{one.one.slot} {100 * one.share:.0f} % ({one.one.text})" for one in named[:3]) or "no effect helps")
     laws = _laws(subject, current.what.model, slots)
     samples = seen(few, base.at, laws)

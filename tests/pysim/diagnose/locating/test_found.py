@@ -48,6 +48,13 @@ def test_an_effect_of_two_numbers_has_to_take_more(base: Base) -> None:
     assert two.share < one.share == pytest.approx((100 - base.left / N) / (base.left - N), rel=0.03)
 
 
+def test_what_is_not_worth_its_number_is_left_out(base: Base) -> None:
+    """Schwarz's price is half the logarithm of 4000 rows, a fall of 8.3 of the sum of squares over the noise left."""
+    noise = base.left / N
+    little, much, more = (effect(base.left - fall * noise, 1) for fall in (7.0, 10.0, 50.0))
+    assert [named.one for named in base.worth([little, much, more])] == [more, much]
+
+
 def test_where_nothing_is_avoidable_the_share_is_nothing() -> None:
     quiet = Base.of(Fitted(SimpleNamespace(), point(0.5 * np.random.default_rng(1).standard_normal(N), 2)))
     assert quiet.named(effect(0.2 * N, 1)).share == 0
