@@ -129,3 +129,11 @@ def test_a_wrong_start_is_left_out_and_a_right_one_is_not() -> None:
     samples = round(ruler.skips[0] / 0.02)
     assert ruler.freedom == 2 * 595 - samples - ruler.span.rank
     assert at.point.residual.size == 2 * 595 - samples
+
+
+def test_a_start_that_is_a_little_wrong_shows_beside_a_model_that_is_near() -> None:
+    ruler, _, at = fitted(logged(7, start=0.006))
+    assert not any(ruler.skips)
+    found = settled(ruler, at)
+    assert [skip > 0 for skip in found.ruler.skips] == [True, False]
+    assert not any(settled(*fitted(logged(7))[::2]).ruler.skips)
