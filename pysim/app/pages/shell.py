@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from nicegui import ui
+from nicegui.elements.mixins.text_element import TextElement
 
 from pysim.app.desk import Desk
 from pysim.app.jobs import FAILED, Job
@@ -42,7 +43,7 @@ def shell(desk: Desk) -> None:
                 ui.html(_MARK, sanitize=False)
                 text("span", "Workbench")
             live(lambda: desk.version, lambda: _what(desk), "what")
-            live(lambda: (desk.beat, _seconds(desk)), lambda: _job(desk))
+            live(lambda: (desk.version, desk.runner.running is None), lambda: _job(desk))
             live(lambda: desk.project.settings().look, lambda: _look_button(desk))
         with box("rail", "nav").props('aria-label="Steps"'):
             _rail(desk)
@@ -90,20 +91,31 @@ def _seconds(desk: Desk) -> int:
 
 
 def _job(desk: Desk) -> None:
-    """What runs, with the time that it may still take, and a button that stops it; what became of it."""
+    """What runs, with the time that it may still take, and a button that stops it; what became of it.
+
+    The button stays the same while the words beside it change, so that no press of it is lost.
+    """
     job = desk.runner.running
     with box("row").props('role="status" aria-live="polite"'):
         if job is not None:
             with box("job"):
                 box("spin")
-                text("span", job.stage, "stage").props(f'title="{job.work.title.replace(chr(34), "")}"')
-                text("span", _time(job), "time")
+                stage = text("span", job.stage, "stage").props(f'title="{job.work.title.replace(chr(34), "")}"')
+                time = text("span", _time(job), "time")
                 button("Stop", desk.runner.stop, "small")
+                live(lambda: (desk.beat, _seconds(desk)), lambda: _tell(desk, stage, time), "unseen")
         elif desk.last is not None and desk.last.state == FAILED:
             text("span", "Failed", "chip bad")
         elif desk.last is not None:
             words = {"done": "Done", "stopped": "Stopped"}[desk.last.state]
             text("span", f"{words} after {clock(desk.last.seconds)}", f"chip {'good' if words == 'Done' else ''}")
+
+
+def _tell(desk: Desk, stage: TextElement, time: TextElement) -> None:
+    job = desk.runner.running
+    if job is not None:
+        stage.set_text(job.stage)
+        time.set_text(_time(job))
 
 
 def _time(job: Job) -> str:
