@@ -39,8 +39,6 @@ _OTHER = (0.2, 1.0, 2.0)
 _STEPS, _FAR_STEPS = 6, 9
 # Where a refit reaches less than this share of what was promised, it starts from the model's own parameters too.
 _KEPT = 0.5
-# Mean square residual from which even the best is far off, and how many effects then start anew, at how many strengths.
-_OFF, _AFAR, _EACH = 2.0, 10, 4
 _Z95 = 1.959964
 
 
@@ -174,26 +172,7 @@ def _refitted(start: _Start, footprints: Sequence[Footprint], contenders: dict[s
         end = _best_end(start, one, own)
         if end is not None:
             found.append(_known(one, end, start.at))
-    if found and min(one.at.point.cost for one in found) > _OFF * start.at.point.residual.size:
-        found += _from_afar(start, heads[:_AFAR], footprints, contenders)
-    best: dict[str, Known] = {}
-    for reached in sorted(found, key=lambda known: -known.worth):
-        best.setdefault(reached.effect.name, reached)
-    return list(best.values())
-
-
-def _from_afar(
-    start: _Start, heads: Sequence[Footprint], footprints: Sequence[Footprint], contenders: dict[str, Contender]
-) -> list[Known]:
-    """From the model's own parameters and every strength: a model that is far off has bent those that were fitted."""
-    found = []
-    for head in heads:
-        one = contenders[head.effect.name]
-        own = [footprint for footprint in footprints if footprint.effect.name == head.effect.name]
-        ends = [_end(one, start.own, f, _FAR_STEPS) for f in own[:_EACH]]
-        good = [end for end in ends if end is not None and end.cost < start.at.point.cost]
-        found += [_known(one, end, start.at) for end in good]
-    return found
+    return sorted(found, key=lambda one: -one.worth)
 
 
 def _known(one: Contender, end: Evaluation, at: Fitted) -> Known:
