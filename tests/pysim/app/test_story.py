@@ -1,6 +1,7 @@
 """The whole story in a real browser: logs of a plant that rubs are dropped, and its FMU is taken away."""
 
 import re
+import time
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -101,6 +102,17 @@ def _a_cell_opens_its_record(tab: Tab) -> None:
     assert tab.page.evaluate("document.querySelector('.main').scrollTop") > 0
 
 
+def lines(path: Path, count: int) -> list[str]:
+    """Whole lines of a file, once there are so many."""
+    begun = time.monotonic()
+    while time.monotonic() - begun < PATIENCE:
+        found = path.read_text().split("\n")[:-1] if path.exists() else []
+        if len(found) >= count:
+            return found
+        time.sleep(0.02)
+    raise AssertionError(f"{path} has {len(found)} lines in place of {count}")
+
+
 def test_a_stopped_diagnosis_goes_on_and_a_reload_finds_it(
     shown: Any, dropped: tuple[Path, Path], tmp_path: Path
 ) -> None:
@@ -111,15 +123,19 @@ def test_a_stopped_diagnosis_goes_on_and_a_reload_finds_it(
         tab.press("Find what is missing")
         tab.see("Stop")
         other.see("Stop")  # two tabs agree
+        journal = project / "results/diagnose/journal.jsonl"
+        found = lines(journal, 2)  # whose it is, and the first part that is done
         other.press("Stop")  # at once: the toy is found within seconds
         tab.see("was stopped; what it had found is kept")
         tab.page.reload()
         tab.see("was stopped; what it had found is kept")
+        found = lines(journal, len(found))
     with server(project) as address:  # a server that ended loses nothing
         tab = Tab(shown, address)
         tab.press("Go on")
         tab.see("Stop")
         tab.go("Add")
+        assert lines(journal, len(found) + 1)[: len(found)] == found  # nothing is done twice
         tab.see("Undo toy.friction", timeout=PATIENCE)
         tab.press("Undo toy.friction")
         tab.page.get_by_role("button", name="Undo toy.friction").wait_for(state="detached")
