@@ -242,6 +242,7 @@ CASES: Mapping[str, Case] = MappingProxyType(
             "fmus",
             seconds=60,
         ),
+        "workbench": Case("validation.workbench.case", "first paint of the workbench's page", "speed", seconds=15),
         "figure-2-1": Case(
             _THESIS + "figure_2_1.case", "command of a stepped-sine test", "thesis", quick=True, seconds=1
         ),

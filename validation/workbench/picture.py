@@ -10,8 +10,6 @@ only drawn.
 from __future__ import annotations
 
 import re
-import shutil
-import subprocess
 import sys
 import tempfile
 from dataclasses import dataclass
@@ -20,6 +18,7 @@ from typing import Any
 
 from pysim.io import write_dataset
 from pysim.types import Dataset
+from validation.workbench.served import browser, served
 
 HERE = Path(__file__).parent
 _PATIENCE, _WORK = 120_000, 40 * 60_000  # ms, for anything on the page, and for the diagnosis
@@ -42,25 +41,15 @@ class Story:
 
 def draw(project: Path, target: Path, story: Story) -> None:
     """Run the workbench on a project and keep a picture of its page Add."""
-    from playwright.sync_api import sync_playwright
-
-    words = [sys.executable, "-m", "pysim", "app", str(project), "--no-browser"]
-    browser = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
-    with subprocess.Popen(words, cwd=HERE.parents[1], stdout=subprocess.PIPE, text=True) as server:
-        try:
-            assert server.stdout is not None
-            address = re.sub(r"^Workbench: ", "", server.stdout.readline().strip())
-            with sync_playwright() as play:
-                page = play.chromium.launch(executable_path=browser, args=["--no-sandbox"]).new_page()
-                page.set_viewport_size({"width": 1280, "height": 800})
-                page.set_default_timeout(_PATIENCE)
-                page.goto(address)
-                if not (project / "data").is_dir():
-                    _drop(page, story)
-                _show(page)
-                page.screenshot(path=target)
-        finally:
-            server.terminate()
+    with served(project) as address, browser() as shown:
+        page = shown.new_page()
+        page.set_viewport_size({"width": 1280, "height": 800})
+        page.set_default_timeout(_PATIENCE)
+        page.goto(address)
+        if not (project / "data").is_dir():
+            _drop(page, story)
+        _show(page)
+        page.screenshot(path=target)
 
 
 def _drop(page: Any, story: Story) -> None:

@@ -15,7 +15,6 @@ from tests.pysim.app.browser import Tab, artefacts, base, browser, server
 
 HOSTILE = '<img src=x onerror="alert(1)">'
 LONG = 500_000  # samples of the long log
-_FIRST_PAINT = 1500.0  # ms
 
 
 @pytest.fixture(scope="module")
@@ -118,13 +117,8 @@ def _long_record(tab: Tab) -> None:
     tab.shot("long")
 
 
-def test_it_paints_at_once_and_can_be_used_without_a_mouse(shown: Any, address: str) -> None:
+def test_it_can_be_used_without_a_mouse(shown: Any, address: str) -> None:
     tab = Tab(shown, address)
-    tab.page.reload()
-    tab.page.wait_for_selector(".page h1")
-    paint = tab.page.evaluate("performance.getEntriesByName('first-contentful-paint')[0].startTime")
-    busy = 1.0 if load() < 1 else load()  # a machine that does other things too paints later
-    assert paint < _FIRST_PAINT * busy
     for _ in range(4):
         tab.page.keyboard.press("Tab")
     names = []
@@ -136,13 +130,6 @@ def test_it_paints_at_once_and_can_be_used_without_a_mouse(shown: Any, address: 
     tab.page.keyboard.press("Enter")
     tab.page.wait_for_url("**/candidates")
     assert tab.errors == []
-
-
-def load() -> float:
-    """Processes that want to run, per core."""
-    import os
-
-    return os.getloadavg()[0] / (os.cpu_count() or 1) if hasattr(os, "getloadavg") else 1.0
 
 
 def test_light_and_dark_follow_the_system_and_the_choice(shown: Any, address: str) -> None:
