@@ -41,11 +41,15 @@ def served(project: Path) -> Iterator[str]:
 
 @contextmanager
 def browser() -> Iterator[Any]:
-    """Chromium with nothing open."""
+    """Chromium without a window and with nothing open."""
     from playwright.sync_api import sync_playwright
 
     with sync_playwright() as play:
-        yield play.chromium.launch(executable_path=_program(), args=["--no-sandbox"])
+        found = play.chromium.launch(executable_path=_program(), args=["--no-sandbox"])
+        try:
+            yield found
+        finally:
+            found.close()
 
 
 def _program() -> str | None:

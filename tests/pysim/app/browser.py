@@ -2,7 +2,6 @@
 
 import os
 import re
-import shutil
 import subprocess
 import sys
 import time
@@ -13,18 +12,10 @@ from typing import Any
 
 import pytest
 
+from validation.workbench import served
+
 ROOT = Path(__file__).parents[3]
 _STARTED = 300.0  # s, on a machine that does other things too
-
-
-def chromium() -> str:
-    """Where the browser is; the test is skipped where there is none."""
-    pytest.importorskip("nicegui", reason="the extra app is not installed")
-    pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
-    found = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
-    if found is None:
-        pytest.skip("no Chromium on this machine; apt-get install chromium")
-    return found
 
 
 @contextmanager
@@ -60,16 +51,11 @@ def base(address: str) -> str:
 
 @contextmanager
 def browser() -> Iterator[Any]:
-    """A browser without a window."""
-    path = chromium()
-    from playwright.sync_api import sync_playwright
-
-    with sync_playwright() as play:
-        found = play.chromium.launch(executable_path=path, args=["--no-sandbox"])
-        try:
-            yield found
-        finally:
-            found.close()
+    """A browser without a window; the test is skipped where there is none."""
+    if why := served.missing():
+        pytest.skip(why)
+    with served.browser() as found:
+        yield found
 
 
 class Tab:
