@@ -2,13 +2,12 @@
 
 import json
 import re
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import pytest
 
-from tests.pysim.app.browser import Tab, artefacts, browser, server
+from tests.pysim.app.browser import Tab, artefacts, server
 from tests.pysim.diagnose.toy import TEXT
 
 DESCRIPTION = """
@@ -35,12 +34,6 @@ pysim.app.jobs.run_pysim = lambda words, folder, output: subprocess.Popen(sleep,
 sys.exit(main(sys.argv[1:]))
 """
 _PATIENCE = 150e3  # ms
-
-
-@pytest.fixture(scope="module")
-def shown() -> Iterator[Any]:
-    with browser() as found:
-        yield found
 
 
 @pytest.fixture

@@ -1,23 +1,16 @@
 """Logs that nobody has described, in a real browser: the form is filled in, and the data set is there."""
 
 import tomllib
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
-from tests.pysim.app.browser import Tab, artefacts, browser, server
+from tests.pysim.app.browser import Tab, artefacts, server
 from tests.pysim.diagnose.toy import TEXT
 
 TIME = np.arange(0, 8, 0.005)
-
-
-@pytest.fixture(scope="module")
-def shown() -> Iterator[Any]:
-    with browser() as found:
-        yield found
 
 
 @pytest.fixture

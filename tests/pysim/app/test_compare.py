@@ -2,14 +2,13 @@
 
 import io
 import json
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
-from tests.pysim.app.browser import Tab, artefacts, browser, server
+from tests.pysim.app.browser import Tab, artefacts, server
 
 DESCRIPTION = """
 [dataset]
@@ -31,12 +30,6 @@ frequency = {frequency}
 """
 F = [1.0, 2.0, 5.0]
 LIMITS = (("E_M max", "maximum magnitude deviation", 2.0, "dB"), ("E_P max", "maximum phase deviation", 35.0, "deg"))
-
-
-@pytest.fixture(scope="module")
-def shown() -> Iterator[Any]:
-    with browser() as found:
-        yield found
 
 
 @pytest.fixture

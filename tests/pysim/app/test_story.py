@@ -2,24 +2,17 @@
 
 import re
 import time
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 from pysim.io import read_model, write_dataset
-from tests.pysim.app.browser import Tab, artefacts, browser, server
+from tests.pysim.app.browser import Tab, artefacts, server
 from tests.pysim.diagnose.toy import TEXT, measured
 
 pytestmark = pytest.mark.slow
 PATIENCE = 400.0  # s, on a machine that does other things too
-
-
-@pytest.fixture(scope="module")
-def shown() -> Iterator[Any]:
-    with browser() as found:
-        yield found
 
 
 @pytest.fixture

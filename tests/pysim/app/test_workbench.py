@@ -11,16 +11,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from tests.pysim.app.browser import Tab, artefacts, base, browser, server
+from tests.pysim.app.browser import Tab, artefacts, base, server
 
 HOSTILE = '<img src=x onerror="alert(1)">'
 LONG = 500_000  # samples of the long log
-
-
-@pytest.fixture(scope="module")
-def shown() -> Iterator[Any]:
-    with browser() as found:
-        yield found
 
 
 @pytest.fixture(scope="module")
