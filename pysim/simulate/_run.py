@@ -100,13 +100,18 @@ def initialise(instance: Instance, experiment: Experiment, solver: Solver) -> No
         CallFailed: the FMU refused.
     """
     control = solver.control()
+    tolerance = control.rtol if control.step == 0.0 else None
+    instance.initialise(values_at_start(experiment), experiment.start, float(experiment.times[-1]), tolerance)
+
+
+def values_at_start(experiment: Experiment) -> dict[str, float]:
+    """What is set before a run: overrides, and inputs as they begin."""
     values = dict(experiment.overrides)
     if experiment.inputs:
         start = np.array(experiment.start)
         values |= {name: float(signal.value(start)) for name, signal in experiment.inputs.items()}
         values |= {name: float(experiment.inputs[of].derivative(start)) for name, of in experiment.rates.items()}
-    tolerance = control.rtol if control.step == 0.0 else None
-    instance.initialise(values, experiment.start, float(experiment.times[-1]), tolerance)
+    return values
 
 
 def prepare(instance: Instance, experiment: Experiment, solver: Solver) -> Job:

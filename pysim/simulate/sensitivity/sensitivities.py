@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from pysim.simulate._check import check_arguments, check_list
 from pysim.simulate._library import CallFailed, Library, open_library
 from pysim.simulate._pool import Stopped, side_by_side, worker_count
-from pysim.simulate._run import initialise, run
+from pysim.simulate._run import initialise, run, values_at_start
 from pysim.simulate.esdirk import Esdirk
 from pysim.simulate.sensitivity.differences import run_differences
 from pysim.simulate.sensitivity.probe import (
@@ -115,14 +115,23 @@ def sensitivities_many(
         return ()
     with open_library(model) as library:
         offers = probe_each(library, experiments, solver, names)
-        tasks = [partial(_one, library, e, solver, names, offers[e.record]) for e in experiments]
+        starts = _starts(library, experiments, solver, offers, count)
+        tasks = [
+            partial(_one, library, e, solver, names, offers[e.record], starts.get(_start_of(e))) for e in experiments
+        ]
         return side_by_side(tasks, count, progress)
 
 
 def _one(
-    library: Library, experiment: Experiment, solver: Esdirk, names: tuple[str, ...], offer: Offer, stopped: Stopped
+    library: Library,
+    experiment: Experiment,
+    solver: Esdirk,
+    names: tuple[str, ...],
+    offer: Offer,
+    start_by: Array | None,
+    stopped: Stopped,
 ) -> Sensitivities:
-    varied, moved = _exact_part(library, experiment, solver, offer, stopped) if offer.outputs else (None, False)
+    varied = None if start_by is None else _exact_part(library, experiment, solver, offer, start_by, stopped)
     if varied is None or varied.event:
         return _by_differences(library, experiment, solver, names, varied is not None, stopped)
     columns = np.full((len(varied.rows), len(experiment.record), len(names)), np.nan)
@@ -131,6 +140,7 @@ def _one(
     missing = [name for name in names if name not in offer.parameters]
     record = varied.record(library.model, experiment)
     if not missing or record.outcome is not Outcome.DONE:
+        moved = start_by is not None and bool(start_by.any())
         messages = ["start values were differentiated by differences"] if moved else []
         messages += _not_finite(record, names, columns)
         return Sensitivities(record, names, columns, not moved, "; ".join(messages))
@@ -151,33 +161,49 @@ def _not_finite(record: Record, names: tuple[str, ...], columns: Array) -> list[
 
 
 def _exact_part(
-    library: Library, experiment: Experiment, solver: Esdirk, offer: Offer, stopped: Stopped
-) -> tuple[Varied | None, bool]:
-    """The run with the columns of the offer, and whether its start depends on them."""
+    library: Library, experiment: Experiment, solver: Esdirk, offer: Offer, start_by: Array, stopped: Stopped
+) -> Varied | None:
+    """The run with the columns of the offer; None where the FMU refuses."""
     try:
-        start_by = _start_by(library, experiment, solver, offer)
         with library.instance() as instance:
             initialise(instance, experiment, solver)
-            directions = offer.directions(states=False)
-            varied = vary(instance, experiment, solver, directions, start_by=start_by, stopped=stopped)
-        return varied, bool(start_by.any())
+            return vary(
+                instance, experiment, solver, offer.directions(states=False), start_by=start_by, stopped=stopped
+            )
     except CallFailed:
-        return None, False
+        return None
 
 
-def _start_by(library: Library, experiment: Experiment, solver: Esdirk, offer: Offer) -> Array:
+# What is recorded, what is set, and when.
+_Start = tuple[tuple[str, ...], tuple[tuple[str, float], ...], float]
+
+
+def _start_of(experiment: Experiment) -> _Start:
+    return experiment.record, tuple(sorted(values_at_start(experiment).items())), experiment.start
+
+
+def _starts(
+    library: Library, experiments: Sequence[Experiment], solver: Esdirk, offers: dict[tuple[str, ...], Offer], count: int
+) -> dict[_Start, Array]:
+    """By the start how parameters move its states: runs of a test that begin alike share it."""
+    first = {_start_of(e): e for e in experiments if offers[e.record].outputs}
+    tasks = [partial(_start_by, library, e, solver, offers[e.record]) for e in first.values()]
+    found = zip(first, side_by_side(tasks, count, None), strict=True)
+    return {start: by for start, by in found if by is not None}
+
+
+def _start_by(library: Library, experiment: Experiment, solver: Esdirk, offer: Offer, stopped: Stopped) -> Array | None:
     """d x / d p (n_x, n_p) at the start, by differences of initialisations; exactly zero where nothing moves.
 
-    Raises:
-        CallFailed: the FMU cannot be initialised beside the experiment's own values.
+    None where the FMU cannot be initialised beside the experiment's own values.
     """
     once = replace(experiment, times=np.array([experiment.start]))
     result = np.zeros((len(library.model.abilities.states), len(offer.parameters)))
     for column, name in zip(result.T, offer.parameters, strict=True):
         up, down, distance = both_sides(library.model, once, name, START_STEP)
         ends = [at_start(library, side, solver, Directions(outputs=False)) for side in (up, down)]
-        if ends[0] is None or ends[1] is None:
-            raise CallFailed(f"{library.model.name} cannot be initialised with {name} moved")
+        if ends[0] is None or ends[1] is None or stopped():
+            return None
         column[:] = (ends[0].states - ends[1].states) / distance
     return result
 
