@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,6 +17,7 @@ from pysim.diagnose.nuisance import GAIN, OFFSET, SHIFT, Suspect, suspects, undi
 from pysim.diagnose.refit import refit
 from pysim.diagnose.residuals import Ruler
 from pysim.diagnose.screen import across, column_space
+from pysim.diagnose.secants import with_secants
 from pysim.diagnose.subject import Extended
 from pysim.diagnose.whiten import whitening
 from pysim.identify.greybox.evaluation import Evaluation
@@ -204,7 +205,9 @@ def settled_before(ruler: Ruler, at: Fitted, x: Array, suspected: Sequence[Suspe
 
 
 def _settled(ruler: Ruler, whole: Fitted, lean: Ruler, x: Array, rows: Array) -> Settled:
-    at, blame = Fitted(whole.what, lean.counted(x, rows)), blamed(ruler, ruler.counted(x, rows))
+    if lean.has_events(whole.what, x):
+        rows = with_secants(lean, whole.what, x, rows)
+    at, blame = replace(whole, point=lean.counted(x, rows)), blamed(ruler, ruler.counted(x, rows))
     return Settled(whole, ruler, at, lean, blame, () if is_off(ruler, whole.point) else nuisances(lean, at.point))
 
 
@@ -232,7 +235,7 @@ def _nearer(ruler: Ruler, at: Fitted) -> tuple[Ruler, Fitted]:
             first = closer.evaluation(at.what, at.point.x)
         near_enough = abs(first.cost - at.point.cost) < _WORTH * mean_square(first) or (off and is_off(closer, first))
         same = closer.skips == ruler.skips and near_enough
-        ruler, at = closer, Fitted(at.what, first if same else refit(closer, at.what, first))
+        ruler, at = closer, replace(at, point=first if same else refit(closer, at.what, first))
         if same:
             break
     return ruler, at
@@ -258,8 +261,8 @@ def corrected(ruler: Ruler, amounts: Mapping[Suspect, float]) -> Ruler:
 def recounted(old: Ruler, new: Ruler, at: Fitted) -> Fitted:
     """The same point where only nuisances are allowed for otherwise; it is run again where other rows count."""
     if old.skips != new.skips:
-        return Fitted(at.what, new.evaluation(at.what, at.point.x))
-    return Fitted(at.what, new.counted(at.point.x, old.whole(at.point)))
+        return replace(at, point=new.evaluation(at.what, at.point.x))
+    return replace(at, point=new.counted(at.point.x, old.whole(at.point)))
 
 
 def _lean_refit(ruler: Ruler, what: Extended, x: Array, rows: Array) -> tuple[Array, Array]:

@@ -25,6 +25,8 @@ _WEAK = 10.0
 _SPARE = 0.03
 # Range of damping above its least, and how well it is found, in natural logarithms.
 _WIDE, _CLOSE = 40.0, 0.2
+# Share that matters of a sum of squares, as far as it is above so many times that of the noise.
+_SHARE, _OFF = 0.01, 2.0
 # Residuals beyond are those of a model that ran away, and no guide.
 _RUNAWAY = 1e50
 
@@ -115,7 +117,7 @@ def descend(
         at: the residuals (n_r,) at a point (n,), None where the model could not be simulated.
         first: a point with slopes, which may be those of a neighbour.
         steps: points to try at most.
-        tolerance: ends it once a step promises or gains less, in units of the mean square where that is above one.
+        tolerance: ends it once a step promises or gains less, in units of what is worth another look.
         radius: of the first step.
     Returns:
         the best point; its slopes are good enough to step by.
@@ -123,7 +125,7 @@ def descend(
     """
     best = first
     for _ in range(steps):
-        bowl, small = Bowl.around(best, bounds), tolerance * mean_square(best)
+        bowl, small = Bowl.around(best, bounds), tolerance * worth(best)
         p = bowl.step(radius)
         promised = bowl.gain(p)
         if promised < small:
@@ -152,6 +154,15 @@ def descend(
 def mean_square(point: Evaluation) -> float:
     """Of the residuals, or 1 where it is below."""
     return max(1.0, point.cost / max(point.residual.size, 1))
+
+
+def worth(point: Evaluation) -> float:
+    """The fall of a sum of squares that is worth new slopes: the mean square, and a share of what is beyond the noise.
+
+    A model that leaves many times the noise lacks something, and what its parameters make of the rest to the last digit
+    tells nobody anything.
+    """
+    return mean_square(point) + _SHARE * max(0.0, point.cost - _OFF * point.residual.size)
 
 
 def _corrected(best: Evaluation, x: Array, residual: Array) -> Array:

@@ -12,13 +12,16 @@ from pysim.diagnose.corrections import Settled, recounted
 from pysim.diagnose.fitted import Fitted
 from pysim.diagnose.locating.locate import locate
 from pysim.diagnose.next_test import next_test
+from pysim.diagnose.ranking import rows
 from pysim.diagnose.refit import refit_from
-from pysim.diagnose.rounds import Tried, name_of, refitted, rows, screened
+from pysim.diagnose.rounds import Tried, screened
 from pysim.diagnose.screen import screen
 from pysim.diagnose.search import search
+from pysim.diagnose.settling import plausible, settle
 from pysim.diagnose.story import Say, Story, begin
 from pysim.diagnose.strengths import declared, setting
 from pysim.diagnose.subject import Subject, extended
+from pysim.diagnose.trials import refitted
 from pysim.types import BadInput, Diagnosis, Effect, Missing, NextTest
 from pysim.types.diagnosis import UNKNOWN
 
@@ -196,7 +199,7 @@ def _with(story: Story, effects: Sequence[Effect]) -> tuple[Settled, Settled]:
         end = _added(story, current.whole, nominal if number == 0 else None, effect)
         if end is None:
             raise BadInput(f"the model cannot be simulated with {effect.name}; leave it out, or check its bounds")
-        current = story.settle(end, name_of(end))
+        current = settle(story, end, end.name)
         story.stage("add")
         story.enter(effect.name, current.at)
     return base, current
@@ -223,7 +226,7 @@ def _refit(story: Story, nominal: Fitted) -> Settled:
     start = recounted(story.ruler.plain, story.ruler, nominal)
     base = story.fitted(nominal.what, "base", lambda: refit_from(story.ruler, nominal.what, start.point))
     assert base is not None  # the start was good, so the end is
-    end = story.settle(story.plausible(base, "base", nominal), "base")
+    end = settle(story, plausible(story, base, "base", nominal), "base")
     story.stage("refit")
     story.enter("refit", end.at)
     return end

@@ -41,7 +41,11 @@ def held_still(subject: Subject, fitted: Fitted) -> tuple[tuple[Estimate, ...], 
 
 
 def _short(fitted: Fitted) -> tuple[Evaluation, float]:
-    """The point with the same information in n rows, and by what the noise is widened."""
+    """The point with the same information in n rows, and by what the noise is widened.
+
+    Where the smallest change moves the residuals by a length d, their sum of squares differs by some 2d from point to
+    point, and the least of it may lie where the smooth part is higher by as much.
+    """
     point = fitted.point
     slopes = np.asarray(np.linalg.qr(point.jacobian, mode="r"))
-    return replace(point, jacobian=slopes), math.sqrt(decide.inflation(point))
+    return replace(point, jacobian=slopes), math.sqrt(decide.inflation(point) * (1 + 2 * fitted.rough))

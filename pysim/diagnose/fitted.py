@@ -15,7 +15,14 @@ class Fitted:
     Args:
         what: the model and its free numbers.
         point: the best one found, with residuals (n_r,) and slopes (n_r, n).
+        rough: length of what the smallest change does to the residuals, where that is none of the integration.
     """
 
     what: Extended
     point: Evaluation
+    rough: float = 0.0
+
+    @property
+    def name(self) -> str:
+        """What the model is made of."""
+        return " + ".join(["base", *(e.name for e in self.what.effects)])

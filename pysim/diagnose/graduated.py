@@ -18,6 +18,7 @@ from scipy.ndimage import gaussian_filter1d
 
 from pysim.diagnose.descent import descend, mean_square
 from pysim.diagnose.residuals import Ruler
+from pysim.diagnose.steps import with_tolerance
 from pysim.diagnose.subject import Extended
 from pysim.diagnose.whiten import Innovations
 from pysim.identify.greybox.evaluation import Evaluation
@@ -29,6 +30,8 @@ Array = NDArray[np.float64]
 FAR = 100.0
 # Widths of the smoothing, as shares of a log's length, one after the other.
 WIDTHS = (1 / 40, 1 / 160, 1 / 640)
+# Tolerance of these runs over that of the others: what is far off need not be known well.
+_TOLERANCE = 10.0
 # How often slopes are run at one width, and the share that the smoothed sum of squares has to fall by to go on.
 _ROUNDS, _WORTH = 3, 0.05
 
@@ -90,7 +93,8 @@ def graduated(
         the point where the last width ended, counted without smoothing and with its slopes; None where the model could
         not be simulated on the way.
     """
-    bounds, point = Bounds(*what.space.bounds()), ruler.evaluation(what, first.x)
+    bounds, rough = Bounds(*what.space.bounds()), with_tolerance(ruler, _TOLERANCE)
+    point = rough.evaluation(what, first.x)
     for width in widths:
         smooth = Smoothing.of(ruler, width)
         for _ in range(rounds):
@@ -98,11 +102,12 @@ def graduated(
                 return None
             residual, slopes = smooth(point.residual), smooth(point.jacobian)
             start = Evaluation(point.x, float(residual @ residual), residual, slopes)
-            end = descend(lambda x, smooth=smooth: _smoothed(ruler, what, smooth, x), start, bounds, steps=6)  # type: ignore[misc]
-            point = ruler.evaluation(what, end.x)
+            end = descend(lambda x, smooth=smooth: _smoothed(rough, what, smooth, x), start, bounds, steps=6)  # type: ignore[misc]
+            point = rough.evaluation(what, end.x)
             if start.cost - end.cost < _WORTH * start.cost:
                 break
-    return point if point.good else None
+    end = ruler.evaluation(what, point.x) if point.good else point
+    return end if end.good else None
 
 
 def _smoothed(ruler: Ruler, what: Extended, smooth: Smoothing, x: Array) -> Array | None:

@@ -8,7 +8,7 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from pysim.diagnose.descent import Bowl, descend, mean_square
+from pysim.diagnose.descent import Bowl, descend, mean_square, worth
 from pysim.diagnose.graduated import WIDTHS, graduated, is_far
 from pysim.diagnose.residuals import Ruler
 from pysim.diagnose.subject import Extended
@@ -17,7 +17,7 @@ from pysim.identify.greybox.optimiser import Bounds
 
 Array = NDArray[np.float64]
 
-# A round that lowers the sum of squares by less, in mean squares where those are above one, needs no other slopes.
+# A round that lowers the sum of squares by less, in units of what is worth it, needs no other slopes.
 _NEAR = 1.0
 # By so much, in the same unit, the error of the integration may raise the sum of squares over a last short step.
 _BLUR = 0.5
@@ -60,7 +60,7 @@ def _rounds(ruler: Ruler, what: Extended, first: Evaluation, rounds: int, steps:
     best = first
     for _ in range(rounds):
         end = _chord(ruler, what, best, steps)
-        if best.cost - end.cost < _NEAR * mean_square(best):
+        if best.cost - end.cost < _NEAR * worth(best):
             return _polished(ruler, what, best, end), best.x
         again = ruler.evaluation(what, end.x)
         if not again.good:

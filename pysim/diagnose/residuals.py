@@ -17,7 +17,7 @@ from pysim.identify.greybox import Simulation, Threads
 from pysim.identify.greybox.evaluation import Evaluation, bad_point
 from pysim.identify.greybox.simulation import simulate_runs
 from pysim.identify.greybox.target import Simulated, Target
-from pysim.simulate import Rodas, Solver, simulate_many
+from pysim.simulate import Esdirk, Rodas, Solver, simulate_many
 from pysim.types import Experiment, Model, Outcome, Record
 
 Array = NDArray[np.float64]
@@ -172,28 +172,34 @@ class Ruler:
         return self.span.undone(np.column_stack([point.residual, point.jacobian]))
 
     def has_events(self, what: Extended, x: Array) -> bool:
-        """Whether the shortest test makes more events than its command has pieces."""
+        """Whether the shortest test makes more events than its command has jumps and kinks."""
         shortest = min(self.experiments(what.space.values(x)), key=lambda e: float(e.times[-1]) - e.start)
         record = simulate_many(what.model, [shortest], solver=self.solver, workers=1)[0]
-        return record.statistics["events"] > sum(signal.starts.size for signal in shortest.inputs.values())
+        breaks = sum(int(np.count_nonzero(np.logical_or(*signal.breaks()))) for signal in shortest.inputs.values())
+        return record.statistics["events"] > breaks
 
     def _exact(self, what: Extended, x: Array) -> Array | None:
         runs = [run for target in self.targets for run in target.runs]
         simulation = Simulation(workers=Threads(self.workers))
+        if isinstance(self.solver, Rodas | Esdirk):
+            simulation = replace(simulation, solver=Esdirk(rtol=self.solver.rtol, atol=self.solver.atol))
         answer = simulate_runs(what.model, what.space, runs, x, [None] * len(runs), simulation)
         if answer.trouble:
             return None
         return self.weighed(answer.simulated)[:, 1:]
 
     def _differences(self, what: Extended, x: Array, residual: Array) -> Array | None:
-        """Away from the nearer bound."""
-        lower, upper = what.space.bounds()
-        steps = np.where(upper - x >= x - lower, STEP, -STEP)
+        steps = steps_inside(x, what.space.bounds())
         points = x + np.diag(steps)
         moved = self.residuals(what.model, [_values(what, p) for p in points])
         if any(r is None for r in moved):
             return None
         return np.stack([(r - residual) / step for r, step in zip(moved, steps, strict=True) if r is not None], axis=1)
+
+
+def steps_inside(x: Array, bounds: tuple[Array, Array]) -> Array:
+    """Steps (n,) of differences at a point (n,), away from the nearer bound."""
+    return np.where(bounds[1] - x >= x - bounds[0], STEP, -STEP)
 
 
 def _values(what: Extended, x: Array) -> dict[str, float]:

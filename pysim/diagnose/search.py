@@ -14,27 +14,17 @@ from pysim.diagnose.corrections import Settled
 from pysim.diagnose.fitted import Fitted
 from pysim.diagnose.null import ALARM, leftover
 from pysim.diagnose.pairs import Pair, joint
+from pysim.diagnose.ranking import as_data, rows
 from pysim.diagnose.refit import chord_refit, refit_from
-from pysim.diagnose.rounds import (
-    Tried,
-    as_data,
-    by_score,
-    finer,
-    gain,
-    name_of,
-    promise,
-    refitted,
-    rows,
-    score,
-    screened,
-    share,
-    start_amount,
-)
+from pysim.diagnose.rounds import Tried, promise, screened
+from pysim.diagnose.scores import by_score, gain, score, share
 from pysim.diagnose.screen import across, column_space
+from pysim.diagnose.settling import settle
 from pysim.diagnose.start import start_at
 from pysim.diagnose.story import Story
 from pysim.diagnose.strengths import translated
 from pysim.diagnose.subject import Extended, extended
+from pysim.diagnose.trials import finer, refitted, start_amount
 from pysim.identify.greybox.evaluation import Evaluation
 from pysim.types import BadInput, Candidate
 
@@ -55,7 +45,7 @@ def search(story: Story, nominal: Fitted, base: Settled, most: int) -> Settled:
         if found is None:
             break
         needed = _without_the_needless(story, found)
-        current = story.settle(needed, name_of(needed))
+        current = settle(story, needed, needed.name)
         story.enter(needed.what.effects[-1].name, current.at)
         if story.journal.once(f"round {number}", dict)["done"]:
             break
@@ -77,7 +67,7 @@ def _round(story: Story, current: Fitted, nominal: Fitted | None, number: int, m
     found = story.fitted(what, told["part"], lambda: None)
     for group in told["ties"]:  # the leader stands first
         rival = extended(story.subject, [*current.what.effects, named[group[1]]])
-        other = story.fitted(rival, f"{name_of(current)} + {group[1]}", lambda: None)
+        other = story.fitted(rival, f"{current.name} + {group[1]}", lambda: None)
         if found is not None and other is not None:
             story.tied = found, other
     return found
@@ -98,7 +88,7 @@ def _played(story: Story, current: Fitted, nominal: Fitted | None, number: int, 
         trouble = _objection(story, current, found[leader])
         if not trouble:
             taken = next(row.explained for row in listed if row.effect == leader)
-            part = f"{name_of(current)} + {leader}"
+            part = f"{current.name} + {leader}"
             said = f"added {leader}: {100 * taken:.1f} % of the misfit explained"
             done = _nothing_left(story, tried, found[leader])
             return {**answer, "chosen": [leader], "part": part, "said": said, "done": done}
@@ -106,7 +96,7 @@ def _played(story: Story, current: Fitted, nominal: Fitted | None, number: int, 
     if len(current.what.effects) + 2 <= most:
         names = _together(story, tried, found)
         if names:
-            part = f"{name_of(current)} + {' + '.join(names)}"
+            part = f"{current.name} + {' + '.join(names)}"
             return {
                 **answer,
                 "chosen": names,
@@ -156,7 +146,7 @@ def _pair(story: Story, tried: Tried, pair: Pair, enough: float) -> Fitted | Non
         first = contender.ruler.evaluation(contender.what, end.x)
         return refit_from(contender.ruler, contender.what, first, rounds=2) if first.good else None
 
-    end = story.fitted(contender.what, f"{name_of(tried.current)} + {' + '.join(pair.names)}", find)
+    end = story.fitted(contender.what, f"{tried.current.name} + {' + '.join(pair.names)}", find)
     if end is not None:
         before, after = tried.current.point.cost, end.point.cost
         story.say(f"refitted with {' and '.join(pair.names)}: sum of squares {before:.6g} -> {after:.6g}")
@@ -169,7 +159,7 @@ def _without_the_needless(story: Story, found: Fitted) -> Fitted:
         story.now(f"asking whether {effect.name} is still needed")
         rest = [e for e in found.what.effects if e is not effect]
         what = extended(story.subject, rest)
-        lean = story.fitted(what, f"{name_of(found)} without {effect.name}", partial(_without, story, found, what))
+        lean = story.fitted(what, f"{found.name} without {effect.name}", partial(_without, story, found, what))
         story.stage("prune")
         if lean is not None and score(story, lean, found) <= 0:
             story.say(

@@ -11,46 +11,38 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from pysim.diagnose import decide
 from pysim.diagnose.blame import Blame
 from pysim.diagnose.contenders import Contender, suited
 from pysim.diagnose.corrections import (
     Nuisance,
-    Settled,
     allowing,
     blamed,
     counting_in_words,
     held_beside,
-    implausible,
     in_words,
-    is_off,
     recounted,
-    settled,
-    settled_before,
-    started,
     told_apart,
 )
 from pysim.diagnose.doubt import held_still
 from pysim.diagnose.fitted import Fitted
 from pysim.diagnose.journal import Journal, identity
 from pysim.diagnose.ledger import beside, ledger_step
-from pysim.diagnose.nuisance import Suspect, undisturbed
-from pysim.diagnose.refit import refit_from
+from pysim.diagnose.nuisance import Suspect
 from pysim.diagnose.residuals import Ruler, rulers
+from pysim.diagnose.steps import as_fine, with_tolerance
 from pysim.diagnose.subject import Extended, Subject, extended
 from pysim.diagnose.where import failures
 from pysim.identify.greybox.evaluation import Evaluation
 from pysim.identify.greybox.log_target import LogTarget
 from pysim.identify.greybox.target import Target
 from pysim.identify.greybox.uncertainty import untold
-from pysim.simulate import Esdirk, Rodas
 from pysim.types import Candidate, Effect, LedgerStep, Stage, Told
 
 Array = NDArray[np.float64]
 Say = Callable[[Told], None]
 
 # Tolerances of runs of what is held out, over those of the others.
-_FINER = 0.01
+_FINER = 0.1
 
 
 @dataclass
@@ -193,38 +185,21 @@ class Story:
         self.suspected, self.first = self.ruler.suspected, self.ruler.plain
         return point
 
-    def plausible(self, at: Fitted, part: str, start: Fitted) -> Fitted:
-        """A model far off refitted without nuisances of sizes that no sensor and no clock has.
-
-        They are left out until a model is near.
-
-        Args:
-            at: with every nuisance allowed for that the ruler has.
-            part: its name in the journal.
-            start: where the refit starts, counted without nuisances: where `at` is, nuisances and parameters hide the
-                misfit together.
-        """
-        what, plain = at.what, list[Fitted]()
-        while absurd := implausible(self.ruler_of(what), at.point):
-            self._suspect([s for s in self.ruler.suspected if s not in absurd])
-            ruler = self.ruler_of(what)
-
-            def found(ruler: Ruler = ruler) -> tuple[Evaluation, Array]:
-                if not plain:
-                    plain.append(Fitted(what, refit_from(ruler.plain, what, start.point, slow_first=False)[0]))
-                first = recounted(ruler.plain, ruler, plain[0]).point
-                return refit_from(ruler, what, first, slow_first=False)
-
-            part = f"{part} without {', '.join(f'{s.kind} {s.signal}'.strip() for s in absurd)}"
-            again = self.fitted(what, part, found)
-            assert again is not None  # the start was good, so the end is
-            at = again
-        return at
-
-    def _suspect(self, suspects: Sequence[Suspect]) -> None:
+    def suspect(self, suspects: Sequence[Suspect]) -> None:
         """From now on these nuisances are allowed for."""
-        self.ruler = self.ruler.with_other(suspected=tuple(suspects))
-        self.suits = {key: one.with_other(suspected=tuple(suspects)) for key, one in self.suits.items()}
+        self._count(lambda one: one.with_other(suspected=tuple(suspects)))
+
+    def as_fine(self, fine: Ruler) -> None:
+        """From now on runs are integrated no more roughly than by that ruler."""
+        self._count(lambda one: as_fine(one, fine))
+
+    def count_by(self, ruler: Ruler) -> None:
+        """From now on residuals are counted as that ruler does; each model keeps its method of integration."""
+        self._count(lambda one: replace(ruler, solver=one.solver))
+
+    def _count(self, changed: Callable[[Ruler], Ruler]) -> None:
+        self.ruler = changed(self.ruler)
+        self.suits = {key: changed(one) for key, one in self.suits.items()}
         self.blames.clear()
 
     def blame(self, at: Fitted) -> Blame:
@@ -237,43 +212,6 @@ class Story:
     def know(self, at: Fitted, blame: Blame) -> None:
         """Who is to blame was found out before."""
         self.blames[_where(at)] = blame
-
-    def settle(self, at: Fitted, part: str) -> Settled:
-        """The model with the nuisances that are to blame beside it taken off the measurements."""
-        at, done = self._with_all(at, part), list[Settled]()
-        ruler = self.ruler_of(at.what)
-
-        def found() -> Any:
-            done.append(settled(ruler, at))
-            return {"x": done[0].at.point.x.tolist(), "blame": [astuple(s) for s in done[0].lean.suspected]}
-
-        kept = self.journal.once(f"nuisances beside {part}", found)
-        suspected = [Suspect(*row) for row in kept["blame"]]
-        end = done[0] if done else settled_before(ruler, at, np.array(kept["x"]), suspected)
-        self.ruler = replace(end.ruler, solver=self.ruler.solver)
-        self.suits = {key: replace(end.ruler, solver=one.solver) for key, one in self.suits.items()}
-        self.blames.clear()
-        if self.held is not None:
-            self.held = started(self.held, end.at.what, end.at.point.x)
-        for line in self.counting():
-            self.note(line)
-        self.subject = replace(self.subject, targets=undisturbed(self.measured, end.amounts))
-        self.nuisances = end.seen if end.at.point.cost < decide.LEVEL * end.lean.freedom else ()
-        for line in self.disturbed():
-            self.say(line)
-        return end
-
-    def _with_all(self, at: Fitted, part: str) -> Fitted:
-        """The model with nuisances allowed for again that were left out while models were far off."""
-        near = self.ruler_of(at.what)
-        if near.suspected == self.suspected or is_off(near, at.point):
-            return at
-        self._suspect(self.suspected)
-        ruler = self.ruler_of(at.what)
-        first = recounted(near, ruler, at).point
-        again = self.fitted(at.what, f"{part} with all nuisances", lambda: refit_from(ruler, at.what, first))
-        assert again is not None  # the start was good, so the end is
-        return again
 
     def disturbed(self) -> list[str]:
         """The nuisances that were taken off, in words."""
@@ -289,12 +227,11 @@ class Story:
         if self.held is None:
             return None
         ruler = self.ruler_of(at.what)
-        solver = ruler.solver
-        if isinstance(solver, Rodas | Esdirk):  # one run, so that what speaks for or against is not its error
-            solver = replace(solver, rtol=_FINER * solver.rtol, atol=_FINER * solver.atol)
         lean = ruler.only(self.blame(at).suspects)
-        right = held_beside(lean, self.held, recounted(ruler, lean, at))
-        return replace(right, solver=solver).at(at.what, at.point.x)
+        right = replace(held_beside(lean, self.held, recounted(ruler, lean, at)), solver=ruler.solver)
+        return with_tolerance(right, _FINER).at(
+            at.what, at.point.x
+        )  # so that what speaks for or against is not its error
 
 
 def begin(

@@ -18,11 +18,11 @@ from pysim.diagnose.decide import price
 from pysim.diagnose.fitted import Fitted
 from pysim.diagnose.refit import chord_refit, refit_from
 from pysim.diagnose.residuals import Ruler
-from pysim.diagnose.rounds import start_amount
 from pysim.diagnose.screen import Footprint, across, column_space, footprint, per_effect, screen
 from pysim.diagnose.start import start_at, start_off
 from pysim.diagnose.strengths import declared, setting, within
 from pysim.diagnose.subject import Subject, extended
+from pysim.diagnose.trials import start_amount
 from pysim.identify.greybox.evaluation import Evaluation
 from pysim.types import BadInput, Effect
 

@@ -183,7 +183,11 @@ def _start_of(experiment: Experiment) -> _Start:
 
 
 def _starts(
-    library: Library, experiments: Sequence[Experiment], solver: Esdirk, offers: dict[tuple[str, ...], Offer], count: int
+    library: Library,
+    experiments: Sequence[Experiment],
+    solver: Esdirk,
+    offers: dict[tuple[str, ...], Offer],
+    count: int,
 ) -> dict[_Start, Array]:
     """By the start how parameters move its states: runs of a test that begin alike share it."""
     first = {_start_of(e): e for e in experiments if offers[e.record].outputs}

@@ -9,13 +9,16 @@ from pysim.diagnose.blame import Blame
 from pysim.diagnose.contenders import Contender, suited
 from pysim.diagnose.fitted import Fitted
 from pysim.diagnose.nuisance import Suspect
+from pysim.diagnose.ranking import own_values, rows
 from pysim.diagnose.refit import chord_refit, refit, refit_from
 from pysim.diagnose.residuals import Ruler, rulers
-from pysim.diagnose.rounds import Tried, by_score, note_mimics, own_values, promise, rows, score, start_amount
+from pysim.diagnose.rounds import Tried, note_mimics, promise
+from pysim.diagnose.scores import by_score, score
 from pysim.diagnose.screen import screen
 from pysim.diagnose.start import start_at, start_off
 from pysim.diagnose.story import begin
 from pysim.diagnose.subject import Extended, extended
+from pysim.diagnose.trials import start_amount
 from pysim.effects import STANDARD_LIBRARY, read_catalogue
 from pysim.simulate import Rk45
 from tests.pysim.diagnose.toy import CATALOGUE, measured, toy_subject

@@ -4,6 +4,7 @@ from pysim.diagnose.corrections import recounted
 from pysim.diagnose.fitted import Fitted
 from pysim.diagnose.nuisance import OFFSET
 from pysim.diagnose.refit import refit
+from pysim.diagnose.settling import plausible, settle
 from pysim.diagnose.story import Story, begin
 from pysim.diagnose.subject import extended
 from tests.pysim.diagnose.test_corrections import logged
@@ -26,16 +27,16 @@ def kinds(story: Story) -> list[str]:
 def test_no_sensor_is_two_metres_off() -> None:
     story, start, soft = told(2.0)
     assert OFFSET in kinds(story)
-    plain = story.plausible(soft, "base", start)
+    plain = plausible(story, soft, "base", start)
     assert OFFSET not in kinds(story)
     assert plain.point.cost > 2 * soft.point.cost  # the misfit shows
-    story.settle(plain, "base")
+    settle(story, plain, "base")
     assert OFFSET not in kinds(story)  # as long as that is so
 
 
 def test_allowed_for_again_beside_a_model_that_is_near() -> None:
     story, start, soft = told(0.0)
-    assert story.plausible(soft, "base", start) is soft
+    assert plausible(story, soft, "base", start) is soft
     story.ruler = story.ruler.only([s for s in story.suspected if s.kind != OFFSET])
-    story.settle(recounted(story.ruler.with_other(suspected=story.suspected), story.ruler, soft), "base")
+    settle(story, recounted(story.ruler.with_other(suspected=story.suspected), story.ruler, soft), "base")
     assert story.ruler.suspected == story.suspected

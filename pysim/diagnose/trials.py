@@ -1,0 +1,166 @@
+"""The promising candidates of a round refitted: all of them cheaply, the leaders with slopes of their own."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import astuple, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pysim.diagnose import decide
+from pysim.diagnose.blame import Blame
+from pysim.diagnose.contenders import Contender
+from pysim.diagnose.corrections import as_noise, blamed, recounted
+from pysim.diagnose.fitted import Fitted
+from pysim.diagnose.nuisance import Suspect
+from pysim.diagnose.refit import chord_refit, refit_from
+from pysim.diagnose.rounds import Tried
+from pysim.diagnose.scores import by_score, score, share
+from pysim.diagnose.screen import Footprint
+from pysim.diagnose.start import start_at, start_off
+from pysim.diagnose.story import Story
+from pysim.diagnose.strengths import translated
+from pysim.identify.greybox.evaluation import Evaluation
+from pysim.simulate import Rodas
+from pysim.types import Effect
+
+Array = NDArray[np.float64]
+
+# Candidates that get a refit on probation, and the share of the best gain that the screening has to promise for it.
+_PROBATION, _PROMISE = 7, 0.05
+# Candidates whose slopes are run, and the share of the best score that a refit on probation has to reach for it.
+_FINAL, _NEAR = 3, 0.8
+# Where a refit reaches less than this share of what was promised, straight lines were no guide, and another start is.
+_KEPT = 0.5
+# Points tried on probation, and from parameters far off.
+_STEPS, _FAR_STEPS = 6, 9
+# Integration of ties.
+_FINE = Rodas(rtol=1e-7, atol=1e-7)
+
+
+def refitted(
+    story: Story, tried: Tried, nominal: Fitted | None, *, least: float = 0.5 * decide.FAIR
+) -> dict[str, Fitted]:
+    """The promising candidates refitted: all on probation, the leaders with slopes of their own.
+
+    Args:
+        nominal: the base model at its own parameters, counted without nuisances, where refits start too if those found
+            have been bent.
+        least: share of the misfit that a refit on probation has to take for slopes of its own.
+    """
+    story.now("refitting the promising candidates")
+    if nominal is not None:
+        nominal = recounted(story.first, tried.ruler, nominal)
+    found: dict[str, Fitted] = {}
+    for head in promising(tried):
+        one = tried.contenders[head.effect.name]
+        part = f"{tried.current.name} + {head.effect.name} on probation"
+        kept = story.journal.once(part, lambda one=one: _kept(tried, one, _probation(tried, one, nominal)))  # type: ignore[misc]
+        if kept is not None:
+            x, cost = np.array(kept["x"]), float(kept["cost"])
+            found[head.effect.name] = Fitted(one.what, Evaluation(x, cost, np.zeros(0), np.zeros((0, x.size))))
+            story.know(found[head.effect.name], Blame(frozenset(Suspect(*s) for s in kept["blame"]), *kept["evidence"]))
+    story.stage("refit candidates")
+    worth = not tried.bent or any(share(story, tried.current, one) > least for one in found.values())
+    order = by_score(story, tried.current, found) if worth else []
+    best = score(story, tried.current, found[order[0]]) if order else 0.0
+    for name in order[:_FINAL]:
+        if score(story, tried.current, found[name]) < _NEAR * best and name != order[0]:
+            continue
+        end = _leader(story, tried, tried.contenders[name], found[name], nominal if name == order[0] else None)
+        if end is not None:
+            found[name] = end
+            story.say(
+                f"refitted with {name}: sum of squares {tried.current.point.cost:.6g} -> {found[name].point.cost:.6g}"
+            )
+    story.stage("refit leaders")
+    return found
+
+
+def promising(tried: Tried) -> list[Footprint]:
+    """The first of the ranking; several always, since the promise is one to first order only."""
+    heads = tried.heads
+    enough = [k < 3 or tried.worth(f) > _PROMISE * tried.worth(heads[0]) for k, f in enumerate(heads)]
+    return [f for f, good in zip(heads[:_PROBATION], enough, strict=False) if good]
+
+
+def _kept(tried: Tried, one: Contender, point: Evaluation | None) -> dict[str, Any] | None:
+    if point is None:
+        return None
+    whole = replace(tried.ruler, solver=one.ruler.solver)
+    blame = blamed(whole, whole.counted(point.x, one.ruler.whole(point)))
+    suspects = sorted(astuple(suspect) for suspect in blame.suspects)
+    return {"x": point.x.tolist(), "cost": point.cost, "blame": suspects, "evidence": [blame.cost, blame.price]}
+
+
+def _probation(tried: Tried, one: Contender, nominal: Fitted | None) -> Evaluation | None:
+    """The best end of a few cheap refits; None where nothing is better than the model so far."""
+    current, own = tried.beside(one)
+    if not own:
+        return None
+    ends = [_end(one, current, own[0], _STEPS)]
+    before = current.point.cost
+    if (ends[0] is None or ends[0].cost > before) and len(own) > 1:
+        ends.append(_end(one, current, min(own, key=lambda f: f.size), _STEPS))
+    reached = before - min(end.cost for end in ends if end is not None) if any(ends) else 0.0
+    if nominal is not None and reached < _KEPT * own[0].gain:
+        ends.append(_end(one, recounted(tried.ruler, one.ruler, nominal), own[0], _FAR_STEPS))
+    good = [end for end in ends if end is not None and end.cost < before]
+    return min(good, key=lambda end: end.cost) if good else None
+
+
+def _end(one: Contender, current: Fitted, found: Footprint, steps: int) -> Evaluation | None:
+    """A refit from the model so far, with the effect off where it can be."""
+    start = start_off(current, one.what, found) if len(one.effect.parameters) == 1 else None
+    if start is None:
+        size = start_amount(found.effect, found.amount)
+        start = start_at(one.ruler, current, one.what, [(found, size)])
+    return None if start is None else chord_refit(one.ruler, one.what, start, steps=steps)
+
+
+def start_amount(effect: Effect, amount: float) -> float:
+    """Of the strength that was tried: near what looked best, but for limits, which act or do not."""
+    if effect.bypass or any(p.inverse for p in effect.strengths):
+        return 1.0
+    return math.copysign(float(np.clip(abs(amount), 1 / 3, 3.0)), amount)
+
+
+def _leader(story: Story, tried: Tried, one: Contender, at: Fitted, nominal: Fitted | None) -> Fitted | None:
+    """With slopes of its own; from the model's own parameters too where that leaves more than noise does."""
+
+    def refitted_from(x: Array) -> tuple[Evaluation, Array] | None:
+        first = one.ruler.evaluation(one.what, x)
+        return refit_from(one.ruler, one.what, first, rounds=3 if tried.bent else 2) if first.good else None
+
+    def find() -> tuple[Evaluation, Array] | None:
+        end = refitted_from(at.point.x)
+        if nominal is None or (end is not None and as_noise(one.ruler, end[0])):
+            return end
+        other = refitted_from(_beside(nominal, one, at))
+        ends = [e for e in (end, other) if e is not None]
+        return min(ends, key=lambda e: e[0].cost, default=None)
+
+    return story.fitted(one.what, f"{tried.current.name} + {one.effect.name}", find, one.ruler)
+
+
+def _beside(nominal: Fitted, one: Contender, at: Fitted) -> Array:
+    """The effects as they were found, (n,), beside the model's own parameters."""
+    space = one.what.space
+    own = translated(nominal.what, one.what, nominal.what.space.values(nominal.point.x))
+    values = {**space.values(at.point.x), **own}
+    return space.to_search(np.array([values[key] for key in space.keys]))
+
+
+def finer(story: Story, one: Fitted, other: Fitted) -> float:
+    """What a finer integration, both refitted, adds to the fall from the second's sum of squares to the first's."""
+    ends = []
+    for fitted in (one, other):
+        fine = replace(story.ruler_of(fitted.what), solver=_FINE)
+        residual = fine.at(fitted.what, fitted.point.x)
+        if residual is None:
+            return 0.0
+        start = Evaluation(fitted.point.x, float(residual @ residual), residual, fitted.point.jacobian)
+        ends.append(chord_refit(fine, fitted.what, start, steps=3).cost)
+    return ends[1] - ends[0] - (other.point.cost - one.point.cost)
