@@ -75,7 +75,8 @@ def test_what_moves_much_stays_as_it_is() -> None:
     for j in range(4):
         h = 1e-3 * np.eye(4)[j]
         up, down = tight.at(what, x + h), tight.at(what, x - h)
-        assert up is not None and down is not None
+        assert up is not None
+        assert down is not None
         assert np.linalg.norm(long[:, 1 + j] - (up - down) / 2e-3) < 0.03 * np.linalg.norm(up - down) / 2e-3
 
 

@@ -65,7 +65,8 @@ def test_rough_steps_are_made_fine() -> None:
     assert left == 0
     residual = fine.at(at.what, at.point.x)
     exact = rough.with_other(solver=Rodas(rtol=1e-10, atol=1e-10)).at(at.what, at.point.x)
-    assert residual is not None and exact is not None
+    assert residual is not None
+    assert exact is not None
     assert np.sum((residual - exact) ** 2) < 1
 
 

@@ -188,6 +188,18 @@ def test_results_do_not_depend_on_the_number_of_workers(fixture_model):
         np.testing.assert_array_equal(one.record.values, three.record.values)
 
 
+def test_runs_that_begin_alike_share_their_start_and_no_others_do(fixture_model):
+    model, times = fixture_model(OSCILLATOR), np.linspace(0, 5, 21)
+    fast = dataclasses.replace(forced(times), inputs={"u": sine(2 * _OMEGA)})  # begins as the first does
+    runs = [forced(times), fast, forced(times, x=-2.0), forced(times, D=0.3)]
+    together = sensitivities_many(model, runs, ("w", "D", "x"), solver=_TIGHT)
+    for run, one in zip(runs, together, strict=True):
+        np.testing.assert_array_equal(
+            one.by_parameter, sensitivities(model, run, ("w", "D", "x"), solver=_TIGHT).by_parameter
+        )
+    assert not np.allclose(together[0].by_parameter, together[1].by_parameter)
+
+
 def test_interrupt_stops_runs_that_are_under_way(fixture_model):
     long = Experiment(np.array([1e9]), ("x",), overrides={"D": 0.0, "x": 1.0})
 
