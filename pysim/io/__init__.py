@@ -1,7 +1,7 @@
 """Files in and out: .fmu, data sets and their logs, records."""
 
 from pysim.io.archive import extracted
-from pysim.io.binary import check_binary
+from pysim.io.binary import check_binary, load_library
 from pysim.io.cache import cache_folder
 from pysim.io.dataset import SIGNAL_KEYS, described_signal, read_dataset, read_dataset_partly
 from pysim.io.files import write_file
@@ -27,6 +27,7 @@ __all__ = [
     "column_names",
     "described_signal",
     "extracted",
+    "load_library",
     "read_dataset",
     "read_dataset_partly",
     "read_model",

@@ -1,11 +1,26 @@
-"""Whether an FMU can run on this machine."""
+"""Whether an FMU can run on this machine, and its shared library."""
 
 from __future__ import annotations
+
+import threading
+from typing import Protocol, TypeVar
 
 from fmpy import platform, platform_tuple, sharedLibraryExtension
 
 from pysim.io.archive import extracted
 from pysim.types import BadInput, Model
+
+Loaded = TypeVar("Loaded", covariant=True)
+
+_loading = threading.Lock()  # FMPy changes the working directory while it loads
+
+
+class Loader(Protocol[Loaded]):
+    """A class of FMPy that loads a shared library."""
+
+    def __call__(self, *, guid: str, modelIdentifier: str, unzipDirectory: str, instanceName: str) -> Loaded:
+        """An FMU without an instance yet."""
+        ...
 
 
 def check_binary(model: Model, library: str) -> None:
@@ -21,3 +36,20 @@ def check_binary(model: Model, library: str) -> None:
     if not (folder / name / f"{library}{sharedLibraryExtension}").is_file():
         present = ", ".join(sorted(p.name for p in folder.glob("*"))) or "none"
         raise BadInput(f"{model.path.name} has no binary for {name} (it has: {present}); export it for this machine")
+
+
+def load_library(load: Loader[Loaded], model: Model, library: str, instance: str) -> Loaded:
+    """Load an FMU's shared library; whoever asks from another thread waits.
+
+    Args:
+        load: the class of FMPy that does it.
+        library: as for `check_binary`.
+        instance: name that the FMU's messages will carry.
+    Raises:
+        BadInput: as `check_binary`.
+        Exception: FMPy could not load it.
+    """
+    check_binary(model, library)
+    folder = str(extracted(model.path))
+    with _loading:
+        return load(guid=model.token, modelIdentifier=library, unzipDirectory=folder, instanceName=instance)

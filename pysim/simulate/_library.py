@@ -3,20 +3,17 @@
 from __future__ import annotations
 
 import ctypes
-import threading
 from collections import deque
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from pathlib import Path
 from typing import Any
 
 import numpy as np
-from fmpy import platform, platform_tuple, sharedLibraryExtension
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Model
 from fmpy.fmi3 import FMU3Model
 
-from pysim.io import extracted
+from pysim.io import load_library
 from pysim.simulate._job import Job
 from pysim.simulate._messages import Mailbox
 from pysim.simulate.native.fmu_calls import ERROR, FATAL, FUNCTIONS, OK
@@ -38,7 +35,6 @@ _SETTERS = {
 }
 
 _REALS = frozenset({"Real", "Float32", "Float64"})
-_loading = threading.Lock()  # FMPy changes the working directory while it loads
 
 
 def settable_types(model: Model) -> frozenset[str]:
@@ -181,18 +177,12 @@ class Library:
         self.model = model
         self.jacobian = jacobian_arrays(model)
         self._idle: deque[Instance] = deque()
-        self._folder = extracted(model.path)
-        _check_binary(model, self._folder)
+        if not model.abilities.model_exchange:
+            raise BadInput(f"{model.path.name} is for co-simulation only; export it for model exchange as well")
 
     def _load(self) -> Instance:
         kind = FMU2Model if self.model.abilities.fmi == 2 else FMU3Model
-        with _loading:
-            fmu = kind(
-                guid=self.model.token,
-                modelIdentifier=self.model.abilities.library,
-                unzipDirectory=str(self._folder),
-                instanceName=self.model.name,
-            )
+        fmu = load_library(kind, self.model, self.model.abilities.library, self.model.name)
         return Instance(self, fmu, Mailbox(self.model.abilities.fmi))
 
     @contextmanager
@@ -245,13 +235,3 @@ def _try_instance(library: Library) -> None:
             pass
     except CallFailed as error:
         raise BadInput(f"{library.model.path.name}: {error}; export it again") from error
-
-
-def _check_binary(model: Model, folder: Path) -> None:
-    if not model.abilities.model_exchange:
-        raise BadInput(f"{model.path.name} is for co-simulation only; export it for model exchange as well")
-    name = platform if model.abilities.fmi == 2 else platform_tuple
-    binary = folder / "binaries" / name / f"{model.abilities.library}{sharedLibraryExtension}"
-    if not binary.is_file():
-        present = ", ".join(sorted(p.name for p in (folder / "binaries").glob("*"))) or "none"
-        raise BadInput(f"{model.path.name} has no binary for {name} (it has: {present}); export it for this machine")

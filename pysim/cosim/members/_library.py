@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import ctypes
-import threading
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from functools import partial
@@ -16,9 +15,9 @@ from fmpy.fmi3 import FMU3Slave
 from numpy.typing import NDArray
 
 from pysim.cosim.member import MemberFailed
-from pysim.io import check_binary, extracted
+from pysim.io import load_library
 from pysim.simulate import FmuValues, Mailbox
-from pysim.types import CoSimulation, Model
+from pysim.types import BadInput, CoSimulation, Model
 
 Array = NDArray[np.float64]
 
@@ -30,8 +29,6 @@ READ_AT_ONCE = 'an output could not be read behind an input that was set; take F
 _P, _N, _STATUS = ctypes.c_void_p, ctypes.c_size_t, ctypes.c_int
 _EXCHANGE = {2: ctypes.CFUNCTYPE(_STATUS, _P, _P, _N, _P), 3: ctypes.CFUNCTYPE(_STATUS, _P, _P, _N, _P, _N)}
 
-_loading = threading.Lock()  # FMPy changes the working directory while it loads
-
 
 class SteppingInstance:
     """One instance of an FMU that steps by itself."""
@@ -40,19 +37,13 @@ class SteppingInstance:
         self.model, self.stepping, self.mailbox = model, stepping, Mailbox(model.abilities.fmi)
         self._kept: list[NDArray[np.uint32]] = []  # what the library is given addresses of
         self.status = 0  # worst one; after a fatal error nothing may be called any more
-        folder = extracted(model.path)
-        check_binary(model, stepping.library)
         kind = FMU2Slave if model.abilities.fmi == 2 else FMU3Slave
-        with _loading:
-            try:
-                self.fmu: Any = kind(
-                    guid=model.token,
-                    modelIdentifier=stepping.library,
-                    unzipDirectory=str(folder),
-                    instanceName=name,
-                )
-            except Exception as error:  # FMPy raises a bare Exception
-                raise MemberFailed(f"its shared library cannot be loaded ({error}); export it again") from error
+        try:
+            self.fmu: Any = load_library(kind, model, stepping.library, name)
+        except BadInput:
+            raise
+        except Exception as error:  # FMPy raises a bare Exception
+            raise MemberFailed(f"its shared library cannot be loaded ({error}); export it again") from error
         self._alive = self.is_running = False
 
     def instantiate(self, **options: bool) -> int:
