@@ -115,8 +115,14 @@ def _ranges(records: Sequence[RecordFit]) -> Iterator[Failure]:
         for what, of, per in ((name, value, label), (f"rate of {name}", rate, f"{label or ' 1'}/s")):
             for part in np.array_split(np.argsort(of, kind="stable"), _RANGES):
                 if part.size:
-                    region = f"{what} {of[part[0]]:.3g} to {of[part[-1]]:.3g}{per}"
+                    region = f"{what} {_three_digits(of[part[0]])} to {_three_digits(of[part[-1]])}{per}"
                     yield Failure(where, name, region, _size(residual[part]))
+
+
+def _three_digits(value: float) -> str:
+    """Large ones without an exponent: -1350 and not -1.35e+03."""
+    text = f"{value:.3g}"
+    return f"{float(text):.0f}" if "e+" in text else text
 
 
 def _rate(record: RecordFit, column: int) -> Array:

@@ -57,6 +57,12 @@ def test_a_range_of_a_signal_or_of_its_rate_is_told(residual: np.ndarray, expect
     assert rows[0].region.endswith(" to 1 m" if expected[0] == "x" else " to 1 m/s")
 
 
+def test_large_values_have_no_exponent() -> None:
+    rows = failures([log(white(), 12345 * np.sin(TIME))])
+    assert not any("e+" in row.region for row in rows)
+    assert any(row.region.startswith("x -12300 to ") for row in rows)
+
+
 def test_sines_count_one_by_one_and_together() -> None:
     rows = {(row.record, row.region): row.error for row in failures(stage("refit").records, dataset())}
     assert rows["sines/1Hz.txt", "1 Hz"] == rows[ALL_SINES, "frequency 1 Hz"] == pytest.approx(np.sqrt(1 + 4.5**2))
