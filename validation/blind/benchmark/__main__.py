@@ -1,4 +1,4 @@
-"""`python -m validation.blind.benchmark run | locate | report`."""
+"""`python -m validation.blind.benchmark run | locate | follow | report`."""
 
 from __future__ import annotations
 
@@ -17,6 +17,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     commands = parser.add_subparsers(dest="command", required=True)
     _add_run(commands.add_parser("run", help="answer the cases that the store does not hold of this code"))
     _add_run(commands.add_parser("locate", help="of cases with one effect, only look where it is, and keep that apart"))
+    _add_run(commands.add_parser("follow", help="of cases with one effect: where they end in a tie, run the next test"))
     report = commands.add_parser("report", help="write the figures and pictures into README.md")
     report.add_argument("--store", metavar="DIR", type=Path, help="folder of answers; that of this package")
     try:
@@ -43,9 +44,10 @@ def _run(args: argparse.Namespace) -> int:
     from pysim.types import BadInput
     from validation.blind.benchmark.examine import examine
     from validation.blind.benchmark.fingerprint import fingerprint
+    from validation.blind.benchmark.follow import follow_case
     from validation.blind.benchmark.place import locate_case
     from validation.blind.benchmark.runs import Choice, run
-    from validation.blind.benchmark.store import ANSWERS, PLACES, Store
+    from validation.blind.benchmark.store import ANSWERS, FOLLOWED, PLACES, Store
     from validation.blind.plant import cases
 
     kinds = tuple(kind.strip() for kind in args.kinds.split(",") if kind.strip())
@@ -54,10 +56,13 @@ def _run(args: argparse.Namespace) -> int:
     except BadInput as error:
         print(f"benchmark: {error}", file=sys.stderr)
         return 2
-    places = args.command == "locate"
-    chosen = choice.of([case for case in cases(TABLE_SEED) if case.kind == "named" or not places])
-    store, task = Store(args.store or (PLACES if places else ANSWERS)), locate_case if places else examine
-    code = fingerprint(places=places)
+    task, folder = {
+        "run": (examine, ANSWERS),
+        "locate": (locate_case, PLACES),
+        "follow": (follow_case, FOLLOWED),
+    }[args.command]
+    chosen = choice.of([case for case in cases(TABLE_SEED) if case.kind == "named" or args.command == "run"])
+    store, code = Store(args.store or folder), fingerprint(places=args.command == "locate")
     run(chosen, store, task, code, workers=args.workers, limit=args.limit, say=_say)
     return 0
 
@@ -73,13 +78,14 @@ def _shard(text: str) -> tuple[int, int]:
 
 def _report(args: argparse.Namespace) -> int:
     from validation.blind.benchmark.report import write_report
-    from validation.blind.benchmark.store import ANSWERS, PLACES, Store
+    from validation.blind.benchmark.store import ANSWERS, FOLLOWED, PLACES, Store
     from validation.blind.plant import cases
 
     table = cases(TABLE_SEED)
     store = Store(args.store or ANSWERS)
     store.tidy(table)
-    for path in write_report(table, store.read(), store.folder.parent, Store(PLACES).read()):
+    places, followed = Store(PLACES).read(), Store(FOLLOWED).read()
+    for path in write_report(table, store.read(), store.folder.parent, places, followed):
         print(path)
     return 0
 

@@ -35,6 +35,9 @@ class Answer:
         rank: of the effect's own slot among all places, 1 for the first, 0 where it was not looked at.
         over, share, said: what the term at that slot depends on, its share of the misfit, its formula.
         cover: share of its range in which that term's band holds the true one; None where it is no function of that.
+        rivals: two that were tied, and that the next test is to separate,
+        after: the verdict once it was carried out,
+        settled: whether that is the right effect, alone.
         wall, cpu: s of the diagnosis, models compiled.
         trouble: why there is no verdict.
     """
@@ -62,6 +65,9 @@ class Answer:
     share: float | None = None
     said: str = ""
     cover: float | None = None
+    rivals: tuple[str, ...] = ()
+    after: str = ""
+    settled: bool | None = None
     wall: float = 0.0
     cpu: float = 0.0
     trouble: str = ""
@@ -87,7 +93,7 @@ class Answer:
         unknown = set(given) - {f.name for f in fields(cls)} if isinstance(given, dict) else {"a line"}
         if unknown:
             raise ValueError(f"an answer has no {', '.join(sorted(unknown))}")
-        for name in ("added", "ranking", "missed", "alike"):
+        for name in ("added", "ranking", "missed", "alike", "rivals"):
             given[name] = tuple(given.get(name, ()))
         given["confusable"] = tuple(tuple(group) for group in given.get("confusable", ()))
         return cls(**given)

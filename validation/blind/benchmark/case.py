@@ -11,8 +11,8 @@ import numpy as np
 from validation.blind.benchmark.__main__ import TABLE_SEED
 from validation.blind.benchmark.answer import Answer
 from validation.blind.benchmark.examine import examine
-from validation.blind.benchmark.figures import figures, place_figures
-from validation.blind.benchmark.store import PLACES, Store
+from validation.blind.benchmark.figures import figures, place_figures, tie_figures
+from validation.blind.benchmark.store import FOLLOWED, PLACES, Store
 from validation.blind.plant import Case, cases
 from validation.findings import Finding
 
@@ -27,6 +27,7 @@ def run(
     task: Callable[[Case], Answer] = examine,
     store: Store | None = None,
     places: Store | None = None,
+    followed: Store | None = None,
 ) -> Iterator[Finding]:
     """The sample, then the targets.
 
@@ -35,10 +36,11 @@ def run(
         task: answers a case.
         store: what was answered before.
         places: where effects were located before.
+        followed: what became of ties before.
     """
     table, answers = cases(TABLE_SEED), (store or Store()).read()
     yield from _sampled(table, answers, seed, task)
-    yield from targets(table, answers, (places or Store(PLACES)).read())
+    yield from targets(table, answers, (places or Store(PLACES)).read(), (followed or Store(FOLLOWED)).read())
 
 
 def _sampled(
@@ -72,15 +74,20 @@ _FLOORS = {"base": 0.01, "final": 0.01, "footprint": 10.0}
 
 
 def targets(
-    table: Sequence[Case], answers: Mapping[str, Answer], places: Mapping[str, Answer] | None = None
+    table: Sequence[Case],
+    answers: Mapping[str, Answer],
+    places: Mapping[str, Answer] | None = None,
+    followed: Mapping[str, Answer] | None = None,
 ) -> Iterator[Finding]:
     """Every figure with a target as a claim: by how many percent it is beyond.
 
     Args:
         places: case -> where its effect was located.
+        followed: case -> what became of its tie.
     """
     yield Finding("cases of the table without a stored answer", float(sum(c.name not in answers for c in table)), 0, "")
-    for figure in (*figures(table, answers), *place_figures(table, answers, places or {})):
+    others = (*place_figures(table, answers, places or {}), *tie_figures(table, followed or {}))
+    for figure in (*figures(table, answers), *others):
         if figure.target is not None:
             low, high = figure.target
             beyond = max(low - figure.percent, figure.percent - high, 0.0) if figure.of else math.nan

@@ -14,16 +14,16 @@ from validation.blind.benchmark.truth import Truth
 from validation.blind.benchmark.workshop import Workshop, workshop
 from validation.blind.plant import Case, measure
 
-_SEED = 0  # of the diagnosis
+SEED = 0  # of the diagnosis
 
 
 def examine(case: Case) -> Answer:
     """The answer to one case, in this process and with one thread."""
-    shop = _warm()
+    shop = warm()
     measured = measure(case)
     catalogue = tuple(effect for effect in shop.catalogue if effect.name not in case.left_out)
     compiled, wall, cpu = shop.seconds, time.monotonic(), time.process_time()
-    found = diagnose(subject(shop.model, measured.dataset, catalogue, shop.variant), seed=_SEED, workers=1)
+    found = diagnose(subject(shop.model, measured.dataset, catalogue, shop.variant), seed=SEED, workers=1)
     wall, cpu = time.monotonic() - wall - (shop.seconds - compiled), time.process_time() - cpu
     return Answer(
         case.name,
@@ -46,7 +46,7 @@ def code(*, places: bool = False) -> str:
 
 
 @cache
-def _warm() -> Workshop:
+def warm() -> Workshop:
     """Every effect compiled, so that no case waits for it."""
     shop = workshop()
     for effect in shop.catalogue:

@@ -227,6 +227,14 @@ def place_figures(
     yield _share("the same, its slot located first", told, _covered, None, _first_place)
 
 
+def tie_figures(table: Sequence[Case], followed: Mapping[str, Answer]) -> Iterator[Figure]:
+    """What became of ties once the test that was proposed for them was carried out."""
+    ties = [pair for pair in paired(table, followed) if pair[1].settled is not None]
+    right = [pair for pair in ties if pair[0].effects[0][0] in pair[1].rivals]
+    yield _share("a tie settled by its next test, for the right effect", right, lambda p: bool(p[1].settled), (90, 100))
+    yield _share("ties with a next test that the right effect had no part in", ties, lambda p: p not in right)
+
+
 def _first_place(pair: Pair) -> bool:
     return pair[1].rank == 1
 

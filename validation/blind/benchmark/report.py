@@ -10,7 +10,7 @@ from pysim.plot import render
 from pysim.types import BadInput
 from validation.blind.benchmark import tables
 from validation.blind.benchmark.answer import Answer
-from validation.blind.benchmark.figures import figures, paired, place_figures
+from validation.blind.benchmark.figures import figures, paired, place_figures, tie_figures
 from validation.blind.benchmark.pictures import confusion_picture, naming_picture
 from validation.blind.plant import Case
 
@@ -18,12 +18,17 @@ BEGIN, END = "<!-- figures: written by the command report -->", "<!-- end of fig
 
 
 def write_report(
-    table: Sequence[Case], answers: Mapping[str, Answer], folder: Path, places: Mapping[str, Answer] | None = None
+    table: Sequence[Case],
+    answers: Mapping[str, Answer],
+    folder: Path,
+    places: Mapping[str, Answer] | None = None,
+    followed: Mapping[str, Answer] | None = None,
 ) -> tuple[Path, ...]:
     """Put the figures between the marks of `folder`/README.md, and the pictures beside it.
 
     Args:
         places: case -> where its effect was located.
+        followed: case -> what became of its tie.
     Raises:
         BadInput: a README without the marks.
     """
@@ -36,22 +41,26 @@ def write_report(
     for name, picture in pictures.items():
         write_file(folder / name, render(picture, "png"))
     before, after = text.split(BEGIN)[0], text.split(END)[1]
-    written = "\n".join(_lines(table, answers, places or {}))
+    written = "\n".join(_lines(table, answers, places or {}, followed or {}))
     write_file(readme, f"{before}{BEGIN}\n{written}\n{END}{after}")
     return readme, *(folder / name for name in pictures)
 
 
-def _lines(table: Sequence[Case], answers: Mapping[str, Answer], places: Mapping[str, Answer]) -> Iterator[str]:
+def _lines(
+    table: Sequence[Case], answers: Mapping[str, Answer], places: Mapping[str, Answer], followed: Mapping[str, Answer]
+) -> Iterator[str]:
     answered = paired(table, answers)
     named = [pair for pair in answered if pair[0].kind == "named"]
     yield from tables.provenance(answered, len(table))
     yield ""
-    yield from tables.figure_table((*figures(table, answers), *place_figures(table, answers, places)))
+    counted = (*figures(table, answers), *place_figures(table, answers, places), *tie_figures(table, followed))
+    yield from tables.figure_table(counted)
     for title, picture, rows in (
         ("Naming over the footprint", "naming.png", tables.impossible(named)),
         ("Effect by size and noise", "", tables.sizes(named)),
         ("What was answered to what", "confusion.png", tables.confusion_table(answered)),
         ("Where effects were located", "", tables.places(paired(table, places))),
+        ("Ties and their next tests", "", tables.ties(paired(table, followed))),
         ("Intervals", "", tables.misses(answered)),
         ("Time", "", tables.cost(answered)),
     ):

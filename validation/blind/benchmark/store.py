@@ -14,6 +14,8 @@ from validation.blind.plant import Case
 ANSWERS = Path(__file__).parent / "answers"
 PLACES = Path(__file__).parent / "places"
 """Where effects were located, the rest of the diagnosis left out."""
+FOLLOWED = Path(__file__).parent / "followed"
+"""What became of ties once the next test was carried out."""
 
 
 @dataclass(frozen=True)

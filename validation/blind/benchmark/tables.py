@@ -126,3 +126,16 @@ def places(located: Sequence[Pair]) -> Iterator[str]:
         other = ", ".join(f"{slot} {n}" for slot, n in wrong.most_common())
         if rows:
             yield f"| {effect} | {len(rows)} | {sum(a.rank == 1 for a in rows)} | {tied} | {held} | {other} |"
+
+
+def ties(followed: Sequence[Pair]) -> Iterator[str]:
+    """Case by case: who was tied, and what the diagnosis says with the next test."""
+    rows = [(case, answer) for case, answer in followed if answer.rivals]
+    yield f"{len(rows)} of {len(followed)} cases that were followed ended in a tie with a next test."
+    if rows:
+        yield ""
+        yield "| case | tied | with the next test |"
+        yield "|---|---|---|"
+    for case, answer in rows:
+        after = answer.after if answer.settled else f"{answer.after}, not settled"
+        yield f"| {case.name} | {', '.join(answer.rivals)} | {after} |"

@@ -28,7 +28,7 @@ def test_the_answer_of_a_case(monkeypatch: pytest.MonkeyPatch) -> None:
     tests = tuple(test for test in plant_programme() if test.file.endswith(KEPT))
     monkeypatch.setattr(plant_case, "programme", lambda: tests)
     monkeypatch.setattr(module, "diagnose", fake)
-    monkeypatch.setattr(module, "_warm", module.workshop)
+    monkeypatch.setattr(module, "warm", module.workshop)
     answer = module.examine(CASE)
     assert (answer.case, answer.verdict, answer.added, answer.trouble) == ("c", "unknown", (), "")
     assert answer.ranking == ("oil.air", "sensor.lag")

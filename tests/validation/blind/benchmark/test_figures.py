@@ -6,7 +6,7 @@ import pytest
 from scipy import stats
 
 from validation.blind.benchmark.answer import Answer
-from validation.blind.benchmark.figures import Figure, figures, place_figures, repaired, right_first, tied
+from validation.blind.benchmark.figures import Figure, figures, place_figures, repaired, right_first, tie_figures, tied
 from validation.blind.plant import Case
 
 NAMED = Case("n", "named", (("oil.air", "small"),))
@@ -137,3 +137,17 @@ def test_where_effects_were_located() -> None:
     assert rows["the same, or tied with that which is first"] == (2, 2)
     assert rows["the band holds the true term over nine tenths of its range"] == (2, 3)
     assert rows["the same, its slot located first"] == (1, 1)
+
+
+def test_what_became_of_ties() -> None:
+    table = [replace(NAMED, name=name) for name in "abcd"]
+    right, wrong = NAMED.effects[0][0], "oil.air" if NAMED.effects[0][0] != "oil.air" else "valve.offset"
+    followed = {
+        "a": Answer("a", "c", "d", verdict=wrong, rivals=(wrong, right), after=right, settled=True),
+        "b": Answer("b", "c", "d", verdict=right, rivals=(right, wrong), after=wrong, settled=False),
+        "c": Answer("c", "c", "d", verdict=right),
+        "d": Answer("d", "c", "d", verdict=wrong, rivals=(wrong, "supply.droop"), after=wrong, settled=False),
+    }
+    rows = {figure.label: (figure.hits, figure.of) for figure in tie_figures(table, followed)}
+    assert rows["a tie settled by its next test, for the right effect"] == (1, 2)
+    assert rows["ties with a next test that the right effect had no part in"] == (1, 3)
