@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
+from datetime import UTC, datetime
+
+import numpy as np
 
 from pysim.types import Diagnosis
 from validation.blind.benchmark.judged import estimated
@@ -11,16 +14,30 @@ from validation.diagnosis.answers import Kept, answered, kept, read_answers
 from validation.diagnosis.sets import NAMES, Told, read_told
 from validation.findings import Finding
 
+AGAIN = 5
+"""Sets that are answered again."""
 _FAR = 2.0  # half widths of a 95 percent interval: once in ten thousand times
 _NEAR = 0.1  # of the interval's half width, by which an estimate may be off the stored one
 _HELD = 1.05  # residual over noise of a model that lacks nothing
 
 
-def run(names: Sequence[str] = NAMES, answer: Callable[[str], Diagnosis] = answered) -> Iterator[Finding]:
-    """Set by set, then all intervals together."""
+def run(
+    names: Sequence[str] = NAMES, answer: Callable[[str], Diagnosis] = answered, *, seed: int | None = None
+) -> Iterator[Finding]:
+    """Set by set, a few of them answered again, then all intervals of those together.
+
+    Args:
+        seed: of the draw; the day's number where None, so that every day answers others.
+    """
     stored, outside, total = read_answers(), 0, 0
+    seed = datetime.now(UTC).date().toordinal() if seed is None else seed
+    again = set(np.random.default_rng(seed).permutation(list(names))[:AGAIN].tolist())
     for name in names:
-        found, told = answer(name), read_told(name)
+        told = read_told(name)
+        if name not in again:
+            yield from of_stored(name, stored.get(name), told)
+            continue
+        found = answer(name)
         if told is not None:
             yield from against_truth(name, found, told)
             rows = [(e, true) for e, true in estimated(told, found) if not e.at and math.isfinite(true)]
@@ -30,6 +47,21 @@ def run(names: Sequence[str] = NAMES, answer: Callable[[str], Diagnosis] = answe
     if total:
         allowed = _binomial(total)
         yield Finding(f"truths outside their 95 percent intervals, of {total}", float(outside), allowed, "")
+
+
+def of_stored(name: str, before: Kept | None, told: Told | None) -> Iterator[Finding]:
+    """The verdict that is kept, held against the truth where that was told."""
+    if before is None:
+        yield Finding(f"{name}: answers that are not stored", 1.0, 0, "")
+    elif told is not None:
+        claim = f"{name}: stored {before.verdict}, of {before.day}, truth {' and '.join(told.names)}; wrong"
+        yield Finding(claim, float(not _right(before.verdict, before.added, told)), 0, "")
+
+
+def _right(verdict: str, added: Sequence[str], told: Told) -> bool:
+    """The verdict is one of the truth's, and no effect is too few or too many."""
+    nothing = told.names in (("none",), ("unknown",))
+    return verdict in told.names and (nothing or sorted(added) == sorted(told.names))
 
 
 def _binomial(total: int) -> float:
@@ -42,13 +74,11 @@ def _binomial(total: int) -> float:
 def against_truth(name: str, found: Diagnosis, told: Told) -> Iterator[Finding]:
     """Verdict, effects, strengths, and what is left on held-out records."""
     added = tuple(one.effect.name for one in found.added)
-    right = found.verdict in told.names
     if told.names not in (("none",), ("unknown",)):
-        right = right and sorted(added) == sorted(told.names)
         left = found.error[-1].validate
         yield Finding(f"{name}: held-out residual over noise", math.nan if left is None else left, _HELD, "")
     claim = f"{name}: {found.verdict} ({', '.join(added) or 'nothing added'}), truth {' and '.join(told.names)}; wrong"
-    yield Finding(claim, float(not right), 0, "")
+    yield Finding(claim, float(not _right(found.verdict, added, told)), 0, "")
     own = {f"{one.place}.{p.name}": one.effect.name for one in found.added for p in one.effect.parameters}
     for estimate, true in estimated(told, found):
         if estimate.name in own and own[estimate.name] in told.names:

@@ -8,7 +8,7 @@ import pytest
 from pysim.effects import STANDARD_LIBRARY, read_catalogue
 from pysim.types import AddedEffect, Diagnosis, Estimate, LedgerStep, Stage
 from validation.diagnosis.answers import kept, read_answers, write_answers
-from validation.diagnosis.case import against_stored, against_truth
+from validation.diagnosis.case import AGAIN, against_stored, against_truth, of_stored, run
 from validation.diagnosis.sets import Told
 
 EFFECTS = {effect.name: effect for effect in read_catalogue(STANDARD_LIBRARY)}
@@ -63,3 +63,26 @@ def test_against_what_is_stored(tmp_path: Path) -> None:
     assert [f.holds for f in against_stored("x", moved, before)] == [True, False]
     assert not any(f.holds for f in against_stored("x", kept(diagnosis("oil.air")), before))
     assert not any(f.holds for f in against_stored("x", now, None))
+
+
+def test_a_stored_verdict_is_held_against_the_truth() -> None:
+    right, wrong, more = (kept(diagnosis(*n)) for n in (["valve.deadband"], ["oil.air"], ["valve.deadband", "oil.air"]))
+    assert [f.holds for f in of_stored("x", right, TOLD)] == [True]
+    assert [f.holds for f in of_stored("x", wrong, TOLD)] == [False]
+    assert [f.holds for f in of_stored("x", more, TOLD)] == [False]
+    assert [f.holds for f in of_stored("x", None, TOLD)] == [False]
+    assert list(of_stored("x", right, None)) == []
+
+
+def test_the_seed_draws_a_few_sets() -> None:
+    asked: list[str] = []
+
+    def answer(name: str) -> Diagnosis:
+        asked.append(name)
+        return diagnosis("valve.deadband")
+
+    list(run(answer=answer, seed=3))
+    first = list(asked)
+    list(run(answer=answer, seed=3))
+    assert len(first) == AGAIN
+    assert asked[AGAIN:] == first
