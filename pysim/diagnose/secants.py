@@ -53,9 +53,9 @@ def with_secants(ruler: Ruler, what: Extended, x: Array, rows: Array) -> Array:
 
 def _both_sides(bare: Ruler, what: Extended, x: Array, rows: Array) -> Array:
     """The same with differences to both sides, where there is room."""
-    other = -steps_inside(x, what.space.bounds())
-    points = x + np.diag(other)
     lower, upper = what.space.bounds()
+    other = -steps_inside(x, (lower, upper))
+    points = x + np.diag(other)
     room = np.flatnonzero(np.all((points >= lower) & (points <= upper), axis=1))
     rows = rows.copy()
     for j, moved in zip(room, bare.residuals(what.model, [what.space.values(points[j]) for j in room]), strict=True):

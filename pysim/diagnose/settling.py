@@ -100,16 +100,14 @@ def _finely(story: Story, at: Fitted, part: str) -> Fitted:
     rough = story.ruler_of(at.what)
     if is_off(rough, at.point):
         return at
-    fine, left = fine_enough(rough, at)
+    fine, first, left = fine_enough(rough, at)
     if left:
         story.note(
             f"{part}: however fine the steps, the smallest change moves the response by {left:.2g} standard "
             "deviations of the noise in all, as where a plant sticks and slips; intervals are widened for it"
         )
-    residual = None if fine is rough else fine.at(at.what, at.point.x)
-    if residual is None:
+    if fine is rough:
         return replace(at, rough=left)
-    first = replace(at.point, residual=residual, cost=float(residual @ residual))
     story.as_fine(fine)
     again = story.fitted(at.what, f"{part} in finer steps", lambda: refit_from(fine, at.what, first))
     assert again is not None  # the start was good, so the end is

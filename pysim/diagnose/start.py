@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from pysim.diagnose.descent import RADIUS, Bowl
 from pysim.diagnose.fitted import Fitted
-from pysim.diagnose.residuals import STEP, Ruler
+from pysim.diagnose.residuals import Ruler, steps_inside
 from pysim.diagnose.screen import Footprint
 from pysim.diagnose.strengths import amounted, translated
 from pysim.diagnose.subject import Extended
@@ -57,7 +57,7 @@ def start_at(
     own = [
         what.space.keys.index(f"{what.places[f.effect.name]}.{p.name}") for f, _ in parts for p in f.effect.parameters
     ]
-    steps = np.where(bounds.upper[own] - x[own] >= x[own] - bounds.lower[own], STEP, -STEP)
+    steps = steps_inside(x, (bounds.lower, bounds.upper))[own]
     points = [x, *(_moved(x, j, step) for j, step in zip(own, steps.tolist(), strict=True))]
     residual, *moved = ruler.residuals(what.model, [what.space.values(p) for p in points])
     if residual is None:

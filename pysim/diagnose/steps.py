@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from pysim.diagnose.fitted import Fitted
 from pysim.diagnose.residuals import Ruler
 from pysim.diagnose.subject import Extended
+from pysim.identify.greybox.evaluation import Evaluation
 from pysim.simulate import Esdirk, Rodas
 
 Array = NDArray[np.float64]
@@ -38,22 +39,29 @@ def integration_error(ruler: Ruler, what: Extended, x: Array, residual: Array) -
     return 0.0 if fine is None else float(np.linalg.norm(fine - residual))
 
 
-def fine_enough(ruler: Ruler, at: Fitted) -> tuple[Ruler, float]:
+def run_again(ruler: Ruler, at: Fitted) -> Evaluation | None:
+    """A model's point as another integration has it, with the slopes that it has; None where it cannot be run."""
+    residual = ruler.at(at.what, at.point.x)
+    return None if residual is None else replace(at.point, residual=residual, cost=float(residual @ residual))
+
+
+def fine_enough(ruler: Ruler, at: Fitted) -> tuple[Ruler, Evaluation, float]:
     """The ruler with tolerances at which the error of the integration is small beside the noise.
 
     Returns:
-        it, and the length of what no tolerance takes off the residuals: a plant that sticks and slips is so sensitive
-        that any change of steps, or of parameters, gives it another phase. Such a model stays as it is.
+        it, the point as it runs there, and the length of what no tolerance takes off the residuals: a plant that
+        sticks and slips is so sensitive that any change of steps, or of parameters, gives it another phase. Such a
+        model stays as it is.
     """
     error = integration_error(ruler, at.what, at.point.x, at.point.residual)
     if error**2 < _SMALL:
-        return ruler, 0.0
+        return ruler, at.point, 0.0
     fine = with_tolerance(ruler, max(0.1 ** math.ceil(math.log10(error / math.sqrt(_SMALL)) + 0.5), _LEAST))
-    residual = fine.at(at.what, at.point.x)
-    left = error if residual is None else integration_error(fine, at.what, at.point.x, residual)
-    if left > _ROUGH * error:
-        return ruler, left
-    return fine, 0.0 if left**2 < _SMALL else left
+    point = run_again(fine, at)
+    left = error if point is None else integration_error(fine, at.what, point.x, point.residual)
+    if point is None or left > _ROUGH * error:
+        return ruler, at.point, left
+    return fine, point, 0.0 if left**2 < _SMALL else left
 
 
 def as_fine(ruler: Ruler, other: Ruler) -> Ruler:

@@ -229,9 +229,8 @@ class Story:
         ruler = self.ruler_of(at.what)
         lean = ruler.only(self.blame(at).suspects)
         right = replace(held_beside(lean, self.held, recounted(ruler, lean, at)), solver=ruler.solver)
-        return with_tolerance(right, _FINER).at(
-            at.what, at.point.x
-        )  # so that what speaks for or against is not its error
+        # one run, in finer steps, so that what speaks for or against is not its error
+        return with_tolerance(right, _FINER).at(at.what, at.point.x)
 
 
 def begin(

@@ -20,6 +20,7 @@ from pysim.diagnose.rounds import Tried
 from pysim.diagnose.scores import by_score, score, share
 from pysim.diagnose.screen import Footprint
 from pysim.diagnose.start import start_at, start_off
+from pysim.diagnose.steps import run_again
 from pysim.diagnose.story import Story
 from pysim.diagnose.strengths import translated
 from pysim.identify.greybox.evaluation import Evaluation
@@ -158,9 +159,8 @@ def finer(story: Story, one: Fitted, other: Fitted) -> float:
     ends = []
     for fitted in (one, other):
         fine = replace(story.ruler_of(fitted.what), solver=_FINE)
-        residual = fine.at(fitted.what, fitted.point.x)
-        if residual is None:
+        start = run_again(fine, fitted)
+        if start is None:
             return 0.0
-        start = Evaluation(fitted.point.x, float(residual @ residual), residual, fitted.point.jacobian)
         ends.append(chord_refit(fine, fitted.what, start, steps=3).cost)
     return ends[1] - ends[0] - (other.point.cost - one.point.cost)

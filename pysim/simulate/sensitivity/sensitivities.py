@@ -115,9 +115,11 @@ def sensitivities_many(
         return ()
     with open_library(model) as library:
         offers = probe_each(library, experiments, solver, names)
-        starts = _starts(library, experiments, solver, offers, count)
+        starts = [_start_of(e) for e in experiments]
+        moved = _starts(library, dict(zip(starts, experiments, strict=True)), solver, offers, count)
         tasks = [
-            partial(_one, library, e, solver, names, offers[e.record], starts.get(_start_of(e))) for e in experiments
+            partial(_one, library, e, solver, names, offers[e.record], moved.get(start))
+            for e, start in zip(experiments, starts, strict=True)
         ]
         return side_by_side(tasks, count, progress)
 
@@ -184,13 +186,13 @@ def _start_of(experiment: Experiment) -> _Start:
 
 def _starts(
     library: Library,
-    experiments: Sequence[Experiment],
+    experiments: dict[_Start, Experiment],
     solver: Esdirk,
     offers: dict[tuple[str, ...], Offer],
     count: int,
 ) -> dict[_Start, Array]:
     """By the start how parameters move its states: runs of a test that begin alike share it."""
-    first = {_start_of(e): e for e in experiments if offers[e.record].outputs}
+    first = {start: e for start, e in experiments.items() if offers[e.record].outputs}
     tasks = [partial(_start_by, library, e, solver, offers[e.record]) for e in first.values()]
     found = zip(first, side_by_side(tasks, count, None), strict=True)
     return {start: by for start, by in found if by is not None}

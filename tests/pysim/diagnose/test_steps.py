@@ -61,9 +61,10 @@ def chaos() -> tuple[Ruler, Fitted]:
 def test_rough_steps_are_made_fine() -> None:
     rough, at = mass(0.05)
     assert integration_error(rough, at.what, at.point.x, at.point.residual) > 1
-    fine, left = fine_enough(rough, at)
+    fine, point, left = fine_enough(rough, at)
     assert left == 0
     residual = fine.at(at.what, at.point.x)
+    assert point.residual == pytest.approx(residual)
     exact = rough.with_other(solver=Rodas(rtol=1e-10, atol=1e-10)).at(at.what, at.point.x)
     assert residual is not None
     assert exact is not None
@@ -72,12 +73,14 @@ def test_rough_steps_are_made_fine() -> None:
 
 def test_fine_steps_stay() -> None:
     ruler, at = mass(1e-6)
-    assert fine_enough(ruler, at) == (ruler, 0.0)
+    same, point, left = fine_enough(ruler, at)
+    assert (same, left) == (ruler, 0.0)
+    assert point is at.point
 
 
 def test_no_step_is_fine_enough_for_chaos() -> None:
     ruler, at = chaos()
-    _, left = fine_enough(ruler, at)
+    _, _, left = fine_enough(ruler, at)
     assert left > 10
 
 
