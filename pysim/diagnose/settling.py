@@ -22,6 +22,7 @@ from pysim.diagnose.fitted import Fitted
 from pysim.diagnose.nuisance import Suspect, undisturbed
 from pysim.diagnose.refit import refit_from
 from pysim.diagnose.residuals import Ruler
+from pysim.diagnose.roughness import roughness
 from pysim.diagnose.steps import fine_enough
 from pysim.diagnose.story import Story
 from pysim.identify.greybox.evaluation import Evaluation
@@ -101,6 +102,7 @@ def _finely(story: Story, at: Fitted, part: str) -> Fitted:
     if is_off(rough, at.point):
         return at
     fine, first, left = fine_enough(rough, at)
+    left = max(left, roughness(fine, replace(at, point=first)))
     if left:
         story.note(
             f"{part}: however fine the steps, the smallest change moves the response by {left:.2g} standard "
