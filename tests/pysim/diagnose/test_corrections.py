@@ -19,8 +19,8 @@ from pysim.diagnose.refit import refit
 from pysim.diagnose.residuals import rulers
 from pysim.diagnose.subject import extended
 from pysim.simulate import Rodas, simulate
-from pysim.types import Dataset, Experiment, MeasuredRecord, MeasuredSignal, Record, Signal
-from tests.pysim.diagnose.toy import NOISE, base, toy_subject
+from pysim.types import Dataset, Experiment, Signal
+from tests.pysim.diagnose.toy import BENCH, base, toy_subject
 
 TRUE = {"m": 1.05, "d": 0.75, "k": 21.0}
 
@@ -35,13 +35,8 @@ def logged(seed: int, *, gain: float = 1.0, offset: float = 0.0, late: float = 0
         command, times = Signal.through(knots, push), np.arange(0.0, 11.9, 0.02)
         run = Experiment(times + late, ("x",), {"F": command}).override(**TRUE, x=start if name == "a.txt" else 0.0)
         clean = simulate(model, run, solver=Rodas(rtol=1e-8, atol=1e-8))["x"]
-        rows = np.column_stack([command.value(times), gain * clean + offset + NOISE * rng.standard_normal(times.size)])
-        records.append(MeasuredRecord(name, "stochastic", use, Record(times, rows, ("F", "x"), ("N", "m"))))
-    signals = (
-        MeasuredSignal("F", "input", "N", "force", "F"),
-        MeasuredSignal("x", "output", "m", "position", "x", noise=NOISE),
-    )
-    return Dataset("toy", "a mass", "mass", signals, tuple(records))
+        records.append(BENCH.log(times, command, gain * clean + offset, rng, source=name, use=use))
+    return BENCH.dataset(*records)
 
 
 def fitted(data: Dataset):  # type: ignore[no-untyped-def]

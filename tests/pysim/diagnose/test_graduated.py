@@ -11,7 +11,8 @@ from pysim.diagnose.residuals import Ruler
 from pysim.diagnose.subject import Extended, extended, subject
 from pysim.identify.greybox.optimiser import Bounds
 from pysim.simulate import Rodas, simulate
-from pysim.types import Dataset, Experiment, MeasuredRecord, MeasuredSignal, Record, Signal
+from pysim.types import Experiment, Signal
+from tests.pysim.diagnose.bench import Bench
 from tests.pysim.diagnose.toy import base
 
 TRUTH = {"m": 1.1, "d": 0.05, "k": 34.0}
@@ -26,13 +27,8 @@ def ringing(seed: int) -> tuple[Ruler, Extended]:
         swing += height * 0.5 * (1 - np.cos(np.pi * np.clip((knots - edge) / 0.2, 0, 1)))
     push = Signal.through(knots, swing)
     clean = simulate(base(), Experiment(times, ("x",), {"F": push}, TRUTH), solver=Rodas(rtol=1e-8, atol=1e-8))["x"]
-    noisy = clean + NOISE * rng.standard_normal(times.size)
-    record = Record(times, np.column_stack([push.value(times), noisy]), ("F", "x"), ("N", "m"))
-    signals = (
-        MeasuredSignal("F", "input", "N", "force", "F"),
-        MeasuredSignal("x", "output", "m", "position", "x", noise=NOISE),
-    )
-    data = Dataset("ringing", "", "mass", signals, (MeasuredRecord("a.txt", "step", "fit", record),))
+    bench = Bench(("F", "N"), ("x", "m"), NOISE)
+    data = bench.dataset(bench.log(times, push, clean, rng))
     given = subject(base(), data, (), None)
     return Ruler(given.targets, solver=Rodas(rtol=1e-7, atol=1e-7)), extended(given, ())
 

@@ -7,13 +7,13 @@ from tempfile import mkdtemp
 import numpy as np
 import pytest
 
-from fmu_build import build
 from pysim.diagnose.residuals import Ruler
 from pysim.diagnose.secants import with_secants
 from pysim.diagnose.subject import Extended, extended, subject
-from pysim.io import read_model
 from pysim.simulate import Rodas, simulate
-from pysim.types import Dataset, Experiment, MeasuredRecord, MeasuredSignal, Record, Signal
+from pysim.types import Experiment, Signal
+from tests.pysim.diagnose.bench import Bench
+from tests.pysim.simulate.text_models import text_model
 
 STOP = """
 model Stop "A mass that meets a second spring: multiplying all four parameters changes nothing"
@@ -33,22 +33,15 @@ KEYS = ("m", "d", "k", "s")
 
 
 @cache
-def met(noise: float, **bounds: tuple[float, float]) -> tuple[Ruler, Extended]:
+def met(**bounds: tuple[float, float]) -> tuple[Ruler, Extended]:
     """A wave that drives the mass into the second spring again and again."""
-    path = Path(mkdtemp()) / "Stop.mo"
-    path.write_text(STOP)
-    model = read_model(build("Stop", libraries=[path]))
+    model = text_model(STOP, Path(mkdtemp()))
     times = np.arange(0.0, 20.0, 0.02)
     waves = [(2.5, 0.0, 2.1, 0.0), (2.0, 0.0, 5.3, 0.0), (1.5, 0.0, 8.9, 0.0)]
     command = Signal(np.zeros(1), np.zeros((1, 4)), np.array([waves]))
     clean = simulate(model, Experiment(times, ("x",), {"F": command}), solver=Rodas(rtol=1e-9, atol=1e-9))["x"]
-    record = Record(times, np.column_stack([command.value(times), clean]), ("F", "x"), ("N", "m"))
-    signals = (
-        MeasuredSignal("F", "input", "N", "force", "F"),
-        MeasuredSignal("x", "output", "m", "position", "x", noise=noise),
-    )
-    data = Dataset("stop", "", "mass", signals, (MeasuredRecord("a.txt", "step", "fit", record),))
-    given = subject(model, data, (), None, free=KEYS, bounds=bounds)
+    bench = Bench(("F", "N"), ("x", "m"), 1e-3)
+    given = subject(model, bench.dataset(bench.log(times, command, clean)), (), None, free=KEYS, bounds=bounds)
     return Ruler(given.targets, solver=Rodas(rtol=1e-4, atol=1e-4)), extended(given, ())
 
 
@@ -57,7 +50,7 @@ def along(rows: np.ndarray, direction: np.ndarray) -> float:
 
 
 def test_what_scales_everything_moves_nothing() -> None:
-    ruler, what = met(1e-3)
+    ruler, what = met()
     x = what.space.to_search(what.space.start)
     assert ruler.has_events(what, x)
     short = ruler.whole(ruler.evaluation(what, x))
@@ -68,7 +61,7 @@ def test_what_scales_everything_moves_nothing() -> None:
 
 
 def test_what_moves_much_stays_as_it_is() -> None:
-    ruler, what = met(1e-3)
+    ruler, what = met()
     x = what.space.to_search(what.space.start)
     long = with_secants(ruler, what, x, ruler.whole(ruler.evaluation(what, x)))
     tight = ruler.with_other(solver=Rodas(rtol=1e-9, atol=1e-9))
@@ -81,7 +74,7 @@ def test_what_moves_much_stays_as_it_is() -> None:
 
 
 def test_from_a_bound_it_goes_one_way() -> None:
-    ruler, what = met(1e-3, s=(1.0, 20.0))
+    ruler, what = met(s=(1.0, 20.0))
     x = what.space.to_search(what.space.start)
     assert x[3] == pytest.approx(what.space.bounds()[0][3])
     long = with_secants(ruler, what, x, ruler.whole(ruler.evaluation(what, x)))

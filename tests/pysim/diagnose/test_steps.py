@@ -6,15 +6,15 @@ from tempfile import mkdtemp
 import numpy as np
 import pytest
 
-from fmu_build import build
 from pysim.diagnose.fitted import Fitted
 from pysim.diagnose.residuals import Ruler, rulers
 from pysim.diagnose.steps import as_fine, fine_enough, integration_error, with_tolerance
 from pysim.diagnose.subject import extended, subject
-from pysim.io import read_model
 from pysim.simulate import Esdirk, Rk4, Rodas, simulate
-from pysim.types import Dataset, Experiment, MeasuredRecord, MeasuredSignal, Record, Signal
+from pysim.types import Experiment, Signal
+from tests.pysim.diagnose.bench import Bench
 from tests.pysim.diagnose.toy import measured, toy_subject
+from tests.pysim.simulate.text_models import text_model
 
 LORENZ = """
 model Lorenz "Two runs that begin a hair apart are strangers after ten seconds"
@@ -41,19 +41,12 @@ def mass(tolerance: float) -> tuple[Ruler, Fitted]:
 
 def chaos() -> tuple[Ruler, Fitted]:
     """A run of eighty seconds of a plant without memory of its start."""
-    path = Path(mkdtemp()) / "Lorenz.mo"
-    path.write_text(LORENZ)
-    model = read_model(build("Lorenz", libraries=[path]))
+    model = text_model(LORENZ, Path(mkdtemp()))
     times = np.arange(0.0, 80.0, 0.02)
     push = Signal.lines([0.0, 1.0, 2.0, 80.0], [0.0, 0.0, 1.0, 0.0])
     x = simulate(model, Experiment(times, ("x",), {"push": push}), solver=Rodas(rtol=1e-8, atol=1e-8))["x"]
-    record = Record(times, np.column_stack([push.value(times), x]), ("push", "x"), ("1", "1"))
-    signals = (
-        MeasuredSignal("push", "input", "1", "push", "push"),
-        MeasuredSignal("x", "output", "1", "x", "x", noise=0.1),
-    )
-    data = Dataset("chaos", "", "lorenz", signals, (MeasuredRecord("a.txt", "step", "fit", record),))
-    given = subject(model, data, (), None)
+    bench = Bench(("push", "1"), ("x", "1"), 0.1)
+    given = subject(model, bench.dataset(bench.log(times, push, x)), (), None)
     ruler, what = Ruler(given.targets), extended(given, ())
     return ruler, Fitted(what, ruler.evaluation(what, what.space.to_search(what.space.start)))
 

@@ -12,7 +12,8 @@ from pysim.diagnose import Subject, subject
 from pysim.effects import read_catalogue, variant
 from pysim.io import read_model
 from pysim.simulate import Rodas, simulate
-from pysim.types import Dataset, Effect, Experiment, MeasuredRecord, MeasuredSignal, Model, Record, Signal
+from pysim.types import Dataset, Effect, Experiment, Model, Signal
+from tests.pysim.diagnose.bench import Bench
 
 TEXT = """
 package Toy
@@ -79,6 +80,7 @@ package Toy
 end Toy;
 """
 NOISE = 1e-3  # m
+BENCH = Bench(("F", "N"), ("x", "m"), NOISE)
 
 
 @cache
@@ -125,13 +127,8 @@ def measured(seed: int, *effects: str, noise: float = NOISE, **values: float) ->
             own = {p.name: values[p.name] for p in effect.parameters}
             run = effect.on(run, place=places[effect.name], **own)
         clean = simulate(model, run, solver=Rodas(rtol=1e-8, atol=1e-8))["x"]
-        rows = np.column_stack([command.value(times), clean + noise * rng.standard_normal(times.size)])
-        records.append(MeasuredRecord(name, "stochastic", use, Record(times, rows, ("F", "x"), ("N", "m"))))
-    signals = (
-        MeasuredSignal("F", "input", "N", "force", "F"),
-        MeasuredSignal("x", "output", "m", "position", "x", noise=NOISE),
-    )
-    return Dataset("toy", "a mass", "mass", signals, tuple(records))
+        records.append(BENCH.log(times, command, clean, rng, source=name, use=use, noise=noise))
+    return BENCH.dataset(*records)
 
 
 def toy_subject(dataset: Dataset, names: Sequence[str] = ("toy.friction", "toy.hardening", "toy.bias")) -> Subject:

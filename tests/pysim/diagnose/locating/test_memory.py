@@ -18,7 +18,8 @@ from pysim.diagnose.subject import extended
 from pysim.effects import read_catalogue, slots, variant
 from pysim.io import read_model
 from pysim.simulate import Rodas, simulate
-from pysim.types import Dataset, Effect, Experiment, MeasuredRecord, MeasuredSignal, Missing, Model, Record, Signal
+from pysim.types import Effect, Experiment, Missing, Model, Signal
+from tests.pysim.diagnose.bench import Bench
 
 TEXT = """
 package Seen
@@ -86,13 +87,8 @@ def lagging() -> Subject:
     run = Experiment(times, ("z",), {"r": command}).override(m=1.05, d=1.9, k=21.0)
     run = catalogue[0].on(run, place=places["seen.lag"], T=LAG)
     clean = simulate(model, run, solver=Rodas(rtol=1e-8, atol=1e-8))["z"]
-    rows = np.column_stack([command.value(times), clean + NOISE * rng.standard_normal(times.size)])
-    record = MeasuredRecord("a.txt", "stochastic", "fit", Record(times, rows, ("r", "z"), ("m", "m")))
-    signals = (
-        MeasuredSignal("r", "input", "m", "command", "r"),
-        MeasuredSignal("z", "output", "m", "position", "z", noise=NOISE),
-    )
-    data = Dataset("seen", "", "mass", signals, (record,))
+    bench = Bench(("r", "m"), ("z", "m"), NOISE)
+    data = bench.dataset(bench.log(times, command, clean, rng))
     return subject(read_model(build("Seen.Mass", libraries=[library()])), data, catalogue, build_variant)
 
 

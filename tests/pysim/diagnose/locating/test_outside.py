@@ -17,7 +17,7 @@ from pysim.io import read_model
 from pysim.simulate import Rodas, simulate
 from pysim.types import Dataset, Experiment, MeasuredRecord, MeasuredSignal, Missing, Model, Record, Signal
 from tests.foreign import made_foreign
-from tests.pysim.diagnose.toy import NOISE, library
+from tests.pysim.diagnose.toy import BENCH, library
 
 Bent = Callable[[np.ndarray], np.ndarray]
 TRUTH = {"m": 1.05, "d": 0.75, "k": 21.0}
@@ -50,13 +50,7 @@ def measured(mass: Model, seed: int, actuator: Bent = straight, sensor: Bent = s
     force = Signal.through(fine, actuator(command.value(fine)))
     run = Experiment(times, ("x",), {"F": force}, TRUTH)
     x = sensor(simulate(mass, run, solver=Rodas(rtol=1e-8, atol=1e-8))["x"])
-    rows = np.column_stack([command.value(times), x + NOISE * rng.standard_normal(times.size)])
-    signals = (
-        MeasuredSignal("F", "input", "N", "force", "F"),
-        MeasuredSignal("x", "output", "m", "position", "x", noise=NOISE),
-    )
-    record = MeasuredRecord("a.txt", "stochastic", "fit", Record(times, rows, ("F", "x"), ("N", "m")))
-    return Dataset("toy", "", "mass", signals, (record,))
+    return BENCH.dataset(BENCH.log(times, command, x, rng))
 
 
 def seen(mass: Model, data: Dataset) -> tuple[Missing, ...]:

@@ -1,0 +1,50 @@
+"""A bench with one command and one sensor, for tests that need measurements of a plant of a few lines."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pysim.types import Dataset, MeasuredRecord, MeasuredSignal, Record, Signal
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Bench:
+    """What is commanded and what is read, each a variable of the model and its unit.
+
+    Args:
+        noise: of the sensor, in its unit; what it is said to be, and what it is where a log asks for it.
+    """
+
+    command: tuple[str, str]
+    sensor: tuple[str, str]
+    noise: float
+
+    def log(
+        self,
+        times: Array,
+        command: Signal,
+        read: Array,
+        rng: np.random.Generator | None = None,
+        *,
+        source: str = "a.txt",
+        use: str = "fit",
+        noise: float | None = None,
+    ) -> MeasuredRecord:
+        """What was read (n_t,) beside its command, with the sensor's noise where there is a generator for it."""
+        if rng is not None:
+            read = read + (self.noise if noise is None else noise) * rng.standard_normal(times.size)
+        names, units = zip(self.command, self.sensor, strict=True)
+        record = Record(times, np.column_stack([command.value(times), read]), names, units)
+        return MeasuredRecord(source, "stochastic", use, record)
+
+    def dataset(self, *logs: MeasuredRecord) -> Dataset:
+        """Of these logs."""
+        (push, unit), (x, own) = self.command, self.sensor
+        signals = (
+            MeasuredSignal(push, "input", unit, push, push),
+            MeasuredSignal(x, "output", own, x, x, noise=self.noise),
+        )
+        return Dataset("bench", "one command, one sensor", "toy", signals, logs)
