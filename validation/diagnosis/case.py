@@ -4,14 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
-from datetime import UTC, datetime
-
-import numpy as np
 
 from pysim.types import Diagnosis
 from validation.blind.benchmark.judged import estimated
 from validation.diagnosis.answers import Kept, answered, kept, read_answers
 from validation.diagnosis.sets import NAMES, Told, read_told
+from validation.drawn import drawn
 from validation.findings import Finding
 
 AGAIN = 5
@@ -30,8 +28,7 @@ def run(
         seed: of the draw; the day's number where None, so that every day answers others.
     """
     stored, outside, total = read_answers(), 0, 0
-    seed = datetime.now(UTC).date().toordinal() if seed is None else seed
-    again = set(np.random.default_rng(seed).permutation(list(names))[:AGAIN].tolist())
+    again = drawn(names, AGAIN, seed)
     for name in names:
         told = read_told(name)
         if name not in again:

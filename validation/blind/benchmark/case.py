@@ -4,9 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from datetime import UTC, datetime
-
-import numpy as np
 
 from validation.blind.benchmark.__main__ import TABLE_SEED
 from validation.blind.benchmark.answer import Answer
@@ -14,6 +11,7 @@ from validation.blind.benchmark.examine import examine
 from validation.blind.benchmark.figures import figures, place_figures, tie_figures
 from validation.blind.benchmark.store import FOLLOWED, PLACES, Store
 from validation.blind.plant import Case, cases
+from validation.drawn import drawn
 from validation.findings import Finding
 
 SAMPLE = 6
@@ -48,9 +46,7 @@ def _sampled(
 ) -> Iterator[Finding]:
     known = [case for case in table if case.name in answers and not answers[case.name].trouble]
     yield Finding("stored answers, missing to a sample", float(max(0, SAMPLE - len(known))), 0, "")
-    seed = datetime.now(UTC).date().toordinal() if seed is None else seed
-    places = np.random.default_rng(seed).permutation(len(known))[:SAMPLE]
-    for case in (known[i] for i in places.tolist()):
+    for case in drawn(known, SAMPLE, seed):
         yield from compared(answers[case.name], task(case))
 
 
