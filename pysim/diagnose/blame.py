@@ -15,6 +15,9 @@ Array = NDArray[np.float64]
 
 # Usual sizes up to which one is taken for a nuisance: what asks for more has another cause.
 PLAUSIBLE = 3.0
+# A suspect of its usual size that puts less than this into the sum of squares, parameters refitted, is left out: the
+# data say less of its size than is known without them, so that half of such would be blamed by chance.
+_SHOWN = 1.0
 # Suspects of which every set is tried; of more, those that explain most by themselves.
 _EXHAUSTIVE = 10
 
@@ -83,13 +86,11 @@ class Evidence:
         along = reach.T @ rows
         kept = slice(1, 1 + len(suspects))
         products -= along.T @ along
-        if len(suspects) > _EXHAUSTIVE:
-            alone = products[0, kept] ** 2 / (1 + np.diagonal(products)[kept])
-            best = np.sort(np.argsort(-alone)[:_EXHAUSTIVE])
-            suspects = [suspects[k] for k in best]
-            index = np.concatenate([[0], 1 + best, np.arange(1 + alone.size, rows.shape[1])])
-            products = products[np.ix_(index, index)]
-        return Evidence(tuple(suspects), products)
+        shown = np.diagonal(products)[kept]
+        alone = np.where(shown > _SHOWN, products[0, kept] ** 2 / (1 + shown), -1.0)
+        best = np.sort(np.argsort(-alone)[: min(_EXHAUSTIVE, np.count_nonzero(alone >= 0))])
+        index = np.concatenate([[0], 1 + best, np.arange(1 + alone.size, rows.shape[1])])
+        return Evidence(tuple(suspects[k] for k in best), products[np.ix_(index, index)])
 
     @property
     def changes(self) -> int:

@@ -39,6 +39,8 @@ _WORTH = 1.0
 _OFF = 2.0
 # Standard deviations that noise alone seldom leaves more of.
 _RARE = 3.1
+# Standard deviation from which the data leave a direction open, in units of the search.
+_OPEN = 0.25
 # Refits at most until the blamed are the same again, and until shapes and shifts of nuisances are.
 _ROUNDS, _CLOSER = 3, 4
 
@@ -253,9 +255,31 @@ def held_beside(ruler: Ruler, held: Ruler, at: Fitted) -> Ruler:
     return corrected(held, {n.suspect: n.value for n in nuisances(ruler, at.point)})
 
 
+def leaning(lean: Ruler, at: Fitted) -> Array:
+    """Where (n,) a model's refit would end with fewer nuisances allowed for, by its slopes.
+
+    What the data leave open stays as it is.
+
+    Args:
+        lean: that allows for those.
+        at: as it counts the point.
+    """
+    x = at.point.x
+    rows = np.vstack([at.point.jacobian, np.eye(x.size) / _OPEN])
+    step = np.linalg.lstsq(rows, -np.concatenate([at.point.residual, np.zeros(x.size)]), rcond=None)[0]
+    return np.clip(x + step, *at.what.space.bounds())
+
+
 def corrected(ruler: Ruler, amounts: Mapping[Suspect, float]) -> Ruler:
-    """The ruler of what would have been measured without nuisances of these sizes."""
-    return ruler.with_other(targets=undisturbed(ruler.targets, amounts)) if amounts else ruler
+    """The ruler of what would have been measured without nuisances of these sizes.
+
+    A gain that is taken off a signal is taken off its noise.
+    """
+    if not amounts:
+        return ruler
+    gains = {(s.dataset, s.signal): 1 + amount for s, amount in amounts.items() if s.kind == GAIN}
+    noise = {column: one.over(gains.get(column, 1.0)) for column, one in ruler.noise.items()}
+    return ruler.with_other(targets=undisturbed(ruler.targets, amounts), noise=noise)
 
 
 def recounted(old: Ruler, new: Ruler, at: Fitted) -> Fitted:

@@ -58,6 +58,10 @@ class Noise:
         """Whether it is white and as large as told, so that nothing has to be done."""
         return self.coloured == 0.0 and self.white == self.told
 
+    def over(self, gain: float) -> Noise:
+        """Of the signal over a gain."""
+        return Noise(self.white / gain, self.coloured / gain, self.memory, self.told / gain)
+
     def spectrum(self, frequency: Array, interval: float) -> Array:
         """Variance per sample at frequencies (n,) in Hz of samples every `interval` s: white noise is flat."""
         return np.asarray(self.white**2 + self.coloured**2 * _coloured(frequency, interval, self.memory))

@@ -20,6 +20,7 @@ from pysim.diagnose.corrections import (
     counting_in_words,
     held_beside,
     in_words,
+    leaning,
     recounted,
     told_apart,
 )
@@ -223,14 +224,20 @@ class Story:
         return counting_in_words(self.ruler, self.held)
 
     def held_out(self, at: Fitted) -> Array | None:
-        """Residuals of what is held out, (n,); None where nothing is or where it could not be simulated."""
+        """Residuals of what is held out, (n,); None where nothing is or where it could not be simulated.
+
+        The model is taken as it is beside the nuisances that are to blame: others that were allowed for have loosened
+        its parameters, and what is held out is read without them.
+        """
         if self.held is None:
             return None
         ruler = self.ruler_of(at.what)
         lean = ruler.only(self.blame(at).suspects)
-        right = replace(held_beside(lean, self.held, recounted(ruler, lean, at)), solver=ruler.solver)
+        counted = recounted(ruler, lean, at)
+        right = replace(held_beside(lean, self.held, counted), solver=ruler.solver)
+        x = at.point.x if lean.suspected == ruler.suspected else leaning(lean, counted)
         # one run, in finer steps, so that what speaks for or against is not its error
-        return with_tolerance(right, _FINER).at(at.what, at.point.x)
+        return with_tolerance(right, _FINER).at(at.what, x)
 
 
 def begin(

@@ -47,4 +47,4 @@ class Bench:
             MeasuredSignal(push, "input", unit, push, push),
             MeasuredSignal(x, "output", own, x, x, noise=self.noise),
         )
-        return Dataset("bench", "one command, one sensor", "toy", signals, logs)
+        return Dataset("toy", "one command, one sensor", "toy", signals, logs)

@@ -47,6 +47,18 @@ def test_noise_blames_nobody_and_an_offset_blames_its_sensor() -> None:
     assert blamed <= 1
 
 
+def test_a_suspect_that_the_data_hardly_show_is_not_asked() -> None:
+    rng = np.random.default_rng(7)
+    for size, asked in ((0.9, False), (1.1, True)):
+        faint = np.zeros((N, 1))
+        faint[0] = size / X.width  # so much at one usual size
+        residual = rng.standard_normal(N)
+        residual[0] = 2.5
+        found = Evidence.of((X,), faint, residual, np.zeros((N, 0)), np.zeros((N, 0)))
+        assert found.suspects == ((X,) if asked else ())
+        assert found.alone().suspects == ({X} if asked else set())
+
+
 def test_an_effect_like_one_nuisance_is_a_tie_and_one_like_two_is_their_cause() -> None:
     rng = np.random.default_rng(2)
     c = columns(rng)

@@ -5,16 +5,19 @@ import pytest
 
 from pysim.diagnose.corrections import (
     allowing,
+    corrected,
     held_beside,
     implausible,
     in_words,
+    leaning,
     nuisances,
+    recounted,
     settled,
     settled_before,
     told_apart,
 )
 from pysim.diagnose.fitted import Fitted
-from pysim.diagnose.nuisance import OFFSET, SHIFT, undisturbed
+from pysim.diagnose.nuisance import GAIN, OFFSET, SHIFT, Suspect, undisturbed
 from pysim.diagnose.refit import refit
 from pysim.diagnose.residuals import rulers
 from pysim.diagnose.subject import extended
@@ -105,6 +108,34 @@ def test_each_model_is_judged_with_its_own_sensors() -> None:
     assert right is not None
     assert wrong @ wrong > 100 * wrong.size
     assert abs(right @ right - right.size) < 5 * np.sqrt(2 * right.size)
+
+
+def test_a_gain_that_is_taken_off_is_taken_off_the_noise() -> None:
+    ruler, _, at = fitted(logged(4, gain=1.25))
+    assert ruler.noise  # estimated: larger by the gain, if it were not for the sensor's own
+    size = ruler.freedom
+    right = corrected(ruler.plain, {Suspect(GAIN, "toy", "x"): 0.25})
+    wider = corrected(ruler.plain, {Suspect(GAIN, "toy", "x"): 0.0})
+    scaled = at.what.space.values(at.point.x)
+    assert right.targets[0].measured.values == pytest.approx(wider.targets[0].measured.values / 1.25)  # type: ignore[attr-defined]
+    # the model of the signal over its gain leaves as much over the noise as that of the signal: m, d and k scale x
+    x = at.what.space.to_search(np.array([1.25 * scaled[name] for name in at.what.space.keys]))
+    before, after = wider.at(at.what, at.point.x), right.at(at.what, x)
+    assert before is not None
+    assert after is not None
+    assert abs(before @ before - size) < 5 * np.sqrt(2 * size)
+    assert after == pytest.approx(before, abs=0.05)
+
+
+def test_parameters_lean_as_far_as_a_refit_without_nuisances_takes_them() -> None:
+    ruler, _, at = fitted(logged(6))
+    assert len(ruler.suspected) > 1
+    for lean in (ruler.plain, ruler.only(ruler.suspected[:1])):
+        counted = recounted(ruler, lean, at)
+        end = refit(lean, at.what, counted.point, rounds=5)
+        deviations = np.sqrt(np.diag(np.linalg.inv(end.jacobian.T @ end.jacobian)))
+        assert np.max(np.abs(end.x - at.point.x) / deviations) > 0.2
+        assert np.max(np.abs(leaning(lean, counted) - end.x) / deviations) < 0.03
 
 
 def test_intervals_hold() -> None:
