@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from pysim.io.named_columns import Numbers
 from pysim.io.parquet_table import read_parquet
 from pysim.io.tdms_table import read_tdms
 from pysim.io.text_table import LEFT_OUT, read_table
@@ -19,7 +20,7 @@ Array = NDArray[np.float64]
 _MANY = 0.05  # of all rows: more of them that stand still are no slip
 
 # Files that name their columns themselves; all others are text.
-_BY_NAME: Mapping[str, Callable[[Path, tuple[str, ...], str], list[Array]]] = {
+_BY_NAME: Mapping[str, Callable[[Path, tuple[str, ...], str], list[Numbers]]] = {
     ".parquet": read_parquet,
     ".tdms": read_tdms,
 }
@@ -35,6 +36,7 @@ class Columns:
         values: (n_r, n_c), finite, in the units of the file.
         numbers: (n_r,) where each row stands in the file, from 1.
         counted: what is counted, "line" or "row".
+        seconds: columns that are in s whatever the file's times are said to be in, since they came as moments.
     """
 
     path: Path
@@ -42,15 +44,20 @@ class Columns:
     values: Array
     numbers: NDArray[np.intp]
     counted: str = "line"
+    seconds: frozenset[str] = frozenset()
 
     def place(self, row: int) -> str:
         """File and line of a row, for messages."""
         return f"{self.path}, {self.counted} {self.numbers[row]}"
 
-    def scaled(self, name: str, factor: float) -> Columns:
-        """The same with one column times a factor."""
-        factors = np.array([factor if other == name else 1.0 for other in self.names])
-        return replace(self, values=self.values * factors)
+    def in_seconds(self, name: str, second: float) -> Columns:
+        """The same with a column of times in s.
+
+        Args:
+            second: how many s the unit of the file's times is.
+        """
+        factors = np.array([second if other == name and name not in self.seconds else 1.0 for other in self.names])
+        return replace(self, values=self.values * factors, seconds=self.seconds | {name})
 
     def __getitem__(self, name: str) -> Array:
         """The column of that name, (n_r,)."""
@@ -71,9 +78,11 @@ def read_columns(path: Path, names: tuple[str, ...], wanted_by: str) -> Columns:
     wanted = tuple(name for name in names if name != LEFT_OUT)
     if by_name is not None:
         columns = by_name(path, wanted, wanted_by)
-        if not columns[0].size:
+        if not columns[0].values.size:
             raise BadInput(f"{path} holds no numbers; it needs rows of {', '.join(wanted)}")
-        return Columns(path, wanted, np.column_stack(columns), np.arange(1, columns[0].size + 1), "row")
+        values = np.column_stack([column.values for column in columns])
+        seconds = frozenset(name for name, column in zip(wanted, columns, strict=True) if column.seconds)
+        return Columns(path, wanted, values, np.arange(1, values.shape[0] + 1), "row", seconds)
     values, lines = read_table(path, names, wanted_by)
     return Columns(path, wanted, values[:, [name != LEFT_OUT for name in names]], lines)
 

@@ -47,7 +47,7 @@ def read_log(
     command = _command(section, names, signals)
     use = section.text("use", "fit", among=("fit", "validate"))
     test = _test(section, kind, SI[signals[command].unit][1] if command else 1.0)
-    columns = read_columns(folder / source, all_names, section.place).scaled(TIME, second)
+    columns = read_columns(folder / source, all_names, section.place).in_seconds(TIME, second)
     refuse_standing_time(columns)
     if test[2] is not None:
         refuse_fast_sine(section.place, columns, test[2])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
 from types import ModuleType
@@ -16,6 +17,19 @@ from pysim.types import BadInput
 
 Array = NDArray[np.float64]
 _SECOND = np.timedelta64(1, "s")
+
+
+@dataclass(frozen=True)
+class Numbers:
+    """A column of a file that knows what its cells are.
+
+    Args:
+        values: (n_r,), finite.
+        seconds: whether they came as moments or durations and so are in s, whatever the times of other files are in.
+    """
+
+    values: Array
+    seconds: bool = False
 
 
 def optional_package(module: str, wanted_by: str, package: str) -> ModuleType:
@@ -47,12 +61,13 @@ def refuse_missing(path: Path, names: Sequence[str], present: Sequence[str], wan
             raise BadInput(f"{wanted_by}: {path} has {found}; name one of {', '.join(present)}")
 
 
-def as_numbers(path: Path, name: str, cells: NDArray[Any]) -> Array:
+def as_numbers(path: Path, name: str, cells: NDArray[Any]) -> Numbers:
     """Finite numbers (n_r,) from the cells of a column; moments become seconds since the first one.
 
     Raises:
         BadInput: a cell that is empty, text or not finite, with its row.
     """
+    seconds = cells.dtype.kind in "mM"
     if cells.dtype.kind == "M":
         cells = cells - cells[:1].repeat(cells.size)
     if cells.dtype.kind == "m":
@@ -65,7 +80,7 @@ def as_numbers(path: Path, name: str, cells: NDArray[Any]) -> Array:
     if wrong.size:
         what = "empty or not a number" if math.isnan(values[wrong[0]]) else "not finite"
         raise BadInput(f"{path}, row {wrong[0] + 1}: {name} is {what}; correct it or remove the row")
-    return values
+    return Numbers(values, seconds)
 
 
 def _number(path: Path, name: str, row: int, cell: object) -> float:

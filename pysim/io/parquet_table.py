@@ -4,14 +4,11 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import numpy as np
-from numpy.typing import NDArray
-
-from pysim.io.named_columns import as_numbers, optional_package, refuse_missing
+from pysim.io.named_columns import Numbers, as_numbers, optional_package, refuse_missing
 from pysim.types import BadInput
 
 
-def read_parquet(path: Path, names: tuple[str, ...], wanted_by: str) -> list[NDArray[np.float64]]:
+def read_parquet(path: Path, names: tuple[str, ...], wanted_by: str) -> list[Numbers]:
     """The named columns, (n_r,) each.
 
     Args:

@@ -9,14 +9,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from pysim.io.named_columns import as_numbers, optional_package, refuse_missing
+from pysim.io.named_columns import Numbers, as_numbers, optional_package, refuse_missing
 from pysim.types import BadInput
 
 Array = NDArray[np.float64]
 _TIME = "time"
 
 
-def read_tdms(path: Path, names: tuple[str, ...], wanted_by: str) -> list[Array]:
+def read_tdms(path: Path, names: tuple[str, ...], wanted_by: str) -> list[Numbers]:
     """The named channels, (n_r,) each: by the channel's own name, or "group/channel" where two groups have it.
 
     Waveforms carry no channel of times but a start and an increment; the column "time" then follows from those.
@@ -43,7 +43,7 @@ def read_tdms(path: Path, names: tuple[str, ...], wanted_by: str) -> list[Array]
     chosen = {name: channels[full.index(name) if name in full else present.index(name)] for name in wanted}
     columns = {name: as_numbers(path, name, np.asarray(channel[:])) for name, channel in chosen.items()}
     if clock:
-        columns[_TIME] = _common_clock(path, chosen)
+        columns[_TIME] = Numbers(_common_clock(path, chosen), seconds=True)
     _refuse_different_lengths(path, columns)
     return [columns[name] for name in names]
 
@@ -66,8 +66,8 @@ def _common_clock(path: Path, channels: dict[str, Any]) -> Array:
     return clocks[first]
 
 
-def _refuse_different_lengths(path: Path, columns: dict[str, Array]) -> None:
-    sizes = {name: column.size for name, column in columns.items()}
+def _refuse_different_lengths(path: Path, columns: dict[str, Numbers]) -> None:
+    sizes = {name: column.values.size for name, column in columns.items()}
     if len(set(sizes.values())) > 1:
         found = ", ".join(f"{name} {size}" for name, size in sizes.items())
         raise BadInput(f"{path}: channels of different lengths ({found} rows); give each rate a record of its own")

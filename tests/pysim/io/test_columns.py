@@ -157,6 +157,18 @@ def test_a_data_set_of_such_files(tmp_path: Path, write: Write, suffix: str) -> 
     np.testing.assert_allclose(record["speed"], np.pi * np.array([2.0, 1.0, 0.5]))
 
 
+@BOTH
+def test_moments_are_in_seconds_whatever_the_unit_of_bare_times(tmp_path: Path, write: Write, suffix: str) -> None:
+    stamps = np.datetime64(START) + np.array([0, 500_000, 1_000_000], dtype="timedelta64[us]")
+    write(tmp_path / f"stamps.{suffix}", time=stamps, speed=SPEED)
+    write(tmp_path / f"bare.{suffix}", time=[0.0, 500.0, 1000.0], speed=SPEED)
+    for name in ("stamps", "bare"):
+        columns = read_columns(tmp_path / f"{name}.{suffix}", NAMES, "test")
+        np.testing.assert_allclose(columns.in_seconds("time", 1e-3)["time"], TIME)
+    path = write_channels(tmp_path / "waves.tdms", [waveform("a", "speed", SPEED)])
+    np.testing.assert_allclose(read_columns(path, NAMES, "test").in_seconds("time", 1e-3)["time"], TIME)
+
+
 def test_standing_time_is_named_by_row(tmp_path: Path) -> None:
     as_parquet(tmp_path / "log.parquet", command=[1, 2, 3], time=[0.0, 1.0, 1.0], speed=SPEED)
     (tmp_path / "dataset.toml").write_text(
