@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import math
-
 from pysim.types import BadInput, Dataset, MeasuredRecord
 
 
@@ -26,6 +24,14 @@ def the_column(dataset: Dataset, record: MeasuredRecord, role: str, name: str | 
 
 
 def declared_noise(dataset: Dataset, name: str) -> float | None:
-    """Standard deviation of a signal's samples as the data set declares it, rounding included; None without."""
+    """Standard deviation of a signal's samples as the data set declares it, rounding included; None without.
+
+    Raises:
+        BadInput: it is said to be zero.
+    """
     signal = dataset.signal(name)
-    return None if signal.noise is None else math.hypot(signal.noise, (signal.resolution or 0.0) / math.sqrt(12))
+    if signal.noise is None:
+        return None
+    if not signal.deviation > 0:
+        raise BadInput(f"signal {name!r}: a noise of {signal.noise:g} gives no weight; leave it out or correct it")
+    return signal.deviation

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 from pysim.types.errors import BadInput
@@ -30,6 +31,14 @@ class MeasuredSignal:
     variable: str
     noise: float | None = None
     resolution: float | None = None
+
+    @property
+    def deviation(self) -> float:
+        """Standard deviation of noise and rounding together, in `unit`, as far as they are known.
+
+        Rounding to steps of h is evenly spread over h, of variance h^2/12.
+        """
+        return math.hypot(self.noise or 0.0, (self.resolution or 0.0) / math.sqrt(12))
 
 
 @dataclass(frozen=True)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
@@ -117,8 +116,8 @@ def _warnings(
             low, high = limits[name]
             ends = f"({low:g}, {high:g} {signal.unit})"
             yield f"{count} samples of {name} stand at its smallest or largest value {ends}: clipped?"
-        noise = math.hypot(signal.noise or 0.0, (signal.resolution or 0.0) / math.sqrt(12))
-        share = share_near_nyquist(log[name], noise) if record.kind in ("chirp", "stochastic", "multisine") else 0.0
+        broad = record.kind in ("chirp", "stochastic", "multisine")
+        share = share_near_nyquist(log[name], signal.deviation) if broad else 0.0
         if share > _FOLDED:
             yield (
                 f"{100 * share:.0f} percent of the variance of {name} lie above 80 percent of half the sampling rate: "

@@ -75,7 +75,7 @@ def _noise(signal: MeasuredSignal, gain: float) -> float | None:
     """Of noise and resolution, in N.m or rad/s; None where the data set says nothing."""
     if signal.noise is None and signal.resolution is None:
         return None
-    return abs(gain) * float(np.hypot(signal.noise or 0.0, (signal.resolution or 0.0) / np.sqrt(12)))
+    return abs(gain) * signal.deviation
 
 
 def _series(record: MeasuredRecord, columns: ShaftColumns) -> tuple[Array, Array, Array]:

@@ -66,6 +66,11 @@ def test_declared_noise_includes_the_rounding() -> None:
     assert one.points[3].noise.at_frequency == pytest.approx(np.hypot(0.1, step / np.sqrt(12)), rel=0.1)
 
 
+def test_a_noise_of_nothing_is_refused() -> None:
+    with pytest.raises(BadInput, match="a noise of 0 gives no weight; leave it out or correct it"):
+        measured_responses(dataset(*logs(0.1), noise=0.0))
+
+
 def test_remarks_tell_of_harmonics() -> None:
     (one,) = measured_responses(
         dataset(*[log(f, periods=20, add=0.03 * (f == 5.0), noise=white(1001, 0.01, 4)) for f in (5.0, 7.0)])
