@@ -15,6 +15,8 @@ if TYPE_CHECKING:
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The words behind `pysim fit`."""
+    from pysim.cli._options import add_reference
+
     parser.add_argument("model", metavar="MODEL.fmu", type=Path)
     parser.add_argument("--data", metavar="DATASET", type=Path, action="append", required=True, help="folder; repeat")
     parser.add_argument(
@@ -29,6 +31,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--objective", choices=("noise", "time", "frequency", "combined"), default="noise")
     parser.add_argument("--optimiser", choices=("gauss-newton", "interior-point"), help="gauss-newton for noise")
     parser.add_argument("--signal", metavar="NAME", action="append", help="compare only this output; repeat")
+    add_reference(parser)
     parser.add_argument("--starts", metavar="N", type=int, default=0, help="more searches, drawn between the bounds")
     parser.add_argument("--seed", metavar="S", type=int, help="of the draw")
     parser.add_argument("--trust-start", action="store_true", help="do not try the model's own values beside --start")
@@ -95,8 +98,8 @@ def _say(tried: Tried) -> None:
 
 
 def _problem(args: argparse.Namespace) -> Problem:
-    from pysim.cli._options import bounded
-    from pysim.identify.greybox import Measurements, Parameter, Tie, problem
+    from pysim.cli._options import bounded, chosen_reference
+    from pysim.identify.greybox import Measurements, Parameter, Tie, Treatment, problem
     from pysim.io import read_dataset, read_model
 
     model = read_model(args.model)
@@ -105,10 +108,11 @@ def _problem(args: argparse.Namespace) -> Problem:
     _refuse_idle({**starts, **bounds}, names)
     free = [Parameter(name, starts.get(name), *bounds.get(name, (None, None))) for name in names]
     ties = [Tie(*_tie(text)) for text in args.tie]
-    data = [
-        Measurements(read_dataset(folder), outputs=tuple(args.signal) if args.signal else None) for folder in args.data
-    ]
-    return problem(model, data, free, fixed=_numbers(args.fix, "--fix"), ties=ties)
+    datasets = [read_dataset(folder) for folder in args.data]
+    data = [Measurements(one, outputs=tuple(args.signal) if args.signal else None) for one in datasets]
+    args.reference_hz = chosen_reference(args.reference_hz, (r for one in datasets for r in one.responses()))
+    treatment = Treatment(reference_hz=args.reference_hz)
+    return problem(model, data, free, fixed=_numbers(args.fix, "--fix"), ties=ties, treatment=treatment)
 
 
 def _refuse_idle(given: dict[str, object], names: list[str]) -> None:
@@ -194,7 +198,9 @@ def _pictures(result: Fit, folder: Path) -> dict[str, bytes]:
 
 def _words(args: argparse.Namespace) -> list[str]:
     """The command line again, without --resume."""
-    words = ["fit", str(args.model), "--free", args.free, "--objective", args.objective]
+    from pysim.cli._options import reference_words
+
+    words = ["fit", str(args.model), "--free", args.free, "--objective", args.objective, *reference_words(args)]
     for option in ("data", "fix", "tie", "start", "bounds", "signal", "profile"):
         for value in getattr(args, option) or ():
             words += [f"--{option}", str(value)]

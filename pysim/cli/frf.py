@@ -55,6 +55,7 @@ def run(args: argparse.Namespace) -> int:
 
 
 def _write_report(args: argparse.Namespace, name: str, responses: Sequence[MeasuredResponse]) -> None:
+    from pysim.cli._options import reference_words
     from pysim.cli._outputs import command_line
     from pysim.io import write_file
     from pysim.plot import frf_figure, render
@@ -65,8 +66,7 @@ def _write_report(args: argparse.Namespace, name: str, responses: Sequence[Measu
     svg = render(figure, "svg")
     write_file(args.output / "frf.svg", svg)
     pictures = {"Magnitude, phase and harmonics; bars: 95 percent intervals; filled: beyond the noise.": svg}
-    reference = "none" if args.reference_hz is None else f"{args.reference_hz:g}"
-    words = ["frf", str(args.dataset), "--reference-hz", reference, "--output", str(args.output)]
+    words = ["frf", str(args.dataset), *reference_words(args), "--output", str(args.output)]
     words += ["--settle", f"{args.settle:g}", "--settle-periods", f"{args.settle_periods:g}"]
     words += ["--signal", args.signal] if args.signal else []
     text = frf_page(responses, args.reference_hz, dataset=name, pictures=pictures, redo=command_line(words))

@@ -2,6 +2,7 @@ import json
 import tomllib
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import fmu_build
@@ -36,6 +37,16 @@ def test_a_fit_writes_numbers_parameters_report_and_log(place: Path, capsys: pyt
     again = main([*words, "--resume", "--output", str(place / "out"), "--json", str(place / "again.json")])
     assert again == 0
     assert json.loads((place / "again.json").read_text())["values"] == data["values"]
+
+
+def test_a_table_without_the_thesis_reference_is_fitted_as_it_is(place: Path, tmp_path: Path) -> None:
+    write_dataset(tmp_path / "table", m.dataset([m.table(2.0, 0.7, np.array([0.2, 0.5, 1.0]))]))
+    words = ["fit", str(place / "Lag.fmu"), "--data", str(tmp_path / "table"), "--free", "K,T", "--fix", "g=1"]
+    assert main([*words, "--json", str(tmp_path / "fit.json"), "--output", str(tmp_path / "out")]) == 0
+    found = json.loads((tmp_path / "fit.json").read_text())["values"]
+    assert (found["K"], found["T"]) == pytest.approx((2.0, 0.7), rel=1e-3)
+    assert "--reference-hz none" in (tmp_path / "out" / "report.html").read_text()
+    assert main([*words, "--reference-hz", "0.1"]) == 2
 
 
 @pytest.mark.parametrize(
