@@ -100,9 +100,10 @@ def _guarded(args: argparse.Namespace) -> int:
         print(f"pysim: stopped{f'; {stop}' if str(stop) else ''}", file=sys.stderr)
         return WRONG_USE
     except Exception as error:
-        if _is_users(error):
+        code = _answer(error)
+        if code != OUR_BUG:
             print(f"pysim {args.command}: {error}", file=sys.stderr)
-            return WRONG_USE
+            return code
         traceback.print_exc()
         print(f"pysim {args.command}: this is our mistake, please report the lines above", file=sys.stderr)
         return OUR_BUG
@@ -114,11 +115,14 @@ def _silence() -> None:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
-def _is_users(error: Exception) -> bool:
-    """Whether the message is meant for the user: bad input, a model that does not compile, a place we cannot write."""
-    from pysim.types import BadInput
+def _answer(error: Exception) -> int:
+    """NO for a run that stopped early; WRONG_USE for bad input, a model that does not compile, a place we cannot write;
+    OUR_BUG for all whose message is not meant for the user."""
+    from pysim.types import BadInput, SimulationError
 
+    if isinstance(error, SimulationError):
+        return NO
     if isinstance(error, BadInput | OSError):
-        return True
+        return WRONG_USE
     builder = sys.modules.get("fmu_build.errors")
-    return builder is not None and isinstance(error, builder.BuildError)
+    return WRONG_USE if builder is not None and isinstance(error, builder.BuildError) else OUR_BUG

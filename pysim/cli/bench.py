@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import json
-import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -47,7 +46,6 @@ def run(args: argparse.Namespace) -> int:
     from pysim.cli._outputs import prepare_file, prepare_folder
     from pysim.cli._progress import ProgressBar, announce_compilation
     from pysim.io import read_model, write_dataset, write_file
-    from pysim.types import SimulationError
 
     plan, model = read_plan(args.plan), read_model(args.model)
     parameters, strength = read_parameters(args, model), assigned(args.strength, "--strength", "SI units")
@@ -58,14 +56,10 @@ def run(args: argparse.Namespace) -> int:
     if args.truth:
         prepare_file(args.truth, "--truth", (".json",))
     announce_compilation()
-    try:
-        with ProgressBar("tests") as progress:
-            data = run_plan(
-                model, plan, args.seed, parameters=parameters, effect=args.effect, strength=strength, progress=progress
-            )
-    except SimulationError as error:
-        print(f"pysim bench: {error}", file=sys.stderr)
-        return 1
+    with ProgressBar("tests") as progress:
+        data = run_plan(
+            model, plan, args.seed, parameters=parameters, effect=args.effect, strength=strength, progress=progress
+        )
     units = {name: unit for name, (unit, _) in plan.units.items()}
     write_dataset(args.output, data.dataset, units=units)
     if args.truth:

@@ -14,6 +14,7 @@ from pysim.types import BadInput, Signal
 _COLUMNS = ("time", "value", "rate")
 # Rows of a file; more is a slip of the keyboard.
 _MOST_ROWS = 10_000_000
+_NUMBER = re.compile(r"[+-]?[.,]?\d")  # how a row begins
 
 
 def read_signal(path: Path | str, wanted_by: str) -> Signal:
@@ -42,10 +43,15 @@ def read_signal(path: Path | str, wanted_by: str) -> Signal:
 
 
 def _has_rate(text: str) -> bool:
-    """Whether the header names a third column "rate"."""
-    line = next((line for line in text.splitlines() if line.strip() and not line.lstrip().startswith("#")), "")
-    fields = [field.strip().lower() for field in re.split(r"[,;\t]", line)]
-    return len(fields) == 3 and fields[2].startswith("rate")
+    """Whether a line of the header, commented or not, names a third column "rate"."""
+    for line in text.splitlines():
+        heading = line.strip().lstrip("#").strip().lower()
+        if line.strip()[:1] != "#" and _NUMBER.match(heading):
+            return False
+        fields = re.split(r"\s*[,;\t]\s*", heading) if re.search(r"[,;\t]", heading) else heading.split()
+        if len(fields) == 3 and fields[2].startswith("rate"):
+            return True
+    return False
 
 
 def write_signal(

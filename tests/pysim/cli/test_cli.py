@@ -19,7 +19,7 @@ import pysim.cli
 from pysim.cli import main
 from pysim.cli._options import read_parameters
 from pysim.cli._outputs import command_line
-from pysim.types import BadInput, Experiment, Record
+from pysim.types import BadInput, Experiment, Record, SimulationError
 from tests.pysim import comparisons as linear
 
 RECORD = """
@@ -150,7 +150,14 @@ def test_help_is_exit_0() -> None:
 
 
 @pytest.mark.parametrize(
-    ("error", "code"), [(BadInput("no"), 2), (OSError("no"), 2), (KeyboardInterrupt(), 2), (KeyError("x"), 3)]
+    ("error", "code"),
+    [
+        (BadInput("no"), 2),
+        (OSError("no"), 2),
+        (KeyboardInterrupt(), 2),
+        (KeyError("x"), 3),
+        (SimulationError("stopped at 1 s", Record(np.zeros(0), np.zeros((0, 0)), (), ())), 1),
+    ],
 )
 def test_what_goes_wrong_becomes_an_exit_code(
     error: BaseException, code: int, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]

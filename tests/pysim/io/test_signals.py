@@ -30,6 +30,17 @@ def test_what_is_no_signal_is_refused_with_its_line(tmp_path: Path, text: str, w
         read_signal(tmp_path / "u.csv", "--input u")
 
 
+@pytest.mark.parametrize(
+    "heading", ["time value rate", "# time,value,rate", "# made up\n\n#time [s]\tu [V]\trate [V/s]"]
+)
+def test_a_rate_is_found_under_any_heading(tmp_path: Path, heading: str) -> None:
+    rows = " ".join if heading == "time value rate" else ",".join if "," in heading else "\t".join
+    lines = [rows(row) for row in (("0", "1", "0"), ("1", "3", "0"))]
+    (tmp_path / "u.csv").write_text("\n".join([heading, *lines, ""]))
+    signal = read_signal(tmp_path / "u.csv", "--input u")
+    np.testing.assert_allclose(signal.value(np.array([0.25, 0.5])), [1 + 2 * (3 / 16 - 2 / 64), 2.0])  # a cubic
+
+
 def test_what_is_written_comes_back(tmp_path: Path) -> None:
     omega = 2 * np.pi * 20.0
     sine = Signal(np.array([0.0]), np.array([[5.0, 0.0, 0.0, 0.0]]), np.array([[[10.0, 0.3, omega, 0.0]]]))
