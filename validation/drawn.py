@@ -1,4 +1,4 @@
-"""A few of many at random, others every day: what a check that cannot look at all looks at."""
+"""A few of many at random, drawn anew every day: what a check that cannot look at all looks at."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ import numpy as np
 T = TypeVar("T")
 
 
-def drawn(things: Sequence[T], count: int, seed: int | None = None) -> list[T]:
-    """So many of them, or all where there are no more.
+def of_the_day() -> int:
+    """A seed that every day has for itself; a claim tells it, so that the draw can be had again."""
+    return datetime.now(UTC).date().toordinal()
 
-    Args:
-        seed: of the draw; the day's number where None.
-    """
-    seed = datetime.now(UTC).date().toordinal() if seed is None else seed
+
+def drawn(things: Sequence[T], count: int, seed: int) -> list[T]:
+    """So many of them, or all where there are no more."""
     return [things[i] for i in np.random.default_rng(seed).permutation(len(things))[:count].tolist()]

@@ -9,7 +9,7 @@ from pysim.types import Diagnosis
 from validation.blind.benchmark.judged import estimated
 from validation.diagnosis.answers import Kept, answered, kept, read_answers
 from validation.diagnosis.sets import NAMES, Told, read_told
-from validation.drawn import drawn
+from validation.drawn import drawn, of_the_day
 from validation.findings import Finding
 
 AGAIN = 5
@@ -28,6 +28,7 @@ def run(
         seed: of the draw; the day's number where None, so that every day answers others.
     """
     stored, outside, total = read_answers(), 0, 0
+    seed = of_the_day() if seed is None else seed
     again = drawn(names, AGAIN, seed)
     for name in names:
         told = read_told(name)
@@ -43,7 +44,8 @@ def run(
         yield from against_stored(name, kept(found), stored.get(name))
     if total:
         allowed = _binomial(total)
-        yield Finding(f"truths outside their 95 percent intervals, of {total}", float(outside), allowed, "")
+        claim = f"truths outside their 95 percent intervals, of {total} in sets drawn with seed {seed}"
+        yield Finding(claim, float(outside), allowed, "")
 
 
 def of_stored(name: str, before: Kept | None, told: Told | None) -> Iterator[Finding]:

@@ -11,7 +11,7 @@ from validation.blind.benchmark.examine import examine
 from validation.blind.benchmark.figures import figures, place_figures, tie_figures
 from validation.blind.benchmark.store import FOLLOWED, PLACES, Store
 from validation.blind.plant import Case, cases
-from validation.drawn import drawn
+from validation.drawn import drawn, of_the_day
 from validation.findings import Finding
 
 SAMPLE = 6
@@ -45,7 +45,8 @@ def _sampled(
     table: Sequence[Case], answers: Mapping[str, Answer], seed: int | None, task: Callable[[Case], Answer]
 ) -> Iterator[Finding]:
     known = [case for case in table if case.name in answers and not answers[case.name].trouble]
-    yield Finding("stored answers, missing to a sample", float(max(0, SAMPLE - len(known))), 0, "")
+    seed = of_the_day() if seed is None else seed
+    yield Finding(f"stored answers, missing to a sample (seed {seed})", float(max(0, SAMPLE - len(known))), 0, "")
     for case in drawn(known, SAMPLE, seed):
         yield from compared(answers[case.name], task(case))
 
