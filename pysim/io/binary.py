@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import os
 import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Protocol, TypeVar
 
 from fmpy import platform, platform_tuple, sharedLibraryExtension
@@ -46,10 +49,25 @@ def load_library(load: Loader[Loaded], model: Model, library: str, instance: str
         library: as for `check_binary`.
         instance: name that the FMU's messages will carry.
     Raises:
-        BadInput: as `check_binary`.
-        Exception: FMPy could not load it.
+        BadInput: as `check_binary`, or a library that the system cannot load.
     """
     check_binary(model, library)
     folder = str(extracted(model.path))
-    with _loading:
-        return load(guid=model.token, modelIdentifier=library, unzipDirectory=folder, instanceName=instance)
+    with _loading, _working_folder():
+        try:
+            return load(guid=model.token, modelIdentifier=library, unzipDirectory=folder, instanceName=instance)
+        except Exception as error:  # FMPy raises a bare Exception
+            raise BadInput(
+                f"{model.path.name}: its library {library} cannot be loaded ({error}); install what it needs beside "
+                "itself, or export the FMU again for this machine"
+            ) from error
+
+
+@contextmanager
+def _working_folder() -> Iterator[None]:
+    """Stay where we are: FMPy does not come back from a library that cannot be loaded."""
+    folder = os.getcwd()
+    try:
+        yield
+    finally:
+        os.chdir(folder)

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from pysim.cosim.member import MemberFailed
 from pysim.io import load_library
 from pysim.simulate import FmuValues, Mailbox
-from pysim.types import BadInput, CoSimulation, Model
+from pysim.types import CoSimulation, Model
 
 Array = NDArray[np.float64]
 
@@ -38,12 +38,7 @@ class SteppingInstance:
         self._kept: list[NDArray[np.uint32]] = []  # what the library is given addresses of
         self.status = 0  # worst one; after a fatal error nothing may be called any more
         kind = FMU2Slave if model.abilities.fmi == 2 else FMU3Slave
-        try:
-            self.fmu: Any = load_library(kind, model, stepping.library, name)
-        except BadInput:
-            raise
-        except Exception as error:  # FMPy raises a bare Exception
-            raise MemberFailed(f"its shared library cannot be loaded ({error}); export it again") from error
+        self.fmu: Any = load_library(kind, model, stepping.library, name)
         self._alive = self.is_running = False
 
     def instantiate(self, **options: bool) -> int:

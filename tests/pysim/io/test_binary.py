@@ -1,12 +1,16 @@
-"""An FMU for another machine is told as that."""
+"""An FMU for another machine is told as that, and one whose library cannot be loaded."""
 
+import os
 import zipfile
 from pathlib import Path
 
 import pytest
+from fmpy.fmi2 import FMU2Model
+from fmpy.fmi3 import FMU3Model
 
-from pysim.io import check_binary, read_model
+from pysim.io import check_binary, load_library, read_model
 from pysim.types import BadInput
+from tests.broken import with_broken_library
 from tests.pysim.simulate.text_models import LAG, text_model
 
 
@@ -19,3 +23,14 @@ def test_the_machines_it_is_for_are_named(tmp_path: Path) -> None:
         bare.writestr("modelDescription.xml", archive.read("modelDescription.xml"))
     with pytest.raises(BadInput, match=r"bare\.fmu has no binary for .* \(it has: none\)"):
         check_binary(read_model(tmp_path / "bare.fmu"), own.abilities.library)
+
+
+@pytest.mark.parametrize(("fmi", "kind"), [(2, FMU2Model), (3, FMU3Model)])
+def test_a_library_that_cannot_be_loaded_is_told_and_leaves_the_working_directory(
+    tmp_path: Path, fmi: int, kind: type
+) -> None:
+    model = read_model(with_broken_library(text_model(LAG, tmp_path, fmi=fmi).path, tmp_path / "broken.fmu"))
+    before = os.getcwd()
+    with pytest.raises(BadInput, match=r"^broken\.fmu: its library Lag cannot be loaded \(.*\); install what it needs"):
+        load_library(kind, model, "Lag", "lag")
+    assert os.getcwd() == before

@@ -10,6 +10,7 @@ from pysim.cosim.members import Fmu
 from pysim.io import read_model
 from pysim.simulate import Rodas
 from pysim.types import BadInput, Model, Outcome
+from tests.broken import with_broken_library
 from tests.foreign import made_foreign
 from tests.pysim.cosim.members.driving import Driven, driven
 from tests.pysim.simulate.text_models import DISCARDS, LAG, text_model
@@ -266,6 +267,16 @@ def test_an_fmu_that_can_be_there_only_once(folder: Path, tmp_path: Path, fmi: i
         second.close()
     with driven(second) as run:
         assert run["y"] == 0.3
+
+
+@pytest.mark.parametrize(("fmi", "interface"), KINDS)
+def test_a_library_that_cannot_be_loaded_is_the_users_to_hear_of(
+    folder: Path, tmp_path: Path, fmi: int, interface: str
+) -> None:
+    model = read_model(with_broken_library(text_model(LAG, folder, fmi=fmi).path, tmp_path / "broken.fmu"))
+    member = Fmu("lag", model, interface=interface)
+    with pytest.raises(BadInput, match=r"broken\.fmu: its library Lag cannot be loaded"), driven(member):
+        pass
 
 
 @pytest.mark.parametrize(("fmi", "interface"), KINDS)
