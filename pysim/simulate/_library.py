@@ -57,7 +57,7 @@ class Instance:
         self.model, self.jacobian, self.fmu, self.mailbox = library.model, library.jacobian, fmu, mailbox
         self.status = OK  # worst one of the run; after a fatal error nothing may be called any more
         self.job: Job | None = None  # memory of the run before
-        self._alive, self._can_reset = False, True
+        self.is_alive, self._can_reset = False, True  # alive: between instantiation and release
         self._rows: dict[tuple[str, ...], dict[str, Any]] = {}
         version = self.model.abilities.fmi
         self._addresses: dict[str, Any] = {
@@ -91,7 +91,7 @@ class Instance:
         """
         self.mailbox.empty()
         self.status = OK
-        if self._alive and self._can_reset and self._reset():
+        if self.is_alive and self._can_reset and self._reset():
             return
         self.release()
         self.mailbox.empty()
@@ -99,7 +99,7 @@ class Instance:
             self.fmu.instantiate(**self.mailbox.callbacks)
         except Exception as error:  # FMPy raises a bare Exception
             raise CallFailed("the FMU could not be instantiated" + self.mailbox.text()) from error
-        self._alive = True
+        self.is_alive = True
 
     def _reset(self) -> bool:
         try:
@@ -110,11 +110,11 @@ class Instance:
 
     def release(self) -> None:
         """Free the instance; the library stays loaded."""
-        if self._alive:
+        if self.is_alive:
             (self.fmu.fmi2FreeInstance if self.model.abilities.fmi == 2 else self.fmu.fmi3FreeInstance)(
                 self.fmu.component
             )
-        self._alive = False
+        self.is_alive = False
 
     def initialise(self, values: Mapping[str, float], start: float, stop: float, tolerance: float | None) -> None:
         """Set start values, go through initialisation mode, arrive in event mode.
@@ -196,14 +196,20 @@ class Library:
             instance = self._idle.pop()
         except IndexError:
             instance = self._load()
-        instance.renew()
         try:
+            instance.renew()
             yield instance
         finally:
-            if instance.status < FATAL:
-                if instance.status >= ERROR:
-                    instance.release()
-                self._idle.append(instance)
+            self._take_back(instance)
+
+    def _take_back(self, instance: Instance) -> None:
+        """Keep it for a later run, or unload it where it can never be used again."""
+        if not instance.is_alive or instance.status >= FATAL:
+            instance.fmu.freeLibrary()
+            return
+        if instance.status >= ERROR:
+            instance.release()
+        self._idle.append(instance)
 
     def close(self) -> None:
         """Free the instances and unload the shared library."""

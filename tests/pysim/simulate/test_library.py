@@ -6,11 +6,12 @@ from unittest.mock import Mock
 import numpy as np
 import pytest
 
-from pysim.io import read_model
+from pysim.io import load_library, read_model
 from pysim.simulate import Rk4, Rk45, Rodas, simulate, simulate_many
 from pysim.simulate._library import open_library
 from pysim.simulate._messages import _mailboxes
 from pysim.simulate._run import run
+from pysim.simulate.native.fmu_calls import ERROR, FATAL, OK
 from pysim.types import BadInput, Experiment, Outcome
 from tests.pysim.simulate.fixture_fmus import BALL, CLOCK, FRAGILE, OSCILLATOR, STIFF
 
@@ -105,3 +106,42 @@ def test_instances_that_are_closed_are_forgotten(fixture_model):
         simulate(model, Experiment(np.ones(1), ("x",)))
     gc.collect()
     assert len(_mailboxes) <= before
+
+
+@pytest.fixture
+def libraries(monkeypatch):
+    """Libraries loaded, and those unloaded."""
+    loaded, freed = [], []
+
+    def load(*arguments):
+        fmu = load_library(*arguments)
+        free, fmu.freeLibrary = fmu.freeLibrary, lambda: (free(), freed.append(fmu))
+        loaded.append(fmu)
+        return fmu
+
+    monkeypatch.setattr("pysim.simulate._library.load_library", load)
+    return loaded, freed
+
+
+@pytest.mark.parametrize("fmi", [2, 3])
+@pytest.mark.parametrize("status", [OK, ERROR, FATAL])
+def test_each_library_is_unloaded_once(fixture_model, libraries, fmi, status):
+    loaded, freed = libraries
+    with open_library(fixture_model(OSCILLATOR, fmi)) as library:
+        with library.instance() as instance:
+            instance.status = status
+        assert (freed == loaded) == (status == FATAL)
+        with library.instance():
+            pass
+    assert len(loaded) == (2 if status == FATAL else 1)
+    assert freed == loaded
+
+
+@pytest.mark.parametrize("fmi", [2, 3])
+def test_a_library_that_makes_no_instance_is_unloaded(fixture_model, libraries, fmi):
+    loaded, freed = libraries
+    model = dataclasses.replace(fixture_model(OSCILLATOR, fmi), token="of another build")
+    with pytest.raises(BadInput, match="could not be instantiated"):
+        simulate(model, Experiment(np.ones(1), ("x",)))
+    assert len(loaded) == 1
+    assert freed == loaded
