@@ -9,6 +9,7 @@ import signal
 import subprocess
 import sys
 import threading
+from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
@@ -20,6 +21,7 @@ from pysim.fmu_check.subject import read_subject
 from pysim.types import BadInput
 
 PATIENCE_S = 120.0  # without a word from a check
+_FAREWELL_S = 5.0  # for the last words of a worker that has ended to arrive
 
 
 @dataclass(frozen=True)
@@ -88,7 +90,10 @@ def _work(
     order = list(CHECKS)
     words = [sys.executable, "-m", "pysim.fmu_check.worker", str(path), *(str(order.index(name)) for name in names)]
     pipe = subprocess.PIPE
-    worker = subprocess.Popen(words, env=_environment(), stdout=pipe, stderr=pipe, text=True, encoding="utf-8")
+    worker = subprocess.Popen(
+        words, env=_environment(), stdout=pipe, stderr=pipe, text=True, encoding="utf-8", errors="replace"
+    )
+    last, listener = _last_words(worker)
     results: list[CheckResult] = []
     count = 0
     for line in _lines(worker, patience):
@@ -103,9 +108,10 @@ def _work(
             return len(names), results
     hangs = worker.poll() is None
     worker.kill()
-    error = worker.communicate()[1]
+    worker.wait()
     if count == 0:
-        raise BadInput(f"{path} cannot be tried: {(error.strip().splitlines() or ['the worker ended'])[-1]}")
+        listener.join(_FAREWELL_S)
+        raise BadInput(f"{path} cannot be tried: {last[0].strip() if last else 'the worker ended'}")
     results.append(_death(names[count - 1], worker.returncode, patience if hangs else None))
     return count, results
 
@@ -136,6 +142,15 @@ def _lines(worker: subprocess.Popen[str], patience: float) -> Iterator[str]:
             worker.wait()
             return
         yield line
+
+
+def _last_words(worker: subprocess.Popen[str]) -> tuple[deque[str], threading.Thread]:
+    """The last line of its standard error, and who listens: a pipe that nobody empties would make the FMU wait."""
+    assert worker.stderr is not None
+    last: deque[str] = deque(maxlen=1)
+    listener = threading.Thread(target=last.extend, args=(filter(str.strip, worker.stderr),), daemon=True)
+    listener.start()
+    return last, listener
 
 
 def _death(name: str, code: int, waited: float | None) -> CheckResult:

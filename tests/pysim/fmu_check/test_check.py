@@ -5,6 +5,7 @@ from pathlib import Path
 import pytest
 
 from pysim.fmu_check import check_fmu
+from pysim.fmu_check.check import _work
 from pysim.fmu_check.result import CheckResult, none_of, within
 from pysim.types import BadInput
 from tests.planted import planted
@@ -15,6 +16,11 @@ def test_wrong_use(tmp_path: Path) -> None:
         check_fmu(tmp_path / "none.fmu")
     with pytest.raises(BadInput, match="no check named luck; there are description"):
         check_fmu(planted("NONE", tmp_path), ("luck",))
+
+
+def test_a_worker_that_cannot_begin_is_told_in_its_last_words(tmp_path: Path) -> None:
+    with pytest.raises(BadInput, match=r"none\.fmu cannot be tried: .*no FMU at"):
+        _work(tmp_path / "none.fmu", ("order",), 30.0, lambda done: None)
 
 
 def test_verdicts() -> None:

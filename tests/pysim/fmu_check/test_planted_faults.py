@@ -30,10 +30,11 @@ FOUND = {
     "OTHER_DERIVATIVE": ("derivatives", "fails", "what the call for derivatives gives", "der(v)"),
 }
 DEADLY = {"CRASH_EARLY", "CRASH_SAVE", "HANG"}
+HARMLESS = {"NONE", "TALKATIVE"}
 
 
 def test_every_fault_is_expected_somewhere() -> None:
-    assert set(FOUND) | DEADLY | {"NONE"} == set(FAULTS)
+    assert set(FOUND) | DEADLY | HARMLESS == set(FAULTS)
 
 
 @pytest.mark.parametrize("fault", FOUND)
@@ -82,3 +83,8 @@ def test_a_hang_is_a_finding(subject: Callable[[str], Subject]) -> None:
     (hang,) = check_fmu(subject("HANG").path, (name,), patience=3.0).results
     assert hang.verdict == "fails"
     assert "hangs" in hang.detail
+
+
+def test_what_an_fmu_writes_to_the_standard_error_does_not_hold_it_up(subject: Callable[[str], Subject]) -> None:
+    (result,) = check_fmu(subject("TALKATIVE").path, ("order",), patience=30.0).results
+    assert result.verdict == "holds"
