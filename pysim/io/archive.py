@@ -6,34 +6,44 @@ import hashlib
 import os
 import shutil
 import tempfile
+import time
+import uuid
 import zipfile
 import zlib
+from contextlib import suppress
 from functools import lru_cache
 from pathlib import Path, PurePosixPath, PureWindowsPath
 
 from pysim.io.cache import cache_folder
 from pysim.types import BadInput
 
+KEPT_FOLDERS = 200
+IN_USE = 86400.0  # s since its last use for which a folder stays, however many there are: a run may still read it
+
 # What zipfile raises for a damaged archive, for a compression it does not know, and for one with a password
 DAMAGED = (zipfile.BadZipFile, zlib.error, EOFError, NotImplementedError, RuntimeError)
 
 
 def extracted(path: Path) -> Path:
-    """The folder with the unpacked FMU. The same content is unpacked once per machine.
+    """The folder with the unpacked FMU. The same content is unpacked once per machine, and goes when long unused.
 
     Raises:
         BadInput: not a zip archive, one that is damaged or encrypted, or a member that would land outside the folder.
     """
     stat = path.stat()
-    return _extracted(path.resolve(), stat.st_mtime_ns, stat.st_size)
+    folder = _folder(path.resolve(), stat.st_mtime_ns, stat.st_size)
+    try:
+        with suppress(PermissionError):  # another user's
+            os.utime(folder)  # used just now
+    except FileNotFoundError:
+        _unpack(path, folder)
+        _let_go(folder.parent)
+    return folder
 
 
 @lru_cache(maxsize=64)
-def _extracted(path: Path, _modified: int, _size: int) -> Path:
-    folder = cache_folder("fmu") / hashlib.sha256(path.read_bytes()).hexdigest()[:32]
-    if not folder.is_dir():
-        _unpack(path, folder)
-    return folder
+def _folder(path: Path, _modified: int, _size: int) -> Path:
+    return cache_folder("fmu") / hashlib.sha256(path.read_bytes()).hexdigest()[:32]
 
 
 def _unpack(path: Path, folder: Path) -> None:
@@ -52,6 +62,26 @@ def _unpack(path: Path, folder: Path) -> None:
             raise
     finally:
         shutil.rmtree(partial, ignore_errors=True)
+
+
+def _let_go(cache: Path) -> None:
+    """Remove the folders unused for longest, but none that a run may still read."""
+    lately, used = time.time() - IN_USE, {}
+    for folder in cache.iterdir():
+        with suppress(OSError):  # another process was faster
+            if folder.is_dir():
+                used[folder] = folder.stat().st_mtime
+    for folder in sorted(used, key=used.__getitem__, reverse=True)[KEPT_FOLDERS:]:
+        if used[folder] < lately:
+            _remove(folder)
+
+
+def _remove(folder: Path) -> None:
+    """Rename and delete, so that a folder that exists is always complete. Windows refuses while a library is loaded."""
+    gone = folder.with_name(f"unpack-{uuid.uuid4().hex}")
+    with suppress(OSError):
+        os.replace(folder, gone)
+        shutil.rmtree(gone, ignore_errors=True)
 
 
 def _check_member(path: Path, name: str) -> None:

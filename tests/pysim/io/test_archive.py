@@ -1,3 +1,5 @@
+import os
+import shutil
 import zipfile
 from pathlib import Path
 
@@ -13,9 +15,9 @@ def own_cache(tmp_path, monkeypatch):
     folder = tmp_path / "cache"
     folder.mkdir()
     monkeypatch.setattr(module, "cache_folder", lambda purpose: folder)
-    module._extracted.cache_clear()
+    module._folder.cache_clear()
     yield folder
-    module._extracted.cache_clear()
+    module._folder.cache_clear()
 
 
 def pack(path: Path, **members: str) -> Path:
@@ -35,6 +37,39 @@ def test_same_content_is_unpacked_once_and_other_content_elsewhere(tmp_path, own
     assert other != one
     assert (other / "resources" / "data").read_text() == "22"
     assert {path.name for path in own_cache.iterdir()} == {one.name, other.name}
+
+
+def test_the_unused_go_first_and_come_back(tmp_path, own_cache, monkeypatch):
+    files = [pack(tmp_path / f"{name}.fmu", resources__data=name) for name in "abc"]
+    folders = [extracted(file) for file in files]
+    for age, folder in enumerate(folders):
+        os.utime(folder, (age, age))
+    extracted(files[0])  # used just now
+    monkeypatch.setattr(module, "KEPT_FOLDERS", 2)
+    new = extracted(pack(tmp_path / "d.fmu", resources__data="d"))
+    assert {path.name for path in own_cache.iterdir()} == {folders[0].name, new.name}
+    assert (extracted(files[1]) / "resources" / "data").read_text() == "b"
+
+
+def test_what_was_used_within_a_day_stays(tmp_path, own_cache, monkeypatch):
+    monkeypatch.setattr(module, "KEPT_FOLDERS", 1)
+    folders = [extracted(pack(tmp_path / f"{name}.fmu", resources__data=name)) for name in "abc"]
+    assert all(folder.is_dir() for folder in folders)
+
+
+def test_files_beside_the_folders_stay(tmp_path, own_cache, monkeypatch):
+    monkeypatch.setattr(module, "KEPT_FOLDERS", 0)
+    built = own_cache / "built.fmu"
+    built.touch()
+    os.utime(built, (0, 0))
+    extracted(pack(tmp_path / "a.fmu", resources__data="1"))
+    assert built.exists()
+
+
+def test_what_another_process_removed_is_unpacked_again(tmp_path):
+    path = pack(tmp_path / "a.fmu", resources__data="1")
+    shutil.rmtree(extracted(path))
+    assert (extracted(path) / "resources" / "data").read_text() == "1"
 
 
 @pytest.mark.parametrize(
