@@ -44,6 +44,11 @@ def compile_shared(sources: Sequence[Path], includes: Sequence[str], platform: P
         )
     except OSError as error:
         raise BuildError(f"the C compiler of ziglang cannot be started: {error}; reinstall it.") from error
+    except subprocess.TimeoutExpired as error:
+        raise BuildError(
+            f"{platform.name}: the C compiler was not done after {_LONGEST_S:g} s; try again when the machine is less "
+            "busy, or build a smaller model."
+        ) from error
     if done.returncode:
         raise CompilerError(f"{platform.name}: the C compiler failed.\n{done.stderr.strip()}")
     return library.read_bytes()

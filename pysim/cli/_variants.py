@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -32,19 +33,12 @@ class Variants:
         Raises:
             BadInput: a class that cannot be made or does not compile.
         """
-        from pysim.types import BadInput
-
         key = tuple(effect.name for effect in effects)
         if key not in self.built:
             from tempfile import TemporaryDirectory
 
-            import fmu_build
-
-            with TemporaryDirectory(prefix="pysim-variant-") as folder:
-                try:
-                    self.built[key] = self.write(effects, Path(folder), None)
-                except fmu_build.BuildError as error:
-                    raise BadInput(str(error)) from error
+            with TemporaryDirectory(prefix="pysim-variant-") as folder, _refusals():
+                self.built[key] = self.write(effects, Path(folder), None)
         return self.built[key]
 
     def write(
@@ -86,15 +80,24 @@ class Variants:
         from pysim.diagnose.locating.laws import wrapped
         from pysim.effects import variant
         from pysim.io import read_model
-        from pysim.types import BadInput
 
         name = f"{self.class_name.rpartition('.')[2]}Located"
         made = variant(self.class_name, effects, self.libraries, name=f"{name}Base") if effects else None
         text = (made.text if made else "") + wrapped(made.class_name if made else self.class_name, law, name)
-        with TemporaryDirectory(prefix="pysim-located-") as folder:
+        with TemporaryDirectory(prefix="pysim-located-") as folder, _refusals():
             source = Path(folder) / f"{name}.mo"
             source.write_text(text, encoding="utf-8")
-            try:
-                return read_model(fmu_build.build(name, libraries=[*self.libraries, source], probes=law.probes))
-            except fmu_build.BuildError as error:
-                raise BadInput(str(error)) from error
+            return read_model(fmu_build.build(name, libraries=[*self.libraries, source], probes=law.probes))
+
+
+@contextmanager
+def _refusals() -> Iterator[None]:
+    """What cannot be built is a candidate less; also where the C of it does not compile, which is our mistake."""
+    from fmu_build import BuildError
+    from fmu_build.pack import CompilerError
+    from pysim.types import BadInput
+
+    try:
+        yield
+    except (BuildError, CompilerError) as error:
+        raise BadInput(str(error)) from error

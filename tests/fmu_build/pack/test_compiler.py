@@ -45,3 +45,10 @@ def test_without_ziglang_it_says_what_to_install(tmp_path, monkeypatch):
     monkeypatch.setattr(compiler.importlib.util, "find_spec", lambda name: None)
     with pytest.raises(BuildError, match="pip install ziglang"):
         compile_shared([tmp_path / "a.c"], [], host_platform(), tmp_path / "m.so")
+
+
+def test_a_compiler_that_takes_too_long_is_told_with_a_cure(tmp_path, monkeypatch):
+    (tmp_path / "a.c").write_text(SOURCE)
+    monkeypatch.setattr(compiler, "_LONGEST_S", 1e-6)
+    with pytest.raises(BuildError, match="was not done after 1e-06 s; try again"):
+        compile_shared([tmp_path / "a.c"], [], host_platform(), tmp_path / "m.so")
