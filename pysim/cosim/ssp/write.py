@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import io
+import itertools
 import xml.etree.ElementTree as ElementTree
 import zipfile
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -13,8 +15,10 @@ from pysim.cosim.gauss_seidel import GaussSeidel
 from pysim.cosim.iterated import Iterated
 from pysim.cosim.members import Fmu, Isolated
 from pysim.cosim.ssp._names import DESCRIPTION, OSP, RUN, SSC, SSD, SSV, base_unit
+from pysim.cosim.ssp._settings import lost_settings
 from pysim.cosim.system import owner
 from pysim.cosim.system_file import SystemFile
+from pysim.io import write_file
 from pysim.types import BadInput, Model, Port
 
 Element = ElementTree.Element
@@ -36,12 +40,13 @@ class _Package:
 def write_ssp(file: SystemFile, path: Path | str, *, fmus_only: bool = False) -> tuple[str, ...]:
     """Write an .ssp archive: the FMUs, their parameters, the wires, and the experiment's start, end and step.
 
-    SSP holds FMUs. It has no room for Python blocks, for signals over time, nor for power bonds.
+    SSP holds FMUs. It has no room for Python blocks, for signals over time, nor for power bonds. Neither has it for how
+    steps are doubled, sorted and iterated, nor for settings of an FMU beside its parameters: these are never refused.
 
     Args:
-        fmus_only: leave all that out, and the wires to it, instead of refusing.
+        fmus_only: leave parts without room out, and the wires to them, instead of refusing.
     Returns:
-        what was left out, a phrase each.
+        what was left out, a phrase each; parts, then settings.
     Raises:
         BadInput: the system has parts that SSP cannot hold, or none that it can.
     """
@@ -56,11 +61,13 @@ def write_ssp(file: SystemFile, path: Path | str, *, fmus_only: bool = False) ->
         raise BadInput(f"{path.name}: the system has no FMU; there is nothing to export")
     resources = _resources(package.fmus)
     path.parent.mkdir(parents=True, exist_ok=True)
-    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
+    content = io.BytesIO()
+    with zipfile.ZipFile(content, "w", zipfile.ZIP_DEFLATED) as archive:
         archive.writestr(DESCRIPTION, _description(file, package, resources))
         for fmu, name in resources.items():
             archive.write(fmu, name)
-    return package.left_out
+    write_file(path, content.getvalue())
+    return (*package.left_out, *lost_settings(file, package.fmus))
 
 
 def _packed(file: SystemFile) -> _Package:
@@ -92,9 +99,16 @@ def _resources(fmus: Mapping[str, Fmu]) -> dict[Path, str]:
     names: dict[Path, str] = {}
     for name, fmu in fmus.items():
         if fmu.model.path not in names:
-            taken = f"resources/{fmu.model.path.name}" in names.values()
-            names[fmu.model.path] = f"resources/{name if taken else fmu.model.path.stem}.fmu"
+            names[fmu.model.path] = _unused((fmu.model.path.stem, name), names.values())
     return names
+
+
+def _unused(stems: tuple[str, str], names: Collection[str]) -> str:
+    """The first name that nobody has, also where capital letters make no difference."""
+    taken = {name.casefold() for name in names}
+    numbered = (f"{stems[-1]}_{k}" for k in itertools.count(2))
+    candidates = (f"resources/{stem}.fmu" for stem in itertools.chain(stems, numbered))
+    return next(name for name in candidates if name.casefold() not in taken)
 
 
 def _description(file: SystemFile, package: _Package, resources: Mapping[Path, str]) -> bytes:

@@ -6,11 +6,24 @@ import numpy as np
 import pytest
 from fmpy.ssp.ssd import read_ssd
 
-from pysim.cosim import Iterated, SystemFile, cosimulate, read_system_file
+from pysim.cosim import (
+    Connection,
+    Doubling,
+    GaussSeidel,
+    Iterated,
+    System,
+    SystemFile,
+    cosimulate,
+    read_system_file,
+)
+from pysim.cosim.members import Fmu
 from pysim.cosim.ssp import read_ssp, write_ssp
 from pysim.cosim.ssp._names import base_unit
+from pysim.io import read_model
+from pysim.simulate import Rodas
 from pysim.types import BadInput, Record, Signal
-from tests.pysim.cosim.described import controlled, oscillator
+from tests.pysim.cosim.described import MASS, SPRING, controlled, oscillator
+from tests.pysim.simulate.text_models import LAG, text_model
 
 
 @pytest.fixture(scope="module")
@@ -71,6 +84,53 @@ def test_a_factor_an_offset_and_constant_inputs_go_with_it(folder: Path, tmp_pat
     # F = -k (0.1 - 0.5 t) with k = 100, turned round, and 8 N more; m = 4; each step takes the force at its end
     t = record.time
     np.testing.assert_allclose(record["mass.v"], 25.0 * (0.1 * t - 0.25 * t * (t + 1e-3)) + 2.0 * t, atol=1e-9)
+
+
+def test_fmus_of_one_name_are_kept_apart(folder: Path, tmp_path: Path) -> None:
+    paths = []
+    for place, capital in (("v1", "pump.fmu"), ("v2", "Pump.fmu"), ("v3", "pump.fmu")):
+        (tmp_path / place).mkdir()
+        paths.append(tmp_path / place / capital)
+        paths[-1].write_bytes((folder / ("Mass_2.fmu" if place == "v1" else "Spring_2.fmu")).read_bytes())
+    members = tuple(Fmu(n, read_model(p)) for n, p in zip(("reference", "pump", "pump_2"), paths, strict=True))
+    file = read_system_file(folder / "oscillator.toml")
+    system = System(members, (Connection("pump.F", "reference.F"), Connection("reference.v", "pump.v")))
+    write_ssp(replace(file, system=system, experiment=replace(file.experiment, overrides={})), tmp_path / "a.ssp")
+    with zipfile.ZipFile(tmp_path / "a.ssp") as archive:
+        sources = [component.source for component in read_ssd(str(tmp_path / "a.ssp")).system.elements]
+        assert [archive.read(name) for name in sources] == [path.read_bytes() for path in paths]
+        assert len({name.casefold() for name in archive.namelist()}) == 4
+
+
+def test_settings_that_do_not_go_along_are_told(folder: Path, tmp_path: Path) -> None:
+    file = read_system_file(folder / "oscillator.toml")
+    mass = Fmu("mass", text_model(MASS, folder), interface="model-exchange", solver=Rodas(rtol=1e-3))
+    spring = Fmu("spring", text_model(SPRING, folder, fmi=3), events=False)
+    lag = Fmu("lag", text_model(LAG, folder), feedthrough="none", parameters={"u": 1.0})
+    system = System((mass, spring, lag), file.system.connections)
+    order = GaussSeidel(("spring", "mass", "lag"))
+    told = write_ssp(replace(file, system=system, order=order, doubling=Doubling()), tmp_path / "a.ssp")
+    assert told == (
+        "the doubling of steps",
+        "the sequence spring, mass, lag",
+        "the solver of mass",
+        "that spring handles its events alone",
+        "the feedthrough of lag",
+    )
+    assert write_ssp(replace(file, order=Iterated(rtol=1e-3)), tmp_path / "a.ssp") == ("the limits of the iteration",)
+
+
+def test_a_package_that_cannot_be_finished_leaves_the_one_before(folder: Path, tmp_path: Path) -> None:
+    file, path = read_system_file(folder / "oscillator.toml"), tmp_path / "a.ssp"
+    path.write_bytes(b"before")
+    lost = tmp_path / "Mass.fmu"
+    lost.write_bytes((folder / "Mass_2.fmu").read_bytes())
+    members = (Fmu("mass", read_model(lost)), file.system.members[1])
+    lost.unlink()
+    with pytest.raises(FileNotFoundError):
+        write_ssp(replace(file, system=System(members, file.system.connections)), path)
+    assert path.read_bytes() == b"before"
+    assert list(tmp_path.iterdir()) == [path]
 
 
 def test_python_cannot_be_exported_unless_left_out(folder: Path, tmp_path: Path) -> None:
