@@ -18,7 +18,7 @@ from pysim.types import BadInput, Model, Port, Variable
 _FEEDTHROUGH = ("standard", "declared", "none")
 _NOTHING: Mapping[str, float] = {}
 
-_alone: dict[Path, str] = {}  # FMUs that can be there only once in a process, and who has them now
+_alone: dict[Path, Fmu] = {}  # FMUs that can be there only once in a process, and who has them now
 
 
 class Fmu:
@@ -149,10 +149,10 @@ class Fmu:
         other = _alone.get(self.model.path)
         if other is not None:
             raise BadInput(
-                f"{self.name}: {self.model.path.name} allows one instance per process, and {other} is it; put one of "
-                "them into a process of its own, Isolated(...)"
+                f"{self.name}: {self.model.path.name} allows one instance per process, and {other.name} is it; put "
+                "one of them into a process of its own, Isolated(...)"
             )
-        _alone[self.model.path] = self.name
+        _alone[self.model.path] = self
 
     def _new_run(self) -> FmuRun:
         stepping = self.model.abilities.stepping
@@ -186,5 +186,5 @@ class Fmu:
         """See Member."""
         run, self._run = self._run, Closed(self.name)
         run.close()
-        if _alone.get(self.model.path) == self.name:
+        if _alone.get(self.model.path) is self:
             del _alone[self.model.path]
