@@ -1,12 +1,13 @@
 """What the modelDescription.xml files of FMI 2 and FMI 3 have in common."""
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from xml.etree import ElementTree
 from xml.etree.ElementTree import Element
 
 from fmu_build.emit.influence import Layout, direct_influence
+from fmu_build.emit.structure import Unknown
 from fmu_build.emit.units import BASE_UNITS, Unit, conversion, parse_unit
 from fmu_build.errors import BuildError
 from fmu_build.lower.ode_model import DefaultExperiment, OdeModel, ScalarType, Variable
@@ -68,19 +69,61 @@ def xml_type(variable: Variable) -> str:
     return "Enumeration" if variable.enumeration else variable.scalar_type.value
 
 
-def initial_of(variable: Variable) -> str | None:
+def variable_attributes(variable: Variable, row: int) -> dict[str, str | None]:
+    """What a variable is; its value reference is its row of the table."""
+    return {
+        "name": variable.name,
+        "valueReference": str(row),
+        "description": variable.description or None,
+        "causality": variable.causality,
+        "variability": variable.variability,
+        "initial": _initial(variable),
+    }
+
+
+def value_attributes(
+    variable: Variable, rows: Mapping[str, int], reinit: Collection[int], *, first: int
+) -> dict[str, str | None]:
+    """What its value is.
+
+    Args:
+        rows: variables' names -> rows of the table.
+        reinit: continuous states that an event may change.
+        first: number of the first variable: 1 in FMI 2, 0 in FMI 3.
+    """
+    state = variable.derivative_of
+    return {
+        "declaredType": enumeration_name(variable.enumeration) if variable.enumeration else None,
+        "quantity": None if xml_type(variable) == "Boolean" else variable.quantity or None,
+        **_unit_attributes(variable),
+        **_limits(variable),
+        "start": _start(variable),
+        "derivative": None if state is None else str(rows[state] + first),
+        "reinit": "true" if variable.vector == "x" and variable.index in reinit else None,
+    }
+
+
+def unknown_attributes(unknown: Unknown, *, first: int) -> dict[str, str | None]:
+    """What an unknown of the model structure depends on; `first` as for `value_attributes`."""
+    return {
+        "dependencies": " ".join(str(row + first) for row in unknown.dependencies),
+        "dependenciesKind": None if unknown.kinds is None else " ".join(unknown.kinds),
+    }
+
+
+def _initial(variable: Variable) -> str | None:
     """`initial` as FMI wants it written: not for inputs and time."""
     return None if variable.causality in ("input", "independent") else variable.initial
 
 
-def start_of(variable: Variable) -> str | None:
+def _start(variable: Variable) -> str | None:
     """The start value where FMI wants one: for inputs and constants, and with initial = exact or approx."""
     if variable.causality == "input" or variable.initial in ("exact", "approx"):
         return number(variable.start or 0.0, variable.scalar_type)
     return None
 
 
-def limits(variable: Variable) -> dict[str, str | None]:
+def _limits(variable: Variable) -> dict[str, str | None]:
     """min, max and nominal; FMI knows a positive nominal value and those of Real only."""
     if variable.scalar_type is ScalarType.BOOLEAN:
         return {}
@@ -93,7 +136,7 @@ def limits(variable: Variable) -> dict[str, str | None]:
     return found
 
 
-def unit_attributes(variable: Variable) -> dict[str, str | None]:
+def _unit_attributes(variable: Variable) -> dict[str, str | None]:
     """unit, and displayUnit where it is another one.
 
     Raises:
@@ -127,7 +170,7 @@ def add_units(root: Element, variables: Iterable[Variable]) -> None:
     """UnitDefinitions, in the order of first use."""
     displays: dict[str, dict[str, None]] = {}
     for variable in variables:
-        attributes = unit_attributes(variable)
+        attributes = _unit_attributes(variable)
         unit, display = attributes.get("unit"), attributes.get("displayUnit")
         if unit is not None:
             shown = displays.setdefault(unit, {})
@@ -142,7 +185,7 @@ def add_units(root: Element, variables: Iterable[Variable]) -> None:
 
 def _add_unit(parent: Element, name: str, displays: list[str]) -> None:
     element, unit = add(parent, "Unit", name=name), parse_unit(name)
-    assert unit is not None  # unit_attributes has seen to it
+    assert unit is not None  # _unit_attributes has seen to it
     exponents = {b: str(e) for b, e in zip(BASE_UNITS, unit.exponents, strict=True) if e}
     add(element, "BaseUnit", **exponents, **_scale(unit.factor, unit.offset))
     for display_name in displays:
@@ -162,6 +205,12 @@ def enumerations(variables: Iterable[Variable]) -> Iterator[tuple[str, tuple[str
     """(type name, literals) of each enumeration, in the order of first use."""
     literals = dict.fromkeys(v.enumeration for v in variables if v.enumeration)
     return ((enumeration_name(names), names) for names in literals)
+
+
+def add_items(enumeration: Element, literals: Iterable[str]) -> None:
+    """Values count from 1, as in Modelica."""
+    for value, literal in enumerate(literals, start=1):
+        add(enumeration, "Item", name=literal, value=str(value))
 
 
 def enumeration_name(literals: tuple[str, ...]) -> str:

@@ -7,22 +7,21 @@ from fmu_build.emit.description import (
     Description,
     add,
     add_default_experiment,
+    add_items,
     add_log_categories,
     add_units,
-    enumeration_name,
     enumerations,
     flag,
-    initial_of,
-    limits,
     needs_completed_steps,
     reinitialised,
-    start_of,
     text_of,
-    unit_attributes,
+    unknown_attributes,
+    value_attributes,
+    variable_attributes,
     xml_type,
 )
-from fmu_build.emit.structure import ModelStructure, Unknown, model_structure
-from fmu_build.lower.ode_model import OdeModel, Variable
+from fmu_build.emit.structure import ModelStructure, model_structure
+from fmu_build.lower.ode_model import OdeModel
 
 _ABILITIES = {
     "canGetAndSetFMUState": "true",
@@ -94,37 +93,16 @@ def _add_types(root: Element, model: OdeModel) -> None:
     parent = add(root, "TypeDefinitions")
     for name, literals in found:
         element = add(parent, "EnumerationType", name=name)
-        for value, literal in enumerate(literals, start=1):
-            add(element, "Item", name=literal, value=str(value))
+        add_items(element, literals)
 
 
 def _add_variables(root: Element, model: OdeModel) -> None:
     parent = add(root, "ModelVariables")
-    row_of = {variable.name: row for row, variable in enumerate(model.variables)}
+    rows = {variable.name: row for row, variable in enumerate(model.variables)}
     reinit = reinitialised(model)
     for row, variable in enumerate(model.variables):
-        state = variable.derivative_of
-        add(
-            parent,
-            _TYPES[xml_type(variable)],
-            name=variable.name,
-            valueReference=str(row),
-            description=variable.description or None,
-            causality=variable.causality,
-            variability=variable.variability,
-            initial=initial_of(variable),
-            declaredType=enumeration_name(variable.enumeration) if variable.enumeration else None,
-            quantity=_quantity(variable),
-            **unit_attributes(variable),
-            **limits(variable),
-            start=start_of(variable),
-            derivative=None if state is None else str(row_of[state]),
-            reinit="true" if variable.vector == "x" and variable.index in reinit else None,
-        )
-
-
-def _quantity(variable: Variable) -> str | None:
-    return None if xml_type(variable) == "Boolean" else variable.quantity or None
+        value = value_attributes(variable, rows, reinit, first=0)
+        add(parent, _TYPES[xml_type(variable)], **variable_attributes(variable, row), **value)
 
 
 def _add_structure(root: Element, structure: ModelStructure) -> None:
@@ -136,14 +114,4 @@ def _add_structure(root: Element, structure: ModelStructure) -> None:
         ("EventIndicator", structure.event_indicators),
     ):
         for unknown in unknowns:
-            _add_unknown(parent, tag, unknown)
-
-
-def _add_unknown(parent: Element, tag: str, unknown: Unknown) -> None:
-    add(
-        parent,
-        tag,
-        valueReference=str(unknown.row),
-        dependencies=" ".join(str(row) for row in unknown.dependencies),
-        dependenciesKind=None if unknown.kinds is None else " ".join(unknown.kinds),
-    )
+            add(parent, tag, valueReference=str(unknown.row), **unknown_attributes(unknown, first=0))
