@@ -19,7 +19,7 @@ from pysim.simulate.native.state import RUNNING, work_arrays
 from pysim.simulate.rk45 import Rk45
 from pysim.types import Experiment, Model, Outcome, Record, SimulationError
 
-_OUTCOMES = tuple(Outcome)  # by the codes of `native.state`
+OUTCOMES = {RUNNING: Outcome.STOPPED, **dict(enumerate(Outcome))}  # by the codes of `native.state`, once nobody goes on
 
 _FIRST_LOOK = 20  # steps until the first look at the world outside; then as many as take about
 _BETWEEN_LOOKS = 0.02  # s, whatever the model's own functions cost
@@ -69,7 +69,7 @@ def _run_instance(instance: Instance, experiment: Experiment, solver: Solver, st
     job = prepare(instance, experiment, solver)
     code = go_on(integrate, job, stopped)
     instance.status = int(job.number("run", "status"))
-    outcome = _OUTCOMES[code]
+    outcome = OUTCOMES[code]
     message = "" if outcome is Outcome.DONE else explain(job, outcome) + instance.mailbox.text()
     values = job.array("rows", "values")[: job.number("rows", "next")]
     return make_record(instance.model, experiment, values, outcome, message, job.statistics())

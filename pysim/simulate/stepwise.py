@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from pysim.simulate._base import Solver
 from pysim.simulate._check import check_arguments
 from pysim.simulate._library import CallFailed, Instance, open_library
-from pysim.simulate._run import explain
+from pysim.simulate._run import OUTCOMES, explain
 from pysim.simulate._step_job import SavedJob, StepJob
 from pysim.simulate.fmu_states import FmuState, FmuStates
 from pysim.simulate.fmu_values import FmuValues, pointer
@@ -25,7 +25,6 @@ from pysim.types import Model, Outcome
 Array = NDArray[np.float64]
 
 _BUDGET = 20_000  # steps of the solver until an interrupt from the keyboard is noticed
-_OUTCOMES = tuple(Outcome)  # by the codes of `native.state`
 
 _ENTER = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p)
 _SET_TIME = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p, ctypes.c_double)
@@ -171,7 +170,7 @@ class Stepwise:
             self._fail(code)
 
     def _fail(self, code: int) -> None:
-        job, outcome = self._job.job, _OUTCOMES[code]
+        job, outcome = self._job.job, OUTCOMES[code]
         self._instance.status = int(job.number("run", "status"))
         raise StepFailed(explain(job, outcome) + self._instance.mailbox.text(), outcome)
 

@@ -11,17 +11,15 @@ from numpy.typing import NDArray
 
 from pysim.simulate._job import Job
 from pysim.simulate._library import Instance
-from pysim.simulate._run import explain, go_on, make_record, prepare
+from pysim.simulate._run import OUTCOMES, explain, go_on, make_record, prepare
 from pysim.simulate.esdirk import Esdirk
 from pysim.simulate.native.blocks import VECTOR
-from pysim.simulate.native.state import RUNNING
 from pysim.simulate.native.variation import ASKED, FIXED
 from pysim.simulate.native.variation_loop import EVENT, integrate_variations
 from pysim.types import Experiment, Model, Outcome, Record
 
 Array = NDArray[np.float64]
 
-_OUTCOMES = tuple(Outcome)
 _STAGES = Esdirk().method().b.size
 _REALS = frozenset({"Real", "Float64"})
 
@@ -112,7 +110,7 @@ def vary(
 
 def _result(instance: Instance, experiment: Experiment, job: Job, code: int, directions: Directions) -> Varied:
     event, run = code == EVENT, job.record["run"][0]
-    outcome = Outcome.DONE if event or code == RUNNING else _OUTCOMES[code]
+    outcome = Outcome.DONE if event else OUTCOMES[code]
     count, states = job.number("rows", "next"), job.array("work", "x").copy()
     used = states.size * directions.states + len(directions.parameters)
     return Varied(

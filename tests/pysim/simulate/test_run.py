@@ -8,10 +8,11 @@ from unittest.mock import Mock, patch
 import numpy as np
 import pytest
 
-from pysim.simulate import Rodas, simulate
-from pysim.simulate._run import go_on
+from pysim.simulate import Rk45, Rodas, simulate
+from pysim.simulate._library import open_library
+from pysim.simulate._run import go_on, run
 from pysim.simulate.native.state import RUNNING
-from pysim.types import BadInput, Experiment, Signal
+from pysim.types import BadInput, Experiment, Outcome, Signal
 from tests.pysim.simulate.fixture_fmus import FOLLOWER, OSCILLATOR
 
 _NONE = Signal.constant(0.0)
@@ -81,6 +82,16 @@ def test_an_interrupt_is_heard_within_moments_however_slow_the_model_is():
     with patch("pysim.simulate._run.perf_counter", lambda: now[0]):
         go_on(slow, Mock(), lambda: len(looks) > 20)
     assert np.diff([0.0, *looks]).max() <= 0.1
+
+
+def test_a_run_that_was_stopped_says_so(fixture_model):
+    looks = iter([False, True])
+    long = Experiment(np.append(_TIMES, 1e9), ("x",), overrides={"D": 0.0, "x": 1.0})
+    with open_library(fixture_model(OSCILLATOR)) as library:
+        record = run(library, long, Rk45(), lambda: next(looks))
+    assert record.outcome is Outcome.STOPPED
+    assert record.message.startswith("the run was told to stop at ")
+    assert 0 < len(record.time) < 3
 
 
 def test_simulating_needs_no_compiler_and_no_front_end():
