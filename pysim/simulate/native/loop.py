@@ -10,9 +10,10 @@ from pysim.simulate.native.compiled import doubles, entry, longs, native
 from pysim.simulate.native.events import crossed, handle_event, locate, settle
 from pysim.simulate.native.fmu_calls import WARNING, completed_step, get_indicators, get_nominals, get_states
 from pysim.simulate.native.method import dense_coefficients
+from pysim.simulate.native.passage import ended, next_segment
 from pysim.simulate.native.point import all_finite, copy, evaluate, set_point
 from pysim.simulate.native.recording import interpolate, record_here, record_inside
-from pysim.simulate.native.state import DONE, MODEL_ERROR, NOT_FINITE, RUNNING, TERMINATED, TOO_MANY_STEPS
+from pysim.simulate.native.state import MODEL_ERROR, NOT_FINITE, RUNNING, TERMINATED
 from pysim.simulate.native.stepping import accepted_step, first_step, next_target
 
 _STANDSTILL = 1e-15  # of the time so far and of the whole run: less is rounding
@@ -37,7 +38,7 @@ def integrate(jobs: Any, budget: int) -> int:
 def _begin(job: Any) -> int:
     """First event iteration, states and derivatives; the FMU has left initialisation mode."""
     run, work = job.run, job.work
-    run.segment, run.horizon = 0, doubles(job.breaks.times)[0]
+    next_segment(job)
     code = settle(job)
     if code != RUNNING:
         return code
@@ -74,9 +75,7 @@ def _finish_point(job: Any) -> int:
     run.status = max(run.status, record_here(job))
     if run.status > WARNING:
         return MODEL_ERROR
-    if run.t >= run.end:
-        return DONE
-    return TOO_MANY_STEPS if run.steps >= job.control.max_steps else RUNNING
+    return ended(job)
 
 
 @native
@@ -124,8 +123,7 @@ def _arrive(job: Any, t_new: float, event: bool) -> int:
     event, restart = event or fmu.event != 0 or run.t >= run.next_event, False
     if run.t >= run.horizon and run.t < run.end:
         restart, event = True, event or longs(job.breaks.jumps)[run.segment] != 0
-        run.segment += 1
-        run.horizon = doubles(job.breaks.times)[run.segment]
+        next_segment(job)
     code = handle_event(job) if event else RUNNING
     if code == RUNNING and (event or restart):
         code = resume(job)

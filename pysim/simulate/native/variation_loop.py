@@ -11,9 +11,10 @@ from pysim.simulate.native.events import crossed, handle_event, settle
 from pysim.simulate.native.fmu_calls import WARNING, completed_step, get_indicators, get_nominals, get_states
 from pysim.simulate.native.loop import resume
 from pysim.simulate.native.method import dense_coefficients
+from pysim.simulate.native.passage import ended, next_segment
 from pysim.simulate.native.point import copy, set_point
 from pysim.simulate.native.recording import interpolate, read_row
-from pysim.simulate.native.state import DONE, MODEL_ERROR, NOT_FINITE, RUNNING, TERMINATED, TOO_MANY_STEPS
+from pysim.simulate.native.state import MODEL_ERROR, NOT_FINITE, RUNNING, TERMINATED
 from pysim.simulate.native.stepping import accepted_step, next_target
 from pysim.simulate.native.variation import (
     begin_variation,
@@ -44,7 +45,7 @@ def integrate_variations(jobs: Any, budget: int) -> int:
 def _begin(job: Any) -> int:
     """First event iteration unless the FMU is past it, states, derivatives, and S."""
     run, work, v = job.run, job.work, job.variation
-    run.segment, run.horizon = 0, doubles(job.breaks.times)[0]
+    next_segment(job)
     code = RUNNING
     if v.rewind == 0:
         code = settle(job)
@@ -170,8 +171,7 @@ def _pass_break(job: Any) -> int:
     """Go on behind a break of the inputs. A jump is an event for the model, harmless where nothing of it changes."""
     run, work = job.run, job.work
     jump = longs(job.breaks.jumps)[run.segment] != 0
-    run.segment += 1
-    run.horizon = doubles(job.breaks.times)[run.segment]
+    next_segment(job)
     if jump:
         code = handle_event(job)
         if code != RUNNING:
@@ -197,9 +197,7 @@ def _finish_point(job: Any) -> int:
     note_range(job)
     if not _finite(job):
         return NOT_FINITE
-    if run.t >= run.end:
-        return DONE
-    return TOO_MANY_STEPS if run.steps >= job.control.max_steps else RUNNING
+    return ended(job)
 
 
 @native

@@ -1,0 +1,25 @@
+"""What a run with derivatives has in common with one without: breaks of the inputs, and its end."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from pysim.simulate.native.compiled import doubles, native
+from pysim.simulate.native.state import DONE, RUNNING, TOO_MANY_STEPS
+
+
+@native
+def next_segment(job: Any) -> None:
+    """Enter the first segment of the inputs, or the one behind the break that was reached."""
+    run = job.run
+    run.segment += 1
+    run.horizon = doubles(job.breaks.times)[run.segment]
+
+
+@native
+def ended(job: Any) -> int:
+    """Whether the point reached is the last one: DONE, TOO_MANY_STEPS or RUNNING."""
+    run = job.run
+    if run.t >= run.end:
+        return DONE
+    return TOO_MANY_STEPS if run.steps >= job.control.max_steps else RUNNING
