@@ -187,4 +187,7 @@ def overlay_of(desk: Desk, of: str, record: int) -> Overlay | None:
     if of == "data":
         return measured_overlay(records[record])
     answer = next((one for one in desk.answers.all if one.job.work.name == of), None)
-    return None if answer is None else compared_overlay(answer, records[record].source)
+    try:
+        return None if answer is None else compared_overlay(answer, records[record].source)
+    except BadInput:  # its files were removed meanwhile, as it is to be run anew
+        return None

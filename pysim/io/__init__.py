@@ -10,7 +10,7 @@ from pysim.io.headings import column_names
 from pysim.io.records import read_record, record_data, record_text, write_record
 from pysim.io.signals import read_signal, write_signal
 from pysim.io.single_log import read_single_log
-from pysim.io.stages import StageFile, read_stages, record_of, write_stages
+from pysim.io.stages import StageFile, read_stages, write_stages
 from pysim.io.thesis_folder import read_thesis_folder
 from pysim.io.toml_section import Section, TomlFile, read_toml
 from pysim.io.units import SI, signal_in_si
@@ -38,7 +38,6 @@ __all__ = [
     "read_thesis_folder",
     "read_toml",
     "record_data",
-    "record_of",
     "record_text",
     "signal_in_si",
     "write_dataset",

@@ -7,7 +7,6 @@ import json
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +15,7 @@ from numpy.typing import NDArray
 
 from pysim.io.archive import DAMAGED
 from pysim.io.files import write_file
-from pysim.types import BadInput, Deviation, Estimate, Record, RecordFit, ResponseFit, Stage
+from pysim.types import BadInput, Deviation, Estimate, RecordFit, ResponseFit, Stage
 
 Array = NDArray[np.float64]
 
@@ -25,7 +24,9 @@ _FORM = 1
 
 @dataclass(frozen=True)
 class StageFile:
-    """A file of stages, opened; arrays are read when they are asked for, and never as Python objects.
+    """What a file of stages holds; arrays are read when they are asked for, and never as Python objects.
+
+    The file is open only while an array is read: Windows does not remove a folder with an open file in it.
 
     Args:
         path: the file.
@@ -35,13 +36,17 @@ class StageFile:
     path: Path
     about: tuple[Mapping[str, Any], ...]
 
-    @cached_property
-    def _arrays(self) -> Any:
-        return np.load(self.path, allow_pickle=False)
-
     def array(self, key: str) -> Array:
-        """An array by the key that `about` names."""
-        return np.asarray(self._arrays[key], dtype=np.float64)
+        """An array by the key that `about` names.
+
+        Raises:
+            BadInput: the file is gone.
+        """
+        try:
+            with np.load(self.path, allow_pickle=False) as file:
+                return np.asarray(file[key], dtype=np.float64)
+        except OSError as error:
+            raise BadInput(f"{self.path}: cannot be read ({error.strerror or error})") from error
 
 
 def write_stages(path: Path, stages: Sequence[Stage]) -> None:
@@ -62,7 +67,7 @@ def write_stages(path: Path, stages: Sequence[Stage]) -> None:
 
 
 def read_stages(path: Path) -> StageFile:
-    """Open what `write_stages` wrote.
+    """Read what `write_stages` wrote, but for its arrays.
 
     Raises:
         BadInput: no such file, or another one.
@@ -133,14 +138,3 @@ def _estimate(e: Estimate) -> dict[str, Any]:
 
 def _finite(value: float) -> float | None:
     return float(value) if math.isfinite(value) else None
-
-
-def record_of(file: StageFile, about: Mapping[str, Any], what: str) -> Record:
-    """One side of a record of the file.
-
-    Args:
-        about: of the record, as the stage lists it.
-        what: "measured" or "simulated".
-    """
-    names, units = tuple(about["names"]), tuple(about["units"])
-    return Record(file.array(about["time"]), file.array(about[what]), names, units, origin=what)

@@ -1,13 +1,16 @@
 """The stages of a diagnosis in a file: the same numbers back, and nothing that could run."""
 
+import os
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from pysim.io import read_stages, record_of, write_stages
+from pysim.io import read_stages, write_stages
 from pysim.types import BadInput
 from tests.pysim.diagnosis_story import story
+
+_HANDLES = Path("/proc/self/fd")
 
 
 def test_every_record_comes_back_bit_for_bit(tmp_path: Path) -> None:
@@ -18,9 +21,9 @@ def test_every_record_comes_back_bit_for_bit(tmp_path: Path) -> None:
     for stage, about in zip(stages, file.about, strict=True):
         for fit, own in zip(stage.records, about["records"], strict=True):
             for what in ("measured", "simulated"):
-                back, sent = record_of(file, own, what), getattr(fit, what)
-                assert np.array_equal(back.values, sent.values)
-                assert np.array_equal(back.time, sent.time)
+                sent = getattr(fit, what)
+                assert np.array_equal(file.array(own[what]), sent.values)
+                assert np.array_equal(file.array(own["time"]), sent.time)
             assert (own["source"], own["use"], tuple(own["noise"])) == (fit.source, fit.use, fit.noise)
             assert own["rms"] == list(fit.rms.values())
 
@@ -50,3 +53,19 @@ def test_objects_are_never_unpacked(tmp_path: Path) -> None:
 def test_a_missing_file_is_said(tmp_path: Path) -> None:
     with pytest.raises(BadInput, match="cannot be read"):
         read_stages(tmp_path / "none.npz")
+
+
+@pytest.mark.skipif(not _HANDLES.is_dir(), reason="the system does not list open files")
+def test_no_file_stays_open_when_an_array_was_read(tmp_path: Path) -> None:
+    write_stages(tmp_path / "a.npz", story().stages)
+    file = read_stages(tmp_path / "a.npz")
+    file.array("t0/0")
+    assert os.path.realpath(file.path) not in {os.path.realpath(handle) for handle in _HANDLES.iterdir()}
+
+
+def test_a_file_that_was_removed_since_is_said(tmp_path: Path) -> None:
+    write_stages(tmp_path / "a.npz", story().stages)
+    file = read_stages(tmp_path / "a.npz")
+    file.path.unlink()
+    with pytest.raises(BadInput, match=r"a\.npz: cannot be read"):
+        file.array("t0/0")
