@@ -11,7 +11,6 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from pysim.types import Comparison, Dataset
-    from validation.thesis import Difference
 
 QUICK_FREQUENCIES_HZ = (0.1, 1, 3, 6, 10, 15, 20, 30)
 _TABLES = {"free": "4.8", "locked": "4.7"}
@@ -100,8 +99,3 @@ def _against_the_thesis(comparison: Comparison) -> list[str]:
     caption = f"{comparison.label}: this page | thesis Table {printed} | misfit of the transfer function, Table 4.4"
     title = f"Where and why this differs from thesis Table {printed} ({comparison.label} set)"
     return [heading(title), items([*explain(rows, printed), *_CAVEATS[comparison.label]]), table(caption, head, cells)]
-
-
-def _threes(row: Difference) -> zip[tuple[float, float, float]]:
-    """Per criterion: our number, the thesis' own, and the transfer function's misfit."""
-    return zip(row.ours, row.printed, row.misfit, strict=True)
