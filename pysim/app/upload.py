@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import shutil
 import zipfile
-import zlib
 from collections.abc import AsyncIterator, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path, PurePosixPath, PureWindowsPath
@@ -12,10 +11,9 @@ from secrets import token_urlsafe
 
 from pysim.app.description import refuse_outside
 from pysim.app.project import Project
+from pysim.io import DAMAGED, LOG_SUFFIXES
 from pysim.types import BadInput
 
-LOGS = (".txt", ".csv", ".dat", ".log", ".asc", ".lvm", ".parquet", ".tdms")
-_DAMAGED = (zipfile.BadZipFile, zlib.error, EOFError, NotImplementedError, RuntimeError)
 _PIECE = 2**20
 
 
@@ -103,7 +101,7 @@ class Batch:
             if path.is_file() and path.suffix.lower() == ".zip":
                 try:
                     self._unpack(path)
-                except (*_DAMAGED, OSError) as error:
+                except (*DAMAGED, OSError) as error:
                     raise BadInput(f"{path.name} cannot be unpacked: {error}; pack it again") from error
                 path.unlink()
 
@@ -145,10 +143,11 @@ def adopt(batch: Batch, project: Project) -> Adopted:
         models = [path for path in _files(root) if path.suffix.lower() in (".fmu", ".mo")]
         if models:
             return _model(root, models, project)
-        logs = [path for path in _files(root) if path.suffix.lower() in LOGS]
+        logs = [path for path in _files(root) if path.suffix.lower() in LOG_SUFFIXES]
         if not logs:
             found = ", ".join(sorted({path.suffix or path.name for path in _files(root)})[:6]) or "nothing"
-            raise BadInput(f"no data set, no logs and no model in this: {found}; drop logs as {', '.join(LOGS)}")
+            taken = ", ".join(LOG_SUFFIXES)
+            raise BadInput(f"no data set, no logs and no model in this: {found}; drop logs as {taken}")
         project.replace_data(_single(root))
         return Adopted("logs", f"{len(logs)} logs without a dataset.toml; say below what their columns are")
     finally:

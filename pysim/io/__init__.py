@@ -1,6 +1,6 @@
 """Files in and out: .fmu, data sets and their logs, records."""
 
-from pysim.io.archive import extracted
+from pysim.io.archive import DAMAGED, extracted
 from pysim.io.binary import check_binary, load_library
 from pysim.io.cache import cache_folder
 from pysim.io.dataset import SIGNAL_KEYS, described_signal, read_dataset, read_dataset_partly
@@ -11,12 +11,14 @@ from pysim.io.records import read_record, record_data, record_text, write_record
 from pysim.io.signals import read_signal, write_signal
 from pysim.io.single_log import read_single_log
 from pysim.io.stages import StageFile, read_stages, write_stages
-from pysim.io.thesis_folder import read_thesis_folder
+from pysim.io.thesis_folder import LOG_SUFFIXES, read_thesis_folder
 from pysim.io.toml_section import Section, TomlFile, read_toml
 from pysim.io.units import SI, signal_in_si
 from pysim.io.write_dataset import write_dataset
 
 __all__ = [
+    "DAMAGED",
+    "LOG_SUFFIXES",
     "SI",
     "SIGNAL_KEYS",
     "Section",

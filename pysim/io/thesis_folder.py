@@ -19,7 +19,7 @@ from pysim.types import BadInput, Dataset, MeasuredRecord, MeasuredSignal
 
 Array = NDArray[np.float64]
 
-SUFFIXES = (".txt", ".csv", ".dat", ".log", ".asc", ".lvm", ".parquet", ".tdms")
+LOG_SUFFIXES = (".txt", ".csv", ".dat", ".log", ".asc", ".lvm", ".parquet", ".tdms")
 _FREQUENCY = re.compile(r"(?<![\d.,])(\d+(?:[.,]\d+)?) ?_?Hz", re.IGNORECASE)
 _BARE = re.compile(r"\d+(?:[.,]\d+)?")
 _POINT = re.compile(r"O([+-]?\d+(?:[.,]\d+)?)_A(\d+(?:[.,]\d+)?)", re.IGNORECASE)
@@ -59,7 +59,7 @@ def read_thesis_folder(folder: Path | str, signals: Sequence[MeasuredSignal]) ->
     by_name = _checked(signals)
     if not folder.is_dir():
         raise BadInput(f"{folder} is no folder that can be read; name the folder of the logs")
-    paths = sorted(path for path in folder.rglob("*") if path.suffix.lower() in SUFFIXES and path.is_file())
+    paths = sorted(path for path in folder.rglob("*") if path.suffix.lower() in LOG_SUFFIXES and path.is_file())
     named = [_named(folder, path) for path in paths]
     logs = sorted((log for log in named if log), key=lambda log: (log.path.parent, log.frequency))
     if not logs:

@@ -14,8 +14,7 @@ from pysim.app.description import UNITS, change_description, described
 from pysim.app.desk import Desk
 from pysim.app.pages.common import amount, attempt, counted
 from pysim.app.parts import Choice, box, button, card, note, text
-from pysim.app.upload import LOGS
-from pysim.io import column_names, read_thesis_folder
+from pysim.io import LOG_SUFFIXES, column_names, read_thesis_folder
 from pysim.types import BadInput, MeasuredSignal
 
 _NAMED = (".parquet", ".tdms")  # whose columns are found by name
@@ -26,7 +25,7 @@ _KINDS = ("other", "step", "stochastic", "chirp", "multisine", "frequency-respon
 
 def describe_form(desk: Desk) -> None:
     """A row per column of the logs; what was chosen so far is kept until these logs are described or others come."""
-    logs = [path for path in sorted(desk.project.data.rglob("*")) if path.suffix.lower() in LOGS]
+    logs = [path for path in sorted(desk.project.data.rglob("*")) if path.suffix.lower() in LOG_SUFFIXES]
     if not logs:
         return
     try:
