@@ -4,17 +4,15 @@ from __future__ import annotations
 
 import contextlib
 import json
-import os
 import shutil
-import signal
 import subprocess
-import sys
 import time
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
+from pysim.app.processes import end, last_words, run_pysim
 from pysim.app.project import Project
 from pysim.io import write_file
 from pysim.types import BadInput
@@ -206,7 +204,7 @@ class Runner:
         """Ask the process to end; what it has found stays in its journal."""
         if self._process is not None and self._stop_asked is None:
             self._stop_asked = time.monotonic()
-            _signal(self._process, hard=False)
+            end(self._process, hard=False)
 
     def poll(self) -> bool:
         """See how far it is; whether anything is new."""
@@ -214,7 +212,7 @@ class Runner:
             return False
         folder = self.project.results(self._job.work.name)
         if self._stop_asked is not None and time.monotonic() - self._stop_asked > _PATIENCE:
-            _signal(self._process, hard=True)
+            end(self._process, hard=True)
         elif self._stop_asked is None and self._job.seconds > self.limit:
             self._job = replace(self._job, message=f"it took longer than {self.limit:g} s (--limit-s raises that)")
             self.stop()
@@ -233,17 +231,18 @@ class Runner:
     def close(self) -> None:
         """End what runs, now."""
         if self._process is not None:
-            _signal(self._process, hard=False)
+            end(self._process, hard=False)
             with contextlib.suppress(subprocess.TimeoutExpired):
                 self._process.wait(_PATIENCE)
-            _signal(self._process, hard=True)
+            end(self._process, hard=True)
             self._process.wait()
             self._stop_asked = self._stop_asked or time.monotonic()
             self.poll()
 
     def _end(self, code: int, folder: Path) -> None:
         assert self._job is not None
-        _signal(self._process, hard=True)  # whatever it has left behind
+        assert self._process is not None
+        end(self._process, hard=True)  # whatever it has left behind
         self._process, job = None, _told(self._job, folder)
         finished = (folder / ANSWER).is_file() and code in (0, 1)
         state, message = (DONE, "") if finished else (FAILED, job.message)
@@ -278,37 +277,3 @@ def settle(project: Project) -> None:
         if job is not None and job.state == RUNNING:
             head = json.loads(path.read_text(encoding="utf-8"))
             write_file(path, json.dumps({**head, "state": STOPPED, "ended": path.stat().st_mtime}, indent=1) + "\n")
-
-
-def run_pysim(words: Sequence[str], folder: Path, output: Any) -> subprocess.Popen[bytes]:
-    """`pysim` with these words in a process of its own, in that folder; nothing of the folder is imported."""
-    root = str(Path(__file__).resolve().parents[2])
-    path = os.pathsep.join([root, *filter(None, [os.environ.get("PYTHONPATH")])])
-    environment = {**os.environ, "PYTHONPATH": path, "PYTHONUNBUFFERED": "1"}
-    command = [sys.executable, "-P", "-m", "pysim", *words]
-    own: dict[str, Any] = {"creationflags": 0x200} if sys.platform == "win32" else {}  # CREATE_NEW_PROCESS_GROUP
-    return subprocess.Popen(
-        command, cwd=folder, env=environment, stdin=subprocess.DEVNULL, stdout=output, stderr=subprocess.STDOUT,
-        start_new_session=True, **own,
-    )  # fmt: skip
-
-
-def last_words(path: Path) -> str:
-    """What a command said in the end, for a user."""
-    with contextlib.suppress(OSError):
-        lines = path.read_text(encoding="utf-8", errors="replace").splitlines()
-        said = [line for line in lines if line.startswith("pysim")]
-        if said or lines:
-            return (said or lines)[-1].partition(": ")[2] or (said or lines)[-1]
-    return "the process ended without a word; look at output.txt in the folder of the result"
-
-
-def _signal(process: subprocess.Popen[bytes] | None, *, hard: bool) -> None:
-    """End a process with all that it has started."""
-    if process is None:
-        return
-    with contextlib.suppress(OSError):
-        if sys.platform == "win32":
-            process.kill() if hard else process.terminate()
-        else:
-            os.killpg(process.pid, signal.SIGKILL if hard else signal.SIGTERM)

@@ -10,6 +10,7 @@ from pysim.app import jobs
 from pysim.app.jobs import DONE, FAILED, RUNNING, STOPPED, Runner, Work, adding, read_job, settle, works
 from pysim.app.project import Project
 from pysim.types import BadInput
+from tests.pysim.app.alive import PARENT, alive, child
 
 _WAIT = 60.0  # s
 
@@ -70,19 +71,11 @@ def test_what_failed_says_why_in_the_command_s_own_words(project: Project) -> No
 def test_one_at_a_time_and_stopped_with_all_that_it_has_started(project: Project) -> None:
     runner = Runner(project)
     line = json.dumps({"seconds": 1, "left": 7.5, "stage": "refitting", "text": "a", "step": {"step": "prior"}})
-    code = f"""
-import subprocess, sys, time
-open('results/try/story.jsonl', 'w').write({line + chr(10)!r} + '{{"half')
-child = subprocess.Popen([sys.executable, '-c', 'import time; time.sleep(60)'])
-open('child', 'w').write(str(child.pid))
-time.sleep(60)
-"""
-    runner.start(work(project, code))
+    code = f"open('results/try/story.jsonl', 'w').write({line + chr(10)!r} + '{{\"half')\n"
+    runner.start(work(project, code + PARENT))
     with pytest.raises(BadInput, match="Try is running; wait for it, or stop it first"):
         runner.start(work(project, ANSWERED))
-    while not ((project.folder / "child").exists() and (project.folder / "child").read_text()):
-        time.sleep(0.01)
-        runner.poll()
+    number = child(project.folder)
     runner.poll()
     assert runner.running is not None
     assert (runner.running.stage, runner.running.left, runner.running.learned) == ("refitting", 7.5, ("a",))
@@ -92,21 +85,7 @@ time.sleep(60)
     job = read_job(project.results("try"))
     assert job is not None
     assert job.state == STOPPED
-    assert not alive(int((project.folder / "child").read_text()))
-
-
-def alive(pid: int) -> bool:
-    """Whether a process still runs; one that has ended and nobody has asked for does not."""
-    begun = time.monotonic()
-    while time.monotonic() - begun < 5:
-        try:
-            state = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0]
-        except OSError:
-            return False
-        if state == "Z":
-            return False
-        time.sleep(0.02)
-    return True
+    assert not alive(number)
 
 
 def test_what_takes_too_long_is_ended_and_says_so(project: Project) -> None:
