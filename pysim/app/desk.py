@@ -2,26 +2,22 @@
 
 from __future__ import annotations
 
-import asyncio
-import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field
-from pathlib import Path
 from typing import Any
 
 from nicegui import run
 
 from pysim.app.answers import Answers
-from pysim.app.jobs import DONE, FAILED, STOPPED, Job, Runner, Work, adding, last_words, read_job, run_pysim, works
-from pysim.app.layout import Layout, layout
+from pysim.app.jobs import DONE, FAILED, STOPPED, Job, Runner, Work, adding, read_job, works
+from pysim.app.layout import Layout
+from pysim.app.model_build import Built, build_model
 from pysim.app.project import Project
-from pysim.app.sketch import Sketch, sketches
+from pysim.app.sketch import Sketch
 from pysim.app.upload import Batch, Limits
 from pysim.identify.data_check import DataCheck, check_dataset
 from pysim.io import read_dataset_partly
 from pysim.types import BadInput
-
-_MODEL_LIMIT = 240.0  # s for building or opening a model
 
 
 @dataclass(frozen=True)
@@ -68,6 +64,7 @@ class Desk:
     taking: bool = False
     draft: dict[str, Any] = field(default_factory=dict)
     _answers: tuple[int, Answers] | None = None
+    _build: int = 0  # number of the newest one
 
     def changed(self) -> None:
         """Something that pages show is other than before."""
@@ -153,41 +150,22 @@ class Desk:
         self.changed()
 
     async def read_model(self) -> None:
-        """Build or open the model in a process of its own, and keep what it says of itself."""
-        settings, path = self.project.settings(), self.project.folder / "model.json"
-        self.model, self.drawing, self.model_trouble, self.model_busy = None, None, "", bool(settings.model)
+        """Build or open the model, and keep what it says of itself; an earlier build that still goes on is ended."""
+        self._build += 1
+        build = self._build
+        self.model, self.drawing, self.model_trouble = None, None, ""
+        self.model_busy = bool(self.project.settings().model)
         self.changed()
-        if not settings.model:
+        if not self.model_busy:
             return
-        more = [word for library in settings.libraries for word in ("--library", library)]
+        built = Built()
         try:
-            await self._describe(["model", settings.model, *more, "--json", path.name], path)
+            built = await build_model(self.project, lambda: self._build == build)
         finally:
-            self.model_busy = False
-            self.changed()
-
-    async def _describe(self, words: Sequence[str], path: Path) -> None:
-        path.unlink(missing_ok=True)
-        log = self.project.folder / "model.txt"
-        with log.open("wb") as output:
-            process = run_pysim(words, self.project.folder, output)
-        for _ in range(int(_MODEL_LIMIT / 0.1)):
-            if process.poll() is not None:
-                break
-            await asyncio.sleep(0.1)
-        else:
-            process.kill()
-            self.model_trouble = f"the model was not ready within {_MODEL_LIMIT:g} s; check that it can be simulated"
-            return
-        if path.is_file():
-            model = json.loads(path.read_text(encoding="utf-8"))
-            parts = model["structure"]
-            if parts is not None:
-                self.drawing = await run.io_bound(layout, parts["nodes"], parts["links"])
-            self.sketches = await run.io_bound(sketches, model) or {}
-            self.model = model
-        else:
-            self.model_trouble = last_words(log)
+            if self._build == build:
+                self.model, self.drawing, self.sketches = built.model, built.drawing, built.sketches
+                self.model_trouble, self.model_busy = built.trouble, False
+                self.changed()
 
 
 def load(project: Project) -> Loaded | None:

@@ -1,0 +1,70 @@
+"""What a model says of itself: built or opened in a process of its own, with a drawing of its parts."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import time
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+
+from nicegui import run
+
+from pysim.app.layout import Layout, layout
+from pysim.app.processes import end, last_words, run_pysim
+from pysim.app.project import Project
+from pysim.app.sketch import Sketch, sketches
+
+_LIMIT = 240.0  # s
+_NAP = 0.1  # s
+
+
+@dataclass(frozen=True)
+class Built:
+    """A model, or why there is none.
+
+    Args:
+        model: what `pysim model` wrote of it; None where it cannot be used.
+        drawing: of its parts; None where its class is not at hand.
+        sketches: of the laws of the effects that fit.
+        trouble: why there is no model.
+    """
+
+    model: Mapping[str, Any] | None = None
+    drawing: Layout | None = None
+    sketches: Mapping[str, Sketch | None] = field(default_factory=dict)
+    trouble: str = ""
+
+
+async def build_model(project: Project, wanted: Callable[[], bool], *, limit: float = _LIMIT) -> Built:
+    """Build or open the project's model; each build has files of its own, so that two of them cannot meet.
+
+    Args:
+        wanted: asked again and again; where it says no, the build is ended and there is no model.
+        limit: s after which it is ended too.
+    """
+    settings = project.settings()
+    more = [word for library in settings.libraries for word in ("--library", library)]
+    with TemporaryDirectory(prefix="pysim-model-", ignore_cleanup_errors=True) as name:
+        path, log = Path(name) / "model.json", Path(name) / "model.txt"
+        with log.open("wb") as output:
+            process = run_pysim(["model", settings.model, *more, "--json", str(path)], project.folder, output)
+        begun = time.monotonic()
+        try:
+            while process.poll() is None and wanted() and time.monotonic() - begun < limit:
+                await asyncio.sleep(_NAP)
+            late = process.poll() is None
+        finally:  # also where nobody waits for it any more
+            end(process, hard=True)
+            process.wait()
+        if late:
+            return Built(trouble=f"the model was not ready within {limit:g} s; check that it can be simulated")
+        if not path.is_file():
+            return Built(trouble=last_words(log))
+        model = json.loads(path.read_text(encoding="utf-8"))
+    parts = model["structure"]
+    drawing = None if parts is None else await run.io_bound(layout, parts["nodes"], parts["links"])
+    return Built(model, drawing, await run.io_bound(sketches, model) or {})
