@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -40,6 +40,7 @@ class Desk:
     """One per server.
 
     Args:
+        redo: words of the command line -> the line to type in the project's folder.
         drawing: of the model's parts; None where its class is not at hand.
         taking: whether a drop is being put into the project.
         sketches: of the laws of the effects that fit.
@@ -51,6 +52,7 @@ class Desk:
     project: Project
     runner: Runner
     limits: Limits
+    redo: Callable[[Sequence[str]], str]
     version: int = 0
     beat: int = 0
     loaded: Loaded | None = None

@@ -72,13 +72,6 @@ class Job:
         """That it has taken so far."""
         return (self.ended or time.time()) - self.begun
 
-    @property
-    def command(self) -> str:
-        """The line that does the same in the project's folder."""
-        import shlex
-
-        return shlex.join(["pysim", *self.work.words])
-
 
 def works(project: Project) -> dict[str, Work]:
     """What can be run on a project as it is, by the first word of the command.

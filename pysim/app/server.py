@@ -6,6 +6,7 @@ import asyncio
 import json
 import shutil
 import socket
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from secrets import token_urlsafe
 from typing import Any
@@ -29,12 +30,20 @@ _TICK = 0.2  # s
 
 
 def serve(
-    folder: Path, *, host: str = "127.0.0.1", port: int = 0, show: bool = True, limits: Limits, limit_s: float = 3600.0
+    folder: Path,
+    *,
+    redo: Callable[[Sequence[str]], str],
+    host: str = "127.0.0.1",
+    port: int = 0,
+    show: bool = True,
+    limits: Limits,
+    limit_s: float = 3600.0,
 ) -> None:
     """Show a project until the process is ended.
 
     Args:
         folder: of the project; made where it is missing.
+        redo: words of the command line -> the line to type in that folder.
         host: to listen at; loopback unless others are to come in, who need the token as well.
         port: 0 takes a free one.
         show: whether to open the browser.
@@ -46,7 +55,7 @@ def serve(
     project = Project.at(folder)
     settle(project)
     shutil.rmtree(project.folder / "uploads", ignore_errors=True)  # what came in half when a server ended
-    desk = Desk(project, Runner(project, limit_s), limits)
+    desk = Desk(project, Runner(project, limit_s), limits, redo)
     port = _port(host, port)
     token = token_urlsafe(24)
     known = {f"{name}:{port}" for name in ("127.0.0.1", "localhost", "[::1]")} if host in _LOOPBACK else set()

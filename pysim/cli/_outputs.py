@@ -49,8 +49,8 @@ def _probe(folder: Path, what: str, cure: str) -> None:
         raise BadInput(f"{what}: cannot write there ({error.strerror or error}); {cure}") from error
 
 
-def command_line(words: Sequence[str]) -> str:
-    """The line that runs `pysim` with these words again, quoted for a shell.
+def command_line(words: Sequence[str], folder: Path = Path()) -> str:
+    """The line that runs `pysim` with these words again in a folder, quoted for a shell.
 
     Where this process runs in the environment that run.py made, `pysim` is on nobody's path and run.py is the way in.
     """
@@ -59,5 +59,5 @@ def command_line(words: Sequence[str]) -> str:
     root = Path(__file__).resolve().parents[2]
     if Path(sys.prefix).resolve() != root / ".venv" or not (root / "run.py").is_file():
         return quoted(["pysim", *words])
-    start = "run.py" if Path.cwd() == root else str(root / "run.py")
+    start = "run.py" if folder.resolve() == root else str(root / "run.py")
     return quoted(["py" if windows else "python3", start, "pysim", *words])

@@ -26,6 +26,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Serve until Ctrl-C; 0."""
+    from pysim.cli._outputs import command_line
     from pysim.types import BadInput
 
     try:
@@ -35,5 +36,13 @@ def run(args: argparse.Namespace) -> int:
     if not (args.limit_mb > 0 and args.limit_s > 0):
         raise BadInput("--limit-mb and --limit-s: write numbers above zero")
     limits = Limits(size=round(args.limit_mb * 2**20))
-    serve(args.project, host=args.host, port=args.port, show=not args.no_browser, limits=limits, limit_s=args.limit_s)
+    serve(
+        args.project,
+        redo=lambda words: command_line(words, args.project),
+        host=args.host,
+        port=args.port,
+        show=not args.no_browser,
+        limits=limits,
+        limit_s=args.limit_s,
+    )
     return 0

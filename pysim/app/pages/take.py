@@ -45,9 +45,15 @@ def _build(desk: Desk) -> None:
             f"In the folder {desk.project.folder}; what was stopped here goes on there, and the other way round.",
             "small",
         )
-        lines = "\n".join(one.job.command for one in reversed(desk.answers.all)) or "pysim data check data"
+        lines = commands(desk)
         text("pre", lines, "code").props('tabindex="0"')
         button("Copy", lambda: _copy(lines), "small")
+
+
+def commands(desk: Desk) -> str:
+    """The lines that make every result again, in the order in which they were made."""
+    done = [one.job.work.words for one in reversed(desk.answers.all)]
+    return "\n".join(map(desk.redo, done or [("data", "check", "data")]))
 
 
 def _files(answer: Answer) -> None:

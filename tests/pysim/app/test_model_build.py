@@ -56,7 +56,7 @@ def started(monkeypatch: pytest.MonkeyPatch) -> "list[subprocess.Popen[bytes]]":
 def test_a_slow_build_that_is_overtaken_is_ended_and_thrown_away(
     project: Project, started: "list[subprocess.Popen[bytes]]"
 ) -> None:
-    desk = Desk(project, Runner(project), Limits())
+    desk = Desk(project, Runner(project), Limits(), " ".join)
 
     async def both() -> None:
         project.change(model="Slow")
@@ -74,7 +74,7 @@ def test_a_slow_build_that_is_overtaken_is_ended_and_thrown_away(
 
 
 def test_without_a_model_the_build_of_the_earlier_one_is_thrown_away(project: Project) -> None:
-    desk = Desk(project, Runner(project), Limits())
+    desk = Desk(project, Runner(project), Limits(), " ".join)
 
     async def both() -> None:
         project.change(model="Slow")

@@ -225,6 +225,9 @@ def test_the_line_to_redo_is_quoted_and_starts_where_it_works(monkeypatch: pytes
     assert command_line(["demo"]) == "python3 run.py pysim demo"
     monkeypatch.chdir(root / "tests")
     assert shlex.split(command_line(["demo"])) == ["python3", str(root / "run.py"), "pysim", "demo"]
+    assert command_line(["demo"], root) == "python3 run.py pysim demo"  # typed there, wherever this process is
+    monkeypatch.chdir(root)
+    assert shlex.split(command_line(["demo"], root / "tests"))[1] == str(root / "run.py")
 
 
 def test_the_line_to_redo_is_quoted_as_windows_wants_it(monkeypatch: pytest.MonkeyPatch) -> None:
