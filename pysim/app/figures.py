@@ -10,6 +10,7 @@ from typing import Any
 
 from pysim.identify import FREQUENCY_CRITERIA
 from pysim.identify.accuracy import TIME_CRITERIA
+from pysim.io import shown_unit
 
 Figure = dict[str, Any]
 
@@ -23,8 +24,6 @@ LOOKS = {
     "refit": ("refitted", "@base", "dash"),
     "last": ("with what was added", "@final", "solid"),
 }
-# What people read in place of an SI unit, and the factor to it.
-SHOWN = {"m/s": ("mm/s", 1e3), "m": ("mm", 1e3), "Pa": ("bar", 1e-5), "m3/s": ("l/min", 6e4), "rad": ("°", 57.29578)}
 
 
 def plain(text: str) -> str:
@@ -33,8 +32,8 @@ def plain(text: str) -> str:
 
 
 def unit_text(unit: str) -> str:
-    """A unit behind a name."""
-    return "–" if unit in ("1", "") else plain(unit)
+    """A unit, as `shown_unit` gives it, behind a name."""
+    return {"": "–", "-": "–", "deg": "°"}.get(unit, plain(unit))
 
 
 def figure(data: Sequence[Mapping[str, Any]], **layout: Any) -> Figure:
@@ -350,8 +349,8 @@ def map_figure(
 def missing_figure(missing: Mapping[str, Any]) -> Figure:
     """The missing term over what it depends on, with its 95 percent band."""
     shape = missing["shape"]
-    unit_in, scale_in = SHOWN.get(shape["argument_unit"], (shape["argument_unit"], 1.0))
-    unit_out, scale_out = SHOWN.get(shape["unit"], (shape["unit"], 1.0))
+    unit_in, scale_in = shown_unit(shape["argument_unit"])
+    unit_out, scale_out = shown_unit(shape["unit"])
     x = [v * scale_in for v in shape["argument"]]
     sides = {name: [v * scale_out for v in shape[name]] for name in ("value", "low", "high")}
     band: dict[str, Any] = {"x": [*x, *reversed(x)], "y": [*sides["high"], *reversed(sides["low"])], "fill": "toself"}

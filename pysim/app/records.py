@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from pysim.app.answers import Answer
 from pysim.app.decimate import decimated, window
-from pysim.app.figures import LOOKS, SHOWN, Figure, overlay_figure, signal_trace
+from pysim.app.figures import LOOKS, Figure, overlay_figure, signal_trace
+from pysim.io import shown_unit
 from pysim.types import MeasuredRecord, Record
 
 Array = NDArray[np.float64]
@@ -124,5 +125,5 @@ def _of(stage: Mapping[str, Any], source: str) -> Mapping[str, Any] | None:
 
 def _shown(units: Sequence[str]) -> tuple[tuple[str, ...], tuple[float, ...]]:
     """Units as people read them, and the factors to them."""
-    pairs = [SHOWN.get(unit, (unit, 1.0)) for unit in units]
+    pairs = [shown_unit(unit) for unit in units]
     return tuple(unit for unit, _ in pairs), tuple(scale for _, scale in pairs)

@@ -13,7 +13,7 @@ from pysim.io.single_log import read_single_log
 from pysim.io.stages import StageFile, read_stages, write_stages
 from pysim.io.thesis_folder import LOG_SUFFIXES, read_thesis_folder
 from pysim.io.toml_section import Section, TomlFile, read_toml
-from pysim.io.units import SI, signal_in_si
+from pysim.io.units import SI, shown_unit, signal_in_si
 from pysim.io.write_dataset import write_dataset
 
 __all__ = [
@@ -41,6 +41,7 @@ __all__ = [
     "read_toml",
     "record_data",
     "record_text",
+    "shown_unit",
     "signal_in_si",
     "write_dataset",
     "write_file",

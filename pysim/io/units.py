@@ -1,4 +1,4 @@
-"""Units that test benches write, in SI. Everything behind pysim.io is in SI units, "1" or "%"."""
+"""Units that test benches write and people read, in SI. Everything behind pysim.io is in SI units, "1" or "%"."""
 
 from __future__ import annotations
 
@@ -38,6 +38,14 @@ SI: Mapping[str, tuple[str, float]] = MappingProxyType(
         "kW": ("W", 1e3),
     }
 )
+
+# What is read in place of an SI unit, in every picture; all others are shown as they are
+_READ = {SI[unit][0]: (unit, 1 / SI[unit][1]) for unit in ("bar", "mm", "mm/s", "l/min", "deg", "rpm")}
+
+
+def shown_unit(unit: str) -> tuple[str, float]:
+    """The unit that people read in place of an SI unit, "-" in place of "1", and the factor to it."""
+    return _READ.get(unit, ("-" if unit == "1" else unit, 1.0))
 
 
 def signal_in_si(signal: MeasuredSignal) -> MeasuredSignal:

@@ -7,16 +7,10 @@ from collections.abc import Sequence
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from pysim.io import shown_unit
 from pysim.plot.style import COLOURS, DASHES, SMALL, TEXT, new_figure, quiet
 from pysim.types import BadInput, Record
 
-_DISPLAY = {
-    "Pa": ("bar", 1e-5),
-    "m": ("mm", 1e3),
-    "rad": ("deg", 57.29577951308232),
-    "rad/s": ("rpm", 9.549296585513721),
-    "m3/s": ("l/min", 6e4),
-}
 _MOST = len(COLOURS)  # lines of a panel; more cannot be told apart
 _LABELS = 40  # characters of a name in a legend
 
@@ -49,7 +43,7 @@ def _panels(record: Record) -> list[tuple[str, Sequence[str]]]:
 
 
 def _draw(axis: Axes, record: Record, unit: str, names: Sequence[str]) -> None:
-    shown, factor = _DISPLAY.get(unit, ("-" if unit == "1" else unit, 1.0))
+    shown, factor = shown_unit(unit)
     for i, name in enumerate(names):
         label = name if len(name) <= _LABELS else f"…{name[1 - _LABELS :]}"
         axis.plot(record.time, factor * record[name], color=COLOURS[i], linestyle=DASHES[i], linewidth=1.3, label=label)

@@ -10,6 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
+from pysim.io import shown_unit
 from pysim.plot.style import COLOURS, MEASURED, SMALL, TEXT, frequency_axis, legend_above, new_figure, quiet
 from pysim.types import BadInput, Dataset, MeasuredRecord, Record
 
@@ -18,8 +19,6 @@ _T = TypeVar("_T")
 _COLUMNS = 6  # frequencies shown per operating point
 _ROWS = 8  # operating points, or records over time, per picture
 _PERIODS = 2.0  # of a sine that are shown
-
-_SI_TO_SHOWN = {"Pa": ("bar", 1e-5), "m": ("mm", 1e3), "rad": ("deg", 180 / np.pi), "rad/s": ("rpm", 30 / np.pi)}
 
 
 def coverage_figure(dataset: Dataset) -> Figure:
@@ -115,7 +114,7 @@ def time_logs_figure(dataset: Dataset) -> Figure:
                 continue
             for name in shown:
                 _draw(panel, dataset, record, name, names)
-            panel.set_ylabel("(-)" if unit == "1" else f"({unit})", fontsize=TEXT)
+            panel.set_ylabel(f"({unit})", fontsize=TEXT)
             panel.set_title(f"{record.source}: {record.kind}, {record.use}", fontsize=SMALL, loc="left")
     for panel in axes[-1]:
         panel.set_xlabel("Time (s)", fontsize=TEXT)
@@ -131,8 +130,7 @@ def _names(record: MeasuredRecord) -> tuple[str, ...]:
 
 def _shown(dataset: Dataset, name: str) -> tuple[str, float]:
     """The unit on an axis, and how many of it an SI unit is."""
-    unit = dataset.signal(name).unit if name else ""
-    return _SI_TO_SHOWN.get(unit, (unit, 1.0))
+    return shown_unit(dataset.signal(name).unit if name else "")
 
 
 def _colour(dataset: Dataset, name: str, names: Sequence[str]) -> str:

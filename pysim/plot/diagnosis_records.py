@@ -10,6 +10,7 @@ from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from pysim.io import shown_unit
 from pysim.plot.style import BAND, COLOURS, DASHES, LIMIT, MEASURED, SMALL, TEXT, legend_above, new_figure, quiet
 from pysim.types import BadInput, Diagnosis, RecordFit, Stage
 
@@ -89,19 +90,19 @@ def _signal(
     axes: Axes, shown: Sequence[tuple[str, RecordFit, str]], j: int, part: slice, handles: dict[str, Artist]
 ) -> None:
     measured = shown[0][1].measured
+    unit, factor = shown_unit(measured.units[j])
     quiet(axes)
     (dots,) = axes.plot(
-        measured.time[part], measured.values[part, j], ".", color=MEASURED, markersize=2.4, rasterized=True
+        measured.time[part], factor * measured.values[part, j], ".", color=MEASURED, markersize=2.4, rasterized=True
     )
     handles["measured"] = dots
     for k, (name, record, colour) in enumerate(shown):
         (line,) = axes.plot(
-            record.simulated.time[part], record.simulated.values[part, j], color=colour, linewidth=1.5,
+            record.simulated.time[part], factor * record.simulated.values[part, j], color=colour, linewidth=1.5,
             linestyle=DASHES[(len(shown) - 1 - k) % len(DASHES)],
         )  # fmt: skip
         handles[name] = line
-    unit = measured.units[j]
-    axes.set_ylabel(f"{measured.names[j]} ({unit if unit != '1' else '-'})", fontsize=TEXT)
+    axes.set_ylabel(f"{measured.names[j]} ({unit})", fontsize=TEXT)
 
 
 def _residual(axes: Axes, shown: Sequence[tuple[str, RecordFit, str]], j: int, part: slice) -> None:

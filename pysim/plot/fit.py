@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from matplotlib.figure import Figure
 
+from pysim.io import shown_unit
 from pysim.plot.style import (
     BAND,
     COLOURS,
@@ -35,11 +36,13 @@ def fit_record_figure(record: RecordFit) -> Figure:
     for j, (name, unit) in enumerate(zip(names, record.measured.units, strict=True)):
         top, low = axes[:, j]
         width = 0.7 if time.size > _MANY else 1.2
-        (measured,) = top.plot(time, record.measured.values[:, j], color=MEASURED, linewidth=width)
-        (model,) = top.plot(time, record.simulated.values[:, j], color=COLOURS[1], linewidth=width, linestyle="--")
+        shown, factor = shown_unit(unit)
+        (measured,) = top.plot(time, factor * record.measured.values[:, j], color=MEASURED, linewidth=width)
+        simulated = factor * record.simulated.values[:, j]
+        (model,) = top.plot(time, simulated, color=COLOURS[1], linewidth=width, linestyle="--")
         low.axhspan(-1.96, 1.96, color=BAND, linewidth=0)
         low.plot(time, residual[:, j], color=COLOURS[0], linewidth=0, marker=".", markersize=1.5)
-        top.set_ylabel(f"{name} ({unit if unit != '1' else '-'})", fontsize=TEXT)
+        top.set_ylabel(f"{name} ({shown})", fontsize=TEXT)
         low.set_ylabel("Residual (noise s.d.)", fontsize=TEXT)
         low.set_xlabel("Time (s)", fontsize=TEXT)
         low.set_title(f"rms {record.rms[name]:.3f}", fontsize=SMALL, loc="right")
@@ -65,27 +68,27 @@ def fit_harmonics_figure(records: Sequence[RecordFit], title: str) -> Figure:
     rows = sorted((record.harmonics[0] for record in records), key=lambda h: h.frequency)
     most = max(h.measured.size for h in rows)
     handles, labels, least = [], [], np.inf
+    unit, factor = shown_unit(records[0].measured.units[0])
     for k in range(1, most):
         own = [h for h in rows if h.measured.size > k]
         f = np.array([h.frequency for h in own])
         colour, marker = COLOURS[(k - 1) % len(COLOURS)], MARKERS[(k - 1) % len(MARKERS)]
-        measured = np.abs([h.measured[k] for h in own])
-        spread = np.array([h.std[k] for h in own])
+        measured = factor * np.abs([h.measured[k] for h in own])
+        spread = factor * np.array([h.std[k] for h in own])
         least = min(least, float(np.min(spread)))
         (points,) = top.plot(f, measured, color=colour, marker=marker, markersize=4, linewidth=0)
         top.vlines(
             f, np.maximum(measured - 1.96 * spread, 0.1 * spread), measured + 1.96 * spread, color=colour, linewidth=0.8
         )
-        top.plot(f, np.abs([h.simulated[k] for h in own]), color=colour, linewidth=1.1)
-        left = np.abs([h.measured[k] - h.simulated[k] for h in own]) / (spread * np.sqrt(2))
+        top.plot(f, factor * np.abs([h.simulated[k] for h in own]), color=colour, linewidth=1.1)
+        left = factor * np.abs([h.measured[k] - h.simulated[k] for h in own]) / (spread * np.sqrt(2))
         low.plot(f, left, color=colour, marker=marker, markersize=4, linewidth=0)
         handles.append(points)
         labels.append(str(k))
     low.axhspan(0, 1.73, color=BAND, linewidth=0)  # 95 percent of the sizes of complex normal errors
     size_axis(top)
     top.set_ylim(bottom=0.1 * least)  # a decade below the smallest noise there is nothing to see
-    unit = records[0].measured.units[0]
-    top.set_ylabel(f"Amplitude of {rows[0].signal} ({unit if unit != '1' else '-'})", fontsize=TEXT)
+    top.set_ylabel(f"Amplitude of {rows[0].signal} ({unit})", fontsize=TEXT)
     low.set_ylabel("Left over (s.d.)", fontsize=TEXT)
     low.set_xlabel("Frequency (Hz)", fontsize=TEXT)
     for axes in (top, low):

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from matplotlib.figure import Figure
 
+from pysim.io import shown_unit
 from pysim.plot.style import COLOURS, LIMIT, SMALL, TEXT, legend_above, new_figure, quiet
 from pysim.types import BadInput, Missing
 
-# What people read in place of an SI unit, and the factor to it.
-_SHOWN = {"m/s": ("mm/s", 1e3), "m": ("mm", 1e3), "Pa": ("bar", 1e-5), "m3/s": ("l/min", 6e4), "rad": ("deg", 57.29578)}
 _KINDS = {"N": "force", "m3/s": "flow", "Pa": "pressure", "N.m": "torque", "m": "position", "rad": "angle"}
 
 
@@ -23,8 +22,8 @@ def missing_figure(missing: Missing) -> Figure:
         raise BadInput(
             f"missing term at {missing.slot}: a picture needs two points, the shape has {shape.argument.size}"
         )
-    unit_in, scale_in = _SHOWN.get(shape.argument_unit, (shape.argument_unit, 1.0))
-    unit_out, scale_out = _SHOWN.get(shape.unit, (shape.unit, 1.0))
+    unit_in, scale_in = shown_unit(shape.argument_unit)
+    unit_out, scale_out = shown_unit(shape.unit)
     z = shape.argument * scale_in
     figure = new_figure(6.4, 4.2)
     axes = figure.subplots()
@@ -34,9 +33,9 @@ def missing_figure(missing: Missing) -> Figure:
     (line,) = axes.plot(z, shape.value * scale_out, color=COLOURS[0], linewidth=1.5)
     axes.axhline(0.0, color=LIMIT, linewidth=0.9)
     axes.set_xlim(float(z[0]), float(z[-1]))
-    axes.set_xlabel(f"{missing.depends_on} ({_written(unit_in)})", fontsize=TEXT)
+    axes.set_xlabel(f"{missing.depends_on} ({unit_in})", fontsize=TEXT)
     kind = _KINDS.get(shape.unit, "term")
-    axes.set_ylabel(f"Missing {kind} at {missing.slot} ({_written(unit_out)})", fontsize=TEXT)
+    axes.set_ylabel(f"Missing {kind} at {missing.slot} ({unit_out})", fontsize=TEXT)
     quiet(axes)
     legend_above(figure, [line, band], [f"takes {100 * missing.share:.0f} % of the misfit", "95 % band"])
     notes = [missing.formula] if missing.formula else []
@@ -47,7 +46,3 @@ def missing_figure(missing: Missing) -> Figure:
     if notes:
         figure.supxlabel("\n".join(notes), fontsize=SMALL)
     return figure
-
-
-def _written(unit: str) -> str:
-    return "-" if unit == "1" else unit

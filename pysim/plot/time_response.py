@@ -6,10 +6,9 @@ from collections.abc import Mapping, Sequence
 
 from matplotlib.figure import Figure
 
+from pysim.io import shown_unit
 from pysim.plot.style import COLOURS, DASHES, MEASURED, TEXT, legend_above, new_figure, quiet
 from pysim.types import BadInput, Record
-
-_DISPLAY = {"Pa": ("bar", 1e-5), "m": ("mm", 1e3), "rad": ("deg", 57.29577951308232)}
 
 
 def time_response_figure(records: Mapping[str, Record], signals: Sequence[str]) -> Figure:
@@ -17,7 +16,8 @@ def time_response_figure(records: Mapping[str, Record], signals: Sequence[str]) 
 
     Args:
         records: label -> record; each has all signals.
-        signals: names, from top to bottom; pressures are drawn in bar, lengths in mm, angles in degrees.
+        signals: names, from top to bottom; pressures are drawn in bar, lengths in mm, angles in degrees,
+            speeds in rpm or mm/s.
     Raises:
         BadInput: no record, no signal, or a record without one of them.
     """
@@ -42,6 +42,4 @@ def time_response_figure(records: Mapping[str, Record], signals: Sequence[str]) 
 
 
 def _display(record: Record, name: str) -> tuple[str, float]:
-    """The unit a hydraulics engineer reads, and the factor to it."""
-    unit = record.units[record.names.index(name)] if name in record.names else "1"
-    return _DISPLAY.get(unit, (unit if unit != "1" else "-", 1.0))
+    return shown_unit(record.units[record.names.index(name)] if name in record.names else "1")

@@ -98,6 +98,11 @@ def test_a_missing_term_is_shown_in_the_units_people_use() -> None:
     assert line["y"] == pytest.approx([-2e-5, 2e-5])
     assert band["y"] == pytest.approx([-1e-5, 3e-5, 1e-5, -3e-5])
     assert found["layout"]["xaxis"]["title"]["text"] == "force.v (mm/s)"
+    shape |= {"argument_unit": "rad/s", "unit": "rad"}
+    found = missing_figure({"slot": "force", "depends_on": "force.w", "shape": shape})
+    assert found["data"][1]["x"] == pytest.approx([-3 / math.pi, 3 / math.pi])
+    assert found["layout"]["xaxis"]["title"]["text"] == "force.w (rpm)"
+    assert found["layout"]["yaxis"]["title"]["text"] == "missing at force (°)"
 
 
 def test_parameters_stand_between_their_bounds() -> None:

@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -27,6 +29,25 @@ def test_harmonics_show_measured_points_and_simulated_lines() -> None:
     assert top.lines[1].get_ydata() == pytest.approx([9.01, 9.01])
     with pytest.raises(BadInput, match="stepped sines"):
         fit_harmonics_figure(small_fit().records[:1], "O+25")
+
+
+def test_pictures_of_records_are_in_units_that_people_read() -> None:
+    turned = [
+        replace(
+            record,
+            measured=replace(record.measured, units=("rad/s",) * len(record.measured.units)),
+            simulated=replace(record.simulated, units=("rad/s",) * len(record.simulated.units)),
+        )
+        for record in small_fit().records
+    ]
+    top = fit_record_figure(turned[0]).axes[0]
+    assert top.get_ylabel().endswith("(rpm)")
+    assert [line.get_ydata()[0] for line in top.lines] == pytest.approx([0.0, 0.2 * 30 / np.pi])
+    top, low = fit_harmonics_figure(turned[1:], "O+25").axes
+    assert top.get_ylabel().endswith("(rpm)")
+    assert top.lines[1].get_ydata() == pytest.approx([9.01 * 30 / np.pi] * 2)
+    was = fit_harmonics_figure(small_fit().records[1:], "O+25").axes[1]
+    assert low.lines[0].get_ydata() == pytest.approx(was.lines[0].get_ydata())  # in standard deviations as before
 
 
 def test_intervals_stand_between_the_bounds() -> None:

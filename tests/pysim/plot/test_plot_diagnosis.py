@@ -80,6 +80,8 @@ def test_an_overlay_shows_every_model_and_what_it_leaves() -> None:
     top, low = figure.axes
     assert len(top.lines) == 4  # measured and three models
     assert top.lines[0].get_xdata()[0] == pytest.approx(8 - 0.01 - 2 / 5, abs=0.011)  # two periods
+    assert top.get_ylabel() == "x (mm)"
+    assert np.ptp(top.lines[-1].get_ydata()) == pytest.approx(40e3, rel=0.01)  # a wave of 20 m
     base, final = low.lines
     assert np.mean(base.get_ydata()) == pytest.approx(3.0, abs=0.3)
     assert np.mean(final.get_ydata()) == pytest.approx(0.0, abs=0.3)

@@ -68,10 +68,12 @@ def test_deviations_tell_pass_from_fail() -> None:
 
 
 def test_time_response_is_drawn_in_the_reader_s_units() -> None:
-    record = Record(np.arange(3.0), np.array([[1e5, 1.0], [2e5, 2.0], [3e5, 4.0]]), ("p1", "u"), ("Pa", "1"))
-    figure = time_response_figure({"reference": record, "FMU": record}, ("p1", "u"))
-    np.testing.assert_allclose(curves(figure, 0)[1], [1.0, 2.0, 3.0])
-    assert figure.axes[0].get_ylabel() == "p1 (bar)"
+    values, names = np.array([[1e5, 1.0, 1.0], [2e5, 2.0, 2.0]]), ("p1", "u", "w")
+    record = Record(np.arange(2.0), values, names, ("Pa", "1", "rad/s"))
+    figure = time_response_figure({"reference": record, "FMU": record}, names)
+    np.testing.assert_allclose(curves(figure, 0)[1], [1.0, 2.0])
+    np.testing.assert_allclose(curves(figure, 2)[1], [30 / np.pi, 60 / np.pi])
+    assert [axes.get_ylabel() for axes in figure.axes] == ["p1 (bar)", "u (-)", "w (rpm)"]
     with pytest.raises(BadInput, match="at least one record"):
         time_response_figure({}, ("u",))
 

@@ -25,6 +25,13 @@ def test_axes_are_in_units_that_people_read() -> None:
     assert axes.lines[0].get_ydata()[0] == pytest.approx(80.0)
 
 
+def test_a_speed_of_a_shaft_is_read_in_rpm() -> None:
+    turning = replace(friction().shape, argument_unit="rad/s")
+    axes = missing_figure(replace(friction(), shape=turning)).axes[0]
+    assert axes.get_xlabel() == "pistonForce.v (rpm)"
+    assert axes.get_xlim()[1] == pytest.approx(0.3 * 30 / np.pi)
+
+
 def test_the_band_lies_around_the_term() -> None:
     edges = missing_figure(friction()).axes[0].collections[0].get_paths()[0].vertices
     assert (edges[:, 1].min(), edges[:, 1].max()) == pytest.approx((-85.0, 85.0))

@@ -1,0 +1,19 @@
+"""Units that people read in place of SI units."""
+
+import math
+
+import pytest
+
+from pysim.io import SI, shown_unit
+
+
+def test_what_is_read_is_worth_what_it_stands_for() -> None:
+    read = {unit: shown_unit(unit) for unit in ("Pa", "m", "m/s", "m3/s", "rad", "rad/s")}
+    assert [unit for unit, _ in read.values()] == ["bar", "mm", "mm/s", "l/min", "deg", "rpm"]
+    for unit, (shown, factor) in read.items():
+        assert SI[shown] == (unit, pytest.approx(1 / factor))
+    assert shown_unit("rad/s")[1] == pytest.approx(30 / math.pi)
+
+
+def test_other_units_are_read_as_they_are() -> None:
+    assert (shown_unit("N"), shown_unit("1"), shown_unit("")) == (("N", 1.0), ("-", 1.0), ("", 1.0))
