@@ -8,7 +8,7 @@ from html import escape
 from textwrap import wrap
 from typing import Any
 
-from pysim.identify import FREQUENCY_CRITERIA
+from pysim.identify import FREQUENCY_CRITERIA, HALF_95
 from pysim.identify.accuracy import TIME_CRITERIA
 from pysim.io import shown_unit
 
@@ -221,7 +221,7 @@ def overlay_figure(
     last = len(heights)
     layout["xaxis"]["anchor"] = f"y{last}" if last > 1 else "y"
     bands = [
-        {"type": "rect", "xref": "paper", "x0": 0, "x1": 1, "yref": f"y{2 * k + 2}", "y0": -1.96, "y1": 1.96}
+        {"type": "rect", "xref": "paper", "x0": 0, "x1": 1, "yref": f"y{2 * k + 2}", "y0": -HALF_95, "y1": HALF_95}
         | {"fillcolor": "@band", "line": {"width": 0}, "layer": "below"}
         for k in range(len(names) if models else 0)
     ]

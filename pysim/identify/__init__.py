@@ -16,6 +16,7 @@ from pysim.identify.frequency_response import (
     standard_deviations,
 )
 from pysim.identify.frf import MeasuredResponse, SinePoint, Window, measured_responses, sine_point
+from pysim.identify.interval import HALF_95
 from pysim.identify.logged import LoggedWave, logged_command, logged_wave
 from pysim.identify.settling import SteadyRun, run_until_settled
 from pysim.identify.sine_fit import SineFit, sine_fit
@@ -24,6 +25,7 @@ from pysim.identify.transfer_function import TransferFunction
 
 __all__ = [
     "FREQUENCY_CRITERIA",
+    "HALF_95",
     "THESIS_REFERENCE_HZ",
     "TIME_CRITERIA",
     "LoggedWave",

@@ -11,13 +11,14 @@ from matplotlib.patches import Ellipse
 from matplotlib.ticker import MultipleLocator
 from numpy.typing import NDArray
 
+from pysim.identify import HALF_95
 from pysim.identify.blackbox import FittedResponse, Root, TransferFunctionFit
 from pysim.plot.style import COLOURS, LIMIT, MEASURED, SMALL, TEXT, frequency_axis, new_figure, quiet
 
 Array = NDArray[np.float64]
 
 _LEVEL = 0.95
-_ONE, _TWO = 1.959964, 2.447747  # half width of a 95 percent region of one number and of two, standard deviations
+_TWO = 2.447747  # half width of a 95 percent region of two numbers, standard deviations
 _FAR = 20.0  # times the highest measured frequency: roots beyond are not drawn
 _FIT, _ZERO = COLOURS[0], COLOURS[1]
 
@@ -79,9 +80,8 @@ def _bars(fit: TransferFunctionFit) -> tuple[Array | None, Array | None]:
     values = fit.data.values
     along = np.stack([values.real, values.imag], axis=1) / np.abs(values)[:, None]
     across = np.stack([-along[:, 1], along[:, 0]], axis=1)
-    sizes = [
-        _ONE * np.sqrt(np.einsum("fi,fij,fj->f", d, fit.data.covariance, d)) / np.abs(values) for d in (along, across)
-    ]
+    variances = [np.einsum("fi,fij,fj->f", d, fit.data.covariance, d) for d in (along, across)]
+    sizes = [HALF_95 * np.sqrt(variance) / np.abs(values) for variance in variances]
     return 20 / np.log(10) * sizes[0], np.degrees(sizes[1])
 
 
@@ -90,7 +90,7 @@ def _draw_residuals(axes: Axes, fit: TransferFunctionFit) -> None:
     quiet(axes)
     f = fit.data.frequency
     axes.axhline(0, color=LIMIT, linewidth=0.8)
-    for side in (-_ONE, _ONE):
+    for side in (-HALF_95, HALF_95):
         axes.axhline(side, color=LIMIT, linewidth=0.8, linestyle=(0, (4, 3)))
     axes.plot(f, fit.standardised[:, 0], "o", color=_FIT, markersize=3.5, label="real part")
     axes.plot(f, fit.standardised[:, 1], "^", color=_ZERO, markersize=3.5, label="imaginary part")
@@ -116,7 +116,7 @@ def _draw_map(axes: Axes, fit: TransferFunctionFit) -> None:
         if near:
             axes.plot(np.real(near), np.imag(near), marker, label=name, **look)
         for root in roots:
-            _draw_doubt(axes, root, fit.quantile(_LEVEL) / _ONE, colour, reach)
+            _draw_doubt(axes, root, fit.quantile(_LEVEL) / HALF_95, colour, reach)
     axes.set_xlabel("Real part (rad/s)", fontsize=TEXT)
     axes.set_ylabel("Imaginary part (rad/s)", fontsize=TEXT)
     axes.set_title("poles and zeros with 95 % regions", fontsize=TEXT, loc="left")
@@ -152,7 +152,7 @@ def _draw_doubt(axes: Axes, root: Root, widened: float, colour: str, reach: floa
     if not np.isfinite(root.covariance).all() or abs(root.value) > reach:
         return
     if root.value.imag == 0:
-        half = _ONE * widened * float(np.sqrt(root.covariance[0, 0]))
+        half = HALF_95 * widened * float(np.sqrt(root.covariance[0, 0]))
         axes.plot([root.value.real - half, root.value.real + half], [0, 0], color=colour, linewidth=2.4, alpha=0.45)
         return
     sizes, directions = np.linalg.eigh(root.covariance)

@@ -11,14 +11,13 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MultipleLocator
 from numpy.typing import NDArray
 
-from pysim.identify import magnitude_db
+from pysim.identify import HALF_95, magnitude_db
 from pysim.identify.chirp import Branch, ChirpAnalysis
 from pysim.plot.style import COLOURS, MEASURED, TEXT, frequency_axis, legend_above, new_figure, quiet
 from pysim.types import FrequencyResponse
 
 Array = NDArray[np.float64]
 
-_HALF = 1.959964  # half width of a 95 percent interval, in standard deviations
 _LOOKS: dict[str, dict[str, Any]] = {
     "top": {"color": COLOURS[2], "linestyle": (0, (5, 1.5)), "linewidth": 1.1},
     "bottom": {"color": COLOURS[1], "linestyle": (0, (2, 1)), "linewidth": 1.1},
@@ -65,7 +64,7 @@ def _draw(top: Axes, bottom: Axes, branch: Branch, look: dict[str, Any], *, band
     ):
         (line,) = axes.plot(f, values, **look)
         if band:
-            half = _HALF * deviation
+            half = HALF_95 * deviation
             axes.fill_between(f, values - half, values + half, color=look["color"], alpha=0.18, linewidth=0)
     return line
 

@@ -10,6 +10,7 @@ from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from pysim.identify import HALF_95
 from pysim.io import shown_unit
 from pysim.plot.style import BAND, COLOURS, DASHES, LIMIT, MEASURED, SMALL, TEXT, legend_above, new_figure, quiet
 from pysim.types import BadInput, Diagnosis, RecordFit, Stage
@@ -108,7 +109,7 @@ def _signal(
 def _residual(axes: Axes, shown: Sequence[tuple[str, RecordFit, str]], j: int, part: slice) -> None:
     """Of all models but the untouched one where there are others: it would hide them."""
     quiet(axes)
-    axes.axhspan(-1.96, 1.96, color=BAND, linewidth=0)
+    axes.axhspan(-HALF_95, HALF_95, color=BAND, linewidth=0)
     words = []
     for name, record, colour in shown[1:] or shown:
         time, values = record.residual.time[part], record.residual.values[part, j]

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from matplotlib.figure import Figure
 
+from pysim.identify import HALF_95
 from pysim.io import shown_unit
 from pysim.plot.style import (
     BAND,
@@ -40,7 +41,7 @@ def fit_record_figure(record: RecordFit) -> Figure:
         (measured,) = top.plot(time, factor * record.measured.values[:, j], color=MEASURED, linewidth=width)
         simulated = factor * record.simulated.values[:, j]
         (model,) = top.plot(time, simulated, color=COLOURS[1], linewidth=width, linestyle="--")
-        low.axhspan(-1.96, 1.96, color=BAND, linewidth=0)
+        low.axhspan(-HALF_95, HALF_95, color=BAND, linewidth=0)
         low.plot(time, residual[:, j], color=COLOURS[0], linewidth=0, marker=".", markersize=1.5)
         top.set_ylabel(f"{name} ({shown})", fontsize=TEXT)
         low.set_ylabel("Residual (noise s.d.)", fontsize=TEXT)
@@ -77,9 +78,8 @@ def fit_harmonics_figure(records: Sequence[RecordFit], title: str) -> Figure:
         spread = factor * np.array([h.std[k] for h in own])
         least = min(least, float(np.min(spread)))
         (points,) = top.plot(f, measured, color=colour, marker=marker, markersize=4, linewidth=0)
-        top.vlines(
-            f, np.maximum(measured - 1.96 * spread, 0.1 * spread), measured + 1.96 * spread, color=colour, linewidth=0.8
-        )
+        low_end = np.maximum(measured - HALF_95 * spread, 0.1 * spread)
+        top.vlines(f, low_end, measured + HALF_95 * spread, color=colour, linewidth=0.8)
         top.plot(f, factor * np.abs([h.simulated[k] for h in own]), color=colour, linewidth=1.1)
         left = factor * np.abs([h.measured[k] - h.simulated[k] for h in own]) / (spread * np.sqrt(2))
         low.plot(f, left, color=colour, marker=marker, markersize=4, linewidth=0)

@@ -10,11 +10,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MultipleLocator
 
-from pysim.identify import THESIS_REFERENCE_HZ, MeasuredResponse, magnitude_db, standard_deviations
+from pysim.identify import HALF_95, THESIS_REFERENCE_HZ, MeasuredResponse, magnitude_db, standard_deviations
 from pysim.plot.style import COLOURS, DASHES, MARKERS, TEXT, frequency_axis, new_figure, quiet, size_axis
 from pysim.types import BadInput
 
-_HALF = 1.959964  # half width of a 95 percent interval, in standard deviations
 _ROW = 5  # responses per row of the legend
 
 
@@ -71,8 +70,8 @@ def _draw(axes: Sequence[Axes], one: MeasuredResponse, reference_hz: float | Non
     decibel, degrees = standard_deviations(response, reference_hz)
     magnitude, phase = magnitude_db(response, reference_hz), np.degrees(response.phase)
     bars: dict[str, Any] = {"elinewidth": 0.9, "capsize": 2.0}
-    handle = axes[0].errorbar(f, magnitude, yerr=_HALF * decibel, **look, **bars)
-    axes[1].errorbar(f, phase, yerr=_HALF * degrees, **look, **bars)
+    handle = axes[0].errorbar(f, magnitude, yerr=HALF_95 * decibel, **look, **bars)
+    axes[1].errorbar(f, phase, yerr=HALF_95 * degrees, **look, **bars)
     distortion = 100 * np.array([point.distortion for point in one.points])
     sure = np.array([point.distorted for point in one.points])
     axes[2].plot(f, distortion, **{**look, "marker": "none"})

@@ -9,6 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
+from pysim.identify import HALF_95
 from pysim.identify.friction import FrictionFit, friction_slopes, friction_torque
 from pysim.plot.style import BAND, COLOURS, LIMIT, MEASURED, TEXT, legend_above, new_figure, quiet
 
@@ -75,7 +76,7 @@ def _blind(axes: Axes, fit: FrictionFit) -> Any:
 def _half_width(fit: FrictionFit, speed: Array) -> Array:
     """Of the 95 percent band by the covariance, N.m."""
     slopes = friction_slopes(fit.vector, speed)
-    return 1.96 * np.sqrt(np.maximum(np.einsum("ni,ij,nj->n", slopes, fit.covariance, slopes), 0.0))
+    return HALF_95 * np.sqrt(np.maximum(np.einsum("ni,ij,nj->n", slopes, fit.covariance, slopes), 0.0))
 
 
 def _open_ends(fit: FrictionFit, speed: Array) -> tuple[Array, Array]:

@@ -8,12 +8,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from pysim.identify import HALF_95
 from pysim.identify.chirp import Branch, ChirpAnalysis
 from pysim.report.page import cell, commands, heading, items, page, picture, table
 
 Array = NDArray[np.float64]
 
-_HALF = 1.959964  # half width of a 95 percent interval, in standard deviations
 _ROUND_HZ = (0.1, 0.2, 0.3, 0.5, 0.7, 1, 1.5, 2, 3, 4, 5, 6, 8, 10, 13, 16, 20, 25, 30, 40, 50, 70, 100, 150, 200)
 _METHOD = (
     "To the logged command a chirp was fitted; to the output, around each of its tops and bottoms, a turn or more of a "
@@ -81,8 +81,8 @@ def _rows(one: ChirpAnalysis) -> list[tuple[float, Any, Any, Any, Any]]:
     rows = []
     for f in (f for f in _ROUND_HZ if low <= f <= high):
         magnitude, phase = (float(x) for x in one.mean.at(np.array(f)))
-        db_half = _HALF * float(np.interp(f, one.mean.frequency, one.mean.magnitude_deviation_db))
-        deg_half = _HALF * float(np.degrees(np.interp(f, one.mean.frequency, one.mean.phase_deviation)))
+        db_half = HALF_95 * float(np.interp(f, one.mean.frequency, one.mean.magnitude_deviation_db))
+        deg_half = HALF_95 * float(np.degrees(np.interp(f, one.mean.frequency, one.mean.phase_deviation)))
         top, bottom = (tuple(float(x) for x in branch.at(np.array(f))) for branch in (one.top, one.bottom))
         rows.append((f, (magnitude, db_half), (phase, deg_half), top, bottom))
     return rows

@@ -7,10 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from pysim.identify import MeasuredResponse, SinePoint, magnitude_db, standard_deviations
+from pysim.identify import HALF_95, MeasuredResponse, SinePoint, magnitude_db, standard_deviations
 from pysim.report.page import cell, commands, heading, items, page, paragraph, picture, table
-
-_HALF = 1.959964  # half width of a 95 percent interval, in standard deviations
 
 
 def frf_text(responses: Sequence[MeasuredResponse], reference_hz: float | None) -> str:
@@ -83,7 +81,7 @@ def _title(one: MeasuredResponse) -> str:
 
 def _rows(one: MeasuredResponse, reference_hz: float | None) -> list[tuple[Any, ...]]:
     response = one.response
-    decibel, degrees = (_HALF * sigma for sigma in standard_deviations(response, reference_hz))
+    decibel, degrees = (HALF_95 * sigma for sigma in standard_deviations(response, reference_hz))
     magnitude, phase = magnitude_db(response, reference_hz), np.degrees(response.phase)
     return [
         (p.frequency, (m, dm), (a, da), p.mean, 100 * p.distortion, p.distorted, p.periods)
