@@ -7,6 +7,7 @@ from pysim.io.dataset import SIGNAL_KEYS, described_signal, read_dataset, read_d
 from pysim.io.files import write_file
 from pysim.io.fmu import read_model
 from pysim.io.headings import column_names
+from pysim.io.json_number import json_number
 from pysim.io.records import read_record, record_data, record_text, write_record
 from pysim.io.signals import read_signal, write_signal
 from pysim.io.single_log import read_single_log
@@ -29,6 +30,7 @@ __all__ = [
     "column_names",
     "described_signal",
     "extracted",
+    "json_number",
     "load_library",
     "read_dataset",
     "read_dataset_partly",

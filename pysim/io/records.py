@@ -5,7 +5,6 @@ from __future__ import annotations
 import csv
 import io
 import json
-import math
 import re
 from pathlib import Path
 from typing import Any
@@ -14,6 +13,7 @@ import numpy as np
 
 from pysim.io.archive import DAMAGED
 from pysim.io.files import write_file
+from pysim.io.json_number import json_number
 from pysim.types import BadInput, Outcome, Record
 
 _HEADING = re.compile(r"(?P<name>.*) \[(?P<unit>[^\[\]]*)\]")
@@ -64,12 +64,9 @@ def record_text(record: Record) -> str:
 
 
 def record_data(record: Record) -> dict[str, Any]:
-    """A record for JSON: what it says of itself, `time` (n_t) and a row (n_t) per name in `signals`.
-
-    JSON knows no infinity and no NaN; they become null.
-    """
+    """A record for JSON: what it says of itself, `time` (n_t) and a row (n_t) per name in `signals`."""
     columns = zip(record.names, record.values.T.tolist(), strict=True)
-    signals = {name: [x if math.isfinite(x) else None for x in column] for name, column in columns}
+    signals = {name: [json_number(x) for x in column] for name, column in columns}
     return {**_description(record), "time": record.time.tolist(), "signals": signals}
 
 

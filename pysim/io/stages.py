@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import io
 import json
-import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -15,6 +14,7 @@ from numpy.typing import NDArray
 
 from pysim.io.archive import DAMAGED
 from pysim.io.files import write_file
+from pysim.io.json_number import json_number
 from pysim.types import BadInput, Deviation, Estimate, RecordFit, ResponseFit, Stage
 
 Array = NDArray[np.float64]
@@ -89,7 +89,7 @@ def _stage(stage: Stage, number: int, arrays: dict[str, Array]) -> dict[str, Any
         "step": stage.step,
         "estimates": [_estimate(e) for e in stage.estimates],
         "undetermined": [{"exponents": dict(d.exponents), "words": d.words} for d in stage.undetermined],
-        "where": [[f.record, f.signal, f.region, _finite(f.error)] for f in stage.where],
+        "where": [[f.record, f.signal, f.region, json_number(f.error)] for f in stage.where],
         "records": [_record(r, f"{number}/{k}", f"0/{k}", arrays) for k, r in enumerate(stage.records)],
         "responses": [_response(r) for r in stage.responses],
     }
@@ -106,7 +106,8 @@ def _record(fit: RecordFit, own: str, first: str, arrays: dict[str, Array]) -> d
         arrays[keys[what]] = values[what]
     deviations = {name: [_deviation(d) for d in own_ones] for name, own_ones in fit.deviations.items()}
     about: dict[str, Any] = {"source": fit.source, "kind": fit.kind, "use": fit.use, "names": list(fit.measured.names)}
-    about |= {"units": list(fit.measured.units), "noise": list(fit.noise), "rms": list(map(_finite, fit.rms.values()))}
+    rms = [json_number(value) for value in fit.rms.values()]
+    about |= {"units": list(fit.measured.units), "noise": list(fit.noise), "rms": rms}
     frequency = fit.harmonics[0].frequency if fit.harmonics else None
     return {**about, **keys, "frequency": frequency, "deviations": deviations}
 
@@ -127,14 +128,10 @@ def _response(fit: ResponseFit) -> dict[str, Any]:
 
 def _deviation(one: Deviation) -> dict[str, Any]:
     c = one.criterion
-    return {"name": c.name, "symbol": c.symbol, "limit": c.limit, "unit": c.unit, "value": _finite(one.value)}
+    return {"name": c.name, "symbol": c.symbol, "limit": c.limit, "unit": c.unit, "value": json_number(one.value)}
 
 
 def _estimate(e: Estimate) -> dict[str, Any]:
     numbers = {"value": e.value, "start": e.start, "lower": e.lower, "upper": e.upper, "low": e.interval[0]}
-    found = {name: _finite(value) for name, value in (*numbers.items(), ("high", e.interval[1]))}
+    found = {name: json_number(value) for name, value in (*numbers.items(), ("high", e.interval[1]))}
     return {"name": e.name, "unit": e.unit, "at": e.at, "determined": e.determined, **found}
-
-
-def _finite(value: float) -> float | None:
-    return float(value) if math.isfinite(value) else None

@@ -10,6 +10,7 @@ import numpy as np
 
 from pysim.identify import FREQUENCY_CRITERIA, magnitude_db
 from pysim.identify.blackbox import FittedNumber, FittedResponse, OrderSuggestion, Root
+from pysim.io import json_number
 from pysim.report.page import cell, commands, heading, items, page, paragraph, picture, table
 
 _WIDTH = 96
@@ -93,14 +94,14 @@ def _data(one: FittedResponse) -> dict[str, Any]:
         "dead_time_s": fit.function.dead_time,
         "stable": fit.function.stable,
         "estimates": {e.name: _estimate(e) for e in _numbers(one)},
-        "covariance": {"names": list(fit.names), "matrix": [[_finite(v) for v in row] for row in fit.covariance]},
+        "covariance": {"names": list(fit.names), "matrix": [[json_number(v) for v in row] for row in fit.covariance]},
         "pole_list": [_root(root) for root in fit.poles],
         "zero_list": [_root(root) for root in fit.zeros],
-        "fit_percent": _finite(fit.fit_percent),
+        "fit_percent": json_number(fit.fit_percent),
         "weights": fit.weights,
         "misfit": fit.misfit,
         "degrees_of_freedom": fit.freedom,
-        "probability": _finite(fit.explains),
+        "probability": json_number(fit.explains),
         "deviations": {k: float(d.value) for k, d in zip(_CRITERIA_KEYS, one.deviations, strict=True)},
         "converged": fit.converged,
         "notes": [*fit.notes, *one.remarks],
@@ -121,16 +122,16 @@ def _candidate(candidate: Any) -> dict[str, Any]:
         "aicc": candidate.aicc,
         "bic": candidate.bic,
         "sound": candidate.sound,
-        "fit_percent": _finite(candidate.fit.fit_percent),
+        "fit_percent": json_number(candidate.fit.fit_percent),
     }
 
 
 def _estimate(e: FittedNumber) -> dict[str, Any]:
     return {
-        "value": _finite(e.value),
+        "value": json_number(e.value),
         "unit": e.unit,
-        "std": _finite(e.std),
-        "interval": [_finite(end) for end in e.interval],
+        "std": json_number(e.std),
+        "interval": [json_number(end) for end in e.interval],
     }
 
 
@@ -140,12 +141,8 @@ def _root(root: Root) -> dict[str, Any]:
         "imag": root.value.imag,
         "frequency_hz": root.frequency_hz,
         "damping": root.damping,
-        "covariance": [[_finite(v) for v in row] for row in root.covariance],
+        "covariance": [[json_number(v) for v in row] for row in root.covariance],
     }
-
-
-def _finite(value: float) -> float | None:
-    return float(value) if np.isfinite(value) else None
 
 
 def blackbox_page(dataset: str, fitted: Sequence[FittedResponse], *, pictures: Sequence[bytes], redo: str) -> str:

@@ -6,6 +6,7 @@ import math
 import textwrap
 from collections.abc import Mapping, Sequence
 
+from pysim.io import json_number
 from pysim.report.diagnosis_words import verdict_sentence
 from pysim.types import Estimate
 from pysim.types.diagnosis import AddedEffect, Candidate, Diagnosis, LedgerStep, Missing, NextTest
@@ -28,24 +29,20 @@ def diagnosis_data(diagnosis: Diagnosis, files: Mapping[str, str] | None = None)
         "error": [step_data(step) for step in diagnosis.error],
         "parameters": {e.name: _estimate(e) for e in diagnosis.parameters},
         "where": [
-            {"record": f.record, "signal": f.signal, "region": f.region, "error": _finite(f.error)}
+            {"record": f.record, "signal": f.signal, "region": f.region, "error": json_number(f.error)}
             for f in diagnosis.where
         ],
         "missing": [_missing(one) for one in diagnosis.missing],
         "next_test": _next_test(diagnosis.next_test),
-        "seconds": {name: _finite(value) for name, value in diagnosis.seconds.items()},
+        "seconds": {name: json_number(value) for name, value in diagnosis.seconds.items()},
         "files": dict(files or {}),
         "notes": list(diagnosis.notes),
         "conditions": dict(diagnosis.conditions),
     }
 
 
-def _finite(value: float | None) -> float | None:
-    return value if value is not None and math.isfinite(value) else None
-
-
 def _interval(interval: tuple[float, float]) -> list[float | None]:
-    return [_finite(interval[0]), _finite(interval[1])]
+    return [json_number(interval[0]), json_number(interval[1])]
 
 
 def _added(one: AddedEffect) -> dict[str, object]:
@@ -53,13 +50,13 @@ def _added(one: AddedEffect) -> dict[str, object]:
     names = [p.name for p in one.effect.parameters]
     found: dict[str, dict[str, object]] = {"parameters": {}, "intervals": {}, "unit": {}}
     for name, estimate in zip(names, one.estimates, strict=True):
-        found["parameters"][name] = _finite(estimate.value)
+        found["parameters"][name] = json_number(estimate.value)
         found["intervals"][name] = _interval(estimate.interval)
         found["unit"][name] = estimate.unit
         inverse = one.effect[name].inverse
         if inverse:
             low, high = ((1 / v if v else math.inf) for v in estimate.interval)
-            found["parameters"][inverse] = _finite(1 / estimate.value if estimate.value else math.inf)
+            found["parameters"][inverse] = json_number(1 / estimate.value if estimate.value else math.inf)
             found["intervals"][inverse] = _interval((high, low))
             found["unit"][inverse] = f"1/({estimate.unit})"
     return {"effect": one.effect.name, "place": one.place, **found}
@@ -69,50 +66,50 @@ def _candidate(row: Candidate) -> dict[str, object]:
     return {
         "effect": row.effect,
         "round": row.round,
-        "score": _finite(row.score),
-        "p_value": _finite(row.p_value),
-        "explained": _finite(row.explained),
+        "score": json_number(row.score),
+        "p_value": json_number(row.p_value),
+        "explained": json_number(row.explained),
         "refitted": row.refitted,
-        "parameters": {name: _finite(value) for name, value in row.parameters.items()},
+        "parameters": {name: json_number(value) for name, value in row.parameters.items()},
     }
 
 
 def _missing(one: Missing) -> dict[str, object]:
     """A missing term, tabulated."""
     columns = ("argument", "value", "low", "high")
-    shape: dict[str, object] = {name: [_finite(float(v)) for v in getattr(one.shape, name)] for name in columns}
+    shape: dict[str, object] = {name: [json_number(float(v)) for v in getattr(one.shape, name)] for name in columns}
     shape |= {"argument_unit": one.shape.argument_unit, "unit": one.shape.unit}
     return {
         "slot": one.slot,
-        "share": _finite(one.share),
+        "share": json_number(one.share),
         "depends_on": one.depends_on,
         "shape": shape,
         "formula": one.formula,
         "alike": list(one.alike),
-        "parameters": {name: _finite(value) for name, value in one.parameters.items()},
+        "parameters": {name: json_number(value) for name, value in one.parameters.items()},
     }
 
 
 def _next_test(test: NextTest | None) -> dict[str, object] | None:
     if test is None:
         return None
-    return {"separates": list(test.separates), "gain": _finite(test.gain), "about": test.about, "plan": test.plan}
+    return {"separates": list(test.separates), "gain": json_number(test.gain), "about": test.about, "plan": test.plan}
 
 
 def step_data(step: LedgerStep) -> dict[str, object]:
     """One step of the ledger; every number finite or None."""
     return {
         "step": step.step,
-        "fit": _finite(step.fit),
-        "validate": _finite(step.validate),
-        "criteria": {name: _finite(value) for name, value in step.criteria.items()},
+        "fit": json_number(step.fit),
+        "validate": json_number(step.validate),
+        "criteria": {name: json_number(value) for name, value in step.criteria.items()},
         "passes": step.passes,
-        "cost": _finite(step.cost),
+        "cost": json_number(step.cost),
     }
 
 
 def _estimate(e: Estimate) -> dict[str, object]:
-    return {"value": _finite(e.value), "interval": _interval(e.interval), "unit": e.unit, "at": e.at}
+    return {"value": json_number(e.value), "interval": _interval(e.interval), "unit": e.unit, "at": e.at}
 
 
 def diagnosis_text(diagnosis: Diagnosis) -> str:

@@ -7,6 +7,7 @@ import textwrap
 from collections.abc import Mapping
 from typing import Any
 
+from pysim.io import json_number
 from pysim.report.page import cell, commands, heading, items, page, paragraph, picture, table
 from pysim.types import Estimate, Fit, FitOutcome, RecordFit, ResponseFit
 
@@ -67,15 +68,16 @@ def fit_data(fit: Fit) -> dict[str, Any]:
         "message": fit.message,
         "converged": fit.outcome is FitOutcome.CONVERGED,
         "iterations": fit.iterations,
-        "cost": _finite(fit.cost),
-        "start_cost": _finite(fit.start_cost),
-        "misfit": _finite(fit.misfit),
+        "cost": json_number(fit.cost),
+        "start_cost": json_number(fit.start_cost),
+        "misfit": json_number(fit.misfit),
         "values": dict(fit.values),
         "estimates": {e.name: _estimate(e) for e in fit.estimates},
-        "covariance": [[_finite(v) for v in row] for row in fit.covariance.tolist()],
-        "correlation": [[_finite(v) for v in row] for row in fit.correlation.tolist()],
+        "covariance": [[json_number(v) for v in row] for row in fit.covariance.tolist()],
+        "correlation": [[json_number(v) for v in row] for row in fit.correlation.tolist()],
         "undetermined": [
-            {"exponents": dict(d.exponents), "spread": _finite(d.spread), "words": d.words} for d in fit.undetermined
+            {"exponents": dict(d.exponents), "spread": json_number(d.spread), "words": d.words}
+            for d in fit.undetermined
         ],
         "combinations": [
             {"name": c.name, "exponents": dict(c.exponents), "value": c.value, "interval": list(c.interval)}
@@ -84,15 +86,16 @@ def fit_data(fit: Fit) -> dict[str, Any]:
         "records": [_record(record) for record in fit.records],
         "responses": [_response(response) for response in fit.responses],
         "starts": [
-            {"name": s.name, "values": dict(s.values), "first_cost": _finite(s.first_cost), "cost": _finite(s.cost)}
+            {
+                "name": s.name,
+                "values": dict(s.values),
+                "first_cost": json_number(s.first_cost),
+                "cost": json_number(s.cost),
+            }
             for s in fit.starts
         ],
         "notes": list(fit.notes),
     }
-
-
-def _finite(value: float) -> float | None:
-    return float(value) if math.isfinite(value) else None
 
 
 def _estimate(e: Estimate) -> dict[str, Any]:
@@ -100,10 +103,10 @@ def _estimate(e: Estimate) -> dict[str, Any]:
         "value": e.value,
         "unit": e.unit,
         "start": e.start,
-        "lower": _finite(e.lower),
-        "upper": _finite(e.upper),
-        "std": _finite(e.std),
-        "interval": [_finite(v) for v in e.interval],
+        "lower": json_number(e.lower),
+        "upper": json_number(e.upper),
+        "std": json_number(e.std),
+        "interval": [json_number(v) for v in e.interval],
         "at_bound": e.at,
         "determined": e.determined,
     }

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from pysim.identify.friction import FRICTION_NAMES, FRICTION_UNITS, FrictionFit
+from pysim.io import json_number
 from pysim.report.page import cell, commands, heading, items, page, paragraph, picture, table
 
 _MEANING = {
@@ -64,7 +65,7 @@ def friction_data(fit: FrictionFit) -> dict[str, Any]:
             name: {
                 "value": fit.parameters[name],
                 "unit": unit,
-                "interval": [x if math.isfinite(x) else None for x in fit.intervals[name]],
+                "interval": [json_number(x) for x in fit.intervals[name]],
                 "bounded_only": name in fit.bounded,
                 "at_bound": name in fit.at_bound,
             }

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pysim.identify.multisine import distortion_p_value, gain_interval, pooled
+from pysim.io import json_number
 from pysim.report.page import cell, commands, heading, items, page, paragraph, picture, table
 from pysim.types import BestLinearApproximation, Distortion, Level
 
@@ -67,7 +68,7 @@ def multisine_data(name: str, bla: BestLinearApproximation) -> dict[str, Any]:
         "noise_variance": None if bla.noise_variance is None else bla.noise_variance.tolist(),
         "input_amplitude": bla.amplitude.tolist(),
         "output_mean": bla.mean,
-        "output_mean_variance": bla.mean_variance if np.isfinite(bla.mean_variance) else None,
+        "output_mean_variance": json_number(bla.mean_variance),
         "levels": {key: None if level is None else _level_data(level) for key, level in levels.items()},
     }
 

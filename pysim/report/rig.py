@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from pysim.io import json_number
 from pysim.report.page import cell, commands, heading, items, page, picture, table
 from pysim.rig import HeaveFigures, HeaveTest, StepFigures, StepTest
 
@@ -52,8 +52,8 @@ def step_data(steps: Steps) -> list[dict[str, Any]]:
             "size": test.size,
             "steady_error": found.steady_error,
             "overshoot": found.overshoot,
-            "rise_time_s": _finite(found.rise_time),
-            "settling_time_s": _finite(found.settling_time),
+            "rise_time_s": json_number(found.rise_time),
+            "settling_time_s": json_number(found.settling_time),
             "settling_band": found.band,
         }
         for test, found in steps
@@ -142,7 +142,3 @@ def _heave_cells(f: HeaveFigures) -> list[str]:
         f"{f.held.shape[0]}",
         f"{f.held_longest:.2f} ({f.held_reference:.2f})",
     ]
-
-
-def _finite(value: float) -> float | None:
-    return value if math.isfinite(value) else None

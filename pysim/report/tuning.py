@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from pysim.control.tuning import Gains
+from pysim.io import json_number
 from pysim.report.page import cell, commands, heading, items, page, picture, table
 
 _METHOD = (
@@ -70,15 +71,11 @@ def _data(gains: Gains) -> dict[str, Any]:
         "plant": gains.plant.name,
         "K_p": gains.K_p,
         "T_i": gains.T_i,
-        "crossover_hz": _finite(loop.crossover / (2 * math.pi)),
-        "phase_margin_deg": _finite(math.degrees(loop.phase_margin)),
-        "gain_margin_db": _finite(20 * math.log10(loop.gain_margin)),
-        "delay_margin_s": _finite(loop.delay_margin),
+        "crossover_hz": json_number(loop.crossover / (2 * math.pi)),
+        "phase_margin_deg": json_number(math.degrees(loop.phase_margin)),
+        "gain_margin_db": json_number(20 * math.log10(loop.gain_margin)),
+        "delay_margin_s": json_number(loop.delay_margin),
         "peak_sensitivity": loop.peak_sensitivity,
-        "bandwidth_hz": _finite(loop.bandwidth / (2 * math.pi)),
+        "bandwidth_hz": json_number(loop.bandwidth / (2 * math.pi)),
         "stable": loop.stable,
     }
-
-
-def _finite(value: float) -> float | None:
-    return value if math.isfinite(value) else None

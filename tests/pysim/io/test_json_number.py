@@ -1,0 +1,18 @@
+"""Numbers as JSON takes them."""
+
+import json
+import math
+
+import numpy as np
+import pytest
+
+from pysim.io import json_number
+
+
+@pytest.mark.parametrize("value", [math.inf, -math.inf, math.nan, None, np.float64(np.inf)])
+def test_what_json_does_not_know_becomes_none(value: float | None) -> None:
+    assert json_number(value) is None
+
+
+def test_a_number_stays_and_can_be_written() -> None:
+    assert json.dumps([json_number(np.float64(0.1)), json_number(-2.5)], allow_nan=False) == "[0.1, -2.5]"
