@@ -22,6 +22,7 @@ Override = float | str  # a number, or Modelica text
 _NOISE = re.compile(r"^(?:[a-z]+ failed: )?(?:\S+ (?:could not be compiled|failed in \w+): )?")
 _BYTES = re.compile(r"start: BytePos\((\d+)\), end: BytePos\((\d+)\)")
 _WORKER = Path(__file__).with_name("rumoca_worker.py")
+_LONGEST_S = 900.0  # a compiler that hangs is ended; a large library on a slow machine is not
 PLACE = re.compile(r"\[([^\[\]\n]+?\.mo):(\d+):\d+\]")
 
 
@@ -84,13 +85,22 @@ def _ask_rumoca(request: Mapping[str, Any], source: ClassSource) -> dict[str, An
     """What the worker answers. It costs 0.1 s to start; without it, an abort in the parser would end this process."""
     if importlib.util.find_spec("rumoca") is None:
         raise BuildError("building from Modelica needs rumoca 0.10.2; install it with: pip install rumoca==0.10.2")
-    done = subprocess.run(
-        [sys.executable, "-P", str(_WORKER)],
-        input=json.dumps(request).encode(),
-        capture_output=True,
-        env={**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))},
-        check=False,
-    )
+    try:
+        done = subprocess.run(
+            [sys.executable, "-P", str(_WORKER)],
+            input=json.dumps(request).encode(),
+            capture_output=True,
+            env={**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))},
+            timeout=_LONGEST_S,
+            check=False,
+        )
+    except subprocess.TimeoutExpired:
+        raise BuildError(
+            f"the Modelica compiler was not done with {source.name} within {_LONGEST_S:g} s and was ended; leave out "
+            "parts of the class to find what it cannot take",
+            source.file,
+            source.line,
+        ) from None
     try:
         answer: dict[str, Any] = json.loads(done.stdout)
         return answer
