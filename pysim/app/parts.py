@@ -97,7 +97,8 @@ class Drawing(Element, component=str(_STATIC / "drawing.js")):
         label: what is to be seen.
         size: width and height, px.
         boxes: `name`, `rows` of its text, `x` and `y` of its middle, `wide`, `high`, `kind`, `told` below the name,
-            `share` from 0 to 1 or None, `words` for those who cannot see it, `pick`: whether it is a button.
+            `share` from 0 to 1 or None, `words` for those who cannot see it, `pick`: whether it is a button, `has`:
+            names of what was put there.
         lines: `points`: corners, and `kind`: "to", "both" or "joint".
         dots: where a line branches.
         on_pick: told the name of the box.

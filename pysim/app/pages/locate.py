@@ -55,7 +55,8 @@ def _drawing(desk: Desk, found: _Found, chosen: dict[str, str]) -> None:
     assert desk.model is not None
     lay, parts = desk.drawing, desk.model["structure"]
     nodes = {str(node["name"]): node for node in parts["nodes"]}
-    boxes = [_box(nodes[one.name], found, _slots(desk)) | {"x": one.x, "y": one.y} for one in lay.boxes]
+    slots, added = _slots(desk), _added(desk)
+    boxes = [_box(nodes[one.name], found, slots, added) | {"x": one.x, "y": one.y} for one in lay.boxes]
     lines = [{"points": points, "kind": link["kind"]} for points, link in zip(lay.lines, parts["links"], strict=True)]
 
     def pick(name: str) -> None:
@@ -70,19 +71,31 @@ def _drawing(desk: Desk, found: _Found, chosen: dict[str, str]) -> None:
             label, (lay.width, lay.height), boxes, lines, lay.dots, on_pick=pick, picked=chosen["slot"],
         )  # fmt: skip
         with box("legend small"):
-            for kind, words in _legend(bool(found)):
+            for kind, words in _legend(bool(found), bool(added)):
                 with box("", "span"):
                     box(kind, "i")
                     text("span", words)
 
 
-def _legend(looked: bool) -> list[tuple[str, str]]:
+def _added(desk: Desk) -> dict[str, list[str]]:
+    """Slot -> the effects that were added there."""
+    places = {str(one["name"]): str(one["slot"]) for one in (desk.model or {}).get("effects", [])}
+    found: dict[str, list[str]] = {}
+    for name in desk.project.settings().added:
+        found.setdefault(places.get(name, ""), []).append(name)
+    return found
+
+
+def _legend(looked: bool, added: bool) -> list[tuple[str, str]]:
+    more = [("has", "effect that was added")] if added else []
     if not looked:
-        return [("", "slot: a term can be put there"), ("part", "fixed part")]
-    return [("seen", "slot with its share"), ("", "slot that was not looked at"), ("part", "fixed part")]
+        return [("", "slot: a term can be put there"), *more, ("part", "fixed part")]
+    return [("seen", "slot with its share"), ("", "slot that was not looked at"), *more, ("part", "fixed part")]
 
 
-def _box(node: Mapping[str, Any], found: _Found, slots: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:
+def _box(
+    node: Mapping[str, Any], found: _Found, slots: Mapping[str, Mapping[str, Any]], added: Mapping[str, list[str]]
+) -> dict[str, Any]:
     """One place as the drawing takes it."""
     name, kind = str(node["name"]), str(node["kind"])
     slot = name in slots
@@ -92,10 +105,11 @@ def _box(node: Mapping[str, Any], found: _Found, slots: Mapping[str, Mapping[str
     words = f"{name}: {node['about']}" if node["about"] else name
     if slot:
         words += f"; {told} of the misfit" if told else "; not looked at" if found else ""
+        words += f"; added: {', '.join(added[name])}" if name in added else ""
     look = [kind if slot or kind != "slot" else "part", "seen" if told else "", "first" if name in [*found][:1] else ""]
     return {
         "name": name, "rows": broken(name), "wide": WIDE, "high": HIGH, "kind": " ".join(filter(None, look)),
-        "told": told, "share": share, "words": words, "pick": slot,
+        "told": told, "share": share, "words": words, "pick": slot, "has": added.get(name, []),
     }  # fmt: skip
 
 

@@ -27,6 +27,10 @@ export default {
           <text :x="box.wide / 2" text-anchor="middle" :class="{ small: box.rows.length > 1 }">
             <tspan v-for="(row, k) in box.rows" :key="k" :x="box.wide / 2" :y="start(box) + 15 * k">{{ row }}</tspan>
           </text>
+          <g v-for="(name, k) in box.has" :key="name" class="has" :transform="'translate(' + box.wide / 2 + ',' + -17 * k + ')'">
+            <rect :x="-tag(name) / 2" y="-9" :width="tag(name)" height="17" rx="8.5" />
+            <text y="4" text-anchor="middle">+ {{ name }}</text>
+          </g>
           <text v-if="box.told" class="told" :x="box.wide / 2" :y="start(box) + 15 * box.rows.length + 2" text-anchor="middle">{{ box.told }}</text>
         </g>
       </svg>
@@ -34,6 +38,7 @@ export default {
   props: { label: String, width: Number, height: Number, boxes: Array, lines: Array, dots: Array, picked: String },
   methods: {
     head: headed,
+    tag: (name) => 6.1 * (name.length + 2) + 14,
     round: (box) => ({ input: box.high / 2, output: box.high / 2, port: box.high / 2, term: 16 })[box.kind] ?? 7,
     start: (box) => (box.high - (box.share === null ? 0 : 7)) / 2 + 5 - 7.5 * (box.rows.length - 1 + (box.told ? 1.1 : 0)),
     key(event, box) {

@@ -60,6 +60,9 @@ def test_from_the_dropped_folder_to_the_downloaded_fmu(shown: Any, dropped: tupl
         tab.shot("add")
         numbers = tab.page.locator(".chart .annotation-text").all_text_contents()
         assert min(float(text) for text in numbers if text[:1].isdigit()) < 1.1  # nothing but noise is left
+        tab.go("Locate")
+        tab.shot("added")
+        assert tab.page.locator(".drawing .box[data-name=force] .has").text_content().strip() == "+ toy.friction"
         tab.go("Take away")
         with tab.page.expect_download() as download:
             tab.page.locator(".file", has_text="FMU").get_by_text("Download").first.click()
