@@ -1,11 +1,16 @@
 """A bench with one command and one sensor, for tests that need measurements of a plant of a few lines."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from pysim.types import Dataset, MeasuredRecord, MeasuredSignal, Record, Signal
+from pysim.diagnose.residuals import Ruler
+from pysim.diagnose.subject import Extended, extended, subject
+from pysim.simulate import Rodas, simulate
+from pysim.types import Dataset, Experiment, MeasuredRecord, MeasuredSignal, Model, Record, Signal
 
 Array = NDArray[np.float64]
 
@@ -39,6 +44,28 @@ class Bench:
         names, units = zip(self.command, self.sensor, strict=True)
         record = Record(times, np.column_stack([command.value(times), read]), names, units)
         return MeasuredRecord(source, "stochastic", use, record)
+
+    def measured(
+        self,
+        model: Model,
+        times: Array,
+        command: Signal,
+        truth: Mapping[str, float] | None = None,
+        rng: np.random.Generator | None = None,
+        *,
+        fine: float = 1e-8,
+        **free: Any,
+    ) -> tuple[Ruler, Extended]:
+        """One log of a model at its true parameters, and what counts the residuals of the model against it.
+
+        Args:
+            fine: tolerance of the plant's run.
+            free: as `subject` takes it.
+        """
+        run = Experiment(times, (self.sensor[0],), {self.command[0]: command}, truth or {})
+        read = simulate(model, run, solver=Rodas(rtol=fine, atol=fine))[self.sensor[0]]
+        given = subject(model, self.dataset(self.log(times, command, read, rng)), (), None, **free)
+        return Ruler(given.targets), extended(given, ())
 
     def dataset(self, *logs: MeasuredRecord) -> Dataset:
         """Of these logs."""

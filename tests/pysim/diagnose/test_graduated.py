@@ -8,10 +8,10 @@ from pysim.diagnose.descent import descend
 from pysim.diagnose.graduated import WIDTHS, Smoothing, graduated, is_far
 from pysim.diagnose.refit import refit
 from pysim.diagnose.residuals import Ruler
-from pysim.diagnose.subject import Extended, extended, subject
+from pysim.diagnose.subject import Extended
 from pysim.identify.greybox.optimiser import Bounds
-from pysim.simulate import Rodas, simulate
-from pysim.types import Experiment, Signal
+from pysim.simulate import Rodas
+from pysim.types import Signal
 from tests.pysim.diagnose.bench import Bench
 from tests.pysim.diagnose.toy import base
 
@@ -26,11 +26,8 @@ def ringing(seed: int) -> tuple[Ruler, Extended]:
     for edge, height in ((2, 4.0), (9, -7.0), (16, 9.0), (23, -6.0)):
         swing += height * 0.5 * (1 - np.cos(np.pi * np.clip((knots - edge) / 0.2, 0, 1)))
     push = Signal.through(knots, swing)
-    clean = simulate(base(), Experiment(times, ("x",), {"F": push}, TRUTH), solver=Rodas(rtol=1e-8, atol=1e-8))["x"]
-    bench = Bench(("F", "N"), ("x", "m"), NOISE)
-    data = bench.dataset(bench.log(times, push, clean, rng))
-    given = subject(base(), data, (), None)
-    return Ruler(given.targets, solver=Rodas(rtol=1e-7, atol=1e-7)), extended(given, ())
+    ruler, what = Bench(("F", "N"), ("x", "m"), NOISE).measured(base(), times, push, TRUTH, rng)
+    return ruler.with_other(solver=Rodas(rtol=1e-7, atol=1e-7)), what
 
 
 def test_what_is_slow_leads_where_a_plain_descent_is_caught() -> None:

@@ -9,9 +9,9 @@ import pytest
 
 from pysim.diagnose.residuals import Ruler
 from pysim.diagnose.secants import with_secants
-from pysim.diagnose.subject import Extended, extended, subject
-from pysim.simulate import Rodas, simulate
-from pysim.types import Experiment, Signal
+from pysim.diagnose.subject import Extended
+from pysim.simulate import Rodas
+from pysim.types import Signal
 from tests.pysim.diagnose.bench import Bench
 from tests.pysim.simulate.text_models import text_model
 
@@ -39,10 +39,9 @@ def met(**bounds: tuple[float, float]) -> tuple[Ruler, Extended]:
     times = np.arange(0.0, 20.0, 0.02)
     waves = [(2.5, 0.0, 2.1, 0.0), (2.0, 0.0, 5.3, 0.0), (1.5, 0.0, 8.9, 0.0)]
     command = Signal(np.zeros(1), np.zeros((1, 4)), np.array([waves]))
-    clean = simulate(model, Experiment(times, ("x",), {"F": command}), solver=Rodas(rtol=1e-9, atol=1e-9))["x"]
     bench = Bench(("F", "N"), ("x", "m"), 1e-3)
-    given = subject(model, bench.dataset(bench.log(times, command, clean)), (), None, free=KEYS, bounds=bounds)
-    return Ruler(given.targets, solver=Rodas(rtol=1e-4, atol=1e-4)), extended(given, ())
+    ruler, what = bench.measured(model, times, command, fine=1e-9, free=KEYS, bounds=bounds)
+    return ruler.with_other(solver=Rodas(rtol=1e-4, atol=1e-4)), what
 
 
 def along(rows: np.ndarray, direction: np.ndarray) -> float:

@@ -9,9 +9,9 @@ import pytest
 from pysim.diagnose.fitted import Fitted
 from pysim.diagnose.residuals import Ruler, rulers
 from pysim.diagnose.steps import as_fine, fine_enough, integration_error, with_tolerance
-from pysim.diagnose.subject import extended, subject
-from pysim.simulate import Esdirk, Rk4, Rodas, simulate
-from pysim.types import Experiment, Signal
+from pysim.diagnose.subject import extended
+from pysim.simulate import Esdirk, Rk4, Rodas
+from pysim.types import Signal
 from tests.pysim.diagnose.bench import Bench
 from tests.pysim.diagnose.toy import measured, toy_subject
 from tests.pysim.simulate.text_models import text_model
@@ -44,10 +44,7 @@ def chaos() -> tuple[Ruler, Fitted]:
     model = text_model(LORENZ, Path(mkdtemp()))
     times = np.arange(0.0, 80.0, 0.02)
     push = Signal.lines([0.0, 1.0, 2.0, 80.0], [0.0, 0.0, 1.0, 0.0])
-    x = simulate(model, Experiment(times, ("x",), {"push": push}), solver=Rodas(rtol=1e-8, atol=1e-8))["x"]
-    bench = Bench(("push", "1"), ("x", "1"), 0.1)
-    given = subject(model, bench.dataset(bench.log(times, push, x)), (), None)
-    ruler, what = Ruler(given.targets), extended(given, ())
+    ruler, what = Bench(("push", "1"), ("x", "1"), 0.1).measured(model, times, push)
     return ruler, Fitted(what, ruler.evaluation(what, what.space.to_search(what.space.start)))
 
 
