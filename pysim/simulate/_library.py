@@ -203,8 +203,13 @@ class Library:
             self._take_back(instance)
 
     def _take_back(self, instance: Instance) -> None:
-        """Keep it for a later run, or unload it where it can never be used again."""
-        if not instance.is_alive or instance.status >= FATAL:
+        """Keep it for a later run, or unload it where it can never be used again.
+
+        After a fatal error nothing of an FMU may be called any more, what it does when it is unloaded included.
+        """
+        if instance.status >= FATAL:
+            return
+        if not instance.is_alive:
             instance.fmu.freeLibrary()
             return
         if instance.status >= ERROR:
