@@ -102,9 +102,8 @@ def formula(
     m, size = k.size, float(np.sqrt(np.mean(values**2)))
     if not size > 0:
         return nothing
-    root = np.linalg.cholesky(covariance + (_COARSE * size) ** 2 * np.eye(m))
-    target = np.linalg.solve(root, values)
-    free = np.linalg.solve(root, absorbed)
+    white = _whitener(covariance, _COARSE * size)
+    target, free = white @ values, white @ absorbed
     best: tuple[float, _Term, float, Array, Array] | None = None
     for term, width in _tried(k):
         if term.form == "saturation" and unit_in != unit_out:
@@ -114,7 +113,7 @@ def formula(
         columns = term.columns(k, width)
         if np.linalg.norm(columns - absorbed @ (absorbed.T @ columns)) < 1e-3 * np.linalg.norm(columns):
             continue  # refitting takes all of it
-        design = np.column_stack([np.linalg.solve(root, columns), free])
+        design = np.column_stack([white @ columns, free])
         amounts = np.linalg.lstsq(design, target, rcond=None)[0]
         rest = float(np.sum((target - design @ amounts) ** 2))
         score = rest + (columns.shape[1] + term.sized) * math.log(m)
@@ -123,14 +122,23 @@ def formula(
             best = (score, term, width, amounts[: columns.shape[1]], amounts[columns.shape[1] :])
     assert best is not None
     _, term, width, own, along = best
-    left = target - np.linalg.solve(root, term.columns(k, width)) @ own - free @ along
+    left = target - white @ term.columns(k, width) @ own - free @ along
     if float(left @ left) > (1 - _GOOD) * float(target @ target) or float(left @ left) > 3 * m:
         return nothing
-    design = np.column_stack([np.linalg.solve(root, term.columns(k, width)), free])
+    design = np.column_stack([white @ term.columns(k, width), free])
     spread = np.linalg.pinv(design.T @ design)[own.size :, own.size :]
     effect = _effect(term.form, argument, slot, catalogue)
     text = term.written(own, width, argument, unit_in, unit_out)
     return Formula(text, term.form, effect, -along, spread)
+
+
+def _whitener(covariance: Array, least: float) -> Array:
+    """What makes values independent and of variance 1, (m, m), each with a deviation of its own besides.
+
+    Where the data leave a direction open its variance is so large that others may come out below nothing by rounding.
+    """
+    sizes, turned = np.linalg.eigh(covariance)
+    return np.asarray((turned / np.sqrt(np.maximum(sizes, 0.0) + least**2)) @ turned.T)
 
 
 def _effect(form: str, argument: str, slot: str, catalogue: Sequence[Effect]) -> str:

@@ -37,6 +37,14 @@ def test_what_refitting_absorbs_does_not_hide_the_law(hidden: float) -> None:
     np.testing.assert_allclose(shown, -80 * np.sign(K), atol=1.0)
 
 
+def test_a_direction_that_the_data_leave_open_hides_nothing_else() -> None:
+    line = (K / np.linalg.norm(K))[:, None]
+    covariance = 0.5**2 * np.eye(K.size) + 1e22 * line @ line.T
+    assert np.linalg.eigvalsh(covariance)[0] < 0  # by rounding
+    names = {"argument": "pistonForce.v", "unit_in": "m/s", "unit_out": "N"}
+    assert formula(K, -80 * np.sign(K) + 300 * K, covariance, NONE, **names).form == "sign"
+
+
 def test_a_dead_band_is_a_saturation_of_slope_minus_one() -> None:
     said = found(-np.clip(K, -0.015, 0.015), noise=1e-4, argument="spoolOpening.s", units=("1", "1"))
     assert said.form == "saturation"
