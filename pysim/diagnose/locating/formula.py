@@ -114,7 +114,7 @@ def formula(
         if np.linalg.norm(columns - absorbed @ (absorbed.T @ columns)) < 1e-3 * np.linalg.norm(columns):
             continue  # refitting takes all of it
         design = np.column_stack([white @ columns, free])
-        amounts = np.linalg.lstsq(design, target, rcond=None)[0]
+        amounts: Array = np.linalg.lstsq(design, target, rcond=None)[0].astype(np.float64)
         rest = float(np.sum((target - design @ amounts) ** 2))
         score = rest + (columns.shape[1] + term.sized) * math.log(m)
         score -= _KNOWN if _effect(term.form, argument, slot, catalogue) else 0.0
@@ -126,7 +126,7 @@ def formula(
     if float(left @ left) > (1 - _GOOD) * float(target @ target) or float(left @ left) > 3 * m:
         return nothing
     design = np.column_stack([white @ term.columns(k, width), free])
-    spread = np.linalg.pinv(design.T @ design)[own.size :, own.size :]
+    spread: Array = np.linalg.pinv(design.T @ design)[own.size :, own.size :].astype(np.float64)
     effect = _effect(term.form, argument, slot, catalogue)
     text = term.written(own, width, argument, unit_in, unit_out)
     return Formula(text, term.form, effect, -along, spread)

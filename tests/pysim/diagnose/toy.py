@@ -34,7 +34,7 @@ package Toy
     extends PartialForce;
     parameter Real F_t(unit="N", min=0, max=5, nominal=0.3) = 0 "0 = off";
   equation
-    f = -F_t*tanh(v/0.02005);
+    f = -F_t*tanh(v/0.01999);
     annotation(__HydraulicTestBench(effect="toy.twin", slot="force"));
   end Twin;
   model Hardening "Cubic spring"
