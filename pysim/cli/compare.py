@@ -51,7 +51,7 @@ def _story(args: argparse.Namespace) -> int:
     from pysim.report.diagnosis import evidence_text
     from pysim.report.diagnosis_words import comparison_sentence
 
-    refuse_reference(args, "with --refit, --records or --story gains of a table are relative to that at 0.1 Hz")
+    refuse_reference(args, "with --refit, --records or --story gains of a table are relative to 0.1 Hz; logs have none")
     given = read_subject(args)
     announce_compilation()
     found = unfold(

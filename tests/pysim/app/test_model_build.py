@@ -53,38 +53,34 @@ def started(monkeypatch: pytest.MonkeyPatch) -> "list[subprocess.Popen[bytes]]":
     return found
 
 
-def test_a_slow_build_that_is_overtaken_is_ended_and_thrown_away(
-    project: Project, started: "list[subprocess.Popen[bytes]]"
-) -> None:
+def overtaken(project: Project, by: str) -> Desk:
+    """A slow build still goes on when another model is named."""
     desk = Desk(project, Runner(project), Limits(), " ".join)
 
     async def both() -> None:
         project.change(model="Slow")
         first = asyncio.create_task(desk.read_model())
         await asyncio.sleep(0.2)
-        project.change(model="Quick")
+        project.change(model=by)
         await desk.read_model()
         assert not desk.model_busy
         await first
 
     asyncio.run(both())
+    return desk
+
+
+def test_a_slow_build_that_is_overtaken_is_ended_and_thrown_away(
+    project: Project, started: "list[subprocess.Popen[bytes]]"
+) -> None:
+    desk = overtaken(project, "Quick")
     assert desk.model is not None
     assert (desk.model["name"], desk.model_trouble, desk.model_busy) == ("Quick", "", False)
     assert [process.poll() for process in started] == [-9, 0]
 
 
 def test_without_a_model_the_build_of_the_earlier_one_is_thrown_away(project: Project) -> None:
-    desk = Desk(project, Runner(project), Limits(), " ".join)
-
-    async def both() -> None:
-        project.change(model="Slow")
-        first = asyncio.create_task(desk.read_model())
-        await asyncio.sleep(0.2)
-        project.change(model="")
-        await desk.read_model()
-        await first
-
-    asyncio.run(both())
+    desk = overtaken(project, "")
     assert (desk.model, desk.model_trouble, desk.model_busy) == (None, "", False)
 
 
