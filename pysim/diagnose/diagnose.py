@@ -59,7 +59,7 @@ def diagnose(
     if subject.build_variant is None:
         story.note(_NOT_AT_HAND)
     elif subject.catalogue:
-        final = search(story, nominal, base, most)
+        base, final = search(story, nominal, base, most)
     verdict, reason = decided(story, base, final)
     missing = _missing(story, final) if verdict == UNKNOWN else ()
     return answered(story, final.at, verdict, reason, missing, _next_test(story))

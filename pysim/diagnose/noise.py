@@ -168,7 +168,7 @@ def _between(log: SineLog, name: str) -> Iterator[_Ordinates]:
     time = log.measured.time
     n, interval = time.size, float(np.median(np.diff(time)))
     periods = round(n * interval * log.sine.frequency)
-    if periods < 2 or not _uniform(time, interval):
+    if periods < 2 or not log.settled or not _uniform(time, interval):
         return
     rest = log.measured[name]
     if abs(n * interval * log.sine.frequency - periods) > 1e-6:  # else harmonics are frequencies of their own

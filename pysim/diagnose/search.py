@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pysim.diagnose import decide
-from pysim.diagnose.corrections import Settled
+from pysim.diagnose.corrections import Settled, is_off
 from pysim.diagnose.fitted import Fitted
 from pysim.diagnose.null import ALARM, leftover
 from pysim.diagnose.pairs import Pair, joint
@@ -37,11 +37,21 @@ _PAIRS, _TOGETHER = 3, 1.5
 _QUIET, _HOPE = 0.05, 0.5
 
 
-def search(story: Story, nominal: Fitted, base: Settled, most: int) -> Settled:
-    """Add effects while the data demand one; the model with all of them."""
+def search(story: Story, nominal: Fitted, base: Settled, most: int) -> tuple[Settled, Settled]:
+    """Add effects while the data demand one.
+
+    Returns:
+        the base model, at a better end of its refit where the first effect has shown one, and the model with all
+        effects.
+    """
     current = base
     for number in range(1, most + 1):
         found = _round(story, current.whole, nominal if number == 1 else None, number, most)
+        if found is not None and number == 1:
+            better = _freed(story, base, found)
+            if better is not None:
+                base = current = better
+                found = _round(story, current.whole, nominal, number, most)
         if found is None:
             break
         needed = _without_the_needless(story, found)
@@ -49,7 +59,30 @@ def search(story: Story, nominal: Fitted, base: Settled, most: int) -> Settled:
         story.enter(needed.what.effects[-1].name, current.at)
         if story.journal.once(f"round {number}", dict)["done"]:
             break
-    return current
+    return base, current
+
+
+def _freed(story: Story, base: Settled, found: Fitted) -> Settled | None:
+    """The base model refitted from where an effect has led it, where that is much nearer to the measurements.
+
+    Its refit had ended in a dent of the sum of squares then, and any effect would have seemed to help it out.
+    """
+    if not is_off(base.ruler, base.whole.point):
+        return None
+    story.now("refitting the model from where the effect has led it")
+    what = base.whole.what
+    out = story.fitted(what, f"{found.name} without it", partial(_without, story, found, what))
+    before = base.whole.point
+    freedom = before.residual.size - before.x.size
+    if out is None or decide.explained(before.cost - out.point.cost, before.cost, freedom) < decide.FAIR:
+        story.stage("refit leaders")
+        return None
+    story.afresh()
+    end = settle(story, out, "base")
+    story.say(f"it had ended in a dent: sum of squares {before.cost:.6g} -> {end.at.point.cost:.6g}")
+    story.stage("refit")
+    story.enter("refit", end.at)
+    return end
 
 
 def _round(story: Story, current: Fitted, nominal: Fitted | None, number: int, most: int) -> Fitted | None:

@@ -103,6 +103,13 @@ class Story:
         self.seconds[name] = self.seconds.get(name, 0.0) + now - self.begun
         self.begun = now
 
+    def afresh(self) -> None:
+        """The last model entered was no good: what was learned from it is forgotten."""
+        self.ledger.pop()
+        self.stages.pop()
+        self.ranking, self.ties, self.tied = [], [], None
+        self.journal.afresh()
+
     def enter(self, name: str, at: Fitted) -> LedgerStep:
         """A model joins the ledger."""
         found = beside(self.subject, at.what, at.point.x)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import astuple, replace
 from typing import Any
 
@@ -12,7 +13,7 @@ from numpy.typing import NDArray
 from pysim.diagnose import decide
 from pysim.diagnose.blame import Blame
 from pysim.diagnose.contenders import Contender
-from pysim.diagnose.corrections import as_noise, blamed, recounted
+from pysim.diagnose.corrections import as_noise, blamed, is_off, recounted
 from pysim.diagnose.fitted import Fitted
 from pysim.diagnose.nuisance import Suspect
 from pysim.diagnose.refit import chord_refit, refit_from
@@ -37,6 +38,8 @@ _FINAL, _NEAR = 3, 0.8
 _KEPT = 0.5
 # Points tried on probation, and from parameters far off.
 _STEPS, _FAR_STEPS = 6, 9
+# A limit beside the model's own parameters: times what was tried beside those found.
+_LIMITS = (0.25, 0.5, 1.0, 2.0, 4.0, 8.0)
 # Integration of ties.
 _FINE = Rodas(rtol=1e-7, atol=1e-7)
 
@@ -81,10 +84,15 @@ def refitted(
 
 
 def promising(tried: Tried) -> list[Footprint]:
-    """The first of the ranking; several always, since the promise is one to first order only."""
+    """The first of the ranking; several always, since the promise is one to first order only.
+
+    Limits too where parameters have been bent: what a limit promises beside such is no guide.
+    """
     heads = tried.heads
     enough = [k < 3 or tried.worth(f) > _PROMISE * tried.worth(heads[0]) for k, f in enumerate(heads)]
-    return [f for f, good in zip(heads[:_PROBATION], enough, strict=False) if good]
+    first = [f for f, good in zip(heads[:_PROBATION], enough, strict=False) if good]
+    names = [f.effect.name for f in first]
+    return first + [f for f in heads if tried.bent and _is_limit(f.effect) and f.effect.name not in names]
 
 
 def _kept(tried: Tried, one: Contender, point: Evaluation | None) -> dict[str, Any] | None:
@@ -106,10 +114,17 @@ def _probation(tried: Tried, one: Contender, nominal: Fitted | None) -> Evaluati
     if (ends[0] is None or ends[0].cost > before) and len(own) > 1:
         ends.append(_end(one, current, min(own, key=lambda f: f.size), _STEPS))
     reached = before - min(end.cost for end in ends if end is not None) if any(ends) else 0.0
-    if nominal is not None and reached < _KEPT * own[0].gain:
-        ends.append(_end(one, recounted(tried.ruler, one.ruler, nominal), own[0], _FAR_STEPS))
-    good = [end for end in ends if end is not None and end.cost < before]
-    return min(good, key=lambda end: end.cost) if good else None
+    if nominal is not None:
+        there = recounted(tried.ruler, one.ruler, nominal)
+        if reached < _KEPT * own[0].gain:
+            ends.append(_end(one, there, own[0], _FAR_STEPS))
+        if _is_limit(one.effect) and is_off(one.ruler, min(_better(ends, before), key=_cost, default=current.point)):
+            ends.append(_limited(one, there, own[0]))
+    return min(_better(ends, before), key=_cost, default=None)
+
+
+def _better(ends: Sequence[Evaluation | None], before: float) -> list[Evaluation]:
+    return [end for end in ends if end is not None and end.cost < before]
 
 
 def _end(one: Contender, current: Fitted, found: Footprint, steps: int) -> Evaluation | None:
@@ -121,9 +136,30 @@ def _end(one: Contender, current: Fitted, found: Footprint, steps: int) -> Evalu
     return None if start is None else chord_refit(one.ruler, one.what, start, steps=steps)
 
 
+def _limited(one: Contender, nominal: Fitted, found: Footprint) -> Evaluation | None:
+    """A refit from the model's own parameters, with the limit where it fits best beside them.
+
+    Parameters that have been bent to hide a limit say little of where it lies.
+    """
+    starts = [start_at(one.ruler, nominal, one.what, [(found, size)]) for size in _LIMITS]
+    best = min((start for start in starts if start is not None), key=_cost, default=None)
+    first = None if best is None else one.ruler.evaluation(one.what, best.x)
+    if first is None or not first.good:
+        return None
+    return refit_from(one.ruler, one.what, first, rounds=1, slow_first=False)[0]
+
+
+def _cost(end: Evaluation) -> float:
+    return end.cost
+
+
+def _is_limit(effect: Effect) -> bool:
+    return any(p.inverse for p in effect.strengths)
+
+
 def start_amount(effect: Effect, amount: float) -> float:
     """Of the strength that was tried: near what looked best, but for limits, which act or do not."""
-    if effect.bypass or any(p.inverse for p in effect.strengths):
+    if effect.bypass or _is_limit(effect):
         return 1.0
     return math.copysign(float(np.clip(abs(amount), 1 / 3, 3.0)), amount)
 

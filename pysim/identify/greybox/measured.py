@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 from pysim.identify.greybox.command import from_rest
 from pysim.identify.greybox.log_target import LogTarget
 from pysim.identify.greybox.noise import signal_noise
-from pysim.identify.greybox.sine_log import Sine, SineLog, sine_log, steady_sine
-from pysim.identify.greybox.sine_target import SineTarget
+from pysim.identify.greybox.sine_log import Sine, SineLog, has_settled, sine_log, steady_sine
+from pysim.identify.greybox.sine_target import SineTarget, recorded_with
 from pysim.identify.greybox.table_target import TableTarget
 from pysim.identify.greybox.target import Run, Target
 from pysim.identify.logged import logged_command, logged_wave
@@ -94,9 +94,24 @@ def build_targets(model: Model, data: Measurements, treatment: Treatment) -> tup
             targets.append(_log(setting, record, record.data))
     for group in sines.values():
         targets.append(_sines(setting, group))
+    notes += _unsettled(targets, treatment)
     if any(isinstance(target, TableTarget) and not target.told for target in targets):
         notes.append("tables without covariance: 20/90 dB and 1 degree are taken as standard deviations (Eq. 2.25)")
     return targets, notes
+
+
+def _unsettled(targets: Sequence[Target], treatment: Treatment) -> list[str]:
+    """Which stepped sines the plant did not follow steadily yet, and what is done about it."""
+    logs = [log for target in targets if isinstance(target, SineTarget) for log in target.logs]
+    names = [log.source for log in logs if not has_settled(log)]
+    if not names:
+        return []
+    cure = 'compared with a steady swing all the same; steady = "transient" runs it from its start instead'
+    if treatment.steady == "transient":
+        cure = "the model is run from its start, as the bench was"
+    others = f" and {len(names) - 1} more" if len(names) > 1 else ""
+    why = "the first compared period is unlike those after it: not settled, or noise with a long memory"
+    return [f"{names[0]}{others}: {why}; {cure}"]
 
 
 def _compared(dataset: Dataset, wanted: tuple[str, ...] | None) -> tuple[str, ...]:
@@ -164,6 +179,9 @@ def _sines(setting: _Setting, group: list[MeasuredRecord]) -> SineTarget:
     pairs = [_sine(setting, record) for record in group]
     pairs.sort(key=lambda pair: pair[0].sine.frequency)
     logs, runs = tuple(log for log, _ in pairs), tuple(run for _, run in pairs)
+    if setting.treatment.steady == "transient" and not all(map(has_settled, logs)):  # the plant is slow at all of them
+        logs = tuple(replace(log, settled=log.periods == 1) for log in logs)
+        runs = tuple(recorded_with(run, log) for run, log in zip(runs, logs, strict=True))
     frequencies = np.array([log.sine.frequency for log in logs])
     near = np.flatnonzero(np.isclose(frequencies, setting.treatment.reference_hz or -1.0, rtol=1e-3))
     return SineTarget(setting.dataset.name, group[0].use, logs, runs, int(near[0]) if near.size else None)
