@@ -168,7 +168,7 @@ def _between(log: SineLog, name: str) -> Iterator[_Ordinates]:
     time = log.measured.time
     n, interval = time.size, float(np.median(np.diff(time)))
     periods = round(n * interval * log.sine.frequency)
-    if periods < 2 or not log.settled or not _uniform(time, interval):
+    if periods < 2 or not _uniform(time, interval):
         return
     rest = log.measured[name]
     if abs(n * interval * log.sine.frequency - periods) > 1e-6:  # else harmonics are frequencies of their own
@@ -184,6 +184,8 @@ def _tapered(targets: Sequence[Target], column: Column) -> Iterator[_Ordinates]:
     """Of logs over time, every second frequency, since a taper ties neighbours."""
     for target in targets:
         if isinstance(target, LogTarget) and target.dataset == column[0] and column[1] in target.measured.names:
+            if target.kind == "frequency-response":  # of lines at some of those frequencies
+                continue
             time, values = target.measured.time, target.measured[column[1]]
             n, interval = time.size, float(np.median(np.diff(time))) if time.size > 1 else 0.0
             if n < 2 * _ENOUGH or not _uniform(time, interval):

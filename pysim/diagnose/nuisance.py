@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from pysim.identify.greybox.log_target import LogTarget
 from pysim.identify.greybox.sine_log import SineLog
-from pysim.identify.greybox.sine_target import SineTarget, recorded_with
-from pysim.identify.greybox.target import Run, Target
+from pysim.identify.greybox.sine_target import SineTarget
+from pysim.identify.greybox.target import Target
 
 Array = NDArray[np.float64]
 
@@ -196,15 +196,12 @@ def _target(target: Target, amounts: Mapping[Suspect, float]) -> Target:
         moved = replace(target.run, experiment=replace(run, times=times))
         return replace(target, measured=measured, noise=noise, run=moved)
     if isinstance(target, SineTarget):
-        late = amounts.get(Suspect(SHIFT, target.dataset, ""), 0.0)
-        logs, runs = list[SineLog](), list[Run]()
-        for log, one in zip(target.logs, target.runs, strict=True):
+        late, logs = amounts.get(Suspect(SHIFT, target.dataset, ""), 0.0), []
+        for log in target.logs:
             values, noise = _undone(log, target.dataset, amounts)
             measured = replace(log.measured, values=values, time=log.measured.time + late)
-            moved_log = replace(log, measured=measured, noise=noise)
-            logs.append(moved_log)
-            runs.append(one if log.settled else recorded_with(one, moved_log))
-        return replace(target, logs=tuple(logs), runs=tuple(runs))
+            logs.append(replace(log, measured=measured, noise=noise))
+        return replace(target, logs=tuple(logs))
     return target
 
 

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pysim.identify.accuracy import frequency_deviations, time_deviations
+from pysim.identify.greybox.harmonics import interpolation
 from pysim.identify.greybox.log_target import LogTarget
 from pysim.identify.greybox.problem import Problem
 from pysim.identify.greybox.response import LogResponse
@@ -106,12 +107,13 @@ def _log(target: LogTarget, simulated: Simulated) -> RecordFit:
 
 
 def _sine(target: SineTarget, log: SineLog, simulated: Simulated) -> RecordFit:
+    values = interpolation(log.phase, log.points) @ simulated.values
     measured, model = log.coefficients(log.harmonics), log.coefficients(log.onto @ simulated.values)
     harmonics = tuple(
         Harmonics(name, log.sine.frequency, measured[:, j], model[:, j], log.noise[j] * log.deviations())
         for j, name in enumerate(log.measured.names)
     )
-    beside = replace(log.measured, values=log.sampled(simulated.values), origin="simulated")
+    beside = replace(log.measured, values=values, origin="simulated")
     return RecordFit(
         target.dataset, log.source, target.kind, target.use, log.measured, beside, log.noise, {}, harmonics
     )

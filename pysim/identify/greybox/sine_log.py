@@ -14,10 +14,6 @@ from pysim.types import BadInput, Record
 
 Array = NDArray[np.float64]
 
-# Standard deviations by which a log's first period may differ from the others: there are some hundred such numbers, and
-# noise with memory puts more into slow ones than white noise does.
-_UNLIKE = 5.0
-
 
 @dataclass(frozen=True)
 class SinePlan:
@@ -82,7 +78,6 @@ class SineLog:
         noise: (n_y,) standard deviations, in the columns' units.
         count: harmonics.
         points: samples over one period of the model's orbit.
-        settled: whether every period is like the others; else the model is recorded at the compared samples.
     """
 
     source: str
@@ -91,7 +86,6 @@ class SineLog:
     noise: tuple[float, ...]
     count: int
     points: int
-    settled: bool = True
     # every harmonic's size and phase in one: orthonormal columns (n_t, n_h) and the triangle (n_h, n_h) behind them
     _factors: tuple[Array, Array] = field(init=False, repr=False)
 
@@ -109,32 +103,10 @@ class SineLog:
         """Of the command at the samples, (n_t,) rad."""
         return self.sine.at(self.measured.time)
 
-    @property
-    def periods(self) -> int:
-        """That are compared."""
-        return round(float(np.ptp(self.phase)) / (2 * np.pi))
-
-    @property
-    def recorded(self) -> Array:
-        """When the model is recorded, (n_p,) s after the command's phase was zero as the sine began.
-
-        One period at equidistant points, (points,), of no particular number; of a log that has not settled, every
-        compared sample, (n_t,).
-        """
-        if self.settled:
-            return np.arange(self.points) / self.points / self.sine.frequency
-        turns = np.round(self.sine.at(np.array(self.sine.onset)) / (2 * np.pi))
-        return (self.phase / (2 * np.pi) - turns) / self.sine.frequency
-
-    def sampled(self, recorded: Array) -> Array:
-        """The model as it was recorded, (n_p, n_y) -> at the compared samples, (n_t, n_y)."""
-        return interpolation(self.phase, self.points) @ recorded if self.settled else recorded
-
     @cached_property
     def onto(self) -> Array:
-        """From the model as it was recorded (n_p,) to uncorrelated harmonics of unit noise, (n_h, n_p)."""
-        q = self._factors[0]
-        return np.asarray(q.T @ interpolation(self.phase, self.points) if self.settled else q.T)
+        """From a period of the model's orbit (points,) to uncorrelated harmonics of unit noise, (n_h, points)."""
+        return np.asarray(self._factors[0].T @ interpolation(self.phase, self.points))
 
     @cached_property
     def harmonics(self) -> Array:
@@ -156,15 +128,16 @@ class SineLog:
         return np.asarray(np.linalg.inv(self._factors[1])[1:3])
 
 
-def has_settled(log: SineLog) -> bool:
-    """Whether the first compared period of a log is like those after it, as far as its noise lets that be seen.
+def unlike(log: SineLog) -> float:
+    """How far the first compared period of a log is from those after it, in standard deviations: the largest difference
+    of a mean, a sine or a cosine; zero where there is one period only.
 
     A valve that is too slow for the sine, or a plate that sticks, may need many periods more than were left out.
     """
     first = log.phase < log.phase[0] + (1 - 1e-6) * 2 * np.pi
     parts = [first, ~first]
     if any(np.count_nonzero(part) < 2 * log.count + 2 for part in parts):
-        return True
+        return 0.0
     swings, variances = [], []
     for part in parts:
         columns = regressors(log.phase[part], log.count)
@@ -173,7 +146,7 @@ def has_settled(log: SineLog) -> bool:
         rest = np.sqrt(np.mean((log.measured.values[part] - columns @ found) ** 2, axis=0))
         swings.append(found)
         variances.append(np.diagonal(inverse)[:, None] * np.maximum(rest, log.noise) ** 2)
-    return bool(np.all(np.abs(swings[1] - swings[0]) < _UNLIKE * np.sqrt(variances[0] + variances[1])))
+    return float(np.max(np.abs(swings[1] - swings[0]) / np.sqrt(variances[0] + variances[1])))
 
 
 def sine_log(source: str, data: Record, sine: Sine, noise: tuple[float, ...], plan: SinePlan) -> SineLog:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -23,7 +23,7 @@ class SineTarget:
     Args:
         dataset, use: of the logs.
         logs: by increasing frequency.
-        runs: one per log, recorded at equidistant points over one period, or as the log says where it has not settled.
+        runs: one per log, recorded at equidistant points over one period.
         reference: place of the log whose gain counts as 0 dB; None: gains as they are.
     """
 
@@ -67,8 +67,3 @@ class SineTarget:
                 log_response(onto @ answer.values[:, column], onto @ answer.slopes[:, column], log.sine.amplitude)
             )
         return LogResponse(np.array([row[0] for row in rows]), np.array([row[1] for row in rows]))
-
-
-def recorded_with(run: Run, log: SineLog) -> Run:
-    """The run of a log that has not settled, recorded at its samples."""
-    return replace(run, experiment=replace(run.experiment, times=log.recorded))

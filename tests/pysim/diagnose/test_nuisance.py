@@ -1,13 +1,10 @@
 """What a gain, an offset and a shift do to residuals, against measurements that were changed so."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
-from pysim.diagnose.nuisance import GAIN, OFFSET, SHIFT, Span, Suspect, columns, suspects, undisturbed
+from pysim.diagnose.nuisance import GAIN, OFFSET, SHIFT, Span, Suspect, columns, suspects
 from pysim.identify.greybox.harmonics import interpolation
-from pysim.identify.greybox.sine_target import recorded_with
 from pysim.identify.greybox.target import Simulated
 from tests.pysim.diagnose.logs import sines, wave
 
@@ -89,14 +86,3 @@ def test_usual_sizes_go_with_scale_and_sampling() -> None:
     assert widths[GAIN] == 0.01
     assert widths[OFFSET] == pytest.approx({"%": 0.5, "1": 0.001}.get(unit, 0.035))
     assert widths[SHIFT] == pytest.approx(0.001)
-
-
-@pytest.mark.parametrize("settled", [True, False])
-def test_a_shift_moves_the_samples_of_a_log_that_has_not_settled(settled: bool) -> None:
-    """Where it has, the model's period is any."""
-    target = sines(lambda n: np.zeros(n), 0.1)
-    logs = tuple(replace(log, settled=settled) for log in target.logs)
-    runs = tuple(recorded_with(run, log) for run, log in zip(target.runs, logs, strict=True))
-    (moved,) = undisturbed([replace(target, logs=logs, runs=runs)], {Suspect(SHIFT, "data", ""): 0.01})
-    for before, after in zip(runs, moved.runs, strict=True):
-        assert after.experiment.times - before.experiment.times == pytest.approx(0.0 if settled else 0.01)

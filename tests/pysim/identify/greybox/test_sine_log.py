@@ -1,13 +1,11 @@
-"""A stepped sine that has not settled is compared at its own samples, with what the model does from the start on."""
-
-from dataclasses import replace
+"""A stepped sine that has not settled is told from one that has, and compared as what it is: a log over time."""
 
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 
 from pysim.identify.greybox import Parameter, Simulation, SinePlan, Treatment, fit, problem
-from pysim.identify.greybox.sine_log import Sine, SineLog, has_settled, sine_log
+from pysim.identify.greybox.sine_log import Sine, SineLog, sine_log, unlike
 from pysim.simulate import Esdirk
 from pysim.types import MeasuredRecord, Model, Record
 from tests.pysim.identify.greybox import measurements as m
@@ -26,27 +24,16 @@ def swing(drift: float, seed: int | None = None, *, seconds: float = 4.0) -> Sin
 
 
 def test_a_drift_is_seen_where_the_noise_lets_it_be() -> None:
-    assert has_settled(swing(0.0))
-    assert all(has_settled(swing(0.0, seed)) for seed in range(200))
-    assert all(has_settled(swing(1e-3, seed)) for seed in range(20))
-    assert not any(has_settled(swing(0.2, seed)) for seed in range(20))
+    still = [unlike(swing(0.0, seed)) for seed in range(400)]
+    assert max(still) < 5.0
+    assert 1.0 < np.median(still) < 2.5  # the largest of eleven normal numbers
+    assert max(unlike(swing(1e-3, seed)) for seed in range(20)) < 5.0
+    assert min(unlike(swing(0.2, seed)) for seed in range(20)) > 5.0
 
 
 def test_one_period_has_no_other_to_be_compared_with() -> None:
-    assert has_settled(swing(5.0, seconds=1.0))
-    assert not has_settled(swing(5.0, seconds=1.6))
-
-
-def test_the_model_is_recorded_over_a_period_or_at_every_sample() -> None:
-    log = swing(0.2)
-    at = np.sin(2 * np.pi * F * log.recorded)
-    assert log.recorded == pytest.approx(np.arange(49) / 49 / F)
-    assert log.sampled(at) == pytest.approx(np.sin(2 * np.pi * F * (log.measured.time - 7)), abs=1e-12)
-    other = replace(log, settled=False)
-    assert other.recorded == pytest.approx(log.measured.time - 7)
-    answer = 3 * np.sin(2 * np.pi * F * other.recorded - 0.4) + 0.2 * np.exp(-other.recorded)
-    assert other.sampled(answer) == pytest.approx(answer)
-    assert other.onto @ answer == pytest.approx(other.harmonics[:, 0], abs=1e-12)
+    assert unlike(swing(5.0, seconds=1.0)) == 0.0
+    assert unlike(swing(5.0, seconds=1.6)) > 5.0
 
 
 def started(K: float, T: float, f: float) -> MeasuredRecord:
@@ -59,15 +46,18 @@ def started(K: float, T: float, f: float) -> MeasuredRecord:
     return MeasuredRecord(f"{f:g}Hz.txt", "frequency-response", "fit", data, 1.0, 2.0, f)
 
 
-def found(lag: Model, steady: str) -> list[float]:
+def found(lag: Model, steady: str, *domains: str) -> list[float]:
     records = [started(2.0, 1.5, f) for f in (1.0, 2.0)]
     treatment = Treatment(rest=None, steady=steady, reference_hz=None)
     parameters = [Parameter("K", 1.5, 0.1, 10.0), Parameter("T", 0.7, 0.01, 5.0)]
     given = problem(lag, [m.dataset(records)], parameters, treatment=treatment)
+    assert [target.kind for target in given.targets] == ["frequency-response"] * len(given.targets)
+    assert [target.domain for target in given.targets] == list(domains)
+    assert any("unlike those after it" in note for note in given.notes) == ("time" in domains)
     answer = fit(given, simulation=Simulation(solver=Esdirk(rtol=1e-8, atol=1e-8)))
     return [estimate.value for estimate in answer.estimates]
 
 
 def test_the_closed_form_of_a_lag_that_is_still_on_its_way_is_found(lag: Model) -> None:
-    assert found(lag, "transient") == pytest.approx([2.0, 1.5], rel=1e-3)
-    assert found(lag, "orbit")[0] < 1.9  # a steady swing has another mean
+    assert found(lag, "transient", "time", "time") == pytest.approx([2.0, 1.5], rel=1e-3)
+    assert found(lag, "orbit", "frequency")[0] < 1.9  # a steady swing has another mean
