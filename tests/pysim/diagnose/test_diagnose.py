@@ -34,6 +34,17 @@ def test_names_what_is_missing(effect: str, values: dict[str, float]) -> None:
     assert found.ranking[0].explained > 0.9
 
 
+def test_a_limit_that_bends_the_base_model_is_looked_for_beside_the_models_own_parameters() -> None:
+    data = measured(1, "toy.stop", inverse_x_m=4.0)
+    found = diagnose(toy_subject(data, ("toy.friction", "toy.hardening", "toy.bias", "toy.stop")))
+    assert found.verdict == "toy.stop"
+    assert found.error[1].fit > 100  # the first footprint puts the stop at half its place
+    assert found.error[-1].fit == pytest.approx(1.0, abs=0.1)
+    assert found.error[-1].validate == pytest.approx(1.0, abs=0.1)
+    (estimate,) = found.added[0].estimates
+    assert abs(estimate.value - 4.0) < 4 * estimate.std
+
+
 def test_two_effects_at_once_are_both_named() -> None:
     truth = {"toy.friction": {"F_c": 0.4}, "toy.hardening": {"k_3": 6.0}}
     found = diagnose(toy_subject(measured(3, *truth, **truth["toy.friction"], **truth["toy.hardening"])))

@@ -51,6 +51,15 @@ package Toy
     f = F_b;
     annotation(__HydraulicTestBench(effect="toy.bias", slot="force"));
   end Bias;
+  model Stop "End stops"
+    extends PartialForce;
+    parameter Real inverse_x_m(unit="1/m", min=0, max=50, nominal=5) = 0 "0 = off"
+      annotation(__HydraulicTestBench(inverse="x_m", limits="x"));
+  equation
+    f = if x*inverse_x_m > 1 then -500*(x - 1/inverse_x_m)
+      elseif x*inverse_x_m < -1 then -500*(x + 1/inverse_x_m) else 0;
+    annotation(__HydraulicTestBench(effect="toy.stop", slot="force"));
+  end Stop;
   model Both "Two forces at once"
     extends PartialForce;
     replaceable NoForce first constrainedby PartialForce;
