@@ -92,7 +92,7 @@ def test_only_what_the_slots_take_is_a_candidate(
     assert "friction.coulomb: no slot of Toy.Mass takes it; its slots take toy.friction, " in capsys.readouterr().err
     assert main(["diagnose", str(data), *words, "--most", "1"]) == 0
     assert {row["effect"] for row in json.loads((tmp_path / "a.json").read_text())["ranking"]} <= set(CATALOGUE)
-    assert "compiling 4 candidates" in capsys.readouterr().err
+    assert f"compiling {len(CATALOGUE)} candidates" in capsys.readouterr().err
 
 
 def test_an_unknown_effect_is_refused(data: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
