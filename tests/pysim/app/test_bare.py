@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from tests.pysim.app.browser import Tab, artefacts, server
-from tests.pysim.diagnose.toy import TEXT
+from tests.pysim.diagnose.toy import CATALOGUE, TEXT
 
 TIME = np.arange(0, 8, 0.005)
 
@@ -61,7 +61,7 @@ def test_single_logs_are_described_on_the_page(shown: Any, logs: list[Path], tmp
         tab.see("Libraries of yours: model/Toy.mo")
         tab.page.get_by_label("Modelica class").fill("Toy.Mass")
         tab.press("Use this model")
-        tab.see("4 effects that fit", timeout=300)
+        tab.see(f"{len(CATALOGUE)} effects that fit", timeout=300)
         tab.page.wait_for_function("document.querySelector('[aria-label=\"variable of column 3\"]')?.value === 'x'")
         assert tab.page.get_by_label("noise of column 3").input_value() == "0.5"  # what was filled in stays
         tab.shot("bare")

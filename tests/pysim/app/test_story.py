@@ -9,7 +9,7 @@ import pytest
 
 from pysim.io import read_model, write_dataset
 from tests.pysim.app.browser import Tab, artefacts, server
-from tests.pysim.diagnose.toy import TEXT, measured
+from tests.pysim.diagnose.toy import CATALOGUE, TEXT, measured
 
 pytestmark = pytest.mark.slow
 PATIENCE = 400.0  # s, on a machine that does other things too
@@ -32,7 +32,7 @@ def begun(shown: Any, address: str, dropped: tuple[Path, Path]) -> Tab:
     tab.see("Libraries of yours: model/Toy.mo")
     tab.page.get_by_label("Modelica class").fill("Toy.Mass")
     tab.press("Use this model")
-    tab.see("4 effects that fit", timeout=PATIENCE)
+    tab.see(f"{len(CATALOGUE)} effects that fit", timeout=PATIENCE)
     return tab
 
 
