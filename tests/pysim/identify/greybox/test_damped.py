@@ -1,6 +1,11 @@
+from types import SimpleNamespace
+from typing import Any
+
 import numpy as np
 import pytest
+from scipy.optimize import lsq_linear
 
+from pysim.identify.greybox import damped
 from pysim.identify.greybox.damped import damped_step
 
 WIDE = np.full(3, 100.0)
@@ -18,3 +23,18 @@ def test_a_bound_holds_one_number_and_the_others_make_the_best_of_it() -> None:
     high = np.array([1.0, 100.0])
     found = damped_step(triangle, right, 0.0, -high, high)
     assert found == pytest.approx([1.0, (0.5 * (3 - 1) + 1) / 1.25])
+
+
+def test_where_the_active_set_loses_its_way_the_other_method_answers(monkeypatch: pytest.MonkeyPatch) -> None:
+    """As SciPy's did once in a thousand diagnoses, on a number that a rounding had put beyond its bound."""
+
+    def lost(*args: Any, method: str, **words: Any) -> Any:
+        if method == "bvls":
+            return SimpleNamespace(x=np.full(2, np.nan))
+        return lsq_linear(*args, method=method, **words)
+
+    monkeypatch.setattr(damped, "lsq_linear", lost)
+    triangle, right = np.array([[1.0, 0.5], [0.0, 1.0]]), np.array([3.0, 1.0])
+    high = np.array([1.0, 100.0])
+    found = damped_step(triangle, right, 0.0, -high, high)
+    assert found == pytest.approx([1.0, (0.5 * (3 - 1) + 1) / 1.25], rel=1e-6)
