@@ -26,7 +26,7 @@ def test_a_bound_holds_one_number_and_the_others_make_the_best_of_it() -> None:
 
 
 def test_where_the_active_set_loses_its_way_the_other_method_answers(monkeypatch: pytest.MonkeyPatch) -> None:
-    """As SciPy's did once in a thousand diagnoses, on a number that a rounding had put beyond its bound."""
+    """As SciPy's did on a number that a rounding had put beyond its bound."""
 
     def lost(*args: Any, method: str, **words: Any) -> Any:
         if method == "bvls":
