@@ -1,4 +1,4 @@
-"""`python -m validation.blind.benchmark run | locate | follow | report`."""
+"""`python -m validation.blind.benchmark run | locate | follow | clock | report`."""
 
 from __future__ import annotations
 
@@ -18,6 +18,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     _add_run(commands.add_parser("run", help="answer the cases that the store does not hold of this code"))
     _add_run(commands.add_parser("locate", help="of cases with one effect, only look where it is, and keep that apart"))
     _add_run(commands.add_parser("follow", help="of cases with one effect: where they end in a tie, run the next test"))
+    _add_run(commands.add_parser("clock", help="time cases with two cores each, one after the other"))
     report = commands.add_parser("report", help="write the figures and pictures into README.md")
     report.add_argument("--store", metavar="DIR", type=Path, help="folder of answers; that of this package")
     try:
@@ -33,7 +34,7 @@ def _add_run(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--sample", metavar="N", type=int, help="so many of them at random")
     parser.add_argument("--seed", metavar="S", type=int, default=0, help="of the sample (0)")
     parser.add_argument("--shard", metavar="K/N", default="1/1", help="the K-th of N equal parts")
-    parser.add_argument("--workers", metavar="N", type=int, default=2, help="processes of one thread each (2)")
+    parser.add_argument("--workers", metavar="N", type=int, help="processes of one thread each (2; clock: 1 of 2)")
     parser.add_argument("--limit", metavar="S", type=float, default=900.0, help="seconds for one case (900)")
     parser.add_argument("--store", metavar="DIR", type=Path, help="folder of answers; that of this package")
 
@@ -42,12 +43,13 @@ def _run(args: argparse.Namespace) -> int:
     for name in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS"):
         os.environ[name] = "1"  # the processes are the parallel part
     from pysim.types import BadInput
+    from validation.blind.benchmark.clock import CORES, clock_case
     from validation.blind.benchmark.examine import examine
     from validation.blind.benchmark.fingerprint import fingerprint
     from validation.blind.benchmark.follow import follow_case
     from validation.blind.benchmark.place import locate_case
     from validation.blind.benchmark.runs import Choice, run
-    from validation.blind.benchmark.store import ANSWERS, FOLLOWED, PLACES, Store
+    from validation.blind.benchmark.store import ANSWERS, CLOCKED, FOLLOWED, PLACES, Store
     from validation.blind.plant import cases
 
     kinds = tuple(kind.strip() for kind in args.kinds.split(",") if kind.strip())
@@ -60,10 +62,13 @@ def _run(args: argparse.Namespace) -> int:
         "run": (examine, ANSWERS),
         "locate": (locate_case, PLACES),
         "follow": (follow_case, FOLLOWED),
+        "clock": (clock_case, CLOCKED),
     }[args.command]
-    chosen = choice.of([case for case in cases(TABLE_SEED) if case.kind == "named" or args.command == "run"])
+    every = args.command in ("run", "clock")
+    chosen = choice.of([case for case in cases(TABLE_SEED) if every or case.kind == "named"])
+    workers = args.workers or (2 // CORES if args.command == "clock" else 2)
     store, code = Store(args.store or folder), fingerprint(places=args.command == "locate")
-    run(chosen, store, task, code, workers=args.workers, limit=args.limit, say=_say)
+    run(chosen, store, task, code, workers=workers, limit=args.limit, say=_say)
     return 0
 
 
@@ -77,15 +82,15 @@ def _shard(text: str) -> tuple[int, int]:
 
 
 def _report(args: argparse.Namespace) -> int:
+    from validation.blind.benchmark.kept import read_kept
     from validation.blind.benchmark.report import write_report
-    from validation.blind.benchmark.store import ANSWERS, FOLLOWED, PLACES, Store
+    from validation.blind.benchmark.store import ANSWERS, Store
     from validation.blind.plant import cases
 
     table = cases(TABLE_SEED)
     store = Store(args.store or ANSWERS)
     store.tidy(table)
-    places, followed = Store(PLACES).read(), Store(FOLLOWED).read()
-    for path in write_report(table, store.read(), store.folder.parent, places, followed):
+    for path in write_report(table, read_kept(store), store.folder.parent):
         print(path)
     return 0
 

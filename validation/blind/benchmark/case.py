@@ -8,8 +8,8 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from validation.blind.benchmark.__main__ import TABLE_SEED
 from validation.blind.benchmark.answer import Answer
 from validation.blind.benchmark.examine import examine
-from validation.blind.benchmark.figures import figures, place_figures, tie_figures
-from validation.blind.benchmark.store import FOLLOWED, PLACES, Store
+from validation.blind.benchmark.figures import figures
+from validation.blind.benchmark.kept import Kept, read_kept
 from validation.blind.plant import Case, cases
 from validation.drawn import drawn, of_the_day
 from validation.findings import Finding
@@ -21,24 +21,18 @@ NEAR = {"held": 0.01, "base": 0.05, "final": 0.15, "footprint": 0.05}
 
 
 def run(
-    seed: int | None = None,
-    task: Callable[[Case], Answer] = examine,
-    store: Store | None = None,
-    places: Store | None = None,
-    followed: Store | None = None,
+    seed: int | None = None, task: Callable[[Case], Answer] = examine, kept: Kept | None = None
 ) -> Iterator[Finding]:
     """The sample, then the targets.
 
     Args:
         seed: of the sample; the day's number where None, so that every day looks at others.
         task: answers a case.
-        store: what was answered before.
-        places: where effects were located before.
-        followed: what became of ties before.
+        kept: what was answered before; what this package holds where None.
     """
-    table, answers = cases(TABLE_SEED), (store or Store()).read()
-    yield from _sampled(table, answers, seed, task)
-    yield from targets(table, answers, (places or Store(PLACES)).read(), (followed or Store(FOLLOWED)).read())
+    table, kept = cases(TABLE_SEED), kept or read_kept()
+    yield from _sampled(table, kept.answers, seed, task)
+    yield from targets(table, kept)
 
 
 def _sampled(
@@ -70,21 +64,11 @@ def compared(stored: Answer, again: Answer) -> Iterator[Finding]:
 _FLOORS = {"base": 0.01, "final": 0.01, "footprint": 10.0}
 
 
-def targets(
-    table: Sequence[Case],
-    answers: Mapping[str, Answer],
-    places: Mapping[str, Answer] | None = None,
-    followed: Mapping[str, Answer] | None = None,
-) -> Iterator[Finding]:
-    """Every figure with a target as a claim: by how many percent it is beyond.
-
-    Args:
-        places: case -> where its effect was located.
-        followed: case -> what became of its tie.
-    """
-    yield Finding("cases of the table without a stored answer", float(sum(c.name not in answers for c in table)), 0, "")
-    others = (*place_figures(table, answers, places or {}), *tie_figures(table, followed or {}))
-    for figure in (*figures(table, answers), *others):
+def targets(table: Sequence[Case], kept: Kept) -> Iterator[Finding]:
+    """Every figure with a target as a claim: by how many percent it is beyond."""
+    unanswered = sum(case.name not in kept.answers for case in table)
+    yield Finding("cases of the table without a stored answer", float(unanswered), 0, "")
+    for figure in figures(table, kept):
         if figure.target is not None:
             low, high = figure.target
             beyond = max(low - figure.percent, figure.percent - high, 0.0) if figure.of else math.nan

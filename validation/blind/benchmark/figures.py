@@ -9,6 +9,7 @@ from scipy import stats
 
 from pysim.types.diagnosis import NONE, UNKNOWN
 from validation.blind.benchmark.answer import Answer
+from validation.blind.benchmark.kept import Kept
 from validation.blind.plant import Case
 
 VISIBLE = 100.0
@@ -72,8 +73,18 @@ def paired(table: Iterable[Case], answers: Mapping[str, Answer]) -> list[Pair]:
     return [(case, answers[case.name]) for case in table if case.name in answers]
 
 
-def figures(table: Sequence[Case], answers: Mapping[str, Answer]) -> tuple[Figure, ...]:
-    """All of them, those with a target first said."""
+def figures(table: Sequence[Case], kept: Kept) -> tuple[Figure, ...]:
+    """All of them."""
+    return (
+        *verdict_figures(table, kept.answers),
+        *time_figures(table, kept.answers, kept.clocked),
+        *place_figures(table, kept.answers, kept.places),
+        *tie_figures(table, kept.followed),
+    )
+
+
+def verdict_figures(table: Sequence[Case], answers: Mapping[str, Answer]) -> tuple[Figure, ...]:
+    """How often a verdict is right, and what the repaired model is worth."""
     pairs = paired(table, answers)
     of_kind = {
         kind: [p for p in pairs if p[0].kind == kind] for kind in ("none", "named", "beyond", "left-out", "pair")
@@ -85,7 +96,7 @@ def figures(table: Sequence[Case], answers: Mapping[str, Answer]) -> tuple[Figur
         *_both(of_kind["pair"]),
         *_repair(of_kind["named"]),
         *_cover(of_kind),
-        *_cost(pairs),
+        _share("cases without an answer", pairs, lambda p: bool(p[1].trouble), (0, 0)),
     )
 
 
@@ -213,6 +224,30 @@ def _cover(of_kind: Mapping[str, Sequence[Pair]]) -> Iterator[Figure]:
         yield Figure(label, total - sum(len(a.missed) for a in rows), total, target)
 
 
+def time_figures(
+    table: Sequence[Case], answers: Mapping[str, Answer], clocked: Mapping[str, Answer]
+) -> Iterator[Figure]:
+    """How often a diagnosis is soon enough, and whether two threads answer as one does."""
+
+    def soon(pair: Pair) -> bool:
+        return pair[1].wall <= WALL
+
+    def timed(pair: Pair) -> bool:
+        return pair[1].wall > 0
+
+    def alike(pair: Pair) -> bool:
+        one = answers[pair[0].name]
+        return (one.verdict, one.added) == (pair[1].verdict, pair[1].added)
+
+    def comparable(pair: Pair) -> bool:
+        return pair[0].name in answers and answers[pair[0].name].code == pair[1].code
+
+    two = paired(table, clocked)
+    yield _share("diagnosed within 60 s, two cores", two, soon, (100, 100), timed, "models compiled")
+    yield _share("the same answer with two cores as with one", two, alike, (100, 100), comparable)
+    yield _share("diagnosed within 60 s, one core", paired(table, answers), soon, None, timed, "models compiled")
+
+
 def place_figures(
     table: Sequence[Case], answers: Mapping[str, Answer], places: Mapping[str, Answer]
 ) -> Iterator[Figure]:
@@ -247,9 +282,3 @@ def _tied_place(pair: Pair) -> bool:
 
 def _covered(pair: Pair) -> bool:
     return (pair[1].cover or 0.0) >= _RANGE
-
-
-def _cost(pairs: Sequence[Pair]) -> Iterator[Figure]:
-    note = "one core each, models compiled"
-    yield _share("diagnosed within 60 s", pairs, lambda p: p[1].wall <= WALL, (100, 100), lambda p: p[1].wall > 0, note)
-    yield _share("cases without an answer", pairs, lambda p: bool(p[1].trouble), (0, 0))

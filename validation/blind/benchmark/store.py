@@ -16,6 +16,8 @@ PLACES = Path(__file__).parent / "places"
 """Where effects were located, the rest of the diagnosis left out."""
 FOLLOWED = Path(__file__).parent / "followed"
 """What became of ties once the next test was carried out."""
+CLOCKED = Path(__file__).parent / "clocked"
+"""How long a case took with both cores for itself."""
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,18 @@ import pytest
 from scipy import stats
 
 from validation.blind.benchmark.answer import Answer
-from validation.blind.benchmark.figures import Figure, figures, place_figures, repaired, right_first, tie_figures, tied
+from validation.blind.benchmark.figures import (
+    Figure,
+    figures,
+    place_figures,
+    repaired,
+    right_first,
+    tie_figures,
+    tied,
+    time_figures,
+    verdict_figures,
+)
+from validation.blind.benchmark.kept import Kept
 from validation.blind.plant import Case
 
 NAMED = Case("n", "named", (("oil.air", "small"),))
@@ -17,7 +28,7 @@ WRONG = replace(RIGHT, verdict="sensor.lag", added=("sensor.lag",), ranking=("se
 def found(*rows: tuple[Case, Answer]) -> dict[str, Figure]:
     table = [replace(case, name=f"{case.name}{k}") for k, (case, _) in enumerate(rows)]
     answers = {case.name: replace(answer, case=case.name) for case, (_, answer) in zip(table, rows, strict=True)}
-    return {figure.label: figure for figure in figures(table, answers)}
+    return {figure.label: figure for figure in verdict_figures(table, answers)}
 
 
 def count(rows: dict[str, Figure], start: str) -> tuple[int, int]:
@@ -119,8 +130,26 @@ def test_cover_pools_intervals_and_leaves_nuisances_out() -> None:
 
 
 def test_the_time() -> None:
-    rows = found((NAMED, replace(RIGHT, wall=59.0)), (NAMED, replace(RIGHT, wall=61.0)), (NAMED, RIGHT))
-    assert count(rows, "diagnosed within 60 s") == (1, 2)
+    table = [replace(NAMED, name=name) for name in "abc"]
+    walls = {"a": 59.0, "b": 61.0, "c": 0.0}
+    answers = {name: replace(RIGHT, case=name, wall=wall) for name, wall in walls.items()}
+    clocked = {
+        "a": replace(WRONG, case="a", wall=31.0),
+        "b": replace(RIGHT, case="b", wall=60.0),
+        "c": replace(RIGHT, case="c", wall=99.0, code="another"),
+    }
+    rows = {figure.label: figure for figure in time_figures(table, answers, clocked)}
+    assert count(rows, "diagnosed within 60 s, one core") == (1, 2)
+    assert count(rows, "diagnosed within 60 s, two cores") == (2, 3)
+    assert count(rows, "the same answer with two cores") == (1, 2)  # c was answered by other code
+
+
+def test_all_figures_are_there() -> None:
+    kept = Kept({"n": RIGHT}, {"n": RIGHT}, {"n": RIGHT}, {"n": RIGHT})
+    labels = [figure.label for figure in figures([NAMED], kept)]
+    assert len(labels) == len(set(labels))
+    for part in (verdict_figures([NAMED], {}), time_figures([NAMED], {}, {}), tie_figures([NAMED], {})):
+        assert {figure.label for figure in part} <= set(labels)
 
 
 def test_where_effects_were_located() -> None:

@@ -11,6 +11,7 @@ from pysim.types import BadInput
 from validation.blind.benchmark import tables
 from validation.blind.benchmark.answer import Answer
 from validation.blind.benchmark.figures import Pair, figures, paired
+from validation.blind.benchmark.kept import Kept
 from validation.blind.benchmark.pictures import LEFT_OUT, confusion, confusion_picture, naming_picture
 from validation.blind.benchmark.report import BEGIN, END, write_report
 from validation.blind.plant import Case, cases
@@ -41,7 +42,7 @@ def named() -> list[Pair]:
 def test_readme_keeps_what_is_written_by_hand(tmp_path: Path) -> None:
     readme = tmp_path / "README.md"
     readme.write_text(f"# Mine\n\n{BEGIN}\nof yesterday\n{END}\n\nTail.\n")
-    written = write_report(TABLE, ANSWERS, tmp_path)
+    written = write_report(TABLE, Kept(ANSWERS), tmp_path)
     assert [path.name for path in written] == ["README.md", "naming.png", "confusion.png"]
     text = readme.read_text()
     assert text.startswith("# Mine\n")
@@ -50,24 +51,24 @@ def test_readme_keeps_what_is_written_by_hand(tmp_path: Path) -> None:
     assert f"{len(TABLE)} of {len(TABLE)} cases answered." in text
     assert f"Code `c0de`: {len(TABLE)} cases, 2026-01-02." in text
     assert all(path.stat().st_size > 5000 for path in written[1:])
-    write_report(TABLE, ANSWERS, tmp_path)
+    write_report(TABLE, Kept(ANSWERS), tmp_path)
     assert readme.read_text() == text
 
 
 def test_readme_without_marks_is_refused(tmp_path: Path) -> None:
     (tmp_path / "README.md").write_text("# Mine\n")
     with pytest.raises(BadInput, match="must stand there once each"):
-        write_report(TABLE, ANSWERS, tmp_path)
+        write_report(TABLE, Kept(ANSWERS), tmp_path)
 
 
 def test_nothing_answered_is_a_report_too(tmp_path: Path) -> None:
     (tmp_path / "README.md").write_text(f"{BEGIN}\n{END}\n")
-    write_report(TABLE, {}, tmp_path)
+    write_report(TABLE, Kept(), tmp_path)
     assert f"0 of {len(TABLE)} cases answered." in (tmp_path / "README.md").read_text()
 
 
 def test_every_figure_is_a_row() -> None:
-    found = figures(TABLE, ANSWERS)
+    found = figures(TABLE, Kept(ANSWERS))
     rows = list(tables.figure_table(found))[2:]
     assert len(rows) == len(found)
     for figure, row in zip(found, rows, strict=True):
