@@ -32,7 +32,7 @@ JOB = np.dtype(
 _FIELDS = {section: JOB[section].names or () for section in JOB.names or ()}
 
 _FRESH = np.zeros((), dtype=RUN)  # a run that has not begun
-_FRESH["segment"], _FRESH["jacobian_at"] = -1, np.nan
+_FRESH["segment"], _FRESH["jacobian_at"], _FRESH["inputs_at"] = -1, np.nan, np.nan
 
 
 class Job:

@@ -11,8 +11,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from pysim.simulate.native.compiled import doubles, longs, native
+from pysim.simulate.native.compiled import call, doubles, longs, native
 from pysim.simulate.native.linear import factorise, solve
+from pysim.simulate.native.unrolled import unrolled
 
 _WORTH = 0.5  # of all entries: with more of them, the dense elimination is faster
 _LOSS = 1e-12  # of a row's size: what rounding may change in it
@@ -40,7 +41,7 @@ def elimination_arrays(pattern: Pattern) -> dict[str, Any]:
         for column in np.flatnonzero(filled[row, :row])
         for after in np.flatnonzero(filled[column, column + 1 :]) + column + 1
     ]
-    return {
+    arrays = {
         "sparse": 1,
         "entries": rows.size,
         "sources": _longs(order[columns] * n + order[rows]),
@@ -51,6 +52,7 @@ def elimination_arrays(pattern: Pattern) -> dict[str, Any]:
         "columns": _longs(order[columns]),
         "targets": _longs(targets),
     }
+    return {**arrays, **unrolled(arrays, _LOSS)}
 
 
 def elimination_order(pattern: Pattern) -> NDArray[np.int64]:
@@ -91,8 +93,12 @@ def factorise_shifted(job: Any, shift: float) -> bool:
     """Factorise shift I - J, J in work.jacobian, for `solve_shifted`; False if it is singular or not finite."""
     work, n = job.work, job.work.n
     if work.sparse != 0:
-        _eliminate(job, shift)
-        job.run.is_sparse = 1 if _reproduces(job, shift) else 0
+        if work.eliminate != 0:
+            arrays = work.jacobian, shift, work.factors, work.x, work.nominal
+            job.run.is_sparse = call(work.eliminate, arrays)
+        else:
+            _eliminate(job, shift)
+            job.run.is_sparse = 1 if _reproduces(job, shift) else 0
         if job.run.is_sparse != 0:
             return True
     job.run.is_sparse = 0
@@ -107,10 +113,12 @@ def factorise_shifted(job: Any, shift: float) -> bool:
 @native
 def solve_shifted(job: Any, right: int) -> None:
     """Replace the right-hand side (n,) by the solution of the system last factorised."""
-    if job.run.is_sparse != 0:
-        _substitute(job, right)
-    else:
+    if job.run.is_sparse == 0:
         solve(job.work.matrix, job.work.pivots, right, job.work.n)
+    elif job.work.substitute != 0:
+        call(job.work.substitute, (job.work.factors, right))
+    else:
+        _substitute(job, right)
 
 
 @native

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pysim.simulate.native.compiled import doubles, longs, native
-from pysim.simulate.native.fmu_calls import OK, set_reals
+from pysim.simulate.native.fmu_calls import OK, WARNING, set_reals
 from pysim.types import Experiment, Model
 
 # Addresses; input i follows signal i, or its rate.
@@ -125,7 +125,7 @@ def _find_piece(inputs: Any, i: int, t: float, horizon: float) -> int:
 def set_inputs(job: Any, t: float) -> int:
     """Set every driven input to its value at t, to the left of whatever happens at the horizon."""
     inputs = job.inputs
-    if inputs.count == 0:
+    if inputs.count == 0 or t == job.run.inputs_at:  # several stages of a step look at one moment
         return OK
     starts, rate, values = doubles(inputs.starts), longs(inputs.rate), doubles(inputs.values)
     for i in range(inputs.count):
@@ -135,4 +135,6 @@ def set_inputs(job: Any, t: float) -> int:
             values[i] = _value(inputs, k, max(s, 0.0))
         else:
             values[i] = _rate(inputs, k, s) if s >= 0.0 else 0.0
-    return set_reals(job.fmu, inputs.references, inputs.values, inputs.count)
+    status = set_reals(job.fmu, inputs.references, inputs.values, inputs.count)
+    job.run.inputs_at = t if status <= WARNING else np.nan
+    return status

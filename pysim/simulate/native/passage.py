@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
+
 from pysim.simulate.native.compiled import doubles, native
 from pysim.simulate.native.state import DONE, RUNNING, TOO_MANY_STEPS
 
@@ -14,6 +16,7 @@ def next_segment(job: Any) -> None:
     run = job.run
     run.segment += 1
     run.horizon = doubles(job.breaks.times)[run.segment]
+    run.inputs_at = np.nan
 
 
 @native

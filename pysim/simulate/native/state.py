@@ -33,6 +33,7 @@ RUN = np.dtype(
         ("grid", np.int64),  # fixed step: number of the last grid point reached
         ("segment", np.int64),  # number of the next break; -1 before the run has begun
         ("horizon", np.float64),  # s, time of that break: inputs are smooth up to here
+        ("inputs_at", np.float64),  # s, of the values that the FMU has; NaN where it has none of this segment
         ("next_event", np.float64),  # s, the model's next time event
         ("status", np.int64),  # worst status of an FMI function so far
         ("crowd", np.int64),  # events since time last moved on
@@ -89,6 +90,8 @@ WORK = np.dtype(
         ("places", np.int64),  # (n_e,) of int64, column
         ("columns", np.int64),  # (n_e,) of int64, state of the column
         ("targets", np.int64),  # of int64, entries that elimination changes, one after the other
+        ("eliminate", np.int64),  # machine code for this pattern; 0: the loops serve
+        ("substitute", np.int64),
         ("factors", np.int64),  # (n, n), of which the first n_e are used
         ("pivot_values", np.int64),  # (n,)
         ("probe", np.int64),  # (n,)
