@@ -51,7 +51,7 @@ def unrolled(arrays: Mapping[str, Any], loss: float) -> dict[str, int]:
     """Addresses of two functions for what `elimination_arrays` found; 0 where the loops serve.
 
     eliminate(jacobian, shift, factors, x, nominal) is 1 where the factors give back the matrix, else 0;
-    substitute(factors, right) is 1. All but the shift are addresses of doubles; see `elimination` for what stands there.
+    substitute(factors, right) is 1. All but the shift are addresses of doubles, as in `elimination`.
 
     Args:
         loss: of a row's size, what rounding may change in it.
