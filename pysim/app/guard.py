@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import hmac
 from collections.abc import Awaitable, Callable, MutableMapping
-from http.cookies import SimpleCookie
 from typing import Any
 from urllib.parse import parse_qsl, urlencode, urlsplit
 
@@ -50,7 +49,7 @@ class Guard:
         headers = {key.decode("latin-1").lower(): value.decode("latin-1") for key, value in scope["headers"]}
         words = parse_qsl(scope["query_string"].decode("latin-1"), keep_blank_values=True)
         shown = dict(words).get("token", "")
-        if self._foreign(headers) or not (self._right(shown) or self._right(self._kept(headers))):
+        if self._foreign(headers) or not (self._right(shown) or any(map(self._right, self._kept(scope)))):
             await _refuse(scope, send)
         elif shown and scope["type"] == "http" and scope["method"] == "GET":
             rest = urlencode([(key, value) for key, value in words if key != "token"])
@@ -61,10 +60,11 @@ class Guard:
     def _right(self, token: str) -> bool:
         return hmac.compare_digest(token.encode(), self._token.encode())
 
-    def _kept(self, headers: dict[str, str]) -> str:
-        found = SimpleCookie()
-        found.load(headers.get("cookie", ""))
-        return found[self._cookie].value if self._cookie in found else ""
+    def _kept(self, scope: Scope) -> list[str]:
+        """What the browser keeps under our name, beside cookies of every form: all ports of a machine share them."""
+        lines = (value.decode("latin-1") for key, value in scope["headers"] if key.lower() == b"cookie")
+        pairs = (one.strip().partition("=") for line in lines for one in line.split(";"))
+        return [value for name, _, value in pairs if name == self._cookie]
 
     def _foreign(self, headers: dict[str, str]) -> bool:
         """Whether a name was asked for that is not ours, or another site's page asks."""

@@ -27,7 +27,7 @@ def asked(kind: str, query: str = "", **headers: str) -> list[Message]:
 
     own = {"host": "127.0.0.1:80", **headers}
     scope = {"type": kind, "path": "/a b", "method": "GET", "query_string": query.encode()}
-    scope["headers"] = [(key.encode(), value.encode()) for key, value in own.items()]
+    scope["headers"] = [(key.encode(), value.encode("latin-1")) for key, value in own.items()]
     guard = Guard(inside, "secret", frozenset({"127.0.0.1:80"}), "own")
     asyncio.run(guard(scope, receive, send))
     return sent
@@ -49,6 +49,29 @@ def test_the_cookie_lets_in_and_the_policy_goes_along() -> None:
     assert "http:" not in policy
 
 
+@pytest.mark.parametrize(
+    "foreign",
+    [
+        'theme={"dark": true}',
+        "a,b=1",
+        "foo[bar]=1",
+        "version=1",
+        "odd",
+        "=",
+        '"',
+        "path=/x",
+        "ö=ü",
+        "own=of a deeper path",
+    ],
+)
+def test_cookies_of_other_ports_lock_nobody_out(foreign: str) -> None:
+    for cookie in (f"{foreign}; own=secret", f"own=secret; {foreign}", f"{foreign};own=secret;{foreign}"):
+        start, body = asked("http", cookie=cookie)
+        assert (start["status"], body["body"]) == (200, b"inside"), cookie
+    start, _ = asked("http", cookie=foreign)
+    assert start["status"] == 403
+
+
 def test_it_never_leads_to_another_host() -> None:
     start, _ = asked("http", "token=secret")
     assert not dict(start["headers"])[b"location"].startswith(b"//")
@@ -61,6 +84,8 @@ def test_it_never_leads_to_another_host() -> None:
         ("token=secre", {}),
         ("", {"cookie": "own=secre"}),
         ("", {"cookie": "other=secret"}),
+        ("", {"cookie": 'other="; own=secre'}),
+        ("", {"cookie": "own="}),
         ("token=secret", {"host": "evil.example:80"}),
         ("token=secret", {"origin": "http://evil.example"}),
         ("", {"cookie": "own=secret", "origin": "null"}),
