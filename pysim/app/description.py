@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import json
-import tomllib
+import os
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from pysim.io import SI, read_dataset_partly, write_file
+from pysim.io import SI, read_dataset_partly, read_toml, write_file
 from pysim.types import BadInput, Dataset
 
 UNITS = tuple(SI)
@@ -16,15 +16,16 @@ _SINE = "frequency-response"
 
 
 def read_description(path: Path) -> dict[str, Any]:
-    """What stands in a dataset.toml.
+    """What stands in a dataset.toml, in any encoding that the command line takes.
 
     Raises:
-        BadInput: it cannot be read.
+        BadInput: it cannot be read; the folder, which the user did not choose, is not told.
     """
     try:
-        return tomllib.loads(path.read_text(encoding="utf-8-sig"))
-    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
-        raise BadInput(f"{path.name}: {error}; correct it and drop the folder again") from error
+        return read_toml(path, path.name).whole.values
+    except BadInput as error:
+        told = str(error).replace(f"{path.parent}{os.sep}", "")
+        raise BadInput(f"{told}; drop the folder again") from error
 
 
 def description_text(content: Mapping[str, Any]) -> str:

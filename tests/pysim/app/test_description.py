@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from pysim.app.description import change_description, described, read_description
+from pysim.app.description import change_description, described, read_description, refuse_outside
 from pysim.io import read_dataset, write_dataset
 from pysim.types import BadInput
 from tests.pysim.diagnose.toy import measured
@@ -24,6 +24,27 @@ def test_what_is_edited_is_what_is_read(path: Path) -> None:
     assert found.records[0].use == "validate"
     assert found.signal("x").noise == 0.25
     assert read_description(path) == content
+
+
+@pytest.mark.parametrize("encoding", ["utf-16", "utf-16-le", "latin-1", "utf-8-sig"])
+def test_it_is_read_in_every_encoding_that_the_command_line_takes(path: Path, encoding: str) -> None:
+    text = path.read_text(encoding="utf-8").replace('name = "toy"', 'name = "Prüfstand"')
+    assert "ü" in text
+    mark = "\ufeff" if encoding == "utf-16-le" else ""
+    path.write_bytes((mark + text).replace("\n", "\r\n").encode(encoding))
+    assert read_description(path)["dataset"]["name"] == read_dataset(path.parent).name == "Prüfstand"
+    refuse_outside(path)
+    change_description(path, read_description(path))
+    assert read_description(path)["dataset"]["name"] == read_dataset(path.parent).name == "Prüfstand"
+
+
+def test_what_cannot_be_read_is_said_without_the_folder(path: Path) -> None:
+    path.write_text("[dataset\n")
+    with pytest.raises(BadInput, match=r"^dataset.toml: .*line 1.*; correct the TOML; drop the folder again$"):
+        read_description(path)
+    path.unlink()
+    with pytest.raises(BadInput, match=r"^dataset.toml: cannot read dataset.toml"):
+        read_description(path)
 
 
 def test_what_is_refused_changes_nothing(path: Path) -> None:
