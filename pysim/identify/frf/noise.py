@@ -12,9 +12,10 @@ from scipy.stats import chi2
 Array = NDArray[np.float64]
 
 DECLARED, RESIDUALS, COLOURED = "declared noise", "white residuals", "residuals with a memory"
-# Below this probability a test is taken to have failed; one white residual in a hundred is called coloured.
+# Below this probability a test is taken to have failed; one to three white residuals in a hundred are called coloured.
 _UNLIKELY = 0.01
 _MOST_LAGS = 20
+_NOTHING = 1e-8  # of the largest variance: a combination of lags that the fit has left no freedom
 
 
 @dataclass(frozen=True)
@@ -26,7 +27,7 @@ class ResidualNoise:
         at_zero: for the mean, in the signal's unit.
         deviation: of the residuals themselves, in the signal's unit.
         basis: DECLARED, RESIDUALS or COLOURED.
-        whiteness: probability that white residuals look as coloured as these (Ljung-Box).
+        whiteness: probability that what a fit leaves of white noise looks as coloured as this.
     """
 
     at_frequency: float
@@ -37,7 +38,7 @@ class ResidualNoise:
 
 
 def residual_noise(
-    residual: Array, parameters: int, frequency: float, interval: float, *, declared: float | None = None
+    residual: Array, regressors: Array, frequency: float, interval: float, *, declared: float | None = None
 ) -> ResidualNoise:
     """Judge the residuals of a fit to evenly spaced samples.
 
@@ -46,20 +47,20 @@ def residual_noise(
     chosen by Akaike's criterion, and never less than if they were white.
 
     Args:
-        residual: (n,), n well above the number of parameters.
-        parameters: how many were fitted.
+        residual: (n,), what a least-squares fit has left over.
+        regressors: (n, p) of that fit, n well above p: taking p waves out of white noise gives what is left a memory.
         frequency: Hz, of the sine in question.
         interval: s between samples.
         declared: standard deviation of the noise that the data set states, in the signal's unit.
-    Source: Ljung and Box, Biometrika 65 (1978); Priestley, Spectral Analysis and Time Series, Section 7.8.
+    Source: Priestley, Spectral Analysis and Time Series, Section 7.8; for the test see `_whiteness`.
     """
-    n = residual.size
+    n, freedom = residual.size, residual.size - regressors.shape[1]
     square = float(residual @ residual)
-    variance = square / (n - parameters)
+    variance = square / freedom
     correlation = _autocorrelation(residual, min(_MOST_LAGS, n // 5))
-    whiteness = _ljung_box(correlation, n)
+    whiteness = _whiteness(correlation, regressors)
     white = whiteness > _UNLIKELY
-    if white and declared is not None and chi2.sf(square / declared**2, n - parameters) > _UNLIKELY:
+    if white and declared is not None and chi2.sf(square / declared**2, freedom) > _UNLIKELY:
         return ResidualNoise(declared, declared, variance**0.5, DECLARED, whiteness)
     if white:
         return ResidualNoise(variance**0.5, variance**0.5, variance**0.5, RESIDUALS, whiteness)
@@ -78,10 +79,41 @@ def _autocorrelation(x: Array, lags: int) -> Array:
     return np.array([float(x[k:] @ x[: x.size - k]) / total for k in range(lags + 1)])
 
 
-def _ljung_box(correlation: Array, n: int) -> float:
-    lags = np.arange(1, correlation.size)
-    statistic = n * (n + 2) * np.sum(correlation[1:] ** 2 / (n - lags))
-    return float(chi2.sf(statistic, lags.size))
+def _whiteness(correlation: Array, regressors: Array) -> float:
+    """Probability of autocorrelations that are further from what the fit leaves of white noise.
+
+    What is left is e = M z, M = I - Q Q', and the correlation at lag k is e'T_k e / e'e, T_k half the sum of a shift by
+    k to either side. Of Gaussian noise, mean and covariance of such ratios follow from traces of M T_i M T_j. Without
+    regressors this is the test of Ljung and Box, Biometrika 65 (1978).
+
+    Args:
+        correlation: (lags + 1,).
+        regressors: (n, p).
+    Source: Mathai and Provost, Quadratic Forms in Random Variables (1992), Section 3.2d; chi-squared to first order.
+    """
+    n, lags = regressors.shape[0], correlation.size - 1
+    if lags < 1 or not correlation[1:].any():
+        return 1.0
+    q, _ = np.linalg.qr(regressors)
+    shifted = np.array([_shifted(q, k) for k in range(1, lags + 1)])  # T_k Q, (lags, n, p)
+    inside = np.einsum("np,knr->kpr", q, shifted)  # Q' T_k Q
+    flat, small = shifted.reshape(lags, -1), inside.reshape(lags, -1)
+    trace = -np.trace(inside, axis1=1, axis2=2)
+    products = np.diag(0.5 * (n - np.arange(1.0, lags + 1))) - 2 * flat @ flat.T + small @ small.T
+    m = n - q.shape[1]
+    covariance = 2 * (products - np.outer(trace, trace) / m) / (m * (m + 2))
+    variances, axes = np.linalg.eigh(covariance)
+    free = variances > _NOTHING * variances[-1]
+    off = axes[:, free].T @ (correlation[1:] - trace / m)
+    return float(chi2.sf(float(np.sum(off**2 / variances[free])), int(free.sum())))
+
+
+def _shifted(q: Array, k: int) -> Array:
+    """Half the sum of the columns (n, p) moved by k rows to either side."""
+    moved = np.zeros_like(q)
+    moved[k:] += 0.5 * q[:-k]
+    moved[:-k] += 0.5 * q[k:]
+    return moved
 
 
 def _autoregression(correlation: Array, n: int) -> Array:

@@ -110,16 +110,17 @@ def sine_point(
             f"{record.source}: the {t.size} samples of {periods} period{'s' if periods > 1 else ''} behind the settling"
             f" do not show {frequency:g} Hz; shorten the settling, record longer or sample faster"
         )
-    coefficients, left_over = _fit(command.angle(t), y, count)
+    waves = _waves(command.angle(t), count)
+    coefficients = near_orthogonal_fit(waves, y)
     interval = float(t[-1] - t[0]) / (t.size - 1)
-    judged = residual_noise(left_over, 2 * count + 1, frequency, interval, declared=noise)
+    judged = residual_noise(y - waves @ coefficients, waves, frequency, interval, declared=noise)
     amplitude = float(np.hypot(*coefficients[:2]))
     if amplitude <= 1e-12 * float(np.max(np.abs(y))):
         raise BadInput(f"{record.source}: {output} does not move at {frequency:g} Hz; there is no response")
     gain = amplitude / command.amplitude
-    waves = np.hypot(coefficients[0:-1:2], coefficients[1::2])
+    sizes = np.hypot(coefficients[0:-1:2], coefficients[1::2])
     spread = judged.deviation * math.sqrt(2 / t.size)  # of a coefficient: sum sin^2 is n/2
-    power = float(np.sum(waves[1:] ** 2)) / spread**2 if spread > 0 else math.inf * float(np.any(waves[1:] > 0))
+    power = float(np.sum(sizes[1:] ** 2)) / spread**2 if spread > 0 else math.inf * float(np.any(sizes[1:] > 0))
     distorted = bool(count > 1 and chi2.sf(power, 2 * (count - 1)) < _UNLIKELY)
     if periods > 1:
         remarks += _unsteady(command.angle(t), y, count, interval, noise)
@@ -133,7 +134,7 @@ def sine_point(
         phase=float(np.arctan2(coefficients[1], coefficients[0])),
         mean=float(coefficients[-1]),
         covariance=_covariance(command, gain, judged, t.size),
-        harmonics=waves[1:] / amplitude,
+        harmonics=sizes[1:] / amplitude,
         harmonics_noise=spread / amplitude,
         distorted=distorted,
         noise=judged,
@@ -172,15 +173,8 @@ def _harmonic_count(t: Array, frequency: float) -> int:
     return max(min(int(highest / frequency), 1 + _HARMONICS, (t.size - 12) // 2), 0)
 
 
-def _fit(angle: Array, y: Array, count: int) -> tuple[Array, Array]:
-    """sin and cos of 1 .. count times the angle and a constant: coefficients (2 count + 1,), residual (n,)."""
-    matrix = _waves(angle, count)
-    coefficients = near_orthogonal_fit(matrix, y)
-    return coefficients, y - matrix @ coefficients
-
-
 def _waves(angle: Array, count: int) -> Array:
-    """(n, 2 count + 1)."""
+    """sin and cos of 1 .. count times the angle, and a constant: (n, 2 count + 1)."""
     waves = [function(k * angle) for k in range(1, count + 1) for function in (np.sin, np.cos)]
     return np.column_stack([*waves, np.ones_like(angle)])
 
@@ -205,7 +199,7 @@ def _unsteady(angle: Array, y: Array, count: int, interval: float, declared: flo
     coefficients = near_orthogonal_fit(drifting, y)
     frequency = float(angle[-1] - angle[0]) / (2 * np.pi * interval * (angle.size - 1))
     left_over = y - drifting @ coefficients
-    noise = residual_noise(left_over, coefficients.size, frequency, interval, declared=declared).at_frequency
+    noise = residual_noise(left_over, drifting, frequency, interval, declared=declared).at_frequency
     change = 2 * float(np.hypot(*coefficients[-2:]))
     variance = 4 * noise**2 * 2 / float(through @ through)
     if change <= 1e-9 * np.max(np.abs(y)) or (variance > 0 and chi2.sf(change**2 / variance, 2) > _UNLIKELY):

@@ -13,6 +13,7 @@ from pysim.identify._near_orthogonal import near_orthogonal_fit
 Array = NDArray[np.float64]
 
 _FEWEST = 32  # samples that show how noisy a log is
+_ROUNDING = 1e-9  # of what the log covers: a hold without noise must not pass for a sine of that size
 _WHOLE = 0.01  # of the amplitude: a log that is nowhere further from one sine has no lead-in
 
 
@@ -66,6 +67,7 @@ def sine_start(t: Array, y: Array, omega: float, step: float) -> tuple[Wave, sli
     """
     dt = float(np.median(np.diff(t)))
     count = max(round(2 * np.pi / omega / dt), min(_FEWEST, t.size // 2), 8)
+    rounding = _ROUNDING * float(np.ptp(y)) or 1.0
     best, inside, record = fit_sine(t, y, omega), slice(0, t.size), -1.0
     if np.max(np.abs(y - best.value(t))) <= max(2 * step, _WHOLE * best.amplitude):
         return best, inside
@@ -73,7 +75,7 @@ def sine_start(t: Array, y: Array, omega: float, step: float) -> tuple[Wave, sli
         window = slice(first, first + count)
         wave = fit_sine(t[window], y[window], omega)
         residual = float(np.sqrt(np.mean((y[window] - wave.value(t[window])) ** 2)))
-        score = wave.amplitude / (residual + step + 1e-12 * wave.amplitude + 1e-300)
+        score = wave.amplitude / (residual + step + rounding)
         if score > record:
             best, inside, record = wave, window, score
     return best, inside

@@ -2,28 +2,68 @@
 
 import numpy as np
 import pytest
+from scipy.stats import chi2
 
-from pysim.identify.frf.noise import COLOURED, DECLARED, RESIDUALS, residual_noise
+from pysim.identify.frf.noise import COLOURED, DECLARED, RESIDUALS, ResidualNoise, residual_noise
 from tests.pysim.identify.frf.systems import coloured, white
 
 
+INTERVAL = 0.004  # s
+
+
+def waves(n: int, count: int, frequency: float = 5.0, interval: float = INTERVAL) -> np.ndarray:
+    """A sine with its harmonics and a constant, as a stepped sine is fitted."""
+    angle = 2 * np.pi * frequency * interval * np.arange(n)
+    columns = [function(k * angle) for k in range(1, count + 1) for function in (np.sin, np.cos)]
+    return np.column_stack([*columns, np.ones(n)])
+
+
+def left_over(noise: np.ndarray, regressors: np.ndarray) -> np.ndarray:
+    q, _ = np.linalg.qr(regressors)
+    return np.asarray(noise - q @ (q.T @ noise))
+
+
+def judged(
+    noise: np.ndarray, *, count: int = 1, frequency: float = 5.0, declared: float | None = None
+) -> ResidualNoise:
+    """Of what a fit leaves of that noise."""
+    regressors = waves(noise.size, count, frequency)
+    return residual_noise(left_over(noise, regressors), regressors, frequency, INTERVAL, declared=declared)
+
+
 def test_white_residuals_are_taken_as_they_are() -> None:
-    noise = residual_noise(white(2000, 0.3, 1), 3, 5.0, 0.004)
+    noise = judged(white(2000, 0.3, 1))
     assert noise.basis == RESIDUALS
     assert noise.at_frequency == noise.at_zero == noise.deviation == pytest.approx(0.3, rel=0.05)
 
 
-def test_white_residuals_are_seldom_called_coloured() -> None:
-    coloured_ones = sum(residual_noise(white(400, 1.0, seed), 3, 5.0, 0.004).basis == COLOURED for seed in range(500))
-    assert coloured_ones <= 16  # 1 percent expected; P(more) of a binomial below 1e-4
+@pytest.mark.parametrize(
+    ("samples", "count", "frequency", "rate"), [(400, 1, 5, 250), (70, 11, 2, 70), (47, 11, 3, 70), (30, 9, 1, 30)]
+)
+def test_white_residuals_are_seldom_called_coloured(samples: int, count: int, frequency: float, rate: float) -> None:
+    regressors, coloured_ones = waves(samples, count, frequency, 1 / rate), 0
+    for seed in range(500):
+        residual = left_over(white(samples, 1.0, seed), regressors)
+        coloured_ones += residual_noise(residual, regressors, frequency, 1 / rate).basis == COLOURED
+    assert coloured_ones <= 25  # at most 3 percent expected; P(more) of a binomial is 1 percent
+
+
+def test_whiteness_without_waves_is_that_of_ljung_and_box() -> None:
+    noise = coloured(3000, 1.0, 4, 0.05)
+    centred = noise - noise.mean()
+    r = np.array([centred[k:] @ centred[:-k] for k in range(1, 21)]) / (centred @ centred)
+    statistic = 3000 * 3002 * np.sum(r**2 / (3000 - np.arange(1, 21)))
+    found = residual_noise(centred, np.ones((3000, 1)), 5.0, INTERVAL).whiteness
+    assert 0.001 < found < 0.999
+    assert found == pytest.approx(chi2.sf(statistic, 20), abs=0.02)
 
 
 @pytest.mark.parametrize("pole", [0.5, 0.9, -0.5])
 def test_memory_is_seen_and_its_spectrum_found(pole: float) -> None:
-    f, interval = 5.0, 0.004
+    f, interval = 5.0, INTERVAL
     ratios = []
     for seed in range(20):
-        noise = residual_noise(coloured(2000, 0.3, seed, pole), 3, f, interval)
+        noise = judged(coloured(2000, 0.3, seed, pole), frequency=f)
         assert noise.basis == COLOURED
         ratios.append([noise.at_frequency, noise.at_zero])
     drive = 0.3 * np.sqrt(1 - pole**2)
@@ -33,13 +73,13 @@ def test_memory_is_seen_and_its_spectrum_found(pole: float) -> None:
 
 def test_declared_noise_counts_where_the_residuals_agree() -> None:
     residual = white(500, 0.3, 2)
-    assert residual_noise(residual, 3, 5.0, 0.004, declared=0.3).basis == DECLARED
-    assert residual_noise(residual, 3, 5.0, 0.004, declared=0.3).at_frequency == 0.3
-    assert residual_noise(residual, 3, 5.0, 0.004, declared=0.2).basis == RESIDUALS  # more is left than was declared
-    memory = residual_noise(coloured(500, 0.3, 2, -0.5), 3, 1.0, 0.004, declared=0.4)
+    assert judged(residual, declared=0.3).basis == DECLARED
+    assert judged(residual, declared=0.3).at_frequency == 0.3
+    assert judged(residual, declared=0.2).basis == RESIDUALS  # more is left than was declared
+    memory = judged(coloured(500, 0.3, 2, -0.5), frequency=1.0, declared=0.4)
     assert memory.basis == COLOURED
     assert memory.at_frequency == pytest.approx(0.4)  # never below what was declared
 
 
 def test_no_residual_is_no_noise() -> None:
-    assert residual_noise(np.zeros(100), 3, 5.0, 0.004).at_frequency == 0.0
+    assert judged(np.zeros(100)).at_frequency == 0.0

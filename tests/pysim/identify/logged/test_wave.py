@@ -34,6 +34,17 @@ def test_rounded_sine_is_found_to_its_rounding(sine: SteppedSineCommand, whole: 
         assert sine.end - 0.0041 <= wave.end <= sine.end + 0.02
 
 
+@pytest.mark.parametrize("rate", [250.0, 1000.0])
+@pytest.mark.parametrize("decimals", [9, 12, 15])
+def test_a_log_without_noise_is_found_behind_its_lead_in(decimals: int, rate: float) -> None:
+    for frequency in (0.3, 1.0, 2.0, 5.0, 20.0):
+        sine = SteppedSineCommand(25.0, 10.0, frequency, periods=max(3, round(3 * frequency)))
+        bounds = {"first": 0.0, "last": sine.duration, "rate": rate}
+        record = log(sine, "frequency-response", frequency=frequency, decimals=decimals, **bounds)  # type: ignore[arg-type]
+        wave = logged_wave(record, "cmd")
+        assert (wave.offset, wave.amplitude) == pytest.approx((25.0, 10.0), rel=1e-5)
+
+
 @pytest.mark.parametrize("whole", [False, True], ids=["chirp only", "with lead-in and ramp"])
 @pytest.mark.parametrize("chirp", [CHIRP, Chirp(-30.0, 20.0, 25.0, 0.5, 20.0)], ids=["upwards", "downwards"])
 def test_rounded_chirp_is_found_to_its_rounding(chirp: Chirp, whole: bool) -> None:
