@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import hashlib
 import json
+import re
 import shutil
 import tomllib
+from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
 from pathlib import Path
 from typing import Any
@@ -125,11 +127,42 @@ class Project:
                     digest.update(repr((path.relative_to(root).as_posix(), stat.st_size, stat.st_mtime_ns)).encode())
         return digest.hexdigest()
 
-    def replace_data(self, folder: Path) -> None:
-        """Take a folder's content as the data set; what was there before is kept below `earlier`."""
+    def replace_data(self, folder: Path) -> str:
+        """Take a folder's content as the data set; what was there before is kept below `earlier`.
+
+        Returns:
+            where that is, in the project; "" where nothing was there.
+        """
+        kept = ""
         if self.data.exists():
-            earlier = self.folder / "earlier"
-            earlier.mkdir(exist_ok=True)
-            number = 1 + len(list(earlier.iterdir()))
-            shutil.move(str(self.data), str(earlier / f"data-{number}"))
+            place = self._earlier("data")
+            shutil.move(str(self.data), str(place))
+            kept = place.relative_to(self.folder).as_posix()
         shutil.move(str(folder), str(self.data))
+        return kept
+
+    def replace_models(self, paths: Sequence[Path]) -> str:
+        """Take files and folders, each of another name, into `model`; those of the same names are kept as data are.
+
+        Returns:
+            as `replace_data`.
+        """
+        self.models.mkdir(exist_ok=True)
+        before = [self.models / path.name for path in paths if (self.models / path.name).exists()]
+        kept = ""
+        if before:
+            place = self._earlier("model")
+            place.mkdir()
+            for old in before:
+                shutil.move(str(old), str(place / old.name))
+            kept = place.relative_to(self.folder).as_posix()
+        for path in paths:
+            shutil.move(str(path), str(self.models / path.name))
+        return kept
+
+    def _earlier(self, kind: str) -> Path:
+        """A new place below `earlier`, numbered on from the highest: the user may have removed any of them."""
+        earlier = self.folder / "earlier"
+        earlier.mkdir(exist_ok=True)
+        found = (re.fullmatch(rf"{kind}-(\d+)", path.name) for path in earlier.iterdir())
+        return earlier / f"{kind}-{1 + max((int(one[1]) for one in found if one), default=0)}"

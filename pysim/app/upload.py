@@ -148,8 +148,9 @@ def adopt(batch: Batch, project: Project) -> Adopted:
             found = ", ".join(sorted({path.suffix or path.name for path in _files(root)})[:6]) or "nothing"
             taken = ", ".join(LOG_SUFFIXES)
             raise BadInput(f"no data set, no logs and no model in this: {found}; drop logs as {taken}")
-        project.replace_data(_single(root))
-        return Adopted("logs", f"{len(logs)} logs without a dataset.toml; say below what their columns are")
+        kept = project.replace_data(_single(root))
+        text = f"{len(logs)} logs without a dataset.toml; say below what their columns are{_kept(kept)}"
+        return Adopted("logs", text)
     finally:
         batch.end()
 
@@ -168,8 +169,13 @@ def _dataset(descriptions: list[Path], project: Project) -> Adopted:
     if len(descriptions) > 1:
         raise BadInput(f"{len(descriptions)} files dataset.toml in this; drop one data set at a time")
     refuse_outside(top)
-    project.replace_data(top.parent)
-    return Adopted("dataset", "A data set was taken over")
+    kept = project.replace_data(top.parent)
+    return Adopted("dataset", f"A data set was taken over{_kept(kept)}")
+
+
+def _kept(place: str) -> str:
+    """What became of what was there before, to be added to a sentence."""
+    return f"; what was there before is in {place}" if place else ""
 
 
 def _single(root: Path) -> Path:
@@ -183,12 +189,15 @@ def _model(root: Path, models: list[Path], project: Project) -> Adopted:
     fmus = [path for path in models if path.suffix.lower() == ".fmu"]
     if len(fmus) > 1:
         raise BadInput(f"{len(fmus)} FMUs in this; drop the one to be compared")
-    project.models.mkdir(exist_ok=True)
     tops = list(_tops(root, [path for path in models if path not in fmus]))
-    moved = [_moved(path, project.models) for path in [*tops, *fmus]]
-    names = [path.relative_to(project.folder).as_posix() for path in moved]
-    text = ", ".join(path.name for path in moved)
-    return Adopted("model", f"taken over: {text}", names[-1] if fmus else "", tuple(names[: len(tops)]))
+    taken = [path.name for path in [*tops, *fmus]]
+    for name in taken:
+        if sum(name.casefold() == other.casefold() for other in taken) > 1:
+            raise BadInput(f"more than one {name} in this; drop the one that is meant")
+    kept = project.replace_models([*fmus, *tops])  # an FMU within a library leaves it first
+    names = [(project.models / name).relative_to(project.folder).as_posix() for name in taken]
+    text = f"taken over: {', '.join(taken)}{_kept(kept)}"
+    return Adopted("model", text, names[-1] if fmus else "", tuple(names[: len(tops)]))
 
 
 def _tops(root: Path, sources: list[Path]) -> Iterator[Path]:
@@ -197,13 +206,3 @@ def _tops(root: Path, sources: list[Path]) -> Iterator[Path]:
     outer = [p for p in packages if p != root and not any(p != q and p.is_relative_to(q) for q in packages)]
     yield from outer
     yield from (p for p in sources if not any(p.is_relative_to(q) for q in outer))
-
-
-def _moved(path: Path, folder: Path) -> Path:
-    target = folder / path.name
-    if target.is_dir():
-        shutil.rmtree(target)
-    elif target.exists():
-        target.unlink()
-    shutil.move(str(path), str(target))
-    return target

@@ -40,11 +40,32 @@ def test_the_fingerprint_tells_other_data_and_another_model(tmp_path: Path) -> N
     assert project.fingerprint() == seen[-1]
 
 
-def test_earlier_data_are_kept(tmp_path: Path) -> None:
+def dropped(folder: Path, text: str, name: str = "a.txt") -> Path:
+    """A folder with one file."""
+    (folder / text).mkdir()
+    (folder / text / name).write_text(text)
+    return folder / text
+
+
+def test_earlier_data_are_kept_whatever_was_removed_of_them(tmp_path: Path) -> None:
     project = Project.at(tmp_path / "p")
-    for text in ("first", "second"):
-        (tmp_path / text).mkdir()
-        (tmp_path / text / "a.txt").write_text(text)
-        project.replace_data(tmp_path / text)
-    assert (project.data / "a.txt").read_text() == "second"
+    kept = [project.replace_data(dropped(tmp_path, text)) for text in ("first", "second", "third")]
+    assert kept == ["", "earlier/data-1", "earlier/data-2"]
     assert (project.folder / "earlier/data-1/a.txt").read_text() == "first"
+    (project.folder / "earlier/data-1/a.txt").unlink()
+    (project.folder / "earlier/data-1").rmdir()
+    assert project.replace_data(dropped(tmp_path, "fourth")) == "earlier/data-3"
+    assert (project.data / "a.txt").read_text() == "fourth"
+    assert (project.folder / "earlier/data-2/a.txt").read_text() == "second"
+    assert (project.folder / "earlier/data-3/a.txt").read_text() == "third"
+
+
+def test_earlier_models_are_kept_with_their_names(tmp_path: Path) -> None:
+    project = Project.at(tmp_path / "p")
+    assert project.replace_models([dropped(tmp_path, "first", "A.mo") / "A.mo"]) == ""
+    assert project.replace_models([dropped(tmp_path, "other", "B.mo") / "B.mo"]) == ""
+    assert project.replace_models([dropped(tmp_path, "second", "A.mo") / "A.mo"]) == "earlier/model-1"
+    assert project.replace_models([dropped(tmp_path, "third", "A.mo") / "A.mo"]) == "earlier/model-2"
+    assert {path.name: path.read_text() for path in project.models.iterdir()} == {"A.mo": "third", "B.mo": "other"}
+    assert (project.folder / "earlier/model-1/A.mo").read_text() == "first"
+    assert (project.folder / "earlier/model-2/A.mo").read_text() == "second"

@@ -58,11 +58,24 @@ def test_bare_logs_wait_for_their_description(project: Project) -> None:
     assert (project.data / "a.csv").is_file()
 
 
-def test_a_library_and_an_fmu_become_the_model(project: Project) -> None:
-    files = {"Lib/package.mo": b"package Lib end Lib;", "Lib/Sub/package.mo": b"", "pump.fmu": b"PK"}
+@pytest.mark.parametrize("place", ["", "Lib/"])
+def test_a_library_and_an_fmu_become_the_model(project: Project, place: str) -> None:
+    files = {"Lib/package.mo": b"package Lib end Lib;", "Lib/Sub/package.mo": b"", f"{place}pump.fmu": b"PK"}
     adopted = adopt(batch(project, files), project)
     assert (adopted.kind, adopted.model, adopted.libraries) == ("model", "model/pump.fmu", ("model/Lib",))
     assert (project.models / "Lib/Sub/package.mo").is_file()
+
+
+def test_a_model_dropped_again_keeps_the_one_before_and_says_where(project: Project) -> None:
+    for text in (b"model A end A;", b"model A Real x; end A;"):
+        adopted = adopt(batch(project, {"A.mo": text, "Lib/package.mo": text}), project)
+    assert adopted.text == "taken over: Lib, A.mo; what was there before is in earlier/model-1"
+    assert (project.models / "A.mo").read_bytes() == b"model A Real x; end A;"
+    assert (project.folder / "earlier/model-1/A.mo").read_bytes() == b"model A end A;"
+    assert (project.folder / "earlier/model-1/Lib/package.mo").read_bytes() == b"model A end A;"
+    for text in (b"0 1\n", b"0 2\n"):
+        adopted = adopt(batch(project, {"a.csv": text}), project)
+    assert adopted.text.endswith("; what was there before is in earlier/data-1")
 
 
 @pytest.mark.parametrize(
@@ -102,6 +115,7 @@ def test_a_description_cannot_name_files_elsewhere(project: Project) -> None:
         ({"a.jpg": b"x"}, r"no data set, no logs and no model in this: .jpg"),
         ({"a/dataset.toml": b"", "b/dataset.toml": b""}, r"2 files dataset.toml in this"),
         ({"a.fmu": b"", "b.fmu": b""}, "2 FMUs in this"),
+        ({"x/A.mo": b"", "y/a.mo": b""}, r"more than one A.mo in this"),
         ({"a.zip": b"no zip"}, r"a.zip cannot be unpacked"),
     ],
 )
