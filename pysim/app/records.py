@@ -78,7 +78,7 @@ class Overlay:
 
 def stage_keys(answer: Answer) -> list[tuple[str, str, Mapping[str, Any]]]:
     """Key of LOOKS, words, and stage of the untouched, the refitted and the final model."""
-    found = [(step, LOOKS[step][1 - 1], answer.stage(step)) for step in ("prior", "refit")]
+    found = [(step, LOOKS[step].words, answer.stage(step)) for step in ("prior", "refit")]
     if answer.added:
         found.append(("last", f"with {' and '.join(answer.added)}", answer.last))
     return [(key, words, stage) for key, words, stage in found if stage is not None]

@@ -12,7 +12,7 @@ from nicegui import ui
 from pysim.app.answers import Answer
 from pysim.app.desk import Desk
 from pysim.app.error_map import ErrorMap, error_maps
-from pysim.app.figures import bode_figure, map_figure
+from pysim.app.figures import bode_figure, map_figure, step_name
 from pysim.app.pages.common import busy, ended, nothing, segments, start
 from pysim.app.parts import Chart, Table, box, button, card, head, live, text
 from pysim.app.records import MOST, compared_overlay, measured_overlay, stage_keys
@@ -51,7 +51,7 @@ def _top(desk: Desk) -> None:
         if answer is not None:
             for step in answer.data["error"]:
                 value = step["fit"] or step["validate"]
-                name = {"prior": "as it is", "refit": "refitted"}.get(step["step"], f"+ {step['step']}")
+                name = step_name(step["step"])
                 text("span", f"{name}: {value:.2f}" if value else name, f"chip {'good' if step['passes'] else ''}")
 
 
