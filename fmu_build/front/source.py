@@ -91,10 +91,23 @@ def file_in_library(library: Path, parts: list[str]) -> tuple[Path, list[str]]:
 
 
 def read_text(file: Path) -> str:
+    """Modelica text, which is UTF-8 by its specification, with or without a byte order mark.
+
+    Raises:
+        BuildError: it cannot be read, or is in another encoding, with the line.
+    """
     try:
-        return file.read_text(encoding="utf-8-sig")
-    except (OSError, UnicodeDecodeError) as failure:
-        raise BuildError(f"cannot be read as UTF-8 text: {failure}", file) from None
+        raw = file.read_bytes()
+    except OSError as failure:
+        raise BuildError(f"cannot be read: {failure.strerror or failure}", file) from None
+    try:
+        text = raw.decode("utf-8-sig")
+    except UnicodeDecodeError as failure:
+        line = raw.count(b"\n", 0, failure.start) + 1
+        shown = raw[failure.start : failure.start + 1].decode("latin-1")
+        message = f"{shown!r} is in another encoding than UTF-8, in which Modelica is written; save the file as UTF-8"
+        raise BuildError(message, file, line) from None
+    return text.replace("\r\n", "\n").replace("\r", "\n")
 
 
 def _declared(name: str) -> re.Pattern[str]:
