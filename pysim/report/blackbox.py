@@ -12,6 +12,7 @@ from pysim.identify import FREQUENCY_CRITERIA, magnitude_db
 from pysim.identify.blackbox import FittedNumber, FittedResponse, OrderSuggestion, Root
 from pysim.io import json_number
 from pysim.report.page import cell, commands, heading, items, page, paragraph, picture, table
+from pysim.types import Deviation
 
 _WIDTH = 96
 _DIGITS = (2, 2, 1, 1)
@@ -28,9 +29,8 @@ def _text(one: FittedResponse) -> Iterable[str]:
     fit = one.fit
     yield f"{one.label}: {fit.structure.label}{', stable on request' if fit.structure.stable else ''}"
     yield f"  fit {fit.fit_percent:.2f} %; {_misfit(one)}"
-    yield "  " + "; ".join(
-        f"{d.criterion.name} {d.value:.{n}f} {d.criterion.unit}" for d, n in zip(one.deviations, _DIGITS, strict=True)
-    )
+    yield f"  {_deviations(one.deviations)}"
+    yield from (f"  held out: {_deviations(deviations)}" for deviations in one.held_out)
     for e in _numbers(one):
         yield f"  {e.name:<10}{e.value:>14.6g}  [{e.interval[0]:.6g}, {e.interval[1]:.6g}] {e.unit}".rstrip()
     for name, roots in (("pole", fit.poles), ("zero", fit.zeros)):
@@ -39,6 +39,12 @@ def _text(one: FittedResponse) -> Iterable[str]:
         yield from _suggestion_text(one.suggestion)
     for note in (*fit.notes, *one.remarks):
         yield textwrap.fill(f"note: {note}", _WIDTH, initial_indent="  ", subsequent_indent="    ")
+
+
+def _deviations(deviations: Sequence[Deviation]) -> str:
+    return "; ".join(
+        f"{d.criterion.name} {d.value:.{n}f} {d.criterion.unit}" for d, n in zip(deviations, _DIGITS, strict=True)
+    )
 
 
 def _numbers(one: FittedResponse) -> tuple[FittedNumber, ...]:
@@ -102,7 +108,8 @@ def _data(one: FittedResponse) -> dict[str, Any]:
         "misfit": fit.misfit,
         "degrees_of_freedom": fit.freedom,
         "probability": json_number(fit.explains),
-        "deviations": {k: float(d.value) for k, d in zip(_CRITERIA_KEYS, one.deviations, strict=True)},
+        "deviations": _criteria(one.deviations),
+        "held_out_deviations": [_criteria(deviations) for deviations in one.held_out],
         "converged": fit.converged,
         "notes": [*fit.notes, *one.remarks],
         "structures": None if one.suggestion is None else [_candidate(c) for c in one.suggestion.candidates],
@@ -111,6 +118,10 @@ def _data(one: FittedResponse) -> dict[str, Any]:
         "measured_deg": np.degrees(one.measured.phase).tolist(),
         "residuals_standard_deviations": fit.standardised.tolist(),
     }
+
+
+def _criteria(deviations: Sequence[Deviation]) -> dict[str, float]:
+    return {key: float(d.value) for key, d in zip(_CRITERIA_KEYS, deviations, strict=True)}
 
 
 def _candidate(candidate: Any) -> dict[str, Any]:
@@ -177,18 +188,18 @@ def _method() -> list[str]:
 
 
 def _overview(fitted: Sequence[FittedResponse]) -> str:
-    head = ["offset", "amplitude", "structure", "fit (%)", "gain"]
+    head = ["test", "structure", "fit (%)", "gain"]
     head += [f"{c.name.replace(' deviation', '')} ({c.unit})" for c in FREQUENCY_CRITERIA]
     rows = []
     for one in fitted:
-        test, gain = one.measured.test, one.fit.gain()
-        row = [f"{test.offset:g}", f"{test.amplitude:g}", one.fit.structure.label]
-        row += [f"{one.fit.fit_percent:.2f}", f"{gain.value:.4g}"]
-        numbers = [
-            cell(f"{d.value:.{n}f}", "" if d.passes else "beyond") for d, n in zip(one.deviations, _DIGITS, strict=True)
-        ]
-        rows.append([*(cell(text) for text in row), *numbers])
+        row = [one.label, one.fit.structure.label, f"{one.fit.fit_percent:.2f}", f"{one.fit.gain().value:.4g}"]
+        rows.append([*(cell(text) for text in row), *_marked(one.deviations)])
+        rows += [[cell(one.label), cell("held out"), cell(""), cell(""), *_marked(other)] for other in one.held_out]
     return table("Every response; marked: beyond the limits of thesis Table 1.3", head, rows)
+
+
+def _marked(deviations: Sequence[Deviation]) -> list[str]:
+    return [cell(f"{d.value:.{n}f}", "" if d.passes else "beyond") for d, n in zip(deviations, _DIGITS, strict=True)]
 
 
 def _numbers_table(one: FittedResponse) -> str:

@@ -36,4 +36,8 @@ class SineTest:
     @property
     def label(self) -> str:
         """Short name with signs, as in the thesis' file names: O+25 A5."""
-        return f"O{self.offset:+g} A{self.amplitude:g}"
+        return self.label_in(1.0)
+
+    def label_in(self, factor: float) -> str:
+        """The same in another unit, of which the input's unit is that many."""
+        return f"O{factor * self.offset:+g} A{factor * self.amplitude:g}"

@@ -14,6 +14,7 @@ from pysim.identify.blackbox.result import TransferFunctionFit
 from pysim.identify.blackbox.structure import Structure
 from pysim.identify.frequency_response import THESIS_REFERENCE_HZ
 from pysim.identify.frf import measured_responses
+from pysim.io import shown_unit
 from pysim.types import BadInput, Dataset, Deviation, FrequencyResponse
 
 LOGS = "frequency-response"
@@ -26,25 +27,43 @@ class FittedResponse:
     """One working point.
 
     Args:
+        label: offset and amplitude in the unit that people read, as in the thesis' file names.
         measured: the response.
         fit: the transfer function; of the suggested structure where structures were compared.
         suggestion: that comparison, or None.
         reference_hz: whose gain counts as 0 dB in `deviations`; None for absolute gains.
         deviations: the four numbers of thesis Table 1.3 between the two, as in Table 4.4.
         remarks: what the analysis of the logs said.
+        held_out: the same four numbers for each response of this test that is "validate", in the order of the data.
     """
 
+    label: str
     measured: FrequencyResponse
     fit: TransferFunctionFit
     suggestion: OrderSuggestion | None
     reference_hz: float | None
     deviations: tuple[Deviation, ...]
     remarks: tuple[str, ...]
+    held_out: tuple[tuple[Deviation, ...], ...] = ()
+
+
+@dataclass(frozen=True)
+class _Found:
+    """A response of the data set, and how its input's unit is read."""
+
+    response: FrequencyResponse
+    use: str
+    factor: float
+    remarks: tuple[str, ...] = ()
 
     @property
-    def label(self) -> str:
-        """Offset and amplitude, as in the thesis' file names."""
-        return self.measured.test.label
+    def test(self) -> tuple[float, float]:
+        """Offset and amplitude in the unit that people read."""
+        return self.factor * self.response.test.offset, self.factor * self.response.test.amplitude
+
+    def matches(self, test: tuple[float, float]) -> bool:
+        """Whether it is of that offset and amplitude."""
+        return bool(np.allclose(self.test, test, rtol=1e-6, atol=1e-9))
 
 
 def fit_dataset(
@@ -57,22 +76,27 @@ def fit_dataset(
     tests: Sequence[tuple[float, float]] = (),
     progress: Progress | None = None,
 ) -> tuple[FittedResponse, ...]:
-    """Fit every response of the data set, tables first, then those of its stepped-sine logs.
+    """Fit every response of the data set that is of use "fit", tables first, then those of its stepped-sine logs.
+
+    Those of use "validate" are held against the transfer function of their test.
 
     Args:
         structure: poles, zeros, dead time, stability; where structures are compared, the most poles to try.
         weights: as for `fit_transfer_function`.
         suggest: compare all structures up to that number of poles and take the suggested one.
         output: the responding signal of the logs; may be left out where they hold a single one.
-        tests: (offset, amplitude) in the input's unit of those to fit; all where empty.
+        tests: (offset, amplitude) of those to fit, in the unit that people read (%, bar, deg); all where empty.
         progress: called with how many are done, and of how many.
     Raises:
-        BadInput: no frequency response, none of a test asked for, or what the fit refuses.
+        BadInput: no frequency response to fit, none of a test asked for, or what the fit refuses.
     """
     chosen = _chosen(dataset, output, tests)
+    to_fit, held_out = ([one for one in chosen if one.use == use] for use in ("fit", "validate"))
+    if not to_fit:
+        raise BadInput(f'data set {dataset.name!r}: all its responses have use = "validate"; leave some to be fitted')
     fitted = []
-    for i, (measured, remarks) in enumerate(chosen):
-        suggestion = None
+    for i, one in enumerate(to_fit):
+        suggestion, measured = None, one.response
         if suggest:
             suggestion = suggest_orders(
                 measured,
@@ -82,35 +106,52 @@ def fit_dataset(
                 weights=weights,
             )
         fit = suggestion.suggested.fit if suggestion else fit_transfer_function(measured, structure, weights=weights)
-        fitted.append(_fitted(measured, fit, suggestion, remarks))
+        others = [other.response for other in held_out if other.matches(one.test)]
+        fitted.append(_fitted(one, fit, suggestion, others))
         if progress:
-            progress(i + 1, len(chosen))
+            progress(i + 1, len(to_fit))
     return tuple(fitted)
 
 
-def _chosen(
-    dataset: Dataset, output: str | None, tests: Sequence[tuple[float, float]]
-) -> list[tuple[FrequencyResponse, tuple[str, ...]]]:
-    found = [(response, tuple[str, ...]()) for response in dataset.responses()]
+def _chosen(dataset: Dataset, output: str | None, tests: Sequence[tuple[float, float]]) -> list[_Found]:
+    def found(response: FrequencyResponse, use: str, remarks: tuple[str, ...] = ()) -> _Found:
+        return _Found(response, use, shown_unit(dataset.signal(response.test.input).unit)[1], remarks)
+
+    tables = [(record.data, record.use) for record in dataset.records]
+    there = [found(data, use) for data, use in tables if isinstance(data, FrequencyResponse)]
     if any(record.kind == LOGS for record in dataset.records):
-        found += [(measured.response, measured.remarks) for measured in measured_responses(dataset, output=output)]
-    if not found:
+        there += [found(one.response, one.use, one.remarks) for one in measured_responses(dataset, output=output)]
+    if not there:
         raise BadInput(
             f"data set {dataset.name!r} holds no frequency response; test stepped sines, or give a table of frequency, "
             "magnitude and phase"
         )
-    there = [(response.test.offset, response.test.amplitude) for response, _ in found]
     for test in tests:
-        if test not in there:
-            have = ", ".join(f"{o:g}/{a:g}" for o, a in dict.fromkeys(there))
+        if not any(one.matches(test) for one in there):
+            have = ", ".join(dict.fromkeys(f"{o:g}/{a:g}" for o, a in (one.test for one in there)))
             raise BadInput(f"data set {dataset.name!r} has no test {test[0]:g}/{test[1]:g}; it has {have}")
-    return [pair for pair, test in zip(found, there, strict=True) if not tests or test in tests]
+    return [one for one in there if not tests or any(one.matches(test) for test in tests)]
 
 
 def _fitted(
-    measured: FrequencyResponse, fit: TransferFunctionFit, suggestion: OrderSuggestion | None, remarks: tuple[str, ...]
+    found: _Found, fit: TransferFunctionFit, suggestion: OrderSuggestion | None, held_out: Sequence[FrequencyResponse]
 ) -> FittedResponse:
+    measured = found.response
+    reference, deviations = _deviations(fit, measured)
+    return FittedResponse(
+        label=measured.test.label_in(found.factor),
+        measured=measured,
+        fit=fit,
+        suggestion=suggestion,
+        reference_hz=reference,
+        deviations=deviations,
+        remarks=found.remarks,
+        held_out=tuple(_deviations(fit, other)[1] for other in held_out),
+    )
+
+
+def _deviations(fit: TransferFunctionFit, measured: FrequencyResponse) -> tuple[float | None, tuple[Deviation, ...]]:
+    """Relative to the thesis' reference where that was measured, and which it was."""
     model = fit.function.response(measured.frequency, measured.test)
     reference = THESIS_REFERENCE_HZ if np.any(np.isclose(measured.frequency, THESIS_REFERENCE_HZ, rtol=1e-6)) else None
-    deviations = frequency_deviations(model, measured, reference_hz=reference)
-    return FittedResponse(measured, fit, suggestion, reference, deviations, remarks)
+    return reference, frequency_deviations(model, measured, reference_hz=reference)

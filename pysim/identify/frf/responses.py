@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -22,12 +23,14 @@ class MeasuredResponse:
             that of the amplitude over `test.amplitude`.
         points: (n_f,) one per frequency.
         input_unit, output_unit: of the signals.
+        use: of the logs, "fit" | "validate".
     """
 
     response: FrequencyResponse
     points: tuple[SinePoint, ...]
     input_unit: str
     output_unit: str
+    use: str = "fit"
 
     @property
     def remarks(self) -> tuple[str, ...]:
@@ -43,6 +46,16 @@ class MeasuredResponse:
         return tuple(texts)
 
 
+class _Test(NamedTuple):
+    """What logs of one response have in common."""
+
+    offset: float
+    amplitude: float
+    input: str
+    output: str
+    use: str
+
+
 def measured_responses(
     dataset: Dataset,
     *,
@@ -51,8 +64,8 @@ def measured_responses(
 ) -> tuple[MeasuredResponse, ...]:
     """Analyse every log of kind "frequency-response".
 
-    Records of one nominal offset and amplitude form a response; where a frequency was tested again, the second logs
-    form a second one.
+    Records of one nominal offset, amplitude and use form a response; where a frequency was tested again, the second
+    logs form a second one.
 
     Args:
         output: the responding signal; may be left out where the logs hold a single one.
@@ -63,8 +76,8 @@ def measured_responses(
         BadInput: no such logs, no input or output to be told apart, or a log that `sine_point` refuses.
     Source: thesis Section 2.3.
     """
-    groups: dict[tuple[float, float, str, str, int], dict[float, SinePoint]] = {}
-    seen: Counter[tuple[float, float, str, str, float]] = Counter()
+    groups: dict[tuple[_Test, int], dict[float, SinePoint]] = {}
+    seen: Counter[tuple[_Test, float]] = Counter()
     for record in dataset.records:
         if record.kind != STEPPED_SINE or not isinstance(record.data, Record):
             continue
@@ -72,14 +85,14 @@ def measured_responses(
         point = sine_point(record, *names, window=window, noise=declared_noise(dataset, names[1]))
         offset = _nominal(record.offset, point.command.offset)
         amplitude = _nominal(record.amplitude, point.command.amplitude)
-        again = (offset, amplitude, *names, point.frequency)
-        groups.setdefault((offset, amplitude, *names, seen[again]), {})[point.frequency] = point
-        seen[again] += 1
+        test = _Test(offset, amplitude, *names, record.use)
+        groups.setdefault((test, seen[test, point.frequency]), {})[point.frequency] = point
+        seen[test, point.frequency] += 1
     if not groups:
         raise BadInput(
             f'data set {dataset.name!r} has no log of kind "{STEPPED_SINE}"; give its stepped sines that kind'
         )
-    return tuple(_response(dataset, *key, points) for key, points in groups.items())
+    return tuple(_response(dataset, test, again, points) for (test, again), points in groups.items())
 
 
 def _nominal(told: float | None, fitted: float) -> float:
@@ -87,24 +100,18 @@ def _nominal(told: float | None, fitted: float) -> float:
     return float(f"{fitted:.3g}") if told is None else told
 
 
-def _response(
-    dataset: Dataset,
-    offset: float,
-    amplitude: float,
-    input_: str,
-    output: str,
-    repetition: int,
-    of_frequency: dict[float, SinePoint],
-) -> MeasuredResponse:
+def _response(dataset: Dataset, test: _Test, repetition: int, of_frequency: dict[float, SinePoint]) -> MeasuredResponse:
     points = tuple(of_frequency[f] for f in sorted(of_frequency))
-    scale = np.diag([amplitude, 1.0, 1.0])
+    scale = np.diag([test.amplitude, 1.0, 1.0])
+    ending = (f", repetition {repetition}" if repetition else "") + (", held out" if test.use == "validate" else "")
     response = FrequencyResponse(
         frequency=np.array([p.frequency for p in points]),
         gain=np.array([p.gain for p in points]),
         phase=np.unwrap([p.phase for p in points]),
-        test=SineTest(offset, amplitude, input_, output),
-        origin=f"measured, {dataset.name}" + (f", repetition {repetition}" if repetition else ""),
+        test=SineTest(test.offset, test.amplitude, test.input, test.output),
+        origin=f"measured, {dataset.name}{ending}",
         mean=np.array([p.mean for p in points]),
         covariance=np.array([scale @ p.covariance @ scale for p in points]),
     )
-    return MeasuredResponse(response, points, dataset.signal(input_).unit, dataset.signal(output).unit)
+    units = dataset.signal(test.input).unit, dataset.signal(test.output).unit
+    return MeasuredResponse(response, points, *units, test.use)

@@ -15,20 +15,20 @@ SIGNALS = (
 )
 
 
-def table(offset: float, amplitude: float) -> MeasuredRecord:
+def table(offset: float, amplitude: float, use: str = "fit") -> MeasuredRecord:
     """A response as a table, exact."""
     response = SYSTEM.response(np.array(F), SineTest(offset, amplitude, "u", "y"), origin="a table")
-    return MeasuredRecord("t.csv", "frequency-response-table", "fit", response)
+    return MeasuredRecord("t.csv", "frequency-response-table", use, response)
 
 
-def log(f: float, seed: int) -> MeasuredRecord:
-    """A stepped sine around 20 percent with 5 percent amplitude, already swinging steadily."""
+def log(f: float, seed: int, use: str = "fit", gain: float = 1.0) -> MeasuredRecord:
+    """A stepped sine around 20 percent with 5 percent amplitude, already swinging steadily; the answer times a gain."""
     t = np.linspace(0.0, max(2.0, 3 / f), 1500)
     g = complex(SYSTEM.at(np.array([f]))[0])
     u, y = (20 + 5 * np.imag(z * np.exp(2j * np.pi * f * t)) for z in (1.0, g))
     noise = 0.01 * np.random.default_rng(seed).standard_normal(t.size)
-    data = Record(t, np.column_stack([u, y + noise]), ("u", "y"), ("%", "%"))
-    return MeasuredRecord(f"{f}.txt", "frequency-response", "fit", data, 20.0, 5.0, f)
+    data = Record(t, np.column_stack([u, gain * y + noise]), ("u", "y"), ("%", "%"))
+    return MeasuredRecord(f"{f}.txt", "frequency-response", use, data, 20.0, 5.0, f)
 
 
 def dataset(*records: MeasuredRecord) -> Dataset:

@@ -1,11 +1,13 @@
 """Responses of a data set, from tables and from logs."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from pysim.identify.blackbox import Structure, fit_dataset
 from pysim.types import BadInput
-from tests.pysim.identify.blackbox.logs import SYSTEM, F, dataset, log, table
+from tests.pysim.identify.blackbox.logs import SIGNALS, SYSTEM, F, dataset, log, table
 
 
 def test_tables_and_their_deviations() -> None:
@@ -38,6 +40,31 @@ def test_some_tests_only_and_orders_on_request() -> None:
     assert one.fit is one.suggestion.suggested.fit
     assert (one.fit.structure.poles, one.fit.structure.zeros) == (2, 0)
     with pytest.raises(BadInput, match="no test 7/1; it has 0/1, 5/1, 5/2"):
+        fit_dataset(data, Structure(2), tests=[(7.0, 1.0)])
+
+
+def test_what_is_held_out_is_not_fitted_but_compared() -> None:
+    fitted = [log(f, i) for i, f in enumerate(F)]
+    held_out = [log(f, i, "validate", gain=1.1) for i, f in enumerate(F[1:4])]
+    (alone,) = fit_dataset(dataset(*fitted), Structure(2))
+    (one,) = fit_dataset(dataset(*held_out, *fitted), Structure(2))
+    assert alone.held_out == ()
+    np.testing.assert_array_equal(one.fit.function.denominator, alone.fit.function.denominator)
+    (deviations,) = one.held_out  # without 0.1 Hz: absolute
+    assert deviations[0].value == pytest.approx(20 * np.log10(1.1), rel=0.02)
+    exact = fit_dataset(dataset(table(0, 1), table(0, 1, "validate"), table(5, 1, "validate")), Structure(2))
+    assert [len(one.held_out) for one in exact] == [1]
+    with pytest.raises(BadInput, match="leave some to be fitted"):
+        fit_dataset(dataset(table(0, 1, "validate")), Structure(2))
+
+
+def test_tests_are_named_in_the_unit_that_people_read() -> None:
+    bar = replace(SIGNALS[0], unit="Pa")
+    data = replace(dataset(table(100e5, 10e5), table(50e5, 10e5)), signals=(bar, SIGNALS[1]))
+    (one,) = fit_dataset(data, Structure(2), tests=[(100.0, 10.0)])
+    assert one.label == "O+100 A10"
+    assert one.measured.test.offset == 100e5
+    with pytest.raises(BadInput, match="no test 7/1; it has 100/10, 50/10"):
         fit_dataset(data, Structure(2), tests=[(7.0, 1.0)])
 
 
