@@ -16,6 +16,7 @@ from pysim.io.files import write_file
 from pysim.io.json_number import json_number
 from pysim.types import BadInput, Outcome, Record
 
+_TIME = "time [s]"  # heading of the first column
 _HEADING = re.compile(r"(?P<name>.*) \[(?P<unit>[^\[\]]*)\]")
 
 
@@ -108,18 +109,23 @@ def _as_csv(record: Record) -> bytes:
     note = " ".join(f"# {record.origin}: {record.outcome.value}. {record.message}".split())
     text.write(note + "\n")
     writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(["time [s]", *(f"{n} [{u}]" for n, u in zip(record.names, record.units, strict=True))])
+    writer.writerow([_TIME, *(f"{n} [{u}]" for n, u in zip(record.names, record.units, strict=True))])
     writer.writerows(np.column_stack([record.time, record.values]).tolist())
     return text.getvalue().encode()
 
 
 def _from_csv(path: Path) -> Record:
-    lines = path.read_text(encoding="utf-8").splitlines()
+    lines = path.read_text(encoding="utf-8-sig").splitlines()
     skipped = 1 if lines and lines[0].startswith("#") else 0
     rows = list(csv.reader(lines[skipped:]))
     headings = [_HEADING.fullmatch(text) for text in rows[0]] if rows else []
     if len(headings) < 2 or not all(headings):
         raise BadInput(f"{path}, line {skipped + 1}: column names like 'time [s],alpha [deg]' must stand here")
+    if rows[0][0] != _TIME:
+        raise BadInput(
+            f"{path}, line {skipped + 1}: the first column is {rows[0][0]!r}, and {_TIME!r} belongs there; "
+            "put the times first, in s"
+        )
     numbers = np.array([_numbers(path, skipped + i, row, len(headings)) for i, row in enumerate(rows[1:], start=2)])
     numbers = numbers.reshape(-1, len(headings))
     columns = [heading for heading in headings[1:] if heading is not None]

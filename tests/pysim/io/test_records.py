@@ -71,12 +71,19 @@ def test_empty_record_survives(tmp_path):
         ("time [s],alpha\n0,1\n", "line 1: column names"),
         ("# x\ntime [s],alpha [deg]\n0,1\n1,one\n", "line 4: could not convert"),
         ("time [s],alpha [deg]\n0,1,2\n", "line 2: 3 entries, but 2 columns"),
+        ("time [ms],alpha [deg]\n0,1\n10,2\n", r"line 1: the first column is 'time \[ms\]', and 'time \[s\]' belongs"),
+        ("# x\nx [m],time [s]\n0,1\n1,2\n", r"line 2: the first column is 'x \[m\]', .*; put the times first, in s"),
     ],
 )
 def test_broken_csv_is_said_with_its_line(tmp_path, text, words):
     (tmp_path / "r.csv").write_text(text)
     with pytest.raises(BadInput, match=words):
         read_record(tmp_path / "r.csv")
+
+
+def test_a_byte_order_mark_means_nothing(tmp_path):
+    (tmp_path / "r.csv").write_text("time [s],alpha [deg]\n0,1\n", encoding="utf-8-sig")
+    assert read_record(tmp_path / "r.csv").names == ("alpha",)
 
 
 def test_wrong_places_and_forms_are_refused(tmp_path):
