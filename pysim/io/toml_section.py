@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 import tomllib
 from dataclasses import dataclass
 from pathlib import Path, PureWindowsPath
@@ -10,6 +11,11 @@ from typing import Any
 
 from pysim.io.text_table import read_text
 from pysim.types import BadInput
+
+# Of the parser's messages: where it stopped, and how those about a value begin.
+_LINE = re.compile(r"\(at line (\d+), column \d+\)$")
+_NO_VALUE = ("Invalid value", "Expected newline")
+_BARE = re.compile(r"""\s*([\w.-]+)\s*=\s*([^"'\[\]{}#]*[^"'\[\]{}#\s])\s*(?:#.*)?""")  # a value without quotes
 
 
 @dataclass(frozen=True)
@@ -195,8 +201,22 @@ def read_toml(path: Path, wanted_by: str) -> TomlFile:
     try:
         content = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
-        cure = "write / between folders" if "Unescaped '\\'" in str(error) else "correct the TOML"
-        raise BadInput(f"{path}: {error}; {cure}") from error
+        raise BadInput(f"{path}: {error}; {_cure(error, text)}") from error
     lines = ((number, line.replace('"', "").strip()) for number, line in enumerate(text.split("\n"), 1))
     headers = tuple((number, line) for number, line in lines if line.startswith("["))
     return TomlFile(path, Section(str(path), content), headers)
+
+
+def _cure(error: tomllib.TOMLDecodeError, text: str) -> str:
+    """What to do about a text that is no TOML, by the line at which the parser stopped."""
+    place = _LINE.search(str(error))
+    line = text.split("\n")[int(place[1]) - 1] if place else ""
+    if "\\" in line:
+        return "write / between folders"
+    bare = _BARE.fullmatch(line)
+    if bare is None or not str(error).startswith(_NO_VALUE):
+        return "correct the TOML"
+    try:
+        return f"write {bare[1]} = {float(bare[2].replace(',', '.'))}"
+    except ValueError:
+        return f'put texts in quotes: {bare[1]} = "{bare[2]}"'

@@ -73,6 +73,29 @@ def test_refusals_name_the_line(toml: TomlFile, ask: object, words: str) -> None
         ask(toml.tables("part")["one"])  # type: ignore[operator]
 
 
+@pytest.mark.parametrize(
+    ("line", "cure"),
+    [
+        (r'file = "C:\Users\me\log.csv"', "write / between folders"),
+        (r'file = "logs\sine.txt"', "write / between folders"),
+        (r"file = logs\sine.txt", "write / between folders"),
+        ("unit = %", 'put texts in quotes: unit = "%"'),
+        ("unit = 1/s  # a rate", 'put texts in quotes: unit = "1/s"'),
+        ("name = Prüf Stand", 'put texts in quotes: name = "Prüf Stand"'),
+        ("offset = 25,5", "write offset = 25.5"),
+        ("noise = .5", "write noise = 0.5"),
+        ('unit = "%', "correct the TOML"),
+        ('row = ["a", b]', "correct the TOML"),
+        ("row = [1\nb = 3", "correct the TOML"),
+    ],
+)
+def test_the_cure_fits_the_faulty_line(tmp_path: Path, line: str, cure: str) -> None:
+    (tmp_path / "bad.toml").write_text(f"a = 1\n{line}\nc = 2\n", encoding="utf-8")
+    with pytest.raises(BadInput) as caught:
+        read_toml(tmp_path / "bad.toml", "test")
+    assert str(caught.value).endswith(f"; {cure}")
+
+
 def test_signs() -> None:
     section = Section("here", {"a": -1.0, "b": 0})
     with pytest.raises(BadInput, match="here: a must be positive, got -1"):
