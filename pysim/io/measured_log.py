@@ -71,21 +71,21 @@ def in_si(columns: Columns, signals: Mapping[str, MeasuredSignal], origin: str) 
 
 
 def refuse_fast_sine(place: str, columns: Columns, frequency: float) -> None:
-    """A sine above half the sampling rate looks like another one.
+    """A sine above half the sampling rate looks like another one, and one at half of it may be sampled at its zeros.
 
     Args:
         place: what says that it is this frequency, for the message.
         frequency: Hz.
     Raises:
-        BadInput: it is above.
+        BadInput: it is not below.
     """
     if columns.values.shape[0] < 2:
         return
     rate = 1 / float(np.median(np.diff(columns[TIME])))
-    if frequency > 0.5 * rate * (1 + _ROUNDING):
+    if frequency > 0.5 * rate * (1 - _ROUNDING):
         ms = ', or tell that time is in ms: [dataset] time_unit = "ms"' if frequency <= 500 * rate < 500 else ""
         raise BadInput(
-            f"{place}: frequency = {frequency:g} Hz is above half the sampling rate of {columns.path}, "
+            f"{place}: frequency = {frequency:g} Hz is not below half the sampling rate of {columns.path}, "
             f"{rate:.4g} Hz; correct the frequency, or log faster{ms}"
         )
 
