@@ -136,13 +136,12 @@ def _warn_beyond(variable: Variable, value: float, model: Model) -> None:
 
 def _from_file(path: Path) -> dict[str, float]:
     """A TOML file of numbers; dotted names and sections mean the same."""
+    from pysim.io import read_text
     from pysim.types import BadInput
 
     try:
-        content = tomllib.loads(path.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise BadInput(f"--parameters {path}: cannot be read ({error.strerror}); correct the name") from error
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        content = tomllib.loads(read_text(path, "--parameters"))
+    except tomllib.TOMLDecodeError as error:
         raise BadInput(f"--parameters {path}: {error}; write lines NAME = VALUE") from error
     return _flat(content, "", path)
 

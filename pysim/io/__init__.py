@@ -12,6 +12,7 @@ from pysim.io.records import read_record, record_data, record_text, write_record
 from pysim.io.signals import read_signal, write_signal
 from pysim.io.single_log import read_single_log
 from pysim.io.stages import StageFile, read_stages, write_stages
+from pysim.io.text_table import read_text
 from pysim.io.thesis_folder import LOG_SUFFIXES, read_thesis_folder
 from pysim.io.toml_section import Section, TomlFile, read_toml
 from pysim.io.units import SI, shown_unit, signal_in_si
@@ -39,6 +40,7 @@ __all__ = [
     "read_signal",
     "read_single_log",
     "read_stages",
+    "read_text",
     "read_thesis_folder",
     "read_toml",
     "record_data",

@@ -107,7 +107,7 @@ def test_parameters_from_a_file_yield_to_set(folder: Path) -> None:
         (["--set", "k=nan"], "--set k=nan: write NAME=VALUE with a finite number"),
         (["--set", "kk=1"], "linear.fmu has no variable 'kk'; near it: k"),
         (["--set", "cmd=1"], "cmd of linear.fmu has the causality input"),
-        (["--parameters", "none.toml"], "--parameters none.toml: cannot be read"),
+        (["--parameters", "none.toml"], "--parameters: cannot read none.toml (No such file or directory); correct the name"),
         (["--output", "{folder}/dataset.toml"], "cannot write there"),
     ],
 )
@@ -121,6 +121,13 @@ def test_wrong_use_is_one_line_and_exit_2(
     assert message in error
     assert error.count("\n") == 1
     assert sorted(folder.rglob("*")) == before
+
+
+@pytest.mark.parametrize("encoding", ["utf-8-sig", "utf-16", "latin-1"])
+def test_parameters_are_read_in_the_encodings_of_windows(folder: Path, encoding: str) -> None:
+    file = folder / "parameters.toml"
+    file.write_text("k = 0.02  # für Müller\n", encoding=encoding)
+    assert main(["compare", "linear.fmu", "--data", str(folder), "--parameters", str(file)]) == 1
 
 
 @pytest.mark.parametrize("content", ["k = [1]", 'k = "2"', "k = true", "k ="])
