@@ -6,6 +6,7 @@ from itertools import pairwise
 from pathlib import Path
 
 from pysim.io.named_columns import optional_package
+from pysim.io.quotation_marks import unquoted
 from pysim.io.text_block import dialect
 from pysim.io.text_table import read_text
 from pysim.types import BadInput
@@ -24,7 +25,7 @@ def column_names(path: Path) -> tuple[str, ...]:
     suffix = path.suffix.lower()
     if suffix in (".parquet", ".tdms"):
         return _named(path, suffix)
-    lines = read_text(path, path.name).replace('"', "").split("\n")[:_LINES]
+    lines = unquoted(read_text(path, path.name), " ").split("\n")[:_LINES]
     rows = [line for line in lines if line.strip() and not line.lstrip().startswith("#")]
     for heading, line in pairwise(["", *rows]):
         separator, decimal = dialect(_trimmed(line))

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
+import re
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
+from pysim.io.quotation_marks import unquoted
 from pysim.io.text_block import dialect, read_block
 from pysim.types import BadInput
 
@@ -18,6 +20,7 @@ LEFT_OUT = "-"  # name of a column that nobody wants; it may hold anything
 _LABVIEW_END, _LABVIEW_LINES = "***End_of_Header***", 200
 _SHOWN = 60  # characters of a line in a message
 _UTF_16 = (b"\xff\xfe", b"\xfe\xff")
+_UNIT = re.compile(r"\s*[\[(].*")  # behind the name of a column
 
 
 def read_text(path: Path, wanted_by: str) -> str:
@@ -48,9 +51,9 @@ def read_table(path: Path, columns: tuple[str, ...], wanted_by: str) -> tuple[Ar
     """Read rows of numbers below optional header lines.
 
     Columns are separated by tabs, semicolons, commas or blanks; a decimal comma is read where the separator is not a
-    comma. Quotation marks, and a separator at the end of every row, mean nothing. Lines that start with # and empty
-    lines are skipped. Lines above the first row of numbers are the header, and so is what a LabVIEW measurement file
-    (.lvm) says to be.
+    comma, and between quotation marks. These mean nothing else, nor does a separator at the end of every row. Lines
+    that start with # and empty lines are skipped. Lines above the first row of numbers are the header, and so is what
+    a LabVIEW measurement file (.lvm) says to be.
 
     Args:
         columns: (n_c) names, in the order of the file; those called LEFT_OUT are not looked at.
@@ -58,14 +61,16 @@ def read_table(path: Path, columns: tuple[str, ...], wanted_by: str) -> tuple[Ar
     Returns:
         values (n_r, n_c) and the line number of each row (n_r,).
     Raises:
-        BadInput: no rows, a row of another width, text where a number belongs, or a number that is not finite.
+        BadInput: no rows, a row of another width, text where a number belongs, a number that is not finite, or a
+            header that names the columns in another order.
     """
-    lines = read_text(path, wanted_by).replace('"', "").rstrip().split("\n")
+    lines = unquoted(read_text(path, wanted_by)).rstrip().split("\n")
     begin = _behind_labview_header(lines)
     first = next((i for i in range(begin, len(lines)) if _is_row(lines[i], len(columns))), None)
     if first is None:
         last = f", and ends with {lines[-1].strip()[:_SHOWN]!r}" if lines[-1].strip() else ""
         raise BadInput(f"{path} holds no numbers; it needs rows of {', '.join(columns)}{last}")
+    _refuse_other_order(list(enumerate(lines[:first], 1))[begin:], path, columns, wanted_by)
     body = lines[first:]
     numbers = np.arange(first + 1, len(lines) + 1)
     if any("#" in line or not line or line.isspace() for line in body):  # the usual log has no such lines
@@ -75,8 +80,29 @@ def read_table(path: Path, columns: tuple[str, ...], wanted_by: str) -> tuple[Ar
     values = read_block(body, len(columns))
     if values is None or len(values) != len(body):
         rows = zip(numbers.tolist(), body, strict=True)
-        values = np.array([_row(_split(line.strip()), columns, f"{path}, line {number}") for number, line in rows])
+        values = np.array([_row(line.strip(), columns, f"{path}, line {number}") for number, line in rows])
     return values, numbers
+
+
+def _refuse_other_order(header: list[tuple[int, str]], path: Path, columns: tuple[str, ...], wanted_by: str) -> None:
+    """A column that is headed by the name of another one would be taken for it.
+
+    Args:
+        header: line numbers and lines above the first row.
+    """
+    wanted = [name.casefold() for name in columns]
+    for number, line in header:
+        names = line.strip().lstrip("#").strip().rstrip("\t;,")
+        heads = [_UNIT.sub("", field.strip()) for field in names.split(dialect(names)[0])]
+        small = [head.casefold() for head in heads]
+        if len(small) == len(wanted) and any(
+            head != name != LEFT_OUT and head in wanted and small.count(head) == 1
+            for head, name in zip(small, wanted, strict=True)
+        ):
+            raise BadInput(
+                f"{path}, line {number}: the header has the columns in the order {', '.join(heads)}, and {wanted_by} "
+                f"in the order {', '.join(columns)}; correct the one that is wrong"
+            )
 
 
 def _without_end_marks(rows: list[str]) -> list[str]:
@@ -125,13 +151,14 @@ def _number(field: str) -> float | None:
         return None
 
 
-def _row(fields: list[str], columns: tuple[str, ...], where: str) -> list[float]:
+def _row(line: str, columns: tuple[str, ...], where: str) -> list[float]:
     """One row of finite numbers, a value per column."""
+    fields = _split(line)
     if len(fields) != len(columns):
-        raise BadInput(
-            f"{where}: {len(fields)} columns where {len(columns)} belong ({', '.join(columns)}); "
-            f'complete the row; in a data set, dataset.toml names every column, "{LEFT_OUT}" those to leave out'
-        )
+        cure = f'complete the row; in a data set, dataset.toml names every column, "{LEFT_OUT}" those to leave out'
+        if dialect(line)[0] == "," and "." not in line and len(columns) < len(fields) <= 2 * len(columns):
+            cure = "if its commas are decimal, separate the columns by semicolons or tabs"
+        raise BadInput(f"{where}: {len(fields)} columns where {len(columns)} belong ({', '.join(columns)}); {cure}")
     row = []
     for name, field in zip(columns, fields, strict=True):
         value = 0.0 if name == LEFT_OUT else _number(field)

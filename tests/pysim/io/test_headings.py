@@ -17,6 +17,8 @@ from pysim.types import BadInput
         ("# time cmd\n0 1 2\n", ("time", "column 2", "column 3")),
         ("t [s],F [N],swash plate\n0.0,1.5,2\n", ("t [s]", "F [N]", "swash plate")),
         ("t [s];F, N\n0,0;1,5\n", ("t [s]", "F, N")),
+        ('"t","F"\n"0,5","1,5"\n', ("t", "F")),
+        ('"t","F, radial"\n0,1\n', ("t", "F radial")),
         ("x,x\n0,1\n", ("time", "column 2")),  # a name that stands twice is none
     ],
 )

@@ -63,7 +63,7 @@ def test_in_one_go_and_line_by_line_agree_on_anything(text: str, width: int) -> 
     if values is None:
         return
     names = ("a", "b", "c")[:width]
-    slow = [text_table._row(text_table._split(line.strip()), names, "x") for line in lines]
+    slow = [text_table._row(line.strip(), names, "x") for line in lines]
     np.testing.assert_array_equal(values, slow)
 
 

@@ -35,6 +35,9 @@ def table(tmp_path: Path, text: str, encoding: str = "utf-8") -> Path:
         "1.5\t-2\t3e2\t\n4\t5\t6\n",
         '"a","b","c"\n"1.5","-2","3e2"\n"4","5","6"\n',
         '"a";"b";"c"\n"1,5";"-2";"3e2"\n"4";"5";"6"\n',
+        '"a","b","c"\n"1,5","-2","3e2"\n"4,0","5,0","6"\n',
+        '"a", "b", "c"\r\n"1,50" , -2, "3,0e2"\r\n4, "5,000", 6\r\n',
+        '"1,5 -2,0 3e2"\n"4 5 6"\n',
     ],
 )
 def test_every_dialect_gives_the_same_numbers(tmp_path: Path, text: str) -> None:
@@ -79,11 +82,37 @@ def test_latin_1_is_read(tmp_path: Path) -> None:
         ("1 2 3\n4 5 nan\n", "line 2: c is nan, which is not finite"),
         ("1 2 3\n-inf 5 6\n", "line 2: a is -inf, which is not finite"),
         ("1 2 3\n4 5 1_000\n", "line 2: '1_000' is no number for c"),
+        ("a,b,c\n1,5,-2,0,3,0\n", r"line 2: 6 columns .* \(a, b, c\); if its commas are decimal, separate the columns"),
+        ('"1,000","2,000","12,500"\n', "line 1: 6 columns where 3 belong .*; if its commas are decimal, separate"),
+        ('"1,234.5","2,5","1,5"\n', "line 1: 6 columns where 3 belong .*; complete the row"),
+        ("1,2,3\n1,2,3,4,5,6,7\n", "line 2: 7 columns where 3 belong .*; complete the row"),
     ],
 )
 def test_faults_are_named_with_their_line(tmp_path: Path, text: str, words: str) -> None:
     with pytest.raises(BadInput, match=words):
         read_table(table(tmp_path, text), COLUMNS, "test")
+
+
+@pytest.mark.parametrize(
+    "header",
+    ["a,c,b", "# a, c, b", '"a";"c";"b"', "A [s]\tC [%]\tB (bar)", "a,c,b\ns,%,bar", "a;c;x", "a c b", "a,c,b,"],
+)
+def test_a_header_in_another_order_is_refused(tmp_path: Path, header: str) -> None:
+    path = table(tmp_path, f"by hand\n{header}\n1\t2\t3\n")
+    with pytest.raises(
+        BadInput, match=r"log\.txt, line 2: the header .* order ., ., ., and test in the order a, b, c; "
+    ):
+        read_table(path, COLUMNS, "test")
+
+
+@pytest.mark.parametrize("header", ["a b c", "a b x", "x y z", "a,b,b", "b", "c b a and more", "a_s,c_pct,b_bar"])
+def test_a_header_may_call_columns_otherwise(tmp_path: Path, header: str) -> None:
+    assert read_table(table(tmp_path, f"{header}\n1\t2\t3\n"), COLUMNS, "test")[0].tolist() == [[1.0, 2.0, 3.0]]
+
+
+def test_a_column_left_out_may_be_headed_like_one_that_is_not(tmp_path: Path) -> None:
+    path = table(tmp_path, "t,u,raw\n1,2,3\n")
+    assert read_table(path, ("t", "-", "u"), "test")[0].tolist() == [[1.0, 2.0, 3.0]]
 
 
 def test_a_missing_file_names_who_asked_for_it(tmp_path: Path) -> None:
@@ -95,5 +124,8 @@ def test_columns_that_nobody_wants_may_hold_anything(tmp_path: Path) -> None:
     path = table(tmp_path, "day;t;ok;u\n1.3.;0,5;yes;2\n1.3.;0,6;;3\n")
     values, _ = read_table(path, ("-", "t", "-", "u"), "test")
     np.testing.assert_array_equal(values[:, [1, 3]], [[0.5, 2.0], [0.6, 3.0]])
+    path.write_text('day,t,ok,u\n1,"0,5","yes, it is; so far",2\n1,"0,60","no",3\n')
+    np.testing.assert_array_equal(read_table(path, ("-", "t", "-", "u"), "test")[0], values)
+    path.write_text('day,t,ok,u\n1,0.5,"yes",2\n')
     with pytest.raises(BadInput, match="line 2: 'yes' is no number for ok"):
         read_table(path, ("-", "t", "ok", "u"), "test")
