@@ -102,8 +102,9 @@ static Status check_progress(Instance *s, Run *run, double before, double size) 
     return STATUS_DISCARD;
 }
 
+/* Nothing happens after the model's end: FMI 2 and FMI 3 report it for each step tried. */
 static Status run_step(Instance *s, Run *run, double size) {
-    Status status = take_over_inputs(s, run);
+    Status status = run->result->terminate ? STATUS_OK : take_over_inputs(s, run);
     while (status <= STATUS_WARNING && !is_done(s, run)) {
         bool event = false;
         const double before = *s->t;
@@ -123,7 +124,7 @@ static void undo(Instance *s) {
 }
 
 Status cosim_step(Instance *s, const char *function, double point, double size, StepResult *result) {
-    *result = (StepResult){*s->t, false, false, false};
+    *result = (StepResult){*s->t, false, s->memory->is_terminated != 0, false};
     if (!can_step(s, function, point, size)) return STATUS_ERROR;
     memcpy(s->backup, s->memory, s->memory_size);
     Run run = {.target = point + size, .result = result};

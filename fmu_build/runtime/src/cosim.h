@@ -7,7 +7,7 @@
 typedef struct {
     double time;       /* reached, s */
     bool event_needed; /* stopped at an event that the importer has to handle */
-    bool terminate;    /* the model asked for the end */
+    bool terminate;    /* the model asked for the end, in this step or before it */
     bool early;        /* stopped before the end of the step */
 } StepResult;
 

@@ -83,7 +83,24 @@ static void the_model_can_end_the_run(void) {
     CHECK(fmi2GetRealStatus(c, fmi2LastSuccessfulTime, &time) == fmi2OK);
     CHECK_NEAR(time, bounce_time(3), 1e-8);
     CHECK(get_integer(c, "bounces") == 3);
+    const double end = get(c, "time");
+    CHECK(fmi2DoStep(c, end, 0.1, fmi2True) == fmi2Discard && get(c, "time") == end); /* it stays ended */
     CHECK(fmi2Terminate(c) == fmi2OK);
+    fmi2FreeInstance(c);
+}
+
+static void the_model_can_end_the_run_at_its_start(void) {
+    fmi2Component c = instantiate(fmi2CoSimulation);
+    double time = NAN;
+    fmi2Boolean ended = fmi2False;
+    CHECK(set(c, "last", 0.0) == fmi2OK);
+    initialise_from(c, 0.5, 1e-10);
+    CHECK(fmi2DoStep(c, 0.5, 5.0, fmi2True) == fmi2Discard);
+    CHECK(fmi2GetBooleanStatus(c, fmi2Terminated, &ended) == fmi2OK && ended);
+    CHECK(fmi2GetRealStatus(c, fmi2LastSuccessfulTime, &time) == fmi2OK && time == 0.5);
+    CHECK(fmi2Terminate(c) == fmi2OK && fmi2Reset(c) == fmi2OK);
+    initialise_from(c, 0.0, 1e-10); /* with the default, it does not end */
+    CHECK(fmi2DoStep(c, 0.0, 1.0, fmi2True) == fmi2OK);
     fmi2FreeInstance(c);
 }
 
@@ -108,6 +125,7 @@ int main(void) {
     cosimulation_is_independent_of_the_step();
     model_exchange_finds_each_bounce();
     the_model_can_end_the_run();
+    the_model_can_end_the_run_at_its_start();
     checks_warn_once_or_fail();
     return 0;
 }

@@ -96,6 +96,20 @@ static void without_event_mode_it_is_not_entered(void) {
     fmi3FreeInstance(c);
 }
 
+static void the_model_can_end_the_run_at_its_start(void) {
+    fmi3Instance c = fmi3InstantiateCoSimulation("ball", model.token, NULL, false, false, false, false, NULL, 0, NULL,
+                                                 keep_message, NULL);
+    const fmi3ValueReference last = reference("last");
+    Step step;
+    CHECK(c && fmi3SetFloat64(c, &last, 1, (double[]){0.0}, 1) == fmi3OK);
+    CHECK(fmi3EnterInitializationMode(c, false, 0.0, 0.0, false, 0.0) == fmi3OK);
+    CHECK(fmi3ExitInitializationMode(c) == fmi3OK);
+    for (int again = 0; again <= 1; again++)
+        CHECK(do_step(c, 0.0, 1.0, &step) == fmi3OK && step.end && step.early && !step.event && step.time == 0.0);
+    CHECK(fmi3Terminate(c) == fmi3OK);
+    fmi3FreeInstance(c);
+}
+
 typedef struct {
     fmi3Instance instance;
     double last;
@@ -194,6 +208,7 @@ int main(void) {
     without_early_return_the_step_is_finished();
     without_event_mode_it_is_not_entered();
     the_importer_stops_a_step();
+    the_model_can_end_the_run_at_its_start();
     what_matters_is_always_said();
     model_exchange_gives_sizes_and_values();
     states_are_set_by_reference();
