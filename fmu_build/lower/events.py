@@ -11,6 +11,8 @@ from fmu_build.lower.parameters import Parameters
 from fmu_build.lower.scope import Scope
 from fmu_build.lower.values import Scalar, Value, choose
 
+_Key = tuple[str, tuple[int, ...]]
+
 
 @dataclass
 class RawRelation:
@@ -58,10 +60,10 @@ class Events:
     terminal: Scalar = field(default_factory=lambda: ca.SX.sym("terminal()"))
 
     def __post_init__(self) -> None:
-        self._relation_of: dict[tuple[str, bool], Scalar] = {}
-        self._sample_of: dict[tuple[str, str], Scalar] = {}
+        self._relation_of: dict[tuple[_Key, bool], Scalar] = {}
+        self._sample_of: dict[tuple[_Key, _Key], Scalar] = {}
         self._delay_of: dict[int, Scalar] = {}
-        self._floor_of: dict[str, Scalar] = {}
+        self._floor_of: dict[_Key, Scalar] = {}
         scope = self.scope
         fast = [scope.time, *(v.symbol for v in (*scope.states, *scope.algebraics, *scope.inputs)), *scope.derivatives]
         self._fast = {symbol.element_hash() for symbol in fast}
@@ -79,7 +81,7 @@ class Events:
         """The symbol of a relation; one between values that change at events only is no relation."""
         if not self._is_fast(value):
             return value > 0 if strict else value >= 0
-        key = str(value), strict
+        key = _key(value), strict
         if key not in self._relation_of:
             symbol = ca.SX.sym(f"r{len(self.relations)}")
             self.relations.append(RawRelation(symbol, value, strict))
@@ -106,7 +108,7 @@ class Events:
         """A discrete variable m with m <= value < m + 1."""
         if not self._is_fast(value):
             return ca.floor(value)
-        key = str(value)
+        key = _key(value)
         if key not in self._floor_of:
             floor, before = self.hide(f"'floor {len(self._floor_of) + 1}'", ScalarKind.INTEGER, span)
             self._floor_of[key] = floor
@@ -139,10 +141,15 @@ class Events:
         return self.initial if isinstance(node, ex.Initial) else self.terminal
 
     def sample(self, start: Scalar, interval: Scalar, node: ex.Sample) -> Scalar:
-        key = str(start), str(interval)
+        key = _key(start), _key(interval)
         if key not in self._sample_of:
             number = len(self.samples)
             sample = RawSample(ca.SX.sym(f"tick{number}"), ca.SX.sym(f"ticked{number}"), start, interval)
             self.samples.append(sample)
             self._sample_of[key] = sample.ticks
         return self._sample_of[key]
+
+
+def _key(value: Scalar) -> _Key:
+    """Equal for equal expressions only: `str` would round their numbers to six digits."""
+    return value.serialize(), tuple(symbol.element_hash() for symbol in ca.symvar(value))

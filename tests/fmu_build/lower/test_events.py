@@ -242,6 +242,40 @@ def test_opposite_comparisons_share_a_relation():
     assert (run.at("a"), run.at("b")) == (1, 0)
 
 
+def test_comparisons_with_constants_that_agree_in_six_digits_are_two():
+    model = body("""
+        Real x(start = 0, fixed = true); discrete Real a(start = -1); discrete Real b(start = -1); equation der(x) = 1;
+        when x > 1 then a = time; end when; when x > 1.0000001 then b = time; end when;""")
+    assert len(model.relations) == 2
+    run = Runner(model).run(2)
+    assert run.at("b") - run.at("a") == pytest.approx(1e-7, abs=1e-9)
+
+
+def test_floors_of_values_that_agree_in_six_digits_are_two():
+    model = body("""
+        Real p(start = 24999990, fixed = true); Integer n = integer(p/25000000); Integer m = integer(p/25000040);
+      equation der(p) = 10;""")
+    run = Runner(model).run(2)
+    assert (run.at("n"), run.at("m")) == (1, 0)
+
+
+def test_clocks_whose_starts_agree_in_six_digits_are_two():
+    model = body("""
+        discrete Real a(start = -1); discrete Real b(start = -1); equation
+        when sample(1, 10) then a = time; end when; when sample(1.0000001, 10) then b = time; end when;""")
+    assert len(model.samples) == 2
+    run = Runner(model).run(2)
+    assert (run.at("a"), run.at("b")) == (1, 1.0000001)
+
+
+def test_a_variable_called_like_the_symbol_of_a_comparison_is_another_value():
+    model = body("""
+        input Boolean r0; Real x(start = 0, fixed = true); Real y(start = 0, fixed = true);
+        Boolean a = x > (if y > 0.5 then 1 else 0); Boolean b = x > (if r0 then 1 else 0);
+      equation der(x) = 1; der(y) = 1;""")
+    assert len(model.relations) == 3
+
+
 def test_enumeration_state_machine():
     model = compiled(
         """
