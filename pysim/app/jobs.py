@@ -12,7 +12,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
-from pysim.app.processes import end, last_words, run_pysim
+from pysim.app.processes import Started, end, last_words, run_pysim
 from pysim.app.project import Project
 from pysim.io import write_file
 from pysim.types import BadInput
@@ -54,6 +54,7 @@ class Job:
         steps: of the ledger, as far as they are done.
         learned: lines, the last ones last.
         message: why it failed.
+        process: that does it; None where it has ended.
     """
 
     work: Work
@@ -66,6 +67,12 @@ class Job:
     steps: tuple[dict[str, Any], ...] = ()
     learned: tuple[str, ...] = ()
     message: str = ""
+    process: Started | None = None
+
+    @property
+    def lives(self) -> bool:
+        """Whether its process still runs, whoever has started it."""
+        return self.process is not None and self.process.lives
 
     @property
     def seconds(self) -> float:
@@ -117,15 +124,26 @@ def _work(command: str, title: str, words: Sequence[str], name: str = "") -> Wor
 
 
 def read_job(folder: Path) -> Job | None:
-    """Where the work of a folder stands; None where none was begun. One whose process is gone counts as stopped."""
+    """Where the work of a folder stands, as it was written last; None where none was begun."""
     try:
         head = json.loads((folder / _JOB).read_text(encoding="utf-8"))
         words, effects = tuple(head["work"]["words"]), tuple(head["work"]["effects"])
         work = Work(head["work"]["name"], head["work"]["title"], words, effects)
         job = Job(work, head["state"], head["begun"], head["ended"], head["fingerprint"], message=head["message"])
+        process = head.get("process")
+        job = replace(job, process=process and Started(int(process["pid"]), str(process["began"])))
     except (OSError, ValueError, KeyError, TypeError):
         return None
     return _told(job, folder)
+
+
+def _write_job(job: Job, folder: Path) -> None:
+    """But for what its story says."""
+    work = {"name": job.work.name, "title": job.work.title, "words": job.work.words, "effects": job.work.effects}
+    head = {"work": work, "state": job.state, "begun": job.begun, "ended": job.ended}
+    head |= {"fingerprint": job.fingerprint, "message": job.message}
+    head |= {"process": None if job.process is None else {"pid": job.process.pid, "began": job.process.began}}
+    write_file(folder / _JOB, json.dumps(head, indent=1) + "\n")
 
 
 def _told(job: Job, folder: Path) -> Job:
@@ -177,21 +195,28 @@ class Runner:
         """Begin.
 
         Raises:
-            BadInput: something runs already.
+            BadInput: something runs already, here or in the folder of the result.
         """
         if self._process is not None and self._job is not None:
             raise BadInput(f"{self._job.work.title} is running; wait for it, or stop it first")
         folder, now = self.project.results(work.name), self.project.fingerprint()
         before = read_job(folder)
+        if before is not None and before.process is not None and before.lives:
+            raise BadInput(f"{folder} is being written by process {before.process.pid}; wait for it, or end it first")
         if before is not None and (before.fingerprint != now or before.state == DONE):
             shutil.rmtree(folder)  # of other data or another model, or to be done anew
         folder.mkdir(parents=True, exist_ok=True)
         _put_by(folder)
-        self._job = _told(Job(work, RUNNING, time.time(), None, now, stage="starting"), folder)
-        self._write()
+        job = _told(Job(work, RUNNING, time.time(), None, now, stage="starting"), folder)
         with (folder / _OUTPUT).open("wb") as output:
-            self._process = run_pysim(work.words, self.project.folder, output)
-        self._stop_asked = None
+            process = run_pysim(work.words, self.project.folder, output)
+        job = replace(job, process=Started.of(process.pid))
+        try:
+            _write_job(job, folder)
+        except OSError:
+            end(process, hard=True)  # nobody could find it again
+            raise
+        self._process, self._job, self._stop_asked = process, job, None
 
     def stop(self) -> None:
         """Ask the process to end; what it has found stays in its journal."""
@@ -243,16 +268,8 @@ class Runner:
             state = FAILED if job.message else STOPPED
         elif not finished:
             message = last_words(folder / _OUTPUT)
-        self._job = replace(job, state=state, ended=time.time(), message=message)
-        self._write()
-
-    def _write(self) -> None:
-        job = self._job
-        assert job is not None
-        work = {"name": job.work.name, "title": job.work.title, "words": job.work.words, "effects": job.work.effects}
-        head = {"work": work, "state": job.state, "begun": job.begun, "ended": job.ended}
-        head |= {"fingerprint": job.fingerprint, "message": job.message}
-        write_file(self.project.results(job.work.name) / _JOB, json.dumps(head, indent=1) + "\n")
+        self._job = replace(job, state=state, ended=time.time(), message=message, process=None)
+        _write_job(self._job, folder)
 
 
 def _put_by(folder: Path) -> None:
@@ -264,9 +281,21 @@ def _put_by(folder: Path) -> None:
 
 
 def settle(project: Project) -> None:
-    """Jobs that a server left running when it ended count as stopped."""
+    """End what a server that is gone has left running; it counts as stopped, and can go on.
+
+    Only for whoever has the project to itself: the running job of another server would be ended too.
+
+    Raises:
+        BadInput: a process that cannot be ended, as one of another user.
+    """
     for path in (project.folder / "results").glob(f"*/{_JOB}"):
         job = read_job(path.parent)
-        if job is not None and job.state == RUNNING:
-            head = json.loads(path.read_text(encoding="utf-8"))
-            write_file(path, json.dumps({**head, "state": STOPPED, "ended": path.stat().st_mtime}, indent=1) + "\n")
+        if job is None or job.state != RUNNING:
+            continue
+        ended = time.time() if job.lives else path.stat().st_mtime
+        if job.process is not None and not job.process.end(_PATIENCE):
+            raise BadInput(
+                f"{path.parent} is being written by process {job.process.pid}, which a server that is gone has left "
+                "and which cannot be ended from here; end it, then start again"
+            )
+        _write_job(replace(job, state=STOPPED, ended=ended, process=None), path.parent)

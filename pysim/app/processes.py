@@ -7,11 +7,16 @@ import os
 import signal
 import subprocess
 import sys
+import time
 from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from pysim.app.began import began
+
 _TASKKILL_LIMIT = 10.0  # s; it answers at once
+_NAP = 0.02  # s
 
 
 def run_pysim(words: Sequence[str], folder: Path, output: Any) -> subprocess.Popen[bytes]:
@@ -35,14 +40,66 @@ def end(process: subprocess.Popen[bytes], *, hard: bool) -> None:
         hard: False only asks; Windows knows no asking and ends them at once.
     """
     if sys.platform != "win32":
-        with contextlib.suppress(OSError):
-            os.killpg(process.pid, signal.SIGKILL if hard else signal.SIGTERM)
+        _end_all(process.pid, hard=hard)
     elif process.poll() is None:  # children are found by a parent that still runs
-        words = ["taskkill", "/T", "/F", "/PID", str(process.pid)]
-        with contextlib.suppress(OSError, subprocess.TimeoutExpired):
-            subprocess.run(words, capture_output=True, timeout=_TASKKILL_LIMIT, check=False)
+        _end_all(process.pid, hard=hard)
         with contextlib.suppress(OSError):
             process.kill()
+
+
+@dataclass(frozen=True)
+class Started:
+    """A process of `run_pysim`, told from a later one that has got its number.
+
+    Args:
+        pid: its number.
+        began: word of its beginning; "" where it had ended before anybody could ask.
+    """
+
+    pid: int
+    began: str
+
+    @classmethod
+    def of(cls, pid: int) -> Started:
+        """The process that has this number now."""
+        return cls(pid, began(pid))
+
+    @property
+    def lives(self) -> bool:
+        """Whether it still runs."""
+        return bool(self.began) and began(self.pid) == self.began
+
+    def end(self, patience: float) -> bool:
+        """End it with all that it has started, though somebody else has started it; whether it has ended.
+
+        Args:
+            patience: s between asking and ending, and once more until it must be gone.
+        """
+        if not self.lives:
+            return True
+        _end_all(self.pid, hard=False)
+        gone = self._gone(patience)
+        if not gone or sys.platform != "win32":
+            _end_all(self.pid, hard=True)  # also whatever it has left behind
+        return gone or self._gone(patience)
+
+    def _gone(self, patience: float) -> bool:
+        begun = time.monotonic()
+        while self.lives:
+            if time.monotonic() - begun > patience:
+                return False
+            time.sleep(_NAP)
+        return True
+
+
+def _end_all(pid: int, *, hard: bool) -> None:
+    if sys.platform != "win32":
+        with contextlib.suppress(OSError):
+            os.killpg(pid, signal.SIGKILL if hard else signal.SIGTERM)
+    else:
+        words = ["taskkill", "/T", "/F", "/PID", str(pid)]
+        with contextlib.suppress(OSError, subprocess.TimeoutExpired):
+            subprocess.run(words, capture_output=True, timeout=_TASKKILL_LIMIT, check=False)
 
 
 def last_words(path: Path) -> str:

@@ -1,13 +1,16 @@
 """Work in a process of its own: done, failed, stopped, too slow; and what a server that ended leaves."""
 
 import json
+import os
 import time
 from pathlib import Path
 
 import pytest
 
 from pysim.app import jobs
+from pysim.app.began import began
 from pysim.app.jobs import DONE, FAILED, RUNNING, STOPPED, Runner, Work, adding, read_job, settle, works
+from pysim.app.processes import Started
 from pysim.app.project import Project
 from pysim.types import BadInput
 from tests.pysim.app.alive import PARENT, alive, child
@@ -110,20 +113,81 @@ def test_a_journal_is_kept_for_the_same_data_and_removed_for_others(project: Pro
     assert not journal.exists()
 
 
-def test_what_a_server_left_running_counts_as_stopped(project: Project) -> None:
-    runner = Runner(project)
-    runner.start(work(project, "import time; time.sleep(60)"))
+def test_what_a_server_left_running_is_ended_and_counts_as_stopped(project: Project) -> None:
+    Runner(project).start(work(project, PARENT))
+    number = child(project.folder)
     found = read_job(project.results("try"))
     assert found is not None
     assert found.state == RUNNING
-    other = Runner(project)  # as after a crash: nobody has written how it ended
-    settle(project)
+    assert found.process is not None
+    assert found.lives
+    settle(project)  # as after a crash: nobody has written how it ended
+    assert not alive(number)
+    assert not alive(found.process.pid)
+    after = read_job(project.results("try"))
+    assert after is not None
+    assert (after.state, after.process, after.lives) == (STOPPED, None, False)
+    assert after.seconds > 0
+    runner = Runner(project)
+    runner.start(work(project, ANSWERED))  # and can go on
+    wait(runner)
+    after = read_job(project.results("try"))
+    assert after is not None
+    assert after.state == DONE
+
+
+def left(project: Project, **process: object) -> Path:
+    """What a server that is gone has written of a job: its file."""
+    path = project.results("try") / "job.json"
+    path.parent.mkdir(parents=True)
+    head: dict[str, object] = {"work": {"name": "try", "title": "Try", "words": ["-c", ""], "effects": []}}
+    head |= {"state": RUNNING, "begun": 1.0, "ended": None, "fingerprint": "", "message": ""}
+    path.write_text(json.dumps(head | ({"process": process} if process else {})))
+    return path
+
+
+@pytest.mark.parametrize("process", [{}, {"pid": os.getpid(), "began": "long ago"}])
+def test_a_process_that_got_the_number_of_a_job_later_is_left_alone(
+    project: Project, process: dict[str, object]
+) -> None:
+    left(project, **process)
+    settle(project)  # does not end this test
     found = read_job(project.results("try"))
     assert found is not None
     assert found.state == STOPPED
-    assert other.running is None
-    runner.close()
+
+
+def test_what_still_lives_never_counts_as_stopped(project: Project, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = left(project, pid=os.getpid(), began=began(os.getpid()))
+    monkeypatch.setattr(Started, "end", lambda self, patience: False)
+    before = path.read_bytes()
+    with pytest.raises(BadInput, match=rf"try is being written by process {os.getpid()}, .*; end it, then start again"):
+        settle(project)
+    assert path.read_bytes() == before
+
+
+def test_no_second_process_writes_into_the_same_result(project: Project) -> None:
+    first = Runner(project)
+    first.start(work(project, PARENT))
+    child(project.folder)
+    with pytest.raises(BadInput, match=r"try is being written by process \d+; wait for it, or end it first"):
+        Runner(project).start(work(project, ANSWERED))
+    assert first.running is not None
+    first.close()
+    assert first.running is None
+
+
+def test_a_job_whose_number_cannot_be_written_is_ended(project: Project, monkeypatch: pytest.MonkeyPatch) -> None:
+    def full(path: Path, content: str) -> None:
+        child(project.folder)
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(jobs, "write_file", full)
+    runner = Runner(project)
+    with pytest.raises(OSError, match="No space left"):
+        runner.start(work(project, PARENT))
     assert runner.running is None
+    assert not alive(child(project.folder))
 
 
 def test_words_are_those_of_the_command_line(project: Project) -> None:

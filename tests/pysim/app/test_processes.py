@@ -1,5 +1,6 @@
 """The end of a process is the end of all that it has started."""
 
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -9,7 +10,7 @@ from typing import Any
 import pytest
 
 from pysim.app import processes
-from pysim.app.processes import end
+from pysim.app.processes import Started, end
 from tests.pysim.app.alive import PARENT, alive, child
 
 
@@ -45,3 +46,35 @@ def test_where_taskkill_is_missing_the_process_itself_is_ended(monkeypatch: pyte
     process: Any = SimpleNamespace(pid=7, poll=lambda: None, kill=lambda: seen.append("kill"))
     end(process, hard=True)
     assert seen == ["kill"]
+
+
+STUBBORN = f"import signal; signal.signal(signal.SIGTERM, signal.SIG_IGN)\n{PARENT}"
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="reads /proc")
+@pytest.mark.parametrize("code", [PARENT, STUBBORN])
+def test_what_somebody_else_has_started_ends_with_all_that_it_has_started(code: str, tmp_path: Path) -> None:
+    with subprocess.Popen([sys.executable, "-c", code], cwd=tmp_path, start_new_session=True) as process:
+        number, started = child(tmp_path), Started.of(process.pid)
+        assert started.lives
+        assert started.end(0.2 if code == STUBBORN else 30)
+    assert not started.lives
+    assert not alive(number)
+
+
+def test_another_process_with_its_number_is_left_alone(tmp_path: Path) -> None:
+    with subprocess.Popen([sys.executable, "-c", PARENT], cwd=tmp_path, start_new_session=True) as process:
+        child(tmp_path)
+        for earlier in (Started(process.pid, "of another one"), Started(process.pid, "")):
+            assert not earlier.lives
+            assert earlier.end(0.2)
+        assert process.poll() is None
+        end(process, hard=True)
+
+
+def test_what_cannot_be_ended_is_said(monkeypatch: pytest.MonkeyPatch) -> None:
+    def refused(*_: object) -> None:
+        raise PermissionError
+
+    monkeypatch.setattr(processes.os, "killpg", refused)
+    assert not Started.of(os.getpid()).end(0.05)
