@@ -6,6 +6,7 @@ import asyncio
 import json
 import shutil
 import socket
+import webbrowser
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from secrets import token_urlsafe
@@ -13,11 +14,12 @@ from typing import Any
 
 from fastapi import Request
 from fastapi.responses import FileResponse, PlainTextResponse, Response
-from nicegui import app, background_tasks, run, ui
+from nicegui import app, run, ui
 
 from pysim.app.desk import Desk
 from pysim.app.guard import Guard
 from pysim.app.jobs import Runner, settle
+from pysim.app.lock import held
 from pysim.app.pages.shell import shell
 from pysim.app.project import Project
 from pysim.app.records import MOST, Overlay, compared_overlay, measured_overlay
@@ -50,21 +52,27 @@ def serve(
         limits: of what may be dropped.
         limit_s: of any piece of work, s.
     Raises:
-        BadInput: a folder that is no project, or a port that is taken.
+        BadInput: a folder that is no project or that another server has, or a port that is taken.
     """
     project = Project.at(folder)
-    settle(project)
-    shutil.rmtree(project.folder / "uploads", ignore_errors=True)  # what came in half when a server ended
-    desk = Desk(project, Runner(project, limit_s), limits, redo)
-    port = _port(host, port)
+    with held(project.folder) as tell:
+        port = _port(host, port)
+        tell(page_address(host, port))
+        settle(project)
+        shutil.rmtree(project.folder / "uploads", ignore_errors=True)  # what came in half when a server ended
+        _run(Desk(project, Runner(project, limit_s), limits, redo), host, port, show=show)
+
+
+def _run(desk: Desk, host: str, port: int, *, show: bool) -> None:
     token = token_urlsafe(24)
     known = {f"{name}:{port}" for name in ("127.0.0.1", "localhost", "[::1]")} if host in _LOOPBACK else set()
     app.add_middleware(Guard, token=token, hosts=frozenset(known), cookie=f"pysim_app_{port}")
-    address = f"http://{'127.0.0.1' if host in (*_LOOPBACK, '0.0.0.0') else host}:{port}/?token={token}"
+    address = f"{page_address(host, port)}/?token={token}"
+    words = f"Workbench: {address}\nProject: {desk.project.folder}\nCtrl-C ends it."
     _routes(desk)
     app.add_static_files("/static", _STATIC)
     app.timer(_TICK, desk.tick)
-    app.on_startup(lambda: _announce(f"Workbench: {address}\nProject: {project.folder}\nCtrl-C ends it.", host, port))
+    app.on_startup(lambda: _announce(words, host, port, address if show else ""))
     app.on_startup(desk.read_data)
     app.on_startup(desk.read_model)
     app.on_shutdown(desk.runner.close)
@@ -76,28 +84,37 @@ def serve(
         favicon=_STATIC / "icon.svg",
         dark=None,
         reload=False,
-        show=address.partition(str(port))[2] if show else False,
+        show=False,  # NiceGUI waits for IPv4 alone
         tailwind=False,
         show_welcome_message=False,
         reconnect_timeout=60.0,
     )
 
 
-async def _announce(words: str, host: str, port: int) -> None:
-    """Say where the page is, once it is there."""
+def _reached(host: str) -> str:
+    """What this machine asks for to reach a server that listens at a host."""
+    return {"localhost": "127.0.0.1", "0.0.0.0": "127.0.0.1", "::": "::1"}.get(host, host)
 
-    async def listening() -> None:
-        while True:
-            try:
-                _, writer = await asyncio.open_connection("127.0.0.1" if host == "0.0.0.0" else host, port)
-            except OSError:
-                await asyncio.sleep(0.02)
-            else:
-                writer.close()
-                print(words, flush=True)
-                return
 
-    background_tasks.create(listening())
+def page_address(host: str, port: int) -> str:
+    """The page of a server that listens there, for a browser on this machine."""
+    name = _reached(host)
+    return f"http://{f'[{name}]' if ':' in name else name}:{port}"
+
+
+async def _announce(words: str, host: str, port: int, show: str) -> None:
+    """Say where the page is, once it is there; and show that address, where there is one, in the browser."""
+    while True:
+        try:
+            _, writer = await asyncio.open_connection(_reached(host), port)
+        except OSError:
+            await asyncio.sleep(0.02)
+        else:
+            break
+    writer.close()
+    print(words, flush=True)
+    if show:
+        await run.io_bound(webbrowser.open, show)
 
 
 def _port(host: str, port: int) -> int:

@@ -1,14 +1,27 @@
-"""What the server gives beside the page."""
+"""Where the server is, who may start it, and what it gives beside the page."""
 
+import http.client
+import os
+import signal
+import socket
+import subprocess
+import sys
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
+from urllib.parse import urlsplit
+
+import pytest
 
 from pysim.app.answers import Answer
 from pysim.app.jobs import DONE, Job, Work
-from pysim.app.server import overlay_of
+from pysim.app.lock import held
+from pysim.app.server import overlay_of, page_address, serve
+from pysim.app.upload import Limits
 from pysim.io import read_stages, write_stages
 from pysim.report.diagnosis import diagnosis_data
+from pysim.types import BadInput
+from tests.pysim.app.browser import base, server
 from tests.pysim.diagnosis_story import dataset, story
 
 _WAVE = 2  # number of the log wave.txt in the data set
@@ -25,3 +38,76 @@ def test_a_record_whose_result_was_removed_meanwhile_is_none(tmp_path: Path) -> 
     assert overlay.names == ("x",)
     (tmp_path / "a.npz").unlink()
     assert overlay_of(desk, "diagnose", _WAVE) is None
+
+
+@pytest.mark.parametrize(
+    ("host", "address"),
+    [
+        ("127.0.0.1", "http://127.0.0.1:80"),
+        ("localhost", "http://127.0.0.1:80"),
+        ("0.0.0.0", "http://127.0.0.1:80"),
+        ("::1", "http://[::1]:80"),
+        ("::", "http://[::1]:80"),
+        ("192.168.0.7", "http://192.168.0.7:80"),
+        ("fd00::7", "http://[fd00::7]:80"),
+        ("bench.example", "http://bench.example:80"),
+    ],
+)
+def test_the_address_is_where_it_answers(host: str, address: str) -> None:
+    assert page_address(host, 80) == address
+
+
+def test_a_second_server_touches_nothing_and_tells_where_the_first_is(tmp_path: Path) -> None:
+    running, coming = tmp_path / "p/results/try/job.json", tmp_path / "p/uploads/half/a.txt"
+    for path in (tmp_path / "p/project.toml", running, coming):
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text("")
+    running.write_text(
+        '{"work": {"name": "try", "title": "", "words": [], "effects": []}, "state": "running", "begun": 1, '
+        '"ended": null, "fingerprint": "", "message": ""}'
+    )
+    before = running.read_bytes()
+    with held(tmp_path / "p") as tell:
+        tell("http://127.0.0.1:8080")
+        with pytest.raises(BadInput, match=r"p: a workbench on it runs at http://127.0.0.1:8080 \(process \d+\); use"):
+            serve(tmp_path / "p", redo=" ".join, show=False, limits=Limits())
+    assert running.read_bytes() == before
+    assert coming.exists()
+
+
+@pytest.fixture
+def six() -> str:
+    """The loopback of IPv6, where there is one."""
+    try:
+        with socket.socket(socket.AF_INET6) as probe:
+            probe.bind(("::1", 0))
+    except OSError:
+        pytest.skip("there is no IPv6 here")
+    return "::1"
+
+
+def test_a_killed_server_makes_room_for_the_next_and_ipv6_is_answered(tmp_path: Path, six: str) -> None:
+    with server(tmp_path / "p", "--host", six) as address:
+        assert base(address).startswith("http://[::1]:")
+        assert status(address) == 303
+        cookie = f'a,b=1; theme={{"dark": true}}; pysim_app_{urlsplit(address).port}={address.partition("token=")[2]}'
+        assert status(f"{base(address)}/", Cookie=cookie) == 200
+        assert status(f"{base(address)}/_nicegui_ws/socket.io/?EIO=4&transport=polling", Cookie=cookie) == 200
+        second = subprocess.run(
+            [sys.executable, "-m", "pysim", "app", str(tmp_path / "p"), "--no-browser"],
+            capture_output=True, text=True, timeout=300, cwd=Path(__file__).parents[3],
+        )  # fmt: skip
+        found = f"runs at {base(address)} (process "
+        assert second.returncode == 2
+        assert found in second.stderr
+        os.kill(int(second.stderr.partition(found)[2].partition(")")[0]), getattr(signal, "SIGKILL", signal.SIGTERM))
+        with server(tmp_path / "p") as other:
+            assert status(other) == 303
+
+
+def status(address: str, **headers: str) -> int:
+    """Of a page, whatever it leads to."""
+    parts = urlsplit(address)
+    connection = http.client.HTTPConnection(parts.hostname or "", parts.port, timeout=60)
+    connection.request("GET", f"{parts.path}?{parts.query}", headers=headers)
+    return connection.getresponse().status
