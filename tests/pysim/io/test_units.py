@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from pysim.io import SI, shown_unit
+from pysim.io import SI, shown_unit, shown_value
 
 
 def test_what_is_read_is_worth_what_it_stands_for() -> None:
@@ -17,3 +17,9 @@ def test_what_is_read_is_worth_what_it_stands_for() -> None:
 
 def test_other_units_are_read_as_they_are() -> None:
     assert (shown_unit("N"), shown_unit("1"), shown_unit("")) == (("N", 1.0), ("-", 1.0), ("", 1.0))
+
+
+def test_a_number_is_read_with_its_unit_where_it_has_one() -> None:
+    read = [shown_value(1e7, "Pa"), shown_value(-50.0, "%", "+g"), shown_value(0.5, "1"), shown_value(2.0, "")]
+    assert read == ["100 bar", "-50 %", "0.5", "2"]
+    assert shown_value(123456.0, "Pa", ".2g") == "1.2 bar"
