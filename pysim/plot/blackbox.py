@@ -8,12 +8,22 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Ellipse
-from matplotlib.ticker import MultipleLocator
 from numpy.typing import NDArray
 
 from pysim.identify import HALF_95
 from pysim.identify.blackbox import FittedResponse, Root, TransferFunctionFit
-from pysim.plot.style import COLOURS, LIMIT, MEASURED, SMALL, TEXT, frequency_axis, new_figure, quiet
+from pysim.plot.style import (
+    COLOURS,
+    LIMIT,
+    MEASURED,
+    SMALL,
+    TEXT,
+    frequency_axis,
+    legend_above,
+    new_figure,
+    phase_axis,
+    quiet,
+)
 
 Array = NDArray[np.float64]
 
@@ -42,7 +52,7 @@ def blackbox_figure(fitted: FittedResponse) -> Figure:
     left[2].set_xlabel("Frequency (Hz)", fontsize=TEXT)
     figure.align_ylabels(left)
     _draw_map(figure.add_subplot(grid[:, 1]), fit)
-    figure.legend(handles.values(), handles.keys(), loc="outside upper left", ncols=3, frameon=False, fontsize=TEXT)
+    legend_above(figure, list(handles.values()), list(handles))
     return figure
 
 
@@ -68,7 +78,7 @@ def _draw_bode(top: Axes, bottom: Axes, fitted: FittedResponse) -> dict[str, Any
         dots = axes.errorbar(f, data, yerr=bars, color=MEASURED, fmt="o", markersize=3.2, elinewidth=0.9, capsize=1.5)
         axes.set_ylabel(name, fontsize=TEXT)
         handles = {measured.origin: dots, f"fitted: {fit.structure.label}": line, "its 95 % interval": band}
-    bottom.yaxis.set_major_locator(MultipleLocator(45.0))
+    phase_axis(bottom)
     top.set_title(f"{fitted.label}, fit {fit.fit_percent:.2f} %", fontsize=TEXT, loc="left")
     return handles
 

@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import MultipleLocator
 
 from pysim.identify import FREQUENCY_CRITERIA, magnitude_db
+from pysim.io import shown_value
 from pysim.plot.style import (
     BAND,
     COLOURS,
@@ -21,6 +21,7 @@ from pysim.plot.style import (
     frequency_axis,
     legend_above,
     new_figure,
+    phase_axis,
     quiet,
 )
 from pysim.types import BadInput, Comparison, FrequencyResponse, ResponseComparison
@@ -51,7 +52,7 @@ def bode_figure(comparisons: Sequence[Comparison], offset: float) -> Figure:
     relative = "" if reference_hz is None else f" relative to {reference_hz:g} Hz"
     axes[0, 0].set_ylabel(f"Magnitude{relative} (dB)", fontsize=TEXT)
     axes[1, 0].set_ylabel("Phase (deg)", fontsize=TEXT)
-    axes[1, 0].yaxis.set_major_locator(MultipleLocator(45.0))
+    phase_axis(axes[1, 0])
     legend_above(figure, list(handles.values()), list(handles))
     return figure
 
@@ -86,9 +87,8 @@ def _draw_column(
         (line,) = top.plot(f, magnitude_db(test.simulated, reference_hz), **look)
         bottom.plot(f, _degrees(test.simulated, measured), **look)
         handles.setdefault(label, line)
-    top.set_title(
-        f"offset {measured.test.offset:g} {unit}, amplitude {measured.test.amplitude:g} {unit}", fontsize=TEXT
-    )
+    offset, amplitude = (shown_value(x, unit) for x in (measured.test.offset, measured.test.amplitude))
+    top.set_title(f"offset {offset}, amplitude {amplitude}", fontsize=TEXT)
     _write_verdicts(top, tests)
     frequency_axis(bottom, f[0], f[-1])
     bottom.set_xlabel("Frequency (Hz)", fontsize=TEXT)

@@ -8,15 +8,11 @@ import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import MultipleLocator
-from numpy.typing import NDArray
 
 from pysim.identify import HALF_95, magnitude_db
 from pysim.identify.chirp import Branch, ChirpAnalysis
-from pysim.plot.style import COLOURS, MEASURED, TEXT, frequency_axis, legend_above, new_figure, quiet
+from pysim.plot.style import COLOURS, MEASURED, TEXT, frequency_axis, legend_above, new_figure, phase_axis, quiet
 from pysim.types import FrequencyResponse
-
-Array = NDArray[np.float64]
 
 _LOOKS: dict[str, dict[str, Any]] = {
     "top": {"color": COLOURS[2], "linestyle": (0, (5, 1.5)), "linewidth": 1.1},
@@ -49,7 +45,7 @@ def chirp_figure(analysis: ChirpAnalysis, stepped: FrequencyResponse | None = No
     frequency_axis(bottom, 0.95 * min(float(x[0]) for x in f), 1.05 * max(float(x[-1]) for x in f))
     top.set_ylabel("Magnitude (dB)", fontsize=TEXT)
     bottom.set_ylabel("Phase (deg)", fontsize=TEXT)
-    bottom.yaxis.set_major_locator(MultipleLocator(_degrees_apart(analysis.mean.phase_deg)))
+    phase_axis(bottom)
     bottom.set_xlabel("Frequency (Hz)", fontsize=TEXT)
     figure.align_ylabels([top, bottom])
     legend_above(figure, list(handles.values()), list(handles))
@@ -67,8 +63,3 @@ def _draw(top: Axes, bottom: Axes, branch: Branch, look: dict[str, Any], *, band
             half = HALF_95 * deviation
             axes.fill_between(f, values - half, values + half, color=look["color"], alpha=0.18, linewidth=0)
     return line
-
-
-def _degrees_apart(phase: Array) -> float:
-    """A distance of grid lines that leaves a handful."""
-    return 45.0 if np.ptp(phase) < 450 else 180.0

@@ -10,6 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from pysim.identify import FREQUENCY_CRITERIA
+from pysim.io import shown_unit
 from pysim.plot.style import COLOURS, LIMIT, MARKERS, SMALL, TEXT, legend_above, new_figure, quiet
 from pysim.types import Comparison, Criterion
 
@@ -20,7 +21,7 @@ def deviation_figure(comparisons: Sequence[Comparison]) -> Figure:
     Filled markers are within the limit, hollow ones are not. A run that failed has no marker.
     """
     tests = [response.measured.test for response in comparisons[0].tests]
-    figure = new_figure(10.0, 1.4 + 0.21 * len(tests))
+    figure = new_figure(10.0, 1.4 + 0.21 * max(len(tests), 5))  # at least as high as the label
     axes = figure.subplots(1, len(FREQUENCY_CRITERIA), sharey=True)
     handles = []
     for column, criterion in enumerate(FREQUENCY_CRITERIA):
@@ -37,9 +38,10 @@ def deviation_figure(comparisons: Sequence[Comparison]) -> Figure:
             if column == 0:
                 handles.append(filled)
         _draw_limit(panel, criterion, max(float(np.nanmax(_values(c, column), initial=0.0)) for c in comparisons))
-    axes[0].set_yticks(range(len(tests)), [f"{test.offset:g} / {test.amplitude:g}" for test in tests])
+    unit, factor = shown_unit(comparisons[0].command_unit)
+    axes[0].set_yticks(range(len(tests)), [f"{factor * test.offset:g} / {factor * test.amplitude:g}" for test in tests])
     axes[0].invert_yaxis()
-    axes[0].set_ylabel(f"Offset / amplitude ({comparisons[0].command_unit})", fontsize=TEXT)
+    axes[0].set_ylabel(f"Offset / amplitude ({unit})", fontsize=TEXT)
     legend_above(figure, handles, [c.label for c in comparisons])
     return figure
 

@@ -8,13 +8,22 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import MultipleLocator
 
 from pysim.identify import HALF_95, THESIS_REFERENCE_HZ, MeasuredResponse, magnitude_db, standard_deviations
-from pysim.plot.style import COLOURS, DASHES, MARKERS, TEXT, frequency_axis, new_figure, quiet, size_axis
+from pysim.io import shown_unit, shown_value
+from pysim.plot.style import (
+    COLOURS,
+    DASHES,
+    MARKERS,
+    TEXT,
+    frequency_axis,
+    legend_above,
+    new_figure,
+    phase_axis,
+    quiet,
+    size_axis,
+)
 from pysim.types import BadInput
-
-_ROW = 5  # responses per row of the legend
 
 
 def frf_figure(responses: Sequence[MeasuredResponse], reference_hz: float | None = THESIS_REFERENCE_HZ) -> Figure:
@@ -49,19 +58,20 @@ def frf_figure(responses: Sequence[MeasuredResponse], reference_hz: float | None
     relative = "" if reference_hz is None else f" relative to {reference_hz:g} Hz"
     axes[0].set_ylabel(f"Magnitude{relative} (dB)", fontsize=TEXT)
     axes[1].set_ylabel("Phase (deg)", fontsize=TEXT)
-    axes[1].yaxis.set_major_locator(MultipleLocator(45.0))
+    phase_axis(axes[1])
     axes[2].set_ylabel("Harmonics (%)", fontsize=TEXT)
     size_axis(axes[2])
     axes[2].set_xlabel("Frequency (Hz)", fontsize=TEXT)
     figure.align_ylabels(axes)
-    labels = [_label(one) for one in responses]
-    figure.legend(handles, labels, loc="outside upper center", ncols=_ROW, frameon=False, fontsize=TEXT)
+    legend_above(figure, handles, [_label(one) for one in responses])
     return figure
 
 
 def _label(one: MeasuredResponse) -> str:
     test = one.response.test
-    return f"{test.offset:+g} ± {test.amplitude:g} {one.input_unit}"
+    offset = shown_unit(one.input_unit)[1] * test.offset
+    held_out = ", held out" if one.use == "validate" else ""
+    return f"{offset:+g} ± {shown_value(test.amplitude, one.input_unit)}{held_out}"
 
 
 def _draw(axes: Sequence[Axes], one: MeasuredResponse, reference_hz: float | None, look: dict[str, Any]) -> Any:

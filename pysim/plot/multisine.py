@@ -8,18 +8,16 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
 from pysim.identify.multisine import gain_interval, gain_radius, pooled
-from pysim.plot.style import COLOURS, LIMIT, MEASURED, TEXT, frequency_axis, legend_above, new_figure, quiet
+from pysim.plot.style import COLOURS, LIMIT, MEASURED, TEXT, frequency_axis, legend_above, new_figure, phase_axis, quiet
 from pysim.types import BadInput, BestLinearApproximation, Distortion, Level
 
 Array = NDArray[np.float64]
 
 _NOISE, _TOTAL, _EVEN, _ODD = LIMIT, MEASURED, COLOURS[1], COLOURS[0]
 _SMOOTH = 6  # free lines in the mean that is drawn through the single ones
-_PHASE_TICKS = 6
 _SURE_DEG = 45.0  # phases less sure than this do not widen the axis
 _NEARLY_NONE = 0.05
 _BELOW_NOISE_DB = 6.0  # how far under the lowest noise the axis reaches
@@ -54,7 +52,7 @@ def multisine_figure(approximations: Sequence[BestLinearApproximation], titles: 
     unit = _gain_unit(approximations[0])
     axes[0, 0].set_ylabel(f"Gain and levels (dB re 1{unit})", fontsize=TEXT)
     axes[1, 0].set_ylabel("Phase (deg)", fontsize=TEXT)
-    axes[1, 0].yaxis.set_major_locator(MaxNLocator(_PHASE_TICKS, steps=[1, 1.8, 4.5, 9, 10]))  # 45, 90, 180 deg
+    phase_axis(axes[1, 0])
     axes[1, 0].set_ylim(*_phase_range(approximations))
     axes[0, 0].set_ylim(bottom=_floor(approximations))
     legend_above(figure, list(handles.values()), list(handles))

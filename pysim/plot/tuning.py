@@ -7,9 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from matplotlib.artist import Artist
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import MultipleLocator
 from numpy.typing import NDArray
 
 from pysim.control.tuning import Gains, loop_response
@@ -18,18 +16,16 @@ from pysim.plot.style import (
     COLOURS,
     DASHES,
     LIMIT,
-    SMALL,
     TEXT,
     frequency_axis,
     legend_above,
     new_figure,
+    phase_axis,
     quiet,
 )
 from pysim.types import BadInput
 
 Array = NDArray[np.float64]
-
-_TICKS_HZ = (0.001, 0.003, 0.01, 0.03, 0.1, 0.3, 1, 3, 10, 30, 100, 300, 1000)
 
 
 @dataclass(frozen=True)
@@ -116,11 +112,11 @@ def _steady(gains: Gains) -> float:
 
 def _label(axes: NDArray[np.object_], hertz: Array) -> None:
     for column, name in enumerate(("Open loop", "Closed loop")):
-        _frequency(axes[1, column], hertz)
+        frequency_axis(axes[1, column], float(hertz[0]), float(hertz[-1]))
         axes[0, column].tick_params(labelbottom=False)
         axes[0, column].set_title(name, fontsize=TEXT)
         axes[1, column].set_xlabel("Frequency (Hz)", fontsize=TEXT)
-        axes[1, column].yaxis.set_major_locator(MultipleLocator(90.0))
+        phase_axis(axes[1, column])
         axes[0, column].axhline(0.0, color=LIMIT, linewidth=0.8)
     axes[1, 0].axhline(-180.0, color=LIMIT, linewidth=0.8)
     axes[0, 0].set_ylabel("Magnitude (dB)", fontsize=TEXT)
@@ -130,11 +126,3 @@ def _label(axes: NDArray[np.object_], hertz: Array) -> None:
     axes[0, 2].set_ylabel("Step of the reference (-)", fontsize=TEXT)
     axes[1, 2].set_ylabel("Disturbance at the input (-)", fontsize=TEXT)
     axes[1, 2].set_xlabel("Time (s)", fontsize=TEXT)
-
-
-def _frequency(axes: Axes, hertz: Array) -> None:
-    """Plain numbers at round frequencies, fewer where the range is wide."""
-    frequency_axis(axes, float(hertz[0]), float(hertz[-1]))
-    wide = hertz[-1] / hertz[0] > 3e3
-    ticks = [f for k, f in enumerate(_TICKS_HZ) if hertz[0] <= f <= hertz[-1] and not (wide and k % 2)]
-    axes.set_xticks(ticks, [f"{f:g}" for f in ticks], fontsize=SMALL)

@@ -8,6 +8,7 @@ from pysim.plot import chirp_figure
 from tests.pysim.identify.chirp.chirps import log
 from tests.pysim.identify.frf.systems import dataset
 from tests.pysim.identify.frf.systems import log as sine
+from tests.pysim.plot.looking import numbers
 
 
 def test_three_curves_a_band_and_dots() -> None:
@@ -25,3 +26,11 @@ def test_three_curves_a_band_and_dots() -> None:
     np.testing.assert_allclose(curves[3], 20 * np.log10(stepped.response.gain))
     assert [text.get_text() for text in figure.legends[0].get_texts()] == ["top", "bottom", "mean", "stepped sine"]
     assert len(chirp_figure(found).axes[0].get_lines()) == 3
+
+
+def test_a_phase_of_a_few_degrees_has_numbers() -> None:
+    """Of a system far above the sweep."""
+    found = analyse_chirp(log(0.5, natural_hz=300.0, damping=0.9, stop_hz=3.0, noise=0.02), "u", "y")
+    bottom = chirp_figure(found).axes[1]
+    assert len(numbers(bottom.yaxis)) >= 3
+    assert len(numbers(bottom.xaxis)) >= 3

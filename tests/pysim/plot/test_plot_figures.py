@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 from pysim.identify import magnitude_db
 from pysim.plot import bode_figure, deviation_figure, render, time_response_figure
-from pysim.types import BadInput, Record
+from pysim.types import BadInput, Record, SineTest
 from tests.pysim.comparisons import comparison
 
 SETS = [comparison("A"), comparison("B", error_db=1.0, fails=1)]
@@ -48,6 +48,11 @@ def test_bode_names_what_stands_for_the_measurements_and_takes_off_whole_turns()
     np.testing.assert_allclose(simulated, reference, atol=1e-9)
     assert figure.axes[0].get_ylabel() == "Magnitude (dB)"
     assert figure.axes[0].get_title() == "offset 50 V, amplitude 5 V"
+    pressures = [replace(t, measured=replace(t.measured, test=SineTest(1e7, 2e6, "cmd", "angle"))) for t in tests]
+    in_pascal = replace(one, tests=tuple(pressures), command_unit="Pa")
+    assert bode_figure([in_pascal], 1e7).axes[0].get_title() == "offset 100 bar, amplitude 20 bar"
+    rows = deviation_figure([in_pascal]).axes[0]
+    assert (rows.get_yticklabels()[0].get_text(), rows.get_ylabel()) == ("100 / 20", "Offset / amplitude (bar)")
 
 
 def test_bode_leaves_out_what_did_not_run() -> None:

@@ -1,5 +1,7 @@
 """The Bode plot of measured responses shows their numbers."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -7,6 +9,7 @@ from pysim.identify import magnitude_db, measured_responses, standard_deviations
 from pysim.plot import frf_figure
 from pysim.types import BadInput
 from tests.pysim.identify.frf.systems import dataset, log, white
+from tests.pysim.plot.looking import is_whole, numbers
 
 
 def test_curves_and_bars_are_the_responses() -> None:
@@ -24,6 +27,31 @@ def test_curves_and_bars_are_the_responses() -> None:
     assert list(unsure.get_xdata()) == [0.1, 9.0]
     assert figure.legends[0].get_texts()[0].get_text() == "+50 ± 10 %"
     assert frf_figure([one], None).axes[0].get_ylabel() == "Magnitude (dB)"
+
+
+def test_narrow_responses_have_numbers_on_every_axis() -> None:
+    (one,) = measured_responses(dataset(*(log(f, noise=white(12000, 0.3, 1)) for f in (12.0, 18.0, 26.0))))
+    *others, harmonics = frf_figure([one], None).axes
+    assert numbers(harmonics.xaxis) == ["15", "20", "25"]
+    assert min(len(numbers(axes.yaxis)) for axes in (*others, harmonics)) >= 3
+
+
+def test_pressures_are_told_in_bar_and_many_labels_stay_on_the_page() -> None:
+    (one,) = measured_responses(dataset(log(5.0), log(9.0)))
+    points = [(1e7, 1e6), (1e7, 2.5e6), (-5e6, 1e6), (-5e6, 2.5e6), (0.0, 1e6), (0.0, 2.5e6)]
+    tests = [replace(one.response.test, offset=offset, amplitude=amplitude) for offset, amplitude in points]
+    figure = frf_figure(
+        [replace(one, response=replace(one.response, test=test), input_unit="Pa") for test in tests], None
+    )
+    labels = [text.get_text() for text in figure.legends[0].get_texts()]
+    assert labels[:3] == ["+100 ± 10 bar", "+100 ± 25 bar", "-50 ± 10 bar"]
+    assert is_whole(figure)
+
+
+def test_responses_that_are_held_out_are_told_from_the_others() -> None:
+    sines = log(5.0), log(9.0), replace(log(7.0), use="validate")
+    figure = frf_figure(measured_responses(dataset(*sines)), None)
+    assert [t.get_text() for t in figure.legends[0].get_texts()] == ["+50 ± 10 %", "+50 ± 10 %, held out"]
 
 
 def test_refuses_nothing() -> None:
