@@ -119,6 +119,7 @@ def _analyse(
     args: argparse.Namespace, records: list[Record], columns: tuple[str, ...]
 ) -> dict[str, BestLinearApproximation]:
     """A result per test, where the records are periodic, else one per record."""
+    from pysim.io import shown_value
     from pysim.types import BadInput
 
     if args.period is None or args.method == "arbitrary":
@@ -128,7 +129,8 @@ def _analyse(
     found: dict[str, BestLinearApproximation] = {}
     for bla in _periodic(args, records, columns):
         test = bla.test
-        name = f"{test.input} around {test.offset:.4g} {test.input_unit}, rms {test.rms:.3g} {test.input_unit}"
+        offset, rms = shown_value(test.offset, test.input_unit, ".4g"), shown_value(test.rms, test.input_unit, ".3g")
+        name = f"{test.input} around {offset}, rms {rms}"
         found[name if name not in found else f"{name}, {bla.origin}"] = bla
     return found
 
@@ -191,6 +193,7 @@ def _write_report(args: argparse.Namespace, found: Mapping[str, BestLinearApprox
     title = f"Best linear approximation of {args.data[0].name}"
     text = multisine_page(title, found, pictures=pictures, redo=command_line(_words(args)))
     write_file(args.output / "report.html", text)
+    print(f"Report: {args.output / 'report.html'}")
 
 
 def _words(args: argparse.Namespace) -> list[str]:

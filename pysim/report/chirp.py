@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from pysim.identify import HALF_95
 from pysim.identify.chirp import Branch, ChirpAnalysis
+from pysim.io import shown_value
 from pysim.report.page import cell, commands, heading, items, page, picture, table
 
 Array = NDArray[np.float64]
@@ -68,9 +69,10 @@ def chirp_page(analyses: Sequence[ChirpAnalysis], *, dataset: str, pictures: Map
 def _title(one: ChirpAnalysis) -> str:
     wave = one.command
     ends = wave.frequency_at(np.array([wave.start, wave.end]))
+    offset, amplitude = (shown_value(x, one.input_unit, ".4g") for x in (wave.offset, wave.amplitude))
     return (
-        f"{one.source}: {one.output} to {one.input} around {wave.offset:.4g} {one.input_unit}, amplitude "
-        f"{wave.amplitude:.4g} {one.input_unit}, {ends[0]:.3g} to {ends[1]:.3g} Hz at {wave.rate:.3g} Hz/s"
+        f"{one.source}: {one.output} to {one.input} around {offset}, amplitude {amplitude}, "
+        f"{ends[0]:.3g} to {ends[1]:.3g} Hz at {wave.rate:.3g} Hz/s"
     )
 
 

@@ -8,6 +8,7 @@ from itertools import groupby
 from typing import Any
 
 from pysim.identify.data_check import DataCheck, RecordCheck
+from pysim.io import shown_value
 from pysim.report.page import cell, commands, heading, items, page, paragraph, picture, table
 
 _UNTOLD = "-"  # a description or a system that dataset.toml leaves out
@@ -107,7 +108,7 @@ def _points(records: list[RecordCheck]) -> list[str]:
     for (offset, amplitude, unit), group in groupby(sines, key=lambda r: (r.offset, r.amplitude, r.unit)):
         members = list(group)
         frequencies = ", ".join(f"{f:g}" for f in sorted(r.frequency for r in members if r.frequency is not None))
-        point = f"offset {offset:g} {unit}, amplitude {amplitude:g} {unit}"
+        point = f"offset {shown_value(offset or 0.0, unit)}, amplitude {shown_value(amplitude or 0.0, unit)}"
         lines.append(f"{point}: {frequencies} Hz; {_times(members)}")
     lines += [f"{record.source}: {_times([record])}" for record in records if record.frequency is None]
     return [part for line in lines for part in textwrap.wrap(line, _WIDTH, subsequent_indent="    ")]

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from pysim.identify import HALF_95, MeasuredResponse, SinePoint, magnitude_db, standard_deviations
+from pysim.io import shown_unit, shown_value
 from pysim.report.page import cell, commands, heading, items, page, paragraph, picture, table
 
 
@@ -15,7 +16,8 @@ def frf_text(responses: Sequence[MeasuredResponse], reference_hz: float | None) 
     """A table per response with 95 percent intervals, and the remarks below it."""
     lines = []
     for one in responses:
-        lines += [_title(one), "      Hz   magnitude dB      phase deg       mean    harmonics %   periods"]
+        mean_of = f"mean {shown_unit(one.output_unit)[0]}"
+        lines += [_title(one), f"      Hz   magnitude dB      phase deg{mean_of:>11}    harmonics %   periods"]
         for row in _rows(one, reference_hz):
             f, (db, db_half), (deg, deg_half), mean, harmonics, sure, periods = row
             mark = "*" if sure else " "
@@ -50,7 +52,7 @@ def frf_section(
             "±",
             "phase (deg)",
             "±",
-            f"mean ({one.output_unit})",
+            f"mean ({shown_unit(one.output_unit)[0]})",
             "harmonics (%)",
             "periods",
         ]
@@ -75,16 +77,18 @@ def frf_page(
 
 def _title(one: MeasuredResponse) -> str:
     test = one.response.test
-    point = f"{test.output} to {test.input} around {test.offset:g} {one.input_unit}, amplitude {test.amplitude:g}"
-    return f"{point} {one.input_unit} ({one.response.origin})"
+    offset, amplitude = (shown_value(x, one.input_unit) for x in (test.offset, test.amplitude))
+    held_out = ", held out" if one.use == "validate" else ""
+    return f"{test.output} to {test.input} around {offset}, amplitude {amplitude} ({one.response.origin}{held_out})"
 
 
 def _rows(one: MeasuredResponse, reference_hz: float | None) -> list[tuple[Any, ...]]:
     response = one.response
     decibel, degrees = (HALF_95 * sigma for sigma in standard_deviations(response, reference_hz))
     magnitude, phase = magnitude_db(response, reference_hz), np.degrees(response.phase)
+    factor = shown_unit(one.output_unit)[1]
     return [
-        (p.frequency, (m, dm), (a, da), p.mean, 100 * p.distortion, p.distorted, p.periods)
+        (p.frequency, (m, dm), (a, da), factor * p.mean, 100 * p.distortion, p.distorted, p.periods)
         for p, m, dm, a, da in zip(one.points, magnitude, decibel, phase, degrees, strict=True)
     ]
 

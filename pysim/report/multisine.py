@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pysim.identify.multisine import distortion_p_value, gain_interval, pooled
-from pysim.io import json_number
+from pysim.io import json_number, shown_value
 from pysim.report.page import cell, commands, heading, items, page, paragraph, picture, table
 from pysim.types import BestLinearApproximation, Distortion, Level
 
@@ -34,8 +34,8 @@ def verdicts(bla: BestLinearApproximation) -> tuple[str, ...]:
     test = bla.test
     done = (
         f"{test.realisations} realisation(s) of {test.periods} period(s) of {test.period:g} s, {bla.frequency.size} "
-        f"lines from {bla.frequency[0]:g} to {bla.frequency[-1]:g} Hz; {test.input} around {test.offset:.4g} "
-        f"{test.input_unit} with {test.rms:.4g} {test.input_unit} rms"
+        f"lines from {bla.frequency[0]:g} to {bla.frequency[-1]:g} Hz; {test.input} around "
+        f"{shown_value(test.offset, test.input_unit, '.4g')} with {shown_value(test.rms, test.input_unit, '.4g')} rms"
     )
     if bla.on_lines is None or bla.noise is None:
         return (done, "Without a second period noise and distortion cannot be told apart.")

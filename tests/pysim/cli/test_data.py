@@ -50,7 +50,7 @@ def test_prints_what_it_holds(folder: Path, capsys: pytest.CaptureFixture[str]) 
     ]
     text = "\n".join(lines)
     assert "frequency-response: 6\n" in text
-    assert "offset 2.5e+06 Pa, amplitude 500000 Pa: 1, 10, 30 Hz; 3 s at 200 Hz; cmd, y; fit, validate" in text
+    assert "offset 25 bar, amplitude 5 bar: 1, 10, 30 Hz; 3 s at 200 Hz; cmd, y; fit, validate" in text
     assert "wave.txt: 3 s at 200 Hz; cmd, y; validate" in text
     assert "t.csv: 2 rows; cmd, y; fit" in text
     assert lines[-1] == "0 warnings, ready to use"
@@ -92,7 +92,7 @@ def test_folders_without_a_description(folder: Path, capsys: pytest.CaptureFixtu
     words = ["data", "check", str(folder), "--input", "cmd:bar", "--response", "y:%"]
     assert main(words) == 0
     out = capsys.readouterr().out
-    assert "amplitude 1e+06 Pa: 1, 10, 30 Hz" in out
+    assert "amplitude 10 bar: 1, 10, 30 Hz" in out
     assert "left out: wave.txt" in out
 
 

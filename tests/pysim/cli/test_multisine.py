@@ -59,7 +59,9 @@ def test_several_records_are_realisations(
     np.testing.assert_allclose(found, gain(FREE), atol=6 * np.sqrt(np.max(data["variance"])))
     np.testing.assert_allclose(data["frequency_hz"], FREE / PERIOD)
     assert data["levels"]["even"]["p_value"] < 1e-6
-    assert "Distortion even is there" in capsys.readouterr().out
+    printed = capsys.readouterr().out
+    assert "Distortion even is there" in printed
+    assert printed.endswith(f"Report: {out / 'report.html'}\n")
     assert {path.name for path in out.iterdir()} == {"report.html", "multisine_1.png", "multisine_1.svg"}
     report = (out / "report.html").read_text()
     assert "Distortion even is there" in report

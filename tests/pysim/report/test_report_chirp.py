@@ -1,6 +1,7 @@
 """Chirp analyses as text, data and page."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -25,6 +26,12 @@ def test_text_reads_the_curves_at_round_frequencies(found: ChirpAnalysis) -> Non
     assert numbers[3] == pytest.approx(float(phase), abs=0.06)
     assert numbers[5] == pytest.approx(float(found.top.at(np.array(10.0))[0]), abs=0.006)
     assert "below 2 Hz the frequency changes" in "\n".join(lines)
+
+
+def test_pressures_are_told_in_bar(found: ChirpAnalysis) -> None:
+    command = replace(found.command, offset=1e7, amplitude=2e6)
+    (title, *_) = chirp_text([replace(found, command=command, input_unit="Pa")]).splitlines()
+    assert "around 100 bar, amplitude 20 bar, 0.1 to 25 Hz" in title
 
 
 def test_data_is_complete_and_fit_for_json(found: ChirpAnalysis) -> None:

@@ -45,3 +45,13 @@ def test_a_good_set_is_ready() -> None:
     data = Dataset("d", "words", "s", SIGNALS, (MeasuredRecord("a.txt", "other", "fit", log),))
     assert data_check_text(check_dataset(data)).endswith("0 warnings, ready to use")
     assert "ready to use" in data_check_page(check_dataset(data), pictures={}, redo="x")
+
+
+def test_pressures_of_sines_are_told_in_bar() -> None:
+    time = np.arange(400) / 100
+    signals = (MeasuredSignal("p", "input", "Pa", "", "p"), MeasuredSignal("y", "output", "1", "", "y"))
+    sine = 1e7 + 1e6 * np.sin(2 * np.pi * time)
+    log = Record(time, np.column_stack([sine, np.cos(time)]), ("p", "y"), ("Pa", "1"))
+    sines = MeasuredRecord("a.txt", "frequency-response", "fit", log, 1e7, 1e6, 1.0, command="p")
+    text = data_check_text(check_dataset(Dataset("d", "-", "-", signals, (sines,))))
+    assert "offset 100 bar, amplitude 10 bar: 1 Hz" in text

@@ -1,6 +1,7 @@
 """Measured responses as text, data and page: the numbers are those of the analysis."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -28,6 +29,22 @@ def test_text_has_a_row_per_frequency(responses: tuple[MeasuredResponse, ...]) -
     assert "*" in row
     assert "relative to 0.1 Hz" in lines[-1]
     assert "Magnitudes are absolute" in frf_text(responses, None)
+
+
+def test_pressures_are_told_in_bar(responses: tuple[MeasuredResponse, ...]) -> None:
+    one = responses[0]
+    test = replace(one.response.test, offset=1e7, amplitude=1e6)
+    pressures = replace(one, response=replace(one.response, test=test), input_unit="Pa", output_unit="rad")
+    title, head, row, *_ = frf_text([pressures], None).splitlines()
+    assert title == "y to cmd around 100 bar, amplitude 10 bar (measured, bench)"
+    assert "mean deg" in head
+    assert float(row.split()[-3]) == pytest.approx(np.degrees(one.points[0].mean), rel=1e-3)
+    held_out = frf_text([replace(pressures, use="validate")], None)
+    assert held_out.startswith("y to cmd around 100 bar, amplitude 10 bar (measured, bench, held out)")
+    page = frf_page([pressures], None, dataset="d", pictures={}, redo="x")
+    assert title in page
+    assert "mean (deg)" in page
+    assert frf_data([pressures], None, dataset="d")["responses"][0]["offset"] == 1e7
 
 
 def test_data_is_complete_and_fit_for_json(responses: tuple[MeasuredResponse, ...]) -> None:

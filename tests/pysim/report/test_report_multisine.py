@@ -1,6 +1,7 @@
 """Text, data and page say what the approximation holds, and no more than it can know."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 
@@ -25,6 +26,11 @@ def test_verdicts_name_what_is_there_and_what_is_not_seen() -> None:
     assert "even and odd together, is not seen" in linear[1]
     alone = verdicts(robust_approximation(measure(FREE, realisations=3, periods=1, noise=0.01, seed=2)))
     assert alone[1].startswith("Without a second period")
+
+
+def test_pressures_are_told_in_bar() -> None:
+    test = replace(SQUARE.test, offset=1e7, rms=5e5, input_unit="Pa")
+    assert "around 100 bar with 5 bar rms" in verdicts(replace(SQUARE, test=test))[0]
 
 
 def test_text_has_a_row_per_frequency_and_a_dash_below_the_noise() -> None:
