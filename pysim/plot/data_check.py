@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from typing import Any, TypeVar
 
@@ -9,9 +10,10 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
+from numpy.typing import NDArray
 
-from pysim.io import shown_unit
-from pysim.plot.style import COLOURS, MEASURED, SMALL, TEXT, frequency_axis, legend_above, new_figure, quiet
+from pysim.io import shown_unit, shown_value
+from pysim.plot.style import COLOURS, DASHES, MEASURED, SMALL, TEXT, frequency_axis, legend_above, new_figure, quiet
 from pysim.types import BadInput, Dataset, MeasuredRecord, Record
 
 _T = TypeVar("_T")
@@ -19,6 +21,8 @@ _T = TypeVar("_T")
 _COLUMNS = 6  # frequencies shown per operating point
 _ROWS = 8  # operating points, or records over time, per picture
 _PERIODS = 2.0  # of a sine that are shown
+_COMMAND: dict[str, Any] = {"color": MEASURED, "linewidth": 1.0}
+_ANSWER: dict[str, Any] = {"color": COLOURS[0], "linewidth": 1.2, "linestyle": DASHES[1]}  # in phase, both are seen
 
 
 def coverage_figure(dataset: Dataset) -> Figure:
@@ -31,7 +35,7 @@ def coverage_figure(dataset: Dataset) -> Figure:
     if not sines:
         raise BadInput(f"data set {dataset.name!r} has no stepped sines to show")
     points = list(dict.fromkeys((record.offset, record.amplitude) for record in sines))
-    figure = new_figure(7.5, 1.3 + 0.28 * len(points))
+    figure = new_figure(7.5, 1.3 + 0.28 * max(len(points), 4))  # at least as high as the label
     axes = figure.subplots()
     quiet(axes)
     handles: dict[str, Any] = {}
@@ -55,9 +59,10 @@ def coverage_figure(dataset: Dataset) -> Figure:
 
 
 def sine_logs_figure(dataset: Dataset) -> Figure:
-    """A row per offset and amplitude, a panel per frequency: the last two periods of command and first output.
+    """A row per offset and amplitude, a panel per frequency: the last two periods of command and answer.
 
-    At most eight rows and six columns, spread over what there is.
+    The answer is the output that most of the logs hold; one in another unit than the command has its own
+    axis on the right, in its colour. At most eight rows and six columns, spread over what there is.
 
     Raises:
         BadInput: no stepped sine among the logs.
@@ -67,26 +72,55 @@ def sine_logs_figure(dataset: Dataset) -> Figure:
         raise BadInput(f"data set {dataset.name!r} has no stepped sines to show")
     points = _spread(list(dict.fromkeys((record.offset, record.amplitude) for record in sines)), _ROWS)
     frequencies = _spread(sorted({record.frequency for record in sines if record.frequency is not None}), _COLUMNS)
-    figure = new_figure(1.0 + 1.7 * len(frequencies), 0.9 + 1.2 * len(points))
-    axes = figure.subplots(len(points), len(frequencies), sharey="row", squeeze=False)
+    outputs = Counter(name for record in sines for name in dataset.columns(record, "output"))
+    names = (sines[0].command, outputs.most_common(1)[0][0])
+    units = [_shown(dataset, name)[0] for name in names]
+    figure = new_figure(1.3 + 1.7 * len(frequencies), 0.9 + 1.2 * len(points))
+    left = figure.subplots(len(points), len(frequencies), sharey="row", squeeze=False)
+    right = left if units[0] == units[1] else _right_axes(left, units[1])
     by_test = {(record.offset, record.amplitude, record.frequency): record for record in sines}
     for i, (offset, amplitude) in enumerate(points):
         for k, frequency in enumerate(frequencies):
             record = by_test.get((offset, amplitude, frequency))
-            panel = axes[i, k]
-            quiet(panel)
-            panel.set_xticks([0, 1, 2], [] if i < len(points) - 1 else ["0", "1", "2"])
+            quiet(left[i, k])
+            left[i, k].set_xticks([0, 1, 2], [] if i < len(points) - 1 else ["0", "1", "2"])
+            left[i, k].set_xlim(0, _PERIODS)
             if record is not None:
-                _draw_periods(panel, dataset, record)
+                _draw_periods(left[i, k], dataset, record, record.command, _COMMAND)
+                _draw_periods(right[i, k], dataset, record, names[1], _ANSWER)
             if i == 0:
-                panel.set_title(f"{frequency:g} Hz", fontsize=TEXT)
-        unit, factor = _shown(dataset, sines[0].command)
-        axes[i, 0].set_ylabel(f"{factor * (offset or 0):g} / {factor * (amplitude or 0):g} {unit}", fontsize=SMALL)
+                left[i, k].set_title(f"{frequency:g} Hz", fontsize=TEXT)
+        factor = _shown(dataset, names[0])[1]
+        swing = shown_value(amplitude or 0.0, dataset.signal(names[0]).unit)
+        left[i, 0].set_ylabel(f"{factor * (offset or 0):g} / {swing}", fontsize=SMALL)
+    figure.supylabel("Offset / amplitude", fontsize=TEXT)
     figure.supxlabel("Last periods of the log", fontsize=TEXT)
     figure.align_ylabels()
-    lines = [Line2D([], [], color=colour) for colour in (MEASURED, COLOURS[0])]
-    legend_above(figure, lines, [sines[0].command, dataset.columns(sines[0], "output")[0]])
+    lines = [Line2D([], [], **look) for look in (_COMMAND, _ANSWER)]
+    legend_above(figure, lines, [f"{name} ({unit})" for name, unit in zip(names, units, strict=True)])
     return figure
+
+
+def _right_axes(left: NDArray[np.object_], unit: str) -> NDArray[np.object_]:
+    """An axis for the answer over every panel, one scale per row, its numbers at the end of the row."""
+    right = np.empty_like(left)
+    for i, panels in enumerate(left):
+        for k, panel in enumerate(panels):
+            right[i, k] = panel.twinx()
+            right[i, k].sharey(right[i, 0])
+            _quiet_right(right[i, k], unit if k == len(panels) - 1 else None)
+    return right
+
+
+def _quiet_right(axes: Axes, unit: str | None) -> None:
+    """The look of an axis on the right, and of one that shows neither numbers nor unit."""
+    last, colour = unit is not None, _ANSWER["color"]
+    axes.spines[["top", "left", "bottom"]].set_visible(False)
+    axes.spines["right"].set(visible=last, color=colour)
+    axes.tick_params(labelsize=SMALL, colors=colour, length=3 if last else 0, labelright=last)
+    axes.yaxis.get_offset_text().set(fontsize=SMALL, visible=last)
+    if last:
+        axes.set_ylabel(f"({unit})", fontsize=SMALL, color=colour)
 
 
 def time_logs_figure(dataset: Dataset) -> Figure:
@@ -145,19 +179,14 @@ def _draw(panel: Axes, dataset: Dataset, record: MeasuredRecord, name: str, name
     panel.plot(record.data.time, values, color=_colour(dataset, name, names), linewidth=0.7)
 
 
-def _draw_periods(panel: Axes, dataset: Dataset, record: MeasuredRecord) -> None:
-    """The last periods of a sine, time in periods."""
-    assert isinstance(record.data, Record)
+def _draw_periods(panel: Axes, dataset: Dataset, record: MeasuredRecord, name: str, look: dict[str, Any]) -> None:
+    """One column of the last periods of a sine, where the log holds it; time in periods."""
+    if not isinstance(record.data, Record) or name not in record.data.names:
+        return
     log, frequency = record.data, float(record.frequency or 1.0)
     phase = (log.time - log.time[-1]) * frequency + _PERIODS
     late = phase >= -1e-9
-    output = next(iter(dataset.columns(record, "output")))
-    names = (record.command, output)
-    for name in names:
-        factor = _shown(dataset, name)[1]
-        if _shown(dataset, name)[0] == _shown(dataset, record.command)[0]:
-            panel.plot(phase[late], factor * log[name][late], color=_colour(dataset, name, names), linewidth=1.0)
-    panel.set_xlim(0, _PERIODS)
+    panel.plot(phase[late], _shown(dataset, name)[1] * log[name][late], **look)
 
 
 def _spread(values: list[_T], most: int) -> list[_T]:

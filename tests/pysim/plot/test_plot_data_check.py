@@ -1,10 +1,13 @@
 """Pictures of a data set: every log where it belongs, and units that engineers read."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from pysim.plot.data_check import coverage_figure, sine_logs_figure, time_logs_figure
 from pysim.types import BadInput, Dataset, MeasuredRecord, MeasuredSignal, Record
+from tests.pysim.plot.looking import is_whole, numbers
 
 SIGNALS = (
     MeasuredSignal("p", "input", "Pa", "", "p"),
@@ -24,6 +27,14 @@ def record(frequency: float | None, offset: float = 2e5, use: str = "fit") -> Me
     return MeasuredRecord(f"{frequency}_{offset:g}", kind, use, log, offset, amplitude, frequency, command="p")
 
 
+def answered(one: MeasuredRecord, name: str) -> MeasuredRecord:
+    """The same log with a single output."""
+    assert isinstance(one.data, Record)
+    k = one.data.names.index(name)
+    names, units = ("p", name), ("Pa", one.data.units[k])
+    return replace(one, data=Record(TIME, one.data.values[:, [0, k]], names, units))
+
+
 def dataset(*records: MeasuredRecord) -> Dataset:
     return Dataset("d", "-", "-", SIGNALS, records)
 
@@ -38,20 +49,45 @@ def test_coverage_has_a_dot_per_sine() -> None:
     assert axes.get_ylabel() == "Offset / amplitude (bar)"
 
 
-def test_sines_show_their_last_two_periods_in_bar() -> None:
-    data = dataset(*(record(f, offset) for f in (1.0, 2.0) for offset in (2e5, -4e5)))
-    axes = sine_logs_figure(data).axes
-    assert len(axes) == 4
-    (command,) = axes[2].get_lines()  # -4 bar at 1 Hz; the first output is a speed and has no place on this axis
+def test_a_single_frequency_is_told() -> None:
+    figure = coverage_figure(dataset(record(2.0)))
+    assert numbers(figure.axes[0].xaxis) == ["1.6", "1.8", "2", "2.2", "2.4"]
+    assert is_whole(figure)
+
+
+def test_sines_show_the_last_two_periods_of_command_and_answer() -> None:
+    figure = sine_logs_figure(dataset(*(record(f, offset) for f in (1.0, 2.0) for offset in (2e5, -4e5))))
+    assert len(figure.axes) == 4 * 2
+    (command,), (answer,) = figure.axes[2].get_lines(), figure.axes[6].get_lines()  # -4 bar at 1 Hz
     periods, values = command.get_xydata().T
     assert (periods[0], periods[-1]) == (pytest.approx(0), pytest.approx(2))
     np.testing.assert_allclose(values, -4 + np.sin(2 * np.pi * periods), atol=1e-9)
+    periods, values = answer.get_xydata().T
+    np.testing.assert_allclose(values, 30 / np.pi * np.sin(2 * np.pi * periods), atol=1e-9)
+    assert [text.get_text() for text in figure.legends[0].get_texts()] == ["p (bar)", "w (rpm)"]
+    assert figure.axes[2].get_ylabel() == "-4 / 1 bar"
+    assert [axes.get_ylabel() for axes in figure.axes[4:]] == ["", "(rpm)"] * 2
+    assert figure.axes[6].get_ylim() == figure.axes[7].get_ylim()
+    assert is_whole(figure)
+
+
+def test_an_answer_in_the_unit_of_the_command_shares_its_axis() -> None:
+    figure = sine_logs_figure(dataset(answered(record(1.0), "q"), answered(record(2.0), "q")))
+    assert len(figure.axes) == 2
+    command, answer = figure.axes[0].get_lines()
+    np.testing.assert_allclose(answer.get_ydata() - 3, 2 * (command.get_ydata() - 2), atol=1e-9)
+
+
+def test_the_answer_is_the_one_that_most_logs_hold() -> None:
+    figure = sine_logs_figure(dataset(answered(record(1.0), "q"), *(answered(record(f), "w") for f in (2.0, 3.0))))
+    assert [len(axes.get_lines()) for axes in figure.axes[3:]] == [0, 1, 1]
+    assert figure.legends[0].get_texts()[1].get_text() == "w (rpm)"
 
 
 def test_many_tests_are_thinned_evenly() -> None:
     data = dataset(*(record(float(f), 1e5 * o) for f in range(1, 20) for o in range(12)))
     figure = sine_logs_figure(data)
-    assert len(figure.axes) == 8 * 6
+    assert len(figure.axes) == 2 * 8 * 6
     titles = [axes.get_title() for axes in figure.axes[:6]]
     assert (titles[0], titles[-1]) == ("1 Hz", "19 Hz")
 
