@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from pysim.identify.friction import friction_torque
+from pysim.identify.friction import FrictionSamples, fit_friction, friction_torque
 from pysim.plot import friction_figure, render
 from tests.pysim.report.test_report_friction import FIT
 
@@ -27,6 +27,21 @@ def test_curve_cloud_and_blind_zone() -> None:
     speeds = FIT.samples[0].speed
     assert (zone.x0, zone.x1) == pytest.approx((speeds[speeds < 0].max(), speeds[speeds > 0].min()))
     assert len(render(figure, "png")) > 10_000
+
+
+def test_the_band_is_as_wide_as_the_intervals_of_the_table() -> None:
+    """At the ends of the speeds the law is its Coulomb friction alone, and the band that of tau_c."""
+    rng = np.random.default_rng(4)
+    speed, sigma = np.linspace(-60.0, 60.0, 40), np.full(40, 1.5)
+    noise = np.convolve(sigma[0] * rng.standard_normal(45), np.ones(6) / np.sqrt(6), "valid")  # it has a memory
+    torque = friction_torque(np.array([3.0, 4.0, 15.0, 30.0]), speed) + noise
+    samples = FrictionSamples(np.arange(40.0), speed, 0 * speed, torque, 0 * speed, sigma, ())
+    fit = fit_friction([samples])
+    assert fit.effective < 20
+    band = friction_figure(fit).axes[0].collections[-1].get_paths()[0].vertices
+    at_end = band[np.isclose(band[:, 0], band[:, 0].max()), 1]
+    low, high = fit.intervals["tau_c"]
+    assert np.ptp(at_end) == pytest.approx(high - low, rel=0.01)
 
 
 def test_band_opens_where_the_steepness_is_open() -> None:
