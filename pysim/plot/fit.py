@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 from matplotlib.figure import Figure
+from matplotlib.patches import Patch
 
 from pysim.identify import HALF_95
 from pysim.io import shown_unit
@@ -26,6 +27,7 @@ from pysim.plot.style import (
 from pysim.types import BadInput, Estimate, Fit, RecordFit
 
 _MANY = 5000  # samples beyond which lines are drawn thin
+_CELL_IN, _NAME_IN = 0.46, 0.075  # in, a cell of the correlations and a letter of a name
 
 
 def fit_record_figure(record: RecordFit) -> Figure:
@@ -138,20 +140,23 @@ def _range(estimate: Estimate) -> tuple[float, float]:
 
 
 def fit_correlation_figure(fit: Fit) -> Figure:
-    """Correlations of the estimates as a field of numbers; hatched where the data determine none."""
+    """Correlations of the estimates as a field of numbers; grey where the data determine none."""
     names, matrix = [e.name for e in fit.estimates], fit.correlation
-    n = len(names)
-    figure = new_figure(1.6 + 0.46 * n, 1.1 + 0.4 * n)
+    n, name_in = len(names), _NAME_IN * max(len(e.name) for e in fit.estimates)
+    figure = new_figure(max(1.8 + name_in + _CELL_IN * n, 3.6), 1.1 + 0.8 * name_in + _CELL_IN * n)
     axes = figure.subplots()
-    image = axes.imshow(matrix, cmap="RdBu_r", vmin=-1, vmax=1)
+    image = axes.imshow(matrix, cmap="RdBu_r", vmin=-1, vmax=1, aspect="auto")
     axes.set_facecolor(BAND)
     for i in range(n):
         for j in range(n):
             if np.isfinite(matrix[i, j]):
                 colour = "white" if abs(matrix[i, j]) > 0.6 else "black"
-                axes.text(j, i, f"{matrix[i, j]:.2f}", ha="center", va="center", fontsize=6, color=colour)
-    axes.set_xticks(range(n), names, rotation=60, fontsize=SMALL)
+                axes.text(j, i, f"{matrix[i, j]:z.2f}", ha="center", va="center", fontsize=7, color=colour)
+    axes.set_xticks(range(n), names, rotation=60, ha="right", rotation_mode="anchor", fontsize=SMALL)
     axes.set_yticks(range(n), names, fontsize=SMALL)
-    bar = figure.colorbar(image, ax=axes, shrink=0.8)
-    bar.set_label("Correlation (grey: not determined, or at a bound)", fontsize=SMALL)
+    bar = figure.colorbar(image, ax=axes, shrink=0.9, ticks=[-1, -0.5, 0, 0.5, 1])
+    bar.ax.tick_params(labelsize=SMALL)
+    bar.set_label("Correlation", fontsize=SMALL)
+    if not np.isfinite(matrix).all():
+        legend_above(figure, [Patch(color=BAND)], ["not determined, or at a bound"])
     return figure

@@ -12,6 +12,7 @@ from pysim.plot import (
 )
 from pysim.types import BadInput
 from tests.pysim.fits import small_fit
+from tests.pysim.plot.looking import is_whole
 
 
 def test_a_record_is_drawn_with_its_residual_in_noise() -> None:
@@ -59,4 +60,20 @@ def test_intervals_stand_between_the_bounds() -> None:
 def test_correlations_that_are_none_are_left_out() -> None:
     figure = fit_correlation_figure(small_fit())
     assert [text.get_text() for text in figure.axes[0].texts] == ["1.00"]
+    assert [text.get_text() for text in figure.legends[0].get_texts()] == ["not determined, or at a bound"]
+    assert is_whole(figure)
     assert render(figure, "png").startswith(b"\x89PNG")
+
+
+@pytest.mark.parametrize("count", [1, 3, 8])
+@pytest.mark.parametrize("name", ["K", "damping.orifice.d_hydraulic"])
+def test_names_and_correlations_are_whole(count: int, name: str) -> None:
+    fit = small_fit()
+    estimates = tuple(replace(fit.estimates[0], name=f"{name}{k}") for k in range(count))
+    figure = fit_correlation_figure(replace(fit, estimates=estimates, covariance=np.eye(count) - 1e-4))
+    axes, bar = figure.axes
+    assert [label.get_text() for label in axes.get_yticklabels()] == [estimate.name for estimate in estimates]
+    assert bar.get_ylabel() == "Correlation"
+    assert not figure.legends
+    assert "-0.00" not in [text.get_text() for text in axes.texts]
+    assert is_whole(figure)
