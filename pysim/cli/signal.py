@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from pysim.excitation import Excitation, LeadIn
+    from pysim.types import Signal
 
 _KINDS = {
     "stepped-sine": "one sine around an offset (thesis Eq. 2.1)",
@@ -100,14 +101,15 @@ def run(args: argparse.Namespace) -> int:
     prepare_file(args.file, "-o", (".csv",))
     if args.output:
         prepare_folder(args.output)
+    drawn = _drawn(args, test) if args.output else None  # before anything is written: all of it comes, or nothing
     write_signal(
         test.signal(), args.file, duration=test.duration, unit=args.unit, sampling_hz=args.sampling, title=_title(args)
     )
     print(f"{args.file}: {_KINDS[args.kind]}")
     for line in _facts(test, args):
         print(f"  {line}")
-    if args.output:
-        _write_report(args, test)
+    if drawn:
+        _write_report(args, test, *drawn)
     return 0
 
 
@@ -155,32 +157,50 @@ def _title(args: argparse.Namespace) -> str:
 
 
 def _facts(test: Excitation, args: argparse.Namespace) -> list[str]:
-    """What a person at the bench wants to know before it is played."""
+    """What a person at the bench wants to know before it is played: levels, jumps, and the speed between these."""
     import numpy as np
 
+    signal = test.signal()
     t = np.arange(math.floor((test.end - test.onset) * args.sampling)) / args.sampling + test.onset
-    value, rate = test.signal().value(t), test.signal().derivative(t)
+    value, fastest = signal.value(t), float(np.abs(signal.derivative(t)).max())
     unit = args.unit
+    facts = [f"excitation from {test.onset:g} to {test.end:g} s, {test.duration:g} s in all"]
+    if np.ptp(value) > 0:
+        levels = f"from {value.min():.4g} to {value.max():.4g} {unit}"
+        facts.append(f"mean {value.mean():.4g} {unit}, rms about it {value.std():.4g} {unit}, {levels}")
+    jumps = [f"at {at:g} s from {before:.4g} to {behind:.4g} {unit}" for at, before, behind in _jumps(signal)]
+    facts += [f"jumps {', '.join(jumps)}"] if jumps else []
     shown = f", its fastest sine in {args.sampling / test.highest_hz:.3g} rows per period" if test.highest_hz else ""
-    return [
-        f"excitation from {test.onset:g} to {test.end:g} s, {test.duration:g} s in all",
-        f"mean {value.mean():.4g} {unit}, rms about it {value.std():.4g} {unit}, "
-        f"from {value.min():.4g} to {value.max():.4g} {unit}",
-        f"fastest {np.abs(rate).max():.4g} {unit}/s{shown}",
-    ]
+    return facts + ([f"fastest {fastest:.4g} {unit}/s{shown}"] if fastest > 0 else [])
 
 
-def _write_report(args: argparse.Namespace, test: Excitation) -> None:
-    from pysim.io import write_file
+def _jumps(signal: Signal) -> list[tuple[float, float, float]]:
+    """Time in s, value before and value behind, wherever the command jumps."""
+    import numpy as np
+
+    at = signal.starts[1:]
+    before, behind = signal.value(np.nextafter(at, -np.inf)), signal.value(at)
+    there = np.abs(behind - before) > 1e-6 * np.abs([before, behind]).max(initial=0.0)
+    return list(zip(at[there].tolist(), before[there].tolist(), behind[there].tolist(), strict=True))
+
+
+def _drawn(args: argparse.Namespace, test: Excitation) -> tuple[bytes, bytes, str]:
+    """The picture as PNG and as SVG, and what it shows."""
     from pysim.plot import excitation_figure, render
-    from pysim.report import heading, items, page, paragraph, picture
 
     figure = excitation_figure(test, args.unit)
+    spectrum = ", and its spectrum" if len(figure.axes) > 1 else ""
+    caption = f"The command over time, the excitation proper shaded{spectrum}."
+    return render(figure, "png"), render(figure, "svg"), caption
+
+
+def _write_report(args: argparse.Namespace, test: Excitation, png: bytes, svg: bytes, caption: str) -> None:
+    from pysim.io import write_file
+    from pysim.report import heading, items, page, paragraph, picture
+
     name = args.kind.replace("-", "_")
-    write_file(args.output / f"{name}.png", render(figure, "png"))
-    svg = render(figure, "svg")
+    write_file(args.output / f"{name}.png", png)
     write_file(args.output / f"{name}.svg", svg)
-    caption = "The command over time, the excitation proper shaded, and its spectrum."
     parts = [heading("What is played"), items(_facts(test, args)), paragraph(_title(args)), picture(svg, caption)]
     write_file(args.output / "report.html", page(f"Test signal: {args.kind}", _KINDS[args.kind], parts))
     print(f"Report: {args.output / 'report.html'}")

@@ -17,36 +17,48 @@ Array = NDArray[np.float64]
 _SAMPLES = 30_000  # of a time course: the tops of a fast sine do not beat with them
 _LONGEST = 60.0  # s that are drawn of a command without an end
 _POINTS = 2**16  # of a spectrum
-_HIGHEST_HZ = 1000.0  # that a spectrum resolves
+_FEWEST = 64  # samples of it, however short it is
+_HIGHEST_HZ = 1000.0  # that a spectrum resolves, or twice the fastest sine
 
 
 def excitation_figure(test: Excitation, unit: str) -> Figure:
-    """Time course above, amplitude spectrum of the excitation proper below.
+    """Time course above, amplitude spectrum of the excitation proper below, where it moves at all.
 
     A multisine shows the amplitude of its lines, excited and left out; anything else the square root of its power
-    spectral density over the time from onset to end, and a stochastic wave the spectrum it was drawn from.
+    spectral density over the time from onset to end, and a stochastic wave the spectrum it was drawn from. A step
+    stands still from its onset on: it has no such spectrum, and its time course is alone.
 
     Args:
         unit: of the command.
     """
     signal = test.signal()
-    figure = new_figure(7.2, 5.2)
-    time_axes, spectrum_axes = figure.subplots(2, 1)
     stop = test.duration if np.isfinite(test.duration) else test.onset + _LONGEST
     t = np.linspace(0.0, stop, _SAMPLES)
+    values, sampling = _samples(test, signal, min(test.end, stop))
+    moves = np.ptp(values) > 0
+    figure = new_figure(7.2, 5.2 if moves else 2.8)
+    time_axes, *below = figure.subplots(2 if moves else 1, 1, squeeze=False)[:, 0]
     quiet(time_axes)
     time_axes.axvspan(test.onset, min(test.end, stop), color=BAND, alpha=0.35, linewidth=0)
     time_axes.plot(t, signal.value(t), color=COLOURS[0], linewidth=0.9)
     time_axes.set_xlim(0.0, stop)
     time_axes.set_xlabel("Time (s)", fontsize=TEXT)
     time_axes.set_ylabel(f"Command ({unit})", fontsize=TEXT)
-    quiet(spectrum_axes)
-    spectrum_axes.set_xlabel("Frequency (Hz)", fontsize=TEXT)
-    if isinstance(test, Multisine):
-        _draw_lines(spectrum_axes, test, unit, figure)
-    else:
-        _draw_density(spectrum_axes, test, signal, min(test.end, stop), unit, figure)
+    for spectrum_axes in below:
+        quiet(spectrum_axes)
+        spectrum_axes.set_xlabel("Frequency (Hz)", fontsize=TEXT)
+        if isinstance(test, Multisine):
+            _draw_lines(spectrum_axes, test, unit, figure)
+        else:
+            _draw_density(spectrum_axes, test, values, sampling, unit, figure)
     return figure
+
+
+def _samples(test: Excitation, signal: Signal, end: float) -> tuple[Array, float]:
+    """Values (n,) of the command from onset to end, and how many of them a second has."""
+    length = end - test.onset
+    sampling = min(_POINTS / length, max(2 * _HIGHEST_HZ, 4 * test.highest_hz, _FEWEST / length))
+    return signal.value(test.onset + np.arange(int(length * sampling)) / sampling), sampling
 
 
 def _draw_lines(axes: Axes, test: Multisine, unit: str, figure: Figure) -> None:
@@ -71,15 +83,11 @@ def _draw_lines(axes: Axes, test: Multisine, unit: str, figure: Figure) -> None:
     legend_above(figure, handles, labels)
 
 
-def _draw_density(axes: Axes, test: Excitation, signal: Signal, end: float, unit: str, figure: Figure) -> None:
-    """Square root of the one-sided power spectral density from onset to end, mean taken off."""
-    length = end - test.onset
-    sampling = min(_POINTS / length, 2 * _HIGHEST_HZ)
-    values = signal.value(test.onset + np.arange(int(length * sampling)) / sampling)
+def _draw_density(axes: Axes, test: Excitation, values: Array, sampling: float, unit: str, figure: Figure) -> None:
+    """Square root of the one-sided power spectral density of the samples, mean taken off."""
     values = values - values.mean()
     f = np.fft.rfftfreq(values.size, 1 / sampling)[1:]
     density = np.sqrt(2 / (sampling * values.size)) * np.abs(np.fft.rfft(values)[1:])
-    keep = density > 1e-3 * density.max()
     shown = f <= max(2.0 * f[_cumulative(density**2) <= 0.999].max(initial=f[min(2, f.size - 1)]), 3 * f[0])
     (line,) = axes.plot(f[shown], density[shown], color=COLOURS[0], linewidth=0.9)
     if isinstance(test, StochasticWave):
@@ -88,7 +96,7 @@ def _draw_density(axes: Axes, test: Excitation, signal: Signal, end: float, unit
         legend_above(figure, [line, spectrum], ["this wave", "Pierson-Moskowitz spectrum"])
     frequency_axis(axes, float(f[0]), float(f[shown][-1]))
     size_axis(axes)
-    axes.set_ylim(1e-3 * density[keep].max(), 2 * density.max())
+    axes.set_ylim(1e-3 * density.max(), 2 * density.max())
     axes.set_ylabel(f"Amplitude density ({unit}/√Hz)", fontsize=TEXT)
 
 

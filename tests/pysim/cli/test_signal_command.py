@@ -51,6 +51,33 @@ def test_output_writes_picture_and_page(tmp_path: Path) -> None:
     assert "value [V]" in (tmp_path / "s.csv").read_text()
 
 
+def test_a_step_is_told_and_drawn(tmp_path: Path, capsys: pytest.CaptureFixture) -> None:
+    words = ["signal", "step", "--offset", "20", "--height", "10", "--length", "2", "-o", str(tmp_path / "s.csv")]
+    assert main([*words, "--output", str(tmp_path / "r")]) == 0
+    out = capsys.readouterr().out
+    assert "jumps at 2 s from 20 to 30 %\n" in out
+    assert "fastest" not in out
+    assert "rms" not in out
+    assert {path.name for path in (tmp_path / "r").iterdir()} == {"step.png", "step.svg", "report.html"}
+    assert "the excitation proper shaded.<" in (tmp_path / "r" / "report.html").read_text()  # and no spectrum
+    assert main([*words, "--back", "--ramp", "0"]) == 0
+    assert (
+        "jumps at 0.5 s from 0 to 20 %, at 1.5 s from 20 to 30 %, at 3.5 s from 30 to 20 %" in capsys.readouterr().out
+    )
+    assert main(["signal", "chirp", "--amplitude", "5", "--sweep", "5", "-o", str(tmp_path / "c.csv")]) == 0
+    assert "jumps" not in capsys.readouterr().out
+
+
+def test_without_its_picture_nothing_is_written(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def fails(*_: object) -> None:
+        raise RuntimeError("no picture")
+
+    monkeypatch.setattr("pysim.plot.excitation_figure", fails)
+    words = ["signal", "chirp", "--amplitude", "5", "--sweep", "5", "-o", str(tmp_path / "s.csv")]
+    assert main([*words, "--output", str(tmp_path / "r")]) == 3
+    assert not [path for path in tmp_path.rglob("*") if path.is_file()]
+
+
 @pytest.mark.parametrize(
     ("words", "message"),
     [

@@ -3,12 +3,58 @@
 import numpy as np
 import pytest
 
-from pysim.excitation import Chirp, LineGrid, Multisine, PiersonMoskowitz, SteppedSineCommand, StochasticWave
+import pysim.excitation
+from pysim.excitation import (
+    Chirp,
+    Excitation,
+    LineGrid,
+    Multisine,
+    PiersonMoskowitz,
+    Step,
+    SteppedSineCommand,
+    StochasticWave,
+)
 from pysim.plot import excitation_figure
+from tests.pysim.plot.looking import is_whole, numbers
+
+FAMILY: list[Excitation] = [
+    SteppedSineCommand(50.0, 10.0, 5.0, 7.0),
+    SteppedSineCommand(0.0, 10.0, 5000.0, 0.5),  # shorter than two samples of a slow one
+    Chirp(50.0, 10.0, 12.0, 26.0, 5.0),
+    Step(20.0, 10.0, 2.0),
+    Step(0.1, 0.2, 2.0),  # whose mean is not its level, by rounding
+    Step(20.0, -10.0, 2.0, back=True),
+    StochasticWave(PiersonMoskowitz(100.0, 1.0), 20.0, seed=2),
+    Multisine(LineGrid(5.0, 0.1, 30.0), seed=1, rms=5.0),
+]
 
 
 def curve(figure, axes: int, line: int = 0) -> np.ndarray:
     return np.asarray(figure.axes[axes].get_lines()[line].get_xydata())
+
+
+def test_the_family_is_complete() -> None:
+    public = (getattr(pysim.excitation, name) for name in pysim.excitation.__all__)
+    assert {type(test) for test in FAMILY} == {one for one in public if hasattr(one, "signal")} - {Excitation}
+
+
+@pytest.mark.parametrize("test", FAMILY, ids=str)
+def test_every_member_has_a_picture_that_can_be_read(test: Excitation) -> None:
+    figure = excitation_figure(test, "%")
+    t, y = curve(figure, 0).T
+    np.testing.assert_allclose(y, test.signal().value(t))
+    assert t[-1] == test.duration
+    assert is_whole(figure)
+    for axes in figure.axes:
+        assert min(len(numbers(axis)) for axis in (axes.xaxis, axes.yaxis)) >= 3
+
+
+def test_a_step_stands_alone_and_a_step_back_has_a_spectrum() -> None:
+    (alone,) = excitation_figure(Step(20.0, 10.0, 2.0), "%").axes
+    y = np.asarray(alone.get_lines()[0].get_ydata())
+    assert {20.0, 30.0} <= set(y)  # the level before, and the one that is stepped to
+    f, density = curve(excitation_figure(Step(20.0, 10.0, 2.0, back=True), "%"), 1).T
+    assert np.sqrt(np.sum(density**2) * (f[1] - f[0])) == pytest.approx(5.0, rel=0.01)  # half the height, as rms
 
 
 def test_time_course_is_the_command() -> None:
