@@ -140,7 +140,7 @@ def _unit_attributes(variable: Variable) -> dict[str, str | None]:
     """unit, and displayUnit where it is another one.
 
     Raises:
-        BuildError: a unit that cannot be read: an importer could not convert it.
+        BuildError: a unit that cannot be read, or cannot be shown in the other one: an importer could not convert it.
     """
     if not variable.unit or variable.scalar_type is not ScalarType.REAL:
         return {}
@@ -148,10 +148,10 @@ def _unit_attributes(variable: Variable) -> dict[str, str | None]:
     name = variable.display_unit
     if not name or name == variable.unit:
         return {"unit": variable.unit}
-    if not unit.measures_like(_readable(variable, "displayUnit", name)):
+    if conversion(unit, _readable(variable, "displayUnit", name)) is None:
         raise BuildError(
             f'{variable.name}: displayUnit "{name}" does not measure the same quantity as unit "{variable.unit}"; '
-            "choose a unit that can be converted."
+            "choose a unit that can be converted, with rad where an angle is meant and Hz or rev where cycles are."
         )
     return {"unit": variable.unit, "displayUnit": name}
 
@@ -190,8 +190,9 @@ def _add_unit(parent: Element, name: str, displays: list[str]) -> None:
     add(element, "BaseUnit", **exponents, **_scale(unit.factor, unit.offset))
     for display_name in displays:
         display = parse_unit(display_name)
-        assert display is not None  # likewise
-        add(element, "DisplayUnit", name=display_name, **_scale(*conversion(unit, display)))
+        scale = None if display is None else conversion(unit, display)
+        assert scale is not None  # likewise
+        add(element, "DisplayUnit", name=display_name, **_scale(*scale))
 
 
 def _scale(factor: float, offset: float) -> dict[str, str | None]:

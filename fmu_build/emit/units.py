@@ -2,34 +2,54 @@
 
 import math
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 BASE_UNITS = ("kg", "m", "s", "A", "K", "mol", "cd", "rad")  # those of the FMI standard, in its order
 
 
 @dataclass(frozen=True)
 class Unit:
-    """A value in this unit is `factor * value + offset` in SI base units with these exponents."""
+    """A value in this unit is `factor * value + offset` in SI base units with these exponents.
 
-    exponents: tuple[int, ...]  # (8), in the order of BASE_UNITS
+    Args:
+        exponents: (8,) in the order of BASE_UNITS.
+        turns: how many of the angles are whole turns, as the one of rev or rpm is.
+        cycles: how many cycles are counted that the exponents do not show, as the one of Hz.
+    """
+
+    exponents: tuple[int, ...]
     factor: float = 1.0
     offset: float = 0.0
+    turns: int = 0
+    cycles: int = 0
 
     def to_power(self, power: int) -> "Unit":
-        return Unit(tuple(power * e for e in self.exponents), self.factor**power)
+        exponents = tuple(power * e for e in self.exponents)
+        return Unit(exponents, self.factor**power, turns=power * self.turns, cycles=power * self.cycles)
 
     def times(self, other: "Unit") -> "Unit":
         return Unit(
-            tuple(a + b for a, b in zip(self.exponents, other.exponents, strict=True)), self.factor * other.factor
+            tuple(a + b for a, b in zip(self.exponents, other.exponents, strict=True)),
+            self.factor * other.factor,
+            turns=self.turns + other.turns,
+            cycles=self.cycles + other.cycles,
         )
 
-    def measures_like(self, other: "Unit") -> bool:
-        """Whether both measure the same kind of quantity; angles count as pure numbers here (rev/min, 1/s)."""
-        return self.exponents[:-1] == other.exponents[:-1]
+    def with_angles(self) -> "Unit":
+        """A cycle as an angle of 2 pi: Hz as rad/s."""
+        return self._with_more_angle(self.cycles)
+
+    def with_counts(self) -> "Unit":
+        """A turn as one of a number: rev/min as 1/min."""
+        return self._with_more_angle(-self.turns)
+
+    def _with_more_angle(self, power: int) -> "Unit":
+        *others, angle = self.exponents
+        return replace(self, exponents=(*others, angle + power), factor=self.factor * (2 * math.pi) ** power)
 
 
-def _unit(factor: float = 1.0, **exponents: int) -> Unit:
-    return Unit(tuple(exponents.get(base, 0) for base in BASE_UNITS), factor)
+def _unit(factor: float = 1.0, *, turns: int = 0, cycles: int = 0, **exponents: int) -> Unit:
+    return Unit(tuple(exponents.get(base, 0) for base in BASE_UNITS), factor, turns=turns, cycles=cycles)
 
 
 ONE = _unit()
@@ -42,7 +62,7 @@ _PREFIXED = {
     "g": _unit(1e-3, kg=1),
     "t": _unit(1e3, kg=1),
     "sr": _unit(rad=2),
-    "Hz": _unit(s=-1),
+    "Hz": _unit(s=-1, cycles=1),
     "Bq": _unit(s=-1),
     "N": _unit(kg=1, m=1, s=-2),
     "Pa": _unit(kg=1, m=-1, s=-2),
@@ -51,6 +71,7 @@ _PREFIXED = {
     "eV": _unit(1.602176634e-19, kg=1, m=2, s=-2),
     "W": _unit(kg=1, m=2, s=-3),
     "VA": _unit(kg=1, m=2, s=-3),
+    "var": _unit(kg=1, m=2, s=-3),
     "V": _unit(kg=1, m=2, s=-3, A=-1),
     "Ohm": _unit(kg=1, m=2, s=-3, A=-2),
     "S": _unit(kg=-1, m=-2, s=3, A=2),
@@ -62,6 +83,7 @@ _PREFIXED = {
     "lm": _unit(cd=1, rad=2),
     "lx": _unit(cd=1, m=-2, rad=2),
     "Gy": _unit(m=2, s=-2),
+    "Sv": _unit(m=2, s=-2),
     "kat": _unit(mol=1, s=-1),
     "l": _unit(1e-3, m=3),
     "L": _unit(1e-3, m=3),
@@ -75,9 +97,9 @@ _UNPREFIXED = {
     "h": _unit(3600.0, s=1),
     "d": _unit(86400.0, s=1),
     "deg": _unit(math.pi / 180, rad=1),
-    "rev": _unit(2 * math.pi, rad=1),
-    "r": _unit(2 * math.pi, rad=1),
-    "rpm": _unit(2 * math.pi / 60, rad=1, s=-1),
+    "rev": _unit(2 * math.pi, rad=1, turns=1),
+    "r": _unit(2 * math.pi, rad=1, turns=1),
+    "rpm": _unit(2 * math.pi / 60, rad=1, s=-1, turns=1),
     "degC": Unit(_unit(K=1).exponents, 1.0, 273.15),
     "degF": Unit(_unit(K=1).exponents, 5 / 9, 459.67 * 5 / 9),
     "atm": _unit(101325.0, kg=1, m=-1, s=-2),
@@ -137,13 +159,23 @@ def _symbol(symbol: str) -> Unit | None:
         prefix, rest = symbol[:length], symbol[length:]
         if prefix in _PREFIXES and rest in _PREFIXED:
             unit = _PREFIXED[rest]
-            return Unit(unit.exponents, unit.factor * _PREFIXES[prefix])
+            return replace(unit, factor=unit.factor * _PREFIXES[prefix])
     return None
 
 
-def conversion(unit: Unit, display: Unit) -> tuple[float, float]:
-    """(factor, offset) such that a value in `unit` is `factor * value + offset` in `display`."""
-    return _tidy(unit.factor / display.factor), _tidy((unit.offset - display.offset) / display.factor)
+def conversion(unit: Unit, display: Unit) -> tuple[float, float] | None:
+    """(factor, offset) such that a value in `unit` is `factor * value + offset` in `display`.
+
+    Hz against rad/s is a matter of angles, 1/s against rev/min one of counts; 1/s against rad/s may be either.
+
+    Returns:
+        None where they measure different quantities, or it cannot be told whether angles or cycles are counted.
+    """
+    for seen in (Unit.with_angles, Unit.with_counts):
+        one, other = seen(unit), seen(display)
+        if one.exponents == other.exponents:
+            return _tidy(one.factor / other.factor), _tidy((one.offset - other.offset) / other.factor)
+    return None
 
 
 def _tidy(value: float) -> float:

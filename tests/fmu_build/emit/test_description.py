@@ -94,6 +94,15 @@ def test_a_display_unit_that_is_the_unit_is_left_out(fmi):
 def test_a_display_unit_of_another_quantity_is_refused():
     with pytest.raises(BuildError, match='a: displayUnit "l/min"'):
         describe(small(unit="Pa", display_unit="l/min"), 2)
+    with pytest.raises(BuildError, match=r'a: displayUnit "rad/s".*Hz or rev where cycles are'):
+        describe(small(unit="1/s", display_unit="rad/s"), 2)
+
+
+@pytest.mark.parametrize("fmi", [2, 3])
+def test_cycles_are_shown_in_revolutions(fmi):
+    root = ElementTree.fromstring(describe(small(unit="Hz", display_unit="rpm"), fmi))
+    assert root.find("UnitDefinitions/Unit[@name='Hz']/BaseUnit").attrib == {"s": "-1"}
+    assert root.find("UnitDefinitions/Unit/DisplayUnit").attrib == {"name": "rpm", "factor": "60.0"}
 
 
 @pytest.mark.parametrize("fmi", [2, 3])
