@@ -68,7 +68,7 @@ def _tables(model: OdeModel) -> list[str]:
     }
     starts["nominal_x"] = list(model.nominal_x)
     reinit = reinitialised(model)
-    states = [f"{{{row}, {int(k in reinit)}}}" for k, (row, _) in enumerate(derivative_rows(model))]
+    states = [f"{{{row}, {int(row in reinit)}}}" for row, _ in derivative_rows(model)]
     relations = [f"{{{int(r.strict)}, {int(r.instant is not None)}}}" for r in model.relations]
     return [
         _array("ModelVariable", "variables", [_variable(v) for v in model.variables]),

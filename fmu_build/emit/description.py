@@ -8,6 +8,7 @@ from xml.etree.ElementTree import Element
 
 from fmu_build.emit.influence import Layout, direct_influence
 from fmu_build.emit.structure import Unknown
+from fmu_build.emit.table import derivative_rows
 from fmu_build.emit.units import BASE_UNITS, Unit, conversion, parse_unit
 from fmu_build.errors import BuildError
 from fmu_build.lower.ode_model import DefaultExperiment, OdeModel, ScalarType, Variable
@@ -88,7 +89,7 @@ def value_attributes(
 
     Args:
         rows: variables' names -> rows of the table.
-        reinit: continuous states that an event may change.
+        reinit: rows of the continuous states that an event may change.
         first: number of the first variable: 1 in FMI 2, 0 in FMI 3.
     """
     state = variable.derivative_of
@@ -99,7 +100,7 @@ def value_attributes(
         **_limits(variable),
         "start": _start(variable),
         "derivative": None if state is None else str(rows[state] + first),
-        "reinit": "true" if variable.vector == "x" and variable.index in reinit else None,
+        "reinit": "true" if rows[variable.name] in reinit else None,
     }
 
 
@@ -237,10 +238,10 @@ def add_log_categories(root: Element) -> None:
 
 
 def reinitialised(model: OdeModel) -> set[int]:
-    """Continuous states that an event may change."""
+    """Rows of the continuous states that an event may change; other names of these are no states to FMI."""
     s = model.symbols
     layout, masks = Layout.of(s), direct_influence(s, model.updates_x)
-    return {k for k, mask in enumerate(masks) if mask != layout.bit("x", k)}
+    return {row for k, (row, _) in enumerate(derivative_rows(model)) if masks[k] != layout.bit("x", k)}
 
 
 def needs_completed_steps(model: OdeModel) -> bool:

@@ -58,6 +58,15 @@ def test_only_reinitialised_states_say_so(fmi):
     assert found["v"][1]["reinit"] == "true"
 
 
+@pytest.mark.parametrize("fmi", [2, 3])
+def test_another_name_of_a_reinitialised_state_is_no_state(fmi):
+    model = ode_models.bouncing_ball()
+    speed = next(variable for variable in model.variables if variable.name == "v")
+    found = variables(replace(model, variables=(*model.variables, replace(speed, name="w"))), fmi)
+    assert found["v"][1]["reinit"] == "true"
+    assert "reinit" not in found["w"][1]
+
+
 def small(**attributes):
     s = symbols(p=1)
     return ode_model("Small", s, (real("a", "p", 0, PARAMETER, start=3.0, **attributes),))
