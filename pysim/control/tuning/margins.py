@@ -16,6 +16,7 @@ Complex = NDArray[np.complex128]
 
 _SMALL = 1e-3  # of the loop gain, below which antiphase is of no interest
 _BISECTIONS = 60  # each halves the bracket of a crossing; ends at rounding
+_ON_AXIS = 1e-9  # of a pole's size: nearer to the imaginary axis than that it lies there
 
 
 @dataclass(frozen=True)
@@ -87,7 +88,7 @@ def margins(plant: Plant, K_p: float, T_i: float) -> Margins:
     crossovers = _roots(omega, np.log(np.abs(loop)), log_size)
     at = open_loop(plant, K_p, T_i, crossovers)
     phase_margins = np.angle(-at)
-    real_axis = _roots(omega, loop.imag, turned)
+    real_axis = _roots(omega, loop.imag, turned, _undamped(plant))  # L changes sides through infinity there
     values = open_loop(plant, K_p, T_i, real_axis).real
     negative = values < -_SMALL
     # dead time turns L by omega T: a turn from the margin's angle, counted as positive, down to the critical point
@@ -101,7 +102,7 @@ def margins(plant: Plant, K_p: float, T_i: float) -> Margins:
         float(delays.min()) if delays.size else np.inf,
         float(1 / np.abs(1 + loop).min()),
         float(edges[0]) if edges.size else np.inf,
-        _is_stable(plant, K_p, T_i, loop),
+        _is_stable(plant, K_p, T_i, omega),
     )
 
 
@@ -117,13 +118,22 @@ def _frequencies(plant: Plant, K_p: float, T_i: float) -> Array:
     gain = float(np.abs(open_loop(plant, K_p, T_i, np.array([slow])))[0])
     slow *= min(1.0, 1e-3 * gain)  # down there the loop falls with the frequency at least
     wide = np.geomspace(slow, max(own[-1], 1e3 / T_i), 4000)
-    return np.asarray(np.unique(np.concatenate([own, wide])))
+    omega = np.unique(np.concatenate([own, wide]))
+    at_pole = np.isclose(omega[:, None], _undamped(plant), rtol=_ON_AXIS, atol=0.0).any(axis=1)
+    return np.asarray(omega[~at_pole])
 
 
-def _roots(omega: Array, values: Array, of: Callable[[Array], Array]) -> Array:
-    """Frequencies where `values` changes its sign, each bisected."""
+def _undamped(plant: Plant) -> Array:
+    """Angular frequencies of the poles on the imaginary axis, where the loop is infinite."""
+    poles = plant.poles()
+    return np.asarray(poles.imag[(np.abs(poles.real) <= _ON_AXIS * np.abs(poles)) & (poles.imag > 0)])
+
+
+def _roots(omega: Array, values: Array, of: Callable[[Array], Array], poles: Array | tuple[()] = ()) -> Array:
+    """Frequencies where `values` changes its sign, each bisected; not where it does so through a pole."""
     signs = np.signbit(values)
     k = np.flatnonzero(signs[1:] != signs[:-1])
+    k = k[~((omega[k, None] < poles) & (omega[k + 1, None] > poles)).any(axis=1)]
     low, high, left = omega[k], omega[k + 1], signs[k]
     for _ in range(_BISECTIONS):
         middle = 0.5 * (low + high)
@@ -132,14 +142,19 @@ def _roots(omega: Array, values: Array, of: Callable[[Array], Array]) -> Array:
     return np.asarray(0.5 * (low + high), dtype=np.float64)
 
 
-def _is_stable(plant: Plant, K_p: float, T_i: float, loop: Complex) -> bool:
-    """Roots of the closed loop; with dead time by the argument principle along the imaginary axis."""
+def _is_stable(plant: Plant, K_p: float, T_i: float, omega: Array) -> bool:
+    """Whether the closed loop's roots, those of F = D T_i s + N K_p (1 + T_i s) exp(-s delay), lie on the left.
+
+    With dead time by the argument principle: of a polynomial's degree n, F turns by n pi/2 along the positive imaginary
+    axis, and by pi less for each root on the right. Unlike 1 + L, it has no poles, which could lie on that axis. N of
+    the degree of D leaves it swinging by less than pi/2 there, or, with a gain above one, roots on the right.
+    """
+    forward = np.polymul(plant.numerator, (K_p * T_i, K_p))
+    own = np.polymul(plant.denominator, (T_i, 0.0))
     if plant.delay == 0:
-        forward = np.polymul(plant.numerator, (K_p * T_i, K_p))
-        roots = np.roots(np.polyadd(np.polymul(plant.denominator, (T_i, 0.0)), forward))
-        return bool((roots.real < 0).all())
-    poles = plant.poles()
-    at_zero = 1 + int((np.abs(poles) < 1e-12 * max(np.abs(poles).max(), 1.0)).sum())
-    outside = int((poles.real > 1e-12 * np.abs(poles)).sum())
-    turn = np.unwrap(np.angle(1 + loop))
-    return bool(abs((turn[-1] - turn[0]) - (at_zero * np.pi / 2 + outside * np.pi)) < 0.5)
+        return bool((np.roots(np.polyadd(own, forward)).real < 0).all())
+    if forward.size == own.size and abs(forward[0]) >= abs(own[0]):
+        return False
+    s = 1j * omega
+    turn = np.unwrap(np.angle(np.polyval(own, s) + np.polyval(forward, s) * np.exp(-s * plant.delay)))
+    return bool(abs(turn[-1] - turn[0] - (own.size - 1) * np.pi / 2) < np.pi / 2)

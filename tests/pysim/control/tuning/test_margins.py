@@ -70,6 +70,39 @@ def test_an_unstable_plant_stays_one() -> None:
     assert not margins(shaft_speed_plant(c=-1.4).delayed(1e-3), 1.41e-7, 0.000159).stable
 
 
+def pade(delay: float, order: int = 8) -> Plant:
+    """Dead time as a ratio of polynomials: right to rounding up to some 8/delay."""
+    factorial, n = math.factorial, order
+    terms = [delay**k * factorial(2 * n - k) / (factorial(k) * factorial(n - k)) for k in range(n, -1, -1)]
+    return Plant(tuple((-1) ** (n - k) * term for k, term in enumerate(terms)), tuple(terms))
+
+
+@pytest.mark.parametrize("damping", [0.0, 1e-9, 1e-6, 1e-4, 0.3])
+@pytest.mark.parametrize(("K_p", "delay"), [(3.65, 0.0338), (3.65, 0.1), (0.05, 0.0338), (0.05, 0.15), (0.05, 0.3)])
+def test_dead_time_before_a_resonance_of_any_damping(damping: float, K_p: float, delay: float) -> None:
+    w = 27.7
+    plant = Plant((1.0,), (1 / w**2, 2 * damping / w, 1.0, 0.0))
+    near = margins(plant.behind(pade(delay)), K_p, 1.0)
+    assert margins(plant.delayed(delay), K_p, 1.0).stable == near.stable
+
+
+@pytest.mark.parametrize(("K_p", "delay", "stable"), [(0.1, 1.5, False), (0.1, 4.5, True), (-0.1, 1.5, False)])
+def test_dead_time_can_damp_an_undamped_pair(K_p: float, delay: float, stable: bool) -> None:
+    """1/(s^2 + 1) under a weak gain k: the root at j moves by j k exp(-j delay)/2, to the left with k sin(delay) < 0.
+
+    The integral, far below, adds a root near -k/T_i.
+    """
+    found = margins(Plant((1.0,), (1.0, 0.0, 1.0), delay), K_p, 1e3)
+    assert found.stable == stable
+    assert np.isfinite(found.peak_sensitivity)
+
+
+def test_a_gain_above_one_at_high_frequencies_bears_no_dead_time() -> None:
+    """(s + 2)/(s + 1) under k: a chain of roots that tends to the real part ln(k)/delay."""
+    assert margins(Plant((1.0, 2.0), (1.0, 1.0), 1e-3), 0.5, 10.0).stable
+    assert not margins(Plant((1.0, 2.0), (1.0, 1.0), 1e-3), 1.1, 10.0).stable
+
+
 def test_wrong_gains_are_refused() -> None:
     with pytest.raises(BadInput, match="positive time"):
         margins(INTEGRATOR, 1.0, 0.0)
