@@ -2,20 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Sequence
 from pathlib import Path, PurePosixPath
 
 from pysim.io.measured_log import LOGS, TIME, read_log
 from pysim.io.measured_table import TABLE, read_measured_table
 from pysim.io.text_table import LEFT_OUT
 from pysim.io.toml_section import Section, read_toml
-from pysim.io.units import SI, signal_in_si
-from pysim.types import BadInput, Dataset, MeasuredRecord, MeasuredSignal
+from pysim.io.units import Scale, signal_in_si, unit_cure
+from pysim.types import SI, UNITS, BadInput, Dataset, MeasuredSignal
 
 _KEYS = ("dataset", "signals", "records")
 _DATASET_KEYS = ("name", "description", "system", "time_unit")
 _SECONDS = {"s": 1.0, "ms": 1e-3}
 SIGNAL_KEYS = ("role", "unit", "quantity", "variable", "noise", "resolution")
+_SCALE_KEYS = ("factor", "offset")
 _RECORD_KEYS = ("file", "columns", "kind", "use", "offset", "amplitude", "frequency", "input", "output", "origin")
 
 
@@ -52,7 +53,9 @@ def _read(folder: Path, *, keep_going: bool) -> tuple[Dataset, tuple[tuple[str, 
     head = toml.table("dataset")
     toml.whole.refuse_unknown(_KEYS)
     head.refuse_unknown(_DATASET_KEYS)
-    written = {name: _signal(name, section) for name, section in toml.tables("signals").items()}
+    described = toml.tables("signals")
+    written = {name: _signal(name, section) for name, section in described.items()}
+    scales = {name: _scale(written[name].unit, section) for name, section in described.items()}
     sections = toml.rows("records", "log or table")
     kinds = [_kind(section) for section in sections]
     _refuse_repeated(sections)
@@ -60,7 +63,10 @@ def _read(folder: Path, *, keep_going: bool) -> tuple[Dataset, tuple[tuple[str, 
     records, refused = [], []
     for section, kind in zip(sections, kinds, strict=True):
         try:
-            records.append(_record(toml.path.parent, section, kind, written, second))
+            if kind == TABLE:
+                records.append(read_measured_table(toml.path.parent, section, written))
+            else:
+                records.append(read_log(toml.path.parent, section, kind, written, scales, second))
         except BadInput as error:
             if not keep_going:
                 raise
@@ -85,9 +91,11 @@ def _description(place: Path) -> Path:
     return place / "dataset.toml"
 
 
-def described_signal(name: str, section: Section) -> MeasuredSignal:
+def described_signal(name: str, section: Section, units: Sequence[str] = tuple(SI)) -> MeasuredSignal:
     """What a section says of a signal, in the unit of the files; its other keys are the caller's.
 
+    Args:
+        units: that are known; all of them have the zero of their SI unit where the caller does not say more.
     Raises:
         BadInput: a missing or wrong key, or the name of the clock.
     """
@@ -96,10 +104,13 @@ def described_signal(name: str, section: Section) -> MeasuredSignal:
             f"{section.place}: {TIME} is the clock of every log and no signal; remove the section, and where it is in "
             'ms write time_unit = "ms" below [dataset]'
         )
+    unit = section.text("unit")
+    if unit not in units:
+        raise BadInput(f"{section.place}: unit = {unit!r} is not known; {unit_cure(unit, units)}")
     return MeasuredSignal(
         name=name,
         role=section.text("role", among=("input", "output")),
-        unit=section.text("unit", among=tuple(SI)),
+        unit=unit,
         quantity=section.text("quantity", name),
         variable=section.text("variable", name),
         noise=section.not_negative("noise"),
@@ -108,8 +119,16 @@ def described_signal(name: str, section: Section) -> MeasuredSignal:
 
 
 def _signal(name: str, section: Section) -> MeasuredSignal:
-    section.refuse_unknown(SIGNAL_KEYS)
-    return described_signal(name, section)
+    section.refuse_unknown((*SIGNAL_KEYS, *_SCALE_KEYS))
+    return described_signal(name, section, UNITS)
+
+
+def _scale(unit: str, section: Section) -> Scale:
+    """How a column of that signal becomes a signal in SI."""
+    factor, offset = section.optional_number("factor"), section.optional_number("offset")
+    if factor == 0:
+        raise BadInput(f"{section.place}: factor cannot be 0; write how many {unit} one in the column is")
+    return Scale.of(unit, 1.0 if factor is None else factor, offset or 0.0)
 
 
 def _kind(section: Section) -> str:
@@ -126,11 +145,3 @@ def _refuse_repeated(sections: tuple[Section, ...]) -> None:
         if key in seen:
             raise BadInput(f"{section.place}: {key[0]} is the record of {seen[key]} already; name each file once")
         seen[key] = section.place.rpartition(", ")[2]
-
-
-def _record(
-    folder: Path, section: Section, kind: str, signals: Mapping[str, MeasuredSignal], second: float
-) -> MeasuredRecord:
-    if kind == TABLE:
-        return read_measured_table(folder, section, signals)
-    return read_log(folder, section, kind, signals, second)

@@ -10,7 +10,7 @@ import numpy as np
 from pysim.io.columns import Columns, read_columns, refuse_standing_time
 from pysim.io.text_table import LEFT_OUT
 from pysim.io.toml_section import Section
-from pysim.io.units import SI
+from pysim.io.units import Scale
 from pysim.types import BadInput, MeasuredRecord, MeasuredSignal, Record
 
 TIME = "time"
@@ -28,7 +28,12 @@ _ROUNDING = 1e-6  # of a sampling rate that was computed from printed times
 
 
 def read_log(
-    folder: Path, section: Section, kind: str, signals: Mapping[str, MeasuredSignal], second: float = 1.0
+    folder: Path,
+    section: Section,
+    kind: str,
+    signals: Mapping[str, MeasuredSignal],
+    scales: Mapping[str, Scale],
+    second: float = 1.0,
 ) -> MeasuredRecord:
     """One log.
 
@@ -37,6 +42,7 @@ def read_log(
         section: what dataset.toml says of it.
         kind: one of LOGS.
         signals: by their names, in the units of the files.
+        scales: of their columns.
         second: how many s the unit of its times is.
     Raises:
         BadInput: what is wrong, with file, line and remedy.
@@ -46,28 +52,33 @@ def read_log(
     _check_columns(section, names, signals)
     command = _command(section, names, signals)
     use = section.text("use", "fit", among=("fit", "validate"))
-    test = _test(section, kind, SI[signals[command].unit][1] if command else 1.0)
+    test = _test(section, kind, Scale.of(signals[command].unit if command else "1"))
     columns = read_columns(folder / source, all_names, section.place).in_seconds(TIME, second)
     refuse_standing_time(columns)
     if test[2] is not None:
         refuse_fast_sine(section.place, columns, test[2])
     origin = section.text("origin", f"measured, {source}")
-    return MeasuredRecord(source, kind, use, in_si(columns, signals, origin), *test, command=command or "")
+    return MeasuredRecord(source, kind, use, in_si(columns, scales, origin), *test, command=command or "")
 
 
-def in_si(columns: Columns, signals: Mapping[str, MeasuredSignal], origin: str) -> Record:
+def in_si(columns: Columns, scales: Mapping[str, Scale], origin: str) -> Record:
     """The columns beside time as a record, each in the SI unit of its signal.
 
+    Args:
+        scales: of every column.
     Raises:
         BadInput: a single row.
     """
     if columns.values.shape[0] < 2:
         raise BadInput(f"{columns.place(0)}: the log holds a single row; a record over time needs two or more")
     names = tuple(name for name in columns.names if name != TIME)
-    units = [SI[signals[name].unit] for name in names]
+    own = [scales[name] for name in names]
     order = [columns.names.index(name) for name in names]
-    values = columns.values[:, order] * np.array([factor for _, factor in units])
-    return Record(columns[TIME], values, names, tuple(unit for unit, _ in units), origin=origin)
+    values = columns.values[:, order] * np.array([scale.gain for scale in own])
+    zeros = np.array([scale.zero for scale in own])
+    if zeros.any():
+        values += zeros
+    return Record(columns[TIME], values, names, tuple(scale.unit for scale in own), origin=origin)
 
 
 def refuse_fast_sine(place: str, columns: Columns, frequency: float) -> None:
@@ -120,7 +131,7 @@ def _command(section: Section, names: tuple[str, ...], signals: Mapping[str, Mea
     return inputs[0] if len(inputs) == 1 else None
 
 
-def _test(section: Section, kind: str, to_si: float) -> tuple[float | None, float | None, float | None]:
+def _test(section: Section, kind: str, scale: Scale) -> tuple[float | None, float | None, float | None]:
     """Offset and amplitude in SI units or %, and the frequency in Hz, as far as told."""
     for key in LOGS[kind]:
         if key not in section.values:
@@ -131,5 +142,5 @@ def _test(section: Section, kind: str, to_si: float) -> tuple[float | None, floa
             "remove it, or correct the kind"
         )
     offset, amplitude = section.optional_number("offset"), section.positive("amplitude")
-    offset, amplitude = (None if value is None else to_si * value for value in (offset, amplitude))
-    return offset, amplitude, section.positive("frequency")
+    offset = None if offset is None else scale.si(offset)
+    return offset, None if amplitude is None else scale.gain * amplitude, section.positive("frequency")

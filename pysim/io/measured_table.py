@@ -7,7 +7,7 @@ from pathlib import Path
 
 from pysim.io.response_table import TABLE_COLUMNS, read_response
 from pysim.io.toml_section import Section
-from pysim.io.units import SI
+from pysim.io.units import Scale
 from pysim.types import BadInput, MeasuredRecord, MeasuredSignal, SineTest
 
 TABLE = "frequency-response-table"
@@ -25,15 +25,15 @@ def read_measured_table(folder: Path, section: Section, signals: Mapping[str, Me
     """
     source = section.source()
     command, output = (_signal_of_role(section, role, tuple(signals.values())) for role in ("input", "output"))
-    to_si, from_command = SI[signals[output].unit][1], SI[signals[command].unit][1]
-    offset, amplitude = (from_command * section.number(key) for key in ("offset", "amplitude"))
+    driven = Scale.of(signals[command].unit)
+    offset, amplitude = driven.si(section.number("offset")), driven.gain * section.number("amplitude")
     test = SineTest(offset, amplitude, input=command, output=output)
     use = section.text("use", "fit", among=("fit", "validate"))
     names = section.texts("columns")
     if any(name not in names for name in TABLE_COLUMNS):
         raise BadInput(f"{section.place}: columns must name {', '.join(TABLE_COLUMNS)}, in the order of the file")
     origin = section.text("origin", f"measured, {source}")
-    scale = to_si / from_command
+    scale = Scale.of(signals[output].unit).gain / driven.gain
     response = read_response(folder / source, names, test, section.place, scale=scale, origin=origin)
     return MeasuredRecord(source, TABLE, use, response, offset, amplitude, command=command)
 

@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 
 from pysim.io.columns import Columns, read_columns, refuse_standing_time
 from pysim.io.measured_log import TIME, in_si, refuse_fast_sine
-from pysim.io.units import SI, signal_in_si
-from pysim.types import BadInput, Dataset, MeasuredRecord, MeasuredSignal
+from pysim.io.units import Scale, signal_in_si, unit_cure
+from pysim.types import UNITS, BadInput, Dataset, MeasuredRecord, MeasuredSignal
 
 Array = NDArray[np.float64]
 
@@ -84,8 +84,8 @@ def _checked(signals: Sequence[MeasuredSignal]) -> dict[str, MeasuredSignal]:
     if roles.count("input") != 1 or roles.count("output") != len(roles) - 1 or len(roles) < 2:
         raise BadInput('signals: needs one with the role "input", the command, and one or more with "output"')
     for signal in signals:
-        if signal.unit not in SI:
-            raise BadInput(f"signal {signal.name}: unit = {signal.unit!r} is not known; use one of {', '.join(SI)}")
+        if signal.unit not in UNITS:
+            raise BadInput(f"signal {signal.name}: unit = {signal.unit!r} is not known; {unit_cure(signal.unit)}")
     return by_name
 
 
@@ -122,12 +122,13 @@ def _record(folder: Path, log: _Named, signals: dict[str, MeasuredSignal]) -> Me
     columns = read_columns(log.path, (TIME, *signals), str(folder))
     refuse_standing_time(columns)
     refuse_fast_sine(f"the name of {log.path.name}", columns, log.frequency)
-    data = in_si(columns, signals, f"measured, {source}")
+    scales = {name: Scale.of(signal.unit) for name, signal in signals.items()}
+    data = in_si(columns, scales, f"measured, {source}")
     offset, amplitude = log.offset, log.amplitude
     if offset is None or amplitude is None:
         offset, amplitude = _swing(log, columns, command.name)
-    to_si = SI[command.unit][1]
-    test = to_si * offset, to_si * amplitude, log.frequency
+    driven = scales[command.name]
+    test = driven.si(offset), driven.gain * amplitude, log.frequency
     return MeasuredRecord(source, "frequency-response", "fit", data, *test, command=command.name)
 
 

@@ -2,42 +2,11 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Mapping
-from dataclasses import replace
-from types import MappingProxyType
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from difflib import get_close_matches
 
-from pysim.types import MeasuredSignal
-
-# unit -> SI unit and how many of them it is; "%" stays what it is
-SI: Mapping[str, tuple[str, float]] = MappingProxyType(
-    {unit: (unit, 1.0) for unit in ("1", "%", "%/s", "s", "Hz", "rad", "rad/s", "m", "m/s", "m2", "m3", "m3/s")}
-    | {unit: (unit, 1.0) for unit in ("Pa", "Pa/s", "N", "N.m", "kg", "V", "V/s", "A", "W")}
-    | {
-        "ms": ("s", 1e-3),
-        "deg": ("rad", math.pi / 180),
-        "deg/s": ("rad/s", math.pi / 180),
-        "rpm": ("rad/s", math.pi / 30),
-        "rev/min": ("rad/s", math.pi / 30),
-        "1/min": ("rad/s", math.pi / 30),
-        "mm": ("m", 1e-3),
-        "mm/s": ("m/s", 1e-3),
-        "mm2": ("m2", 1e-6),
-        "cm2": ("m2", 1e-4),
-        "cm3": ("m3", 1e-6),
-        "l": ("m3", 1e-3),
-        "l/min": ("m3/s", 1e-3 / 60),
-        "kPa": ("Pa", 1e3),
-        "MPa": ("Pa", 1e6),
-        "bar": ("Pa", 1e5),
-        "bar/s": ("Pa/s", 1e5),
-        "kN": ("N", 1e3),
-        "kN.m": ("N.m", 1e3),
-        "mV": ("V", 1e-3),
-        "mA": ("A", 1e-3),
-        "kW": ("W", 1e3),
-    }
-)
+from pysim.types import SI, SYNONYMS, UNITS, MeasuredSignal, in_si
 
 # What is read in place of an SI unit, in every picture; all others are shown as they are
 _READ = {SI[unit][0]: (unit, 1 / SI[unit][1]) for unit in ("bar", "mm", "mm/s", "l/min", "deg", "rpm")}
@@ -56,6 +25,40 @@ def shown_value(value: float, unit: str, form: str = "g") -> str:
 
 def signal_in_si(signal: MeasuredSignal) -> MeasuredSignal:
     """A signal that was described in the unit of its files, with unit, noise and resolution in SI."""
-    unit, factor = SI[signal.unit]
+    unit, factor, _ = in_si(signal.unit)
     noise, resolution = (None if v is None else factor * v for v in (signal.noise, signal.resolution))
     return replace(signal, unit=unit, noise=noise, resolution=resolution)
+
+
+@dataclass(frozen=True)
+class Scale:
+    """How the numbers of a file become those of a signal in SI: gain * number + zero.
+
+    Args:
+        unit: SI.
+        gain: SI units per one in the file.
+        zero: what a zero in the file is, in `unit`.
+    """
+
+    unit: str
+    gain: float
+    zero: float = 0.0
+
+    @classmethod
+    def of(cls, unit: str, factor: float = 1.0, offset: float = 0.0) -> Scale:
+        """Of a file whose numbers are in `unit` once they are multiplied by the factor and the offset is added."""
+        si, many, zero = in_si(unit)
+        return cls(si, many * factor, many * offset + zero)
+
+    def si(self, number: float) -> float:
+        """The signal where the file has this number."""
+        return self.gain * number + self.zero if self.zero else self.gain * number
+
+
+def unit_cure(unit: str, among: Sequence[str] = UNITS) -> str:
+    """What to write in place of a unit that is not known."""
+    small = {one.casefold(): one for one in reversed(among)}
+    near = [small[one] for one in get_close_matches(unit.casefold(), list(small), n=2)]
+    if near:
+        return f"did you mean {' or '.join(near)}? docs/data.md lists all"
+    return f"use one of {', '.join(one for one in among if one not in SYNONYMS)}"

@@ -36,8 +36,12 @@ from pysim.types.port import Port
 from pysim.types.record import Outcome, Record, SimulationError
 from pysim.types.signal import Signal
 from pysim.types.sine_test import SineTest
+from pysim.types.units import SI, SYNONYMS, UNITS, conversion, in_si
 
 __all__ = [
+    "SI",
+    "SYNONYMS",
+    "UNITS",
     "Abilities",
     "AddedEffect",
     "BadInput",
@@ -83,4 +87,6 @@ __all__ = [
     "Start",
     "Told",
     "Variable",
+    "conversion",
+    "in_si",
 ]

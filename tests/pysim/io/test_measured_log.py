@@ -67,6 +67,36 @@ def test_columns_become_signals_in_si(tmp_path: Path) -> None:
     assert data.responses() == ()
 
 
+def test_a_column_is_scaled_and_moved_into_the_unit_of_its_signal(tmp_path: Path) -> None:
+    gauge = TOML.replace('unit = "bar"', 'unit = "bar"\nfactor = 40\noffset = 1.01325\nnoise = 0.5')  # 0 to 10 V
+    turned = gauge.replace('unit = "rpm"', 'unit = "rpm"\nfactor = -1')
+    data = read_dataset(files(tmp_path, turned))
+    sine, wave = data.logs()
+    np.testing.assert_allclose(sine.data["p"], 40e5 * np.array([20, 21, 22.5]) + 101325)
+    np.testing.assert_allclose(sine.data["speed"], [-2 * np.pi, -np.pi, 2 * np.pi])
+    np.testing.assert_array_equal(wave.data["u"], [0.0, 0.25])
+    assert (sine.offset, sine.amplitude, data.signal("p").noise) == (20e5, 5e5, 0.5e5)  # told in bar, as the unit says
+    with pytest.raises(BadInput, match=r"line 4: factor cannot be 0; write how many bar one in the column is"):
+        read_dataset(files(tmp_path, gauge.replace("factor = 40", "factor = 0")))
+
+
+def test_temperatures_have_zeros_of_their_own(tmp_path: Path) -> None:
+    data = read_dataset(files(tmp_path, TOML.replace('unit = "bar"', 'unit = "°C"\nnoise = 0.5')))
+    sine = data.logs()[0]
+    assert sine.data.units == ("rad/s", "K")
+    np.testing.assert_allclose(sine.data["p"], [293.15, 294.15, 295.65])
+    assert (sine.offset, sine.amplitude, data.signal("p").noise) == (pytest.approx(293.15), 5.0, 0.5)
+
+
+@pytest.mark.parametrize(
+    ("unit", "cure"),
+    [("Bar", "did you mean bar or "), ("N m", "did you mean Nm or N/m"), ("one", "use one of 1, %, %/s, s, ms")],
+)
+def test_a_unit_that_is_not_known_is_refused_with_those_near_it(tmp_path: Path, unit: str, cure: str) -> None:
+    with pytest.raises(BadInput, match=f"line 14: unit = '{unit}' is not known; {cure}"):
+        read_dataset(files(tmp_path, TOML.replace('unit = "1"', f'unit = "{unit}"')))
+
+
 def test_a_record_tells_what_its_test_was_meant_to_be(tmp_path: Path) -> None:
     sine, wave = read_dataset(files(tmp_path)).logs()
     assert (sine.offset, sine.amplitude, sine.frequency) == (20e5, 5e5, 2.0)

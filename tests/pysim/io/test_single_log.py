@@ -25,7 +25,7 @@ def test_a_log_becomes_a_data_set_in_si_units(tmp_path: Path) -> None:
         (("time", "u"), ("%",), "at least one response"),
         (("u", "time", "y"), ("%", "%"), "name time, the command"),
         (("time", "u", "y"), ("%",), "give one for u, y each"),
-        (("time", "u", "y"), ("%", "furlong"), "units %, furlong"),
+        (("time", "u", "y"), ("%", "furlong"), "the unit 'furlong' is not known; use one of 1, %"),
         (("time", "u", "y", "z"), ("%", "%", "%"), "line 2: 3 columns where 4 belong"),
     ],
 )
