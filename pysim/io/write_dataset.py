@@ -11,9 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pysim.io.files import write_file
+from pysim.io.measured_log import LOGS
 from pysim.io.response_table import TABLE_COLUMNS
-from pysim.io.units import SI
-from pysim.types import BadInput, Dataset, FrequencyResponse, MeasuredRecord, MeasuredSignal, Record
+from pysim.io.units import Scale
+from pysim.types import UNITS, BadInput, Dataset, FrequencyResponse, MeasuredRecord, MeasuredSignal, Record, conversion
 
 Array = NDArray[np.float64]
 
@@ -31,18 +32,18 @@ def write_dataset(folder: Path | str, dataset: Dataset, *, units: Mapping[str, s
 
     Args:
         folder: made here; must be empty or not there. Records go to the files they name as their source.
-        units: signal -> unit in the files; the SI unit where not told.
+        units: signal -> unit in the files; its own unit where not told.
     Returns:
         the path of dataset.toml.
     Raises:
-        BadInput: a folder that holds something, a source outside of it or twice, a unit of another kind, or a place
-            that cannot be written.
+        BadInput: a folder that holds something, a source outside of it or twice, a unit of another kind, a test that
+            does not say what its kind needs, or a place that cannot be written.
     """
     folder, units = Path(folder), dict(units or {})
-    for signal in dataset.signals:
-        _check_unit(signal, units.setdefault(signal.name, signal.unit))
+    scales = {signal.name: _scale(signal, units.setdefault(signal.name, signal.unit)) for signal in dataset.signals}
     _check_sources(dataset)
-    digits = {signal.name: _digits(signal, dataset, SI[units[signal.name]][1]) for signal in dataset.signals}
+    _check_tests(dataset)
+    digits = {signal.name: _digits(signal, dataset, scales[signal.name].gain) for signal in dataset.signals}
     try:
         folder.mkdir(parents=True, exist_ok=True)
         if any(folder.iterdir()):
@@ -52,17 +53,29 @@ def write_dataset(folder: Path | str, dataset: Dataset, *, units: Mapping[str, s
         for record in dataset.records:
             path = folder / record.source
             path.parent.mkdir(parents=True, exist_ok=True)
-            write_file(path, _content(record, units, digits))
-        write_file(folder / "dataset.toml", _description(dataset, units))
+            write_file(path, _content(record, units, scales, digits))
+        write_file(folder / "dataset.toml", _description(dataset, dataset.name or folder.resolve().name, units, scales))
     except OSError as error:
         raise BadInput(f"{folder}: cannot write there ({error.strerror or error}); choose another folder") from error
     return folder / "dataset.toml"
 
 
-def _check_unit(signal: MeasuredSignal, unit: str) -> None:
-    if unit not in SI or SI[unit][0] != signal.unit:
-        kin = ", ".join(name for name, (si, _) in SI.items() if si == signal.unit)
+def _scale(signal: MeasuredSignal, unit: str) -> Scale:
+    """From the unit of the files to that of the signal."""
+    known = conversion(unit, signal.unit)
+    if known is None or unit not in UNITS:
+        kin = ", ".join(name for name in UNITS if conversion(name, signal.unit))
         raise BadInput(f"signal {signal.name} is in {signal.unit} and cannot be written in {unit!r}; use one of {kin}")
+    return Scale(signal.unit, *known)
+
+
+def _check_tests(dataset: Dataset) -> None:
+    """What `read_dataset` would miss."""
+    for record in dataset.logs():
+        missing = [key for key in LOGS.get(record.kind, ()) if getattr(record, key) is None]
+        if missing:
+            needed = f"kind {record.kind!r} needs {' and '.join(missing)}"
+            raise BadInput(f"record {record.source!r}: {needed}; tell what it was, or give another kind")
 
 
 def _check_sources(dataset: Dataset) -> None:
@@ -81,7 +94,7 @@ def _check_sources(dataset: Dataset) -> None:
 
 
 def _digits(signal: MeasuredSignal, dataset: Dataset, to_si: float) -> int:
-    """Decimals worth printing, in a unit that is `to_si` SI units."""
+    """Decimals worth printing, in a unit of which one is `to_si` of the signal's."""
     steps = [step for step in (signal.noise, signal.resolution) if step]
     if steps:
         return max(0, math.ceil(-math.log10(min(steps) / to_si / _FINER)))
@@ -90,16 +103,23 @@ def _digits(signal: MeasuredSignal, dataset: Dataset, to_si: float) -> int:
     return max(0, _DIGITS - 1 - math.floor(math.log10(largest / to_si))) if largest else _DIGITS
 
 
-def _content(record: MeasuredRecord, units: Mapping[str, str], digits: Mapping[str, int]) -> str:
+def _content(
+    record: MeasuredRecord, units: Mapping[str, str], scales: Mapping[str, Scale], digits: Mapping[str, int]
+) -> str:
     if isinstance(record.data, FrequencyResponse):
-        return _table(record.data, units)
+        return _table(record.data, scales)
     log = record.data
-    columns = [log.time, *(log[name] / SI[units[name]][1] for name in log.names)]
+    columns = [log.time, *(_unscaled(log[name], scales[name]) for name in log.names)]
     heads = ["time_s", *(name + _suffix(units[name]) for name in log.names)]
     decimals = [_time_digits(log.time), *(digits[name] for name in log.names)]
     form = "\t".join(f"%.{count}f" for count in decimals)
     rows = (form % row for row in zip(*(column.tolist() for column in columns), strict=True))
     return "\n".join(["\t".join(heads), *rows]) + "\n"
+
+
+def _unscaled(column: Array, scale: Scale) -> Array:
+    """In the unit of the file."""
+    return (column - scale.zero if scale.zero else column) / scale.gain
 
 
 def _time_digits(time: Array) -> int:
@@ -114,28 +134,28 @@ def _suffix(unit: str) -> str:
     return "" if unit == "1" else f"_{word}"
 
 
-def _table(response: FrequencyResponse, units: Mapping[str, str]) -> str:
-    scale = SI[units[response.test.output]][1] / SI[units[response.test.input]][1]
+def _table(response: FrequencyResponse, scales: Mapping[str, Scale]) -> str:
+    scale = scales[response.test.output].gain / scales[response.test.input].gain
     columns = response.frequency, 20 * np.log10(response.gain / scale), np.degrees(response.phase)
     rows = (f"{f!r}\t{db!r}\t{deg!r}" for f, db, deg in zip(*(column.tolist() for column in columns), strict=True))
     return "\n".join(["\t".join(TABLE_COLUMNS), *rows]) + "\n"
 
 
-def _description(dataset: Dataset, units: Mapping[str, str]) -> str:
+def _description(dataset: Dataset, name: str, units: Mapping[str, str], scales: Mapping[str, Scale]) -> str:
     """dataset.toml."""
-    about = {"name": dataset.name, "description": dataset.description, "system": dataset.system}
+    about = {"name": name, "description": dataset.description or None, "system": dataset.system or None}
     parts = [_section("[dataset]", about)]
     for signal in dataset.signals:
-        to_si = SI[units[signal.name]][1]
+        to_si = scales[signal.name].gain
         about = {"role": signal.role, "unit": units[signal.name], "quantity": signal.quantity or signal.name}
-        about |= {} if signal.variable == signal.name else {"variable": signal.variable}
+        about |= {} if signal.variable in ("", signal.name) else {"variable": signal.variable}
         noise, resolution = (None if v is None else _tidy(v / to_si) for v in (signal.noise, signal.resolution))
         parts.append(_section(f"[signals.{_key(signal.name)}]", about | {"noise": noise, "resolution": resolution}))
-    parts += [_section("[[records]]", _about(record, dataset, units)) for record in dataset.records]
+    parts += [_section("[[records]]", _about(record, dataset, scales)) for record in dataset.records]
     return "\n".join(parts)
 
 
-def _about(record: MeasuredRecord, dataset: Dataset, units: Mapping[str, str]) -> dict[str, object]:
+def _about(record: MeasuredRecord, dataset: Dataset, scales: Mapping[str, Scale]) -> dict[str, object]:
     """The keys of a record."""
     data = record.data
     columns = list(TABLE_COLUMNS) if isinstance(data, FrequencyResponse) else ["time", *data.names]
@@ -148,8 +168,11 @@ def _about(record: MeasuredRecord, dataset: Dataset, units: Mapping[str, str]) -
         about |= {"input": data.test.input, "output": data.test.output}
         command = data.test.input
         numbers = {"offset": data.test.offset, "amplitude": data.test.amplitude}
-    to_si = SI[units[command]][1] if command else 1.0
-    about |= {key: None if value is None else _tidy(value / to_si) for key, value in numbers.items()}
+    scale = scales[command] if command else Scale("1", 1.0)
+    moved = {"offset": scale.zero, "amplitude": 0.0}
+    about |= {
+        key: None if value is None else _tidy((value - moved[key]) / scale.gain) for key, value in numbers.items()
+    }
     about |= {"frequency": record.frequency, "use": record.use}
     usual = f"measured, {record.source}"
     return about | {"origin": data.origin if data.origin not in ("", usual) else None}

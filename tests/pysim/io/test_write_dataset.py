@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from pysim.io import read_dataset, write_dataset
+from pysim.io import read_dataset, read_single_log, write_dataset
 from pysim.types import BadInput, Dataset, FrequencyResponse, MeasuredRecord, MeasuredSignal, Record, SineTest
 
 SIGNALS = (
@@ -62,6 +62,42 @@ def test_everything_comes_back(tmp_path: Path) -> None:
     np.testing.assert_allclose(log.time, TIME, atol=1e-4 / 70)
     np.testing.assert_allclose(response.gain, data.responses()[0].gain, rtol=1e-12)
     np.testing.assert_allclose(response.phase, data.responses()[0].phase, rtol=1e-12)
+
+
+def test_a_log_without_a_description_comes_back(tmp_path: Path) -> None:
+    (tmp_path / "a.txt").write_text("0.0\t1\t2\n0.1\t2\t4\n")
+    alone = read_single_log(tmp_path / "a.txt", "step", ("time", "u", "y"), ("%", "deg"))
+    back = read_dataset(write_dataset(tmp_path / "new", alone))
+    assert (back.name, back.description, back.system) == ("a.txt", "-", "-")
+    np.testing.assert_allclose(back.logs()[0].data.values, alone.logs()[0].data.values, atol=1e-7)
+    assert read_dataset(write_dataset(tmp_path / "unnamed", replace(alone, name=""))).name == "unnamed"
+
+
+def test_a_test_that_could_not_be_read_is_not_written(tmp_path: Path) -> None:
+    data = dataset(VALUES, TIME)
+    sine = replace(data.records[0], offset=None, frequency=None)
+    with pytest.raises(
+        BadInput, match=r"'sub/log\.txt': kind 'frequency-response' needs offset and frequency; tell what"
+    ):
+        write_dataset(tmp_path / "new", replace(data, records=(sine,)))
+    assert not (tmp_path / "new").exists()
+
+
+def test_units_with_a_zero_of_their_own_come_back(tmp_path: Path) -> None:
+    signals = (MeasuredSignal("T", "input", "K", "", "T", noise=0.1), MeasuredSignal("y", "output", "bar", "", "y"))
+    log = Record(np.arange(3), np.array([[293.15, 1.0], [303.15, 2.0], [313.15, 3.0]]), ("T", "y"), ("K", "bar"))
+    record = MeasuredRecord("a.txt", "chirp", "fit", log, 303.15, 10.0)
+    toml = write_dataset(tmp_path / "new", Dataset("x", "-", "-", signals, (record,)), units={"T": "degC"})
+    assert [line.split("\t")[1] for line in (tmp_path / "new/a.txt").read_text().split("\n")[1:4]] == [
+        "20.000",
+        "30.000",
+        "40.000",
+    ]
+    back = read_dataset(toml)
+    (one,) = back.logs()
+    np.testing.assert_allclose(one.data.values, log.values * [1.0, 1e5])
+    assert (one.offset, one.amplitude) == (pytest.approx(303.15), pytest.approx(10.0))
+    assert back.signal("T").noise == pytest.approx(0.1)
 
 
 def test_the_input_that_numbers_speak_of_comes_back(tmp_path: Path) -> None:
