@@ -6,6 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import signal
 
+from pysim.identify.sampling import sampling
+
 Array = NDArray[np.float64]
 
 # Fewest samples for a spectrum.
@@ -24,7 +26,7 @@ def residual_spectrum(time: Array, values: Array) -> tuple[Array, Array, float]:
         frequency (n_f,) in Hz, without zero; power (n_f,); and the degrees of freedom of each value.
     Source: Welch 1967, IEEE Transactions on Audio and Electroacoustics 15:70; Hann windows, halves overlapping.
     """
-    step = float(np.median(np.diff(time)))
+    step = sampling(time).step
     length = min(values.size, max(FEWEST // 2, values.size // _SEGMENTS))
     frequency, density = signal.welch(values, 1 / step, nperseg=length, detrend=False)
     count = 2 * (values.size // length) - 1

@@ -11,6 +11,7 @@ from pysim.identify.data_check.clipping import clipped
 from pysim.identify.data_check.clock import Clock, clock
 from pysim.identify.data_check.folding import share_near_nyquist
 from pysim.identify.data_check.swing import swing
+from pysim.identify.logged import logged_wave
 from pysim.types import BadInput, Dataset, FrequencyResponse, MeasuredRecord, MeasuredSignal, Record
 
 _PERIODS = 2.0  # whole ones that a sine fit needs after the transients are cut off
@@ -20,7 +21,7 @@ _IMPURE = 0.02  # of the sine: what may be left over of the command
 _JITTER = 0.05  # of the sampling interval
 _HARMONIC = 3  # a symmetric nonlinearity answers there
 _FOLDED = 0.01  # of a signal's variance close to half the sampling rate
-_SLOW = 1.0  # Hz: slower than any bench logs, unless its times are no seconds
+_SLOW = 1.0  # Hz: no faster does a bench log, unless its times are no seconds
 _ROUNDING = 1e-6
 
 
@@ -103,15 +104,18 @@ def _warnings(
     dataset: Dataset, record: MeasuredRecord, log: Record, base: Clock, limits: dict[str, tuple[float, float]]
 ) -> Iterator[str]:
     yield from _of_clock(base)
-    if record.frequency is not None and record.command:
-        yield from _of_sine(record, log, base, dataset.signal(record.command))
+    still = [name for name in log.names if np.ptp(log[name]) == 0]
+    yield from (f"{name} stands still at {log[name][0]:g} {dataset.signal(name).unit}" for name in still)
+    inside = _wave_inside(record, log)
+    if record.frequency is not None and record.command and record.command not in still:
+        yield from _of_sine(record, log, inside, base, dataset.signal(record.command))
     elif record.kind == "chirp" and record.command:
-        values = log[record.command]
+        values = log[record.command][inside]
         middle, half = 0.5 * float(values.max() + values.min()), 0.5 * float(np.ptp(values))
         yield from _of_level(record, dataset.signal(record.command), middle, half)
     for name in log.names:
         signal = dataset.signal(name)
-        count = clipped(log[name], *limits[name]) if signal.role == "output" else 0
+        count = clipped(log[name][inside], *limits[name]) if signal.role == "output" else 0
         if count:
             low, high = limits[name]
             ends = f"({low:g}, {high:g} {signal.unit})"
@@ -125,8 +129,18 @@ def _warnings(
             )
 
 
+def _wave_inside(record: MeasuredRecord, log: Record) -> slice:
+    """The samples of a sine or chirp behind its lead-in and before its ramp back; all where that cannot be told."""
+    try:
+        wave = logged_wave(record, record.command)
+    except BadInput:
+        return slice(None)
+    first, last = np.searchsorted(log.time, [wave.start - _ROUNDING, wave.end + _ROUNDING])
+    return slice(int(first), int(last))
+
+
 def _of_clock(base: Clock) -> Iterator[str]:
-    if base.rate < _SLOW:
+    if base.rate < _SLOW * (1 + _ROUNDING):
         yield f'{base.rate:.3g} samples per second: if time is in ms, write time_unit = "ms" below [dataset]'
     if base.gaps:
         start, length = max(base.gaps, key=lambda gap: gap[1])
@@ -136,24 +150,22 @@ def _of_clock(base: Clock) -> Iterator[str]:
         yield f"uneven sampling: the intervals vary by {100 * base.jitter:.0f} percent"
 
 
-def _of_sine(record: MeasuredRecord, log: Record, base: Clock, command: MeasuredSignal) -> Iterator[str]:
+def _of_sine(record: MeasuredRecord, log: Record, inside: slice, base: Clock, command: MeasuredSignal) -> Iterator[str]:
     """A stepped sine against what the record says of it."""
-    told = float(record.frequency or 0.0)
-    if np.ptp(log[command.name]) == 0:
-        yield f"{command.name} stands still at {log[command.name][0]:g} {command.unit}"
-        return
-    periods = told * base.duration
+    told, time, values = float(record.frequency or 0.0), log.time[inside], log[command.name][inside]
+    duration = float(time[-1] - time[0])
+    periods = told * (duration + 1 / base.rate)  # the last sample stands for an interval too
     if periods < _PERIODS - _ROUNDING:
         yield f"{periods:.2g} periods of {told:g} Hz: too few for a fit without the transient; two are the least"
     if _HARMONIC * told > 0.5 * base.rate:
         beyond = f"{_HARMONIC} x {told:g} Hz is beyond half the sampling rate, {base.rate:.4g} Hz"
         yield f"aliasing: {beyond}, and folds back"
     try:
-        found = swing(log.time, log[command.name], told)
+        found = swing(time, values, told)
     except BadInput as error:
         yield f"no sine can be fitted to {command.name}: {error}"
         return
-    if abs(found.frequency - told) * base.duration > _DRIFT and found.impurity < 1:
+    if abs(found.frequency - told) * duration > _DRIFT and found.impurity < 1:
         yield f"{command.name} swings at {found.frequency:.5g} Hz, not at {told:g} Hz"
     if found.impurity > _IMPURE:
         yield f"{command.name} is no pure sine: {100 * found.impurity:.0f} percent are left over"

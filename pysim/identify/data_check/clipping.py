@@ -8,6 +8,8 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 
 _LEAST = 4  # samples in a row at the very same extreme value
+_BESIDE = 6  # runs to either side that tell how lively a signal is
+_EACH = 1.5  # samples: shorter runs, in the mean, are those of a noisy signal
 _JUMP = 1.5  # quantisation steps: a signal that comes to rest arrives by single ones
 
 
@@ -30,8 +32,15 @@ def clipped(values: Array, low: float, high: float) -> int:
     if not steps.size:
         return 0
     extreme = (levels == low) | (levels == high)
-    others = lengths[~extreme]
-    lively = others.size > 0 and others.mean() < 1.5  # noise moves nearly every sample
     entered, left = np.concatenate([[0.0], steps]), np.concatenate([steps, [0.0]])
     cut = np.maximum(entered, left) > _JUMP * steps.min()
-    return int(lengths[extreme & (lengths >= _LEAST) & (cut | lively)].sum())
+    return int(lengths[extreme & (lengths >= _LEAST) & (cut | _lively(lengths, extreme))].sum())
+
+
+def _lively(lengths: NDArray[np.int64], extreme: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """(n_r,) whether noise moves nearly every sample around a run: a chirp is slow here and fast there."""
+    around = np.ones(2 * _BESIDE + 1)
+    other = (~extreme).astype(np.float64)
+    counts = np.convolve(other, around, "full")[_BESIDE : _BESIDE + lengths.size]
+    total = np.convolve(other * lengths, around, "full")[_BESIDE : _BESIDE + lengths.size]
+    return np.asarray((counts > 0) & (total < _EACH * counts))

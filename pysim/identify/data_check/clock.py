@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from pysim.identify.sampling import sampling
 
-_GAP = 1.5  # sampling intervals: a longer one lacks samples
+Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -18,8 +19,8 @@ class Clock:
 
     Args:
         start, duration: s.
-        rate: Hz, from the median interval.
-        jitter: standard deviation of the intervals without the gaps, as a share of the median one.
+        rate: Hz, from the mean interval without the gaps.
+        jitter: standard deviation of these intervals, as a share of the mean, beyond what printing the times explains.
         gaps: (start, length) in s of every interval that lacks samples.
     """
 
@@ -32,14 +33,13 @@ class Clock:
 
 def clock(time: Array) -> Clock:
     """Read it off the times (n_t,) of a log in s, two or more."""
-    intervals = np.diff(time)
-    usual = float(np.median(intervals))
-    wide = np.flatnonzero(intervals > _GAP * usual)
-    even = np.delete(intervals, wide)
+    intervals, found = np.diff(time), sampling(time)
+    even = np.delete(intervals, found.gaps)
+    printed = found.digit**2 / 4  # what rounding adds to the variance of the intervals, at most
     return Clock(
         start=float(time[0]),
         duration=float(time[-1] - time[0]),
-        rate=1 / usual,
-        jitter=float(np.std(even)) / usual,
-        gaps=tuple((float(time[k]), float(intervals[k])) for k in wide),
+        rate=1 / found.step,
+        jitter=math.sqrt(max(float(np.var(even)) - printed, 0.0)) / found.step,
+        gaps=tuple((float(time[k]), float(intervals[k])) for k in found.gaps),
     )

@@ -8,11 +8,12 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import signal
 
+from pysim.identify.sampling import sampling
 from pysim.types import BadInput
 
 Array = NDArray[np.float64]
 
-_UNEVEN = 1e-3  # largest deviation of a sampling interval from their median, as a share of it
+_UNEVEN = 1e-3  # largest deviation of a sampling interval from their mean, as a share of it
 
 
 def zero_phase(time: Array, values: Array, cutoff_hz: float, *, order: int = 2) -> Array:
@@ -59,10 +60,10 @@ def sampling_rate(time: Array) -> float:
     """
     if time.size < 10:
         raise BadInput(f"zero-phase filter: {time.size} samples are too few; give at least ten")
-    steps = np.diff(time)
-    step = float(np.median(steps))
+    steps, found = np.diff(time), sampling(time)
+    step = found.step
     worst = int(np.argmax(np.abs(steps - step)))
-    if abs(steps[worst] - step) > _UNEVEN * step:
+    if abs(steps[worst] - step) > max(_UNEVEN * step, found.digit):
         raise BadInput(
             f"zero-phase filter: {steps[worst]:g} s between samples at {time[worst]:g} s, {step:g} s elsewhere; "
             "log at an even rate, or use the pulses"

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pysim.identify.multisine.stretch import periodic_stretch
+from pysim.identify.sampling import sampling
 from pysim.types import BadInput, Record
 
 Array = NDArray[np.float64]
@@ -16,10 +17,6 @@ Array = NDArray[np.float64]
 # Share of a sampling interval by which a sample may be off the grid. What it costs at the Nyquist frequency is a phase
 # noise of 1.8 deg on single samples, and far less on lines, which are means over all samples.
 _JITTER = 0.01
-# Times that are printed with few digits are off by up to half their last one, the samples themselves are not. So much
-# of an interval that digit may be, as nobody can tell it from uneven sampling.
-_PRINTED = 0.2
-_DIGITS = 9
 # The same for the end of the last period: a period that drifts against the samples leaks into all lines.
 _DRIFT = 0.05
 
@@ -128,24 +125,13 @@ def sampling_interval(record: Record) -> float:
     step = float(time[-1] - time[0]) / (time.size - 1)
     off = np.abs(time - time[0] - step * np.arange(time.size))
     worst = int(np.argmax(off))
-    if off[worst] > max(_JITTER * step, _last_digit(time, step)):
+    # Each end of the grid may be off by half of the last digit, and so may every time between.
+    if off[worst] > max(_JITTER * step, sampling(time).digit):
         raise BadInput(
             f"multisine: {record.origin or 'a record'} is not sampled at equal intervals: at {time[worst]:g} s it is "
             f"{off[worst]:.2g} s off a grid of {step:g} s; log at a fixed rate, or resample the log yourself and say so"
         )
     return step
-
-
-def _last_digit(time: Array, step: float) -> float:
-    """s; the last digit that the times are printed with, 0 where that is too coarse for their step.
-
-    Each end of the grid may be off by half of it, and so may every time between.
-    """
-    for digits in range(_DIGITS):
-        unit = 10.0**-digits
-        if np.all(np.abs(time / unit - np.round(time / unit)) < 1e-6 * np.maximum(1.0, np.abs(time / unit))):
-            return unit if unit <= _PRINTED * step else 0.0
-    return 0.0
 
 
 def _cut(record: Record, period: float, names: tuple[str, ...], start: float | None) -> Array:

@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from pysim.excitation import Chirp, SteppedSineCommand
 from pysim.identify.data_check import check_dataset, clipped, clock, share_near_nyquist, swing
 from pysim.types import Dataset, FrequencyResponse, MeasuredRecord, MeasuredSignal, Record, SineTest
 
@@ -67,9 +68,30 @@ def test_the_level_of_a_chirp_is_read_off_its_extremes() -> None:
     )
 
 
+@pytest.mark.parametrize(
+    ("excitation", "told"),
+    [
+        (SteppedSineCommand(25.0, 10.0, 5.0, periods=20), {}),
+        (Chirp(25.0, 10.0, 0.5, 20.0, 20.0), {"kind": "chirp", "frequency": None}),
+    ],
+)
+def test_a_lead_in_is_no_fault(excitation: SteppedSineCommand | Chirp, told: dict[str, object]) -> None:
+    time = np.arange(int(250 * excitation.duration)) / 250
+    cmd = excitation.signal().value(time)
+    assert found(cmd, np.round(0.9 * cmd / 0.05) * 0.05, time=time, **told) == ()
+    assert [text.split(" of ")[0] for text in found(cmd, measured(cmd), time=time, offset=24.0, **told)] == ["offset"]
+
+
 def test_too_few_periods() -> None:
-    short = TIME[:75]  # 0.3 s, one and a half periods
-    assert any(text.startswith("1.5 periods of 5 Hz: too few") for text in found(time=short))
+    assert any(text.startswith("1.5 periods of 5 Hz: too few") for text in found(time=TIME[:75]))
+    assert found(time=TIME[:100]) == ()  # two periods, to the last sample
+
+
+@pytest.mark.parametrize("kind", ["step", "stochastic", "other"])
+def test_a_signal_that_stands_still_is_told_whatever_the_kind(kind: str) -> None:
+    told = {"kind": kind, "frequency": None}
+    assert found(np.full(TIME.size, 25.0), **told) == ("cmd stands still at 25 %",)  # type: ignore[arg-type]
+    assert found(y=np.full(TIME.size, 3.0), **told) == ("y stands still at 3 %",)  # type: ignore[arg-type]
 
 
 def test_gaps_and_uneven_sampling() -> None:
@@ -82,6 +104,15 @@ def test_gaps_and_uneven_sampling() -> None:
 def test_times_in_ms_are_suspected() -> None:
     words = 'samples per second: if time is in ms, write time_unit = "ms" below [dataset]'
     assert found(time=1000 * TIME, kind="other", frequency=None) == (f"0.25 {words}",)
+    assert found(time=np.arange(501.0), kind="other", frequency=None) == (f"1 {words}",)  # 1 kHz
+
+
+def test_printed_times_are_not_uneven() -> None:
+    base = clock(np.round(np.arange(700) / 70, 3))
+    assert base.rate == pytest.approx(70.0, rel=1e-4)
+    assert base.jitter < 0.005
+    shaken = np.arange(700) / 70 + np.random.default_rng(1).normal(0, 1e-3, 700)
+    assert clock(np.round(shaken, 3)).jitter == pytest.approx(0.07 * np.sqrt(2), rel=0.1)
 
 
 def test_the_clock_of_a_log() -> None:
