@@ -39,7 +39,7 @@ class Adaptive:
     Args:
         rtol: tolerated error of a step, of a state's magnitude.
         atol: the same, of a state's nominal value.
-        max_step: s.
+        max_step: s; below the duration of what is to make an event and lasts shortly.
         max_steps: the run stops after that many.
     Raises:
         BadInput: a setting that is not positive.

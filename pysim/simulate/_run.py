@@ -31,6 +31,10 @@ _STATUS = {DISCARD: "the model discards the point", ERROR: "an FMI function fail
 def simulate(model: Model, experiment: Experiment, *, solver: Solver = Rk45(), check: bool = True) -> Record:  # noqa: B008
     """Run one experiment and return what was recorded.
 
+    State events are looked for at the ends of steps, then located within: a condition that comes true and false again
+    inside one step goes unseen. Where a model has such short ones, take a `max_step` below their duration; a tighter
+    tolerance makes it unlikely only.
+
     Args:
         model: a model-exchange FMU, FMI 2.0 or 3.0; left unchanged.
         experiment: what is done to it.

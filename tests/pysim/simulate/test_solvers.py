@@ -11,6 +11,7 @@ from pysim.simulate.native.method import ExplicitMethod
 from pysim.types import BadInput, Experiment, Signal
 from tests.pysim.simulate.fixture_fmus import BALL, OSCILLATOR
 from tests.pysim.simulate.solver_cases import SOLVERS, SolverCase
+from tests.pysim.simulate.text_models import PEAKS, text_model
 
 _W, _D, _OMEGA = 2.0, 0.1, 3.0
 
@@ -97,3 +98,13 @@ def test_settings_are_checked_and_frozen(case):
         case.make(math.nan)
     with pytest.raises(dataclasses.FrozenInstanceError):
         case.make(case.coarse).max_steps = 3  # type: ignore[misc]
+
+
+def test_steps_below_its_duration_see_a_condition_that_comes_and_goes(case, tmp_path_factory):
+    model = text_model(PEAKS, tmp_path_factory.getbasetemp())
+    shorter = 0.06  # s, than 2 acos(0.9995)
+    solver = case.make(shorter if case.fixed else 1e-4)
+    if not case.fixed:
+        solver = dataclasses.replace(solver, max_step=shorter)
+    record = simulate(model, Experiment(np.array([0.0, 40 * math.pi]), ("n",)), solver=solver)
+    assert record["n"][-1] == 20

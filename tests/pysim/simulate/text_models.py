@@ -40,6 +40,19 @@ equation
 end Relay;
 """
 
+PEAKS = """model Peaks "x = sin t, and how often it rose above 0.9995, where it stays for 63 ms"
+  output Real x(start=0, fixed=true);
+  output Real v(start=1, fixed=true);
+  output Integer n(start=0, fixed=true);
+equation
+  der(x) = v;
+  der(v) = -x;
+  when x > 0.9995 then
+    n = pre(n) + 1;
+  end when;
+end Peaks;
+"""
+
 LATE = """model Late "Feeds back what it was a while ago"
   input Real u(start=0);
   output Real x(start=0, fixed=true);
