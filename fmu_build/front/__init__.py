@@ -7,6 +7,7 @@ from pathlib import Path
 from fmu_build.errors import BuildError, WrongCall
 from fmu_build.front.class_lookup import ClassLookup, FoundClass
 from fmu_build.front.flat_model import FlatModel, Role, Scalar
+from fmu_build.front.package_constants import refuse_mixed_constants
 from fmu_build.front.redeclaration import refuse_lost_redeclarations
 from fmu_build.front.session import compile_class
 from fmu_build.front.source import find_class
@@ -35,6 +36,7 @@ def load(class_name: str, libraries: Sequence[Path], overrides: Mapping[str, flo
     if written is not None:
         _check_is_model(written)
         refuse_lost_redeclarations(written, classes)
+        refuse_mixed_constants(written, classes)
     dae, flat = compile_class(source, paths, overrides)
     model = to_flat_model(
         dae,

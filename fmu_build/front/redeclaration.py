@@ -30,7 +30,7 @@ class Redeclaration:
 
     part: str
     class_name: str
-    is_class: bool
+    kind: str  # of the class, as "package"; empty for a part
     is_nested: bool  # inside the modification of a part
     offset: int
 
@@ -61,7 +61,7 @@ def _checked(here: FoundClass, classes: ClassLookup) -> Iterator[FoundClass]:
         if used is not None:
             yield used
         _check_values(declaration, here)
-        for found in _redeclarations(declaration.modification):
+        for found in redeclarations(declaration.modification):
             _check(found, declaration, used, here, classes)
             replacement = classes.resolve(found.class_name, here) if found.class_name else None
             if replacement is not None:
@@ -77,7 +77,7 @@ def _check_element(declaration: Declaration, here: FoundClass) -> None:
             f"extends Base(redeclare ... {name})",
             declaration.offset,
         )
-    for found in _redeclarations(declaration.constraint):
+    for found in redeclarations(declaration.constraint):
         raise here.error(
             f"the compiler cannot redeclare {found.part} behind constrainedby; write it in the modification of "
             f"{', '.join(declaration.declared)} itself",
@@ -121,7 +121,7 @@ def _check(
     owner = _owner(found.part, used, classes, set())
     if owner is None:
         raise here.error(f"{used.full_name} has no replaceable part {found.part} to redeclare", found.offset)
-    if owner.full_name != used.full_name and declaration.kind is Kind.EXTENDS and not found.is_class:
+    if owner.full_name != used.full_name and declaration.kind is Kind.EXTENDS and not found.kind:
         raise here.error(
             f"the compiler cannot redeclare {found.part} through {used.full_name}, which only inherits it; extend "
             f"{owner.full_name} instead, with the modifications that {used.full_name} makes",
@@ -144,7 +144,8 @@ def _owner(part: str, used: FoundClass, classes: ClassLookup, seen: set[str]) ->
     return None
 
 
-def _redeclarations(tokens: tuple[Token, ...]) -> Iterator[Redeclaration]:
+def redeclarations(tokens: tuple[Token, ...]) -> Iterator[Redeclaration]:
+    """Those in a modification, in the modifications of its parts too."""
     depth = 0
     for at, (token, offset) in enumerate(tokens):
         depth += (token in "([{") - (token in ")]}")
@@ -157,7 +158,7 @@ def _redeclaration(tokens: tuple[Token, ...], at: int, is_nested: bool, offset: 
         at += 1
     if at < len(tokens) and tokens[at][0] in CLASS_KINDS:
         part, behind = dotted_name(tokens, at + 1)
-        return Redeclaration(part, dotted_name(tokens, behind + 1)[0], True, is_nested, offset)
+        return Redeclaration(part, dotted_name(tokens, behind + 1)[0], tokens[at][0], is_nested, offset)
     class_name, behind = dotted_name(tokens, at)
     part = dotted_name(tokens, behind_brackets(tokens, behind))[0]
-    return Redeclaration(part, class_name, False, is_nested, offset)
+    return Redeclaration(part, class_name, "", is_nested, offset)
