@@ -118,8 +118,8 @@ def _initial(variable: Variable) -> str | None:
 
 
 def _start(variable: Variable) -> str | None:
-    """The start value where FMI wants one: for inputs and constants, and with initial = exact or approx."""
-    if variable.causality == "input" or variable.initial in ("exact", "approx"):
+    """The start value where FMI wants one: for inputs, and with initial = exact."""
+    if variable.causality == "input" or variable.initial == "exact":
         return number(variable.start or 0.0, variable.scalar_type)
     return None
 

@@ -132,7 +132,7 @@ def _initial_rows(model: OdeModel, states: list[tuple[int, int]]) -> list[int]:
         row
         for row, variable in enumerate(model.variables)
         if variable.causality == "calculatedParameter"
-        or (variable.initial in ("approx", "calculated") and (variable.causality == "output" or row in in_states))
+        or (variable.initial == "calculated" and (variable.causality == "output" or row in in_states))
     ]
 
 

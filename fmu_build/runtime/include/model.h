@@ -35,7 +35,7 @@ typedef enum { VECTOR_T, VECTOR_P, VECTOR_C, VECTOR_X, VECTOR_DX, VECTOR_U, VECT
 typedef enum { TYPE_REAL, TYPE_INTEGER, TYPE_BOOLEAN } ScalarType;
 typedef enum { INDEPENDENT, PARAMETER, CALCULATED_PARAMETER, INPUT, OUTPUT, LOCAL } Causality;
 typedef enum { CONSTANT, FIXED, TUNABLE, DISCRETE, CONTINUOUS } Variability;
-typedef enum { INITIAL_NONE, INITIAL_EXACT, INITIAL_APPROX, INITIAL_CALCULATED } Initial;
+typedef enum { INITIAL_NONE, INITIAL_EXACT, INITIAL_CALCULATED } Initial;
 
 /* The variable table; a value reference is a row number. */
 typedef struct {

@@ -102,10 +102,8 @@ static const char *objection(const Instance *s, const ModelVariable *v) {
         return "it is calculated by the model";
     if (v->variability == CONSTANT) return "it is constant";
     if (phase & BEFORE_START) {
-        const bool is_guess = v->initial == INITIAL_APPROX && phase == PHASE_INSTANTIATED;
-        if (is_input || v->causality == PARAMETER || v->initial == INITIAL_EXACT || is_guess) return NULL;
-        return v->initial == INITIAL_APPROX ? "its first guess can only be set before initialization mode"
-                                            : "its start value is calculated by the model";
+        if (is_input || v->causality == PARAMETER || v->initial == INITIAL_EXACT) return NULL;
+        return "its start value is calculated by the model";
     }
     if (is_input && phase == PHASE_CONTINUOUS && v->variability != CONTINUOUS)
         return "a discrete input can only be set in event mode";
