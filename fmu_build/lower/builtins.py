@@ -130,15 +130,28 @@ def multiply(left: Value, right: Value) -> Value:
     return broadcast(lambda a, b: a * b, left, right)
 
 
+def power(base: Value, exponent: Scalar) -> Value:
+    """Modelica's `^`: of a matrix, which the front end has found square, it is the repeated matrix product."""
+    if not isinstance(base, np.ndarray):
+        return ca.power(base, exponent)
+    if not exponent.is_constant() or float(exponent) < 0:
+        raise ValueError(
+            "a matrix has a power by a whole number from 0 on only, fixed when the FMU is built; write a literal, or make "
+            "the parameter final"
+        )
+    return reduce(np.dot, [base] * round(float(exponent)), _identity(len(base)))
+
+
 ARITHMETIC: dict[str, Callable[[Value, Value], Value]] = {
     "add": lambda x, y: broadcast(lambda a, b: a + b, x, y),
     "subtract": lambda x, y: broadcast(lambda a, b: a - b, x, y),
     "multiply": multiply,
     "divide": lambda x, y: broadcast(lambda a, b: a / b, x, y),
-    "power": lambda x, y: broadcast(ca.power, x, y),
+    "power": power,
     "and": lambda x, y: broadcast(ca.logic_and, x, y),
     "or": lambda x, y: broadcast(ca.logic_or, x, y),
 }
-for _name in ("add", "subtract", "divide", "power"):
+for _name in ("add", "subtract", "divide"):
     ARITHMETIC[f"elementwise_{_name}"] = ARITHMETIC[_name]
+ARITHMETIC["elementwise_power"] = lambda x, y: broadcast(ca.power, x, y)
 ARITHMETIC["elementwise_multiply"] = lambda x, y: broadcast(lambda a, b: a * b, x, y)
