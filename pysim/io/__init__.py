@@ -8,6 +8,7 @@ from pysim.io.files import write_file
 from pysim.io.fmu import read_model
 from pysim.io.headings import column_names
 from pysim.io.json_number import json_number
+from pysim.io.model_units import in_model_units
 from pysim.io.records import read_record, record_data, record_text, write_record
 from pysim.io.signals import read_signal, write_signal
 from pysim.io.single_log import read_single_log
@@ -31,6 +32,7 @@ __all__ = [
     "column_names",
     "described_signal",
     "extracted",
+    "in_model_units",
     "json_number",
     "load_library",
     "read_dataset",

@@ -38,7 +38,7 @@ def check_binary(model: Model, library: str) -> None:
     name = platform if model.abilities.fmi == 2 else platform_tuple
     if not (folder / name / f"{library}{sharedLibraryExtension}").is_file():
         present = ", ".join(sorted(p.name for p in folder.glob("*"))) or "none"
-        raise BadInput(f"{model.path.name} has no binary for {name} (it has: {present}); export it for this machine")
+        raise BadInput(f"{model.label} has no binary for {name} (it has: {present}); export it for this machine")
 
 
 def load_library(load: Loader[Loaded], model: Model, library: str, instance: str) -> Loaded:
@@ -58,7 +58,7 @@ def load_library(load: Loader[Loaded], model: Model, library: str, instance: str
             return load(guid=model.token, modelIdentifier=library, unzipDirectory=folder, instanceName=instance)
         except Exception as error:  # FMPy raises a bare Exception
             raise BadInput(
-                f"{model.path.name}: its library {library} cannot be loaded ({error}); install what it needs beside "
+                f"{model.label}: its library {library} cannot be loaded ({error}); install what it needs beside "
                 "itself, or export the FMU again for this machine"
             ) from error
 

@@ -36,6 +36,7 @@ def read_model(path: Path | str) -> Model:
         variables=tuple(_variable(v) for v in description.modelVariables),
         abilities=_abilities(description, path),
         stop_time=_stop_time(description),
+        declares_units=any(_unit(v) for v in description.modelVariables if v.causality != "independent"),
     )
 
 
@@ -51,7 +52,7 @@ def _variable(v: ModelVariable) -> Variable:
         causality=v.causality or "local",
         variability=v.variability or "continuous",
         start=_number(v.start),
-        unit=v.unit or _declared(v, "unit") or "1",
+        unit=_unit(v) or "1",
         display_unit=v.displayUnit or _declared(v, "displayUnit"),
         description=v.description or "",
         min=_number(v.min or _declared(v, "min")),
@@ -59,6 +60,10 @@ def _variable(v: ModelVariable) -> Variable:
         nominal=_number(v.nominal or _declared(v, "nominal")),
         derivative_of=v.derivative.name if v.derivative is not None else None,
     )
+
+
+def _unit(v: ModelVariable) -> str | None:
+    return v.unit or _declared(v, "unit")
 
 
 def _declared(v: ModelVariable, attribute: str) -> str | None:

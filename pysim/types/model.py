@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import difflib
+import json
+import re
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -10,11 +12,15 @@ from pathlib import Path
 
 from pysim.types.dataset import MeasuredSignal
 from pysim.types.errors import BadInput
+from pysim.types.units import UNITS, conversion
+
+_DIGEST = re.compile(r"[0-9a-f]{32,}")  # names a file in a cache
+_LISTED = 20  # names in a message
 
 
 @dataclass(frozen=True)
 class Variable:
-    """One variable of a model, from its variable table. Numbers are in `unit`, which is an SI unit or "1" or "%"."""
+    """One variable of a model, from its variable table. Numbers are in `unit`, "1" where the model declares none."""
 
     name: str
     reference: int
@@ -73,6 +79,7 @@ class Model:
     variables: tuple[Variable, ...] = field(repr=False)
     abilities: Abilities = field(repr=False)
     stop_time: float | None = None  # s, of the FMU's own default experiment
+    declares_units: bool = field(default=True, repr=False)  # of any variable
 
     @cached_property
     def _by_name(self) -> dict[str, Variable]:
@@ -83,9 +90,17 @@ class Model:
         variable = self._by_name.get(name)
         if variable is not None:
             return variable
-        near = difflib.get_close_matches(name, list(self._by_name), n=3)
+        near = self._near(name)
         hint = f"; near it: {', '.join(near)}" if near else ""
-        raise BadInput(f"{self.path.name} has no variable {name!r}{hint}")
+        raise BadInput(f"{self.label} has no variable {name!r}{hint}")
+
+    def _near(self, name: str) -> list[str]:
+        return difflib.get_close_matches(name, list(self._by_name), n=3)
+
+    @property
+    def label(self) -> str:
+        """What to call it in a message: its file, or the model itself where a cache has named the file."""
+        return self.name if _DIGEST.fullmatch(self.path.stem) else self.path.name
 
     def rate_input(self, command: str) -> str | None:
         """The input that wants the command's derivative, by the naming of thesis Appendix F (u, u_t, u_tt)."""
@@ -101,19 +116,59 @@ class Model:
     def measured(self, signal: MeasuredSignal, source: str) -> Variable:
         """The variable that a signal shows.
 
+        A model that declares no units at all counts in those of the data. Where it counts in a unit that is not known,
+        data in "1" are its own numbers.
+
         Args:
             source: where the signal is written, for an error: "data set 'x'" or "the plan".
         Raises:
             BadInput: no such variable, a command that is no input of the model, or units that differ.
         """
-        variable = self[signal.variable]
+        said, below = f"signal {signal.name!r} of {source}", f"below [signals.{_key(signal.name)}]"
+        variable = self._by_name.get(signal.variable)
+        if variable is None:
+            there = self._instead(signal)
+            cure = f'write variable = "{there[1] or "..."}" {below}'
+            raise BadInput(f"{said}: {self.label} has no variable {signal.variable!r}; {there[0]}; {cure}")
         if signal.role == "input" and variable.causality != "input":
             raise BadInput(
-                f"{self.path.name}: {variable.name} is no input but of causality {variable.causality}; name the command"
+                f"{said}: {variable.name} is no input but of causality {variable.causality} in {self.label}; name the "
+                f"command: variable = ... {below}"
             )
-        if variable.unit != signal.unit:
-            raise BadInput(
-                f"signal {signal.name!r} of {source} is in {signal.unit!r}, {variable.name} of {self.path.name} in "
-                f"{variable.unit!r}; give both the same unit"
-            )
+        if self._counts_otherwise(variable, signal.unit):
+            own = "without a unit" if variable.unit == "1" else f"in {variable.unit!r}"
+            cure = _unit_cure(variable.unit, signal.unit, below)
+            raise BadInput(f"{said} is in {signal.unit!r}, {variable.name} of {self.label} {own}; {cure}")
         return variable
+
+    def _instead(self, signal: MeasuredSignal) -> tuple[str, str]:
+        """What a signal may show in place of a variable that is not there, in words, and the likeliest."""
+        near = self._near(signal.variable)
+        if near:
+            return f"near it: {', '.join(near)}", near[0]
+        names = [variable.name for variable in self.variables if variable.causality == signal.role]
+        more = f" and {len(names) - _LISTED} more" if len(names) > _LISTED else ""
+        return f"its {signal.role}s: {', '.join(names[:_LISTED]) or '(none)'}{more}", ""
+
+    def _counts_otherwise(self, variable: Variable, unit: str) -> bool:
+        """Whether a number in this unit is another number in the model."""
+        if not self.declares_units or (variable.unit not in UNITS and unit == "1"):
+            return False
+        return conversion(unit, variable.unit) != (1.0, 0.0)
+
+
+def _unit_cure(model: str, data: str, below: str) -> str:
+    """What to do where the model counts in another unit than the data."""
+    if conversion(data, model) is not None:
+        return "pysim.io.in_model_units turns the data of a data set into the units of a model"
+    if model in UNITS and model != "1":
+        return (
+            f'write unit = "{model}" {below}, with factor and offset that turn the column into it, or another variable'
+        )
+    why = "" if model == "1" else "which is no unit that is known: "
+    return f'{why}write unit = "1" {below}, with factor and offset that make the column the number of the model'
+
+
+def _key(name: str) -> str:
+    """A name as it stands in the header of a TOML section."""
+    return name if re.fullmatch(r"[A-Za-z0-9_-]+", name) else json.dumps(name, ensure_ascii=False)

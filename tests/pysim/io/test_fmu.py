@@ -1,3 +1,4 @@
+import re
 import zipfile
 from pathlib import Path
 
@@ -51,6 +52,20 @@ def write(path: Path, description: str | None) -> Path:
         if description is not None:
             archive.writestr("modelDescription.xml", description)
     return path
+
+
+@pytest.mark.parametrize("fmi", [2, 3])
+def test_a_model_without_any_unit_is_told_from_one_whose_numbers_have_none(tmp_path, fmi):
+    with zipfile.ZipFile(build(OSCILLATOR, fmi, tmp_path)) as archive:
+        text = archive.read("modelDescription.xml").decode()
+    assert read_model(build(OSCILLATOR, fmi, tmp_path)).declares_units
+    bare = re.sub(r' (unit|displayUnit|declaredType)="[^"]*"', "", text)
+    model = read_model(write(tmp_path / "bare.fmu", bare))
+    assert (model.declares_units, model["u"].unit) == (False, "1")
+    time = ("<Real/>", '<Real unit="s"/>') if fmi == 2 else ('name="time"', 'name="time" unit="s"')
+    timed = bare.replace(*time, 1)
+    assert not read_model(write(tmp_path / "timed.fmu", timed)).declares_units  # time says nothing of the others
+    assert read_model(write(tmp_path / "one.fmu", bare.replace('start="2.0"', 'start="2.0" unit="1"'))).declares_units
 
 
 def test_what_is_no_fmu_is_named(tmp_path):

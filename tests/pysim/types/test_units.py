@@ -1,10 +1,14 @@
 """Units and what they are in SI."""
 
 import math
+import re
+from pathlib import Path
 
 import pytest
 
 from pysim.types import SI, SYNONYMS, UNITS, conversion, in_si
+
+PAGE = Path(__file__).parents[3] / "docs" / "data.md"
 
 
 @pytest.mark.parametrize(
@@ -39,3 +43,11 @@ def test_every_unit_is_known_once_and_in_si() -> None:
         assert in_si(in_si(unit)[0]) == (in_si(unit)[0], 1.0, 0.0)
     assert {word: in_si(word) for word in SYNONYMS} == {word: in_si(unit) for word, unit in SYNONYMS.items()}
     assert set(UNITS) - set(SI) == {"degC", "degF", "°C", "°F"}  # no factor alone is enough for these
+
+
+def test_the_page_on_data_lists_every_unit() -> None:
+    section = re.search(r"^## Units\n(.*?)^## ", PAGE.read_text(encoding="utf-8"), re.DOTALL | re.MULTILINE)[1]
+    rows = [line.split("|")[1:-1] for line in section.split("\n") if line.startswith("| `")]
+    listed = [[re.findall(r"`([^`]*)`", cell) for cell in row] for row in rows]
+    assert {unit: si for (si,), own, also in listed for unit in (*own, *also)} == {u: in_si(u)[0] for u in UNITS}
+    assert {unit for _, _, also in listed for unit in also} == set(SYNONYMS)
