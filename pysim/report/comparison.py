@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 
 from pysim.identify import FREQUENCY_CRITERIA
 from pysim.report.page import cell, commands, heading, items, page, paragraph, picture, table
-from pysim.report.text import verdict_text
+from pysim.report.text import note_text, verdict_text
 from pysim.types import Comparison, ResponseComparison
 
 _DIGITS = (2, 2, 1, 1)
@@ -31,11 +31,12 @@ def comparison_page(
     first = comparisons[0]
     models = "; ".join(f"{comparison.label}: {comparison.model}" for comparison in comparisons)
     parts = [heading("Verdict"), items(f"{c.label}: {verdict_text(c)}" for c in comparisons)]
-    parts += [paragraph(first.note, note=True), heading("What was done"), *_method(comparisons)]
+    note = [paragraph(note_text(first), note=True)] if note_text(first) else []
+    parts += [*note, heading("What was done"), *_method(comparisons)]
     parts += [_conditions(comparisons), _parameters(comparisons)]
     for comparison in comparisons:
         parts += [heading(f"Test by test: {comparison.label}"), comparison_table(comparison)]
-        parts += [paragraph(first.note, note=True)]
+        parts += note
     parts += [heading("Pictures"), *(picture(svg, caption) for caption, svg in pictures.items())]
     parts += [*remarks, heading("Do it again"), commands(redo)]
     return page(title, f"{models}; held against: {first.dataset}, {first.measured_name}.", parts)

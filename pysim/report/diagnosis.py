@@ -7,7 +7,7 @@ import textwrap
 from collections.abc import Mapping, Sequence
 
 from pysim.io import json_number
-from pysim.report.diagnosis_words import verdict_sentence
+from pysim.report.diagnosis_words import limits_words, verdict_sentence
 from pysim.types import Estimate
 from pysim.types.diagnosis import AddedEffect, Candidate, Diagnosis, LedgerStep, Missing, NextTest
 
@@ -130,7 +130,7 @@ def evidence_text(diagnosis: Diagnosis) -> str:
         numbers = "".join(
             f"  {what} {value:8.3f}" for what, value in (("fitted", step.fit), ("held out", step.validate)) if value
         )
-        lines.append(f"  {step.step:<20}{numbers}  Tables 1.3 and 1.4 {'met' if step.passes else 'not met'}")
+        lines.append(f"  {step.step:<20}{numbers}  {limits_words(step)}")
     if diagnosis.ranking:
         lines += ["", "Candidates                  gain less price   explained"]
         for number in sorted({row.round for row in diagnosis.ranking}):

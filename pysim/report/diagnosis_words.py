@@ -5,8 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from pysim.types import AddedEffect, Diagnosis, Estimate, LedgerStep
+from pysim.identify.accuracy import FREQUENCY_CRITERIA, TIME_CRITERIA
+from pysim.types import AddedEffect, Criterion, Diagnosis, Estimate, LedgerStep
 from pysim.types.diagnosis import NONE, UNKNOWN
+
+_BY_TABLE = (FREQUENCY_CRITERIA, TIME_CRITERIA)
+_UNITS = {"%": "% of full scale", "deg": "degrees"}
+_NOISE = 1.5  # times the noise: a model that leaves more than this fails, though limits that are wider may hold
 
 
 def verdict_sentence(diagnosis: Diagnosis) -> str:
@@ -39,9 +44,57 @@ def _step_text(step: LedgerStep) -> str:
     who = {"prior": "As it is, the model", "refit": "Refitted, it"}.get(step.step, f"With {step.step}, it")
     values = (("fitted", step.fit), ("held out", step.validate))
     parts = [f"{value:.2f} times the noise on what is {what}" for what, value in values if value is not None]
-    met = "meets" if step.passes else "does not meet"
-    left = f"leaves {_and(parts)} and " if parts else ""
-    return f"{who} {left}{met} thesis Tables 1.3 and 1.4."
+    left = f"leaves {_and(parts)}" if parts else "is judged by responses alone"
+    return f"{who} {left}. {limits_sentence(step)}"
+
+
+def limits_sentence(step: LedgerStep) -> str:
+    """Whether the limits of thesis Tables 1.3 and 1.4 are met, with the worst values and the limits themselves."""
+    texts = []
+    for criteria in _judging(step):
+        values = [f"{_worst(step, c)} {_UNITS.get(c.unit, c.unit)} {_how(c)} (limit {c.limit:g})" for c in criteria]
+        met = "is met" if _holds(step, criteria) else "is not met"
+        texts.append(f"{_capital(criteria[0].source)} {met}: at worst {_and(values)}.")
+    largest = max((value for value in (step.fit, step.validate) if value is not None), default=0.0)
+    if texts and step.passes and largest > _NOISE:
+        texts.append("These limits are wider than the noise: that they are met does not make the model complete.")
+    return " ".join(texts) or "Nothing was compared that thesis Tables 1.3 and 1.4 have limits for."
+
+
+def limits_words(step: LedgerStep) -> str:
+    """The same in a few words."""
+    judging = _judging(step)
+    if not judging:
+        return "no limits"
+    verdicts = [
+        f"{criteria[0].source.removeprefix('thesis ')} {'met' if _holds(step, criteria) else 'not met'}"
+        for criteria in judging
+    ]
+    return ", ".join(verdicts)
+
+
+def _judging(step: LedgerStep) -> list[list[Criterion]]:
+    """The criteria that were applied, by table."""
+    applied = [[c for c in criteria if c.symbol in step.criteria] for criteria in _BY_TABLE]
+    return [criteria for criteria in applied if criteria]
+
+
+def _holds(step: LedgerStep, criteria: Sequence[Criterion]) -> bool:
+    return all(step.criteria[c.symbol] <= c.limit for c in criteria)
+
+
+def _worst(step: LedgerStep, criterion: Criterion) -> str:
+    """Its worst value, with as many digits as tell it from its limit."""
+    value = step.criteria[criterion.symbol]
+    return next((text for text in (f"{value:.3g}", f"{value:.6g}") if float(text) != criterion.limit), f"{value:g}")
+
+
+def _how(criterion: Criterion) -> str:
+    return "on average" if criterion.name.startswith("mean") else "at most"
+
+
+def _capital(text: str) -> str:
+    return f"{text[0].upper()}{text[1:]}"
 
 
 def ranking_sentence(diagnosis: Diagnosis) -> str:
@@ -72,9 +125,8 @@ def missing_sentence(diagnosis: Diagnosis) -> str:
 def added_sentence(diagnosis: Diagnosis) -> str:
     """What the effects that were asked for do to the error."""
     last = diagnosis.error[-1]
-    met = "are" if last.passes else "are not"
     names = _and([_named(one) for one in diagnosis.added])
-    return f"Added as asked: {names}. {_fall(diagnosis.error)} Thesis Tables 1.3 and 1.4 {met} met."
+    return f"Added as asked: {names}. {_fall(diagnosis.error)} {limits_sentence(last)}"
 
 
 def _named(one: AddedEffect) -> str:

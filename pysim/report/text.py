@@ -23,7 +23,12 @@ def comparison_text(comparison: Comparison) -> str:
         cells = "".join(f"{d.criterion.limit:>9.{digits}f} " for d, digits in zip(limits, _DIGITS, strict=True))
         lines.append(f"  {'limit':<17}{cells}  {limits[0].criterion.source}")
     lines.append(verdict_text(comparison))
-    return "\n".join([*lines, *textwrap.wrap(comparison.note, _WIDTH)])
+    return "\n".join([*lines, *textwrap.wrap(note_text(comparison), _WIDTH)])
+
+
+def note_text(comparison: Comparison) -> str:
+    """What the data set says of itself; nothing where it says nothing."""
+    return "" if comparison.note.strip() == "-" else comparison.note
 
 
 def verdict_text(comparison: Comparison) -> str:

@@ -11,12 +11,13 @@ from pysim.report.diagnosis_page import diagnosis_page
 from pysim.report.diagnosis_words import (
     added_sentence,
     comparison_sentence,
+    limits_sentence,
     missing_sentence,
     ranking_sentence,
     sizes,
     verdict_sentence,
 )
-from pysim.types import AddedEffect, Missing, NextTest, Shape
+from pysim.types import AddedEffect, LedgerStep, Missing, NextTest, Shape
 from tests.pysim.diagnosis_story import OFFSET, estimate, nothing, step, story
 
 MISSING = Missing("force", 0.97, "v", Shape(*(np.arange(2.0) for _ in range(4)), "m/s", "N"), "-0.4 sign(v)")
@@ -63,14 +64,43 @@ def test_a_missing_term_is_told_by_place_shape_and_share() -> None:
 def test_the_steps_alone_have_sentences_of_their_own() -> None:
     assert comparison_sentence(nothing()).startswith(
         "As it is, the model leaves 8.10 times the noise on what is fitted and 8.00 times the noise on what is held "
-        "out and does not meet thesis Tables 1.3 and 1.4. Refitted, it leaves 4.20 times"
+        "out. Thesis Table 1.3 is not met: at worst 0.9 dB on average (limit 0.5). Refitted, it leaves 4.20 times"
     )
     assert ranking_sentence(story()).startswith("3 of 4 candidates gain more than their price: toy.offset (99.0 % of")
     assert ranking_sentence(story(ranking=story().ranking[3:])) == "None of 1 candidates gains more than its price."
     assert added_sentence(story()) == (
         "Added as asked: constant force (toy.offset). With it the error falls from 4.20 to 1.00 times the noise on "
-        "what was fitted and from 3.20 to 1.01 times the noise on what was held out. Thesis Tables 1.3 and 1.4 are met."
+        "what was fitted and from 3.20 to 1.01 times the noise on what was held out. "
+        "Thesis Table 1.3 is met: at worst 0.1 dB on average (limit 0.5)."
     )
+
+
+def test_limits_are_told_with_their_numbers() -> None:
+    far = LedgerStep("prior", 10.43, None, {"E_t mean": 0.81, "E_t max": 3.4}, True, 1.0)
+    assert comparison_sentence(story(error=(far,), where=())) == (
+        "As it is, the model leaves 10.43 times the noise on what is fitted. Thesis Table 1.4 is met: at worst 0.81 % "
+        "of full scale on average (limit 2) and 3.4 % of full scale at most (limit 10). These limits are wider than "
+        "the noise: that they are met does not make the model complete."
+    )
+    assert "Table 1.4 met" in evidence_text(story(error=(far,)))
+    near = replace(far, fit=1.02)
+    assert limits_sentence(near).endswith("at most (limit 10).")
+
+
+def test_each_table_has_its_own_verdict() -> None:
+    mixed = LedgerStep("prior", None, None, {"E_M mean": 0.2, "E_P max": 35.001, "E_t max": 3.4}, False, 1.0)
+    assert comparison_sentence(story(error=(mixed,), where=())) == (
+        "As it is, the model is judged by responses alone. Thesis Table 1.3 is not met: at worst 0.2 dB on average "
+        "(limit 0.5) and 35.001 degrees at most (limit 35). Thesis Table 1.4 is met: at worst 3.4 % of full scale at "
+        "most (limit 10)."
+    )
+    assert "Table 1.3 not met, Table 1.4 met" in evidence_text(story(error=(mixed,)))
+
+
+def test_where_nothing_has_a_limit_none_is_said_to_be_met() -> None:
+    bare = LedgerStep("prior", 3.0, None, {}, True, 1.0)
+    assert "is met" not in comparison_sentence(story(error=(bare,)))
+    assert "no limits" in evidence_text(story(error=(bare,)))
 
 
 def test_a_size_that_people_turn_over_is_told_both_ways() -> None:

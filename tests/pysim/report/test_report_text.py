@@ -1,6 +1,8 @@
 """The table a terminal shows."""
 
-from pysim.report import comparison_text
+from dataclasses import replace
+
+from pysim.report import comparison_page, comparison_text
 from tests.pysim.comparisons import comparison
 
 
@@ -19,3 +21,10 @@ def test_a_run_that_failed_says_why() -> None:
     assert "no response: at 5 Hz: stopped  FAIL" in text
     assert "0 of 1 independent tests pass (3 of 4 rows)" in text
     assert "limit" in comparison_text(comparison("set A", fails=1))
+
+
+def test_a_data_set_without_a_description_adds_no_line() -> None:
+    silent = replace(comparison("set A", error_db=1.0), note="-")
+    assert comparison_text(silent).splitlines()[-1] == "0 of 1 independent tests pass (0 of 4 rows)."
+    assert 'class="note"' not in comparison_page("t", [silent], pictures={}, redo="")
+    assert 'class="note"' in comparison_page("t", [comparison("set A")], pictures={}, redo="")
