@@ -5,6 +5,7 @@ from dataclasses import dataclass, fields
 import casadi as ca
 
 from fmu_build.lower.ode_model import OdeModel, Symbols
+from fmu_build.lower.values import column
 
 
 @dataclass(frozen=True)
@@ -82,11 +83,6 @@ def model_functions(model: OdeModel) -> tuple[list[ca.SX], tuple[ModelFunction, 
         _by_parameters(model),
     )
     return [*_symbols_of(s), *_symbols_of(seeds)], functions
-
-
-def column(elements: list[ca.SX]) -> ca.SX:
-    """A column vector, (0 x 1) for no element."""
-    return ca.vertcat(*elements) if elements else ca.SX(0, 1)
 
 
 def _instants(model: OdeModel) -> ModelFunction:

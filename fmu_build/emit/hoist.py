@@ -8,8 +8,8 @@ from dataclasses import dataclass, field, fields, replace
 
 import casadi as ca
 
-from fmu_build.emit.functions import column
 from fmu_build.lower.ode_model import OdeModel, Relation
+from fmu_build.lower.values import column
 
 
 def hoist_parameters(model: OdeModel) -> OdeModel:

@@ -5,9 +5,9 @@ from dataclasses import dataclass, fields
 
 import casadi as ca
 
-from fmu_build.emit.functions import column
 from fmu_build.emit.graph import expression_graph
 from fmu_build.lower.ode_model import OdeModel, Symbols
+from fmu_build.lower.values import column
 
 Masks = list[int]  # one per element: the set of symbols it depends on, bit by bit
 

@@ -7,6 +7,7 @@
 #include "evaluate.h"
 #include "relations.h"
 #include "timeevents.h"
+#include "vector.h"
 
 enum { MAX_PASSES = 100 };
 
@@ -52,7 +53,7 @@ static Status pass(Instance *s, bool *changed, bool *x_changed) {
     if (relations_update(s, &r_changed) != STATUS_OK) return STATUS_DISCARD;
     *changed = *changed || r_changed;
     if (!m->update) return STATUS_OK;
-    if (m->n_d > 0) memcpy(s->pre_d, s->d, m->n_d * sizeof *s->d);
+    copy(s->pre_d, s->d, m->n_d);
     if (call_update(s) != STATUS_OK || check_reinitialised(s) != STATUS_OK) return STATUS_DISCARD;
     const bool d_changed = take_over(s->d, s->event.d, m->n_d);
     const bool b_changed = take_over(s->pre_b, s->event.b, m->n_b);
@@ -71,7 +72,7 @@ static Status iterate(Instance *s, bool *happened, bool *x_changed) {
         const Status status = pass(s, &changed, x_changed);
         if (status != STATUS_OK) return status;
         if (!changed) {
-            if (s->model->n_d > 0) memcpy(s->pre_d, s->d, s->model->n_d * sizeof *s->d);
+            copy(s->pre_d, s->d, s->model->n_d);
             return STATUS_OK;
         }
         *happened = true;

@@ -47,7 +47,7 @@ static fmi2Status no_status(Instance *s, const char *function) {
 fmi2Status fmi2GetStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Status *value) {
     static const char *const here = "fmi2GetStatus";
     Instance *s = fmi2_enter_cosim(c, IN_STATUS, here);
-    if (!s || !fmi2_no_null(s, here, value)) return fmi2Error;
+    if (!s || !instance_no_null(s, here, value)) return fmi2Error;
     if (kind != fmi2DoStepStatus) return no_status(s, here);
     *value = s->memory->phase == PHASE_STEP_FAILED ? fmi2Discard : fmi2OK;
     return fmi2OK;
@@ -56,7 +56,7 @@ fmi2Status fmi2GetStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Status 
 fmi2Status fmi2GetRealStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Real *value) {
     static const char *const here = "fmi2GetRealStatus";
     Instance *s = fmi2_enter_cosim(c, IN_STATUS, here);
-    if (!s || !fmi2_no_null(s, here, value)) return fmi2Error;
+    if (!s || !instance_no_null(s, here, value)) return fmi2Error;
     if (kind != fmi2LastSuccessfulTime) return no_status(s, here);
     *value = *s->t; /* a step that failed was undone */
     return fmi2OK;
@@ -65,7 +65,7 @@ fmi2Status fmi2GetRealStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Rea
 fmi2Status fmi2GetBooleanStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Boolean *value) {
     static const char *const here = "fmi2GetBooleanStatus";
     Instance *s = fmi2_enter_cosim(c, IN_STATUS, here);
-    if (!s || !fmi2_no_null(s, here, value)) return fmi2Error;
+    if (!s || !instance_no_null(s, here, value)) return fmi2Error;
     if (kind != fmi2Terminated) return no_status(s, here);
     *value = s->memory->is_terminated ? fmi2True : fmi2False;
     return fmi2OK;

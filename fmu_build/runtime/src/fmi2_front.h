@@ -33,11 +33,7 @@ static inline Instance *fmi2_enter(fmi2Component c, unsigned phases, const char 
 Instance *fmi2_enter_exchange(fmi2Component c, unsigned phases, const char *function);
 Instance *fmi2_enter_cosim(fmi2Component c, unsigned phases, const char *function);
 
-/* False, logged, if a pointer is null (an array of no elements may be). */
-bool fmi2_no_null(Instance *s, const char *function, const void *pointer);
+/* False, logged, if a pointer is null; arrays of no elements may be. */
 bool fmi2_are_arrays(Instance *s, const char *function, const void *a, const void *b, size_t n);
-
-/* False, logged, if the array is null or has not the expected length. */
-bool fmi2_is_array(Instance *s, const char *function, const void *array, size_t n, size_t expected);
 
 #endif

@@ -6,7 +6,7 @@
 fmi2Status fmi2GetFMUstate(fmi2Component c, fmi2FMUstate *FMUstate) {
     static const char *const here = "fmi2GetFMUstate";
     Instance *s = fmi2_enter(c, IN_ANY, here);
-    if (!s || !fmi2_no_null(s, here, FMUstate)) return fmi2Error;
+    if (!s || !instance_no_null(s, here, FMUstate)) return fmi2Error;
     SavedState *state = *FMUstate;
     const Status status = state_save(s, here, &state);
     *FMUstate = state;
@@ -16,7 +16,7 @@ fmi2Status fmi2GetFMUstate(fmi2Component c, fmi2FMUstate *FMUstate) {
 fmi2Status fmi2SetFMUstate(fmi2Component c, fmi2FMUstate FMUstate) {
     static const char *const here = "fmi2SetFMUstate";
     Instance *s = fmi2_enter(c, IN_ANY, here);
-    if (!s || !fmi2_no_null(s, here, FMUstate)) return fmi2Error;
+    if (!s || !instance_no_null(s, here, FMUstate)) return fmi2Error;
     return (fmi2Status)state_restore(s, here, FMUstate);
 }
 
@@ -31,7 +31,7 @@ fmi2Status fmi2FreeFMUstate(fmi2Component c, fmi2FMUstate *FMUstate) {
 fmi2Status fmi2SerializedFMUstateSize(fmi2Component c, fmi2FMUstate FMUstate, size_t *size) {
     static const char *const here = "fmi2SerializedFMUstateSize";
     Instance *s = fmi2_enter(c, IN_ANY, here);
-    if (!s || !fmi2_no_null(s, here, FMUstate) || !fmi2_no_null(s, here, size)) return fmi2Error;
+    if (!s || !instance_no_null(s, here, FMUstate) || !instance_no_null(s, here, size)) return fmi2Error;
     *size = state_size(s);
     return fmi2OK;
 }
@@ -39,14 +39,14 @@ fmi2Status fmi2SerializedFMUstateSize(fmi2Component c, fmi2FMUstate FMUstate, si
 fmi2Status fmi2SerializeFMUstate(fmi2Component c, fmi2FMUstate FMUstate, fmi2Byte bytes[], size_t size) {
     static const char *const here = "fmi2SerializeFMUstate";
     Instance *s = fmi2_enter(c, IN_ANY, here);
-    if (!s || !fmi2_no_null(s, here, FMUstate) || !fmi2_no_null(s, here, bytes)) return fmi2Error;
+    if (!s || !instance_no_null(s, here, FMUstate) || !instance_no_null(s, here, bytes)) return fmi2Error;
     return (fmi2Status)state_serialise(s, here, FMUstate, bytes, size);
 }
 
 fmi2Status fmi2DeSerializeFMUstate(fmi2Component c, const fmi2Byte bytes[], size_t size, fmi2FMUstate *FMUstate) {
     static const char *const here = "fmi2DeSerializeFMUstate";
     Instance *s = fmi2_enter(c, IN_ANY, here);
-    if (!s || !fmi2_no_null(s, here, bytes) || !fmi2_no_null(s, here, FMUstate)) return fmi2Error;
+    if (!s || !instance_no_null(s, here, bytes) || !instance_no_null(s, here, FMUstate)) return fmi2Error;
     SavedState *state = NULL;
     const Status status = state_deserialise(s, here, bytes, size, &state);
     if (status == STATUS_OK) *FMUstate = state;

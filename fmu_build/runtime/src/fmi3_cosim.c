@@ -25,7 +25,7 @@ fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 currentCommunicationPoi
     if (!s) return fmi3Error;
     const void *const pointers[] = {eventHandlingNeeded, terminateSimulation, earlyReturn, lastSuccessfulTime};
     for (size_t k = 0; k < sizeof pointers / sizeof pointers[0]; k++)
-        if (!fmi3_no_null(s, here, pointers[k])) return fmi3Error;
+        if (!instance_no_null(s, here, pointers[k])) return fmi3Error;
     StepResult result;
     const Status status = cosim_step(s, here, currentCommunicationPoint, communicationStepSize, &result);
     *eventHandlingNeeded = result.event_needed;

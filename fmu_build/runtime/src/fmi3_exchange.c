@@ -1,9 +1,8 @@
 /* FMI 3.0: model exchange. */
-#include <string.h>
-
 #include "evaluate.h"
 #include "exchange.h"
 #include "fmi3_front.h"
+#include "vector.h"
 
 fmi3Status fmi3EnterContinuousTimeMode(fmi3Instance instance) {
     Instance *s = fmi3_enter_exchange(instance, PHASE_EVENT, "fmi3EnterContinuousTimeMode");
@@ -17,7 +16,7 @@ fmi3Status fmi3CompletedIntegratorStep(fmi3Instance instance, fmi3Boolean noSetF
     static const char *const here = "fmi3CompletedIntegratorStep";
     (void)noSetFMUStatePriorToCurrentPoint;
     Instance *s = fmi3_enter_exchange(instance, PHASE_CONTINUOUS, here);
-    if (!s || !fmi3_no_null(s, here, enterEventMode) || !fmi3_no_null(s, here, terminateSimulation)) return fmi3Error;
+    if (!s || !instance_no_null(s, here, enterEventMode) || !instance_no_null(s, here, terminateSimulation)) return fmi3Error;
     const Status status = completed_step(s, enterEventMode);
     *terminateSimulation = s->memory->is_terminated != 0;
     return (fmi3Status)status;
@@ -32,8 +31,8 @@ fmi3Status fmi3SetContinuousStates(fmi3Instance instance, const fmi3Float64 cont
                                    size_t nContinuousStates) {
     static const char *const here = "fmi3SetContinuousStates";
     Instance *s = fmi3_enter_exchange(instance, PHASE_CONTINUOUS, here);
-    if (!s || !fmi3_is_array(s, here, continuousStates, nContinuousStates, s->model->n_x)) return fmi3Error;
-    if (nContinuousStates > 0) memcpy(s->x, continuousStates, nContinuousStates * sizeof *s->x);
+    if (!s || !instance_is_array(s, here, continuousStates, nContinuousStates, s->model->n_x)) return fmi3Error;
+    copy(s->x, continuousStates, nContinuousStates);
     changed_point(s);
     return fmi3OK;
 }
@@ -42,40 +41,40 @@ fmi3Status fmi3GetContinuousStateDerivatives(fmi3Instance instance, fmi3Float64 
                                              size_t nContinuousStates) {
     static const char *const here = "fmi3GetContinuousStateDerivatives";
     Instance *s = fmi3_enter_exchange(instance, IN_VALUES, here);
-    if (!s || !fmi3_is_array(s, here, derivatives, nContinuousStates, s->model->n_x)) return fmi3Error;
+    if (!s || !instance_is_array(s, here, derivatives, nContinuousStates, s->model->n_x)) return fmi3Error;
     const Status status = current_derivatives(s);
-    if (status == STATUS_OK && nContinuousStates > 0) memcpy(derivatives, s->dx, nContinuousStates * sizeof *s->dx);
+    if (status == STATUS_OK) copy(derivatives, s->dx, nContinuousStates);
     return (fmi3Status)status;
 }
 
 fmi3Status fmi3GetEventIndicators(fmi3Instance instance, fmi3Float64 eventIndicators[], size_t nEventIndicators) {
     static const char *const here = "fmi3GetEventIndicators";
     Instance *s = fmi3_enter_exchange(instance, IN_VALUES, here);
-    if (!s || !fmi3_is_array(s, here, eventIndicators, nEventIndicators, s->n_state_relations)) return fmi3Error;
+    if (!s || !instance_is_array(s, here, eventIndicators, nEventIndicators, s->n_state_relations)) return fmi3Error;
     return (fmi3Status)current_indicators(s, eventIndicators);
 }
 
 fmi3Status fmi3GetContinuousStates(fmi3Instance instance, fmi3Float64 continuousStates[], size_t nContinuousStates) {
     static const char *const here = "fmi3GetContinuousStates";
     Instance *s = fmi3_enter_exchange(instance, IN_VALUES, here);
-    if (!s || !fmi3_is_array(s, here, continuousStates, nContinuousStates, s->model->n_x)) return fmi3Error;
+    if (!s || !instance_is_array(s, here, continuousStates, nContinuousStates, s->model->n_x)) return fmi3Error;
     const Status status = current_states(s);
-    if (status == STATUS_OK && nContinuousStates > 0) memcpy(continuousStates, s->x, nContinuousStates * sizeof *s->x);
+    if (status == STATUS_OK) copy(continuousStates, s->x, nContinuousStates);
     return (fmi3Status)status;
 }
 
 fmi3Status fmi3GetNominalsOfContinuousStates(fmi3Instance instance, fmi3Float64 nominals[], size_t nContinuousStates) {
     static const char *const here = "fmi3GetNominalsOfContinuousStates";
     Instance *s = fmi3_enter_exchange(instance, IN_STATE, here);
-    if (!s || !fmi3_is_array(s, here, nominals, nContinuousStates, s->model->n_x)) return fmi3Error;
-    if (nContinuousStates > 0) memcpy(nominals, s->model->nominal_x, nContinuousStates * sizeof *nominals);
+    if (!s || !instance_is_array(s, here, nominals, nContinuousStates, s->model->n_x)) return fmi3Error;
+    copy(nominals, s->model->nominal_x, nContinuousStates);
     return fmi3OK;
 }
 
 fmi3Status fmi3GetNumberOfEventIndicators(fmi3Instance instance, size_t *nEventIndicators) {
     static const char *const here = "fmi3GetNumberOfEventIndicators";
     Instance *s = fmi3_enter_exchange(instance, IN_STATE, here);
-    if (!s || !fmi3_no_null(s, here, nEventIndicators)) return fmi3Error;
+    if (!s || !instance_no_null(s, here, nEventIndicators)) return fmi3Error;
     *nEventIndicators = s->n_state_relations;
     return fmi3OK;
 }
@@ -83,7 +82,7 @@ fmi3Status fmi3GetNumberOfEventIndicators(fmi3Instance instance, size_t *nEventI
 fmi3Status fmi3GetNumberOfContinuousStates(fmi3Instance instance, size_t *nContinuousStates) {
     static const char *const here = "fmi3GetNumberOfContinuousStates";
     Instance *s = fmi3_enter_exchange(instance, IN_STATE, here);
-    if (!s || !fmi3_no_null(s, here, nContinuousStates)) return fmi3Error;
+    if (!s || !instance_no_null(s, here, nContinuousStates)) return fmi3Error;
     *nContinuousStates = s->model->n_x;
     return fmi3OK;
 }

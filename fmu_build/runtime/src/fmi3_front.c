@@ -16,18 +16,6 @@ Instance *fmi3_enter_cosim(fmi3Instance instance, unsigned phases, const char *f
     return enter_interface(instance, phases, function, CO_SIMULATION);
 }
 
-bool fmi3_no_null(Instance *s, const char *function, const void *pointer) {
-    if (pointer) return true;
-    log_message(s, LOG_ERROR, "%s: a pointer is null.", function);
-    return false;
-}
-
-bool fmi3_is_array(Instance *s, const char *function, const void *array, size_t n, size_t expected) {
-    if (n == expected) return n == 0 || fmi3_no_null(s, function, array);
-    log_message(s, LOG_ERROR, "%s: %zu values were given, but there are %zu.", function, n, expected);
-    return false;
-}
-
 fmi3Status fmi3_no_ability(fmi3Instance instance, const char *function) {
     Instance *s = fmi3_enter(instance, IN_ANY, function);
     if (s) log_message(s, LOG_ERROR, "%s: this FMU has no such ability, as its description says.", function);

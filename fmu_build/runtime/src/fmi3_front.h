@@ -31,12 +31,6 @@ static inline Instance *fmi3_enter(fmi3Instance instance, unsigned phases, const
 Instance *fmi3_enter_exchange(fmi3Instance instance, unsigned phases, const char *function);
 Instance *fmi3_enter_cosim(fmi3Instance instance, unsigned phases, const char *function);
 
-/* False, logged, if the pointer is null. */
-bool fmi3_no_null(Instance *s, const char *function, const void *pointer);
-
-/* False, logged, if the array is null or has not the expected length. */
-bool fmi3_is_array(Instance *s, const char *function, const void *array, size_t n, size_t expected);
-
 /* Error, logged: the FMU's description does not claim this ability. */
 fmi3Status fmi3_no_ability(fmi3Instance instance, const char *function);
 

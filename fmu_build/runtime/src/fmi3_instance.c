@@ -147,7 +147,7 @@ fmi3Status fmi3UpdateDiscreteStates(fmi3Instance instance, fmi3Boolean *discrete
     const void *const pointers[] = {discreteStatesNeedUpdate,        terminateSimulation,  nominalsOfContinuousStatesChanged,
                                     valuesOfContinuousStatesChanged, nextEventTimeDefined, nextEventTime};
     for (size_t k = 0; k < sizeof pointers / sizeof pointers[0]; k++)
-        if (!fmi3_no_null(s, here, pointers[k])) return fmi3Error;
+        if (!instance_no_null(s, here, pointers[k])) return fmi3Error;
     EventResult result;
     const Status status = update_discrete_states(s, &result);
     *discreteStatesNeedUpdate = fmi3False; /* the iteration is ours, and done */

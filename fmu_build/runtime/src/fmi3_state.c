@@ -6,7 +6,7 @@
 fmi3Status fmi3GetFMUState(fmi3Instance instance, fmi3FMUState *FMUState) {
     static const char *const here = "fmi3GetFMUState";
     Instance *s = fmi3_enter(instance, IN_STATE, here);
-    if (!s || !fmi3_no_null(s, here, FMUState)) return fmi3Error;
+    if (!s || !instance_no_null(s, here, FMUState)) return fmi3Error;
     SavedState *state = *FMUState;
     const Status status = state_save(s, here, &state);
     *FMUState = state;
@@ -16,7 +16,7 @@ fmi3Status fmi3GetFMUState(fmi3Instance instance, fmi3FMUState *FMUState) {
 fmi3Status fmi3SetFMUState(fmi3Instance instance, fmi3FMUState FMUState) {
     static const char *const here = "fmi3SetFMUState";
     Instance *s = fmi3_enter(instance, IN_STATE, here);
-    if (!s || !fmi3_no_null(s, here, FMUState)) return fmi3Error;
+    if (!s || !instance_no_null(s, here, FMUState)) return fmi3Error;
     return (fmi3Status)state_restore(s, here, FMUState);
 }
 
@@ -31,7 +31,7 @@ fmi3Status fmi3FreeFMUState(fmi3Instance instance, fmi3FMUState *FMUState) {
 fmi3Status fmi3SerializedFMUStateSize(fmi3Instance instance, fmi3FMUState FMUState, size_t *size) {
     static const char *const here = "fmi3SerializedFMUStateSize";
     Instance *s = fmi3_enter(instance, IN_ANY, here);
-    if (!s || !fmi3_no_null(s, here, FMUState) || !fmi3_no_null(s, here, size)) return fmi3Error;
+    if (!s || !instance_no_null(s, here, FMUState) || !instance_no_null(s, here, size)) return fmi3Error;
     *size = state_size(s);
     return fmi3OK;
 }
@@ -40,7 +40,7 @@ fmi3Status fmi3SerializeFMUState(fmi3Instance instance, fmi3FMUState FMUState, f
                                  size_t size) {
     static const char *const here = "fmi3SerializeFMUState";
     Instance *s = fmi3_enter(instance, IN_ANY, here);
-    if (!s || !fmi3_no_null(s, here, FMUState) || !fmi3_no_null(s, here, serializedState)) return fmi3Error;
+    if (!s || !instance_no_null(s, here, FMUState) || !instance_no_null(s, here, serializedState)) return fmi3Error;
     return (fmi3Status)state_serialise(s, here, FMUState, (char *)serializedState, size);
 }
 
@@ -48,7 +48,7 @@ fmi3Status fmi3DeserializeFMUState(fmi3Instance instance, const fmi3Byte seriali
                                    fmi3FMUState *FMUState) {
     static const char *const here = "fmi3DeserializeFMUState";
     Instance *s = fmi3_enter(instance, IN_ANY, here);
-    if (!s || !fmi3_no_null(s, here, serializedState) || !fmi3_no_null(s, here, FMUState)) return fmi3Error;
+    if (!s || !instance_no_null(s, here, serializedState) || !instance_no_null(s, here, FMUState)) return fmi3Error;
     SavedState *state = NULL;
     const Status status = state_deserialise(s, here, (const char *)serializedState, size, &state);
     if (status == STATUS_OK) *FMUState = state;
@@ -64,11 +64,11 @@ static fmi3Status partial_derivative(fmi3Instance instance, const char *here, De
                                      size_t n_change) {
     const bool forward = derivative == directional_derivative;
     Instance *s = fmi3_enter(instance, IN_VALUES, here);
-    if (!s || !fmi3_is_array(s, here, seed, n_seed, forward ? partials->n_knowns : partials->n_unknowns) ||
-        !fmi3_is_array(s, here, change, n_change, forward ? partials->n_unknowns : partials->n_knowns))
+    if (!s || !instance_is_array(s, here, seed, n_seed, forward ? partials->n_knowns : partials->n_unknowns) ||
+        !instance_is_array(s, here, change, n_change, forward ? partials->n_unknowns : partials->n_knowns))
         return fmi3Error;
-    if ((partials->n_unknowns > 0 && !fmi3_no_null(s, here, partials->unknowns)) ||
-        (partials->n_knowns > 0 && !fmi3_no_null(s, here, partials->knowns)))
+    if ((partials->n_unknowns > 0 && !instance_no_null(s, here, partials->unknowns)) ||
+        (partials->n_knowns > 0 && !instance_no_null(s, here, partials->knowns)))
         return fmi3Error;
     return (fmi3Status)derivative(s, here, partials, seed, change);
 }

@@ -9,8 +9,8 @@ static Instance *enter_access(fmi3Instance instance, unsigned phases, const char
                               const fmi3ValueReference *references, size_t n_references, const void *values,
                               size_t n_values) {
     Instance *s = fmi3_enter(instance, phases, function);
-    if (!s || !fmi3_is_array(s, function, values, n_values, n_references)) return NULL;
-    return n_references == 0 || fmi3_no_null(s, function, references) ? s : NULL;
+    if (!s || !instance_is_array(s, function, values, n_values, n_references)) return NULL;
+    return n_references == 0 || instance_no_null(s, function, references) ? s : NULL;
 }
 
 /* The loops are the same for each type, the C type of the values is not. */

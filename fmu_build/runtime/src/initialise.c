@@ -1,24 +1,16 @@
 #include "initialise.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "delay.h"
 #include "evaluate.h"
 #include "events.h"
 #include "newton.h"
 #include "relations.h"
+#include "vector.h"
 
 enum { MAX_PASSES = 100 };
 static const double SAME_DELAYED_VALUE = 1e-12; /* relative; delays of delays settle one after the other */
-
-static void copy(double *to, const double *from, size_t n) {
-    if (n > 0) memcpy(to, from, n * sizeof *to);
-}
-
-static void clear(double *values, size_t n) {
-    if (n > 0) memset(values, 0, n * sizeof *values);
-}
 
 /* Nothing of an earlier solution may show in this one. */
 static void forget(Instance *s) {

@@ -6,6 +6,7 @@
 
 #include "crossing.h"
 #include "rodas.h"
+#include "vector.h"
 
 /* Hands out parts of one block; with a null base it only adds up sizes. */
 typedef struct {
@@ -182,10 +183,6 @@ static void list_state_relations(Instance *s) {
         if (!s->model->relations[k].of_time) s->state_relations[s->n_state_relations++] = k;
 }
 
-static void copy(double *to, const double *from, size_t n) {
-    if (n > 0) memcpy(to, from, n * sizeof *to);
-}
-
 void instance_reset(Instance *s) {
     const Model *m = s->model;
     memset(s->memory, 0, s->memory_size);
@@ -243,5 +240,17 @@ static const char *phase_name(uint32_t phase) {
 
 bool instance_refuse(Instance *s, const char *function) {
     log_message(s, LOG_ERROR, "%s: not allowed in state \"%s\".", function, phase_name(s->memory->phase));
+    return false;
+}
+
+bool instance_no_null(Instance *s, const char *function, const void *pointer) {
+    if (pointer) return true;
+    log_message(s, LOG_ERROR, "%s: a pointer is null.", function);
+    return false;
+}
+
+bool instance_is_array(Instance *s, const char *function, const void *array, size_t n, size_t expected) {
+    if (n == expected) return n == 0 || instance_no_null(s, function, array);
+    log_message(s, LOG_ERROR, "%s: %zu values were given, but there are %zu.", function, n, expected);
     return false;
 }

@@ -155,6 +155,12 @@ static inline bool instance_in_phase(Instance *s, unsigned phases, const char *f
     return (s->memory->phase & phases) != 0 || instance_refuse(s, function);
 }
 
+/* False, logged, if the pointer is null. */
+bool instance_no_null(Instance *s, const char *function, const void *pointer);
+
+/* False, logged, if the array has not the expected length, or is null though it has elements. */
+bool instance_is_array(Instance *s, const char *function, const void *array, size_t n, size_t expected);
+
 static inline void set_phase(Instance *s, Phase phase) { s->memory->phase = (uint32_t)phase; }
 
 /* Calls a generated function whose results are `res`. */

@@ -1,16 +1,11 @@
 #include "sensitivity.h"
 
-#include <string.h>
-
 #include "evaluate.h"
 #include "initialise.h"
 #include "linear.h"
 #include "linearise.h"
 #include "variables.h"
-
-static void clear(double *values, size_t n) {
-    if (n > 0) memset(values, 0, n * sizeof *values);
-}
+#include "vector.h"
 
 /* Seeds and weights are zero whenever nobody works with them. */
 static void clear_seeds(Instance *s) {
@@ -138,7 +133,7 @@ static Status tangents(Instance *s, bool with_w) {
         double *res_g[] = {NULL, NULL, w->out_g};
         if (factor_blocks(s) != STATUS_OK) return STATUS_DISCARD;
         if (call_model(s, s->model->forward, res_g) != STATUS_OK) return STATUS_DISCARD;
-        memcpy(w->seed_q, w->out_g, n_q * sizeof *w->out_g);
+        copy(w->seed_q, w->out_g, n_q);
         lu_solve(n_q, s->jacobian.qq, s->jacobian.pivot, w->seed_q);
         negate(w->seed_q, n_q);
     }
@@ -154,7 +149,7 @@ static Status weights(Instance *s) {
         double *res_q[] = {NULL, NULL, NULL, w->out_q, NULL};
         if (factor_blocks(s) != STATUS_OK) return STATUS_DISCARD;
         if (call_model(s, s->model->reverse, res_q) != STATUS_OK) return STATUS_DISCARD;
-        memcpy(w->weight_g, w->out_q, n_q * sizeof *w->out_q);
+        copy(w->weight_g, w->out_q, n_q);
         lu_solve_transposed(n_q, s->jacobian.qq, s->jacobian.pivot, w->weight_g);
         negate(w->weight_g, n_q);
     }
