@@ -90,7 +90,7 @@ def _ask_rumoca(request: Mapping[str, Any], source: ClassSource) -> dict[str, An
             [sys.executable, "-P", str(_WORKER)],
             input=json.dumps(request).encode(),
             capture_output=True,
-            env={**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))},
+            env=_surroundings(),
             timeout=_LONGEST_S,
             check=False,
         )
@@ -112,6 +112,12 @@ def _ask_rumoca(request: Mapping[str, Any], source: ClassSource) -> dict[str, An
             source.file,
             source.line,
         ) from None
+
+
+def _surroundings() -> dict[str, str]:
+    """Without the variable from which rumoca would take libraries that were not named, and that no cache knows of."""
+    kept = {name: value for name, value in os.environ.items() if name.upper() != "MODELICAPATH"}
+    return {**kept, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
 
 
 def modification(overrides: Mapping[str, Override]) -> str:

@@ -136,8 +136,8 @@ def power(base: Value, exponent: Scalar) -> Value:
         return ca.power(base, exponent)
     if not exponent.is_constant() or float(exponent) < 0:
         raise ValueError(
-            "a matrix has a power by a whole number from 0 on only, fixed when the FMU is built; write a literal, or make "
-            "the parameter final"
+            "a matrix has a power by a whole number from 0 on only, fixed when the FMU is built; write a literal, or "
+            "make the parameter final"
         )
     return reduce(np.dot, [base] * round(float(exponent)), _identity(len(base)))
 

@@ -51,6 +51,18 @@ def test_the_native_compiler_stays_out_of_this_process(file):
     assert {name for name in sys.modules if name.split(".")[0] == "rumoca"} == loaded
 
 
+def test_only_libraries_that_are_named_are_read(file, tmp_path, monkeypatch):
+    """What lies on MODELICAPATH is no part of the key under which the FMU is kept."""
+    library = tmp_path / "path" / "Foo"
+    library.mkdir(parents=True)
+    (library / "package.mo").write_text("package Foo constant Real c = 9; end Foo;\n", encoding="utf-8")
+    file.write_text(MODEL.replace("start = 1", "start = Foo.c"), encoding="utf-8")
+    monkeypatch.setenv("MODELICAPATH", str(library.parent))
+    with pytest.raises(BuildError, match=r"Foo\.c"):
+        load("M", [file])
+    assert load("M", [file, library]).name == "M"
+
+
 def test_the_derivative_of_an_input_is_named_in_the_library_file_that_takes_it(tmp_path):
     library = tmp_path / "L"
     library.mkdir()
