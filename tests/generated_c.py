@@ -42,7 +42,7 @@ class Generated:
         outputs = [np.full(size, np.nan) for size in self.sizes]
         arg = (_Pointer * len(inputs))(*(v.ctypes.data_as(_Pointer) for v in inputs))
         asked = [v.ctypes.data_as(_Pointer) if wanted is None or k in wanted else None for k, v in enumerate(outputs)]
-        assert self.function(arg, (_Pointer * len(asked))(*asked), None, None, 0) == 0
+        assert self.function(arg, (_Pointer * len(asked))(*asked)) == 0
         return outputs
 
 
@@ -50,14 +50,7 @@ def exported(source: str, functions: Mapping[str, tuple[int, ...]], folder: Path
     """The static functions named, with the lengths of their results, made callable."""
     lines = [f"ModelFunction *const exported_{name} = {name};\n" for name in functions]
     library = compile_shared(source + "\n" + "".join(lines), folder)
-    form = ctypes.CFUNCTYPE(
-        ctypes.c_int,
-        ctypes.POINTER(_Pointer),
-        ctypes.POINTER(_Pointer),
-        ctypes.c_void_p,
-        ctypes.c_void_p,
-        ctypes.c_int,
-    )
+    form = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.POINTER(_Pointer), ctypes.POINTER(_Pointer))
     return {
         name: Generated(form(ctypes.c_void_p.in_dll(library, f"exported_{name}").value), sizes)
         for name, sizes in functions.items()

@@ -71,7 +71,7 @@ def c_function(name: str, arguments: Sequence[ca.SX], results: Sequence[ca.SX]) 
     graph = expression_graph(arguments, results)
     users = graph.users()
     text = _reader(graph)
-    lines = [f"static int {name}(const double **arg, double **res, int *iw, double *w, int mem)", "{"]
+    lines = [f"static int {name}(const double **arg, double **res)", "{"]
     lines += _pointers(graph)
     lines += [f"    {line}" for line in _values(graph, text, [len(u) > 1 for u in users])]
     for k, elements in enumerate(graph.results):
@@ -87,8 +87,7 @@ def c_function(name: str, arguments: Sequence[ca.SX], results: Sequence[ca.SX]) 
 def _pointers(graph: Graph) -> list[str]:
     used = sorted({node.operands[0] for node in graph.nodes if node.operation == ca.OP_INPUT})
     lines = [f"    const double *const {ARGUMENTS[k].lower()} = arg[ARG_{ARGUMENTS[k]}];" for k in used]
-    unused = ["iw", "w", "mem"] if used else ["arg", "iw", "w", "mem"]
-    return [*lines, "    " + " ".join(f"(void){name};" for name in unused)]
+    return lines or ["    (void)arg;"]
 
 
 def _reader(graph: Graph) -> Callable[[int], str]:

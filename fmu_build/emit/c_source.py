@@ -126,8 +126,6 @@ def _model(model: OdeModel, token: str, empty: dict[str, bool]) -> str:
         "n_variables": str(len(model.variables)),
         "n_checks": str(len(model.checks)),
         "n_terminations": str(len(model.terminations)),
-        "sz_iw": "0",
-        "sz_w": "0",
     }
     members |= {name: name if values else "NULL" for name, values in tables.items()}
     members["tolerance"] = c_number(model.default_experiment.tolerance or DEFAULT_TOLERANCE)

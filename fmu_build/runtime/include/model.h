@@ -27,9 +27,9 @@ enum Argument {
     ARG_COUNT
 };
 
-/* A generated function: reads `arg`, writes the `res` whose pointer is not null, returns 0 or an error.
-   iw and w are work arrays of sz_iw and sz_w (Model). Matrices are dense and column-major. */
-typedef int ModelFunction(const double **arg, double **res, int *iw, double *w, int mem);
+/* A generated function: reads `arg`, writes the `res` whose pointer is not null, returns 0 or an error. Matrices are
+   dense and column-major. */
+typedef int ModelFunction(const double **arg, double **res);
 
 typedef enum { VECTOR_T, VECTOR_P, VECTOR_C, VECTOR_X, VECTOR_DX, VECTOR_U, VECTOR_D, VECTOR_W } Vector;
 typedef enum { TYPE_REAL, TYPE_INTEGER, TYPE_BOOLEAN } ScalarType;
@@ -65,7 +65,6 @@ typedef struct {
     const char *token; /* FMI 2 guid, FMI 3 instantiationToken */
     size_t n_x, n_u, n_p, n_c, n_d, n_r, n_v, n_q, n_i, n_b, n_s, n_w;
     size_t n_variables, n_checks, n_terminations;
-    size_t sz_iw, sz_w; /* the largest that any function needs */
 
     const ModelVariable *variables;
     const double *start_x, *start_u, *start_p, *start_d; /* what a new instance holds */

@@ -139,8 +139,6 @@ static void lay_out(Instance *s, Arena *a) {
     s->dx = doubles(a, m->n_x);
     s->w = doubles(a, m->n_w);
     s->z = doubles(a, m->n_r);
-    s->iw = take(a, m->sz_iw, sizeof(int));
-    s->work = doubles(a, m->sz_w);
     s->state_relations = take(a, m->n_r, sizeof(size_t));
     lay_out_newton(s, a);
     lay_out_integrator(s, a);

@@ -123,8 +123,6 @@ struct Instance {
     double *dx, *w, *z;
 
     const double *arg[ARG_COUNT];
-    int *iw;
-    double *work;
     size_t n_state_relations;
     size_t *state_relations; /* relations with an event indicator */
     NewtonWork newton;
@@ -165,7 +163,7 @@ static inline void set_phase(Instance *s, Phase phase) { s->memory->phase = (uin
 
 /* Calls a generated function whose results are `res`. */
 static inline Status call_model(Instance *s, ModelFunction *function, double **res) {
-    return !function || function(s->arg, res, s->iw, s->work, 0) == 0 ? STATUS_OK : STATUS_DISCARD;
+    return !function || function(s->arg, res) == 0 ? STATUS_OK : STATUS_DISCARD;
 }
 
 #endif

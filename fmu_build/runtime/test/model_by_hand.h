@@ -1,4 +1,4 @@
-/* For models written by hand: the generated functions' signature, without its unused arguments. */
+/* For models written by hand: the generated functions' signature, without its return value. */
 #ifndef MODEL_BY_HAND_H
 #define MODEL_BY_HAND_H
 
@@ -6,13 +6,12 @@
 
 #include "model.h"
 
-#define FUNCTION(name)                                                                         \
-    static void name##_body(const double **arg, double **res);                                 \
-    static int name(const double **arg, double **res, int *iw, double *w, int mem) {           \
-        (void)iw, (void)w, (void)mem;                                                          \
-        name##_body(arg, res);                                                                 \
-        return 0;                                                                              \
-    }                                                                                          \
+#define FUNCTION(name)                                         \
+    static void name##_body(const double **arg, double **res); \
+    static int name(const double **arg, double **res) {        \
+        name##_body(arg, res);                                 \
+        return 0;                                              \
+    }                                                          \
     static void name##_body(const double **arg, double **res)
 
 #define LENGTH(array) (sizeof(array) / sizeof((array)[0]))
