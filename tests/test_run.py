@@ -1,8 +1,15 @@
-"""The script that sets up the environment: what it says when it cannot go on."""
+"""The script that sets up the environment: what it says, and what it leaves, when it cannot go on."""
 
+import importlib.util
+import os
 import subprocess
 import sys
+import zipfile
+from collections.abc import Callable
 from pathlib import Path
+from types import ModuleType
+
+import pytest
 
 SCRIPT = Path(__file__).parents[1] / "run.py"
 
@@ -23,3 +30,190 @@ def test_unknown_command_is_refused_before_anything_is_set_up(tmp_path: Path) ->
     result = subprocess.run([sys.executable, str(copy), "dance"], capture_output=True, text=True)
     assert result.returncode == 1
     assert not (tmp_path / ".venv").exists()
+
+
+@pytest.fixture
+def script(tmp_path: Path) -> ModuleType:
+    """A copy of the script in a folder of its own."""
+    (tmp_path / "run.py").write_text(SCRIPT.read_text(encoding="utf-8"), encoding="utf-8")
+    (tmp_path / "pyproject.toml").write_text("one")
+    spec = importlib.util.spec_from_file_location("run_copy", tmp_path / "run.py")
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def tools(script: ModuleType, *, pip: Callable[[list[str]], bool], works: bool = True) -> Callable[..., object]:
+    """venv, pip and the question whether the environment works, without any of them.
+
+    Args:
+        pip: whether it succeeds, from its words.
+        works: what of the environment is found by the question.
+    """
+
+    def run(words: list[str], *, check: bool = False, **_: object) -> subprocess.CompletedProcess[str]:
+        if "venv" in words:
+            assert not script.ENVIRONMENT.exists()
+            script.PYTHON.parent.mkdir(parents=True)
+            script.PYTHON.write_text("new")
+            return subprocess.CompletedProcess(words, 0)
+        good = pip(words) if "pip" in words else works and script.PYTHON.is_file()
+        if check and not good:
+            raise subprocess.CalledProcessError(1, words)
+        return subprocess.CompletedProcess(words, 0 if good else 1)
+
+    return run
+
+
+def installed(script: ModuleType, monkeypatch: pytest.MonkeyPatch) -> None:
+    """An environment that was made before."""
+    monkeypatch.setattr(script.subprocess, "run", tools(script, pip=lambda words: True))
+    script.prepare()
+    assert script.STAMP.read_text() == script.fingerprint()
+    script.PYTHON.write_text("old")
+
+
+def test_without_the_index_the_environment_of_before_stays(
+    script: ModuleType, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    installed(script, monkeypatch)
+    (script.ROOT / "pyproject.toml").write_text("two")
+    monkeypatch.setattr(script.subprocess, "run", tools(script, pip=lambda words: False))
+    script.prepare()
+    said = capsys.readouterr().err
+    assert "could not install the packages" in said
+    assert "going on with the environment of before" in said
+    assert script.PYTHON.read_text() == "old"
+    assert script.STAMP.read_text() != script.fingerprint()  # the next run tries again
+    assert not script.BEFORE.exists()
+    monkeypatch.setattr(script.subprocess, "run", tools(script, pip=lambda words: True))
+    script.prepare()
+    assert script.PYTHON.read_text() == "new"
+    assert script.STAMP.read_text() == script.fingerprint()
+    assert not script.BEFORE.exists()
+
+
+def test_an_environment_of_another_place_is_not_gone_on_with(
+    script: ModuleType, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    installed(script, monkeypatch)
+    (script.ROOT / "pyproject.toml").write_text("two")
+    monkeypatch.setattr(script.subprocess, "run", tools(script, pip=lambda words: False, works=False))
+    with pytest.raises(SystemExit, match="is the package index reachable"):
+        script.prepare()
+    assert script.PYTHON.read_text() == "old"
+
+
+def test_stopped_while_setting_up_it_leaves_what_was_there(script: ModuleType, monkeypatch: pytest.MonkeyPatch) -> None:
+    installed(script, monkeypatch)
+    (script.ROOT / "pyproject.toml").write_text("two")
+
+    def stopped(words: list[str]) -> bool:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(script.subprocess, "run", tools(script, pip=stopped))
+    with pytest.raises(KeyboardInterrupt):
+        script.prepare()
+    assert script.PYTHON.read_text() == "old"
+    assert not script.BEFORE.exists()
+    script.set_aside()  # and killed here, the next run puts it back
+    (script.ROOT / "pyproject.toml").write_text("one")
+    monkeypatch.setattr(script.subprocess, "run", None)
+    script.prepare()
+    assert script.PYTHON.read_text() == "old"
+
+
+def test_what_runs_in_it_keeps_it_from_being_renewed(
+    script: ModuleType, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    installed(script, monkeypatch)
+    (script.ROOT / "pyproject.toml").write_text("two")
+
+    def locked(self: Path, target: Path) -> None:
+        raise PermissionError(13, "in use", str(self))
+
+    monkeypatch.setattr(Path, "rename", locked)
+    script.prepare()
+    assert "close what runs in it and try again" in capsys.readouterr().err
+    assert script.PYTHON.read_text() == "old"
+
+
+def test_wheels_beside_it_come_first(
+    script: ModuleType, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    script.WHEELS.mkdir()
+    asked: list[list[str]] = []
+    monkeypatch.setattr(script.subprocess, "run", tools(script, pip=lambda words: bool(asked.append(words) or True)))
+    script.prepare()
+    (words,) = asked
+    assert "--no-index" in words
+    assert words[words.index("--find-links") + 1] == str(script.WHEELS)
+    script.STAMP.unlink()
+    asked.clear()
+    complete = tools(script, pip=lambda words: bool(asked.append(words) or "--no-index" not in words))
+    monkeypatch.setattr(script.subprocess, "run", complete)
+    script.prepare()
+    assert ["--no-index" in words for words in asked] == [True, False]
+    assert "wheels/ does not hold every package" in capsys.readouterr().err
+
+
+BACKEND = """
+import os
+import zipfile
+
+
+def build_editable(folder, settings=None, metadata=None):
+    name = "tiny-1-py3-none-any.whl"
+    with zipfile.ZipFile(f"{folder}/{name}", "w") as wheel:
+        wheel.writestr("tiny.pth", os.path.dirname(__file__))
+        wheel.writestr("tiny-1.dist-info/METADATA", METADATA)
+        wheel.writestr("tiny-1.dist-info/WHEEL", "Wheel-Version: 1.0\\nRoot-Is-Purelib: true\\nTag: py3-none-any\\n")
+        wheel.writestr("tiny-1.dist-info/RECORD", "")
+    return name
+
+
+build_wheel = build_editable
+METADATA = '''Metadata-Version: 2.1
+Name: tiny
+Version: 1
+Provides-Extra: test
+Provides-Extra: lint
+Requires-Dist: needed
+'''
+"""
+PROJECT = '[build-system]\nrequires = []\nbuild-backend = "backend"\nbackend-path = ["."]\n[project]\nname = "tiny"\n'
+PROJECT += 'version = "1"\n'
+
+
+@pytest.mark.slow
+def test_a_machine_without_a_network_is_set_up_from_wheels(script: ModuleType) -> None:
+    """With the true venv and pip, no index, and a project of two packages."""
+    root = script.ROOT
+    (root / "backend.py").write_text(BACKEND)
+    (root / "pyproject.toml").write_text(PROJECT)
+    (root / "pysim").mkdir()
+    (root / "pysim" / "__init__.py").write_text("")
+    environment = {**os.environ, "PIP_NO_INDEX": "1"}
+
+    def python(code: str) -> subprocess.CompletedProcess[str]:
+        words = [sys.executable, str(root / "run.py"), "python", "-c", code]
+        return subprocess.run(words, capture_output=True, text=True, env=environment, cwd=root.parent)
+
+    failed = python("pass")
+    assert failed.returncode == 1
+    assert "is the package index reachable? Without a network they can come from a folder wheels/" in failed.stderr
+    script.WHEELS.mkdir()
+    with zipfile.ZipFile(script.WHEELS / "needed-2-py3-none-any.whl", "w") as wheel:
+        wheel.writestr("needed.py", "VALUE = 42")
+        wheel.writestr("needed-2.dist-info/METADATA", "Metadata-Version: 2.1\nName: needed\nVersion: 2\n")
+        wheel.writestr("needed-2.dist-info/WHEEL", "Wheel-Version: 1.0\nRoot-Is-Purelib: true\nTag: py3-none-any\n")
+        wheel.writestr("needed-2.dist-info/RECORD", "")
+    done = python("import needed; print(needed.VALUE)")
+    assert (done.returncode, done.stdout.strip()) == (0, "42"), done.stderr
+    (script.WHEELS / "needed-2-py3-none-any.whl").unlink()
+    (root / "pyproject.toml").write_text(PROJECT + 'description = "another"\n')
+    again = python("import needed; print(needed.VALUE)")
+    assert (again.returncode, again.stdout.strip()) == (0, "42"), again.stderr
+    assert "going on with the environment of before" in again.stderr
