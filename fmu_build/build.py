@@ -2,17 +2,24 @@
 
 import importlib.util
 import tempfile
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from importlib.resources import files
 from pathlib import Path
+from typing import TYPE_CHECKING, TypeVar
 
 from fmu_build.cache import cached, content_key, copy_whole, store
 from fmu_build.errors import BuildError, CannotCompile, WrongCall
 from fmu_build.pack import Platform, check_writable, host_platform, select_platforms
 
+if TYPE_CHECKING:
+    from fmu_build.lower import OdeModel
+
 BUNDLED_LIBRARY = "HydraulicTestBench"
 COMPILERS = ("rumoca", "openmodelica")
 _NOTHING: Mapping[str, float | str] = {}
+_READINGS = 3  # of files that are saved while they are read
+_Read = TypeVar("_Read")
 _NEEDED = {  # to build; running a finished FMU needs none of them
     "rumoca": "rumoca==0.10.2",
     "casadi": "casadi",
@@ -66,12 +73,13 @@ def build(
     options = [f"FMI {fmi}", *(system.name for system in systems), *(f"probe {name}" for name in probes)]
     if compiler == "openmodelica":
         options += [_openmodelica(fmi, systems, probes)]
-    key = content_key(class_name, paths, overrides, options)
+    content = partial(content_key, class_name, paths, overrides, options)
+    key = content()
     fmu = cached(key) if use_cache else None
     if fmu is None and compiler == "openmodelica":
-        fmu = _build_with_openmodelica(class_name, paths, overrides, key)
+        fmu = _build_with_openmodelica(class_name, paths, overrides, key, content)
     elif fmu is None:
-        fmu = _build_anew(class_name, paths, overrides, probes, fmi, systems, key)
+        fmu = _build_anew(class_name, paths, overrides, probes, fmi, systems, key, content)
     if target is None:
         return fmu
     try:
@@ -94,15 +102,27 @@ def _build_anew(
     fmi: int,
     targets: Sequence[Platform],
     key: str,
+    content: Callable[[], str],
 ) -> Path:
     """Build into the cache. The heavy imports are here: a model that is in the cache does not wait for them."""
     _check_installation()
-    from fmu_build.front import load
-    from fmu_build.lower import lower
     from fmu_build.pack.fmu import pack
 
+    model, key = _read_unchanged(lambda: _compiled(class_name, libraries, overrides, probes), key, content)
+    with tempfile.TemporaryDirectory(prefix="fmu_build-") as folder:
+        fmu = Path(folder) / "model.fmu"
+        pack(model, fmu, fmi=fmi, platforms=targets)
+        return store(key, fmu)
+
+
+def _compiled(
+    class_name: str, libraries: Sequence[Path], overrides: Mapping[str, float | str], probes: Sequence[str]
+) -> "OdeModel":
+    from fmu_build.front import load
+    from fmu_build.lower import lower
+
     try:
-        model = lower(load(class_name, libraries, overrides), probes)
+        return lower(load(class_name, libraries, overrides), probes)
     except RecursionError:
         raise CannotCompile(
             f"an expression of {class_name} is nested too deeply: a sum of more than some 300 terms, or as many "
@@ -114,14 +134,14 @@ def _build_anew(
         if _is_there(class_name, libraries):
             raise CannotCompile(error.message, error.file, error.line) from error
         raise
-    with tempfile.TemporaryDirectory(prefix="fmu_build-") as folder:
-        fmu = Path(folder) / "model.fmu"
-        pack(model, fmu, fmi=fmi, platforms=targets)
-        return store(key, fmu)
 
 
 def _build_with_openmodelica(
-    class_name: str, libraries: Sequence[Path], overrides: Mapping[str, float | str], key: str
+    class_name: str,
+    libraries: Sequence[Path],
+    overrides: Mapping[str, float | str],
+    key: str,
+    content: Callable[[], str],
 ) -> Path:
     """Build into the cache; our own library goes first, since others may use it."""
     _check_installation("fmpy", "casadi")
@@ -131,8 +151,17 @@ def _build_with_openmodelica(
     ordered = [own, *(library for library in libraries if library != own)]
     with tempfile.TemporaryDirectory(prefix="fmu_build-") as folder:
         fmu = Path(folder) / "model.fmu"
-        translate(class_name, ordered, overrides, fmu)
+        _, key = _read_unchanged(lambda: translate(class_name, ordered, overrides, fmu), key, content)
         return store(key, fmu)
+
+
+def _read_unchanged(read: Callable[[], _Read], key: str, content: Callable[[], str]) -> tuple[_Read, str]:
+    """What `read` makes of the files and their key, which is no longer `key` where one has been saved meanwhile."""
+    for _ in range(_READINGS):
+        result, before, key = read(), key, content()
+        if key == before:
+            return result, key
+    raise BuildError("the Modelica files change while they are read; build again when they have been saved.")
 
 
 def _openmodelica(fmi: int, systems: Sequence[Platform], probes: Sequence[str]) -> str:

@@ -53,6 +53,41 @@ def test_another_value_or_version_is_another_build(loads):
     assert len(paths) == len(loads) == 4
 
 
+def saving(library, times, monkeypatch):
+    """A front end during whose first readings an editor saves the library; collects the texts it has read."""
+    read = []
+
+    def load(class_name, libraries, overrides):
+        read.append(library.read_text())
+        if len(read) <= times:
+            library.write_text(f"model A // {len(read)}")
+        return "flat model"
+
+    monkeypatch.setattr(fmu_build.front, "load", load)
+    return read
+
+
+def test_a_file_saved_during_a_build_is_read_again_and_kept_under_its_new_text(loads, tmp_path, monkeypatch):
+    library = tmp_path / "A.mo"
+    library.write_text("model A")
+    read = saving(library, 1, monkeypatch)
+    built = build("A", libraries=[library])
+    assert read == ["model A", "model A // 1"]
+    assert build("A", libraries=[library]) == built
+    library.write_text("model A")
+    assert build("A", libraries=[library]) != built
+    assert len(read) == 3
+
+
+def test_files_that_never_rest_are_an_error(loads, tmp_path, monkeypatch):
+    library = tmp_path / "A.mo"
+    library.write_text("model A")
+    saving(library, 100, monkeypatch)
+    with pytest.raises(BuildError, match="change while they are read") as caught:
+        build("A", libraries=[library])
+    assert not isinstance(caught.value, CannotCompile)
+
+
 def test_without_the_cache_it_is_built_again(loads):
     assert build("A") == build("A", use_cache=False)
     assert len(loads) == 2
