@@ -62,19 +62,28 @@ def cached(key: str) -> Path | None:
 def store(key: str, fmu: Path) -> Path:
     """Keep a copy of a new FMU and let go of those unused for longest, but of none that a run may still read."""
     target = _place(key)
-    lately = time.time() - IN_USE
     try:
         copy_whole(fmu, target)
-        used = {path: path.stat().st_mtime for path in target.parent.glob("*.fmu")}
-        for path in sorted(used, key=used.__getitem__, reverse=True)[KEPT_FMUS:]:
-            if used[path] < lately:
-                path.unlink(missing_ok=True)
     except OSError as error:
         raise BuildError(
             f"cannot keep the FMU in {target.parent}: {error.strerror or error}; "
             f"name another folder in the environment variable {FOLDER_VARIABLE}."
         ) from error
+    _tidy(target.parent)
     return target
+
+
+def _tidy(folder: Path) -> None:
+    """Another process may be at the same: a file that is gone, or still open elsewhere, is passed over."""
+    used: dict[Path, float] = {}
+    for path in folder.glob("*.fmu"):
+        with suppress(OSError):
+            used[path] = path.stat().st_mtime
+    lately = time.time() - IN_USE
+    for path in sorted(used, key=used.__getitem__, reverse=True)[KEPT_FMUS:]:
+        if used[path] < lately:
+            with suppress(OSError):
+                path.unlink()
 
 
 def copy_whole(source: Path, target: Path) -> None:

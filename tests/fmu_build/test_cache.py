@@ -1,6 +1,7 @@
 """What makes a difference to the cache, and what does not."""
 
 import os
+from pathlib import Path
 
 import pytest
 
@@ -73,6 +74,43 @@ def test_what_was_used_within_a_day_stays(tmp_path, monkeypatch):
     for name in "abc":
         store(name, tmp_path / "a.fmu")
     assert all(cached(name) is not None for name in "abc")
+
+
+def test_what_another_process_has_taken_away_meanwhile_does_not_matter(tmp_path, monkeypatch):
+    monkeypatch.setattr(cache, "KEPT_FMUS", 0)
+    (tmp_path / "a.fmu").write_bytes(b"content")
+    old = [store(name, tmp_path / "a.fmu") for name in "ab"]
+    for path in old:
+        os.utime(path, (0, 0))
+    listed = Path.glob
+
+    def glob(folder, pattern):
+        found = list(listed(folder, pattern))
+        old[0].unlink()  # between the listing and the look at it
+        return found
+
+    monkeypatch.setattr(Path, "glob", glob)
+    assert store("c", tmp_path / "a.fmu").read_bytes() == b"content"
+    assert cached("b") is None
+
+
+def test_a_file_that_cannot_be_let_go_of_does_not_cost_the_new_one(tmp_path, monkeypatch):
+    """Windows keeps a file that a run has open."""
+    monkeypatch.setattr(cache, "KEPT_FMUS", 0)
+    (tmp_path / "a.fmu").write_bytes(b"content")
+    old = [store(name, tmp_path / "a.fmu") for name in "ab"]
+    for path in old:
+        os.utime(path, (0, 0))
+    let_go = Path.unlink
+
+    def unlink(path, missing_ok=False):
+        if path == old[0]:
+            raise PermissionError(13, "in use")
+        let_go(path, missing_ok)
+
+    monkeypatch.setattr(Path, "unlink", unlink)
+    assert store("c", tmp_path / "a.fmu").read_bytes() == b"content"
+    assert [path.exists() for path in old] == [True, False]
 
 
 def test_a_cache_that_cannot_be_written_names_the_cure(tmp_path, monkeypatch):
