@@ -9,7 +9,7 @@ from pathlib import Path
 
 def check_files(args: argparse.Namespace) -> int:
     """0 when nothing fails, and with --strict nothing is doubtful either; 1 otherwise."""
-    from pysim.cli._outputs import prepare_file, prepare_folder
+    from pysim.cli._outputs import JSON, prepare_file, prepare_folder
     from pysim.cli._progress import ProgressBar
     from pysim.fmu_check import DOUBTFUL, check_fmu
     from pysim.io import check_binary, read_model, write_file
@@ -23,7 +23,7 @@ def check_files(args: argparse.Namespace) -> int:
     if args.output:
         prepare_folder(args.output)
     if args.json:
-        prepare_file(args.json, "--json")
+        prepare_file(args.json, "--json", JSON)
     reports = []
     for file in files:
         model = read_model(file)

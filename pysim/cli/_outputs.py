@@ -9,32 +9,61 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
+JSON = (".json",)
 
-def prepare_folder(folder: Path, option: str = "--output") -> Path:
+
+def prepare_folder(folder: Path, option: str = "--output", *, read: Sequence[Path] = ()) -> Path:
     """Make the folder now.
 
+    Args:
+        read: data sets, and single files, that the command reads.
     Raises:
-        BadInput: it cannot be written to; names the option.
+        BadInput: it cannot be written to, or lies in a data set; names the option.
     """
+    refuse_inside(folder, option, read)
     _probe(folder, f"{option} {folder}", "choose another folder")
     return folder
 
 
-def prepare_file(path: Path, option: str, suffixes: Sequence[str] = ()) -> Path:
+def prepare_file(path: Path, option: str, suffixes: Sequence[str] = (), *, read: Sequence[Path] = ()) -> Path:
     """Make the file's folder now.
 
+    Args:
+        read: as of `prepare_folder`.
     Raises:
-        BadInput: the file cannot be written, or has none of the suffixes where some are given; names the option.
+        BadInput: the file cannot be written, lies in a data set or is what is read, or has none of the suffixes where
+            some are given; names the option.
     """
     from pysim.types import BadInput
 
-    if suffixes and path.suffix.lower() not in suffixes:
-        raise BadInput(f"{option} {path}: the suffix chooses the form; write one of {', '.join(suffixes)}")
     if path.is_dir():
         raise BadInput(f"{option} {path}: this is a folder; name a file in it")
-    if path.is_file() or not path.exists():  # else a device, such as /dev/null
-        _probe(path.parent, f"{option} {path}", "choose another file")
+    if path.exists() and not path.is_file():  # a device, such as /dev/null
+        return path
+    refuse_inside(path, option, read)
+    if suffixes and path.suffix.lower() not in suffixes:
+        raise BadInput(f"{option} {path}: the suffix chooses the form; write one of {', '.join(suffixes)}")
+    _probe(path.parent, f"{option} {path}", "choose another file")
     return path
+
+
+def refuse_inside(path: Path, option: str, read: Sequence[Path]) -> None:
+    """Nothing is written into what was measured.
+
+    Args:
+        read: data sets (a folder, or its dataset.toml) and single files.
+    Raises:
+        BadInput: the path lies in a data set, or is one of the files.
+    """
+    from pysim.types import BadInput
+
+    target = path.resolve()
+    for one in read:
+        folder = one if one.is_dir() else one.parent if one.suffix == ".toml" else None
+        if folder is not None and target.is_relative_to(folder.resolve()):
+            raise BadInput(f"{option} {path}: inside the data set, which is never written to; choose a place outside")
+        if folder is None and target == one.resolve():
+            raise BadInput(f"{option} {path}: this is what is read, and would be lost; choose another name")
 
 
 def _probe(folder: Path, what: str, cure: str) -> None:

@@ -40,7 +40,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--signal", metavar="NAME", help="the responding signal, where the logs hold several")
     parser.add_argument("--json", metavar="FILE", type=Path, help="write all numbers here")
-    parser.add_argument("--output", metavar="DIR", type=Path, help="write report.html and the plots here")
+    parser.add_argument("-o", "--output", metavar="DIR", type=Path, help="write report.html and the plots here")
 
 
 def _test(text: str) -> tuple[float, float]:
@@ -54,19 +54,20 @@ def _test(text: str) -> tuple[float, float]:
 
 def run(args: argparse.Namespace) -> int:
     """Print every fit; 0 when all searches came to an end, 1 when one gave up."""
-    from pysim.cli._outputs import prepare_file, prepare_folder
+    from pysim.cli._measurements import read_measurements
+    from pysim.cli._outputs import JSON, prepare_file, prepare_folder
     from pysim.cli._progress import ProgressBar
     from pysim.identify.blackbox import Structure, fit_dataset
-    from pysim.io import read_dataset, write_file
+    from pysim.io import write_file
     from pysim.report.blackbox import blackbox_data, blackbox_text
 
     structure = Structure(args.poles, args.zeros, args.dead_time, args.dead_time_max, args.stable)
     _refuse_contradictions(args, structure)
     if args.output:
-        prepare_folder(args.output)
+        prepare_folder(args.output, read=[args.dataset])
     if args.json:
-        prepare_file(args.json, "--json")
-    dataset = read_dataset(args.dataset)
+        prepare_file(args.json, "--json", JSON, read=[args.dataset])
+    dataset = read_measurements(args.dataset)
     with ProgressBar("responses") as progress:
         fitted = fit_dataset(
             dataset,

@@ -25,20 +25,20 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--level", type=float, help="what tops and bottoms count from, in the response's SI unit (the command's offset)"
     )
     parser.add_argument("--json", metavar="FILE", type=Path, help="write all numbers here")
-    parser.add_argument("--output", metavar="DIR", type=Path, help="write report.html and the plots here")
+    parser.add_argument("-o", "--output", metavar="DIR", type=Path, help="write report.html and the plots here")
 
 
 def run(args: argparse.Namespace) -> int:
     """Print a table per chirp."""
-    from pysim.cli._outputs import prepare_file, prepare_folder
+    from pysim.cli._outputs import JSON, prepare_file, prepare_folder
     from pysim.identify.chirp import chirp_responses
     from pysim.io import write_file
     from pysim.report.chirp import chirp_data, chirp_text
 
     if args.output:
-        prepare_folder(args.output)
+        prepare_folder(args.output, read=[args.data])
     if args.json:
-        prepare_file(args.json, "--json")
+        prepare_file(args.json, "--json", JSON, read=[args.data])
     dataset = _read(args)
     analyses = chirp_responses(dataset, output=args.signal, level=args.level)
     print(chirp_text(analyses))
@@ -50,11 +50,12 @@ def run(args: argparse.Namespace) -> int:
 
 
 def _read(args: argparse.Namespace) -> Dataset:
-    from pysim.io import read_dataset, read_single_log
+    from pysim.cli._measurements import read_measurements
+    from pysim.io import read_single_log
     from pysim.types import BadInput
 
     if args.data.is_dir() or args.data.suffix == ".toml":
-        return read_dataset(args.data)
+        return read_measurements(args.data)
     if not args.columns:
         raise BadInput(
             f"{args.data}: is no data set; for a single log name its columns: --columns time,command,response"

@@ -25,12 +25,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--fmus-only", action="store_true", help="leave out of the .ssp what it cannot hold: blocks and their wires"
     )
     parser.add_argument("--json", metavar="FILE", type=Path, help="write how the run went here")
-    parser.add_argument("--output", metavar="DIR", type=Path, help="write record.csv, report.html and the plot here")
+    parser.add_argument(
+        "-o", "--output", metavar="DIR", type=Path, help="write record.csv, report.html and the plot here"
+    )
 
 
 def run(args: argparse.Namespace) -> int:
     """Run the system, print where each signal went; 1 when the run stops early, with what was reached written."""
-    from pysim.cli._outputs import prepare_file, prepare_folder
+    from pysim.cli._outputs import JSON, prepare_file, prepare_folder
     from pysim.types import BadInput, Outcome
 
     for option in ("stop", "step"):
@@ -43,7 +45,7 @@ def run(args: argparse.Namespace) -> int:
     if args.output:
         prepare_folder(args.output)
     if args.json:
-        prepare_file(args.json, "--json")
+        prepare_file(args.json, "--json", JSON)
     record, seconds = _simulated(args.system, file)
     _write(args, file, record, seconds)
     return 0 if record.outcome is Outcome.DONE else 1

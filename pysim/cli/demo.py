@@ -25,7 +25,7 @@ _CAVEATS: dict[str, tuple[str, ...]] = {
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The words behind `pysim demo`."""
-    parser.add_argument("--output", metavar="DIR", type=Path, default=Path("results/demo"), help="(results/demo)")
+    parser.add_argument("-o", "--output", metavar="DIR", type=Path, default=Path("results/demo"), help="(results/demo)")
     parser.add_argument("--quick", action="store_true", help="8 frequencies in place of 19")
 
 

@@ -26,23 +26,24 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--settle-periods", metavar="N", type=float, default=1.0, help="the same, in periods of the sine (1)"
     )
     parser.add_argument("--json", metavar="FILE", type=Path, help="write all numbers here")
-    parser.add_argument("--output", metavar="DIR", type=Path, help="write report.html and the plots here")
+    parser.add_argument("-o", "--output", metavar="DIR", type=Path, help="write report.html and the plots here")
 
 
 def run(args: argparse.Namespace) -> int:
     """Print a table per offset and amplitude."""
+    from pysim.cli._measurements import read_measurements
     from pysim.cli._options import chosen_reference
-    from pysim.cli._outputs import prepare_file, prepare_folder
+    from pysim.cli._outputs import JSON, prepare_file, prepare_folder
     from pysim.identify import Window, measured_responses
-    from pysim.io import read_dataset, write_file
+    from pysim.io import write_file
     from pysim.report.frf import frf_data, frf_text
 
     window = Window(args.settle_periods, args.settle)
     if args.output:
-        prepare_folder(args.output)
+        prepare_folder(args.output, read=[args.dataset])
     if args.json:
-        prepare_file(args.json, "--json")
-    dataset = read_dataset(args.dataset)
+        prepare_file(args.json, "--json", JSON, read=[args.dataset])
+    dataset = read_measurements(args.dataset)
     responses = measured_responses(dataset, output=args.signal, window=window)
     args.reference_hz = chosen_reference(args.reference_hz, (one.response for one in responses))
     print(frf_text(responses, args.reference_hz))

@@ -25,7 +25,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--cutoff-hz", metavar="HZ", type=float, default=5.0, help="of the zero-phase filter (5)")
     parser.add_argument("--json", metavar="FILE", type=Path, help="write all numbers here")
-    parser.add_argument("--output", metavar="DIR", type=Path, help="write report.html and the plots here")
+    parser.add_argument("-o", "--output", metavar="DIR", type=Path, help="write report.html and the plots here")
 
 
 def _pulses(text: str) -> int | None:
@@ -39,14 +39,14 @@ def _pulses(text: str) -> int | None:
 
 def run(args: argparse.Namespace) -> int:
     """Print the parameters with their intervals; 0 when that is done."""
-    from pysim.cli._outputs import prepare_file, prepare_folder
+    from pysim.cli._outputs import JSON, prepare_file, prepare_folder
     from pysim.io import write_file
     from pysim.report import friction_data, friction_text
 
     if args.output:
-        prepare_folder(args.output)
+        prepare_folder(args.output, read=[args.dataset])
     if args.json:
-        prepare_file(args.json, "--json")
+        prepare_file(args.json, "--json", JSON, read=[args.dataset])
     fit, thesis = _fits(args)
     print(friction_text(fit))
     if args.json:
@@ -61,14 +61,14 @@ def _fits(args: argparse.Namespace) -> tuple[FrictionFit, FrictionFit | None]:
     """By pulses, with the thesis' way beside it where the log allows it; or by filter alone."""
     import math
 
+    from pysim.cli._measurements import read_measurements
     from pysim.identify.friction import ShaftColumns, filtered_samples, fit_friction, pulse_samples, shaft_tests
-    from pysim.io import read_dataset
     from pysim.types import BadInput
 
     if not (math.isfinite(args.inertia) and args.inertia >= 0):
         raise BadInput(f"--inertia {args.inertia}: write the moment of inertia in kg.m2, 0 or above")
     columns = ShaftColumns(args.speed, args.supply, args.load, args.supply_gain, args.load_gain)
-    tests = shaft_tests(read_dataset(args.dataset), columns)
+    tests = shaft_tests(read_measurements(args.dataset), columns)
     if args.pulses is None:
         return fit_friction([filtered_samples(t, args.inertia, cutoff_hz=args.cutoff_hz) for t in tests]), None
     fit = fit_friction([pulse_samples(test, args.inertia, pulses=args.pulses) for test in tests])

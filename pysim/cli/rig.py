@@ -35,12 +35,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--seed", type=int, default=1, help="heave: of the wave's phases (1)")
     parser.add_argument("--length", metavar="SECONDS", type=float, help="behind the step (30), or of the wave (60)")
     parser.add_argument("--json", metavar="FILE", type=Path, help="write all numbers here")
-    parser.add_argument("--output", metavar="DIR", type=Path, help="write report.html and the plots here")
+    parser.add_argument("-o", "--output", metavar="DIR", type=Path, help="write report.html and the plots here")
 
 
 def run(args: argparse.Namespace) -> int:
     """Print a table of what the answers are worth."""
-    from pysim.cli._outputs import prepare_file, prepare_folder
+    from pysim.cli._outputs import JSON, prepare_file, prepare_folder
     from pysim.cli._progress import announce_compilation
     from pysim.types import BadInput
 
@@ -49,7 +49,7 @@ def run(args: argparse.Namespace) -> int:
     if args.output:
         prepare_folder(args.output)
     if args.json:
-        prepare_file(args.json, "--json")
+        prepare_file(args.json, "--json", JSON)
     announce_compilation()
     (_step if args.test == "step" else _heave)(args)
     return 0

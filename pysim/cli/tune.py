@@ -25,12 +25,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--gains", metavar="K_P,T_I", action="append", default=[], help="of yours, for comparison")
     parser.add_argument("--dt", metavar="SECONDS", type=float, default=1e-3, help="of the sampled controller (0.001)")
     parser.add_argument("--json", metavar="FILE", type=Path, help="write all numbers here")
-    parser.add_argument("--output", metavar="DIR", type=Path, help="write report.html and the plot here")
+    parser.add_argument("-o", "--output", metavar="DIR", type=Path, help="write report.html and the plot here")
 
 
 def run(args: argparse.Namespace) -> int:
     """Print a table; 1 where the loop that was asked for is not stable."""
-    from pysim.cli._outputs import prepare_file, prepare_folder
+    from pysim.cli._outputs import JSON, prepare_file, prepare_folder
     from pysim.control.tuning import TABLE_6_1, known_pi
     from pysim.io import write_file
     from pysim.report.tuning import tuning_data, tuning_text
@@ -41,7 +41,7 @@ def run(args: argparse.Namespace) -> int:
     if args.output:
         prepare_folder(args.output)
     if args.json:
-        prepare_file(args.json, "--json")
+        prepare_file(args.json, "--json", JSON)
     plant = _plant(args)
     tuned = _tuned(args, plant)
     loops = {"tuned": tuned}

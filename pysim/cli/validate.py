@@ -25,7 +25,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("names", metavar="NAME", nargs="*", help="cases to run, all by default; or: fmu FILE ...")
     parser.add_argument("--quick", action="store_true", help="only cases that take seconds, under 5 min in all")
     parser.add_argument("--list", action="store_true", help="say which cases there are, and run none")
-    parser.add_argument("--output", metavar="DIR", type=Path, help="write report.html, summary.md and pictures here")
+    parser.add_argument(
+        "-o", "--output", metavar="DIR", type=Path, help="write report.html, summary.md and pictures here"
+    )
     parser.add_argument("--json", metavar="FILE", type=Path, help="write all numbers here, a line of JSON per case")
     parser.add_argument("--strict", action="store_true", help="with fmu: what is doubtful counts as failing")
     parser.add_argument(
@@ -56,7 +58,7 @@ def _suite(args: argparse.Namespace) -> int:
     if args.output:
         prepare_folder(args.output)
     if args.json:
-        prepare_file(args.json, "--json").unlink(missing_ok=True)
+        prepare_file(args.json, "--json", (".json", ".jsonl")).unlink(missing_ok=True)
     checkout = _checkout() if args.record else None
     show = _Show(len(names))
     results = []

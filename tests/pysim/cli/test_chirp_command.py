@@ -50,10 +50,12 @@ def write(path: Path, record) -> None:
 @pytest.fixture
 def bench(tmp_path: Path) -> Path:
     """A chirp and one stepped sine as text files."""
-    write(tmp_path / "chirp.txt", chirp_log(1.0, noise=0.05))
-    write(tmp_path / "5Hz.txt", sine_log(5.0))
-    (tmp_path / "dataset.toml").write_text(HEAD)
-    return tmp_path
+    folder = tmp_path / "bench"
+    folder.mkdir()
+    write(folder / "chirp.txt", chirp_log(1.0, noise=0.05))
+    write(folder / "5Hz.txt", sine_log(5.0))
+    (folder / "dataset.toml").write_text(HEAD)
+    return folder
 
 
 def test_a_data_set_gives_table_numbers_and_report(bench: Path, tmp_path: Path, capsys: pytest.CaptureFixture) -> None:

@@ -59,10 +59,12 @@ def test_a_run_that_stops_early_is_told_and_kept(
     (folder / "fails.toml").write_text(
         '[members.root]\nfmu = "Discards_2.fmu"\n[inputs]\nroot.u = "falling.csv"\n[run]\nstop = 1.0\nstep = 0.01\n'
     )
-    assert main(["cosim", str(folder / "fails.toml"), "--output", str(tmp_path), "--json", str(tmp_path / "j")]) == 1
+    assert (
+        main(["cosim", str(folder / "fails.toml"), "--output", str(tmp_path), "--json", str(tmp_path / "j.json")]) == 1
+    )
     assert "fails stopped:" in (out := capsys.readouterr().out)
     assert "root" in out
-    assert json.loads((tmp_path / "j").read_text())["end_s"] == pytest.approx(0.5, abs=0.03)
+    assert json.loads((tmp_path / "j.json").read_text())["end_s"] == pytest.approx(0.5, abs=0.03)
     assert (tmp_path / "report.html").exists()
 
 

@@ -27,15 +27,16 @@ noise = 0.1
 @pytest.fixture
 def bench(tmp_path: Path) -> Path:
     """Three stepped sines as text files with a dataset.toml."""
-    toml = HEAD
+    folder, toml = tmp_path / "bench", HEAD
+    folder.mkdir()
     for f in F:
         data = log(f, noise=white(6000, 0.1, round(10 * f)), periods=max(2.0, 2 * f)).data
         rows = np.column_stack([data.time, data.values])  # type: ignore[union-attr]
-        np.savetxt(tmp_path / f"{f:g}Hz.txt", rows, fmt="%.5f", delimiter="\t", header="time\tcmd\ty", comments="")
+        np.savetxt(folder / f"{f:g}Hz.txt", rows, fmt="%.5f", delimiter="\t", header="time\tcmd\ty", comments="")
         toml += f'[[records]]\nfile = "{f:g}Hz.txt"\ncolumns = ["time", "cmd", "y"]\nkind = "frequency-response"\n'
         toml += f'offset = 50.0\namplitude = 10.0\nfrequency = {f}\nuse = "fit"\n'
-    (tmp_path / "dataset.toml").write_text(toml)
-    return tmp_path
+    (folder / "dataset.toml").write_text(toml)
+    return folder
 
 
 def test_writes_table_numbers_and_report(bench: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

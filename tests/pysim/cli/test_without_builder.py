@@ -65,14 +65,16 @@ def data(tmp_path: Path) -> Path:
     frequency = np.array([0.1, 1.0, 3.0, 6.0])
     g = 1 / (20 + 2j * np.pi * frequency) ** 2
     rows = np.column_stack([frequency, 20 * np.log10(abs(g)), np.degrees(np.unwrap(np.angle(g)))])
-    np.savetxt(tmp_path / "response.csv", rows, delimiter=",")
-    (tmp_path / "dataset.toml").write_text(DATASET)
-    return tmp_path
+    folder = tmp_path / "data"
+    folder.mkdir()
+    np.savetxt(folder / "response.csv", rows, delimiter=",")
+    (folder / "dataset.toml").write_text(DATASET)
+    return folder
 
 
 @pytest.mark.parametrize(("parameter", "code"), [("w=20", 0), ("w=10", 1)])
-def test_compare_needs_nothing_of_the_builder(data: Path, parameter: str, code: int) -> None:
-    fmu, numbers = build(OSCILLATOR, 2, data), data / "numbers.json"
+def test_compare_needs_nothing_of_the_builder(data: Path, tmp_path: Path, parameter: str, code: int) -> None:
+    fmu, numbers = build(OSCILLATOR, 2, data), tmp_path / "numbers.json"
     words = ["compare", str(fmu), "--data", str(data), "--set", parameter, "--set", "D=1", "--json", str(numbers)]
     done = subprocess.run([sys.executable, "-c", SCRIPT, *words], cwd=ROOT, capture_output=True, text=True, check=False)
     assert done.returncode == code, done.stderr
