@@ -64,12 +64,14 @@ def _comment(found: Diagnosis, given: Given, name: str) -> str:
 
 def _limits(found: Diagnosis, dataset: Dataset) -> list[str]:
     """What the data did not show."""
+    from pysim.report.diagnosis_words import limits_sentence
+
     texts = [f"beyond what was excited: {_excited(dataset)}"]
     if not any(record.use == "validate" for record in dataset.records):
         texts.append("for other excitation without a test: no record was held out")
     last = found.error[-1] if found.error else None
     if last is not None and not last.passes:
-        texts.append("as a match by thesis Tables 1.3 and 1.4: some of their limits are not met")
+        texts.append(f"as a match by the thesis' limits: {limits_sentence(last)}".removesuffix("."))
     if found.verdict == "unknown":
         texts.append("as complete: more than noise is left, and what that is could not be named")
     for group in found.confusable:

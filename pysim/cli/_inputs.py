@@ -36,13 +36,22 @@ def read_inputs(args: argparse.Namespace, model: Model) -> dict[str, Signal]:
     return signals
 
 
+def input_files(args: argparse.Namespace) -> list[Path]:
+    """Those that drive an input."""
+    values = (Path(text.partition("=")[2].strip()) for text in args.input)
+    return [path for path in values if path.is_file()]
+
+
 def _signal(text: str, value: str) -> Signal:
+    from pysim.cli._options import point_in_place
     from pysim.io import read_signal
     from pysim.types import BadInput, Signal
 
     try:
         number = float(value)
     except ValueError:
+        if point_in_place(value) and not Path(value).exists():
+            raise BadInput(f"--input {text}: write the number with a point: {value.replace(',', '.')}") from None
         return read_signal(Path(value), f"--input {text}")
     if not math.isfinite(number):
         raise BadInput(f"--input {text}: {value} is not finite; write a number in the input's unit")

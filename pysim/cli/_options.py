@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import math
+import re
 import sys
 import tomllib
 from collections.abc import Iterable, Sequence
@@ -20,7 +21,29 @@ _BY_DATA = -1.0  # of `--reference-hz`, where it was not said
 def add_parameters(parser: argparse.ArgumentParser) -> None:
     """`--set` and `--parameters`."""
     parser.add_argument("--set", metavar="NAME=VALUE", action="append", default=[], help="set a parameter, SI unit")
-    parser.add_argument("--parameters", metavar="FILE.toml", type=Path, help="lines NAME = VALUE; --set goes before")
+    add_parameters_file(parser)
+
+
+def add_parameters_file(parser: argparse.ArgumentParser, more: str = "--set goes before") -> None:
+    """`--parameters`.
+
+    Args:
+        more: for the help, behind what it holds.
+    """
+    parser.add_argument("--parameters", metavar="FILE.toml", type=Path, help=f"lines NAME = VALUE; {more}")
+
+
+def add_names(parser: argparse.ArgumentParser, *options: str, what: str, required: bool = False) -> None:
+    """An option that lists names, with commas between them or repeated; for `names_of`."""
+    parser.add_argument(
+        *options, metavar="NAME,...", action="append", default=[], required=required, help=f"{what}; commas or repeat"
+    )
+
+
+def names_of(texts: Sequence[str]) -> list[str]:
+    """Names between commas; one within brackets, as in `x[1,2]`, belongs to the name."""
+    parts = [part.strip() for text in texts for part in re.split(r",(?![^\[]*\])", text)]
+    return [part for part in parts if part]
 
 
 def add_reference(parser: argparse.ArgumentParser) -> None:
@@ -68,10 +91,18 @@ def read_parameters(args: argparse.Namespace, model: Model) -> dict[str, float]:
     Raises:
         BadInput: a file that cannot be read, no finite number, or a name the model does not have.
     """
+    values = parameters_of(args.parameters) if args.parameters else {}
+    return settable(values | assigned(args.set, "--set", "the parameter's unit"), model)
+
+
+def settable(values: dict[str, float], model: Model) -> dict[str, float]:
+    """The same values, once they are known to be those of the model's parameters.
+
+    Raises:
+        BadInput: no finite number, or a name that the model does not have.
+    """
     from pysim.types import BadInput
 
-    values = _from_file(args.parameters) if args.parameters else {}
-    values |= assigned(args.set, "--set", "the parameter's unit")
     for name in values:
         variable = model[name]
         if variable.causality != "parameter":
@@ -96,7 +127,8 @@ def bounded(texts: Sequence[str]) -> dict[str, tuple[float, float]]:
         try:
             low, high = (float(word) for word in both.split(":"))
         except ValueError:
-            raise BadInput(f"--bounds {text}: write NAME=LOW:HIGH with numbers in the parameter's unit") from None
+            form = f"write NAME=LOW:HIGH with numbers in the parameter's unit{point_in_place(both)}"
+            raise BadInput(f"--bounds {text}: {form}") from None
         if not low < high:
             raise BadInput(f"--bounds {text}: {low:g} is not below {high:g}; write the lower bound first")
         values[name.strip()] = (low, high)
@@ -121,8 +153,25 @@ def assigned(texts: Sequence[str], option: str, unit: str) -> dict[str, float]:
         except ValueError:
             values[name] = math.nan
         if not name or not math.isfinite(values[name]):
-            raise BadInput(f"{option} {text}: write NAME=VALUE with a finite number in {unit}")
+            hint = point_in_place(value)
+            raise BadInput(f"{option} {text}: write NAME=VALUE with a finite number in {unit}{hint}")
     return values
+
+
+def point_in_place(text: str) -> str:
+    """What to add to a message where numbers have a decimal comma; nothing where they have none."""
+    numbers = text.split(":")
+    if not all(re.fullmatch(r"\s*[+-]?\d*,\d+(e[+-]?\d+)?\s*", n, re.IGNORECASE) or _is_number(n) for n in numbers):
+        return ""
+    return f", and a point where the comma is: {text.replace(',', '.').strip()}" if "," in text else ""
+
+
+def _is_number(text: str) -> bool:
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True
 
 
 def _warn_beyond(variable: Variable, value: float, model: Model) -> None:
@@ -134,8 +183,12 @@ def _warn_beyond(variable: Variable, value: float, model: Model) -> None:
         print(f"pysim: warning: {text} [{variable.unit}]", file=sys.stderr)
 
 
-def _from_file(path: Path) -> dict[str, float]:
-    """A TOML file of numbers; dotted names and sections mean the same."""
+def parameters_of(path: Path) -> dict[str, float]:
+    """A TOML file of numbers; dotted names and sections mean the same.
+
+    Raises:
+        BadInput: it cannot be read, or holds something else.
+    """
     from pysim.io import read_text
     from pysim.types import BadInput
 

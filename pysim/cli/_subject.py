@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -25,6 +25,7 @@ class Given:
         variants: builds models with effects; None where the model's class is not at hand.
         overrides: parameters that were set, in the variables' units.
         libraries: the user's own, beside the one that comes along.
+        stand_in: whether the one free number stands in for none, in a comparison that refits nothing.
     """
 
     subject: Subject
@@ -32,6 +33,12 @@ class Given:
     variants: Variants | None
     overrides: dict[str, float]
     libraries: tuple[Path, ...]
+    stand_in: bool = False
+
+    @property
+    def free(self) -> tuple[str, ...]:
+        """Parameters that may be refitted."""
+        return () if self.stand_in else self.subject.free
 
     @property
     def model_name(self) -> str:
@@ -41,20 +48,21 @@ class Given:
 
 def add_subject(parser: argparse.ArgumentParser) -> None:
     """`DATASET --model MODEL` and what goes with them."""
+    from pysim.cli._model_and_data import DATA, add_model_and_data
     from pysim.cli._options import add_parameters
 
-    parser.add_argument("data", metavar="DATASET", type=Path, help="folder with a dataset.toml")
-    parser.add_argument("--model", metavar="MODEL", required=True, help="a Modelica class with slots, or its .fmu")
+    add_model_and_data(parser, DATA, "a Modelica class with slots, or its .fmu")
     add_fitted(parser)
     add_parameters(parser)
 
 
 def add_fitted(parser: argparse.ArgumentParser) -> None:
     """`--library`, and what may be refitted."""
-    parser.add_argument(
-        "--library", metavar="PATH", type=Path, action="append", default=[], help="of the class or of effects; repeat"
-    )
-    parser.add_argument("--free", metavar="NAME,...", default="", help="parameters to refit; those with bounds")
+    from pysim.cli._any_model import add_library
+    from pysim.cli._options import add_names
+
+    add_library(parser, "the class or of effects")
+    add_names(parser, "--free", what="parameters to refit (those with bounds that are not set)")
     parser.add_argument(
         "--bounds", metavar="NAME=LOW:HIGH", action="append", default=[], help="in place of the model's min and max"
     )
@@ -62,15 +70,17 @@ def add_fitted(parser: argparse.ArgumentParser) -> None:
 
 def add_effects(parser: argparse.ArgumentParser) -> None:
     """`--effects`."""
-    parser.add_argument("--effects", metavar="NAME,...", default="", help="consider only these of the catalogue")
+    from pysim.cli._options import add_names
+
+    add_names(parser, "--effects", "--effect", what="consider only these of the catalogue")
 
 
 def add_results(parser: argparse.ArgumentParser, what: str) -> None:
     """`--json` and `--output`."""
     parser.add_argument("--json", metavar="FILE", type=Path, help="write the whole answer here")
-    parser.add_argument("--output", metavar="DIR", type=Path, help=f"write report.html, pictures{what} here")
+    parser.add_argument("-o", "--output", metavar="DIR", type=Path, help=f"write report.html, pictures{what} here")
     parser.add_argument("--records", metavar="FILE.npz", type=Path, help="write every record beside every model here")
-    parser.add_argument("--story", metavar="FILE", type=Path, help="write what is told on the way here, a JSON a line")
+    parser.add_argument("--story", metavar="FILE", type=Path, help="write what is told on the way here, JSON lines")
 
 
 def prepare_results(args: argparse.Namespace) -> None:
@@ -79,49 +89,67 @@ def prepare_results(args: argparse.Namespace) -> None:
     Raises:
         BadInput: they cannot.
     """
-    from pysim.cli._outputs import prepare_file, prepare_folder
+    from pysim.cli._outputs import JSON, prepare_file, prepare_folder
 
-    for option in ("json", "records", "story"):
+    for option, suffixes in (("json", JSON), ("records", (".npz",)), ("story", (".jsonl", ".json"))):
         if getattr(args, option):
-            prepare_file(getattr(args, option), f"--{option}")
+            prepare_file(getattr(args, option), f"--{option}", suffixes, read=[args.data])
     if args.output:
-        prepare_folder(args.output)
+        prepare_folder(args.output, read=[args.data])
 
 
-def read_subject(args: argparse.Namespace) -> Given:
+def read_subject(args: argparse.Namespace, *, refits: bool = True) -> Given:
     """Model, data and catalogue of a command line.
 
+    Args:
+        refits: whether parameters will be refitted, so that some must be free.
     Raises:
         BadInput: what cannot be read, or does not go together. BuildError: a model that does not compile.
     """
-    from pysim.cli._options import bounded, read_parameters
+    from pysim.cli._free import free_parameters, stand_in
+    from pysim.cli._measurements import read_measurements
+    from pysim.cli._options import bounded, names_of, read_parameters
     from pysim.cli._variants import Variants
     from pysim.diagnose import Inside, subject
     from pysim.effects import STANDARD_LIBRARY, slots
-    from pysim.io import read_dataset
 
-    dataset = read_dataset(args.data)
+    dataset, left_out = _diagnosed(read_measurements(args.data))
     libraries = [STANDARD_LIBRARY, *args.library]
     model, class_name, notes = _model(args.model, libraries)
-    catalogue = _catalogue(libraries, getattr(args, "effects", ""), class_name)
+    notes = [*left_out, *notes]
+    catalogue = _catalogue(libraries, names_of(getattr(args, "effects", [])), class_name)
     if class_name and not catalogue:
         notes.append(f"no slot of {class_name} takes an effect of the libraries, so none could be tried")
     variants = Variants(class_name, libraries) if class_name else None
     inside = Inside(slots(class_name, libraries), variants.probed) if variants else None
-    overrides = read_parameters(args, model)
-    free = tuple(names_of(args.free))
+    overrides, bounds = read_parameters(args, model), bounded(args.bounds)
+    free = free_parameters(model, names_of(args.free), bounds, overrides, needed=refits)
+    run, left, moved = (model, overrides, bounds) if free else stand_in(model, overrides)
     given = subject(
-        model,
+        run,
         dataset,
         catalogue,
         variants,
-        free=free,
-        bounds=bounded(args.bounds),
-        overrides=overrides,
+        free=free or tuple(moved),
+        bounds=moved,
+        overrides=left,
         inside=inside,
         notes=tuple(notes),
     )
-    return Given(given, dataset, variants, overrides, tuple(args.library))
+    return Given(given, dataset, variants, overrides, tuple(args.library), stand_in=not free)
+
+
+def _diagnosed(dataset: Dataset) -> tuple[Dataset, list[str]]:
+    """What a diagnosis counts of the measurements, and a note on what it does not: nuisances of logs over time, such as
+    a sensor's gain, are no matter of a table of responses, so that the two are not counted in one."""
+    logs = dataset.logs()
+    count = len(dataset.records) - len(logs)
+    if not logs or not count:
+        return dataset, []
+    note = (
+        f"left out: tables of frequency responses ({count}), beside logs over time; they need a data set of their own"
+    )
+    return replace(dataset, records=tuple(logs)), [note]
 
 
 def read_base(args: argparse.Namespace) -> Model:
@@ -130,9 +158,9 @@ def read_base(args: argparse.Namespace) -> Model:
     Raises:
         BadInput: an FMU that cannot be read. BuildError: a class that does not compile.
     """
-    from pysim.effects import STANDARD_LIBRARY
+    from pysim.cli._any_model import read_fmu_or_class
 
-    return _model(args.model, [STANDARD_LIBRARY, *args.library])[0]
+    return read_fmu_or_class(args.model, args.library)
 
 
 def read_inside(args: argparse.Namespace) -> tuple[Model, str, tuple[Slot, ...], tuple[Effect, ...]]:
@@ -147,7 +175,7 @@ def read_inside(args: argparse.Namespace) -> tuple[Model, str, tuple[Slot, ...],
     model, class_name, _ = _model(args.model, libraries)
     if not class_name:
         return model, "", (), ()
-    return model, class_name, slots(class_name, libraries), _catalogue(libraries, "", class_name)
+    return model, class_name, slots(class_name, libraries), _catalogue(libraries, [], class_name)
 
 
 def effects_of(names: Sequence[str], given: Given) -> tuple[Effect, ...]:
@@ -168,11 +196,6 @@ def effects_of(names: Sequence[str], given: Given) -> tuple[Effect, ...]:
     return named_effects(names, given.subject.catalogue, catalogue, "--effect", given.model_name)
 
 
-def names_of(text: str) -> list[str]:
-    """Words between commas."""
-    return [name.strip() for name in text.split(",") if name.strip()]
-
-
 def subject_words(args: argparse.Namespace, *, model_first: bool = False) -> list[str]:
     """These options again, for the line that repeats the command.
 
@@ -180,10 +203,10 @@ def subject_words(args: argparse.Namespace, *, model_first: bool = False) -> lis
         model_first: whether the command takes `MODEL --data DATASET`.
     """
     words = [args.model, "--data", str(args.data)] if model_first else [str(args.data), "--model", args.model]
-    for option in ("effect", "library", "bounds", "set"):
+    for option in ("effect", "effects", "free", "library", "bounds", "set"):
         for value in getattr(args, option, []):
             words += [f"--{option}", str(value)]
-    for option in ("free", "effects", "parameters", "seed", "most", "json", "output"):
+    for option in ("parameters", "seed", "most", "json", "output"):
         value = getattr(args, option, None)
         if value not in (None, ""):
             words += [f"--{option}", str(value)]
@@ -192,17 +215,15 @@ def subject_words(args: argparse.Namespace, *, model_first: bool = False) -> lis
 
 def _model(text: str, libraries: Sequence[Path]) -> tuple[Model, str, list[str]]:
     """The base model, its class where that is known, and notes."""
+    from pysim.cli._any_model import is_fmu, read_fmu_or_class
     from pysim.effects._library import Libraries
-    from pysim.io import read_model
 
-    if text.lower().endswith(".fmu"):
-        model = read_model(Path(text))
-        if model.name in Libraries(libraries).classes:
-            return model, model.name, []
-        return model, "", _out_of_sight(model)
-    import fmu_build
-
-    return read_model(fmu_build.build(text, libraries=list(libraries))), text, []
+    model = read_fmu_or_class(text, libraries)
+    if not is_fmu(text):
+        return model, text, []
+    if model.name in Libraries(libraries).classes:
+        return model, model.name, []
+    return model, "", _out_of_sight(model)
 
 
 def _out_of_sight(model: Model) -> list[str]:
@@ -217,13 +238,12 @@ def _out_of_sight(model: Model) -> list[str]:
     ]
 
 
-def _catalogue(libraries: Sequence[Path], wanted: str, class_name: str) -> tuple[Effect, ...]:
+def _catalogue(libraries: Sequence[Path], names: Sequence[str], class_name: str) -> tuple[Effect, ...]:
     """Effects of the libraries that the class takes; all where it is not known. Those wanted, where any are named."""
     from pysim.effects import fitting, read_catalogue
 
     catalogue = read_catalogue(*libraries)
     taken = fitting(catalogue, class_name, libraries) if class_name else catalogue
-    names = names_of(wanted)
     return named_effects(names, taken, catalogue, "--effects", class_name) if names else taken
 
 

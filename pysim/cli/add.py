@@ -7,17 +7,17 @@ import argparse
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The words behind `pysim add`."""
+    from pysim.cli._options import add_names
     from pysim.cli._subject import add_results, add_subject
 
     add_subject(parser)
-    parser.add_argument(
-        "--effect", metavar="NAME", action="append", required=True, help="to add, by its standard name; repeat in order"
-    )
+    add_names(parser, "--effect", "--effects", what="to add, by their standard names, in order", required=True)
     add_results(parser, ", the extended class and its FMU")
 
 
 def run(args: argparse.Namespace) -> int:
     """Print what each effect does to the error, on fitted and held-out data; 0."""
+    from pysim.cli._options import names_of
     from pysim.cli._progress import announce_compilation
     from pysim.cli._story import finish, unfold
     from pysim.cli._subject import effects_of, prepare_results, read_subject
@@ -27,7 +27,7 @@ def run(args: argparse.Namespace) -> int:
 
     prepare_results(args)
     given = read_subject(args)
-    effects = effects_of(args.effect, given)
+    effects = effects_of(names_of(args.effect), given)
     announce_compilation()
     found = unfold(given, args, lambda story, journal: add(given.subject, effects, progress=story, journal=journal))
     print(added_sentence(found), evidence_text(found), sep="\n\n")

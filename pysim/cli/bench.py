@@ -1,4 +1,4 @@
-"""Drive an FMU through a test plan and write the data set a bench would."""
+"""Drive a model through a test plan and write the data set a bench would."""
 
 from __future__ import annotations
 
@@ -14,9 +14,11 @@ if TYPE_CHECKING:
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The words behind `pysim bench`."""
+    from pysim.cli._any_model import WHAT, add_library
     from pysim.cli._options import add_parameters
 
-    parser.add_argument("model", metavar="MODEL.fmu", type=Path)
+    parser.add_argument("model", metavar="MODEL", help=WHAT)
+    add_library(parser)
     parser.add_argument(
         "--plan", metavar="PLAN", required=True, help="a .toml, or a plan of this program: bench-01, thesis"
     )
@@ -42,12 +44,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(args: argparse.Namespace) -> int:
     """Write the data set; 1 when a run stops early, with nothing written."""
     from pysim.bench import read_plan, run_plan, truth_data
+    from pysim.cli._any_model import read_fmu_or_class
     from pysim.cli._options import assigned, read_parameters
     from pysim.cli._outputs import prepare_file, prepare_folder
     from pysim.cli._progress import ProgressBar, announce_compilation
-    from pysim.io import read_model, write_dataset, write_file
+    from pysim.io import write_dataset, write_file
 
-    plan, model = read_plan(args.plan), read_model(args.model)
+    plan, model = read_plan(args.plan), read_fmu_or_class(args.model, args.library)
     parameters, strength = read_parameters(args, model), assigned(args.strength, "--strength", "SI units")
     _check_places(args)
     for option, folder in (("--output", args.output), ("--clean", args.clean)):

@@ -1,4 +1,4 @@
-"""Fit parameters of an FMU to data sets, and say how well they are known."""
+"""Fit parameters of a model to data sets, and say how well they are known."""
 
 from __future__ import annotations
 
@@ -9,20 +9,25 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+
     from pysim.identify.greybox import Problem, Tried
-    from pysim.types import Fit
+    from pysim.types import Dataset, Fit, Model
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The words behind `pysim fit`."""
-    from pysim.cli._options import add_reference
+    from pysim.cli._any_model import WHAT, add_library
+    from pysim.cli._model_and_data import MODEL, add_model_and_data
+    from pysim.cli._options import add_names, add_parameters_file, add_reference
 
-    parser.add_argument("model", metavar="MODEL.fmu", type=Path)
-    parser.add_argument("--data", metavar="DATASET", type=Path, action="append", required=True, help="folder; repeat")
+    add_model_and_data(parser, MODEL, WHAT, several=True)
+    add_library(parser)
+    add_names(parser, "--free", what="parameters to find, bounds as the model says", required=True)
     parser.add_argument(
-        "--free", metavar="NAME,...", required=True, help="parameters to find, bounds as the model says"
+        "--fix", "--set", metavar="NAME=VALUE", action="append", default=[], help="set a parameter, its unit"
     )
-    parser.add_argument("--fix", metavar="NAME=VALUE", action="append", default=[], help="set a parameter, its unit")
+    add_parameters_file(parser, "where free ones begin, and what others are set to; --start and --fix go before")
     parser.add_argument("--tie", metavar="A=[F*]B", action="append", default=[], help="let A follow the free B")
     parser.add_argument("--start", metavar="NAME=VALUE", action="append", default=[], help="where a free one begins")
     parser.add_argument(
@@ -30,24 +35,25 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--objective", choices=("noise", "time", "frequency", "combined"), default="noise")
     parser.add_argument("--optimiser", choices=("gauss-newton", "interior-point"), help="gauss-newton for noise")
-    parser.add_argument("--signal", metavar="NAME", action="append", help="compare only this output; repeat")
+    add_names(parser, "--signal", what="compare only these outputs")
     add_reference(parser)
     parser.add_argument("--starts", metavar="N", type=int, default=0, help="more searches, drawn between the bounds")
     parser.add_argument("--seed", metavar="S", type=int, help="of the draw")
     parser.add_argument("--trust-start", action="store_true", help="do not try the model's own values beside --start")
-    parser.add_argument("--profile", metavar="NAME", action="append", default=[], help="exact interval; repeat")
+    add_names(parser, "--profile", what="exact intervals")
     parser.add_argument("--log", metavar="DIR", type=Path, help="log of the search; in --output by default")
     parser.add_argument("--resume", action="store_true", help="go on where the log of a killed fit ends")
     parser.add_argument("--isolate", action="store_true", help="worker processes: an FMU may crash")
     parser.add_argument("--json", metavar="FILE", type=Path, help="write all numbers here")
     parser.add_argument(
-        "--output", metavar="DIR", type=Path, help="write report.html, parameters.toml, plots, log here"
+        "-o", "--output", metavar="DIR", type=Path, help="write report.html, parameters.toml, plots, log here"
     )
 
 
 def run(args: argparse.Namespace) -> int:
     """Print the estimates; 0 when the search converged, 1 when it did not."""
-    from pysim.cli._outputs import prepare_file, prepare_folder
+    from pysim.cli._options import names_of
+    from pysim.cli._outputs import JSON, prepare_file, prepare_folder, refuse_inside
     from pysim.cli._progress import announce_compilation
     from pysim.identify.greybox import (
         OBJECTIVES,
@@ -63,9 +69,11 @@ def run(args: argparse.Namespace) -> int:
     from pysim.report.fit import fit_data, fit_text
 
     if args.output:
-        prepare_folder(args.output)
+        prepare_folder(args.output, read=args.data)
     if args.json:
-        prepare_file(args.json, "--json")
+        prepare_file(args.json, "--json", JSON, read=args.data)
+    if args.log:
+        refuse_inside(args.log, "--log", args.data)
     problem = _problem(args)
     simulation = Simulation(workers=Processes()) if args.isolate else Simulation()
     log = args.log or (args.output / "log" if args.output else None)
@@ -80,7 +88,7 @@ def run(args: argparse.Namespace) -> int:
         progress=_say,
     )
     print(fit_text(result))
-    profiles = [profile(problem, result, name, simulation=simulation) for name in args.profile]
+    profiles = [profile(problem, result, name, simulation=simulation) for name in names_of(args.profile)]
     for one in profiles:
         print(f"Profile of {one.name}: 95 % from {one.interval[0]:.5g} to {one.interval[1]:.5g}")
     if args.json:
@@ -98,24 +106,40 @@ def _say(tried: Tried) -> None:
 
 
 def _problem(args: argparse.Namespace) -> Problem:
-    from pysim.cli._options import bounded, chosen_reference
+    from pysim.cli._any_model import read_fmu_or_class
+    from pysim.cli._measurements import read_measurements
+    from pysim.cli._options import bounded, chosen_reference, names_of
     from pysim.identify.greybox import Measurements, Parameter, Tie, Treatment, problem
-    from pysim.io import read_dataset, read_model
 
-    model = read_model(args.model)
-    starts, bounds = _numbers(args.start, "--start"), bounded(args.bounds)
-    names = [name.strip() for name in args.free.split(",") if name.strip()]
-    _refuse_idle({**starts, **bounds}, names)
-    free = [Parameter(name, starts.get(name), *bounds.get(name, (None, None))) for name in names]
+    model = read_fmu_or_class(args.model, args.library)
+    names, bounds = names_of(args.free), bounded(args.bounds)
     ties = [Tie(*_tie(text)) for text in args.tie]
-    datasets = [read_dataset(folder) for folder in args.data]
-    data = [Measurements(one, outputs=tuple(args.signal) if args.signal else None) for one in datasets]
+    starts, fixed = _values(args, model, names, [tie.name for tie in ties])
+    _refuse_idle([*starts, *bounds], names)
+    free = [Parameter(name, starts.get(name), *bounds.get(name, (None, None))) for name in names]
+    datasets = [read_measurements(folder) for folder in args.data]
+    _refuse_still(datasets)
+    outputs = tuple(names_of(args.signal)) or None
+    data = [Measurements(one, outputs=outputs) for one in datasets]
     args.reference_hz = chosen_reference(args.reference_hz, (r for one in datasets for r in one.responses()))
     treatment = Treatment(reference_hz=args.reference_hz)
-    return problem(model, data, free, fixed=_numbers(args.fix, "--fix"), ties=ties, treatment=treatment)
+    return problem(model, data, free, fixed=fixed, ties=ties, treatment=treatment)
 
 
-def _refuse_idle(given: dict[str, object], names: list[str]) -> None:
+def _values(
+    args: argparse.Namespace, model: Model, free: Sequence[str], tied: Sequence[str]
+) -> tuple[dict[str, float], dict[str, float]]:
+    """Where free parameters begin and what others are set to: from the file, and from the options that go before it."""
+    from pysim.cli._options import assigned, parameters_of, settable
+
+    told = settable(parameters_of(args.parameters), model) if args.parameters else {}
+    starts = {name: value for name, value in told.items() if name in free}
+    fixed = {name: value for name, value in told.items() if name not in free and name not in tied}
+    unit = "the parameter's unit"
+    return starts | assigned(args.start, "--start", unit), fixed | assigned(args.fix, "--fix", unit)
+
+
+def _refuse_idle(given: Iterable[str], names: Sequence[str]) -> None:
     from pysim.types import BadInput
 
     for name in given:
@@ -123,18 +147,22 @@ def _refuse_idle(given: dict[str, object], names: list[str]) -> None:
             raise BadInput(f"{name} has a start or bounds but is not free; add it to --free, or use --fix")
 
 
-def _numbers(texts: list[str], option: str) -> dict[str, float]:
-    """NAME=VALUE each."""
+def _refuse_still(datasets: Sequence[Dataset]) -> None:
+    """Logs in none of which an input moves tell nothing of what moves."""
+    from pysim.diagnose.adequacy import shortcomings
     from pysim.types import BadInput
 
-    values = {}
-    for text in texts:
-        name, _, value = text.partition("=")
-        try:
-            values[name.strip()] = float(value)
-        except ValueError:
-            raise BadInput(f"{option} {text}: write NAME=VALUE with a number in the parameter's unit") from None
-    return values
+    refusals = []
+    for dataset in datasets:
+        if any(record.use == "fit" for record in dataset.records):
+            try:
+                shortcomings(dataset, ())
+            except BadInput as error:
+                refusals.append(error)
+            else:
+                return
+    if refusals:
+        raise refusals[0]
 
 
 def _tie(text: str) -> tuple[str, str, float]:
@@ -200,11 +228,11 @@ def _words(args: argparse.Namespace) -> list[str]:
     """The command line again, without --resume."""
     from pysim.cli._options import reference_words
 
-    words = ["fit", str(args.model), "--free", args.free, "--objective", args.objective, *reference_words(args)]
-    for option in ("data", "fix", "tie", "start", "bounds", "signal", "profile"):
+    words = ["fit", args.model, "--objective", args.objective, *reference_words(args)]
+    for option in ("data", "library", "free", "fix", "tie", "start", "bounds", "signal", "profile"):
         for value in getattr(args, option) or ():
             words += [f"--{option}", str(value)]
-    for option in ("optimiser", "seed", "log", "json", "output"):
+    for option in ("parameters", "optimiser", "seed", "log", "json", "output"):
         if getattr(args, option) is not None:
             words += [f"--{option}", str(getattr(args, option))]
     return (

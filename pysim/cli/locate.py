@@ -7,17 +7,17 @@ import argparse
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The words behind `pysim locate`."""
+    from pysim.cli._options import add_names
     from pysim.cli._subject import add_results, add_subject
 
     add_subject(parser)
-    parser.add_argument(
-        "--effect", metavar="NAME", action="append", default=[], help="in the model already, by its name; repeat"
-    )
+    add_names(parser, "--effect", "--effects", what="in the model already, by their names")
     add_results(parser, "")
 
 
 def run(args: argparse.Namespace) -> int:
     """Print the places with the term that each would need; 0."""
+    from pysim.cli._options import names_of
     from pysim.cli._progress import announce_compilation
     from pysim.cli._story import finish, unfold
     from pysim.cli._subject import effects_of, prepare_results, read_subject
@@ -27,7 +27,7 @@ def run(args: argparse.Namespace) -> int:
 
     prepare_results(args)
     given = read_subject(args)
-    effects = effects_of(args.effect, given) if args.effect else ()
+    effects = effects_of(names_of(args.effect), given) if args.effect else ()
     announce_compilation()
     found = unfold(given, args, lambda story, journal: located(given.subject, effects, progress=story, journal=journal))
     print(missing_sentence(found), evidence_text(found), sep="\n\n")

@@ -14,21 +14,21 @@ if TYPE_CHECKING:
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The words behind `pysim model`."""
-    parser.add_argument("model", metavar="MODEL", help="a Modelica class, or an .fmu")
-    parser.add_argument(
-        "--library", metavar="PATH", type=Path, action="append", default=[], help="of the class; repeat"
-    )
+    from pysim.cli._any_model import WHAT, add_library
+
+    parser.add_argument("model", metavar="MODEL", help=WHAT)
+    add_library(parser)
     parser.add_argument("--json", metavar="FILE", type=Path, help="write all of it here")
 
 
 def run(args: argparse.Namespace) -> int:
     """Print what it holds; 0."""
-    from pysim.cli._outputs import prepare_file
+    from pysim.cli._outputs import JSON, prepare_file
     from pysim.cli._subject import read_inside
     from pysim.io import write_file
 
     if args.json:
-        prepare_file(args.json, "--json")
+        prepare_file(args.json, "--json", JSON)
     model, class_name, slots, effects = read_inside(args)
     print(_text(model, slots, effects))
     if args.json:

@@ -1,4 +1,4 @@
-"""Run an FMU and write what it did as .csv or .npz."""
+"""Run a model and write what it did as .csv or .npz."""
 
 from __future__ import annotations
 
@@ -18,38 +18,41 @@ _MOST_ROWS = 10_000_000  # of a run; more is a slip of the keyboard, and would f
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The words behind `pysim simulate`."""
+    from pysim.cli._any_model import WHAT, add_library
     from pysim.cli._inputs import add_inputs
-    from pysim.cli._options import add_parameters
+    from pysim.cli._options import add_names, add_parameters
 
-    parser.add_argument("model", metavar="MODEL.fmu", type=Path)
+    parser.add_argument("model", metavar="MODEL", help=WHAT)
+    add_library(parser)
     parser.add_argument("--stop", metavar="SECONDS", type=float, help="end of the run (the FMU's own, else 1)")
     parser.add_argument("--step", metavar="SECONDS", type=float, help="time between rows (a 500th of the run)")
-    parser.add_argument("--record", metavar="NAME", action="append", default=[], help="variable; all outputs if none")
+    add_names(parser, "--record", what="variables (all outputs)")
     add_inputs(parser)
     add_parameters(parser)
     parser.add_argument(
         "--solver", choices=("rodas", "rk45"), default="rodas", help="for stiff models or for others (rodas)"
     )
     parser.add_argument(
-        "--output", metavar="FILE", type=Path, help=".csv or .npz to write; else csv to standard output"
+        "-o", "--output", metavar="FILE", type=Path, help=".csv or .npz to write; else csv to standard output"
     )
     parser.add_argument("--json", metavar="FILE", type=Path, help="write record and statistics here")
 
 
 def run(args: argparse.Namespace) -> int:
     """Simulate; 1 when the run stops early, with what was reached written all the same."""
-    from pysim.cli._outputs import prepare_file
+    from pysim.cli._any_model import read_fmu_or_class
+    from pysim.cli._inputs import input_files
+    from pysim.cli._outputs import JSON, prepare_file
     from pysim.cli._progress import announce_compilation
-    from pysim.io import read_model
     from pysim.simulate import Rk45, Rodas, simulate
     from pysim.types import Outcome
 
-    model = read_model(args.model)
+    model = read_fmu_or_class(args.model, args.library)
     experiment = _experiment(args, model)
     if args.output:
-        prepare_file(args.output, "--output", (".csv", ".npz"))
+        prepare_file(args.output, "--output", (".csv", ".npz"), read=input_files(args))
     if args.json:
-        prepare_file(args.json, "--json")
+        prepare_file(args.json, "--json", JSON)
     announce_compilation()
     record = simulate(model, experiment, solver=Rodas() if args.solver == "rodas" else Rk45(), check=False)
     _write(args, record)
@@ -63,7 +66,7 @@ def _experiment(args: argparse.Namespace, model: Model) -> Experiment:
     import numpy as np
 
     from pysim.cli._inputs import read_inputs
-    from pysim.cli._options import read_parameters
+    from pysim.cli._options import names_of, read_parameters
     from pysim.types import BadInput, Experiment
 
     stop = model.stop_time or _STOP if args.stop is None else args.stop
@@ -76,7 +79,7 @@ def _experiment(args: argparse.Namespace, model: Model) -> Experiment:
         )
     times = np.append(np.arange(0.0, stop - step / 2, step), stop)
     inputs = read_inputs(args, model)
-    recorded = _recorded(model, args.record)
+    recorded = _recorded(model, names_of(args.record))
     return Experiment(times, recorded, inputs, read_parameters(args, model), rates=model.rate_inputs(inputs))
 
 

@@ -34,16 +34,18 @@ amplitude = {amplitude}
 
 @pytest.fixture
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A data set of the linear system, and reading and running any .fmu replaced by it."""
+    """A place with a data set of the linear system in bench/; reading and running any .fmu replaced by that system."""
+    bench = tmp_path / "bench"
+    bench.mkdir()
     head = '[dataset]\nname = "bench"\ndescription = "Take it with care."\n'
     head += '[signals.cmd]\nrole = "input"\nunit = "%"\n[signals.angle]\nrole = "output"\nunit = "%"\n'
     records = []
     for i, response in enumerate(linear.dataset().responses()):
         rows = zip(response.frequency, 20 * np.log10(response.gain), np.degrees(response.phase), strict=True)
-        (tmp_path / f"{i}.csv").write_text("\n".join(",".join(map(str, row)) for row in rows))
+        (bench / f"{i}.csv").write_text("\n".join(",".join(map(str, row)) for row in rows))
         test = response.test
         records.append(RECORD.format(file=f"{i}.csv", offset=test.offset, amplitude=test.amplitude))
-    (tmp_path / "dataset.toml").write_text(head + "".join(records))
+    (bench / "dataset.toml").write_text(head + "".join(records))
 
     def simulate_many(_: Any, experiments: Sequence[Experiment], **__: Any) -> list[Record]:
         return [linear.steady_output(experiment) for experiment in experiments]
@@ -56,7 +58,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 def test_compare_passes_and_writes_what_was_asked_for(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     out, numbers = folder / "new" / "out", folder / "other" / "numbers.json"
-    words = ["compare", "linear.fmu", "--data", str(folder), "--output", str(out), "--json", str(numbers)]
+    words = ["compare", "linear.fmu", "--data", str(folder / "bench"), "--output", str(out), "--json", str(numbers)]
     assert main(words) == 0
     text = capsys.readouterr().out
     assert "(4 of 4 rows)" in text
@@ -73,7 +75,7 @@ def test_compare_passes_and_writes_what_was_asked_for(folder: Path, capsys: pyte
 
 def test_the_reference_frequency_can_be_chosen(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     numbers = folder / "numbers.json"
-    words = ["compare", "linear.fmu", "--data", str(folder), "--json", str(numbers), "--reference-hz"]
+    words = ["compare", "linear.fmu", "--data", str(folder / "bench"), "--json", str(numbers), "--reference-hz"]
     for text, value in (("1", 1.0), ("none", None)):
         assert main([*words, text]) == 0
         assert json.loads(numbers.read_text(encoding="utf-8"))["reference_hz"] == value
@@ -87,14 +89,14 @@ def test_the_reference_frequency_can_be_chosen(folder: Path, capsys: pytest.Capt
 
 
 def test_a_failed_criterion_is_exit_1(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["compare", "linear.fmu", "--data", str(folder), "--set", "k=0.02"]) == 1
+    assert main(["compare", "linear.fmu", "--data", str(folder / "bench"), "--set", "k=0.02"]) == 1
     assert "(0 of 4 rows)" in capsys.readouterr().out
 
 
 def test_parameters_from_a_file_yield_to_set(folder: Path) -> None:
     file = folder / "parameters.toml"
     file.write_text("k = 0.02\n")
-    words = ["compare", "linear.fmu", "--data", str(folder), "--parameters", str(file)]
+    words = ["compare", "linear.fmu", "--data", str(folder / "bench"), "--parameters", str(file)]
     assert main(words) == 1
     assert main([*words, "--set", "k=0"]) == 0
 
@@ -107,16 +109,21 @@ def test_parameters_from_a_file_yield_to_set(folder: Path) -> None:
         (["--set", "k=nan"], "--set k=nan: write NAME=VALUE with a finite number"),
         (["--set", "kk=1"], "linear.fmu has no variable 'kk'; near it: k"),
         (["--set", "cmd=1"], "cmd of linear.fmu has the causality input"),
-        (["--parameters", "none.toml"], "--parameters: cannot read none.toml (No such file or directory); correct the name"),
-        (["--output", "{folder}/dataset.toml"], "cannot write there"),
+        (
+            ["--parameters", "none.toml"],
+            "--parameters: cannot read none.toml (No such file or directory); correct the name",
+        ),
+        (["--output", "{folder}/bench/0.csv"], "inside the data set, which is never written to"),
+        (["--output", "{folder}/file"], "cannot write there"),
     ],
 )
 def test_wrong_use_is_one_line_and_exit_2(
     folder: Path, words: list[str], message: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
+    (folder / "file").write_text("")
     before = sorted(folder.rglob("*"))
     words = [word.replace("{folder}", str(folder)) for word in words]
-    assert main(["compare", "linear.fmu", "--data", str(folder), *words]) == 2
+    assert main(["compare", "linear.fmu", "--data", str(folder / "bench"), *words]) == 2
     error = capsys.readouterr().err
     assert message in error
     assert error.count("\n") == 1
@@ -127,14 +134,32 @@ def test_wrong_use_is_one_line_and_exit_2(
 def test_parameters_are_read_in_the_encodings_of_windows(folder: Path, encoding: str) -> None:
     file = folder / "parameters.toml"
     file.write_text("k = 0.02  # für Müller\n", encoding=encoding)
-    assert main(["compare", "linear.fmu", "--data", str(folder), "--parameters", str(file)]) == 1
+    assert main(["compare", "linear.fmu", "--data", str(folder / "bench"), "--parameters", str(file)]) == 1
+
+
+@pytest.mark.parametrize("words", [["--free", "k"], ["--bounds", "k=-1:1"]])
+def test_nothing_is_free_where_nothing_is_refitted(
+    folder: Path, words: list[str], capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["compare", "linear.fmu", "--data", str(folder / "bench"), *words]) == 2
+    assert f"{words[0]}: nothing is refitted without --refit" in capsys.readouterr().err
+
+
+def test_logs_beside_tables_are_said_first_not_to_be_compared(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    bench = folder / "bench"
+    (bench / "log.csv").write_text("0,1,1\n1,2,2\n2,3,3\n")
+    log = '[[records]]\nfile = "log.csv"\ncolumns = ["time", "cmd", "angle"]\nkind = "other"\n'
+    (bench / "dataset.toml").write_text((bench / "dataset.toml").read_text() + log)
+    assert main(["compare", "linear.fmu", "--data", str(bench)]) == 0
+    first = capsys.readouterr().out.splitlines()[0]
+    assert first.startswith("Compared are tables of frequency responses alone (4), not the logs over time beside them")
 
 
 @pytest.mark.parametrize("content", ["k = [1]", 'k = "2"', "k = true", "k ="])
 def test_a_parameter_file_holds_numbers(folder: Path, content: str, capsys: pytest.CaptureFixture[str]) -> None:
     file = folder / "parameters.toml"
     file.write_text(content)
-    assert main(["compare", "linear.fmu", "--data", str(folder), "--parameters", str(file)]) == 2
+    assert main(["compare", "linear.fmu", "--data", str(folder / "bench"), "--parameters", str(file)]) == 2
     assert "write" in capsys.readouterr().err
 
 
@@ -200,10 +225,11 @@ def test_a_place_that_cannot_be_written_is_known_before_the_runs(
     folder: Path, option: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr(import_module("pysim.diagnose.compare"), "simulate_many", None)  # a run would be our bug
-    words = ["compare", "linear.fmu", "--data", str(folder), option, str(folder / "dataset.toml" / "x")]
+    (folder / "file").write_text("")
+    words = ["compare", "linear.fmu", "--data", str(folder / "bench"), option, str(folder / "file" / "x.json")]
     assert main(words) == 2
     error = capsys.readouterr().err
-    assert f"{option} {folder / 'dataset.toml' / 'x'}: cannot write there" in error
+    assert f"{option} {folder / 'file' / 'x.json'}: cannot write there" in error
     assert error.count("\n") == 1
 
 

@@ -1,15 +1,17 @@
 """Each step of the diagnosis as a command of its own, and a command that was stopped."""
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from fmu_build import build
 from pysim.cli import _diagnosis_report, main
 from pysim.cli._story import JOURNAL, Story
 from pysim.io import read_model, write_dataset
-from pysim.types import Told
+from pysim.types import FrequencyResponse, MeasuredRecord, SineTest, Told
 from tests.pysim.diagnose.toy import library, measured
 
 MODEL = ["--model", "Toy.Mass", "--library", str(library())]
@@ -92,21 +94,46 @@ def test_a_model_without_its_class_gets_no_effect(
 def test_compare_tells_how_far_the_model_is_and_where(
     undrawn: None, data: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    words = ["compare", "Toy.Mass", "--library", str(library()), "--data", str(data), "--json", str(tmp_path / "a")]
+    words = [
+        "compare",
+        "Toy.Mass",
+        "--library",
+        str(library()),
+        "--data",
+        str(data),
+        "--json",
+        str(tmp_path / "a.json"),
+    ]
     assert main(words) == 1
     said = capsys.readouterr().out
     assert said.startswith("As it is, the model leaves ")
-    assert "does not meet thesis Tables 1.3 and 1.4. It fails most at " in said
-    assert [row["step"] for row in json.loads((tmp_path / "a").read_text())["error"]] == ["prior"]
+    assert "Thesis Table 1.4 is not met: at worst " in said
+    assert " % of full scale at most (limit 10). It fails most at " in said
+    assert [row["step"] for row in json.loads((tmp_path / "a.json").read_text())["error"]] == ["prior"]
     output = tmp_path / "out"
     assert main([*words, "--refit", "--output", str(output)]) == 0
     assert "Refitted, it leaves " in capsys.readouterr().out
-    found = json.loads((tmp_path / "a").read_text())
+    found = json.loads((tmp_path / "a.json").read_text())
     prior, refit = found["error"]
     assert prior["fit"] > 1.5 * refit["fit"] > 1.5
     assert (found["verdict"], found["reason"].partition("; ")[2]) == ("unknown", "no effect was tried")
     assert found["where"][0]["error"] > refit["fit"]
     assert "pysim compare Toy.Mass --data" in (output / "report.html").read_text()
+
+
+def test_tables_beside_logs_are_left_out_and_said_to_be(
+    undrawn: None, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    logs = measured(1)
+    size, phase = np.array([0.05, 0.06, 0.08]), np.array([-0.1, -0.4, -1.2])
+    response = FrequencyResponse(np.array([0.1, 0.5, 0.7]), size, phase, SineTest(0.0, 1.0, "F", "x"), "by hand")
+    table = MeasuredRecord("t.csv", "frequency-response-table", "fit", response, 0.0, 1.0)
+    write_dataset(tmp_path / "both", replace(logs, records=(table, *logs.records)))
+    answer = tmp_path / "a.json"
+    assert main(["compare", *MODEL, "--data", str(tmp_path / "both"), "--refit", "--json", str(answer)]) == 0
+    found = json.loads(answer.read_text())
+    assert found["error"][-1]["fit"] == pytest.approx(1.0, abs=0.1)
+    assert any("left out: tables of frequency responses (1), beside logs over time" in note for note in found["notes"])
 
 
 def test_compare_draws_a_model_that_is_not_refitted(data: Path, tmp_path: Path) -> None:

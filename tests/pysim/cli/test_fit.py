@@ -65,3 +65,42 @@ def test_wrong_words_are_one_line(
 ) -> None:
     assert main(["fit", str(place / "Lag.fmu"), "--data", str(place / "data"), *more]) == 2
     assert message in capsys.readouterr().err
+
+
+def test_an_input_that_never_moves_is_refused(place: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    time = np.arange(0, 3, 0.02)
+    still = m.log(time, np.full(time.size, 25.0), np.full(time.size, 50.0) + 0.02 * np.sin(9 * time))
+    write_dataset(tmp_path / "still", m.dataset([still]))
+    words = ["fit", str(place / "Lag.fmu"), "--free", "K", "--fix", "g=1", "--data", str(tmp_path / "still")]
+    assert main(words) == 2
+    said = capsys.readouterr().err
+    assert "the input w is constant in every record to fit, so nothing can be told of what moves" in said
+    assert main([*words, "--data", str(place / "data")]) == 0  # beside one that moves it is welcome
+
+
+def test_a_fit_begins_where_another_ended(place: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Free ones begin there, others are set; what stands in an option goes before."""
+    file = tmp_path / "parameters.toml"
+    file.write_text("K = 1.9\nT = 0.7\ng = 1.0\n")
+    words = ["fit", str(place / "Lag.fmu"), "--data", str(place / "data"), "--free", "K", "--parameters", str(file)]
+    assert main([*words, "--json", str(tmp_path / "fit.json"), "--output", str(tmp_path / "out")]) == 0
+    found = json.loads((tmp_path / "fit.json").read_text())
+    assert found["estimates"]["K"]["start"] == 1.9
+    assert (found["values"]["T"], found["values"]["g"]) == (0.7, 1.0)
+    assert found["values"]["K"] == pytest.approx(2.0, rel=0.02)
+    assert f"--parameters {file}" in (tmp_path / "out" / "report.html").read_text()
+    assert main([*words, "--start", "K=1.5", "--set", "T=0.6", "--json", str(tmp_path / "fit.json")]) == 0
+    found = json.loads((tmp_path / "fit.json").read_text())
+    assert (found["estimates"]["K"]["start"], found["values"]["T"]) == (1.5, 0.6)
+    file.write_text("nosuch = 1\n")
+    assert main(words) == 2
+    assert "has no variable 'nosuch'" in capsys.readouterr().err
+
+
+def test_a_class_is_fitted_as_its_fmu_is(place: Path, tmp_path: Path) -> None:
+    words = ["--data", str(place / "data"), "--free", "K", "--set", "g=1", "--set", "T=0.7"]
+    found = []
+    for model in (["Lag", "--library", str(place / "Lag.mo")], [str(place / "Lag.fmu")]):
+        assert main(["fit", *model, *words, "--json", str(tmp_path / "fit.json")]) == 0
+        found.append(json.loads((tmp_path / "fit.json").read_text())["values"])
+    assert found[0] == found[1]

@@ -9,6 +9,7 @@ import pytest
 
 from pysim.cli import main
 from pysim.io import read_record
+from tests.pysim.diagnose.toy import base, library
 from tests.pysim.simulate.fixture_fmus import OSCILLATOR, build
 
 FREE = ["--set", "D=0", "--record", "x", "--record", "v"]
@@ -71,6 +72,8 @@ def test_the_models_own_stop_time(fmu: str, tmp_path: Path) -> None:
         (["--input", "u=1", "--input", "u=2"], "u is driven already"),
         (["--input", "u=nan"], "--input u=nan: nan is not finite"),
         (["--input", "u=none.csv"], "--input u=none.csv: cannot read none.csv"),
+        (["--input", "u=20,5"], "--input u=20,5: write the number with a point: 20.5"),
+        (["--set", "w=2,5"], "a finite number in the parameter's unit, and a point where the comma is: 2.5"),
         (["--input", "uu=1"], "has no variable 'uu'"),
         (["--input", "x=1"], "x is no input"),
         (["--stop", "1e12", "--step", "1e-3"], "1e+15 rows are more than 10,000,000; widen the step"),
@@ -101,3 +104,15 @@ def test_an_fmu_of_another_guid_is_one_line_and_exit_2(
     path = edited(fmu, tmp_path / "other.fmu", 'guid="oscillator"', 'guid="{other}"')
     assert main(["simulate", path]) == 2
     assert "other.fmu: the FMU could not be instantiated" in capsys.readouterr().err
+
+
+def test_a_class_is_run_as_its_fmu_is(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    words = ["--input", "F=1", "--stop", "1", "--record", "x,v", "--output"]
+    model = ["Toy.Mass", "--library", str(library())]
+    assert main(["simulate", *model, *words, str(tmp_path / "a.csv")]) == 0
+    assert main(["simulate", str(base().path), *words, str(tmp_path / "b.csv")]) == 0
+    one, other = (read_record(tmp_path / name) for name in ("a.csv", "b.csv"))
+    assert one.names == ("x", "v")
+    np.testing.assert_array_equal(one.values, other.values)
+    assert main(["simulate", "Toy.Nothing", "--library", str(library())]) == 2
+    assert "class Toy.Nothing is not" in capsys.readouterr().err

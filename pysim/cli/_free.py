@@ -1,0 +1,99 @@
+"""Which parameters a command may refit."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from pysim.types import Model, Variable
+
+Bounds = Mapping[str, tuple[float, float]]
+
+
+def free_parameters(
+    model: Model, named: Sequence[str], bounds: Bounds, overrides: Mapping[str, float], *, needed: bool
+) -> tuple[str, ...]:
+    """Those named; else those that the model gives min, max and nominal, or that have bounds, and that were not set.
+
+    Args:
+        named: by `--free`.
+        bounds: by `--bounds`.
+        overrides: parameters that were set.
+        needed: whether some must be free.
+    Raises:
+        BadInput: one that is both set and free, or none where some are needed.
+    """
+    from pysim.diagnose import identifiable
+    from pysim.types import BadInput
+
+    for name in overrides:
+        if name in named:
+            raise BadInput(f"{name} is set and free; leave it out of --free")
+        if name in bounds:
+            raise BadInput(f"{name} is set and has bounds to refit it between; leave out one of the two")
+    if named:
+        return tuple(named)
+    try:
+        own: tuple[str, ...] = identifiable(model)
+    except BadInput as error:
+        if needed and not bounds:
+            raise BadInput(f"{error}, as {_example(model)}") from error
+        own = ()
+    free = tuple(name for name in dict.fromkeys([*own, *bounds]) if name not in overrides)
+    if needed and not free:
+        raise BadInput(
+            f"every parameter that {model.path.name} gives bounds is set, so none is left to refit; set fewer, or name "
+            "others with --free"
+        )
+    return free
+
+
+def _example(model: Model) -> str:
+    """The options, for a parameter of the model."""
+    found = next((v for v in _settable(model) if v.causality == "parameter" and v.start), None)
+    name, start = ("NAME", 0.0) if found is None or found.start is None else (found.name, found.start)
+    low, high = sorted((0.1 * start, 10 * start))
+    return f"--free {name} --bounds {name}={low:g}:{high:g}" if start else "--free NAME --bounds NAME=LOW:HIGH"
+
+
+def stand_in(
+    model: Model, overrides: Mapping[str, float]
+) -> tuple[Model, dict[str, float], dict[str, tuple[float, float]]]:
+    """For a comparison that refits nothing: the diagnosis takes a model with a free number only, so it gets one that
+    stays where it is.
+
+    Returns:
+        the model, what is set in it, and the free number between bounds that are far from it. Where everything was
+        set, one of these values becomes the model's own.
+    Raises:
+        BadInput: a model without any number that could be set.
+    """
+    from pysim.types import BadInput
+
+    left = dict(overrides)
+    found = next((v for v in _settable(model) if v.name not in left), None)
+    if found is None and left:
+        name, value = left.popitem()
+        found = replace(model[name], start=value)
+        model = replace(model, variables=tuple(found if v.name == name else v for v in model.variables))
+    if found is None or found.start is None:
+        raise BadInput(f"{model.path.name} has no real parameter or start value that could be set")
+    reach = max(abs(found.start), abs(found.nominal or 0.0)) or 1.0
+    return model, left, {found.name: (found.start - reach, found.start + reach)}
+
+
+def _settable(model: Model) -> list[Variable]:
+    """Real numbers that a run may set, parameters first."""
+    real = [
+        v
+        for v in model.variables
+        if v.type in ("Real", "Float64")
+        and v.start is not None
+        and math.isfinite(v.start)
+        and v.variability != "constant"
+    ]
+    states = [v for v in real if v.name in model.abilities.states]
+    return [*(v for v in real if v.causality == "parameter"), *states]

@@ -1,0 +1,106 @@
+"""Which parameters a command refits: those that are named, have bounds, and were not set."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+from fmu_build import build
+from pysim.cli import main
+from pysim.cli._free import free_parameters, stand_in
+from pysim.io import read_model, write_dataset
+from pysim.types import BadInput, Model
+from tests.foreign import made_foreign
+from tests.pysim.diagnose.toy import base, library, measured
+
+MODEL = ["Toy.Mass", "--library", str(library())]
+
+
+@pytest.fixture(scope="module")
+def data(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Logs of a plant that is the model with other parameters."""
+    folder = tmp_path_factory.mktemp("data") / "toy"
+    write_dataset(folder, measured(1))
+    return folder
+
+
+@pytest.fixture(scope="module")
+def foreign(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """An FMU that gives no bounds."""
+    return made_foreign(build("Toy.Mass", libraries=[library()]), tmp_path_factory.mktemp("fmu") / "foreign.fmu")
+
+
+def compared(words: list[str], tmp_path: Path) -> dict:
+    assert main(["compare", *words, "--json", str(tmp_path / "a.json")]) == 0
+    return json.loads((tmp_path / "a.json").read_text())
+
+
+def test_what_a_fit_found_is_compared(data: Path, tmp_path: Path) -> None:
+    """Every parameter with bounds is in the file, so nothing is left to be free."""
+    out = tmp_path / "fit"
+    assert main(["fit", *MODEL, "--data", str(data), "--free", "m,d", "--free", "k", "--output", str(out)]) == 0
+    found = compared([*MODEL, "--data", str(data), "--parameters", str(out / "parameters.toml")], tmp_path)
+    (prior,) = found["error"]
+    assert prior["fit"] == pytest.approx(1.0, abs=0.1)
+    assert found["conditions"]["free parameters"] == "none"
+    assert found["parameters"] == {}
+
+
+def test_the_others_are_refitted_beside_what_was_set(data: Path, tmp_path: Path) -> None:
+    found = compared([*MODEL, "--data", str(data), "--set", "m=1.05", "--refit"], tmp_path)
+    assert set(found["parameters"]) == {"d", "k"}
+    assert found["error"][-1]["fit"] == pytest.approx(1.0, abs=0.1)
+
+
+def test_an_fmu_without_bounds_is_compared(data: Path, foreign: Path, tmp_path: Path) -> None:
+    """As the FMU with bounds is: nothing is refitted in either."""
+    by_name = compared([*MODEL, "--data", str(data)], tmp_path)
+    without = compared([str(foreign), "--data", str(data)], tmp_path)
+    assert without["error"][0]["fit"] == pytest.approx(by_name["error"][0]["fit"], rel=1e-4)
+    assert without["parameters"] == {}
+    assert not any("without bounds" in note for note in without["notes"])
+
+
+def test_bounds_alone_make_free(data: Path, foreign: Path, tmp_path: Path) -> None:
+    bounds = [word for text in ("m=0.5:5", "k=1:100") for word in ("--bounds", text)]
+    found = compared([str(foreign), "--data", str(data), "--refit", *bounds], tmp_path)
+    assert set(found["parameters"]) == {"m", "k"}
+
+
+def test_where_nothing_can_be_refitted_the_options_are_named(
+    data: Path, foreign: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for words in (["compare", str(foreign), "--refit"], ["diagnose", "--model", str(foreign)]):
+        assert main([*words, "--data", str(data)]) == 2
+        assert "name those to refit, and their bounds, as --free m --bounds m=0.1:10" in capsys.readouterr().err
+
+
+def test_set_and_free_is_one_sentence() -> None:
+    model = base()
+    with pytest.raises(BadInput, match=r"^m is set and free; leave it out of --free$"):
+        free_parameters(model, ["d", "m"], {}, {"m": 1.0}, needed=True)
+    with pytest.raises(BadInput, match=r"^m is set and has bounds to refit it between"):
+        free_parameters(model, [], {"m": (1.0, 2.0)}, {"m": 1.0}, needed=True)
+    with pytest.raises(BadInput, match="none is left to refit"):
+        free_parameters(model, [], {}, {"m": 1.0, "d": 1.0, "k": 1.0}, needed=True)
+
+
+def test_free_are_those_of_the_model_and_those_with_bounds() -> None:
+    assert free_parameters(base(), [], {}, {"d": 1.0}, needed=True) == ("m", "k")
+    assert free_parameters(base(), [], {"x": (0.0, 1.0)}, {}, needed=True) == ("m", "d", "k", "x")
+    assert free_parameters(base(), ["k"], {}, {}, needed=True) == ("k",)
+
+
+def test_what_stands_in_stays_where_it_is(foreign: Path) -> None:
+    model: Model = read_model(foreign)
+    same, left, free = stand_in(model, {"m": 2.0})
+    assert same is model
+    assert left == {"m": 2.0}
+    ((name, (low, high)),) = free.items()
+    assert low < model[name].start < high
+    everything = {v.name: 3.0 for v in model.variables if v.causality == "parameter"}
+    states = dict.fromkeys(model.abilities.states, 0.5)
+    moved, left, free = stand_in(model, everything | states)
+    ((name, (low, high)),) = free.items()
+    assert name not in left
+    assert moved[name].start == (everything | states)[name] == pytest.approx((low + high) / 2)
