@@ -99,11 +99,11 @@ def test_folders_without_a_description(folder: Path, capsys: pytest.CaptureFixtu
 @pytest.mark.parametrize(
     ("words", "message"),
     [
-        (["{}"], "holds no dataset.toml; name the folder that does, or write one, or tell what logs"),
+        (["{}"], "holds no dataset.toml; name the folder that does, or have one drafted: "),
         (["{}/none"], "there is no folder"),
         (["{}", "--input", "cmd:bar"], "need one --input NAME:UNIT and at least one --response"),
         (["{}", "--input", "cmd", "--response", "y:%"], "cmd: write NAME:UNIT, as alphaCMD:%"),
-        (["{}", "--input", "cmd:psi", "--response", "y:%"], "signal cmd: unit = 'psi' is not known"),
+        (["{}", "--input", "cmd:furlong", "--response", "y:%"], "signal cmd: unit = 'furlong' is not known"),
     ],
 )
 def test_what_cannot_be_read_is_refused(

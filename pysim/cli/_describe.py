@@ -1,0 +1,231 @@
+"""A first dataset.toml for plain logs: what their headings, their names and the command line tell, and what is open."""
+
+from __future__ import annotations
+
+import json
+import re
+import textwrap
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from pysim.types import MeasuredRecord
+
+OPEN = "?"  # in place of a unit that nobody told; refused until it is filled in
+_NAMED = (".parquet", ".tdms")  # whose columns are found by name
+_TABLE = "frequency_hz"  # first column of a table of responses, which is no log
+_TIMES = ("time", "t")
+_NEEDED = "one input and one response are needed at least; name them, --input NAME:UNIT --response NAME:UNIT"
+_HEADING = re.compile(r"(?P<name>[^\[(]+?)\s*[\[(](?P<unit>[^\])]*)[\])]")
+
+
+@dataclass(frozen=True)
+class Column:
+    """One of a log.
+
+    Args:
+        heading: as the log has it.
+        name: without its unit.
+        unit: as the heading tells it, where it does so in a form that is known; "" elsewhere.
+    """
+
+    heading: str
+    name: str
+    unit: str
+
+
+@dataclass
+class Draft:
+    """What is known so far.
+
+    Args:
+        folder: of the logs.
+        roles, units: of the signals, by name, in their order.
+        columns: log, relative to the folder -> its columns as dataset.toml names them.
+        sines: log -> what it is as a stepped sine.
+        milliseconds: whether the times are in ms.
+        remarks: what the user should know.
+    """
+
+    folder: Path
+    roles: dict[str, str] = field(default_factory=dict)
+    units: dict[str, str] = field(default_factory=dict)
+    columns: dict[str, list[str]] = field(default_factory=dict)
+    sines: dict[str, MeasuredRecord] = field(default_factory=dict)
+    milliseconds: bool = False
+    remarks: list[str] = field(default_factory=list)
+
+
+def draft(folder: Path, inputs: Mapping[str, str], responses: Mapping[str, str]) -> Draft:
+    """Look at the logs of a folder, and at all below it.
+
+    Args:
+        inputs, responses: signal -> unit, as the command line names them; where it names none, the column behind the
+            time is taken for the command and all others for what answers.
+    Raises:
+        BadInput: no logs, one that cannot be read, or columns that are not those that were named.
+    """
+    from pysim.io import LOG_SUFFIXES, column_names
+    from pysim.types import BadInput
+
+    if bool(inputs) != bool(responses):
+        raise BadInput(f"{folder}: {_NEEDED}")
+    found = Draft(folder)
+    for name, unit in {**inputs, **responses}.items():
+        found.roles[name], found.units[name] = "input" if name in inputs else "output", unit
+    logs = sorted(path for path in folder.rglob("*") if path.suffix.lower() in LOG_SUFFIXES and path.is_file())
+    for path in logs:
+        columns = [_column(heading) for heading in column_names(path)]
+        if columns[0].heading == _TABLE:
+            found.remarks.append(f"left out: {_source(found, path)} is a table of responses; docs/data.md shows how")
+        else:
+            _take(found, path, columns, named=bool(inputs or responses))
+    if not found.columns:
+        raise BadInput(f"{folder} holds no logs; they end in {', '.join(LOG_SUFFIXES)}")
+    if not {"input", "output"} <= set(found.roles.values()):
+        raise BadInput(f"{folder}: {_NEEDED}")
+    _find_sines(found)
+    return found
+
+
+def _column(heading: str) -> Column:
+    from pysim.io import SI
+
+    match = _HEADING.fullmatch(heading)
+    unit = match["unit"].strip() if match else ""
+    return Column(heading, match["name"] if match else heading, unit if unit in SI else "")
+
+
+def _take(found: Draft, path: Path, columns: Sequence[Column], *, named: bool) -> None:
+    """One log: its columns, and the signals that nobody named before."""
+    by_name = path.suffix.lower() in _NAMED
+    names = _names(found, path, columns, by_name) if named else _guessed(found, columns, by_name)
+    for name, column in zip(names, columns, strict=True):
+        if name == "time":
+            found.milliseconds |= column.unit == "ms"
+    found.columns[_source(found, path)] = [name for name in names if name != "-"] if by_name else names
+
+
+def _names(found: Draft, path: Path, columns: Sequence[Column], by_name: bool) -> list[str]:
+    """Of a log whose signals were named: found in its heading, else counted."""
+    from pysim.types import BadInput
+
+    own = [column.heading if by_name else column.name for column in columns]
+    time = _time(own)
+    if all(name in own for name in found.roles):
+        return ["time" if k == time else name if name in found.roles else "-" for k, name in enumerate(own)]
+    if len(own) != 1 + len(found.roles) or by_name:
+        raise BadInput(
+            f"{path}: its columns are {', '.join(own)}; name signals as they are called there, or as many as there are "
+            "columns behind the time"
+        )
+    return ["time", *found.roles]
+
+
+def _guessed(found: Draft, columns: Sequence[Column], by_name: bool) -> list[str]:
+    """Of a log of which nothing was said: time, then the command, then what answers."""
+    short = [column.name for column in columns]
+    own = [column.heading for column in columns] if by_name or len(set(short)) < len(short) else short
+    time = _time(own)
+    names = ["time" if k == time else name for k, name in enumerate(own)]
+    for name, column in zip(names, columns, strict=True):
+        if name != "time" and name not in found.roles:
+            found.roles[name] = "output" if found.roles else "input"
+            found.units[name] = column.unit or OPEN
+    return names
+
+
+def _time(names: Sequence[str]) -> int:
+    """Which column is the clock."""
+    return next((k for k, name in enumerate(names) if name.lower() in _TIMES), 0)
+
+
+def _find_sines(found: Draft) -> None:
+    """Offset, amplitude and frequency of stepped sines, from names of logs and folders, or read off the command."""
+    from pysim.io import read_thesis_folder
+    from pysim.types import BadInput, MeasuredSignal
+
+    sines = [source for source in found.columns if "hz" in Path(source).stem.lower()]
+    order = ["time", *found.roles]
+    if not sines:
+        return
+    if found.milliseconds or any(found.columns[source] != order for source in sines):
+        found.remarks.append("stepped sines: write kind, offset, amplitude and frequency into each of their records")
+        return
+    signals = [MeasuredSignal(name, role, "1", name, name) for name, role in found.roles.items()]  # in the files' units
+    try:
+        records = read_thesis_folder(found.folder, signals).records
+    except BadInput as error:
+        found.remarks.append(f"no stepped sines, though a frequency is in a name: {error}")
+        return
+    found.sines = {record.source: record for record in records}
+
+
+def _source(found: Draft, path: Path) -> str:
+    return path.relative_to(found.folder).as_posix()
+
+
+def draft_text(found: Draft) -> str:
+    """The dataset.toml, with comments on what to fill in and to look at."""
+    from pysim.io import SI
+
+    head = [
+        "# A draft. Look at every line; what is behind a # is not read.",
+        *textwrap.wrap(f"Units: {', '.join(SI)}", 100, initial_indent="# ", subsequent_indent="#   "),
+        "",
+        "[dataset]",
+        f"name = {_toml(found.folder.resolve().name)}",
+        '# description = "what was tested, and on which bench"',
+    ]
+    head += ['time_unit = "ms"'] if found.milliseconds else ['# time_unit = "ms"    # where the times are not in s']
+    parts = ["\n".join(head), *(_signal(found, name) for name in found.roles)]
+    parts += [_record(found, source, first=not k) for k, source in enumerate(found.columns)]
+    return "\n\n".join(parts) + "\n"
+
+
+def _signal(found: Draft, name: str) -> str:
+    unit = found.units[name]
+    fill = "    # FILL IN: a unit of the list above" if unit == OPEN else ""
+    lines = [
+        f"[signals.{_key(name)}]",
+        f'role = "{found.roles[name]}"    # input: what drives the plant | output: what answers',
+        f"unit = {_toml(unit)}{fill}",
+        '# variable = "..."    # where the model calls it otherwise',
+    ]
+    lines += ["# noise = 0.1         # standard deviation of the sensor's noise, in the unit above"]
+    return "\n".join(lines)
+
+
+def _record(found: Draft, source: str, *, first: bool) -> str:
+    """A log; the first says what else it may be."""
+    lines = ["[[records]]", f"file = {_toml(source)}", f"columns = {_toml(found.columns[source])}"]
+    sine = found.sines.get(source)
+    if sine is None:
+        others = "    # step | stochastic | multisine | chirp | frequency-response; the last two say more"
+        lines.append('kind = "other"' + others * first)
+    else:
+        lines.append('kind = "frequency-response"')
+        lines += [f"{key} = {getattr(sine, key)!r}" for key in ("offset", "amplitude", "frequency")]
+        command = next(name for name, role in found.roles.items() if role == "input")
+        lines[-3] += f"    # of {command}, in its unit" if first else ""
+    lines.append('use = "fit"' + '    # "validate" keeps it apart, to try the fitted model on' * first)
+    return "\n".join(lines)
+
+
+def _key(name: str) -> str:
+    bare = name.isascii() and name.replace("_", "").replace("-", "").isalnum()
+    return name if bare else _toml(name)
+
+
+def _toml(value: object) -> str:
+    """JSON writes texts and rows of texts as TOML does."""
+    return json.dumps(value, ensure_ascii=False)
+
+
+def open_ends(found: Draft) -> Iterator[str]:
+    """What has to be filled in before the data set can be read."""
+    names = [name for name, unit in found.units.items() if unit == OPEN]
+    if names:
+        yield f"the unit of {', '.join(names)}"

@@ -1,0 +1,119 @@
+"""`pysim data describe`: from plain logs to a data set, without a page to read."""
+
+import tomllib
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from pysim.cli import main
+from pysim.io import read_dataset
+
+TIME = np.arange(400) / 100
+
+
+def write(path: Path, head: str, *, separator: str = ",", sine: float = 1.0) -> Path:
+    path.parent.mkdir(parents=True, exist_ok=True)
+    wave = np.sin(2 * np.pi * sine * TIME)
+    columns = [TIME, 25 + 10 * wave, 24 + 9 * wave, 0 * wave][: head.count(separator) + 1]
+    rows = [separator.join(f"{v:.6f}" for v in row) for row in np.column_stack(columns)]
+    path.write_text("\n".join([head, *rows]) + "\n")
+    return path
+
+
+def test_headings_with_units_need_nothing_else(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    write(tmp_path / "log.csv", "time [s],p [bar],x [mm]")
+    before = (tmp_path / "log.csv").read_bytes()
+    assert main(["data", "describe", str(tmp_path)]) == 0
+    said = capsys.readouterr().out
+    assert "1 log, signals p, x" in said
+    assert f"data check {tmp_path}" in said
+    data = read_dataset(tmp_path)
+    assert [(s.name, s.role, s.unit) for s in data.signals] == [("p", "input", "Pa"), ("x", "output", "m")]
+    assert data.logs()[0].data["p"].max() == pytest.approx(35e5)
+    assert (tmp_path / "log.csv").read_bytes() == before
+
+
+def test_what_nobody_told_is_left_open(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    write(tmp_path / "log.csv", "Zeit;Soll;Ist", separator=";")
+    assert main(["data", "describe", str(tmp_path)]) == 0
+    assert "to fill in: the unit of Soll, Ist" in capsys.readouterr().out
+    text = (tmp_path / "dataset.toml").read_text(encoding="utf-8")
+    assert text.count("FILL IN") == 2
+    assert main(["data", "check", str(tmp_path)]) == 2
+    assert "unit = '?' is not known" in capsys.readouterr().err
+    (tmp_path / "dataset.toml").write_text(text.replace('unit = "?"', 'unit = "%"'), encoding="utf-8")
+    assert main(["data", "check", str(tmp_path)]) == 0
+
+
+def test_signals_are_named_by_their_headings_others_left_out(tmp_path: Path) -> None:
+    write(tmp_path / "a.csv", "t [ms],spare,cmd,y")
+    assert main(["data", "describe", str(tmp_path), "--input", "cmd:%", "--response", "y:bar"]) == 0
+    content = tomllib.loads((tmp_path / "dataset.toml").read_text(encoding="utf-8"))
+    assert content["records"][0]["columns"] == ["time", "-", "cmd", "y"]
+    assert content["dataset"]["time_unit"] == "ms"
+    assert content["signals"]["y"]["unit"] == "bar"
+
+
+def test_signals_are_counted_where_the_headings_are_others(tmp_path: Path) -> None:
+    write(tmp_path / "a.csv", "A,B,C,D")
+    words = ["--input", "cmd:%,load:N.m", "--response", "y:bar"]
+    assert main(["data", "describe", str(tmp_path), *words]) == 0
+    (log,) = read_dataset(tmp_path).logs()
+    assert log.data.names == ("cmd", "load", "y")
+
+
+def test_stepped_sines_are_known_by_their_names(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    for f in (1.0, 2.0):
+        write(tmp_path / "O+25_A10" / f"{f:g}Hz.txt", "t\tcmd\ty", separator="\t", sine=f)
+    write(tmp_path / "wave.txt", "t\tcmd\ty", separator="\t", sine=0.3)
+    assert main(["data", "describe", str(tmp_path), "--input", "cmd:bar", "--response", "y:%"]) == 0
+    data = read_dataset(tmp_path)
+    assert [(r.kind, r.offset, r.amplitude, r.frequency) for r in data.logs()] == [
+        ("frequency-response", 25e5, 10e5, 1.0),
+        ("frequency-response", 25e5, 10e5, 2.0),
+        ("other", None, None, None),
+    ]
+    capsys.readouterr()
+    assert main(["frf", str(tmp_path)]) == 0
+    assert "around 25 bar, amplitude 10 bar" in capsys.readouterr().out
+
+
+def test_a_description_that_is_there_stays(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    write(tmp_path / "log.csv", "time [s],p [bar],x [mm]")
+    (tmp_path / "dataset.toml").write_text("mine")
+    assert main(["data", "describe", str(tmp_path)]) == 2
+    assert "is there already and stays as it is" in capsys.readouterr().err
+    assert (tmp_path / "dataset.toml").read_text() == "mine"
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["{}/none"], "is no folder"),
+        (["{}/empty"], "holds no logs; they end in .txt"),
+        (["{}", "--input", "cmd:furlong", "--response", "y:%"], "signal cmd: unit = 'furlong' is not known"),
+        (["{}", "--input", "cmd"], "cmd: write NAME:UNIT"),
+        (["{}", "--input", "cmd:%"], "one input and one response are needed"),
+        (
+            ["{}", "--input", "cmd:%", "--response", "z:%"],
+            "its columns are t, a, b, c; name signals as they are called",
+        ),
+    ],
+)
+def test_what_cannot_be_drafted_leaves_nothing(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], words: list[str], message: str
+) -> None:
+    write(tmp_path / "log.csv", "t,a,b,c")
+    (tmp_path / "empty").mkdir()
+    assert main(["data", "describe", *(word.format(tmp_path) for word in words)]) == 2
+    assert message in capsys.readouterr().err
+    assert not (tmp_path / "dataset.toml").exists()
+
+
+@pytest.mark.parametrize("command", [["frf"], ["blackbox", "--poles", "2"], ["compare", "m.fmu", "--data"]])
+def test_a_folder_without_a_description_says_how_to_come_to_one(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], command: list[str]
+) -> None:
+    assert main([*command, str(tmp_path)]) == 2
+    assert f"data describe {tmp_path}" in capsys.readouterr().err
