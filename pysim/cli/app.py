@@ -5,6 +5,8 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
+_HIGHEST_PORT = 65535
+
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The words behind `pysim app`."""
@@ -32,7 +34,10 @@ def run(args: argparse.Namespace) -> int:
     try:
         from pysim.app import Limits, serve
     except ModuleNotFoundError as error:
-        raise BadInput(f"the workbench needs {error.name}; pip install 'hydraulic-test-bench[app]'") from error
+        cure = 'pip install ".[app]" in the checkout, or start it with run.py, whose environment has it'
+        raise BadInput(f"the workbench needs {error.name}; {cure}") from error
+    if not 0 <= args.port <= _HIGHEST_PORT:
+        raise BadInput(f"--port {args.port}: write a number from 0 (any that is free) to {_HIGHEST_PORT}")
     if not (args.limit_mb > 0 and args.limit_s > 0):
         raise BadInput("--limit-mb and --limit-s: write numbers above zero")
     limits = Limits(size=round(args.limit_mb * 2**20))

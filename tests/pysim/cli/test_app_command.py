@@ -17,7 +17,15 @@ def test_without_its_extra_it_says_what_to_install(
         monkeypatch.delitem(sys.modules, name)
     monkeypatch.setitem(sys.modules, "nicegui", None)
     assert main(["app", str(tmp_path / "p")]) == 2
-    assert "the workbench needs nicegui; pip install 'hydraulic-test-bench[app]'" in capsys.readouterr().err
+    assert 'the workbench needs nicegui; pip install ".[app]" in the checkout, or' in capsys.readouterr().err
+    assert not (tmp_path / "p").exists()
+
+
+@pytest.mark.parametrize("port", ["99999", "-1", "65536"])
+def test_a_port_that_there_is_not_is_refused(port: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    pytest.importorskip("nicegui")
+    assert main(["app", str(tmp_path / "p"), f"--port={port}"]) == 2
+    assert f"--port {port}: write a number from 0 (any that is free) to 65535" in capsys.readouterr().err
     assert not (tmp_path / "p").exists()
 
 
