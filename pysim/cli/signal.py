@@ -87,8 +87,19 @@ def _add_common(parser: argparse.ArgumentParser) -> None:
         parser.add_argument(f"--{name}", type=float, default=default, metavar="SECONDS", help=f"{what} ({default:g})")
     parser.add_argument("--unit", default="%", help="of the command, for header and picture (%%)")
     parser.add_argument("--sampling", metavar="HZ", type=float, default=1000.0, help="rows per second (1000)")
-    parser.add_argument("-o", "--file", metavar="FILE.csv", type=Path, required=True, help="time, value and rate")
-    parser.add_argument("--output", metavar="DIR", type=Path, help="write the picture and report.html here")
+    parser.add_argument("-o", "--file", metavar="FILE.csv", type=Path, help="time, value and rate; needed")
+    parser.add_argument(
+        "--output", metavar="DIR", type=Path, help="write the picture and report.html here; a .csv is taken as --file"
+    )
+    parser.set_defaults(finish=_finish)
+
+
+def _finish(args: argparse.Namespace) -> None:
+    """Elsewhere the option of the one result is --output."""
+    if args.file is None and args.output is not None and args.output.suffix.lower() == ".csv":
+        args.file, args.output = args.output, None
+    if args.file is None:
+        raise argparse.ArgumentTypeError("the following arguments are required: -o/--file")
 
 
 def run(args: argparse.Namespace) -> int:

@@ -100,3 +100,15 @@ def test_wrong_use(
     assert main(["signal", *words.split()]) == 2
     assert message in capsys.readouterr().err
     assert not (tmp_path / "s.csv").exists()
+
+
+def test_the_file_may_be_called_output_as_elsewhere(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    words = ["signal", "step", "--height", "1", "--length", "1"]
+    assert main([*words, "-o", "a.csv"]) == main([*words, "--output", "b.csv"]) == 0
+    assert (tmp_path / "a.csv").read_text() == (tmp_path / "b.csv").read_text()
+    capsys.readouterr()
+    assert main([*words, "--output", "folder"]) == 2
+    assert "the following arguments are required: -o/--file" in capsys.readouterr().err
