@@ -4,8 +4,9 @@ import argparse
 import io
 import os
 import sys
+import tomllib
 import traceback
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from fmu_build.build import COMPILERS, build
@@ -67,7 +68,7 @@ def _build_with(compiler: str, arguments: argparse.Namespace) -> Path:
         libraries=[Path(library) for library in arguments.library],
         fmi=arguments.fmi,
         platforms=arguments.platform or ["host"],
-        overrides=_settings(arguments.set),
+        overrides={**_from_file(arguments.parameters), **_settings(arguments.set)},
         probes=arguments.probe,
         use_cache=not arguments.no_cache,
         compiler=compiler,
@@ -92,6 +93,9 @@ def _parser() -> argparse.ArgumentParser:
         "--set", metavar="NAME=VALUE", action="append", default=[], help="start value of a parameter, in SI units"
     )
     parser.add_argument(
+        "--parameters", metavar="FILE.toml", help="lines NAME = VALUE, as pysim fit leaves them; --set goes before"
+    )
+    parser.add_argument(
         "--probe",
         metavar="NAME",
         action="append",
@@ -107,6 +111,31 @@ def _parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("--no-cache", action="store_true", help="build even if the same FMU has been built before")
     return parser
+
+
+def _from_file(name: str | None) -> dict[str, float | str]:
+    """Numbers of a TOML file; dotted names and sections mean the same."""
+    if name is None:
+        return {}
+    try:
+        content = tomllib.loads(Path(name).read_text(encoding="utf-8-sig"))
+    except OSError as error:
+        raise BuildError(f"--parameters {name}: cannot be read ({error.strerror}); correct the name.") from error
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise BuildError(f"--parameters {name}: {error}; write lines NAME = VALUE.") from error
+    return _numbers(content, "", name)
+
+
+def _numbers(table: Mapping[str, object], prefix: str, name: str) -> dict[str, float | str]:
+    values: dict[str, float | str] = {}
+    for key, value in table.items():
+        if isinstance(value, Mapping):
+            values |= _numbers(value, f"{prefix}{key}.", name)
+        elif isinstance(value, int | float) and not isinstance(value, bool):
+            values[prefix + key] = value
+        else:
+            raise BuildError(f"--parameters {name}: {prefix + key} = {value!r} is no number; write NAME = VALUE.")
+    return values
 
 
 def _settings(texts: Sequence[str]) -> dict[str, float | str]:

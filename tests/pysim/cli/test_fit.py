@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 import fmu_build
+from fmu_build.cli import main as build_command
 from pysim.cli import main
-from pysim.io import write_dataset
+from pysim.io import read_model, write_dataset
 from tests.pysim.identify.greybox import measurements as m
 from tests.pysim.identify.greybox.conftest import LAG
 
@@ -104,3 +105,20 @@ def test_a_class_is_fitted_as_its_fmu_is(place: Path, tmp_path: Path) -> None:
         assert main(["fit", *model, *words, "--json", str(tmp_path / "fit.json")]) == 0
         found.append(json.loads((tmp_path / "fit.json").read_text())["values"])
     assert found[0] == found[1]
+
+
+def test_what_was_fitted_is_built_into_an_fmu(place: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    words = ["fit", str(place / "Lag.fmu"), "--data", str(place / "data"), "--free", "K,T", "--fix", "g=1"]
+    assert main([*words, "--output", str(tmp_path / "out")]) == 0
+    file = tmp_path / "out" / "parameters.toml"
+    fitted = tomllib.loads(file.read_text())
+    words = ["Lag", "--library", str(place / "Lag.mo"), "-o", str(tmp_path / "Mine.fmu"), "--parameters", str(file)]
+    assert build_command([*words, "--set", "T=0.5"]) == 0
+    model = read_model(tmp_path / "Mine.fmu")
+    assert (model["K"].start, model["T"].start, model["g"].start) == (fitted["K"], 0.5, 1.0)
+    file.write_text("[K]\nvalue = true\n")
+    capsys.readouterr()
+    assert build_command(words) == 2
+    assert "K.value = True is no number; write NAME = VALUE" in capsys.readouterr().err
+    assert build_command([*words[:-1], str(tmp_path / "none.toml")]) == 2
+    assert "none.toml: cannot be read (No such file or directory)" in capsys.readouterr().err
