@@ -42,7 +42,6 @@ Status cosim_start(Instance *s) {
 typedef struct {
     double target; /* where it ends, s; an importer may shorten it */
     int events_at_once, steps_without_progress;
-    bool shortened;
     StepResult *result;
 } Run;
 
@@ -81,7 +80,6 @@ static void offer_update(Instance *s, Run *run) {
     double time = run->target;
     if (!s->intermediate_update || !s->intermediate_update(s, *s->t, &time)) return;
     run->target = fmin(run->target, fmax(time, *s->t));
-    run->shortened = true;
 }
 
 static double limit_of(const Instance *s, const Run *run, double size) {

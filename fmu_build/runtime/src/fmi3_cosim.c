@@ -30,7 +30,7 @@ fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 currentCommunicationPoi
     const Status status = cosim_step(s, here, currentCommunicationPoint, communicationStepSize, &result);
     *eventHandlingNeeded = result.event_needed;
     *terminateSimulation = result.terminate;
-    *earlyReturn = result.early;
+    *earlyReturn = result.early && s->early_return_allowed; /* else only the model's end stops a step early */
     *lastSuccessfulTime = result.time;
     return (fmi3Status)status;
 }

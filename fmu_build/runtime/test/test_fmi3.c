@@ -97,17 +97,21 @@ static void without_event_mode_it_is_not_entered(void) {
 }
 
 static void the_model_can_end_the_run_at_its_start(void) {
-    fmi3Instance c = fmi3InstantiateCoSimulation("ball", model.token, NULL, false, false, false, false, NULL, 0, NULL,
-                                                 keep_message, NULL);
     const fmi3ValueReference last = reference("last");
-    Step step;
-    CHECK(c && fmi3SetFloat64(c, &last, 1, (double[]){0.0}, 1) == fmi3OK);
-    CHECK(fmi3EnterInitializationMode(c, false, 0.0, 0.0, false, 0.0) == fmi3OK);
-    CHECK(fmi3ExitInitializationMode(c) == fmi3OK);
-    for (int again = 0; again <= 1; again++)
-        CHECK(do_step(c, 0.0, 1.0, &step) == fmi3OK && step.end && step.early && !step.event && step.time == 0.0);
-    CHECK(fmi3Terminate(c) == fmi3OK);
-    fmi3FreeInstance(c);
+    for (int early = 0; early <= 1; early++) {
+        fmi3Instance c = fmi3InstantiateCoSimulation("ball", model.token, NULL, false, false, false, early, NULL, 0,
+                                                     NULL, keep_message, NULL);
+        CHECK(c && fmi3SetFloat64(c, &last, 1, (double[]){0.0}, 1) == fmi3OK);
+        CHECK(fmi3EnterInitializationMode(c, false, 0.0, 0.0, false, 0.0) == fmi3OK);
+        CHECK(fmi3ExitInitializationMode(c) == fmi3OK);
+        for (int again = 0; again <= 1; again++) {
+            Step step;
+            CHECK(do_step(c, 0.0, 1.0, &step) == fmi3OK && step.end && !step.event && step.time == 0.0);
+            CHECK(step.early == early);
+        }
+        CHECK(fmi3Terminate(c) == fmi3OK);
+        fmi3FreeInstance(c);
+    }
 }
 
 typedef struct {
