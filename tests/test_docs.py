@@ -1,6 +1,8 @@
 """What the pages in docs/ show works as it stands: their Python runs, their command lines parse, their links lead
 somewhere. A block that begins with ```sh run is executed, one with file=NAME behind its language is written there."""
 
+import ast
+import builtins
 import re
 import shlex
 import sys
@@ -149,6 +151,55 @@ def test_every_page_is_reached_from_the_readme() -> None:
         targets = {(page.parent / name).resolve() for name in names}
         to_read |= {t for t in targets if t.suffix == ".md" and t.exists()} - found
     assert [page.name for page in PAGES if page not in found] == []
+
+
+ONLY_VIRTUAL = "# only on a virtual bench"
+
+
+def own_steps(text: str) -> str:
+    """The Python of the page from its second step on, without what only a virtual bench has."""
+    found = []
+    for words, _, source in blocks(text[text.index("## 2.") :]):
+        if words == "python" and not source.startswith(ONLY_VIRTUAL):
+            found += [line for line in source.splitlines() if ONLY_VIRTUAL not in line]
+    return "\n".join(found)
+
+
+def unknown_names(source: str) -> set[str]:
+    """Names that a module uses and nowhere gives a meaning."""
+    tree = ast.parse(source)
+    names = [node for node in ast.walk(tree) if isinstance(node, ast.Name)]
+    given = {name.id for name in names if not isinstance(name.ctx, ast.Load)} | set(dir(builtins))
+    imported = (node for node in ast.walk(tree) if isinstance(node, ast.Import | ast.ImportFrom))
+    given |= {alias.asname or alias.name for node in imported for alias in node.names}
+    return {name.id for name in names} - given
+
+
+def test_the_way_from_logs_can_be_gone_with_logs_of_ones_own() -> None:
+    """From the second step on nothing is used that the first made, and what to put in is marked."""
+    text = (ROOT / "docs" / "from_logs_to_fmu.md").read_text(encoding="utf-8")
+    source = own_steps(text)
+    assert unknown_names(source) == set()
+    assert source.count("# yours: ") == 4
+    assert unknown_names(source.replace("FREE = [", "MINE = [")) == {"FREE"}
+
+
+def test_the_limits_on_the_page_are_those_that_judge() -> None:
+    page = (ROOT / "docs" / "diagnosis.md").read_text(encoding="utf-8")
+    section = page[page.index("## The limits") :]
+    rows = [[cell.strip() for cell in row.strip("|").split("|")] for row in re.findall(r"^\|.*\|$", section, re.M)[2:5]]
+    accuracy = import_module("pysim.identify.accuracy")
+    criteria = [*accuracy.FREQUENCY_CRITERIA, *accuracy.TIME_CRITERIA]
+    limits = [(f"{c.limit:g} {c.unit}", c.source) for c in criteria]
+    assert [(row[k], row[3]) for row in rows for k in (1, 2)] == limits
+
+
+@pytest.mark.parametrize("page", [ROOT / "README.md", *PAGES], ids=page_name)
+def test_commands_can_be_typed_into_any_shell(page: Path) -> None:
+    """The consoles of Windows know no line that goes on behind a backslash."""
+    for language, line, content in blocks(page.read_text(encoding="utf-8")):
+        if language in ("", "sh", "sh run", "console"):
+            assert not re.search(r"\\$", content, re.MULTILINE), f"{page.name}, block at line {line}"
 
 
 PAGE = """# A page: of mine
