@@ -45,12 +45,15 @@ class _Unknown:
 
 
 def start_values(variables: Sequence[ScalarVariable], evaluator: Evaluator) -> list[Scalar]:
-    """The attribute `start`, or what Modelica takes without it: the number nearest to zero between min and max."""
+    """The attribute `start`, or what Modelica takes without it: the number nearest to zero between min and max.
+
+    Of an enumeration, whose first literal is 1, it is the lowest.
+    """
     values = []
     for variable in variables:
         given, low, high = (attribute(variable, name, evaluator) for name in ("start", "min", "max"))
         if given is None:
-            given = ca.SX(0)
+            given = ca.SX(int(variable.flat.scalar is ScalarKind.ENUMERATION))
             if variable.flat.scalar is not ScalarKind.BOOLEAN:
                 given = given if low is None else ca.fmax(given, low)
                 given = given if high is None else ca.fmin(given, high)
