@@ -91,7 +91,9 @@ class _Converter:
             description=description,
             span=span,
             variables=tuple(
-                convert_variable(v, storage, self._arena, self._flat, self._places) for v in storage["variables"]
+                convert_variable(v, storage, self._arena, self._flat, self._places)
+                for v in storage["variables"]
+                if not self._is_stand_in(v)
             ),
             loops=tuple(_loop(domain) for domain in storage["domains"]),
             functions=tuple(convert_function(f, storage, self._arena, self._places) for f in storage["functions"]),
@@ -106,6 +108,12 @@ class _Converter:
             experiment=experiment,
             documentation=documentation,
         )
+
+    def _is_stand_in(self, variable: Node) -> bool:
+        """An outer parameter: rumoca refers to the inner one wherever it is used, and lists it nevertheless."""
+        has_value = self._flat.is_start_written(variable["name"]) or variable["attributes"]["binding"] is not None
+        is_parameter = variable["role"] in ("parameter", "constant")
+        return is_parameter and not has_value and self._places.is_outer(variable["declaration"])
 
     def _equations(self, key: str) -> list[Equation]:
         equations = []

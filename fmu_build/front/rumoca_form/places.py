@@ -1,5 +1,6 @@
 """From rumoca's byte spans to file and line."""
 
+import re
 from bisect import bisect_right
 from collections.abc import Mapping
 from pathlib import Path
@@ -32,6 +33,14 @@ class Places:
             return Span()
         text, starts = self._files[place["source"]]
         return Span(*text.place(bisect_right(starts, place["start"])))
+
+    def is_outer(self, provenance: Mapping[str, Any] | None) -> bool:
+        """Whether the declared name that a record points at stands behind the word `outer`."""
+        place = (provenance or {}).get("span")
+        if not place or place["source"] not in self._files:
+            return False
+        before = self._files[place["source"]][0].text.encode()[: place["start"]]
+        return re.search(rb'\bouter\b[^;"]*\Z', before) is not None
 
 
 def span_key(provenance: Mapping[str, Any] | None) -> tuple[int, int, int]:

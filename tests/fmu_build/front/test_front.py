@@ -278,3 +278,18 @@ def test_a_library_may_use_another(tmp_path):
         (tmp_path / name / "package.mo").write_text(f"within ;\npackage {name}\n{body}\nend {name};\n")
     model = load("Plant.Two", [tmp_path / "Plant", tmp_path / "Parts"])
     assert {"first.x", "y"} <= {variable.name for variable in model.variables}
+
+
+def test_an_outer_parameter_is_the_inner_one(write):
+    """rumoca lists it beside the inner one, without a value."""
+    file = write(
+        """
+        package P
+          model Part outer parameter Real g; Real v = 2*g; end Part;
+          model M inner parameter Real g = 3; Part part; parameter Real other_outer; end M;
+        end P;
+        """,
+        "P.mo",
+    )
+    flat = load("P.M", [file])
+    assert [v.name for v in flat.variables if v.role is Role.PARAMETER] == ["g", "other_outer"]
