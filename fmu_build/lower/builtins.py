@@ -6,7 +6,7 @@ from functools import reduce
 import casadi as ca
 import numpy as np
 
-from fmu_build.lower.values import Scalar, Value, array, broadcast, scalars
+from fmu_build.lower.values import Scalar, Value, array, broadcast, fixed_number, scalars
 
 # Of scalars, elementwise. abs, sign, min and max cause no event: they follow their arguments at once.
 ELEMENTWISE: dict[str, Callable[..., Scalar]] = {
@@ -46,7 +46,7 @@ def _truncate(x: Scalar) -> Scalar:
 
 def _size(value: Value) -> int:
     """An array dimension, which has to be a number."""
-    return round(float(value))
+    return round(fixed_number(value))
 
 
 def _fill(value: Value, *sizes: Value) -> np.ndarray:
@@ -139,7 +139,7 @@ def power(base: Value, exponent: Scalar) -> Value:
             "a matrix has a power by a whole number from 0 on only, fixed when the FMU is built; write a literal, or "
             "make the parameter final"
         )
-    return reduce(np.dot, [base] * round(float(exponent)), _identity(len(base)))
+    return reduce(np.dot, [base] * round(float(exponent)), _identity(ca.SX(len(base))))
 
 
 ARITHMETIC: dict[str, Callable[[Value, Value], Value]] = {

@@ -12,10 +12,14 @@ from fmu_build.errors import BuildError
 from fmu_build.front import expression as ex
 from fmu_build.front.flat_model import Assignment, FlatModel, ForStatement, Function
 from fmu_build.lower.builtins import ARITHMETIC, ELEMENTWISE, JUMPING, WHOLE
-from fmu_build.lower.values import Scalar, Value, array, broadcast, choose, is_true, scalars
+from fmu_build.lower.values import Scalar, Value, array, broadcast, choose, fixed_number, is_true, scalars
 
 COMPARISONS = ("less", "less_equal", "greater", "greater_equal", "equal", "not_equal")
 EVENT_FREE = ("no_event", "smooth")
+
+
+class Shown(str):
+    """A text with String(x) in it: fit for messages, where it shows the name of x, but for no comparison."""
 
 
 class Surroundings(Protocol):
@@ -80,14 +84,20 @@ class Evaluator:
             yield self.value(residual, Frame(frame.with_events, loops))
 
     def _steps(self, domain: int, frame: Frame) -> Iterator[dict[tuple[int, int], int]]:
-        loop = self._flat.loops[domain]
+        parent = self._flat.loops[domain].parent
         outer = [dict(frame.loops)]
-        if loop.parent is not None and (loop.parent, 0) not in frame.loops:
-            outer = list(self._steps(loop.parent, frame))
-        ranges = [range(low, high + (1 if step > 0 else -1), step) for low, high, step in loop.ranges]
+        if parent is not None and (parent, 0) not in frame.loops:
+            outer = list(self._steps(parent, frame))
         for loops in outer:
-            for indices in product(*ranges):
-                yield loops | {(domain, position): index for position, index in enumerate(indices)}
+            yield from self._own_steps(domain, loops)
+
+    def _own_steps(self, domain: int, loops: Mapping[tuple[int, int], int]) -> Iterator[dict[tuple[int, int], int]]:
+        """Without those of the loops around it."""
+        for indices in product(*self._ranges(domain)):
+            yield {**loops, **{(domain, position): index for position, index in enumerate(indices)}}
+
+    def _ranges(self, domain: int) -> list[range]:
+        return [range(low, high + (1 if step > 0 else -1), step) for low, high, step in self._flat.loops[domain].ranges]
 
     def _literal(self, node: ex.Literal, frame: Frame) -> Value:
         return node.value if isinstance(node.value, str) else ca.SX(node.value)
@@ -119,8 +129,8 @@ class Evaluator:
 
     def _binary(self, node: ex.Binary, frame: Frame) -> Value:
         left, right = self.value(node.left, frame), self.value(node.right, frame)
-        if isinstance(left, str) or isinstance(right, str):
-            return f"{left}{right}"
+        if isinstance(left, str) and isinstance(right, str):
+            return _of_texts(node, left, right)
         if node.operator in COMPARISONS:
             return self._comparison(node.operator, left, right, frame)
         if node.operator not in ARITHMETIC:
@@ -162,10 +172,12 @@ class Evaluator:
         if node.name in EVENT_FREE:
             return values[-1]
         if node.name == "string":
-            return str(values[0])
+            return Shown(values[0])
         if node.name == "size":
             shape = values[0].shape
-            return ca.SX(shape[round(float(values[1])) - 1]) if len(values) == 2 else array(ca.SX(n) for n in shape)
+            return (
+                ca.SX(shape[round(fixed_number(values[1])) - 1]) if len(values) == 2 else array(ca.SX(n) for n in shape)
+            )
         if node.name in JUMPING and frame.with_events:
             return broadcast(lambda *scalars: self._around.jump(node.name, list(scalars), node.span), *values)
         if node.name in ELEMENTWISE:
@@ -183,11 +195,12 @@ class Evaluator:
 
     def _take(self, base: np.ndarray, axis: int, index: Value, span: ex.Span) -> Value:
         if isinstance(index, np.ndarray):
-            return np.take(base, [self._position(i, base.shape[axis], span) for i in index], axis=axis)
+            taken = array(self._take(base, axis, i, span) for i in index)
+            return np.moveaxis(taken, 0, axis)
         if index.is_constant():
             return np.take(base, self._position(index, base.shape[axis], span), axis=axis)
-        result = np.take(base, 0, axis=axis)
-        for k in range(1, base.shape[axis]):
+        result = _undefined(base.shape[:axis] + base.shape[axis + 1 :])  # for an index outside the array
+        for k in range(base.shape[axis]):
             result = choose(ca.eq(index, k + 1), np.take(base, k, axis=axis), result)
         return result
 
@@ -196,8 +209,10 @@ class Evaluator:
         indices = [None if isinstance(s, ex.Slice) else self.value(s, frame) for s in node.subscripts]
         result = base.ravel().copy()
         if any(isinstance(i, ca.SX) and not i.is_constant() for i in indices):
+            is_inside = _is_inside(base.shape, indices)
             for k, place in enumerate(np.ndindex(*base.shape)):
-                result[k] = choose(_is_at(place, indices), value, result[k])
+                written = choose(_is_at(place, indices), value, result[k])
+                result[k] = choose(is_inside, written, _undefined(()))
             return result.reshape(base.shape)
         chosen: np.ndarray | np.int64 = np.arange(base.size).reshape(base.shape)
         for axis, (index, subscript) in reversed(list(enumerate(zip(indices, node.subscripts, strict=True)))):
@@ -208,14 +223,14 @@ class Evaluator:
         return result.reshape(base.shape)
 
     def _position(self, index: Scalar, size: int, span: ex.Span) -> int:
-        position = round(float(index)) - 1
+        position = round(fixed_number(index)) - 1
         if not 0 <= position < size:
             raise BuildError(f"index {position + 1} is outside 1 to {size}", span.file, span.line)
         return position
 
     def _range(self, node: ex.Range, frame: Frame) -> Value:
-        start, stop = float(self.value(node.start, frame)), float(self.value(node.stop, frame))
-        step = 1.0 if node.step is None else float(self.value(node.step, frame))
+        start, stop = fixed_number(self.value(node.start, frame)), fixed_number(self.value(node.stop, frame))
+        step = 1.0 if node.step is None else fixed_number(self.value(node.step, frame))
         count = max(0, int((stop - start) / step + 1e-9) + 1)
         return array(ca.SX(start + k * step) for k in range(count))
 
@@ -229,10 +244,10 @@ class Evaluator:
         return self.value(node.base, frame)[node.position]
 
     def _comprehension(self, node: ex.Comprehension, frame: Frame) -> Value:
-        shape = tuple(len(range(low, high + 1, step)) for low, high, step in self._flat.loops[node.domain].ranges)
+        shape = tuple(len(steps) for steps in self._ranges(node.domain))
         values = array(
             self.value(node.body, Frame(frame.with_events, loops, frame.arguments, frame.locals))
-            for loops in self._steps(node.domain, frame)
+            for loops in self._own_steps(node.domain, frame.loops)
         )
         return values.reshape(shape + values.shape[1:])
 
@@ -275,6 +290,20 @@ class Evaluator:
                 self._execute(inner, Frame(False, loops, frame.arguments), values)
 
 
+def _of_texts(node: ex.Binary, left: str, right: str) -> Value:
+    is_shown = isinstance(left, Shown) or isinstance(right, Shown)
+    if node.operator == "add":
+        return Shown(left + right) if is_shown else left + right
+    if node.operator not in ("equal", "not_equal") or is_shown:
+        raise BuildError(
+            "texts are joined by + and compared by == and <>, but not the text of a value, String(...); "
+            "use an Integer or an enumeration",
+            node.span.file,
+            node.span.line,
+        )
+    return ca.SX(int((left == right) == (node.operator == "equal")))
+
+
 def _undefined(shape: tuple[int, ...]) -> Value:
     nothing = ca.SX.nan()
     return array([nothing] * int(np.prod(shape))).reshape(shape) if shape else nothing
@@ -286,4 +315,13 @@ def _is_at(place: tuple[int, ...], indices: list[Scalar | None]) -> Scalar:
     for position, index in zip(place, indices, strict=True):
         if index is not None:
             holds = ca.logic_and(holds, ca.eq(index, position + 1))
+    return holds
+
+
+def _is_inside(shape: tuple[int, ...], indices: list[Scalar | None]) -> Scalar:
+    """Whether the subscripts, known at run time only, mean an element at all."""
+    holds = ca.SX(1)
+    for size, index in zip(shape, indices, strict=True):
+        if index is not None:
+            holds = ca.logic_and(holds, ca.logic_and(index >= 1, index <= size))
     return holds

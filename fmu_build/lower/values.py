@@ -41,6 +41,16 @@ def broadcast(function: Callable[..., Scalar], *values: Value) -> Value:
     return array(rows).reshape(shapes[0])
 
 
+def fixed_number(value: Scalar) -> float:
+    """A number that shapes the equations, such as a size. Raises ValueError where it is not known yet."""
+    if not value.is_constant():
+        names = ", ".join(symbol.name() for symbol in ca.symvar(value))
+        raise ValueError(
+            f"an index or a size here depends on {names}, which can still change; make it final or a constant"
+        )
+    return float(value)
+
+
 def is_true(condition: Scalar) -> bool:
     return bool(condition.is_constant() and float(condition) != 0)
 
