@@ -12,6 +12,7 @@ from fmu_build.lower.evaluate import Evaluator, Frame
 from fmu_build.lower.index_reduction import is_regular, reduce_index
 from fmu_build.lower.parameters import explicit
 from fmu_build.lower.scope import Scope
+from fmu_build.lower.singular import Typical
 from fmu_build.lower.solve import solve_block
 from fmu_build.lower.sorting import Matching, blocks
 from fmu_build.lower.values import Scalar, column, scalars
@@ -47,9 +48,13 @@ def scalar_equations(flat: FlatModel, evaluator: Evaluator) -> list[ScalarEquati
     ]
 
 
-def solve_continuous(flat: FlatModel, scope: Scope, equations: Sequence[ScalarEquation]) -> Solved:
+def solve_continuous(
+    flat: FlatModel, scope: Scope, equations: Sequence[ScalarEquation], typical: Typical = dict
+) -> Solved:
     """Sort and solve the equations for derivatives and algebraic variables.
 
+    Args:
+        typical: values of a run, for which the system should not be singular.
     Raises:
         BuildError: not as many equations as unknowns, or a part of the system is singular.
     """
@@ -67,7 +72,7 @@ def solve_continuous(flat: FlatModel, scope: Scope, equations: Sequence[ScalarEq
     residuals: list[Scalar] = []
     for block_equations, block_unknowns in square_blocks(equations, unknowns):
         keep = [has_start.get(symbol.element_hash(), False) for symbol in block_unknowns]
-        solution = solve_block(block_equations, block_unknowns, keep)
+        solution = solve_block(block_equations, block_unknowns, keep, typical)
         definitions += solution.definitions
         iterated += solution.unknowns
         residuals += solution.residuals

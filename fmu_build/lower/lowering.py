@@ -1,6 +1,7 @@
 """FlatModel -> OdeModel: the phases in order."""
 
 from collections.abc import Sequence
+from functools import partial
 
 import casadi as ca
 
@@ -11,11 +12,11 @@ from fmu_build.lower.discrete import DiscretePart
 from fmu_build.lower.evaluate import Evaluator
 from fmu_build.lower.events import Events
 from fmu_build.lower.ode_model import DefaultExperiment, Delay, OdeModel, Relation, Sample, Symbols
-from fmu_build.lower.parameters import Parameters
+from fmu_build.lower.parameters import Parameters, explicit
 from fmu_build.lower.places import place_variables
 from fmu_build.lower.probes import add_probes, with_probe_inputs
 from fmu_build.lower.scope import Scope
-from fmu_build.lower.start import attribute, initial_conditions
+from fmu_build.lower.start import attribute, initial_conditions, start_values
 from fmu_build.lower.table import Numbers, make_rows
 from fmu_build.lower.values import Scalar, column
 
@@ -37,10 +38,11 @@ def lower(flat: FlatModel, probes: Sequence[str] = ()) -> OdeModel:
     parameters.evaluate_all()
     equations = add_probes(flat, scope, scalar_equations(flat, evaluator), probes)
     discrete = DiscretePart(flat, scope, events, evaluator)
-    solved = solve_continuous(flat, scope, equations)
+    typical = partial(_typical_values, scope, parameters, evaluator)
+    solved = solve_continuous(flat, scope, equations, typical)
     updates = discrete.updates(solved)
     derivatives = _settled(solved.replace(scope.derivatives), scope)
-    start = initial_conditions(flat, scope, parameters, evaluator, solved)
+    start = initial_conditions(flat, scope, parameters, evaluator, solved, typical)
     calculated = parameters.explicit(start.parameters)
     numbers = _numbers(parameters, calculated)
     shown = (*flat.variables, *events.hidden_variables)
@@ -107,6 +109,21 @@ def _numbers(parameters: Parameters, calculated: Sequence[Scalar]) -> Numbers:
     settable = [v.symbol for v in parameters.settable]
     symbols = [c.variable.symbol for c in parameters.calculated]
     return Numbers([*settable, *symbols], [*parameters.starts, *Numbers(settable, parameters.starts).of(calculated)])
+
+
+def _typical_values(scope: Scope, parameters: Parameters, evaluator: Evaluator) -> dict[int, float]:
+    """By the hash of its symbol what a variable starts from, or its nominal value where that is 0; parameters too."""
+    calculated, _ = explicit(
+        [c.variable.symbol for c in parameters.calculated], [c.value for c in parameters.calculated], []
+    )
+    numbers = _numbers(parameters, calculated)
+    variables = [*scope.states, *scope.algebraics, *scope.inputs, *scope.discretes]
+    constants = [v.symbol for v in parameters.settable] + [c.variable.symbol for c in parameters.calculated]
+    starts = numbers.of(start_values(variables, evaluator))
+    nominals = numbers.of([attribute(variable, "nominal", evaluator) for variable in variables])
+    values = [start or nominal for start, nominal in zip(starts, nominals, strict=True)] + numbers.of(constants)
+    symbols = [v.symbol for v in variables] + constants
+    return {s.element_hash(): value for s, value in zip(symbols, values, strict=True) if value is not None}
 
 
 def _relations(events: Events, solved: Solved, scope: Scope, parameters: Parameters) -> tuple[Relation, ...]:

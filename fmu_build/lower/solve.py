@@ -7,7 +7,7 @@ import casadi as ca
 
 from fmu_build.errors import BuildError
 from fmu_build.lower.equations import Definition, ScalarEquation
-from fmu_build.lower.singular import is_singular
+from fmu_build.lower.singular import Typical, is_singular
 from fmu_build.lower.values import Scalar, column
 
 # Larger linear systems go to the run time, whose Newton solves them with pivoting in one step.
@@ -23,7 +23,9 @@ class Solution:
     residuals: list[Scalar] = field(default_factory=list)
 
 
-def solve_block(equations: Sequence[ScalarEquation], unknowns: Sequence[Scalar], keep: Sequence[bool]) -> Solution:
+def solve_block(
+    equations: Sequence[ScalarEquation], unknowns: Sequence[Scalar], keep: Sequence[bool], typical: Typical = dict
+) -> Solution:
     """Solve a square block; where an iteration variable has to be chosen, one with `keep` is preferred.
 
     Unknowns that an equation gives with a constant coefficient are eliminated first (tearing): this never divides by
@@ -32,7 +34,7 @@ def solve_block(equations: Sequence[ScalarEquation], unknowns: Sequence[Scalar],
     Raises:
         BuildError: the equations contradict or repeat each other for whatever values of the variables in them.
     """
-    if is_singular(equations, unknowns):
+    if is_singular(equations, unknowns, typical):
         raise _contradictory(equations)
     rest = _Rest([equation.residual for equation in equations], list(unknowns), list(keep))
     eliminated: list[Definition] = []

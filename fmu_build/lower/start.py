@@ -13,6 +13,7 @@ from fmu_build.lower.equations import Definition, ScalarEquation, incidence
 from fmu_build.lower.evaluate import Evaluator, Frame
 from fmu_build.lower.parameters import Parameters, explicit, start_expression
 from fmu_build.lower.scope import ScalarVariable, Scope
+from fmu_build.lower.singular import Typical
 from fmu_build.lower.solve import solve_block
 from fmu_build.lower.sorting import Matching
 from fmu_build.lower.values import Scalar, column, scalars
@@ -70,10 +71,17 @@ def attribute(variable: ScalarVariable, name: str, evaluator: Evaluator) -> Scal
 
 
 def initial_conditions(
-    flat: FlatModel, scope: Scope, parameters: Parameters, evaluator: Evaluator, solved: Solved
+    flat: FlatModel,
+    scope: Scope,
+    parameters: Parameters,
+    evaluator: Evaluator,
+    solved: Solved,
+    typical: Typical = dict,
 ) -> Start:
     """Decide for each state, discrete variable and iteration variable where its start value comes from.
 
+    Args:
+        typical: values of a run, for which the initial equations should not be singular.
     Raises:
         BuildError: more initial equations than they can determine, or a free parameter they do not determine.
     """
@@ -86,7 +94,7 @@ def initial_conditions(
         equations += _show_free_parameters(blocks, parameters)
         candidates += [_Unknown(q, guess, True) for q, guess in zip(solved.unknowns, guesses_q, strict=True)]
     system = _InitialSystem(flat, equations, candidates)
-    system.solve(parameters)
+    system.solve(parameters, typical)
     states = [
         system.value(v.symbol) if system.determines(v.symbol) else v.symbol if start.is_constant() else start
         for v, start in zip(scope.states, state_starts, strict=True)
@@ -203,7 +211,7 @@ class _InitialSystem:
             )
         return chosen
 
-    def solve(self, parameters: Parameters) -> None:
+    def solve(self, parameters: Parameters, typical: Typical) -> None:
         """Block by block; what is not linear is left to Newton as an unknown of initialisation."""
         symbols = [c.symbol for c in self._chosen]
         definitions: list[Definition] = []
@@ -211,7 +219,8 @@ class _InitialSystem:
         residuals: list[Scalar] = []
         free = {v.symbol.element_hash() for v in parameters.free}
         for block_equations, block_unknowns in square_blocks(self._equations, symbols):
-            solution = solve_block(block_equations, block_unknowns, [s.element_hash() in free for s in block_unknowns])
+            keep = [s.element_hash() in free for s in block_unknowns]
+            solution = solve_block(block_equations, block_unknowns, keep, typical)
             definitions += solution.definitions
             iterated += solution.unknowns
             residuals += solution.residuals
