@@ -91,11 +91,11 @@ def draft(folder: Path, inputs: Mapping[str, str], responses: Mapping[str, str])
 
 
 def _column(heading: str) -> Column:
-    from pysim.io import SI
+    from pysim.types import UNITS
 
     match = _HEADING.fullmatch(heading)
     unit = match["unit"].strip() if match else ""
-    return Column(heading, match["name"] if match else heading, unit if unit in SI else "")
+    return Column(heading, match["name"] if match else heading, unit if unit in UNITS else "")
 
 
 def _take(found: Draft, path: Path, columns: Sequence[Column], *, named: bool) -> None:
@@ -169,11 +169,12 @@ def _source(found: Draft, path: Path) -> str:
 
 def draft_text(found: Draft) -> str:
     """The dataset.toml, with comments on what to fill in and to look at."""
-    from pysim.io import SI
+    from pysim.types import SYNONYMS, UNITS
 
+    known = ", ".join(unit for unit in UNITS if unit not in SYNONYMS)
     head = [
         "# A draft. Look at every line; what is behind a # is not read.",
-        *textwrap.wrap(f"Units: {', '.join(SI)}", 100, initial_indent="# ", subsequent_indent="#   "),
+        *textwrap.wrap(f"Units: {known}", 100, initial_indent="# ", subsequent_indent="#   "),
         "",
         "[dataset]",
         f"name = {_toml(found.folder.resolve().name)}",

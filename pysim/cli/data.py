@@ -69,13 +69,13 @@ def _describe(args: argparse.Namespace) -> int:
 def _units(texts: list[str]) -> dict[str, str]:
     """Signal -> unit in the files."""
     from pysim.cli._options import names_of
-    from pysim.io import SI
-    from pysim.types import BadInput
+    from pysim.io.units import unit_cure
+    from pysim.types import UNITS, BadInput
 
     signals = [_signal("input", text) for text in names_of(texts)]
     for signal in signals:
-        if signal.unit not in SI:
-            raise BadInput(f"signal {signal.name}: unit = {signal.unit!r} is not known; use one of {', '.join(SI)}")
+        if signal.unit not in UNITS:
+            raise BadInput(f"signal {signal.name}: unit = {signal.unit!r} is not known; {unit_cure(signal.unit)}")
     return {signal.name: signal.unit for signal in signals}
 
 

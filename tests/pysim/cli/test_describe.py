@@ -34,6 +34,12 @@ def test_headings_with_units_need_nothing_else(tmp_path: Path, capsys: pytest.Ca
     assert (tmp_path / "log.csv").read_bytes() == before
 
 
+def test_units_are_taken_as_people_write_them(tmp_path: Path) -> None:
+    write(tmp_path / "log.csv", "t [s];Druck [bar];Temperatur [°C];M [Nm]", separator=";")
+    assert main(["data", "describe", str(tmp_path)]) == 0
+    assert [s.unit for s in read_dataset(tmp_path).signals] == ["Pa", "K", "N.m"]
+
+
 def test_what_nobody_told_is_left_open(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     write(tmp_path / "log.csv", "Zeit;Soll;Ist", separator=";")
     assert main(["data", "describe", str(tmp_path)]) == 0
