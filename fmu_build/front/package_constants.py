@@ -96,7 +96,7 @@ class _Walk:
                 package = bound[declaration.class_name]
                 self._use(package, here, declaration.offset)
                 self._refuse_inherited_functions({declaration.class_name: package}, here, declaration.offset)
-        for name in _names(here.text.words):
+        for name in names_used(here.text.words):
             last = self._last(name, here, bound, here.text.offset)
             if last is not None and last.text.kind in ("function", "record"):
                 self._waiting.append((last, {}))
@@ -222,7 +222,7 @@ class _Walk:
         return ""
 
 
-def _names(words: tuple[str, ...]) -> set[str]:
+def names_used(words: tuple[str, ...]) -> set[str]:
     """Dotted names, and single ones that are called; not those that only say what a package is unless redeclared."""
     names = set()
     at = 0

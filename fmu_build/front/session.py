@@ -16,6 +16,7 @@ from fmu_build.errors import BuildError, WrongCall
 from fmu_build.front.joined import JoinedText, join
 from fmu_build.front.source import ClassSource, read_text
 from fmu_build.front.tokens import tokenise
+from fmu_build.front.unresolved import unresolved
 
 WRAPPER = "OverridesOfThisBuild"
 Override = float | str  # a number, or Modelica text
@@ -169,7 +170,8 @@ def _explain(
         if place.group(1) == _stand_in(source):
             file, line = joined.place(line)
         return BuildError(message, file, line)
-    return BuildError(message, *(_place_of_bytes(text, joined, libraries) or (source.file, source.line)))
+    nameless = BuildError(message, *(_place_of_bytes(text, joined, libraries) or (source.file, source.line)))
+    return unresolved(message, source, libraries) or nameless
 
 
 def _place_of_bytes(text: str, joined: JoinedText, libraries: Sequence[Path]) -> tuple[Path, int] | None:

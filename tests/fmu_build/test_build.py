@@ -169,6 +169,16 @@ def test_a_class_that_is_there_may_be_for_another_compiler(tmp_path):
     assert not isinstance(unknown.value, CannotCompile)
 
 
+@pytest.mark.parametrize("text", ["Real x = misspelt;", "Modelica.Units.SI.Temperature T = 3;"])
+def test_a_name_that_is_not_there_is_for_no_compiler(tmp_path, text):
+    file = tmp_path / "M.mo"
+    file.write_text(f"model M\n  parameter Real k = 1;\n  {text}\nend M;\n")
+    with pytest.raises(BuildError, match="unresolved") as caught:
+        build("M", libraries=[file], use_cache=False)
+    assert not isinstance(caught.value, CannotCompile)
+    assert (caught.value.file, caught.value.line) == (file, 3)
+
+
 @pytest.mark.parametrize(
     ("name", "options", "message"),
     [

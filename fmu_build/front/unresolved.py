@@ -1,0 +1,80 @@
+"""Names that cannot be resolved: rumoca quotes them without their place."""
+
+import re
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+from fmu_build.errors import BuildError, WrongCall
+from fmu_build.front.class_lookup import ClassLookup, FoundClass, split_name
+from fmu_build.front.declarations import Kind, Token, is_name
+from fmu_build.front.package_constants import names_used
+from fmu_build.front.source import ClassSource
+from fmu_build.front.tokens import tokenise
+
+_QUOTED = re.compile(r"unresolved [\w ]+: '(.+)'$|base class not found: `(.+)` does not exist$")
+_STANDARD = "Modelica"
+
+
+class UnresolvedName(WrongCall):
+    """A name in the Modelica text that no compiler could find."""
+
+
+def unresolved(message: str, source: ClassSource, libraries: Sequence[Path]) -> BuildError | None:
+    """The error with the line where the name is written; None where the message is of another kind.
+
+    It is an UnresolvedName only if nothing is known under the name's first part: what is missing inside of something
+    that is declared may be rumoca's own fault.
+    """
+    quoted = _QUOTED.match(message)
+    if not quoted:
+        return None
+    name = (quoted.group(1) or quoted.group(2)).removeprefix(".")
+    classes = ClassLookup(libraries)
+    used = list(_used(source, classes))
+    file, line = _place(name, used) or (source.file, source.line)
+    first = split_name(name)[0]
+    if first == _STANDARD and not any(library.stem == _STANDARD for library in libraries):
+        message += f"; name the Modelica Standard Library too: --library path/to/{_STANDARD}"
+    is_begun = first != name and any(_is_declared(first, here, classes) for here in used)
+    return (BuildError if is_begun else UnresolvedName)(message, file, line)
+
+
+def _is_declared(name: str, here: FoundClass, classes: ClassLookup) -> bool:
+    components = (part for declaration in here.of_kind(Kind.COMPONENT) for part in declaration.declared)
+    return name in components or classes.resolve(name, here) is not None
+
+
+def _used(source: ClassSource, classes: ClassLookup) -> Iterator[FoundClass]:
+    """The class, its bases, the classes of its parts and the functions it calls, and theirs."""
+    waiting = [classes.full(source.name)]
+    seen = set()
+    while waiting:
+        here = waiting.pop(0)
+        if here is None or here.full_name in seen:
+            continue
+        seen.add(here.full_name)
+        yield here
+        named = [d.class_name for d in here.text.declarations if d.kind in (Kind.EXTENDS, Kind.COMPONENT)]
+        waiting += [classes.resolve(name, here) for name in (*named, *sorted(names_used(here.text.words)))]
+
+
+def _place(name: str, used: Sequence[FoundClass]) -> tuple[Path, int] | None:
+    wanted = [token for part in split_name(name) for token in (part, ".")][:-1]
+    for here in used:
+        tokens = _tokens(here)
+        words = [word for word, _ in tokens]
+        for at in range(len(words) - len(wanted) + 1):
+            is_part = at > 1 and words[at - 1] == "." and (is_name(words[at - 2]) or words[at - 2] in "])")
+            is_modified = at > 0 and words[at - 1] in "(," and words[at + len(wanted) : at + len(wanted) + 1] == ["="]
+            if words[at : at + len(wanted)] == wanted and not is_part and not is_modified:
+                return here.source.file, here.source.line(tokens[at][1])
+    return None
+
+
+def _tokens(here: FoundClass) -> tuple[Token, ...]:
+    """Those of `here.text.words`, with their offsets."""
+    tokens = tokenise(here.source.text)
+    begin = next(at for at, (_, offset) in enumerate(tokens) if offset >= here.text.offset)
+    while tokens[begin][0] != here.text.name:
+        begin += 1
+    return tokens[begin + 1 : begin + 1 + len(here.text.words)]
