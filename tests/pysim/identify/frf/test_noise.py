@@ -7,7 +7,6 @@ from scipy.stats import chi2
 from pysim.identify.frf.noise import COLOURED, DECLARED, RESIDUALS, ResidualNoise, residual_noise
 from tests.pysim.identify.frf.systems import coloured, white
 
-
 INTERVAL = 0.004  # s
 
 
