@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from pysim.bench.bench_tests import Run
 from pysim.bench.plan import Plan
 from pysim.bench.truth import Truth
-from pysim.excitation import Multisine
+from pysim.excitation import Multisine, SteppedSineCommand
 from pysim.simulate import Rodas, Solver, simulate_many
 from pysim.types import BadInput, Dataset, Experiment, MeasuredRecord, Model, Outcome, Record, Signal, SimulationError
 
@@ -130,11 +130,11 @@ def _job(model: Model, plan: Plan, run: Run, seed: int, parameters: Mapping[str,
 
 
 def _refuse_folding(run: Run, rate: float) -> None:
-    """Lines above half the sampling rate would be taken for others."""
-    highest = run.command.grid.high_hz if isinstance(run.command, Multisine) else run.frequency
-    if highest is not None and highest > 0.5 * rate:
+    """Lines would be taken for others, or for none; a chirp or wave folds back as on a bench."""
+    highest = run.command.highest_hz if isinstance(run.command, Multisine | SteppedSineCommand) else 0.0
+    if highest >= 0.5 * rate:
         raise BadInput(
-            f"{run.source}: its {highest:g} Hz are above half the sampling rate, {rate:.4g} Hz; log faster, or leave "
+            f"{run.source}: its {highest:g} Hz are not below half the sampling rate, {rate:.4g} Hz; log faster, or leave "
             "them out"
         )
 

@@ -112,11 +112,12 @@ def read_subject(args: argparse.Namespace, *, refits: bool = True) -> Given:
     from pysim.cli._variants import Variants
     from pysim.diagnose import Inside, subject
     from pysim.effects import STANDARD_LIBRARY, slots
+    from pysim.io import in_model_units
 
     dataset, left_out = _diagnosed(read_measurements(args.data))
     libraries = [STANDARD_LIBRARY, *args.library]
     model, class_name, notes = _model(args.model, libraries)
-    notes = [*left_out, *notes]
+    dataset, notes = in_model_units(dataset, model), [*left_out, *notes]
     catalogue = _catalogue(libraries, names_of(getattr(args, "effects", [])), class_name)
     if class_name and not catalogue:
         notes.append(f"no slot of {class_name} takes an effect of the libraries, so none could be tried")

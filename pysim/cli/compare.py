@@ -100,7 +100,7 @@ def _responses(args: argparse.Namespace, dataset: Dataset) -> int:
     from pysim.cli._progress import ProgressBar, announce_compilation
     from pysim.cli._subject import read_base
     from pysim.diagnose import compare
-    from pysim.io import write_file
+    from pysim.io import in_model_units, write_file
     from pysim.report import comparison_data, comparison_text
 
     args.reference_hz = chosen_reference(args.reference_hz, dataset.responses())
@@ -110,7 +110,7 @@ def _responses(args: argparse.Namespace, dataset: Dataset) -> int:
     with ProgressBar("stepped sines") as progress:
         comparison = compare(
             model,
-            dataset,
+            in_model_units(dataset, model),
             overrides=overrides,
             label=Path(args.model).stem if args.model.lower().endswith(".fmu") else args.model,
             reference_hz=args.reference_hz,

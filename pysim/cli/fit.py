@@ -110,6 +110,7 @@ def _problem(args: argparse.Namespace) -> Problem:
     from pysim.cli._measurements import read_measurements
     from pysim.cli._options import bounded, chosen_reference, names_of
     from pysim.identify.greybox import Measurements, Parameter, Tie, Treatment, problem
+    from pysim.io import in_model_units
 
     model = read_fmu_or_class(args.model, args.library)
     names, bounds = names_of(args.free), bounded(args.bounds)
@@ -117,7 +118,7 @@ def _problem(args: argparse.Namespace) -> Problem:
     starts, fixed = _values(args, model, names, [tie.name for tie in ties])
     _refuse_idle([*starts, *bounds], names)
     free = [Parameter(name, starts.get(name), *bounds.get(name, (None, None))) for name in names]
-    datasets = [read_measurements(folder) for folder in args.data]
+    datasets = [in_model_units(read_measurements(folder), model) for folder in args.data]
     _refuse_still(datasets)
     outputs = tuple(names_of(args.signal)) or None
     data = [Measurements(one, outputs=outputs) for one in datasets]

@@ -25,7 +25,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("data", metavar="DATASET", type=Path, help="data set, or records as .csv or .npz", nargs="+")
     parser.add_argument("--period", metavar="SECONDS", type=float, help="of the multisine; none: any broadband signal")
     parser.add_argument("--input", metavar="NAME", help="what excites; the only input by default")
-    parser.add_argument("--output", metavar="DIR", type=Path, help="write report.html and the plots here")
+    parser.add_argument("-o", "--output", metavar="DIR", type=Path, help="write report.html and the plots here")
     parser.add_argument("--signal", metavar="NAME", help="the responding signal, where the logs hold several")
     parser.add_argument("--reference", metavar="NAME", help="known command, where the input is measured or in a loop")
     parser.add_argument("--records", metavar="PATTERN", default="*", help="only logs of this name, as multisine/*.txt")
@@ -46,15 +46,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Print what was found for each test."""
-    from pysim.cli._outputs import prepare_file, prepare_folder
+    from pysim.cli._outputs import JSON, prepare_file, prepare_folder
     from pysim.io import write_file
     from pysim.report.multisine import multisine_data, multisine_text
 
     records, columns = _read(args)
     if args.output:
-        prepare_folder(args.output)
+        prepare_folder(args.output, read=args.data)
     if args.json:
-        prepare_file(args.json, "--json")
+        prepare_file(args.json, "--json", JSON, read=args.data)
     found = _analyse(args, records, columns)
     print("\n\n".join(multisine_text(name, bla) for name, bla in found.items()))
     if args.json:

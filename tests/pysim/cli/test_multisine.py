@@ -111,7 +111,9 @@ def data_set(folder: Path) -> Path:
 
 
 def test_a_data_set_has_a_result_per_working_point(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    folder, numbers = data_set(tmp_path), tmp_path / "x.json"
+    (tmp_path / "measured").mkdir()
+    folder, numbers = data_set(tmp_path / "measured"), tmp_path / "x.json"
+    assert main(["multisine", str(folder), "--period", "2", "--json", str(folder / "dataset.json")]) == 2
     assert main(["multisine", str(folder), "--period", "2", "--json", str(numbers)]) == 0
     found = json.loads(numbers.read_text())["approximations"]
     assert [f["name"] for f in found] == ["u around 0 %, rms 1.27 %", "u around 0 %, rms 2.55 %"]
