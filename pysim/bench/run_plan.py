@@ -134,8 +134,8 @@ def _refuse_folding(run: Run, rate: float) -> None:
     highest = run.command.highest_hz if isinstance(run.command, Multisine | SteppedSineCommand) else 0.0
     if highest >= 0.5 * rate:
         raise BadInput(
-            f"{run.source}: its {highest:g} Hz are not below half the sampling rate, {rate:.4g} Hz; log faster, or leave "
-            "them out"
+            f"{run.source}: its {highest:g} Hz are not below half the sampling rate, {rate:.4g} Hz; log faster, or "
+            "leave them out"
         )
 
 
