@@ -41,6 +41,8 @@ _OFF = 2.0
 _RARE = 3.1
 # Standard deviation from which the data leave a direction open, in units of the search.
 _OPEN = 0.25
+# Of a step by slopes, that are tried.
+_SHARES = (1.0, 0.5, 0.25)
 # Refits at most until the blamed are the same again, and until shapes and shifts of nuisances are.
 _ROUNDS, _CLOSER = 3, 4
 
@@ -258,7 +260,8 @@ def held_beside(ruler: Ruler, held: Ruler, at: Fitted) -> Ruler:
 def leaning(lean: Ruler, at: Fitted) -> Array:
     """Where (n,) a model's refit would end with fewer nuisances allowed for, by its slopes.
 
-    What the data leave open stays as it is.
+    What the data leave open stays as it is. Slopes reach only so far: of a step that makes the fit worse half is taken,
+    and so on, or none.
 
     Args:
         lean: that allows for those.
@@ -267,7 +270,12 @@ def leaning(lean: Ruler, at: Fitted) -> Array:
     x = at.point.x
     rows = np.vstack([at.point.jacobian, np.eye(x.size) / _OPEN])
     step = np.linalg.lstsq(rows, -np.concatenate([at.point.residual, np.zeros(x.size)]), rcond=None)[0]
-    return np.clip(x + step, *at.what.space.bounds())
+    for share in _SHARES:
+        moved = np.clip(x + share * step, *at.what.space.bounds())
+        residual = lean.at(at.what, moved)
+        if residual is not None and float(residual @ residual) <= at.point.cost:
+            return moved
+    return x
 
 
 def corrected(ruler: Ruler, amounts: Mapping[Suspect, float]) -> Ruler:

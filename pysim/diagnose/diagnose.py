@@ -109,7 +109,7 @@ def rank(
     nominal = _prior(story)
     base = _refit(story, nominal)
     tried = screened(story, base.whole)
-    found = refitted(story, tried, nominal if tried.bent else None) if tried.promises else {}
+    found = refitted(story, tried, nominal) if tried.promises else {}
     story.ranking += rows(story, tried, found, 1)
     return answered(story, base.at, *decided(story, base, base))
 
@@ -238,7 +238,7 @@ def _added(story: Story, current: Fitted, nominal: Fitted | None, effect: Effect
     footprints = screen(current, [contender])
     ruler = story.ruler_of(current.what)
     tried = Tried(current, ruler, {effect.name: contender}, footprints, {}, 0.0, story.blame(current).cost)
-    found = refitted(story, tried, nominal if tried.bent else None, least=-1.0)
+    found = refitted(story, tried, nominal, least=-1.0)
     if effect.name in found:
         return found[effect.name]
     space, values = (

@@ -182,7 +182,8 @@ class Ruler:
         runs = [run for target in self.targets for run in target.runs]
         simulation = Simulation(workers=Threads(self.workers))
         if isinstance(self.solver, Rodas | Esdirk):
-            simulation = replace(simulation, solver=Esdirk(rtol=self.solver.rtol, atol=self.solver.atol))
+            known = self.solver
+            simulation = replace(simulation, solver=Esdirk(rtol=known.rtol, atol=known.atol, max_step=known.max_step))
         answer = simulate_runs(what.model, what.space, runs, x, [None] * len(runs), simulation)
         if answer.trouble:
             return None

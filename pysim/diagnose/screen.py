@@ -72,7 +72,7 @@ def screen(current: Fitted, tried: Sequence[Contender]) -> tuple[Footprint, ...]
     left_over = across(span, current.point.residual)
     found: dict[str, list[Footprint]] = {}
     for one in tried:
-        grid = list(strengths(one.effect, _largest(current, one)))
+        grid = list(strengths(one.effect, largest_value(current, one)))
         found[one.effect.name] = list(_footprints(current, one, grid, span, left_over))
     enough = max([_LEAST, *(_PROMISING * f.gain for own in found.values() for f in own)])
     for one in tried:
@@ -139,7 +139,7 @@ def across(span: Array, rows: Array) -> Array:
     return np.asarray(rows - span @ (span.T @ rows))
 
 
-def _largest(current: Fitted, one: Contender) -> float | None:
+def largest_value(current: Fitted, one: Contender) -> float | None:
     """Size in all tests of the variable that the effect limits; None where it does not say which that is."""
     effect, limit = one.effect, next((p for p in one.effect.strengths if p.limits), None)
     if limit is None or len(effect.strengths) > 1:

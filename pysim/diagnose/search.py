@@ -111,7 +111,7 @@ def _played(story: Story, current: Fitted, nominal: Fitted | None, number: int, 
     answer: dict[str, Any] = {"rows": [], "ties": [], "chosen": [], "part": "", "said": "", "done": False}
     if not tried.promises:
         return {**answer, "rows": as_data(rows(story, tried, {}, number))}
-    found = refitted(story, tried, nominal if tried.bent else None)
+    found = refitted(story, tried, nominal)
     listed = rows(story, tried, found, number)
     answer["rows"] = as_data(listed)
     order = by_score(story, current, {name: one for name, one in found.items() if one.point.residual.size})

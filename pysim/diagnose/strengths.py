@@ -18,6 +18,9 @@ _USUAL, _BYPASSED = 0.3, 0.5
 # A limit is tried at these shares of the largest size that the limited variable has in the tests, and where the class
 # does not say which that is, at these shares of its nominal size.
 _PEAKS, _LIMITS = (0.92, 0.75, 0.55, 0.35), (0.25, 0.4, 0.6, 0.8, 1.0, 1.5, 2.5)
+# Where parameters are not to be trusted, a limit is looked for from this share down, each that much of the one before,
+# so many times: its sum of squares is a narrow valley.
+_HIGHEST, _RATIO, _COUNT = 0.95, 0.8, 14
 
 
 def strengths(effect: Effect, largest: float | None = None) -> Iterator[dict[str, float]]:
@@ -34,6 +37,17 @@ def strengths(effect: Effect, largest: float | None = None) -> Iterator[dict[str
     for share in _LIMITS if limits else (_BYPASSED if effect.bypass else _USUAL,):
         sized = {p.name: within(p, (p.off or 0.0) + share * p.nominal) for p in effect.strengths}
         yield {**declared(effect), **sized}
+
+
+def limits(effect: Effect, largest: float) -> Iterator[dict[str, float]]:
+    """Values of all its parameters with its limit ever lower.
+
+    Args:
+        largest: size of the variable that the limit holds in.
+    """
+    limit = next(p for p in effect.strengths if p.inverse)
+    for k in range(_COUNT):
+        yield {**declared(effect), limit.name: within(limit, 1 / (_HIGHEST * _RATIO**k * largest))}
 
 
 def amounted(effect: Effect, tried: dict[str, float], amount: float) -> dict[str, float]:

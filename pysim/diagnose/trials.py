@@ -19,11 +19,11 @@ from pysim.diagnose.nuisance import Suspect
 from pysim.diagnose.refit import chord_refit, refit_from
 from pysim.diagnose.rounds import Tried
 from pysim.diagnose.scores import by_score, score, share
-from pysim.diagnose.screen import Footprint
+from pysim.diagnose.screen import Footprint, largest_value
 from pysim.diagnose.start import start_at, start_off
 from pysim.diagnose.steps import run_again
 from pysim.diagnose.story import Story
-from pysim.diagnose.strengths import translated
+from pysim.diagnose.strengths import amounted, limits, setting
 from pysim.identify.greybox.evaluation import Evaluation
 from pysim.simulate import Rodas
 from pysim.types import Effect
@@ -38,8 +38,8 @@ _FINAL, _NEAR = 3, 0.8
 _KEPT = 0.5
 # Points tried on probation, and from parameters far off.
 _STEPS, _FAR_STEPS = 6, 9
-# A limit beside the model's own parameters: times what was tried beside those found.
-_LIMITS = (0.25, 0.5, 1.0, 2.0, 4.0, 8.0)
+# Strengths looked through beside the model's own parameters, times that found beside bent ones.
+_LOOKS = tuple(2.0**k for k in range(-3, 4))
 # Integration of ties.
 _FINE = Rodas(rtol=1e-7, atol=1e-7)
 
@@ -50,13 +50,12 @@ def refitted(
     """The promising candidates refitted: all on probation, the leaders with slopes of their own.
 
     Args:
-        nominal: the base model at its own parameters, counted without nuisances, where refits start too if those found
-            have been bent.
+        nominal: the base model at its own parameters, counted without nuisances; refits start there too where those
+            found have been bent, and where more than noise is left. None where the model so far has an effect.
         least: share of the misfit that a refit on probation has to take for slopes of its own.
     """
     story.now("refitting the promising candidates")
-    if nominal is not None:
-        nominal = recounted(story.first, tried.ruler, nominal)
+    nominal = None if nominal is None else recounted(story.first, tried.ruler, nominal)
     found: dict[str, Fitted] = {}
     for head in promising(tried):
         one = tried.contenders[head.effect.name]
@@ -114,12 +113,12 @@ def _probation(tried: Tried, one: Contender, nominal: Fitted | None) -> Evaluati
     if (ends[0] is None or ends[0].cost > before) and len(own) > 1:
         ends.append(_end(one, current, min(own, key=lambda f: f.size), _STEPS))
     reached = before - min(end.cost for end in ends if end is not None) if any(ends) else 0.0
-    if nominal is not None:
+    if tried.bent and nominal is not None:
         there = recounted(tried.ruler, one.ruler, nominal)
         if reached < _KEPT * own[0].gain:
             ends.append(_end(one, there, own[0], _FAR_STEPS))
         if _is_limit(one.effect) and is_off(one.ruler, min(_better(ends, before), key=_cost, default=current.point)):
-            ends.append(_limited(one, there, own[0]))
+            ends.append(_limited(one, there))
     return min(_better(ends, before), key=_cost, default=None)
 
 
@@ -136,17 +135,23 @@ def _end(one: Contender, current: Fitted, found: Footprint, steps: int) -> Evalu
     return None if start is None else chord_refit(one.ruler, one.what, start, steps=steps)
 
 
-def _limited(one: Contender, nominal: Fitted, found: Footprint) -> Evaluation | None:
+def _limited(one: Contender, nominal: Fitted) -> Evaluation | None:
     """A refit from the model's own parameters, with the limit where it fits best beside them.
 
     Parameters that have been bent to hide a limit say little of where it lies.
     """
-    starts = [start_at(one.ruler, nominal, one.what, [(found, size)]) for size in _LIMITS]
-    best = min((start for start in starts if start is not None), key=_cost, default=None)
-    first = None if best is None else one.ruler.evaluation(one.what, best.x)
-    if first is None or not first.good:
-        return None
-    return refit_from(one.ruler, one.what, first, rounds=1, slow_first=False)[0]
+    largest = largest_value(nominal, one)
+    return None if not largest else _looked(one, nominal, list(limits(one.effect, largest)))
+
+
+def _looked(one: Contender, nominal: Fitted, grid: Sequence[dict[str, float]]) -> Evaluation | None:
+    """A refit from the model's own parameters, with the strength of a grid that fits best beside them."""
+    settings = [setting(nominal.what, one.what, one.effect, nominal.point.x, values) for values in grid]
+    costs = [np.inf if r is None else float(r @ r) for r in one.ruler.residuals(one.what.model, settings)]
+    best, space = settings[int(np.argmin(costs))], one.what.space
+    x = space.to_search(np.clip(np.array([best[key] for key in space.keys]), space.lower, space.upper))
+    first = one.ruler.evaluation(one.what, x)
+    return refit_from(one.ruler, one.what, first, rounds=2, slow_first=False)[0] if first.good else None
 
 
 def _cost(end: Evaluation) -> float:
@@ -167,27 +172,23 @@ def start_amount(effect: Effect, amount: float) -> float:
 def _leader(story: Story, tried: Tried, one: Contender, at: Fitted, nominal: Fitted | None) -> Fitted | None:
     """With slopes of its own; from the model's own parameters too where that leaves more than noise does."""
 
-    def refitted_from(x: Array) -> tuple[Evaluation, Array] | None:
-        first = one.ruler.evaluation(one.what, x)
-        return refit_from(one.ruler, one.what, first, rounds=3 if tried.bent else 2) if first.good else None
-
     def find() -> tuple[Evaluation, Array] | None:
-        end = refitted_from(at.point.x)
+        first = one.ruler.evaluation(one.what, at.point.x)
+        end = refit_from(one.ruler, one.what, first, rounds=3 if tried.bent else 2) if first.good else None
         if nominal is None or (end is not None and as_noise(one.ruler, end[0])):
             return end
-        other = refitted_from(_beside(nominal, one, at))
-        ends = [e for e in (end, other) if e is not None]
+        ends = [e for e in (end, _beside(one, at, recounted(tried.ruler, one.ruler, nominal))) if e is not None]
         return min(ends, key=lambda e: e[0].cost, default=None)
 
     return story.fitted(one.what, f"{tried.current.name} + {one.effect.name}", find, one.ruler)
 
 
-def _beside(nominal: Fitted, one: Contender, at: Fitted) -> Array:
-    """The effects as they were found, (n,), beside the model's own parameters."""
-    space = one.what.space
-    own = translated(nominal.what, one.what, nominal.what.space.values(nominal.point.x))
-    values = {**space.values(at.point.x), **own}
-    return space.to_search(np.array([values[key] for key in space.keys]))
+def _beside(one: Contender, at: Fitted, nominal: Fitted) -> tuple[Evaluation, Array] | None:
+    """A refit from the model's own parameters, with the effect about as strong as it was found beside others."""
+    found = one.what.space.values(at.point.x)
+    own = {p.name: found[f"{one.what.places[one.effect.name]}.{p.name}"] for p in one.effect.parameters}
+    first = _looked(one, nominal, [amounted(one.effect, own, amount) for amount in _LOOKS])
+    return None if first is None else refit_from(one.ruler, one.what, first, rounds=2, slow_first=False)
 
 
 def finer(story: Story, one: Fitted, other: Fitted) -> float:

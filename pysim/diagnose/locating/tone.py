@@ -18,6 +18,7 @@ from pysim.diagnose.screen import column_space
 from pysim.diagnose.where import tone
 from pysim.identify.greybox.log_target import LogTarget
 from pysim.identify.greybox.parameters import ParameterSpace
+from pysim.simulate import Rodas
 from pysim.types import BadInput, Effect, Missing, Model
 from pysim.types.diagnosis import Shape
 
@@ -29,6 +30,8 @@ _POINTS, _Z95 = 81, 1.959964
 _FINE = 40
 # A swing that takes less of a log's misfit is no answer.
 _LEAST = 0.05
+# Steps of a run in one period of a swing, at least.
+_STEPS = 10
 
 
 @dataclass(frozen=True)
@@ -80,7 +83,10 @@ def tones(
     number, frequency = found
     starts = np.cumsum([0, *(len(target.runs) for target in ruler.targets)])
     near = ruler.near[starts[number] : starts[number + 1]] if ruler.near else ()
-    one = ruler.with_other(targets=(ruler.targets[number],), skips=(ruler.skips[number],), near=near)
+    # where nothing else moves, steps would pass over the swing
+    known = ruler.solver
+    stepped = Rodas(rtol=known.control().rtol, atol=known.control().atol, max_step=1 / (_STEPS * frequency))
+    one = ruler.with_other(targets=(ruler.targets[number],), skips=(ruler.skips[number],), near=near, solver=stepped)
     point = one.evaluation(current.what, current.point.x)
     if not point.good:
         return ()

@@ -14,9 +14,12 @@ from pysim.types import BadInput, Signal
 class Rest:
     """How the model comes to rest at the first sample's input, as the bench did (thesis Section 2.1.1, step 1).
 
+    Where the input begins at the model's own start value, a model that stands still there is held there as long: fitted
+    parameters and effects may move its equilibrium, and the plant was at rest in its own.
+
     Args:
         ramp: s, from the input's start value to the first sample's.
-        hold: s, at that value until the log starts.
+        hold: s, at that value until the log starts; a few times the model's slowest time constant.
     Raises:
         BadInput: a duration that is not positive.
     """
@@ -35,7 +38,7 @@ def from_rest(signal: Signal, start: float, first: float, rest: Rest) -> tuple[S
     Args:
         signal: the command from `start` (s) on.
         first: the input's start value, at which the model starts; in the signal's unit.
-        rest: skipped where the command starts at `first`, since the model rests there.
+        rest: skipped where the command starts at `first`, where the model starts.
     Returns:
         the whole command, and when its run has to start, s.
     """

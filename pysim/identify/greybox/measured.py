@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -18,7 +19,7 @@ from pysim.identify.greybox.sine_target import SineTarget
 from pysim.identify.greybox.table_target import TableTarget
 from pysim.identify.greybox.target import Run, Target
 from pysim.identify.logged import logged_command, logged_wave
-from pysim.simulate import Periodic
+from pysim.simulate import Periodic, Rodas, simulate
 from pysim.types import (
     BadInput,
     Dataset,
@@ -27,6 +28,7 @@ from pysim.types import (
     MeasuredRecord,
     MeasuredSignal,
     Model,
+    Outcome,
     Record,
     Signal,
 )
@@ -40,6 +42,8 @@ Array = NDArray[np.float64]
 # numbers, and noise with memory puts more into slow ones than white noise does; and the same where another log
 # differs by more.
 _UNLIKE, _ALSO = 5.0, 2.5
+# s for which a model is watched, and the share of its values that one at rest may move by.
+_WATCHED, _STILL = 1.0, 1e-9
 
 
 @dataclass(frozen=True)
@@ -52,6 +56,7 @@ class _Setting:
     outputs: tuple[str, ...]
     noise: Mapping[str, float]
     treatment: Treatment
+    started: Collection[str | None]
 
     def columns(self, record: MeasuredRecord) -> tuple[tuple[str, ...], tuple[str, ...]]:
         """Commands and compared outputs of a log."""
@@ -74,17 +79,35 @@ class _Setting:
         names = tuple(self.variable(column) for column in outputs)
         return Experiment(times, names, commands, self.overrides, start, rates=self.model.rate_inputs(commands))
 
+    @cached_property
+    def rests(self) -> bool:
+        """Whether the model stands still from its start on, its inputs at theirs.
 
-def build_targets(model: Model, data: Measurements, treatment: Treatment) -> tuple[list[Target], list[str]]:
+        Then it is to stand still too where a parameter or an effect moves its equilibrium, as the plant did before the
+        log began: it is given the time to come there.
+        """
+        names = tuple(self.variable(column) for column in self.outputs)
+        still = Experiment(np.linspace(0.0, _WATCHED, 11), names, overrides=self.overrides)
+        record = simulate(self.model, still, solver=Rodas())
+        if record.outcome is not Outcome.DONE:
+            return False
+        return bool(np.all(np.ptp(record.values, axis=0) <= _STILL * np.abs(record.values).max(axis=0)))
+
+
+def build_targets(
+    model: Model, data: Measurements, treatment: Treatment, started: Collection[str | None] = ()
+) -> tuple[list[Target], list[str]]:
     """Targets in the order of the records, the stepped sines of a test together, and notes on what was assumed.
 
+    Args:
+        started: records with free start values, None for all: their model does not come to rest first.
     Raises:
         BadInput: what cannot be compared, naming record or signal.
     """
     dataset = data.dataset
     outputs = _compared(dataset, data.outputs)
     noise, notes = _noise(dataset, outputs, data.noise)
-    setting = _Setting(model, dataset, data.overrides, outputs, noise, treatment)
+    setting = _Setting(model, dataset, data.overrides, outputs, noise, treatment, started)
     targets: list[Target] = []
     sines: dict[tuple[object, ...], list[MeasuredRecord]] = {}
     for record in dataset.records:
@@ -181,6 +204,9 @@ def _log(setting: _Setting, record: MeasuredRecord, data: Record) -> LogTarget:
             signal, first = from_rest(signal, start, float(setting.model[name].start or 0.0), rest)
             begin = min(begin, first)
         commands[name] = signal
+    free = record.source in setting.started or None in setting.started
+    if rest is not None and begin == start and not free and setting.rests:
+        begin = start - rest.hold
     experiment = setting.experiment(data.time, outputs, commands, begin)
     return LogTarget(
         dataset=setting.dataset.name,

@@ -113,13 +113,19 @@ def problem(
         for name in one.overrides:
             if name in (*space.variables, *space.fixed, *(tie.name for tie in space.ties)):
                 raise BadInput(f"fit: data set {one.dataset.name!r} overrides {name}, which is free, tied or fixed")
-        found, said = build_targets(model, one, treatment)
+        found, said = build_targets(model, one, treatment, _started(model, space))
         targets += found
         notes += said
     _check_records(space, targets)
     if not any(target.use == "fit" for target in targets):
         raise BadInput('fit: no record is for fitting; give at least one use = "fit"')
     return Problem(model, space, tuple(targets), tuple(dict.fromkeys(notes)))
+
+
+def _started(model: Model, space: ParameterSpace) -> set[str | None]:
+    """Records that a state is free to begin at another value in; None where it is in all."""
+    states = model.abilities.states
+    return {record for name, record in zip(space.variables, space.records, strict=True) if name in states}
 
 
 def _check_records(space: ParameterSpace, targets: Sequence[Target]) -> None:

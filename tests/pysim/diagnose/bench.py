@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from pysim.diagnose.residuals import Ruler
 from pysim.diagnose.subject import Extended, extended, subject
+from pysim.identify.greybox import Rest
 from pysim.simulate import Rodas, simulate
 from pysim.types import Dataset, Experiment, MeasuredRecord, MeasuredSignal, Model, Record, Signal
 
@@ -62,7 +63,7 @@ class Bench:
             fine: tolerance of the plant's run.
             free: as `subject` takes it.
         """
-        run = Experiment(times, (self.sensor[0],), {self.command[0]: command}, truth or {})
+        run = Experiment(times, (self.sensor[0],), {self.command[0]: command}, truth or {}, start=-Rest().hold)
         read = simulate(model, run, solver=Rodas(rtol=fine, atol=fine))[self.sensor[0]]
         given = subject(model, self.dataset(self.log(times, command, read, rng)), (), None, **free)
         return Ruler(given.targets), extended(given, ())

@@ -1,5 +1,7 @@
 """Gains, offsets, shifts and wrong starts that were put into a toy's measurements come out with their sizes."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -136,6 +138,16 @@ def test_parameters_lean_as_far_as_a_refit_without_nuisances_takes_them() -> Non
         deviations = np.sqrt(np.diag(np.linalg.inv(end.jacobian.T @ end.jacobian)))
         assert np.max(np.abs(end.x - at.point.x) / deviations) > 0.2
         assert np.max(np.abs(leaning(lean, counted) - end.x) / deviations) < 0.03
+
+
+def test_parameters_do_not_lean_where_slopes_do_not_reach() -> None:
+    ruler, _, at = fitted(logged(6))
+    counted = recounted(ruler, ruler.plain, at)
+    blind = replace(counted, point=replace(counted.point, jacobian=0.01 * counted.point.jacobian))  # steps 100 too long
+    there = leaning(ruler.plain, blind)
+    residual = ruler.plain.at(at.what, there)
+    assert residual is not None
+    assert residual @ residual <= counted.point.cost
 
 
 def test_intervals_hold() -> None:

@@ -1,8 +1,9 @@
 """What is tried of an effect, and names in a model."""
 
+import numpy as np
 import pytest
 
-from pysim.diagnose.strengths import amounted, declared, strengths, translated, within
+from pysim.diagnose.strengths import amounted, declared, limits, strengths, translated, within
 from pysim.diagnose.subject import extended
 from pysim.effects import STANDARD_LIBRARY, read_catalogue
 from tests.pysim.diagnose.toy import CATALOGUE, measured, toy_subject
@@ -41,3 +42,12 @@ def test_an_effect_that_shares_its_slot_is_found_under_its_new_name() -> None:
     both = extended(subject, [friction], model=None)
     assert translated(one, both, place) == place
     assert hardening.slot == friction.slot
+
+
+def test_limits_go_down_in_even_steps_from_where_they_hardly_bite() -> None:
+    effect = CATALOGUE["toy.stop"]
+    found = [1 / values["inverse_x_m"] for values in limits(effect, 2.0)]
+    assert found[0] == pytest.approx(1.9)
+    assert found[-1] < 0.1 * found[0]
+    ratios = np.array(found[1:]) / found[:-1]
+    assert np.ptp(ratios) < 1e-12

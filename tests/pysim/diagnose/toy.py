@@ -10,6 +10,7 @@ import numpy as np
 from fmu_build import build
 from pysim.diagnose import Subject, subject
 from pysim.effects import read_catalogue, variant
+from pysim.identify.greybox import Rest
 from pysim.io import read_model
 from pysim.simulate import Rodas, simulate
 from pysim.types import Dataset, Effect, Experiment, Model, Signal
@@ -131,7 +132,7 @@ def measured(seed: int, *effects: str, noise: float = NOISE, **values: float) ->
         push[0] = 0.0
         command = Signal.through(knots, push)
         times = np.arange(0.0, 12.0, 0.02)
-        run = Experiment(times, ("x",), {"F": command}).override(m=1.05, d=0.75, k=21.0)
+        run = Experiment(times, ("x",), {"F": command}, start=-Rest().hold).override(m=1.05, d=0.75, k=21.0)
         for effect in (CATALOGUE[name] for name in effects):
             own = {p.name: values[p.name] for p in effect.parameters}
             run = effect.on(run, place=places[effect.name], **own)

@@ -10,6 +10,7 @@ from pysim.diagnose.locating.runs import patient, seen, thinned
 from pysim.diagnose.residuals import rulers
 from pysim.diagnose.subject import extended
 from pysim.effects import slots
+from pysim.identify.greybox import Rest
 from tests.pysim.diagnose.toy import base, library, measured, toy_subject
 
 
@@ -33,7 +34,7 @@ def test_the_argument_is_seen_on_the_models_own_way() -> None:
     found = seen(ruler, current, laws)
     assert set(found) == {"force|force.x", "force|force.v"}
     x, v = found["force|force.x"], found["force|force.v"]
-    times = np.linspace(0, 11.98, x.size)
+    times = np.linspace(-Rest().hold, 11.98, x.size)
     np.testing.assert_allclose(np.gradient(x, times)[2:-2], v[2:-2], atol=0.02 * np.max(np.abs(v)))
 
 

@@ -124,7 +124,7 @@ def test_points_that_do_not_run_are_survived(lag: Model) -> None:
     tried: list[Tried] = []
     free = [Parameter("fragile", start=0.3, lower=-20.0, upper=20.0)]
     found = fit(
-        problem(lag, [m.dataset([record])], free),
+        problem(lag, [m.dataset([record])], free, treatment=Treatment(rest=None)),
         optimiser=GaussNewton(radius=5.0),
         simulation=TIGHT,
         progress=tried.append,

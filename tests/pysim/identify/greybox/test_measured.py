@@ -1,0 +1,41 @@
+"""How a log becomes a run of the model."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from pysim.identify.greybox import Measurements, Rest, Treatment, problem
+from pysim.identify.greybox.log_target import LogTarget
+from pysim.simulate import Rodas, simulate
+from pysim.types import Experiment, Model
+from tests.pysim.identify.greybox import measurements as m
+
+TIME = np.arange(0, 3, 0.02)
+HOLD = Rest().hold
+
+
+def run_of(lag: Model, w: np.ndarray, *, rest: Rest | None = Rest(), **overrides: float) -> Experiment:  # noqa: B008
+    data = m.dataset([m.log(TIME, w, m.ramp_answer(TIME, 2.0, 0.7))])
+    (target,) = problem(lag, [Measurements(data, overrides=overrides)], ["K"], treatment=Treatment(rest=rest)).targets
+    assert isinstance(target, LogTarget)
+    return target.run.experiment
+
+
+def test_a_model_at_rest_gets_the_time_to_come_to_rest_elsewhere(lag: Model) -> None:
+    ramp = run_of(lag, TIME)
+    assert ramp.start == -HOLD  # though the command begins where the model starts
+    moved = replace(ramp, overrides={"fragile": 0.5, "T": 0.1}, record=("y",))
+    equilibrium = np.log(0.5)  # of an offset that the model did not have when its log was read
+    assert simulate(lag, moved, solver=Rodas(rtol=1e-8, atol=1e-8))["y"][0] == pytest.approx(equilibrium, abs=1e-4)
+
+
+def test_a_model_that_moves_by_itself_starts_where_its_log_does(lag: Model) -> None:
+    assert run_of(lag, TIME, x=1.0).start == 0.0
+    assert run_of(lag, TIME, rest=None).start == 0.0
+
+
+def test_a_command_that_begins_elsewhere_is_led_to(lag: Model) -> None:
+    ahead = Rest(ramp=0.5, hold=2.0)
+    assert run_of(lag, 1.0 + TIME, rest=ahead).start == -2.5
+    assert run_of(lag, 1.0 + TIME, rest=ahead, x=1.0).start == -2.5
