@@ -9,7 +9,7 @@ import casadi as ca
 Vector = Literal["t", "p", "c", "x", "dx", "u", "d", "w"]
 Causality = Literal["independent", "parameter", "calculatedParameter", "input", "output", "local"]
 Variability = Literal["constant", "fixed", "tunable", "discrete", "continuous"]
-Initial = Literal["exact", "approx", "calculated"]
+Initial = Literal["exact", "calculated"]
 
 
 class ScalarType(Enum):

@@ -45,7 +45,7 @@ def free_parameters(
     free = tuple(name for name in dict.fromkeys([*own, *bounds]) if name not in overrides)
     if needed and not free:
         raise BadInput(
-            f"every parameter that {model.path.name} gives bounds is set, so none is left to refit; set fewer, or name "
+            f"every parameter that {model.label} gives bounds is set, so none is left to refit; set fewer, or name "
             "others with --free"
         )
     return free
@@ -80,7 +80,7 @@ def stand_in(
         found = replace(model[name], start=value)
         model = replace(model, variables=tuple(found if v.name == name else v for v in model.variables))
     if found is None or found.start is None:
-        raise BadInput(f"{model.path.name} has no real parameter or start value that could be set")
+        raise BadInput(f"{model.label} has no real parameter or start value that could be set")
     reach = max(abs(found.start), abs(found.nominal or 0.0)) or 1.0
     return model, left, {found.name: (found.start - reach, found.start + reach)}
 

@@ -106,7 +106,7 @@ def settable(values: dict[str, float], model: Model) -> dict[str, float]:
     for name in values:
         variable = model[name]
         if variable.causality != "parameter":
-            raise BadInput(f"{name} of {model.path.name} has the causality {variable.causality}; set parameters only")
+            raise BadInput(f"{name} of {model.label} has the causality {variable.causality}; set parameters only")
         if not math.isfinite(values[name]):
             raise BadInput(f"{name} = {values[name]}: write a finite number in the parameter's unit, {variable.unit}")
         _warn_beyond(variable, values[name], model)
@@ -179,7 +179,7 @@ def _warn_beyond(variable: Variable, value: float, model: Model) -> None:
     low = -math.inf if variable.min is None else variable.min
     high = math.inf if variable.max is None else variable.max
     if not low <= value <= high:
-        text = f"{variable.name} = {value:g} of {model.path.name} is outside its bounds, {low:g} to {high:g}"
+        text = f"{variable.name} = {value:g} of {model.label} is outside its bounds, {low:g} to {high:g}"
         print(f"pysim: warning: {text} [{variable.unit}]", file=sys.stderr)
 
 

@@ -235,7 +235,7 @@ def _out_of_sight(model: Model) -> list[str]:
     return [
         f"{model.name} is in none of the libraries, so no effect can be added; name its library with --library",
         f"looked at were the inputs {', '.join(names['input']) or '(none)'} and the outputs "
-        f"{', '.join(names['output']) or '(none)'} of {model.path.name}, {inside}",
+        f"{', '.join(names['output']) or '(none)'} of {model.label}, {inside}",
     ]
 
 

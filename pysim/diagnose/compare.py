@@ -113,7 +113,7 @@ def _note(dataset: Dataset) -> str:
     if not logs:
         return dataset.description
     more = ", ..." if len(logs) > 3 else ""
-    which = f"{len(logs)} logs over time ({', '.join(logs[:3])}{more})"
+    which = f"{len(logs)} log{'s' if len(logs) > 1 else ''} over time ({', '.join(logs[:3])}{more})"
     return f"{dataset.description} Not compared: {which}.".removeprefix("- ")
 
 

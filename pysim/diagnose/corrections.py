@@ -404,21 +404,29 @@ def _sentence(n: Nuisance, units: Mapping[str, str]) -> str:
     return f"outputs are logged {1e3 * n.value:+.3g} +- {1e3 * reach:.2g} ms after the command: a shift of clocks"
 
 
-def counting_in_words(ruler: Ruler, held: Ruler | None) -> list[str]:
-    """What a reader must know of how residuals are counted: noise that is not as told, logs cut at their start."""
-    told = []
+def counting_in_words(ruler: Ruler, held: Ruler | None, units: Mapping[str, str], *, told: bool) -> list[str]:
+    """What a reader must know of how residuals are counted: noise that is not as told, logs cut at their start.
+
+    Args:
+        units: of the signals.
+        told: whether the data set tells the noise.
+    """
+    lines = []
     for (_, name), noise in ruler.noise.items():
+        unit = units.get(name, "")
         if noise.coloured:
-            told.append(
-                f"the noise of {name} has memory: {noise.coloured:.3g} over {1e3 * noise.memory:.2g} ms beside "
-                f"{noise.white:.3g} of white noise; residuals are counted by what each sample adds to those before"
+            lines.append(
+                f"the noise of {name} has memory: {noise.coloured:.3g} {unit} over {1e3 * noise.memory:.2g} ms beside "
+                f"{noise.white:.3g} {unit} of white noise; residuals are counted by what each sample adds"
             )
-        elif not noise.plain:
-            told.append(f"the noise of {name} is told as {noise.told:.3g}; the logs show {noise.white:.3g}")
+        elif told and not noise.plain:
+            lines.append(
+                f"the noise of {name} is told as {noise.told:.3g} {unit}; the logs show {noise.white:.3g} {unit}"
+            )
     for one in (ruler, *([held] if held else [])):
         for target, skip in zip(one.targets, one.skips, strict=True):
             if skip and isinstance(target, LogTarget):
-                told.append(
+                lines.append(
                     f"{target.source}: the plant still moved when the log began; the first {skip:g} s are left out"
                 )
-    return told
+    return lines

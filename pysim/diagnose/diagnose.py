@@ -213,7 +213,7 @@ def _prior(story: Story) -> Fitted:
     for line in story.counting():
         story.note(line)
     if not first.good:
-        raise BadInput(f"{what.model.path.name} cannot be simulated through the tests at its own parameters")
+        raise BadInput(f"{what.model.label} cannot be simulated through the tests at its own parameters")
     nominal = recounted(story.ruler, story.ruler.plain, Fitted(what, first))
     story.stage("compare")
     story.enter("prior", nominal)

@@ -139,8 +139,8 @@ def columns(target: Target, simulated: Sequence[Array], suspected: Sequence[Susp
     if isinstance(target, SineTarget):
         pairs = zip(target.logs, simulated, strict=True)
         return np.concatenate([_sine_columns(target.dataset, log, values, suspected) for log, values in pairs])
-    # a response that exists as a table only has lost its means and its clock
-    return np.zeros((0, len(suspected)))
+    # magnitudes and phases of a response that exists as a table only: it has lost its means and its clock
+    return np.zeros((2 * len(target.runs), len(suspected)))
 
 
 def _placed(

@@ -223,12 +223,15 @@ class Story:
 
     def disturbed(self) -> list[str]:
         """The nuisances that were taken off, in words."""
-        signals = self.subject.dataset.signals if self.subject.dataset is not None else ()
-        return in_words(self.nuisances, {s.name: s.unit for s in signals})
+        return in_words(self.nuisances, self._units)
 
     def counting(self) -> list[str]:
         """How residuals are counted, where that is not as told, in words."""
-        return counting_in_words(self.ruler, self.held)
+        return counting_in_words(self.ruler, self.held, self._units, told=not untold(self.subject.notes))
+
+    @property
+    def _units(self) -> dict[str, str]:
+        return {s.name: s.unit for s in self.subject.dataset.signals} if self.subject.dataset is not None else {}
 
     def held_out(self, at: Fitted) -> Array | None:
         """Residuals of what is held out, (n,); None where nothing is or where it could not be simulated.

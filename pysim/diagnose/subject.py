@@ -154,9 +154,7 @@ def identifiable(model: Model) -> tuple[str, ...]:
         and v.start is not None
     )
     if not found:
-        raise BadInput(
-            f"{model.path.name} gives no parameter min, max and nominal; name those to refit, and their bounds"
-        )
+        raise BadInput(f"{model.label} gives no parameter min, max and nominal; name those to refit, and their bounds")
     return found
 
 

@@ -56,21 +56,19 @@ def check_experiment(model: Model, experiment: Experiment) -> None:
         check_override(model, name, value)
     for name in experiment.record:
         if model[name].type not in GETTERS[model.abilities.fmi]:
-            raise BadInput(f"{model.path.name}: {name} is {model[name].type} and cannot be recorded; record a number")
+            raise BadInput(f"{model.label}: {name} is {model[name].type} and cannot be recorded; record a number")
     for name in model.abilities.states:
         if model[name].type not in ("Real", "Float64"):
-            raise BadInput(
-                f"{model.path.name}: state {name} is {model[name].type}; only scalar states can be simulated"
-            )
+            raise BadInput(f"{model.label}: state {name} is {model[name].type}; only scalar states can be simulated")
 
 
 def _check_input(model: Model, variable: Variable) -> None:
     if variable.causality != "input":
         inputs = ", ".join(v.name for v in model.variables if v.causality == "input") or "none"
-        raise BadInput(f"{model.path.name}: {variable.name} is no input but {variable.causality}; inputs: {inputs}")
+        raise BadInput(f"{model.label}: {variable.name} is no input but {variable.causality}; inputs: {inputs}")
     if variable.type not in ("Real", "Float64") or variable.variability != "continuous":
         raise BadInput(
-            f"{model.path.name}: input {variable.name} is {variable.variability} and {variable.type}; "
+            f"{model.label}: input {variable.name} is {variable.variability} and {variable.type}; "
             "a signal can drive continuous real inputs only, set it as an override"
         )
 
@@ -83,7 +81,7 @@ def check_override(model: Model, name: str, value: float) -> None:
     """
     why = _objection(model, model[name], value)
     if why:
-        raise BadInput(f"{model.path.name}: {name} {why}")
+        raise BadInput(f"{model.label}: {name} {why}")
 
 
 def _objection(model: Model, variable: Variable, value: float) -> str:

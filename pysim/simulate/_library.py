@@ -178,7 +178,7 @@ class Library:
         self.jacobian = jacobian_arrays(model)
         self._idle: deque[Instance] = deque()
         if not model.abilities.model_exchange:
-            raise BadInput(f"{model.path.name} is for co-simulation only; export it for model exchange as well")
+            raise BadInput(f"{model.label} is for co-simulation only; export it for model exchange as well")
 
     def _load(self) -> Instance:
         kind = FMU2Model if self.model.abilities.fmi == 2 else FMU3Model
@@ -245,4 +245,4 @@ def _try_instance(library: Library) -> None:
         with library.instance():
             pass
     except CallFailed as error:
-        raise BadInput(f"{library.model.path.name}: {error}; export it again") from error
+        raise BadInput(f"{library.model.label}: {error}; export it again") from error

@@ -20,7 +20,7 @@ Array = NDArray[np.float64]
 # Both masters make the same calls; only times differ, by their last bit: libcosim counts nanoseconds. The pulses of the
 # rig's speed sensor are events, which enlarge that.
 LIMIT = 1e-9
-MISSING = "libcosimpy is not installed (pip install libcosimpy, or hydraulic-test-bench[libcosim])"
+MISSING = "libcosimpy is not installed (pip install libcosimpy)"
 
 
 def run() -> Iterator[Finding]:

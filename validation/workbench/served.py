@@ -19,7 +19,7 @@ _PROGRAMS = ("chromium", "chromium-browser", "google-chrome")
 def missing() -> str:
     """What is not there that a page needs, "" where all is."""
     for module, cure in (
-        ("nicegui", "pip install hydraulic-test-bench[app]"),
+        ("nicegui", 'pip install ".[app]"'),
         ("playwright", "pip install playwright"),
     ):
         if importlib.util.find_spec(module) is None:

@@ -176,9 +176,9 @@ def parameter_space(
 def _settable(model: Model, name: str) -> Variable:
     variable = model[name]
     if variable.start is None or variable.variability == "constant" or variable.causality in ("input", "independent"):
-        raise BadInput(f"fit: {name} of {model.path.name} cannot be set; choose a parameter or the start of a state")
+        raise BadInput(f"fit: {name} of {model.label} cannot be set; choose a parameter or the start of a state")
     if variable.type not in ("Real", "Float64", "Float32"):
-        raise BadInput(f"fit: {name} of {model.path.name} is {variable.type}; only real numbers can be fitted")
+        raise BadInput(f"fit: {name} of {model.label} is {variable.type}; only real numbers can be fitted")
     return variable
 
 

@@ -19,6 +19,7 @@ Array = NDArray[np.float64]
 
 LEVEL = 0.95
 # A parameter counts as undetermined when moving it alone moves along an exact direction by more than this share.
+_FARTHEST = 500.0  # logarithm of how many times a value may be off: beyond, nothing is known of it
 _TOUCHED = 1e-2
 # Nearer than this share of its standard deviation, or of the bounds' distance, an estimate stands at its bound.
 _AT_BOUND = 1e-6
@@ -118,7 +119,8 @@ def _interval(space: ParameterSpace, i: int, value: float, reach: float, at: str
     if not math.isfinite(reach):
         return lower, upper
     if space.log[i] and not at:
-        low, high = value * math.exp(-reach / value), value * math.exp(reach / value)
+        share = min(reach / value, _FARTHEST)
+        low, high = value * math.exp(-share), value * math.exp(share)
     else:
         low, high = value - reach, value + reach
     low, high = (value, high) if at == "lower" else (low, value) if at == "upper" else (low, high)

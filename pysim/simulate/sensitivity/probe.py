@@ -87,7 +87,7 @@ def value_of(model: Model, experiment: Experiment, name: str) -> float:
     """
     value = experiment.overrides.get(name, model[name].start)
     if value is None:
-        raise BadInput(f"{model.path.name}: {name} has no value to differentiate at; give it one in the overrides")
+        raise BadInput(f"{model.label}: {name} has no value to differentiate at; give it one in the overrides")
     return float(value)
 
 
@@ -98,7 +98,7 @@ def both_sides(model: Model, experiment: Experiment, name: str, share: float) ->
     up = value + step if variable.max is None else min(value + step, max(variable.max, value))
     down = value - step if variable.min is None else max(value - step, min(variable.min, value))
     if not up > down:
-        raise BadInput(f"{model.path.name}: {name} cannot be moved from {value}: its min and max leave no room")
+        raise BadInput(f"{model.label}: {name} cannot be moved from {value}: its min and max leave no room")
     return experiment.override(**{name: up}), experiment.override(**{name: down}), up - down
 
 

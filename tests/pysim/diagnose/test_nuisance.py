@@ -5,7 +5,9 @@ import pytest
 
 from pysim.diagnose.nuisance import GAIN, OFFSET, SHIFT, Span, Suspect, columns, suspects
 from pysim.identify.greybox.harmonics import interpolation
-from pysim.identify.greybox.target import Simulated
+from pysim.identify.greybox.table_target import TableTarget
+from pysim.identify.greybox.target import Run, Simulated
+from pysim.types import Experiment, FrequencyResponse, SineTest
 from tests.pysim.diagnose.logs import sines, wave
 
 SUSPECTS = (Suspect(GAIN, "data", "y"), Suspect(OFFSET, "data", "y"), Suspect(SHIFT, "data", ""))
@@ -50,6 +52,18 @@ def test_stepped_sines_change_as_their_columns_say() -> None:
         by_shift = (log.onto @ orbit(log, step) - log.onto @ orbit(log, -step)) / 0.1 / (2 * step)
         assert found[rows, 2] == pytest.approx(by_shift[:, 0], rel=1e-4, abs=1e-4 * np.abs(by_shift).max())
     assert interpolation(log.phase, log.points).shape == (log.phase.size, log.points)
+
+
+def test_a_table_has_rows_that_no_nuisance_moves() -> None:
+    frequency = np.array([0.1, 1.0, 5.0])
+    response = FrequencyResponse(frequency, np.ones(3), np.zeros(3), SineTest(0.0, 1.0, "u", "y"), "a table")
+    run = Run("table.csv", Experiment(np.linspace(0, 1, 9), ("y",)))
+    target = TableTarget("data", "table.csv", "fit", response, (run,) * 3, None)
+    angle = 2 * np.pi * np.arange(9) / 9
+    answers = [Simulated(np.sin(angle)[:, None], np.zeros((9, 1, 0)))] * 3
+    found = columns(target, [answer.values for answer in answers], SUSPECTS)
+    assert found.shape == (target.weighted(answers).values.size, 3)
+    assert not found.any()
 
 
 def test_what_is_across_has_nothing_along() -> None:

@@ -116,6 +116,14 @@ def test_an_estimate_at_its_bound_has_a_one_sided_interval(lag: Model) -> None:
     assert found["T"].at == ""
 
 
+def test_a_parameter_that_hardly_shows_is_open_to_its_bounds(lag: Model) -> None:
+    t = np.arange(0, 3, 0.02)
+    noise = m.NOISE * np.random.default_rng(3).standard_normal(t.size)
+    found = fit(problem(lag, [m.dataset([m.log(t, 1e-6 * t, noise)])], ["K"]), simulation=TIGHT)
+    assert found["K"].std > 1e3
+    assert found["K"].interval == (0.1, 10.0)
+
+
 def test_points_that_do_not_run_are_survived(lag: Model) -> None:
     """ln(1 - fragile) is no number from 1 on: the search has to come back from there."""
     t = np.arange(0, 3, 0.02)
