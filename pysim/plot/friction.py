@@ -8,9 +8,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
-from scipy.stats import t as student
 
-from pysim.identify.friction import FRICTION_NAMES, FrictionFit, friction_slopes, friction_torque
+from pysim.identify.friction import FrictionFit, friction_slopes, friction_torque
 from pysim.plot.style import BAND, COLOURS, LIMIT, MEASURED, TEXT, legend_above, new_figure, quiet
 
 Array = NDArray[np.float64]
@@ -76,10 +75,7 @@ def _blind(axes: Axes, fit: FrictionFit) -> Any:
 def _half_width(fit: FrictionFit, speed: Array) -> Array:
     """Of the 95 percent band by the covariance, N.m; Student's, with the freedom that `fit.intervals` count."""
     slopes = friction_slopes(fit.vector, speed)
-    freedom = max(fit.effective - (len(FRICTION_NAMES) - len(fit.bounded)), 1.0)
-    return float(student.ppf(0.975, freedom)) * np.sqrt(
-        np.maximum(np.einsum("ni,ij,nj->n", slopes, fit.covariance, slopes), 0.0)
-    )
+    return fit.quantile * np.sqrt(np.maximum(np.einsum("ni,ij,nj->n", slopes, fit.covariance, slopes), 0.0))
 
 
 def _open_ends(fit: FrictionFit, speed: Array) -> tuple[Array, Array]:

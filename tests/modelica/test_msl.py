@@ -69,7 +69,7 @@ def test_versions_it_uses_are_those_there_are() -> None:
 
 def ran(name: str, stop: float, recorded: tuple[str, ...]) -> Record:
     assert STANDARD is not None
-    libraries = [STANDARD / "Modelica", STANDARD / "ModelicaServices", JOINED]  # Complex.mo is found on the path
+    libraries = [STANDARD / "Modelica", STANDARD / "ModelicaServices", JOINED]
     model = read_model(fmu_build.build(f"HydraulicTestBenchMSL.Examples.{name}", libraries=libraries))
     run = Experiment(np.linspace(0, stop, 501), recorded)
     return simulate(model, run, solver=Rodas(rtol=1e-7, atol=1e-7))

@@ -60,6 +60,11 @@ class FrictionFit:
         return np.array([self.parameters[name] for name in FRICTION_NAMES])
 
     @property
+    def quantile(self) -> float:
+        """Half of a 95 percent interval over the standard deviation: Student's, by the independent samples."""
+        return _quantile(self.effective, len(FRICTION_NAMES) - len(self.bounded))
+
+    @property
     def rms(self) -> float:
         """Root-mean-square residual, N.m."""
         return float(np.sqrt(np.mean(self.residuals**2)))
@@ -68,6 +73,10 @@ class FrictionFit:
     def blind_below(self) -> float:
         """The slowest speed that was seen, rad/s; below it the curve is the law's, not the data's."""
         return float(min(np.abs(s.speed).min() for s in self.samples))
+
+
+def _quantile(effective: float, free: int) -> float:
+    return float(student.ppf(0.975, max(effective - free, 1.0)))
 
 
 @dataclass(frozen=True)
@@ -119,7 +128,7 @@ def fit_friction(
     free = np.array([not found.is_open, True, True, True])
     covariance = np.zeros((4, 4))
     covariance[np.ix_(free, free)] = score_covariance(slopes[:, free], errors, rows.lengths, length)
-    half = float(student.ppf(0.975, max(effective - free.sum(), 1.0))) * np.sqrt(np.diag(covariance))
+    half = _quantile(effective, int(free.sum())) * np.sqrt(np.diag(covariance))
     intervals = {
         name: (float(max(low[i], estimate[i] - half[i])), float(min(high[i], estimate[i] + half[i])))
         for i, name in enumerate(FRICTION_NAMES)
