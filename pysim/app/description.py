@@ -8,10 +8,9 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from pysim.io import SI, read_dataset_partly, read_toml, write_file
+from pysim.io import read_dataset_partly, read_toml, write_file
 from pysim.types import BadInput, Dataset
 
-UNITS = tuple(SI)
 _SINE = "frequency-response"
 
 

@@ -5,14 +5,10 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from pysim.io import SI
-from pysim.types import BadInput
+from pysim.types import BadInput, conversion
 
 # Two factors, or offsets, that are the same number, written with fewer digits.
 _SAME = 1e-6
-
-# Units with a zero of their own: kelvin = factor * value + offset.
-_KELVIN = {"K": (1.0, 0.0), "degC": (1.0, 273.15), "degF": (5 / 9, 459.67 * 5 / 9)}
 
 
 @dataclass(frozen=True)
@@ -56,7 +52,7 @@ class Connection:
         """
         if source == target:
             return
-        needed = conversion(source, target)
+        needed = signal_conversion(source, target)
         if needed is None:
             if self.factor is None:
                 self._refuse(source, target, "connect another, or give the factor you know")
@@ -79,18 +75,11 @@ class Connection:
         raise BadInput(f"connection {self}: the output is in {source!r}, the input in {target!r}; {cure}")
 
 
-def conversion(source: str, target: str) -> tuple[float, float] | None:
-    """Factor and offset from one unit to another; None where they are of different kinds or unknown."""
-    if source == target:
-        return 1.0, 0.0
+def signal_conversion(source: str, target: str) -> tuple[float, float] | None:
+    """Factor and offset from one unit to another, "1" and "%" included; None for different kinds or unknown ones."""
     if {source, target} == {"1", "%"}:
         return (100.0 if target == "%" else 0.01), 0.0
-    if source in _KELVIN and target in _KELVIN:
-        (slope, zero), (other, other_zero) = _KELVIN[source], _KELVIN[target]
-        return slope / other, (zero - other_zero) / other
-    if source not in SI or target not in SI or SI[source][0] != SI[target][0]:
-        return None
-    return SI[source][1] / SI[target][1], 0.0
+    return conversion(source, target)
 
 
 def _cure(factor: float, offset: float) -> str:

@@ -142,5 +142,5 @@ def _test(section: Section, kind: str, scale: Scale) -> tuple[float | None, floa
             "remove it, or correct the kind"
         )
     offset, amplitude = section.optional_number("offset"), section.positive("amplitude")
-    offset = None if offset is None else scale.si(offset)
+    offset = None if offset is None else scale.number(offset)
     return offset, None if amplitude is None else scale.gain * amplitude, section.positive("frequency")

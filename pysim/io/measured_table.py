@@ -26,7 +26,7 @@ def read_measured_table(folder: Path, section: Section, signals: Mapping[str, Me
     source = section.source()
     command, output = (_signal_of_role(section, role, tuple(signals.values())) for role in ("input", "output"))
     driven = Scale.of(signals[command].unit)
-    offset, amplitude = driven.si(section.number("offset")), driven.gain * section.number("amplitude")
+    offset, amplitude = driven.number(section.number("offset")), driven.gain * section.number("amplitude")
     test = SineTest(offset, amplitude, input=command, output=output)
     use = section.text("use", "fit", among=("fit", "validate"))
     names = section.texts("columns")

@@ -8,15 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from pysim.io.units import Scale
-from pysim.types import (
-    Dataset,
-    FrequencyResponse,
-    MeasuredRecord,
-    MeasuredSignal,
-    Model,
-    Record,
-    conversion,
-)
+from pysim.types import Dataset, FrequencyResponse, MeasuredRecord, Model, Record, conversion
 
 
 def in_model_units(dataset: Dataset, model: Model) -> Dataset:
@@ -37,16 +29,9 @@ def in_model_units(dataset: Dataset, model: Model) -> Dataset:
         return dataset
     return replace(
         dataset,
-        signals=tuple(_signal(signal, scales.get(signal.name)) for signal in dataset.signals),
+        signals=tuple(scales[s.name].signal(s) if s.name in scales else s for s in dataset.signals),
         records=tuple(_record(record, dataset, scales) for record in dataset.records),
     )
-
-
-def _signal(signal: MeasuredSignal, scale: Scale | None) -> MeasuredSignal:
-    if scale is None:
-        return signal
-    noise, resolution = (None if v is None else scale.gain * v for v in (signal.noise, signal.resolution))
-    return replace(signal, unit=scale.unit, noise=noise, resolution=resolution)
 
 
 def _record(record: MeasuredRecord, dataset: Dataset, scales: Mapping[str, Scale]) -> MeasuredRecord:
@@ -60,7 +45,7 @@ def _record(record: MeasuredRecord, dataset: Dataset, scales: Mapping[str, Scale
     scale = scales.get(command)
     if scale is None:
         return replace(record, data=moved)
-    offset = None if record.offset is None else scale.si(record.offset)
+    offset = None if record.offset is None else scale.number(record.offset)
     amplitude = None if record.amplitude is None else scale.gain * record.amplitude
     return replace(record, data=moved, offset=offset, amplitude=amplitude)
 
@@ -78,7 +63,7 @@ def _response(response: FrequencyResponse, scales: Mapping[str, Scale]) -> Frequ
     return replace(
         response,
         gain=response.gain * (answer.gain / driven.gain),
-        test=replace(test, offset=driven.si(test.offset), amplitude=driven.gain * test.amplitude),
+        test=replace(test, offset=driven.number(test.offset), amplitude=driven.gain * test.amplitude),
         mean=None if response.mean is None else response.mean * answer.gain + answer.zero,
         covariance=None if response.covariance is None else response.covariance * np.outer(spread, spread),
     )

@@ -128,7 +128,7 @@ def _record(folder: Path, log: _Named, signals: dict[str, MeasuredSignal]) -> Me
     if offset is None or amplitude is None:
         offset, amplitude = _swing(log, columns, command.name)
     driven = scales[command.name]
-    test = driven.si(offset), driven.gain * amplitude, log.frequency
+    test = driven.number(offset), driven.gain * amplitude, log.frequency
     return MeasuredRecord(source, "frequency-response", "fit", data, *test, command=command.name)
 
 

@@ -23,21 +23,14 @@ def shown_value(value: float, unit: str, form: str = "g") -> str:
     return f"{factor * value:{form}} {'' if shown == '-' else shown}".rstrip()
 
 
-def signal_in_si(signal: MeasuredSignal) -> MeasuredSignal:
-    """A signal that was described in the unit of its files, with unit, noise and resolution in SI."""
-    unit, factor, _ = in_si(signal.unit)
-    noise, resolution = (None if v is None else factor * v for v in (signal.noise, signal.resolution))
-    return replace(signal, unit=unit, noise=noise, resolution=resolution)
-
-
 @dataclass(frozen=True)
 class Scale:
-    """How the numbers of a file become those of a signal in SI: gain * number + zero.
+    """How numbers in one unit become those in another: gain * number + zero.
 
     Args:
-        unit: SI.
-        gain: SI units per one in the file.
-        zero: what a zero in the file is, in `unit`.
+        unit: the other one.
+        gain: how many of it each is.
+        zero: where zero lies in it.
     """
 
     unit: str
@@ -46,13 +39,23 @@ class Scale:
 
     @classmethod
     def of(cls, unit: str, factor: float = 1.0, offset: float = 0.0) -> Scale:
-        """Of a file whose numbers are in `unit` once they are multiplied by the factor and the offset is added."""
+        """To SI, of numbers that are in `unit` once they are multiplied by the factor and the offset is added."""
         si, many, zero = in_si(unit)
         return cls(si, many * factor, many * offset + zero)
 
-    def si(self, number: float) -> float:
-        """The signal where the file has this number."""
+    def number(self, number: float) -> float:
+        """A number in the other unit."""
         return self.gain * number + self.zero if self.zero else self.gain * number
+
+    def signal(self, signal: MeasuredSignal) -> MeasuredSignal:
+        """A signal in the other unit, its noise and resolution too."""
+        noise, resolution = (None if v is None else self.gain * v for v in (signal.noise, signal.resolution))
+        return replace(signal, unit=self.unit, noise=noise, resolution=resolution)
+
+
+def signal_in_si(signal: MeasuredSignal) -> MeasuredSignal:
+    """A signal that was described in the unit of its files, in SI."""
+    return Scale.of(signal.unit).signal(signal)
 
 
 def unit_cure(unit: str, among: Sequence[str] = UNITS) -> str:

@@ -76,12 +76,18 @@ def test_what_was_used_within_a_day_stays(tmp_path, monkeypatch):
     assert all(cached(name) is not None for name in "abc")
 
 
-def test_what_another_process_has_taken_away_meanwhile_does_not_matter(tmp_path, monkeypatch):
+def _two_old_ones(folder, monkeypatch):
+    """FMUs a and b in a cache that keeps none, unused for long; a.fmu in the folder is their file."""
     monkeypatch.setattr(cache, "KEPT_FMUS", 0)
-    (tmp_path / "a.fmu").write_bytes(b"content")
-    old = [store(name, tmp_path / "a.fmu") for name in "ab"]
+    (folder / "a.fmu").write_bytes(b"content")
+    old = [store(name, folder / "a.fmu") for name in "ab"]
     for path in old:
         os.utime(path, (0, 0))
+    return old
+
+
+def test_what_another_process_has_taken_away_meanwhile_does_not_matter(tmp_path, monkeypatch):
+    old = _two_old_ones(tmp_path, monkeypatch)
     listed = Path.glob
 
     def glob(folder, pattern):
@@ -96,11 +102,7 @@ def test_what_another_process_has_taken_away_meanwhile_does_not_matter(tmp_path,
 
 def test_a_file_that_cannot_be_let_go_of_does_not_cost_the_new_one(tmp_path, monkeypatch):
     """Windows keeps a file that a run has open."""
-    monkeypatch.setattr(cache, "KEPT_FMUS", 0)
-    (tmp_path / "a.fmu").write_bytes(b"content")
-    old = [store(name, tmp_path / "a.fmu") for name in "ab"]
-    for path in old:
-        os.utime(path, (0, 0))
+    old = _two_old_ones(tmp_path, monkeypatch)
     let_go = Path.unlink
 
     def unlink(path, missing_ok=False):

@@ -10,12 +10,12 @@ from typing import Any
 
 from nicegui import background_tasks, ui
 
-from pysim.app.description import UNITS, change_description, described
+from pysim.app.description import change_description, described
 from pysim.app.desk import Desk
 from pysim.app.pages.common import amount, attempt, counted
 from pysim.app.parts import Choice, box, button, card, note, text
 from pysim.io import LOG_SUFFIXES, column_names, read_thesis_folder
-from pysim.types import BadInput, MeasuredSignal
+from pysim.types import UNITS, BadInput, MeasuredSignal
 
 _NAMED = (".parquet", ".tdms")  # whose columns are found by name
 _HEADING = re.compile(r"(?P<name>[^\[(]+?)\s*[\[(](?P<unit>[^\])]*)[\])]")

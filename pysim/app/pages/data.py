@@ -8,14 +8,14 @@ from typing import Any
 
 from nicegui import background_tasks, ui
 
-from pysim.app.description import UNITS, change_description, read_description
+from pysim.app.description import change_description, read_description
 from pysim.app.desk import Desk, Loaded
 from pysim.app.pages.bare import describe_form
 from pysim.app.pages.common import amount, attempt, busy, counted, ended, start
 from pysim.app.parts import Chart, Choice, Drop, Table, box, button, card, head, live, note, say, text
 from pysim.app.records import MOST, measured_overlay
 from pysim.identify.data_check import DataCheck, RecordCheck
-from pysim.types import BadInput
+from pysim.types import UNITS, BadInput
 
 MODELS = ("HydraulicTestBench.Pump.FreeGreyBox", "HydraulicTestBench.Pump.LockedGreyBox")
 

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import NamedTuple
 from urllib.parse import unquote, urlsplit
 
-from pysim.cosim.connection import conversion
+from pysim.cosim.connection import signal_conversion
 from pysim.cosim.ssp._names import SSD, SSV
 from pysim.types import BadInput, Model
 
@@ -57,7 +57,7 @@ def in_units_of(path: Path, model: Model, value: Value) -> tuple[str, float]:
         variable = model[value.name]
     except BadInput as error:
         raise BadInput(f"{path}: {error}") from error
-    known = conversion(value.unit or variable.unit, variable.unit)
+    known = signal_conversion(value.unit or variable.unit, variable.unit)
     if known is None:
         raise BadInput(
             f"{path}: {value.name} is given in {value.unit!r}, and the FMU has it in {variable.unit!r}; give it in that"

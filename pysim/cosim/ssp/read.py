@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from pysim.cosim.connection import Connection, conversion
+from pysim.cosim.connection import Connection, signal_conversion
 from pysim.cosim.gauss_seidel import GaussSeidel
 from pysim.cosim.iterated import Iterated
 from pysim.cosim.jacobi import Jacobi
@@ -146,7 +146,7 @@ def _wire(path: Path, element: Element, source: str, target: str, unwired: Syste
         return Connection(source, target, *numbers)
     ends = unwired.outputs.get(source), unwired.inputs.get(target)
     if element.get("suppressUnitConversion") not in ("true", "1") and None not in ends:
-        known = conversion(*(port.unit for port in ends if port is not None))
+        known = signal_conversion(*(port.unit for port in ends if port is not None))
         if known is not None and known != (1.0, 0.0):
             return Connection(source, target, *known)
     return Connection(source, target)

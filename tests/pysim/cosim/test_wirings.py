@@ -75,7 +75,7 @@ def sensible(members: list, wires: list) -> list[tuple[str, str]]:
     return bent
 
 
-@settings(max_examples=1000, deadline=None, derandomize=True, database=None, suppress_health_check=list(HealthCheck))
+@settings(max_examples=1000, derandomize=True, database=None, suppress_health_check=list(HealthCheck))
 @given(wiring)
 def test_every_wiring_runs_or_is_refused_in_one_line(drawn: tuple) -> None:
     kinds, wires, order, doubling, fill = drawn

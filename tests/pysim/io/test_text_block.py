@@ -37,7 +37,7 @@ def logs(draw: st.DrawFn) -> tuple[str, list[list[float]], str]:
     return text, expected, draw(st.sampled_from(["utf-8", "utf-8-sig", "latin-1", "utf-16"]))
 
 
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=300)
 @given(logs())
 def test_every_dialect_gives_the_numbers_that_were_written(
     tmp_path_factory: pytest.TempPathFactory, log: tuple[str, list[list[float]], str]
@@ -55,7 +55,7 @@ def test_every_dialect_gives_the_numbers_that_were_written(
 CHARACTERS = st.text("0123456789.,;\t eE+-_#ab\n", max_size=60)
 
 
-@settings(max_examples=500, deadline=None)
+@settings(max_examples=500)
 @given(CHARACTERS, st.integers(1, 3))
 def test_in_one_go_and_line_by_line_agree_on_anything(text: str, width: int) -> None:
     lines = [line for line in ("1 2 3"[: 2 * width - 1] + "\n" + text).split("\n") if line.strip()]
@@ -103,7 +103,7 @@ def test_the_dialect_of_a_line(line: str, expected: tuple[str | None, bool]) -> 
     assert dialect(line) == expected
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=200)
 @given(
     st.integers(1, 30),  # above it all could be header
     st.integers(0, 2),

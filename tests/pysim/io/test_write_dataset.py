@@ -130,7 +130,7 @@ def test_logs_look_like_those_of_a_bench(tmp_path: Path) -> None:
     ]
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 @given(st.lists(st.floats(-1e9, 1e9).filter(lambda x: x == 0 or abs(x) > 1e-9), min_size=2, max_size=6))
 def test_seven_digits_of_anything(tmp_path_factory: pytest.TempPathFactory, values: list[float]) -> None:
     column = np.array(values)

@@ -76,7 +76,7 @@ def stable_systems(draw):
     return from_roots(zeros, poles, lead)
 
 
-@settings(max_examples=40, deadline=None, derandomize=True)
+@settings(max_examples=40, derandomize=True)
 @given(stable_systems(), st.booleans())
 def test_random_stable_systems_come_back_from_exact_data(function: TransferFunction, stable: bool) -> None:
     frequency = np.geomspace(0.1, 40, 60)
