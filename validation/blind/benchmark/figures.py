@@ -240,7 +240,7 @@ def time_figures(
         return (one.verdict, one.added) == (pair[1].verdict, pair[1].added)
 
     def comparable(pair: Pair) -> bool:
-        return pair[0].name in answers and answers[pair[0].name].code == pair[1].code
+        return pair[0].name in answers
 
     two = paired(table, clocked)
     yield _share("diagnosed within 60 s, two cores", two, soon, (100, 100), timed, "models compiled")

@@ -1,4 +1,4 @@
-"""All that was stored of the cases, folder by folder."""
+"""What was stored of the cases and stands for this code, folder by folder."""
 
 from __future__ import annotations
 
@@ -6,6 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from validation.blind.benchmark.answer import Answer
+from validation.blind.benchmark.carry import Carried, read_carried, standing
+from validation.blind.benchmark.fingerprint import fingerprint
 from validation.blind.benchmark.store import CLOCKED, FOLLOWED, PLACES, Store
 
 
@@ -18,14 +20,33 @@ class Kept:
         places: where effects were located.
         followed: what became of ties once the next test was carried out.
         clocked: how long cases took with two cores.
+        stale: how many verdicts of other code are stored that do not count.
+        carried: why those of other code that are among `answers` count.
     """
 
     answers: Mapping[str, Answer] = field(default_factory=dict)
     places: Mapping[str, Answer] = field(default_factory=dict)
     followed: Mapping[str, Answer] = field(default_factory=dict)
     clocked: Mapping[str, Answer] = field(default_factory=dict)
+    stale: int = 0
+    carried: tuple[Carried, ...] = ()
 
 
 def read_kept(answers: Store | None = None) -> Kept:
     """What this package holds; its verdicts, or those of another folder."""
-    return Kept((answers or Store()).read(), Store(PLACES).read(), Store(FOLLOWED).read(), Store(CLOCKED).read())
+    verdicts, code = answers or Store(), fingerprint()
+    counted = _standing(verdicts, code)
+    codes = standing(verdicts, code)
+    return Kept(
+        counted,
+        _standing(Store(PLACES), fingerprint(places=True)),
+        _standing(Store(FOLLOWED), code),
+        _standing(Store(CLOCKED), code),
+        len(verdicts.read()) - len(counted),
+        tuple(step for step in read_carried(verdicts) if step.newer in codes),
+    )
+
+
+def _standing(store: Store, code: str) -> dict[str, Answer]:
+    codes = standing(store, code)
+    return {name: answer for name, answer in store.read().items() if answer.code in codes}

@@ -40,7 +40,7 @@ def write_report(table: Sequence[Case], kept: Kept, folder: Path) -> tuple[Path,
 def _lines(table: Sequence[Case], kept: Kept) -> Iterator[str]:
     answered = paired(table, kept.answers)
     named = [pair for pair in answered if pair[0].kind == "named"]
-    yield from tables.provenance(answered, len(table))
+    yield from tables.provenance(answered, len(table), kept)
     yield ""
     yield from tables.figure_table(figures(table, kept))
     for title, picture, rows in (

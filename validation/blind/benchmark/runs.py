@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 import zlib
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from fnmatch import fnmatchcase
@@ -65,6 +65,7 @@ def run(
     task: Task,
     code: str,
     *,
+    alike: Collection[str] = (),
     workers: int = 2,
     limit: float = 900.0,
     say: Callable[[str], None] = print,
@@ -73,13 +74,14 @@ def run(
 
     Args:
         code: fingerprint; answers of another code are given again.
+        alike: other codes whose answers stand for this one.
         workers: processes, of one thread each.
         limit: s for one case, judging and the start of its process included.
     Returns:
         how many cases were answered.
     """
     known = store.read()
-    open_ = [case for case in chosen if case.name not in known or known[case.name].code != code]
+    open_ = [case for case in chosen if case.name not in known or known[case.name].code not in (code, *alike)]
     say(f"{len(open_)} of {len(chosen)} cases to answer, code {code}")
     blank = Answer("", code, datetime.now(UTC).date().isoformat())
     begun = time.monotonic()

@@ -8,6 +8,7 @@ from collections.abc import Iterable, Iterator, Sequence
 import numpy as np
 
 from validation.blind.benchmark.figures import VISIBLE, Figure, Pair, right_first, tied
+from validation.blind.benchmark.kept import Kept
 from validation.blind.benchmark.logistic import rise
 from validation.blind.benchmark.pictures import confusion
 from validation.blind.benchmark.slots import SLOTS
@@ -28,8 +29,8 @@ def figure_table(figures: Iterable[Figure]) -> Iterator[str]:
         yield f"| {label} | {f.hits} of {f.of} | {share} | {interval} | {f.words} | {_MARKS[f.holds]} |"
 
 
-def provenance(answered: Sequence[Pair], asked: int) -> Iterator[str]:
-    """How many, when, and by which code."""
+def provenance(answered: Sequence[Pair], asked: int, kept: Kept) -> Iterator[str]:
+    """How many, when, and by which code; why older ones count, and how many do not."""
     yield f"{len(answered)} of {asked} cases answered."
     groups: dict[str, list[str]] = {}
     for _, answer in answered:
@@ -37,6 +38,13 @@ def provenance(answered: Sequence[Pair], asked: int) -> Iterator[str]:
     for code, days in sorted(groups.items(), key=lambda item: -len(item[1])):
         span = min(days) if min(days) == max(days) else f"{min(days)} to {max(days)}"
         yield f"Code `{code}`: {len(days)} cases, {span}."
+    for step in kept.carried:
+        yield (
+            f"Code `{step.newer}` answers as `{step.older}` did: {len(step.cases)} cases, drawn with seed {step.seed}, "
+            f"were answered again on {step.day}, and no field differed."
+        )
+    if kept.stale:
+        yield f"{kept.stale} stored answers of other code are not counted."
 
 
 def cost(answered: Sequence[Pair]) -> Iterator[str]:

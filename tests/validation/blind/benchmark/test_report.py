@@ -10,6 +10,7 @@ import pytest
 from pysim.types import BadInput
 from validation.blind.benchmark import tables
 from validation.blind.benchmark.answer import Answer
+from validation.blind.benchmark.carry import Carried
 from validation.blind.benchmark.figures import Pair, figures, paired
 from validation.blind.benchmark.kept import Kept
 from validation.blind.benchmark.pictures import LEFT_OUT, confusion, confusion_picture, naming_picture
@@ -53,6 +54,13 @@ def test_readme_keeps_what_is_written_by_hand(tmp_path: Path) -> None:
     assert all(path.stat().st_size > 5000 for path in written[1:])
     write_report(TABLE, Kept(ANSWERS), tmp_path)
     assert readme.read_text() == text
+
+
+def test_why_older_answers_count_and_how_many_do_not() -> None:
+    step = Carried("0ld", "n3w", "2026-02-03", 7, ("a", "b"))
+    text = list(tables.provenance(paired(TABLE, ANSWERS), len(TABLE), Kept(ANSWERS, stale=4, carried=(step,))))
+    assert "Code `n3w` answers as `0ld` did: 2 cases, drawn with seed 7, were answered again on 2026-02-03" in text[2]
+    assert text[3] == "4 stored answers of other code are not counted."
 
 
 def test_readme_without_marks_is_refused(tmp_path: Path) -> None:
