@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -57,32 +56,6 @@ def _example(model: Model) -> str:
     name, start = ("NAME", 0.0) if found is None or found.start is None else (found.name, found.start)
     low, high = sorted((0.1 * start, 10 * start))
     return f"--free {name} --bounds {name}={low:g}:{high:g}" if start else "--free NAME --bounds NAME=LOW:HIGH"
-
-
-def stand_in(
-    model: Model, overrides: Mapping[str, float]
-) -> tuple[Model, dict[str, float], dict[str, tuple[float, float]]]:
-    """For a comparison that refits nothing: the diagnosis takes a model with a free number only, so it gets one that
-    stays where it is.
-
-    Returns:
-        the model, what is set in it, and the free number between bounds that are far from it. Where everything was
-        set, one of these values becomes the model's own.
-    Raises:
-        BadInput: a model without any number that could be set.
-    """
-    from pysim.types import BadInput
-
-    left = dict(overrides)
-    found = next((v for v in _settable(model) if v.name not in left), None)
-    if found is None and left:
-        name, value = left.popitem()
-        found = replace(model[name], start=value)
-        model = replace(model, variables=tuple(found if v.name == name else v for v in model.variables))
-    if found is None or found.start is None:
-        raise BadInput(f"{model.label} has no real parameter or start value that could be set")
-    reach = max(abs(found.start), abs(found.nominal or 0.0)) or 1.0
-    return model, left, {found.name: (found.start - reach, found.start + reach)}
 
 
 def _settable(model: Model) -> list[Variable]:

@@ -237,7 +237,7 @@ def _conditions(given: Given, args: argparse.Namespace, redo: str) -> dict[str, 
         "model": f"{given.model_name}, FMI {model.abilities.fmi}, token {model.token}",
         "data set": f"{given.dataset.name}, {len(given.dataset.records)} records, {args.data}",
         "libraries": ", ".join(str(library) for library in given.libraries) or "the one that comes along",
-        "free parameters": ", ".join(given.free) or "none",
+        "free parameters": ", ".join(given.subject.free) or "none",
         "parameters set": ", ".join(f"{name} = {value:g}" for name, value in given.overrides.items()) or "none",
         "candidates": ", ".join(effect.name for effect in given.subject.catalogue) or "none",
     }

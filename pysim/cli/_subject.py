@@ -25,7 +25,6 @@ class Given:
         variants: builds models with effects; None where the model's class is not at hand.
         overrides: parameters that were set, in the variables' units.
         libraries: the user's own, beside the one that comes along.
-        stand_in: whether the one free number stands in for none, in a comparison that refits nothing.
     """
 
     subject: Subject
@@ -33,12 +32,6 @@ class Given:
     variants: Variants | None
     overrides: dict[str, float]
     libraries: tuple[Path, ...]
-    stand_in: bool = False
-
-    @property
-    def free(self) -> tuple[str, ...]:
-        """Parameters that may be refitted."""
-        return () if self.stand_in else self.subject.free
 
     @property
     def model_name(self) -> str:
@@ -106,7 +99,7 @@ def read_subject(args: argparse.Namespace, *, refits: bool = True) -> Given:
     Raises:
         BadInput: what cannot be read, or does not go together. BuildError: a model that does not compile.
     """
-    from pysim.cli._free import free_parameters, stand_in
+    from pysim.cli._free import free_parameters
     from pysim.cli._measurements import read_measurements
     from pysim.cli._options import bounded, names_of, read_parameters
     from pysim.cli._variants import Variants
@@ -125,19 +118,18 @@ def read_subject(args: argparse.Namespace, *, refits: bool = True) -> Given:
     inside = Inside(slots(class_name, libraries), variants.probed) if variants else None
     overrides, bounds = read_parameters(args, model), bounded(args.bounds)
     free = free_parameters(model, names_of(args.free), bounds, overrides, needed=refits)
-    run, left, moved = (model, overrides, bounds) if free else stand_in(model, overrides)
     given = subject(
-        run,
+        model,
         dataset,
         catalogue,
         variants,
-        free=free or tuple(moved),
-        bounds=moved,
-        overrides=left,
+        free=free,
+        bounds=bounds,
+        overrides=overrides,
         inside=inside,
         notes=tuple(notes),
     )
-    return Given(given, dataset, variants, overrides, tuple(args.library), stand_in=not free)
+    return Given(given, dataset, variants, overrides, tuple(args.library))
 
 
 def _diagnosed(dataset: Dataset) -> tuple[Dataset, list[str]]:

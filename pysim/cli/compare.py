@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import json
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -86,8 +85,6 @@ def _story(args: argparse.Namespace) -> int:
             journal=journal,
         ),
     )
-    if not given.free:  # what stood in for one is nobody's estimate
-        found = replace(found, parameters=())
     print(comparison_sentence(found), evidence_text(found), sep="\n\n")
     answer = comparison_sentence(found)
     finish(found, given, args, "compare", question="How far is the model from its measurements?", answer=answer)

@@ -95,7 +95,7 @@ def subject(
     catalogue: Sequence[Effect],
     build_variant: BuildVariant | None,
     *,
-    free: Sequence[str] = (),
+    free: Sequence[str] | None = None,
     bounds: Mapping[str, tuple[float, float]] | None = None,
     overrides: Mapping[str, float] | None = None,
     rest: Rest | None = None,
@@ -105,7 +105,8 @@ def subject(
     """Bring everything together.
 
     Args:
-        free: parameters that may be refitted; where empty, all that the model gives min, max and nominal.
+        free: parameters that may be refitted; all that the model gives min, max and nominal where None. None of them
+            for a model that is only compared as it is.
         bounds: free parameter -> lower and upper bound in its unit, in place of the model's min and max.
         overrides: parameters of the model that differ in these tests.
         rest: how the model comes to rest ahead of a log; as the thesis' bench did where None.
@@ -115,10 +116,10 @@ def subject(
         BadInput: no free parameter, bounds of what is not free, a data set and a model that do not fit together, or
             measurements that cannot carry a diagnosis.
     """
-    names = tuple(free) or identifiable(model)
+    names = identifiable(model) if free is None else tuple(free)
     for name in bounds or {}:
         if name not in names:
-            raise BadInput(f"{name} has bounds but is not free; free are {', '.join(names)}")
+            raise BadInput(f"{name} has bounds but is not free; free are {', '.join(names) or 'none'}")
     given = Subject(model, (), names, tuple(catalogue), build_variant, dataset=dataset, bounds=bounds or {})
     given = replace(given, inside=inside)
     data = Measurements(dataset, overrides=overrides or {})

@@ -80,9 +80,11 @@ def fit(
     Returns:
         the best of all searches. Records held out are compared, never fitted.
     Raises:
-        BadInput: nothing to fit for this objective, an optimiser that cannot minimise it, or a model that could not
-            be simulated at any start.
+        BadInput: nothing free, nothing to fit for this objective, an optimiser that cannot minimise it, or a model
+            that could not be simulated at any start.
     """
+    if not problem.space.size:
+        raise BadInput("fit: name at least one free parameter")
     simulation, effort = simulation or Simulation(), effort or Effort()
     optimiser = optimiser or (GaussNewton() if objective.squares else InteriorPoint())
     if optimiser.smooth_only and not objective.squares:

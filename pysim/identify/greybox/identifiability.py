@@ -46,7 +46,7 @@ def identifiability(keys: Sequence[str], slopes: Array, *, noise: float = 1.0) -
     empty = np.zeros((max(len(keys) - slopes.shape[0], 0), len(keys)))
     triangle = np.linalg.qr(np.vstack([slopes, empty]), mode="r")  # as many rows as parameters, not as residuals
     _, size, rows = np.linalg.svd(triangle)
-    none = size <= EXACT * max(size[0], np.finfo(float).tiny)
+    none = size <= EXACT * max(size.max(initial=0.0), np.finfo(float).tiny)
     exact = _sparse(rows[none].T)
     found = [_exact_direction(keys, column) for column in exact.T]
     for value, row in zip(size[~none][::-1], rows[~none][::-1], strict=True):

@@ -136,11 +136,9 @@ def parameter_space(
     """Take bounds and start values from the model where they are not given, and check everything once.
 
     Raises:
-        BadInput: nothing free, a name twice, a start outside its bounds, a logarithmic scale down to zero, a tie to
+        BadInput: a name twice, a start outside its bounds, a logarithmic scale down to zero, a tie to
             what is not free, or a variable that cannot be set.
     """
-    if not free:
-        raise BadInput("fit: name at least one free parameter")
     keys = [parameter.key for parameter in free]
     everything = [*keys, *(tie.name for tie in ties), *(fixed or {})]
     for name in everything:
@@ -157,7 +155,8 @@ def parameter_space(
         _settable(model, name)
         if not math.isfinite(value):
             raise BadInput(f"fit: {name} is fixed at {value}; give a finite number in {model[name].unit}")
-    start, lower, upper, scale, log = (np.array(column) for column in zip(*rows, strict=True))
+    columns = zip(*rows, strict=True) if rows else ((),) * 5
+    start, lower, upper, scale, log = (np.array(column) for column in columns)
     return ParameterSpace(
         keys=tuple(keys),
         variables=tuple(parameter.name for parameter in free),

@@ -7,9 +7,9 @@ import pytest
 
 from fmu_build import build
 from pysim.cli import main
-from pysim.cli._free import free_parameters, stand_in
-from pysim.io import read_model, write_dataset
-from pysim.types import BadInput, Model
+from pysim.cli._free import free_parameters
+from pysim.io import write_dataset
+from pysim.types import BadInput
 from tests.foreign import made_foreign
 from tests.pysim.diagnose.toy import base, library, measured
 
@@ -89,18 +89,3 @@ def test_free_are_those_of_the_model_and_those_with_bounds() -> None:
     assert free_parameters(base(), [], {}, {"d": 1.0}, needed=True) == ("m", "k")
     assert free_parameters(base(), [], {"x": (0.0, 1.0)}, {}, needed=True) == ("m", "d", "k", "x")
     assert free_parameters(base(), ["k"], {}, {}, needed=True) == ("k",)
-
-
-def test_what_stands_in_stays_where_it_is(foreign: Path) -> None:
-    model: Model = read_model(foreign)
-    same, left, free = stand_in(model, {"m": 2.0})
-    assert same is model
-    assert left == {"m": 2.0}
-    ((name, (low, high)),) = free.items()
-    assert low < model[name].start < high
-    everything = {v.name: 3.0 for v in model.variables if v.causality == "parameter"}
-    states = dict.fromkeys(model.abilities.states, 0.5)
-    moved, left, free = stand_in(model, everything | states)
-    ((name, (low, high)),) = free.items()
-    assert name not in left
-    assert moved[name].start == (everything | states)[name] == pytest.approx((low + high) / 2)

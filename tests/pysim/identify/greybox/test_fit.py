@@ -210,6 +210,8 @@ def test_a_killed_fit_resumes_bit_for_bit(lag: Model, tmp_path: Path) -> None:
 def test_what_cannot_be_fitted_is_refused(lag: Model) -> None:
     data = [m.dataset([m.ramp_log(2.0, 0.7, seed=2)])]
     task = problem(lag, data, ["K"])
+    with pytest.raises(BadInput, match="at least one free parameter"):
+        fit(problem(lag, data, []))
     with pytest.raises(BadInput, match="needs frequency data"):
         fit(task, objective=FREQUENCY)
     with pytest.raises(BadInput, match="sum of squares"):

@@ -40,7 +40,6 @@ def test_ties_and_records_reach_the_runs_they_belong_to(lag: Model) -> None:
 @pytest.mark.parametrize(
     ("free", "more", "message"),
     [
-        ([], {}, "at least one free"),
         ([Parameter("K"), Parameter("K")], {}, "named twice"),
         ([Parameter("K")], {"fixed": {"K": 1.0}}, "named twice"),
         ([Parameter("K", start=20.0)], {}, "outside its bounds"),
