@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -14,10 +14,11 @@ from numpy.typing import NDArray
 from pysim.identify.greybox.command import from_rest
 from pysim.identify.greybox.log_target import LogTarget
 from pysim.identify.greybox.noise import signal_noise
-from pysim.identify.greybox.sine_log import Sine, SineLog, sine_log, steady_sine, unlike
+from pysim.identify.greybox.sine_log import Sine, SineLog, sine_log, steady_sine
 from pysim.identify.greybox.sine_target import SineTarget
 from pysim.identify.greybox.table_target import TableTarget
 from pysim.identify.greybox.target import Run, Target
+from pysim.identify.greybox.unsettled import unsettled, unsettled_note
 from pysim.identify.logged import logged_command, logged_wave
 from pysim.simulate import Periodic, Rodas, simulate
 from pysim.types import (
@@ -38,10 +39,6 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-# Standard deviations by which a log's first period may differ from the others, of which a data set has some hundred
-# numbers, and noise with memory puts more into slow ones than white noise does; and the same where another log
-# differs by more.
-_UNLIKE, _ALSO = 5.0, 2.5
 # s for which a model is watched, and the share of its values that one at rest may move by.
 _WATCHED, _STILL = 1.0, 1e-9
 
@@ -109,7 +106,7 @@ def build_targets(
     noise, notes = _noise(dataset, outputs, data.noise)
     setting = _Setting(model, dataset, data.overrides, outputs, noise, treatment, started)
     targets: list[Target] = []
-    sines: dict[tuple[object, ...], list[MeasuredRecord]] = {}
+    sines: dict[tuple[object, ...], list[_Swing]] = {}
     for record in dataset.records:
         if isinstance(record.data, FrequencyResponse):
             if record.data.test.output in outputs:
@@ -117,43 +114,26 @@ def build_targets(
         elif not setting.columns(record)[1]:
             notes.append(f"{record.source}: no column of it is compared")
         elif record.kind == "frequency-response":
-            sines.setdefault(_test_of(record, setting), []).append(record)
+            test = (record.use, record.offset, record.amplitude, *setting.columns(record))
+            sines.setdefault(test, []).append(_swing(setting, record, record.data))
         else:
             targets.append(_log(setting, record, record.data))
-    unsettled = _unsettled(setting, [record for group in sines.values() for record in group])
-    names = [record.source for record in unsettled]
+    early = _unsettled(setting, [one for group in sines.values() for one in group])
     for group in sines.values():
-        steady = [record for record in group if record.source not in names]
+        steady = [one for one in group if one not in early]
         targets += [_sines(setting, steady)] if steady else []
-    for record in unsettled:
-        assert isinstance(record.data, Record)  # a table has no periods
-        targets.append(_log(setting, record, record.data))
-    notes += _told(unsettled)
+    targets += [_log(setting, one.record, one.data) for one in early]
+    notes += unsettled_note([one.record.source for one in early])
     if any(isinstance(target, TableTarget) and not target.told for target in targets):
         notes.append("tables without covariance: 20/90 dB and 1 degree are taken as standard deviations (Eq. 2.25)")
     return targets, notes
 
 
-def _unsettled(setting: _Setting, records: Sequence[MeasuredRecord]) -> list[MeasuredRecord]:
-    """Stepped sines that the plant did not follow steadily yet.
-
-    Where tests are run as the bench ran them these have no period that stands for all, and are logs over time.
-    """
-    if setting.treatment.steady != "transient" or not records:
+def _unsettled(setting: _Setting, sines: list[_Swing]) -> list[_Swing]:
+    """Those that the plant did not follow steadily yet; none where the model is not run as the bench was."""
+    if setting.treatment.steady != "transient":
         return []
-    away = [unlike(_sine(setting, record)[0]) for record in records]
-    limit = _ALSO if max(away) > _UNLIKE else _UNLIKE
-    return [record for record, z in zip(records, away, strict=True) if z > limit]
-
-
-def _told(unsettled: Sequence[MeasuredRecord]) -> list[str]:
-    if not unsettled:
-        return []
-    others = f" and {len(unsettled) - 1} more" if len(unsettled) > 1 else ""
-    return [
-        f"{unsettled[0].source}{others}: the first compared period is unlike those after it, as before a plant has "
-        "settled or where noise has a long memory; compared sample by sample from its start"
-    ]
+    return [one for one, early in zip(sines, unsettled([one.log for one in sines]), strict=True) if early]
 
 
 def _compared(dataset: Dataset, wanted: tuple[str, ...] | None) -> tuple[str, ...]:
@@ -177,10 +157,6 @@ def _noise(
             sizes[name], note = signal_noise(dataset.signal(name), logs, given)
             notes += [note] if note else []
     return sizes, notes
-
-
-def _test_of(record: MeasuredRecord, setting: _Setting) -> tuple[object, ...]:
-    return (record.use, record.offset, record.amplitude, *setting.columns(record))
 
 
 def _cut(data: Record, names: tuple[str, ...]) -> Record:
@@ -220,25 +196,32 @@ def _log(setting: _Setting, record: MeasuredRecord, data: Record) -> LogTarget:
     )
 
 
-def _sines(setting: _Setting, group: list[MeasuredRecord]) -> SineTarget:
-    pairs = [_sine(setting, record) for record in group]
-    pairs.sort(key=lambda pair: pair[0].sine.frequency)
-    logs, runs = tuple(log for log, _ in pairs), tuple(run for _, run in pairs)
-    frequencies = np.array([log.sine.frequency for log in logs])
-    near = np.flatnonzero(np.isclose(frequencies, setting.treatment.reference_hz or -1.0, rtol=1e-3))
-    return SineTarget(setting.dataset.name, group[0].use, logs, runs, int(near[0]) if near.size else None)
+@dataclass(frozen=True, eq=False)
+class _Swing:
+    """One stepped sine: its record, what of it is compared, and the model's run for that."""
+
+    record: MeasuredRecord
+    data: Record
+    log: SineLog
+    run: Run
 
 
-def _sine(setting: _Setting, record: MeasuredRecord) -> tuple[SineLog, Run]:
-    assert isinstance(record.data, Record)
+def _swing(setting: _Setting, record: MeasuredRecord, data: Record) -> _Swing:
     columns, outputs = setting.columns(record)
-    data = record.data
     swinging = max(columns, key=lambda column: float(np.std(data[column])))  # the others stand still
     sine = steady_sine(logged_wave(record, swinging))
     noise = tuple(setting.noise[name] for name in outputs)
-    log = sine_log(record.source, _cut(record.data, outputs), sine, noise, setting.treatment.sine)
-    others = {c: Signal.constant(float(np.mean(record.data[c]))) for c in columns if c != swinging}
-    return log, _steady_run(setting, record.source, swinging, sine, outputs, others)
+    log = sine_log(record.source, _cut(data, outputs), sine, noise, setting.treatment.sine)
+    others = {c: Signal.constant(float(np.mean(data[c]))) for c in columns if c != swinging}
+    return _Swing(record, data, log, _steady_run(setting, record.source, swinging, sine, outputs, others))
+
+
+def _sines(setting: _Setting, group: list[_Swing]) -> SineTarget:
+    swings = sorted(group, key=lambda one: one.log.sine.frequency)
+    logs, runs = tuple(one.log for one in swings), tuple(one.run for one in swings)
+    frequencies = np.array([log.sine.frequency for log in logs])
+    near = np.flatnonzero(np.isclose(frequencies, setting.treatment.reference_hz or -1.0, rtol=1e-3))
+    return SineTarget(setting.dataset.name, group[0].record.use, logs, runs, int(near[0]) if near.size else None)
 
 
 def _table(setting: _Setting, record: MeasuredRecord, response: FrequencyResponse) -> TableTarget:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -113,14 +113,33 @@ class SineLog:
         """Measured, uncorrelated, in the columns' units, (n_h, n_y)."""
         return np.asarray(self._factors[0].T @ self.measured.values)
 
+    def part(self, keep: NDArray[np.bool_]) -> SineLog:
+        """The same of some of its samples, (n_t,)."""
+        return replace(self, measured=_kept(self.measured, keep))
+
     def coefficients(self, uncorrelated: Array) -> NDArray[np.complex128]:
         """(n_h, ...) as `harmonics` -> mean and complex harmonics (count + 1, ...)."""
         return to_complex(np.asarray(np.linalg.solve(self._factors[1], uncorrelated), dtype=np.float64))
 
+    @property
+    def parts(self) -> Array:
+        """Measured mean, sine and cosine of each harmonic in turn, in the columns' units, (n_h, n_y)."""
+        return np.asarray(np.linalg.solve(self._factors[1], self.harmonics), dtype=np.float64)
+
+    @property
+    def variances(self) -> Array:
+        """Of mean, sines and cosines at unit noise, (n_h,)."""
+        return np.asarray(np.sum(np.linalg.inv(self._factors[1]) ** 2, axis=1))
+
+    @property
+    def scatter(self) -> Array:
+        """Root mean square of what mean and harmonics leave of each column, in its unit, (n_y,)."""
+        rest = self.measured.values - self._factors[0] @ self.harmonics
+        return np.asarray(np.sqrt(np.mean(rest**2, axis=0)))
+
     def deviations(self) -> Array:
         """Standard deviation of the size of mean and harmonics at unit noise, (count + 1,)."""
-        inverse = np.linalg.inv(self._factors[1])
-        variance = np.sum(inverse**2, axis=1)
+        variance = self.variances
         return np.sqrt(np.concatenate([variance[:1], 0.5 * (variance[1::2] + variance[2::2])]))
 
     def fundamental(self) -> Array:
@@ -128,25 +147,8 @@ class SineLog:
         return np.asarray(np.linalg.inv(self._factors[1])[1:3])
 
 
-def unlike(log: SineLog) -> float:
-    """How far the first compared period of a log is from those after it, in standard deviations: the largest difference
-    of a mean, a sine or a cosine; zero where there is one period only.
-
-    A valve that is too slow for the sine, or a plate that sticks, may need many periods more than were left out.
-    """
-    first = log.phase < log.phase[0] + (1 - 1e-6) * 2 * np.pi
-    parts = [first, ~first]
-    if any(np.count_nonzero(part) < 2 * log.count + 2 for part in parts):
-        return 0.0
-    swings, variances = [], []
-    for part in parts:
-        columns = regressors(log.phase[part], log.count)
-        inverse = np.linalg.inv(columns.T @ columns)
-        found = inverse @ (columns.T @ log.measured.values[part])
-        rest = np.sqrt(np.mean((log.measured.values[part] - columns @ found) ** 2, axis=0))
-        swings.append(found)
-        variances.append(np.diagonal(inverse)[:, None] * np.maximum(rest, log.noise) ** 2)
-    return float(np.max(np.abs(swings[1] - swings[0]) / np.sqrt(variances[0] + variances[1])))
+def _kept(data: Record, keep: NDArray[np.bool_]) -> Record:
+    return Record(data.time[keep], data.values[keep], data.names, data.units, origin=data.origin)
 
 
 def sine_log(source: str, data: Record, sine: Sine, noise: tuple[float, ...], plan: SinePlan) -> SineLog:
@@ -166,7 +168,7 @@ def sine_log(source: str, data: Record, sine: Sine, noise: tuple[float, ...], pl
             f"{max(plan.settle_time, plan.settle_periods * period):.3g} s of settling; record longer, or settle shorter"
         )
     keep = (data.time > end - whole * period - 0.5 * gap) & (data.time < end - 0.5 * gap)
-    cut = Record(data.time[keep], data.values[keep], data.names, data.units, origin=data.origin)
+    cut = _kept(data, keep)
     count = harmonic_count(sine.frequency, 1 / gap, plan.harmonics)
     if cut.time.size < 2 * count + 2:
         raise BadInput(f"{source}: {cut.time.size} samples in {whole} periods are too few; record faster")

@@ -5,7 +5,8 @@ import pytest
 from numpy.typing import NDArray
 
 from pysim.identify.greybox import Parameter, Simulation, SinePlan, Treatment, fit, problem
-from pysim.identify.greybox.sine_log import Sine, SineLog, sine_log, unlike
+from pysim.identify.greybox.sine_log import Sine, SineLog, sine_log
+from pysim.identify.greybox.unsettled import unlike
 from pysim.simulate import Esdirk
 from pysim.types import MeasuredRecord, Model, Record
 from tests.pysim.identify.greybox import measurements as m
