@@ -74,8 +74,8 @@ def _structure(class_name: str, libraries: list[Path]) -> dict[str, Any] | None:
     """Parts and what links them; None for an FMU without its class."""
     from dataclasses import asdict
 
-    from pysim.cli._structure import structure
     from pysim.effects import STANDARD_LIBRARY
+    from pysim.effects.structure import structure
 
     return asdict(structure(class_name, [STANDARD_LIBRARY, *libraries])) if class_name else None
 

@@ -11,8 +11,8 @@ pytest.importorskip("nicegui", reason="the extra app is not installed")
 
 from pysim.app.layout import HIGH, WIDE, Layout, layout
 from pysim.app.pages.locate import broken
-from pysim.cli._structure import structure
 from pysim.effects import STANDARD_LIBRARY
+from pysim.effects.structure import structure
 from tests.pysim.diagnose.toy import library
 
 

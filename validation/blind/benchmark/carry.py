@@ -9,13 +9,13 @@ from __future__ import annotations
 import json
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass, fields
-from datetime import UTC, datetime
 from pathlib import Path
 
 from pysim.io import write_file
 from pysim.types import BadInput
 from validation.blind.benchmark.answer import Answer
 from validation.blind.benchmark.runs import Choice
+from validation.blind.benchmark.stopwatch import today
 from validation.blind.benchmark.store import Store
 from validation.blind.benchmark.workers import Task, answers
 from validation.blind.plant import Case
@@ -110,10 +110,9 @@ def carry(
     """
     known = dict(draw.of(table, store))
     say(f"{len(known)} cases of code {draw.older} again, by code {code}")
-    today = datetime.now(UTC).date().isoformat()
     given: dict[Case, Answer] = {}
     different = 0
-    for case, answer in answers(list(known), task, Answer("", code, today), workers=workers, limit=limit):
+    for case, answer in answers(list(known), task, Answer("", code, today()), workers=workers, limit=limit):
         given[case] = Answer.read(answer.line())
         unlike = differences(known[case], given[case])
         different += bool(unlike)
@@ -123,7 +122,7 @@ def carry(
         return False
     for case, answer in given.items():
         store.add(case, answer)
-    rows = (*read_carried(store), Carried(draw.older, code, today, draw.seed, tuple(case.name for case in known)))
+    rows = (*read_carried(store), Carried(draw.older, code, today(), draw.seed, tuple(case.name for case in known)))
     write_file(_path(store), json.dumps([asdict(row) for row in rows], indent=1) + "\n")
     return True
 

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import time
-from datetime import UTC, datetime
 from functools import cache
 
 from pysim.diagnose import diagnose, subject
 from validation.blind.benchmark.answer import Answer
 from validation.blind.benchmark.fingerprint import fingerprint
 from validation.blind.benchmark.judged import judged
+from validation.blind.benchmark.stopwatch import timed, today
 from validation.blind.benchmark.truth import Truth
 from validation.blind.benchmark.workshop import Workshop, workshop
 from validation.blind.plant import Case, measure
@@ -22,19 +21,18 @@ def examine(case: Case) -> Answer:
     shop = warm()
     measured = measure(case)
     catalogue = tuple(effect for effect in shop.catalogue if effect.name not in case.left_out)
-    compiled, wall, cpu = shop.seconds, time.monotonic(), time.process_time()
-    found = diagnose(subject(shop.model, measured.dataset, catalogue, shop.variant), seed=SEED, workers=1)
-    wall, cpu = time.monotonic() - wall - (shop.seconds - compiled), time.process_time() - cpu
+    with timed(shop) as spent:
+        found = diagnose(subject(shop.model, measured.dataset, catalogue, shop.variant), seed=SEED, workers=1)
     return Answer(
         case.name,
         code(),
-        datetime.now(UTC).date().isoformat(),
+        today(),
         found.verdict,
         tuple(one.effect.name for one in found.added),
         tuple(candidate.effect for candidate in found.ranking if candidate.round == 1)[:2],
         found.confusable,
-        wall=wall,
-        cpu=cpu,
+        wall=spent.wall,
+        cpu=spent.cpu,
         **judged(Truth(case, measured, shop), found),
     )
 

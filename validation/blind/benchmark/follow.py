@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import tempfile
-import time
 from dataclasses import replace
-from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +12,7 @@ from pysim.diagnose import diagnose, subject
 from pysim.types import Dataset, Diagnosis, NextTest
 from validation.blind.benchmark.answer import Answer
 from validation.blind.benchmark.examine import SEED, code, warm
+from validation.blind.benchmark.stopwatch import timed, today
 from validation.blind.benchmark.truth import Truth
 from validation.blind.plant import Case, measure
 
@@ -21,21 +20,20 @@ from validation.blind.plant import Case, measure
 def follow_case(case: Case) -> Answer:
     """Of a case with one effect, in this process and with one thread."""
     shop, measured = warm(), measure(case)
-    compiled, wall, cpu = shop.seconds, time.monotonic(), time.process_time()
 
     def answered(dataset: Dataset) -> Diagnosis:
         return diagnose(subject(shop.model, dataset, shop.catalogue, shop.variant), seed=SEED, workers=1)
 
-    found = answered(measured.dataset)
-    fields: dict[str, Any] = {"verdict": found.verdict, "confusable": found.confusable}
-    if found.next_test is not None:
-        more = carried_out(Truth(case, measured, shop), found.next_test)
-        again = answered(joined(measured.dataset, more))
-        alone = not any(again.verdict in group for group in again.confusable)
-        settled = alone and (again.verdict,) == case.expected
-        fields |= {"rivals": found.next_test.separates, "after": again.verdict, "settled": settled}
-    wall, cpu = time.monotonic() - wall - (shop.seconds - compiled), time.process_time() - cpu
-    return Answer(case.name, code(), datetime.now(UTC).date().isoformat(), wall=wall, cpu=cpu, **fields)
+    with timed(shop) as spent:
+        found = answered(measured.dataset)
+        fields: dict[str, Any] = {"verdict": found.verdict, "confusable": found.confusable}
+        if found.next_test is not None:
+            more = carried_out(Truth(case, measured, shop), found.next_test)
+            again = answered(joined(measured.dataset, more))
+            alone = not any(again.verdict in group for group in again.confusable)
+            settled = alone and (again.verdict,) == case.expected
+            fields |= {"rivals": found.next_test.separates, "after": again.verdict, "settled": settled}
+    return Answer(case.name, code(), today(), wall=spent.wall, cpu=spent.cpu, **fields)
 
 
 def carried_out(truth: Truth, test: NextTest) -> Dataset:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import time
-from datetime import UTC, datetime
 from typing import Any
 
 from pysim.diagnose import located, subject
@@ -13,6 +11,7 @@ from pysim.types import Missing
 from validation.blind.benchmark.answer import Answer
 from validation.blind.benchmark.examine import code
 from validation.blind.benchmark.slots import SLOTS
+from validation.blind.benchmark.stopwatch import timed, today
 from validation.blind.benchmark.terms import covered, true_term
 from validation.blind.benchmark.workshop import BASE, workshop
 from validation.blind.plant import Case, measure
@@ -24,11 +23,9 @@ def locate_case(case: Case) -> Answer:
     shop = workshop()
     inside = Inside(slots(BASE, [STANDARD_LIBRARY]), shop.probed)
     given = subject(shop.model, measure(case).dataset, shop.catalogue, shop.variant, inside=inside)
-    compiled, wall, cpu = shop.seconds, time.monotonic(), time.process_time()
-    found = located(given, workers=1).missing
-    wall, cpu = time.monotonic() - wall - (shop.seconds - compiled), time.process_time() - cpu
-    day = datetime.now(UTC).date().isoformat()
-    return Answer(case.name, code(places=True), day, wall=wall, cpu=cpu, **judged(case, found))
+    with timed(shop) as spent:
+        found = located(given, workers=1).missing
+    return Answer(case.name, code(places=True), today(), wall=spent.wall, cpu=spent.cpu, **judged(case, found))
 
 
 def judged(case: Case, found: tuple[Missing, ...]) -> dict[str, Any]:

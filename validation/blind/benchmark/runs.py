@@ -6,13 +6,13 @@ import time
 import zlib
 from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass
-from datetime import UTC, datetime
 from fnmatch import fnmatchcase
 
 import numpy as np
 
 from pysim.types import BadInput
 from validation.blind.benchmark.answer import Answer
+from validation.blind.benchmark.stopwatch import today
 from validation.blind.benchmark.store import Store
 from validation.blind.benchmark.workers import Task, answers
 from validation.blind.plant import Case
@@ -83,7 +83,7 @@ def run(
     known = store.read()
     open_ = [case for case in chosen if case.name not in known or known[case.name].code not in (code, *alike)]
     say(f"{len(open_)} of {len(chosen)} cases to answer, code {code}")
-    blank = Answer("", code, datetime.now(UTC).date().isoformat())
+    blank = Answer("", code, today())
     begun = time.monotonic()
     for done, (case, answer) in enumerate(answers(open_, task, blank, workers=workers, limit=limit), start=1):
         store.add(case, answer)

@@ -6,6 +6,7 @@ from typing import Any
 import pytest
 
 from validation.blind.benchmark import clock as module
+from validation.blind.benchmark import stopwatch
 from validation.blind.plant import Case
 
 CASE = Case("c", "left-out", (("oil.air", "large"),), left_out=("oil.air",), seed=2)
@@ -26,7 +27,7 @@ def test_a_case_is_timed(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(module, "measure", lambda case: SimpleNamespace(dataset=case.name))
     monkeypatch.setattr(module, "subject", lambda model, dataset, catalogue, variant: catalogue)
     monkeypatch.setattr(module, "diagnose", fake)
-    monkeypatch.setattr(module.time, "monotonic", lambda: next(now))
+    monkeypatch.setattr(stopwatch.time, "monotonic", lambda: next(now))
     answer = module.clock_case(CASE)
     assert (answer.case, answer.verdict, answer.added, answer.wall) == ("c", "sensor.lag", ("sensor.lag",), 23.0)
     assert answer.code == module.code()

@@ -4,8 +4,8 @@ from pathlib import Path
 
 import pytest
 
-from pysim.cli._structure import Structure, structure
 from pysim.effects import STANDARD_LIBRARY, slots
+from pysim.effects.structure import Structure, structure
 from tests.pysim.diagnose.toy import library
 
 PUMP = "HydraulicTestBench.Pump.FreeGreyBox"

@@ -6,11 +6,9 @@ import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from pysim.effects._classes import ClassText, Declaration
-    from pysim.effects._library import Libraries
+from pysim.effects._classes import ClassText, Declaration
+from pysim.effects._library import Libraries
 
 SLOT, PART, INPUT, OUTPUT, PORT, TERM = "slot", "part", "input", "output", "port", "term"
 TO, BOTH, JOINT = "to", "both", "joint"  # one way, both ways, a connection of ports that has no direction
@@ -69,8 +67,6 @@ def structure(class_name: str, libraries: Sequence[Path]) -> Structure:
         class_name: full name.
         libraries: where it and its parts are.
     """
-    from pysim.effects._library import Libraries
-
     library = Libraries(libraries)
     texts = list(_ancestry(library.classes[class_name], library))
     reader = _Reader(library, {})
