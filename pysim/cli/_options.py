@@ -60,18 +60,6 @@ def chosen_reference(given: float | None, responses: Iterable[FrequencyResponse]
     return THESIS_HZ if all(away < 1e-6 for away in lowest) else None
 
 
-def refuse_reference(args: argparse.Namespace, why: str) -> None:
-    """For work that takes gains as it does.
-
-    Raises:
-        BadInput: `--reference-hz` was said.
-    """
-    from pysim.types import BadInput
-
-    if args.reference_hz != _BY_DATA:
-        raise BadInput(f"--reference-hz: {why}; leave it out")
-
-
 def reference_words(args: argparse.Namespace) -> list[str]:
     """`--reference-hz` as it was chosen, for the line that repeats the command."""
     return ["--reference-hz", "none" if args.reference_hz is None else f"{args.reference_hz:g}"]

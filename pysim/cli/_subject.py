@@ -42,11 +42,12 @@ class Given:
 def add_subject(parser: argparse.ArgumentParser) -> None:
     """`DATASET --model MODEL` and what goes with them."""
     from pysim.cli._model_and_data import DATA, add_model_and_data
-    from pysim.cli._options import add_parameters
+    from pysim.cli._options import add_parameters, add_reference
 
     add_model_and_data(parser, DATA, "a Modelica class with slots, or its .fmu")
     add_fitted(parser)
     add_parameters(parser)
+    add_reference(parser)
 
 
 def add_fitted(parser: argparse.ArgumentParser) -> None:
@@ -101,7 +102,7 @@ def read_subject(args: argparse.Namespace, *, refits: bool = True) -> Given:
     """
     from pysim.cli._free import free_parameters
     from pysim.cli._measurements import read_measurements
-    from pysim.cli._options import bounded, names_of, read_parameters
+    from pysim.cli._options import bounded, chosen_reference, names_of, read_parameters
     from pysim.cli._variants import Variants
     from pysim.diagnose import Inside, subject
     from pysim.effects import STANDARD_LIBRARY, slots
@@ -116,6 +117,7 @@ def read_subject(args: argparse.Namespace, *, refits: bool = True) -> Given:
         notes.append(f"no slot of {class_name} takes an effect of the libraries, so none could be tried")
     variants = Variants(class_name, libraries) if class_name else None
     inside = Inside(slots(class_name, libraries), variants.probed) if variants else None
+    args.reference_hz = chosen_reference(args.reference_hz, dataset.responses())
     overrides, bounds = read_parameters(args, model), bounded(args.bounds)
     free = free_parameters(model, names_of(args.free), bounds, overrides, needed=refits)
     given = subject(
@@ -126,6 +128,7 @@ def read_subject(args: argparse.Namespace, *, refits: bool = True) -> Given:
         free=free,
         bounds=bounds,
         overrides=overrides,
+        reference_hz=args.reference_hz,
         inside=inside,
         notes=tuple(notes),
     )
@@ -195,6 +198,8 @@ def subject_words(args: argparse.Namespace, *, model_first: bool = False) -> lis
     Args:
         model_first: whether the command takes `MODEL --data DATASET`.
     """
+    from pysim.cli._options import THESIS_HZ, reference_words
+
     words = [args.model, "--data", str(args.data)] if model_first else [str(args.data), "--model", args.model]
     for option in ("effect", "effects", "free", "library", "bounds", "set"):
         for value in getattr(args, option, []):
@@ -203,6 +208,8 @@ def subject_words(args: argparse.Namespace, *, model_first: bool = False) -> lis
         value = getattr(args, option, None)
         if value not in (None, ""):
             words += [f"--{option}", str(value)]
+    if args.reference_hz != THESIS_HZ:
+        words += reference_words(args)
     return [*words, "--refit"] if getattr(args, "refit", False) else words
 
 

@@ -64,7 +64,6 @@ def _refuse_idle(args: argparse.Namespace) -> None:
 
 def _story(args: argparse.Namespace) -> int:
     """Every record beside the model as it is, and refitted where that is asked for."""
-    from pysim.cli._options import refuse_reference
     from pysim.cli._progress import announce_compilation
     from pysim.cli._story import finish, unfold
     from pysim.cli._subject import read_subject
@@ -72,7 +71,6 @@ def _story(args: argparse.Namespace) -> int:
     from pysim.report.diagnosis import evidence_text
     from pysim.report.diagnosis_words import comparison_sentence
 
-    refuse_reference(args, "with --refit, --records or --story gains of a table are relative to 0.1 Hz; logs have none")
     given = read_subject(args, refits=args.refit)
     announce_compilation()
     found = unfold(
@@ -122,14 +120,13 @@ def _responses(args: argparse.Namespace, dataset: Dataset) -> int:
 
 
 def _write_report(args: argparse.Namespace, comparison: Comparison) -> None:
-    from pysim.cli._options import reference_words
     from pysim.cli._outputs import command_line
     from pysim.cli._pictures import write_pictures
     from pysim.cli._subject import subject_words
     from pysim.io import write_file
     from pysim.report import comparison_page
 
-    redo = command_line(["compare", *subject_words(args, model_first=True), *reference_words(args)])
+    redo = command_line(["compare", *subject_words(args, model_first=True)])
     pictures = write_pictures([comparison], args.output)
     text = comparison_page("A model against its measurements", [comparison], pictures=pictures, redo=redo)
     write_file(args.output / "report.html", text)

@@ -9,6 +9,7 @@ from dataclasses import dataclass, field, replace
 from pysim.diagnose.adequacy import shortcomings
 from pysim.diagnose.locating.laws import Term
 from pysim.effects import Slot
+from pysim.identify import THESIS_REFERENCE_HZ
 from pysim.identify.greybox import Measurements, Parameter, Rest, Treatment, problem
 from pysim.identify.greybox.parameters import ParameterSpace, parameter_space
 from pysim.identify.greybox.target import Target
@@ -99,6 +100,7 @@ def subject(
     bounds: Mapping[str, tuple[float, float]] | None = None,
     overrides: Mapping[str, float] | None = None,
     rest: Rest | None = None,
+    reference_hz: float | None = THESIS_REFERENCE_HZ,
     inside: Inside | None = None,
     notes: Sequence[str] = (),
 ) -> Subject:
@@ -110,6 +112,7 @@ def subject(
         bounds: free parameter -> lower and upper bound in its unit, in place of the model's min and max.
         overrides: parameters of the model that differ in these tests.
         rest: how the model comes to rest ahead of a log; as the thesis' bench did where None.
+        reference_hz: whose gain counts as 0 dB in measured responses (Eq. 2.12); None takes gains as they are.
         inside: a way to look into the model, where there is one.
         notes: what a reader must know beside what is noted here.
     Raises:
@@ -123,7 +126,8 @@ def subject(
     given = Subject(model, (), names, tuple(catalogue), build_variant, dataset=dataset, bounds=bounds or {})
     given = replace(given, inside=inside)
     data = Measurements(dataset, overrides=overrides or {})
-    checked = problem(model, [data], given.parameters, treatment=Treatment(steady="transient", rest=rest or Rest()))
+    treatment = Treatment(steady="transient", rest=rest or Rest(), reference_hz=reference_hz)
+    checked = problem(model, [data], given.parameters, treatment=treatment)
     told = (*notes, *shortcomings(dataset, names), *_unbounded(checked.space), *checked.notes)
     return replace(given, targets=checked.targets, notes=told)
 

@@ -84,8 +84,6 @@ def test_the_reference_frequency_can_be_chosen(folder: Path, capsys: pytest.Capt
     assert "relative to 0.7 Hz need that frequency" in capsys.readouterr().err
     assert main([*words, "low"]) == 2
     assert "'low' is no frequency; write a number in Hz, or none" in capsys.readouterr().err
-    assert main([*words, "1", "--refit"]) == 2
-    assert "--reference-hz: with --refit" in capsys.readouterr().err
 
 
 def test_a_failed_criterion_is_exit_1(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:

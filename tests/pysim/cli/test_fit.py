@@ -50,6 +50,21 @@ def test_a_table_without_the_thesis_reference_is_fitted_as_it_is(place: Path, tm
     assert main([*words, "--reference-hz", "0.1"]) == 2
 
 
+def test_so_is_one_that_is_refitted_and_compared(place: Path, tmp_path: Path) -> None:
+    write_dataset(tmp_path / "table", m.dataset([m.table(2.0, 0.7, np.arange(1, 13) / 10 + 0.1)]))
+    words = ["compare", str(place / "Lag.fmu"), "--data", str(tmp_path / "table"), "--refit", "--free", "K,T"]
+    words += ["--bounds", "K=0.1:10", "--bounds", "T=0.1:10", "--set", "g=1"]
+    words += ["--json", str(tmp_path / "refit.json"), "--output", str(tmp_path / "refit")]
+    assert main(words) in (0, 1)
+    found = json.loads((tmp_path / "refit.json").read_text())["parameters"]
+    assert found["K"]["value"] == pytest.approx(2.0, rel=1e-2)
+    assert "--reference-hz none" in (tmp_path / "refit" / "report.html").read_text()
+    assert main([*words, "--reference-hz", "0.5"]) in (0, 1)
+    found = json.loads((tmp_path / "refit.json").read_text())["parameters"]
+    assert found["T"]["value"] == pytest.approx(0.7, rel=1e-2)
+    assert found["K"]["value"] != pytest.approx(2.0, rel=1e-2)  # relative gains say nothing of it
+
+
 @pytest.mark.parametrize(
     ("more", "message"),
     [

@@ -73,6 +73,17 @@ def test_a_table_is_met_in_both_objectives(lag: Model) -> None:
         assert [e.value for e in found.estimates] == pytest.approx([2.0, 0.7], rel=2e-3)
 
 
+def test_a_table_is_met_by_runs_over_time_that_last_until_the_model_has_settled(lag: Model) -> None:
+    """The plan's half a second is less than the time constant here, which is twice the model's own."""
+    data = [m.dataset([m.table(2.0, 0.8, np.array([0.3, 0.6, 1.2, 2.4]))])]
+    treatment = Treatment(reference_hz=None, steady="transient")
+    task = problem(lag, data, ["K", "T"], treatment=treatment)
+    longest = [max(run.experiment.times) for target in task.targets for run in target.runs]
+    assert min(longest) > 4.0
+    found = fit(task, simulation=TIGHT)
+    assert [e.value for e in found.estimates] == pytest.approx([2.0, 0.8], rel=5e-3)
+
+
 def test_absolute_deviations_over_time_ignore_an_outlier(lag: Model) -> None:
     """Eq. 2.24 in K alone is a weighted median: most samples are exact, so the answer is exact too."""
     record = m.ramp_log(2.0, 0.4, seed=0, noise=0.0)
