@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from pysim.diagnose.subject import Subject
+from pysim.identify.greybox.table_target import TableTarget
 from pysim.io import write_file
 from pysim.types import BadInput, Record
 
@@ -85,6 +86,8 @@ def identity(subject: Subject, settings: Mapping[str, object]) -> str:
     for target in subject.targets:
         for run in target.runs:
             digest.update(repr((run.record, sorted(run.experiment.overrides.items()))).encode())
+        if isinstance(target, TableTarget):
+            digest.update(repr((target.source, target.reference)).encode())
     for record in subject.dataset.records if subject.dataset is not None else ():
         data = record.data
         values = data.values if isinstance(data, Record) else np.stack([data.frequency, data.gain, data.phase])

@@ -1,5 +1,7 @@
 """A base model whose refit ended in a dent is refitted from where an effect has led it; others stay."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -14,9 +16,11 @@ from tests.pysim.diagnose.toy import CATALOGUE, measured, toy_subject
 PLACE = {"m": 2.0, "d": 3.0, "k": 60.0}
 
 
-def dented(*effects: str, refitted: bool, **values: float) -> tuple[Story, Settled, Fitted]:
+def dented(
+    *effects: str, refitted: bool, journal: Path | None = None, **values: float
+) -> tuple[Story, Settled, Fitted]:
     """The base model far off or refitted, and the model with friction refitted."""
-    story = begin(toy_subject(measured(1, *effects, **values)), seed=0, workers=1, progress=None)
+    story = begin(toy_subject(measured(1, *effects, **values)), seed=0, workers=1, progress=None, journal=journal)
     what = extended(story.subject, ())
     first = story.allow(what, what.space.to_search(what.space.start))
     rubbing = extended(story.subject, [CATALOGUE["toy.friction"]])
@@ -39,6 +43,20 @@ def test_a_dent_is_left_by_the_way_that_an_effect_has_shown() -> None:
     assert [step.step for step in story.ledger] == [stage.step for stage in story.stages] == ["prior", "refit"]
     assert story.ledger[1].fit == pytest.approx(1.0, abs=0.1)
     assert story.journal.once("refitted before", lambda: 2) == 2  # what was learned from the dent is not used again
+
+
+def test_it_goes_on_from_what_was_kept_after_the_dent(tmp_path: Path) -> None:
+    path = tmp_path / "journal.jsonl"
+    first = _freed(*dented(refitted=False, journal=path))
+    kept = path.read_text()
+    story, base, found = dented(refitted=False, journal=path)
+    again = _freed(story, base, found)
+    assert first is not None
+    assert again is not None
+    assert again.at.point.x.tolist() == first.at.point.x.tolist()
+    assert again.at.point.cost == first.at.point.cost
+    assert story.journal.reused >= 2
+    assert path.read_text() == kept
 
 
 def test_without_a_dent_the_refit_stands() -> None:
