@@ -13,7 +13,7 @@ Bounds = Mapping[str, tuple[float, float]]
 
 
 def free_parameters(
-    model: Model, named: Sequence[str], bounds: Bounds, overrides: Mapping[str, float], *, needed: bool
+    model: Model, named: Sequence[str], bounds: Bounds, overrides: Mapping[str, float]
 ) -> tuple[str, ...]:
     """Those named; else those that the model gives min, max and nominal, or that have bounds, and that were not set.
 
@@ -21,9 +21,8 @@ def free_parameters(
         named: by `--free`.
         bounds: by `--bounds`.
         overrides: parameters that were set.
-        needed: whether some must be free.
     Raises:
-        BadInput: one that is both set and free, or none where some are needed.
+        BadInput: one that is both set and free, or none.
     """
     from pysim.diagnose import identifiable
     from pysim.types import BadInput
@@ -38,11 +37,11 @@ def free_parameters(
     try:
         own: tuple[str, ...] = identifiable(model)
     except BadInput as error:
-        if needed and not bounds:
+        if not bounds:
             raise BadInput(f"{error}, as {_example(model)}") from error
         own = ()
     free = tuple(name for name in dict.fromkeys([*own, *bounds]) if name not in overrides)
-    if needed and not free:
+    if not free:
         raise BadInput(
             f"every parameter that {model.label} gives bounds is set, so none is left to refit; set fewer, or name "
             "others with --free"

@@ -20,7 +20,9 @@ _BY_DATA = -1.0  # of `--reference-hz`, where it was not said
 
 def add_parameters(parser: argparse.ArgumentParser) -> None:
     """`--set` and `--parameters`."""
-    parser.add_argument("--set", metavar="NAME=VALUE", action="append", default=[], help="set a parameter, SI unit")
+    parser.add_argument(
+        "--set", metavar="NAME=VALUE", action="append", default=[], help="set a parameter, in its own unit"
+    )
     add_parameters_file(parser)
 
 
@@ -30,7 +32,9 @@ def add_parameters_file(parser: argparse.ArgumentParser, more: str = "--set goes
     Args:
         more: for the help, behind what it holds.
     """
-    parser.add_argument("--parameters", metavar="FILE.toml", type=Path, help=f"lines NAME = VALUE; {more}")
+    parser.add_argument(
+        "--parameters", metavar="FILE.toml", type=Path, help=f"lines NAME = VALUE, in their own units; {more}"
+    )
 
 
 def add_names(parser: argparse.ArgumentParser, *options: str, what: str, required: bool = False) -> None:

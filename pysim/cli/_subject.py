@@ -119,7 +119,7 @@ def read_subject(args: argparse.Namespace, *, refits: bool = True) -> Given:
     inside = Inside(slots(class_name, libraries), variants.probed) if variants else None
     args.reference_hz = chosen_reference(args.reference_hz, dataset.responses())
     overrides, bounds = read_parameters(args, model), bounded(args.bounds)
-    free = free_parameters(model, names_of(args.free), bounds, overrides, needed=refits)
+    free = free_parameters(model, names_of(args.free), bounds, overrides) if refits else ()
     given = subject(
         model,
         dataset,
@@ -184,7 +184,10 @@ def effects_of(names: Sequence[str], given: Given) -> tuple[Effect, ...]:
     from pysim.types import BadInput
 
     if given.variants is None:
-        raise BadInput(f"nothing can be added to {given.model_name}: its class is in none of the libraries")
+        raise BadInput(
+            f"nothing can be added to {given.model_name}: its class is in none of the libraries; name its library with "
+            "--library"
+        )
     for name in names:
         if list(names).count(name) > 1:
             raise BadInput(f"--effect {name}: named twice; name each effect once")
@@ -265,5 +268,7 @@ def named_effects(
         if name not in known:
             raise BadInput(f"{option} {name}: not in the catalogue; it has {', '.join(sorted(known))}")
         if name not in fit:
-            raise BadInput(f"{option} {name}: no slot of {class_name} takes it; its slots take {', '.join(fit)}")
+            raise BadInput(
+                f"{option} {name}: no slot of {class_name} takes it; its slots take {', '.join(fit) or 'none of them'}"
+            )
     return tuple(fit[name] for name in names)

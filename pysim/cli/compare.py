@@ -37,9 +37,10 @@ def run(args: argparse.Namespace) -> int:
 
     dataset = read_measurements(args.data)
     prepare_results(args)
+    if not args.refit:
+        _refuse_idle(args)
     if args.refit or args.records or args.story or not dataset.responses():
         return _story(args)
-    _refuse_idle(args)
     if dataset.logs():
         print(_beside(dataset))
     return _responses(args, dataset)

@@ -26,8 +26,8 @@ def shortcomings(dataset: Dataset, free: Sequence[str]) -> tuple[str, ...]:
     count = sum(_samples(record, dataset) for record in fitted)
     if count < FEWEST * len(free):
         raise BadInput(
-            f"data set {dataset.name!r} has {count} samples to fit for {len(free)} free parameters; "
-            f"log at least {FEWEST * len(free)}, or name fewer parameters with free"
+            f"data set {dataset.name!r} has {count} samples to fit for {len(free)} free parameters; log at least "
+            f"{FEWEST * len(free)}, hold less out, or name fewer parameters with --free"
         )
     notes = list(_still(dataset, fitted))
     if not any(record.use != "fit" for record in dataset.records):

@@ -39,7 +39,10 @@ class Journal:
         head = {"diagnosis": hashlib.sha256(identity.encode()).hexdigest(), "form": _FORM}
         lines = _whole_lines(path)
         if lines and lines[0] != head:
-            raise BadInput(f"{path} is the journal of another diagnosis; name another file, or delete it")
+            raise BadInput(
+                f"{path} is the journal of another diagnosis: other model, data, libraries or options; delete it to begin "
+                "anew, or write to another folder"
+            )
         self._known = {line["part"]: line["result"] for line in lines[1:]}
         path.parent.mkdir(parents=True, exist_ok=True)
         write_file(path, "".join(json.dumps(line) + "\n" for line in (lines or [head])))

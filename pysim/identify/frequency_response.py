@@ -97,7 +97,7 @@ def _reference(response: FrequencyResponse, reference_hz: float) -> int:
     if at.size == 0:
         raise BadInput(
             f"{response.origin}, {response.test.label}: magnitudes relative to {reference_hz:g} Hz need that "
-            f"frequency; the lowest one here is {response.frequency[0]:g} Hz: take one that was measured, or none for "
-            "absolute gains"
+            f"frequency; measured are {response.frequency[0]:g} to {response.frequency[-1]:g} Hz: take one of these, "
+            "or none for absolute gains"
         )
     return int(at[0])

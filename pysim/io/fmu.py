@@ -20,7 +20,7 @@ def read_model(path: Path | str) -> Model:
     """
     path = Path(path)
     if not path.is_file():
-        raise BadInput(f"no FMU at {path}")
+        raise BadInput(f"no FMU at {path}; correct the path")
     try:
         description = read_model_description(str(path), validate=False)
     except (*DAMAGED, KeyError) as error:

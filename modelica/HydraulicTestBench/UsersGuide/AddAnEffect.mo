@@ -34,10 +34,9 @@ end PumpWithFriction;
 <p>The strength appears in the FMU as <code>pistonForce.F_c</code>. Nothing of the pump is touched or copied.</p>
 <p><b>Extend SwashPlateControl itself,</b> or redeclare where the pump is a component
 (<code>FreeGreyBox pump(redeclare PistonCoulomb pistonForce(F_c=80))</code>). Modelica also allows
-<code>extends FreeGreyBox(redeclare ...)</code>, but the compiler behind <code>fmu-build</code> (rumoca 0.10.2) passes
-over a
-redeclaration of a slot that the extended class has itself inherited, without a word. For the same reason a second
-effect is
+<code>extends FreeGreyBox(redeclare ...)</code>, but the compiler behind <code>fmu-build</code> (rumoca 0.10.2) would
+drop the redeclaration of a slot that the extended class has itself inherited; <code>fmu-build</code> refuses it, with
+file and line. For the same reason a second effect is
 added to the same extension, not by extending the first extension.</p>
 <p><b>Two effects in one slot:</b> <code>Effects.Pairs</code> has a class for each slot that several effects want.
 Forces add; signals go through one after the other. Where a slot of your own needs one, hold both effects as

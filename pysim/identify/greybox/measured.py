@@ -236,8 +236,8 @@ def _table(setting: _Setting, record: MeasuredRecord, response: FrequencyRespons
     near = np.flatnonzero(np.isclose(response.frequency, reference_hz or -1.0, rtol=1e-6))
     if reference_hz is not None and not near.size:
         raise BadInput(
-            f"{record.source}: magnitudes relative to {reference_hz:g} Hz need that frequency; the lowest one here "
-            f"is {response.frequency[0]:g} Hz: choose another reference_hz, or None"
+            f"{record.source}: magnitudes relative to {reference_hz:g} Hz need that frequency; measured are "
+            f"{response.frequency[0]:g} to {response.frequency[-1]:g} Hz: take one of these as the reference, or none"
         )
     sines = [Sine(test.offset, test.amplitude, f, 0.0, 0.0, math.inf) for f in response.frequency.tolist()]
     runs = tuple(_settled_run(setting, record.source, test, sine) for sine in sines)

@@ -118,7 +118,7 @@ def problem(
         notes += said
     _check_records(space, targets)
     if not any(target.use == "fit" for target in targets):
-        raise BadInput('fit: no record is for fitting; give at least one use = "fit"')
+        raise BadInput('fit: no record is for fitting; give at least one use = "fit" in dataset.toml')
     return Problem(model, space, tuple(targets), tuple(dict.fromkeys(notes)))
 
 

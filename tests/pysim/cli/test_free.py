@@ -78,14 +78,14 @@ def test_where_nothing_can_be_refitted_the_options_are_named(
 def test_set_and_free_is_one_sentence() -> None:
     model = base()
     with pytest.raises(BadInput, match=r"^m is set and free; leave it out of --free$"):
-        free_parameters(model, ["d", "m"], {}, {"m": 1.0}, needed=True)
+        free_parameters(model, ["d", "m"], {}, {"m": 1.0})
     with pytest.raises(BadInput, match=r"^m is set and has bounds to refit it between"):
-        free_parameters(model, [], {"m": (1.0, 2.0)}, {"m": 1.0}, needed=True)
+        free_parameters(model, [], {"m": (1.0, 2.0)}, {"m": 1.0})
     with pytest.raises(BadInput, match="none is left to refit"):
-        free_parameters(model, [], {}, {"m": 1.0, "d": 1.0, "k": 1.0}, needed=True)
+        free_parameters(model, [], {}, {"m": 1.0, "d": 1.0, "k": 1.0})
 
 
 def test_free_are_those_of_the_model_and_those_with_bounds() -> None:
-    assert free_parameters(base(), [], {}, {"d": 1.0}, needed=True) == ("m", "k")
-    assert free_parameters(base(), [], {"x": (0.0, 1.0)}, {}, needed=True) == ("m", "d", "k", "x")
-    assert free_parameters(base(), ["k"], {}, {}, needed=True) == ("k",)
+    assert free_parameters(base(), [], {}, {"d": 1.0}) == ("m", "k")
+    assert free_parameters(base(), [], {"x": (0.0, 1.0)}, {}) == ("m", "d", "k", "x")
+    assert free_parameters(base(), ["k"], {}, {}) == ("k",)

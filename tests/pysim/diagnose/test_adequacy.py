@@ -29,7 +29,7 @@ def test_a_full_set_has_no_shortcomings() -> None:
 
 def test_too_few_samples_for_the_parameters_are_refused() -> None:
     assert shortcomings(data(15), FREE) == ()  # of two signals
-    with pytest.raises(BadInput, match="28 samples to fit for 3 free parameters; log at least 30"):
+    with pytest.raises(BadInput, match="28 samples to fit for 3 free parameters; log at least 30, hold less out"):
         shortcomings(data(14), FREE)
 
 
