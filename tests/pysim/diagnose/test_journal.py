@@ -38,7 +38,9 @@ def test_a_line_that_a_kill_has_cut_is_found_again(tmp_path: Path) -> None:
 def test_another_diagnosis_is_refused(tmp_path: Path) -> None:
     path = tmp_path / "journal.jsonl"
     Journal(path, "mine").once("one", lambda: 1)
-    with pytest.raises(BadInput, match="journal of another diagnosis: other model.*; delete it"):
+    with pytest.raises(
+        BadInput, match="journal of another diagnosis: other model, data, libraries or options; delete it"
+    ):
         Journal(path, "yours")
     path.write_text("hello\n")
     with pytest.raises(BadInput, match="no journal of a diagnosis"):
