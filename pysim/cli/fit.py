@@ -79,14 +79,18 @@ def run(args: argparse.Namespace) -> int:
     log = args.log or (args.output / "log" if args.output else None)
     optimiser = {"gauss-newton": GaussNewton(), "interior-point": InteriorPoint(), None: None}[args.optimiser]
     announce_compilation()
-    result = fit(
-        problem,
-        objective=OBJECTIVES[args.objective],
-        optimiser=optimiser,
-        simulation=simulation,
-        effort=Effort(args.starts, args.seed, not args.trust_start, log, args.resume),
-        progress=_say,
-    )
+    try:
+        result = fit(
+            problem,
+            objective=OBJECTIVES[args.objective],
+            optimiser=optimiser,
+            simulation=simulation,
+            effort=Effort(args.starts, args.seed, not args.trust_start, log, args.resume),
+            progress=_say,
+        )
+    except KeyboardInterrupt:
+        cure = "the same command with --resume goes on where it was"
+        raise KeyboardInterrupt(cure if log else "with --output DIR a fit can be gone on with, by --resume") from None
     print(fit_text(result))
     profiles = [profile(problem, result, name, simulation=simulation) for name in names_of(args.profile)]
     for one in profiles:

@@ -213,7 +213,11 @@ def _prior(story: Story) -> Fitted:
     for line in story.counting():
         story.note(line)
     if not first.good:
-        raise BadInput(f"{what.model.label} cannot be simulated through the tests at its own parameters")
+        why = story.ruler.failure(what, first.x) or "a number in its answer is not finite"
+        raise BadInput(
+            f"{what.model.label} cannot be simulated through the tests at its own parameters, {why}; set others with "
+            "--set, or leave that test out"
+        )
     nominal = recounted(story.ruler, story.ruler.plain, Fitted(what, first))
     story.stage("compare")
     story.enter("prior", nominal)

@@ -114,6 +114,14 @@ class Ruler:
         runs = [run.experiment for target in self.targets for run in target.runs]
         return [replace(e, overrides={**e.overrides, **overrides}) for e in runs]
 
+    def failure(self, what: Extended, x: Array) -> str:
+        """Which run of a model at x (n,) of its space fails first, and why; "" where none does."""
+        runs = self.experiments(_values(what, x))
+        records = simulate_many(what.model, runs, solver=self.solver, workers=self.workers)
+        names = [run.record for target in self.targets for run in target.runs]
+        failed = ((n, r) for n, r in zip(names, records, strict=True) if r.outcome is not Outcome.DONE)
+        return next((f"{name}: {record.outcome.value}. {record.message}".strip() for name, record in failed), "")
+
     def residuals(self, model: Model, settings: Sequence[Mapping[str, float]]) -> list[Array | None]:
         """Per setting of parameters the residuals (n_r,), None where a run failed."""
         runs = [e for overrides in settings for e in self.experiments(overrides)]

@@ -65,6 +65,25 @@ def test_so_is_one_that_is_refitted_and_compared(place: Path, tmp_path: Path) ->
     assert found["K"]["value"] != pytest.approx(2.0, rel=1e-2)  # relative gains say nothing of it
 
 
+@pytest.mark.parametrize(("more", "cure"), [([], "--output DIR"), (["--log", "log"], "--resume goes on where it was")])
+def test_a_stopped_one_says_how_to_go_on(
+    place: Path,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+    more: list[str],
+    cure: str,
+) -> None:
+    def stop(*_: object, **__: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("pysim.identify.greybox.fit", stop)
+    write_dataset(tmp_path / "table", m.dataset([m.table(2.0, 0.7, np.array([0.1, 0.5, 1.0]))]))
+    assert main(["fit", str(place / "Lag.fmu"), "--data", "table", "--free", "K", *more]) != 0
+    assert cure in capsys.readouterr().err
+
+
 @pytest.mark.parametrize(
     ("more", "message"),
     [

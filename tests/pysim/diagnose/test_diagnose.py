@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from pysim.diagnose import add, against, diagnose, rank
-from pysim.diagnose.subject import Subject
+from pysim.diagnose.subject import Subject, subject
 from pysim.types import BadInput, Diagnosis, Told
-from tests.pysim.diagnose.toy import CATALOGUE, NOISE, measured, toy_subject
+from tests.pysim.diagnose.toy import CATALOGUE, NOISE, base, measured, toy_subject
 
 
 @pytest.mark.parametrize(
@@ -100,6 +100,13 @@ def test_a_model_without_its_class_is_refitted_and_says_so() -> None:
     assert "no effect could be tried" in found.reason
     with pytest.raises(BadInput, match="class is not at hand"):
         rank(subject)
+
+
+def test_a_model_that_does_not_run_says_where_and_why() -> None:
+    given = subject(base(), measured(1), (), None, free=("d", "k"), overrides={"m": 0.0})
+    (first, *_), *_ = (target.runs for target in given.targets)
+    with pytest.raises(BadInput, match=rf"at its own parameters, {first.record}: .+; set others with --set"):
+        diagnose(given)
 
 
 def test_the_steps_alone() -> None:
