@@ -47,6 +47,7 @@ def _add_run(parser: argparse.ArgumentParser) -> None:
 def _add_carry(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--of", metavar="COMMAND", choices=("run", "locate", "follow"), default="run", help="run (run)")
     parser.add_argument("--from", dest="older", metavar="CODE", required=True, help="fingerprint of the older code")
+    parser.add_argument("--but", metavar="PATTERN", action="append", default=[], help="cases that may change; repeat")
     parser.add_argument("--sample", metavar="N", type=int, default=30, help="cases to answer again (30)")
     parser.add_argument("--seed", metavar="S", type=int, required=True, help="by which they are drawn")
     _add_processes(parser)
@@ -103,8 +104,8 @@ def _run(args: argparse.Namespace) -> int:
         return 2
     every = args.command in ("run", "clock")
     chosen = choice.of([case for case in cases(TABLE_SEED) if every or case.kind == "named"])
-    alike = standing(work.store, work.code)
-    run(chosen, work.store, work.task, work.code, alike=alike, workers=work.workers, limit=args.limit, say=_say)
+    counts = standing(work.store, work.code).counts
+    run(chosen, work.store, work.task, work.code, counts=counts, workers=work.workers, limit=args.limit, say=_say)
     return 0
 
 
@@ -114,7 +115,7 @@ def _carry(args: argparse.Namespace) -> int:
     from validation.blind.benchmark.carry import Draw, carry
     from validation.blind.plant import cases
 
-    table, draw = cases(TABLE_SEED), Draw(args.older, args.sample, args.seed)
+    table, draw = cases(TABLE_SEED), Draw(args.older, args.sample, args.seed, tuple(args.but))
     try:
         alike = carry(table, work.store, work.task, draw, work.code, workers=work.workers, limit=args.limit, say=_say)
     except BadInput as error:

@@ -1,14 +1,16 @@
 """Answers of an older code that a newer one gives too: a sample, answered again and compared field by field.
 
-A change of words or of structure alone changes the fingerprint, but not one bit of what is computed. It is not taken on
-trust: cases drawn at random are answered again, and the older answers count for the newer code only where all agree.
+A change of words or of structure alone changes the fingerprint, but not one bit of what is computed; another one changes
+the answers to some cases only. Neither is taken on trust: cases drawn at random are answered again, and the older answers
+count for the newer code only where all agree. Those that are expected to change are named before, and do not count.
 """
 
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass, fields
+from fnmatch import fnmatchcase
 from pathlib import Path
 
 from pysim.io import write_file
@@ -32,6 +34,7 @@ class Carried:
         day: on which it was shown, as year-month-day.
         seed: by which the cases were drawn.
         cases: that were answered again, all alike.
+        but: patterns of the names of cases for which nothing was shown.
     """
 
     older: str
@@ -39,6 +42,7 @@ class Carried:
     day: str
     seed: int
     cases: tuple[str, ...]
+    but: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -49,11 +53,13 @@ class Draw:
         older: fingerprint of the code that gave them.
         sample: how many at random; all where there are fewer.
         seed: of the sample.
+        but: patterns of names that are not drawn, with * and ?, since the newer code is to answer them otherwise.
     """
 
     older: str
     sample: int
     seed: int
+    but: tuple[str, ...] = ()
 
     def of(self, table: Sequence[Case], store: Store) -> list[tuple[Case, Answer]]:
         """Each with its answer.
@@ -61,7 +67,7 @@ class Draw:
         Raises:
             BadInput: there are none.
         """
-        known = {name: answer for name, answer in store.read().items() if answer.code == self.older}
+        known = {name: answer for name, answer in store.read().items() if self._asks_for(answer)}
         drawn = Choice(sample=self.sample, seed=self.seed).of([case for case in table if case.name in known])
         if not drawn:
             codes = sorted({answer.code for answer in store.read().values()})
@@ -69,22 +75,45 @@ class Draw:
             raise BadInput(f"--from {self.older}: the store holds no answers of that code; it holds {there}")
         return [(case, known[case.name]) for case in drawn]
 
+    def _asks_for(self, answer: Answer) -> bool:
+        return answer.code == self.older and not _any(self.but, answer.case)
+
 
 def read_carried(store: Store) -> tuple[Carried, ...]:
     """Of a folder of answers, in the order in which they were shown; none where nothing was."""
     path = _path(store)
     if not path.is_file():
         return ()
-    return tuple(Carried(**{**row, "cases": tuple(row["cases"])}) for row in json.loads(path.read_text("utf-8")))
+    rows = json.loads(path.read_text("utf-8"))
+    return tuple(Carried(**{**row, "cases": tuple(row["cases"]), "but": tuple(row["but"])}) for row in rows)
 
 
-def standing(store: Store, code: str) -> frozenset[str]:
-    """The codes whose answers count as those of this one: itself, and those carried to it, step by step."""
-    found = {code}
+@dataclass(frozen=True)
+class Standing:
+    """Whose answers count as those of a code: its own, and those carried to it, step by step.
+
+    Args:
+        steps: that lead to it, the last first.
+        but: fingerprint -> patterns of names that some step to the code has left out; none for its own.
+    """
+
+    steps: tuple[Carried, ...]
+    but: Mapping[str, tuple[str, ...]]
+
+    def counts(self, answer: Answer) -> bool:
+        """Whether that answer stands."""
+        return answer.code in self.but and not _any(self.but[answer.code], answer.case)
+
+
+def standing(store: Store, code: str) -> Standing:
+    """Of a folder of answers."""
+    steps: list[Carried] = []
+    but: dict[str, tuple[str, ...]] = {code: ()}
     for step in reversed(read_carried(store)):
-        if step.newer in found:
-            found.add(step.older)
-    return frozenset(found)
+        if step.newer in but and step.older not in but:
+            steps.append(step)
+            but[step.older] = (*but[step.newer], *step.but)
+    return Standing(tuple(steps), but)
 
 
 def carry(
@@ -122,7 +151,10 @@ def carry(
         return False
     for case, answer in given.items():
         store.add(case, answer)
-    rows = (*read_carried(store), Carried(draw.older, code, today(), draw.seed, tuple(case.name for case in known)))
+    rows = (
+        *read_carried(store),
+        Carried(draw.older, code, today(), draw.seed, tuple(case.name for case in known), draw.but),
+    )
     write_file(_path(store), json.dumps([asdict(row) for row in rows], indent=1) + "\n")
     return True
 
@@ -135,6 +167,10 @@ def differences(before: Answer, after: Answer) -> list[str]:
         for name in names
         if getattr(before, name) != getattr(after, name)
     ]
+
+
+def _any(patterns: Sequence[str], name: str) -> bool:
+    return any(fnmatchcase(name, pattern) for pattern in patterns)
 
 
 def _path(store: Store) -> Path:

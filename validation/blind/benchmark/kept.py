@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from validation.blind.benchmark.answer import Answer
-from validation.blind.benchmark.carry import Carried, read_carried, standing
+from validation.blind.benchmark.carry import Carried, standing
 from validation.blind.benchmark.fingerprint import fingerprint
 from validation.blind.benchmark.store import CLOCKED, FOLLOWED, PLACES, Store
 
@@ -36,17 +36,16 @@ def read_kept(answers: Store | None = None) -> Kept:
     """What this package holds; its verdicts, or those of another folder."""
     verdicts, code = answers or Store(), fingerprint()
     counted = _standing(verdicts, code)
-    codes = standing(verdicts, code)
     return Kept(
         counted,
         _standing(Store(PLACES), fingerprint(places=True)),
         _standing(Store(FOLLOWED), code),
         _standing(Store(CLOCKED), code),
         len(verdicts.read()) - len(counted),
-        tuple(step for step in read_carried(verdicts) if step.newer in codes),
+        standing(verdicts, code).steps,
     )
 
 
 def _standing(store: Store, code: str) -> dict[str, Answer]:
-    codes = standing(store, code)
-    return {name: answer for name, answer in store.read().items() if answer.code in codes}
+    counts = standing(store, code).counts
+    return {name: answer for name, answer in store.read().items() if counts(answer)}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 import zlib
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fnmatch import fnmatchcase
 
@@ -65,7 +65,7 @@ def run(
     task: Task,
     code: str,
     *,
-    alike: Collection[str] = (),
+    counts: Callable[[Answer], bool] | None = None,
     workers: int = 2,
     limit: float = 900.0,
     say: Callable[[str], None] = print,
@@ -74,14 +74,15 @@ def run(
 
     Args:
         code: fingerprint; answers of another code are given again.
-        alike: other codes whose answers stand for this one.
+        counts: whether an answer need not be given again; those of this code alone where None.
         workers: processes, of one thread each.
         limit: s for one case, judging and the start of its process included.
     Returns:
         how many cases were answered.
     """
     known = store.read()
-    open_ = [case for case in chosen if case.name not in known or known[case.name].code not in (code, *alike)]
+    done_with = counts or (lambda answer: answer.code == code)
+    open_ = [case for case in chosen if case.name not in known or not done_with(known[case.name])]
     say(f"{len(open_)} of {len(chosen)} cases to answer, code {code}")
     blank = Answer("", code, today())
     begun = time.monotonic()

@@ -39,9 +39,10 @@ def provenance(answered: Sequence[Pair], asked: int, kept: Kept) -> Iterator[str
         span = min(days) if min(days) == max(days) else f"{min(days)} to {max(days)}"
         yield f"Code `{code}`: {len(days)} cases, {span}."
     for step in kept.carried:
+        but = f", but for {' and '.join(f'`{name}`' for name in step.but)}" if step.but else ""
         yield (
-            f"Code `{step.newer}` answers as `{step.older}` did: {len(step.cases)} cases, drawn with seed {step.seed}, "
-            f"were answered again on {step.day}, and no field differed."
+            f"Code `{step.newer}` answers as `{step.older}` did{but}: {len(step.cases)} cases, drawn with seed "
+            f"{step.seed}, were answered again on {step.day}, and no field differed."
         )
     if kept.stale:
         yield f"{kept.stale} stored answers of other code are not counted."

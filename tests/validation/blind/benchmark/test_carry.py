@@ -1,8 +1,9 @@
 """Older answers stand for a newer code only where a drawn sample comes out the same; what does not is said."""
 
 import importlib
+import json
 from collections.abc import Iterator
-from dataclasses import replace
+from dataclasses import asdict, replace
 from pathlib import Path
 
 import pytest
@@ -52,10 +53,10 @@ def store(tmp_path: Path) -> Store:
 def test_where_the_sample_comes_out_the_same_all_stand(store: Store, fake: Task) -> None:
     task: Task = fake.same  # type: ignore[attr-defined]
     said: list[str] = []
-    assert standing(store, "new") == {"new"}
+    assert not any(map(standing(store, "new").counts, store.read().values()))
     assert carry(TABLE, store, task, Draw("old", 4, 3), "new", workers=1, say=said.append)
-    assert standing(store, "new") == {"new", "old"}
-    assert standing(store, "old") == {"old"}
+    assert all(map(standing(store, "new").counts, store.read().values()))
+    assert not standing(store, "old").counts(Answer("a", "new", ""))
     (step,) = read_carried(store)
     assert (step.older, step.newer, step.seed) == ("old", "new", 3)
     assert set(step.cases) == {name for name, answer in store.read().items() if answer.code == "new"}
@@ -68,7 +69,7 @@ def test_where_one_differs_none_stands_and_nothing_is_kept(store: Store, fake: T
     task: Task = fake.other  # type: ignore[attr-defined]
     said: list[str] = []
     assert not carry(TABLE, store, task, Draw("old", 12, 3), "new", workers=1, say=said.append)
-    assert standing(store, "new") == {"new"}
+    assert standing(store, "new").steps == ()
     assert {answer.code for answer in store.read().values()} == {"old"}
     assert f"{TABLE[0].name}: held 1.0 became 1.01; 9 s" in " ".join(said)
     assert said[-1] == "1 of 12 differ: the older answers do not stand for this code"
@@ -80,14 +81,28 @@ def test_a_code_that_answered_nothing_is_refused(store: Store, fake: Task) -> No
         carry(TABLE, store, task, Draw("older", 4, 3), "new", say=print)
 
 
+def test_what_may_change_is_neither_drawn_nor_counted(store: Store, fake: Task) -> None:
+    task: Task = fake.other  # type: ignore[attr-defined]
+    assert carry(TABLE, store, task, Draw("old", 12, 3, (TABLE[0].name,)), "new", workers=1, say=lambda line: None)
+    (step,) = read_carried(store)
+    assert step.but == (TABLE[0].name,)
+    assert TABLE[0].name not in step.cases
+    counted = {name for name, answer in store.read().items() if standing(store, "new").counts(answer)}
+    assert counted == {case.name for case in TABLE[1:]}
+
+
 def test_it_goes_on_step_by_step(tmp_path: Path) -> None:
     store = Store(tmp_path)
-    rows = [("a", "b"), ("b", "c"), ("x", "y")]
-    text = ",".join(f'{{"older":"{a}","newer":"{b}","day":"2026-01-01","seed":1,"cases":["one"]}}' for a, b in rows)
-    (tmp_path / "carried.json").write_text(f"[{text}]")
-    assert standing(store, "c") == {"a", "b", "c"}
-    assert standing(store, "y") == {"x", "y"}
-    assert read_carried(store)[0] == Carried("a", "b", "2026-01-01", 1, ("one",))
+    rows = [
+        Carried("a", "b", "d", 1, ("one",), ("x*",)),
+        Carried("b", "c", "d", 1, ("one",)),
+        Carried("x", "y", "d", 1, ()),
+    ]
+    (tmp_path / "carried.json").write_text(json.dumps([asdict(row) for row in rows]))
+    assert read_carried(store) == tuple(rows)
+    counts = standing(store, "c").counts
+    assert [counts(Answer("one", code, "d")) for code in "abcxy"] == [True, True, True, False, False]
+    assert [counts(Answer("x1", code, "d")) for code in "abc"] == [False, True, True]
 
 
 def test_only_what_stands_is_counted(store: Store) -> None:
