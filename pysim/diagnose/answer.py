@@ -60,11 +60,11 @@ def answered(
     )
 
 
-def decided(story: Story, base: Settled, final: Settled, *, tried: bool = True) -> tuple[str, str]:
+def decided(story: Story, base: Settled, final: Settled, *, why_none: str = "") -> tuple[str, str]:
     """Verdict and reason: what was added is named only where nothing else is left.
 
     Args:
-        tried: whether the catalogue was.
+        why_none: why no effect was added, where that was no matter of what effects gain.
     """
     point, names = final.at.point, [e.name for e in final.at.what.effects]
     ruler = final.lean
@@ -78,14 +78,14 @@ def decided(story: Story, base: Settled, final: Settled, *, tried: bool = True) 
     if not names and complete:
         return NONE, f"the refitted base model explains the data: {left}, and nothing in it has a pattern"
     where = f", most of it {rest.where[0]}" if rest.where else ""
-    if not names and not tried:
-        return UNKNOWN, f"{left}{where}; no effect was tried"
+    if not names and why_none:
+        return UNKNOWN, f"{left}{where}; {why_none}"
     if not names and story.subject.build_variant is None:
         return UNKNOWN, f"{left}{where}, and no effect could be tried"
     if not names and not story.subject.catalogue:
         return UNKNOWN, f"{left}{where}, and the catalogue has no effect for this model"
     if not names:
-        return UNKNOWN, f"{left}{where}, and no effect takes a fair share of it"
+        return UNKNOWN, f"{left}{where}, and {story.refused or 'no effect takes a fair share of it'}"
     both, plural = " and ".join(names), len(names) > 1
     if complete:
         return names[

@@ -152,23 +152,21 @@ class Settled:
     Args:
         whole: the model where every suspect is allowed for, by
         ruler: which has the nuisances' shapes from that model.
-        at: refitted where only those in `blame` are allowed for, by
+        at: refitted where only those to blame are allowed for, by
         lean: the ruler.
-        blame: who is.
-        seen: sizes of these.
+        seen: their sizes.
     """
 
     whole: Fitted
     ruler: Ruler
     at: Fitted
     lean: Ruler
-    blame: Blame
     seen: tuple[Nuisance, ...]
 
     @staticmethod
     def as_is(ruler: Ruler, at: Fitted) -> Settled:
         """A model that nothing was refitted for."""
-        return Settled(at, ruler, at, ruler, Blame(frozenset(), at.point.cost, 0.0), ())
+        return Settled(at, ruler, at, ruler, ())
 
     @property
     def amounts(self) -> dict[Suspect, float]:
@@ -211,8 +209,8 @@ def settled_before(ruler: Ruler, at: Fitted, x: Array, suspected: Sequence[Suspe
 def _settled(ruler: Ruler, whole: Fitted, lean: Ruler, x: Array, rows: Array) -> Settled:
     if lean.has_events(whole.what, x):
         rows = with_secants(lean, whole.what, x, rows)
-    at, blame = replace(whole, point=lean.counted(x, rows)), blamed(ruler, ruler.counted(x, rows))
-    return Settled(whole, ruler, at, lean, blame, () if is_off(ruler, whole.point) else nuisances(lean, at.point))
+    at = replace(whole, point=lean.counted(x, rows))
+    return Settled(whole, ruler, at, lean, () if is_off(ruler, whole.point) else nuisances(lean, at.point))
 
 
 def _nearer(ruler: Ruler, at: Fitted) -> tuple[Ruler, Fitted]:
@@ -357,7 +355,7 @@ def _restless(ruler: Ruler, point: Evaluation) -> tuple[float, ...]:
     rows = np.split(point.residual, np.cumsum([w.size for w in ruler.whitenings])[:-1])
     found = []
     for target, own, skip in zip(ruler.targets, rows, ruler.skips, strict=True):
-        if isinstance(target, LogTarget) and not skip:
+        if isinstance(target, LogTarget) and not skip and _is_long(target):
             time = target.measured.time
             first = int(np.searchsorted(time, time[0] + _SHOWS)) * own.size // time.size
             level = max(1.0, float(np.mean(own[first:] ** 2))) if first < own.size else np.inf
@@ -367,11 +365,15 @@ def _restless(ruler: Ruler, point: Evaluation) -> tuple[float, ...]:
     return tuple(found)
 
 
+def _is_long(target: LogTarget) -> bool:
+    """Whether much of a log is left without its start."""
+    return bool(target.measured.time[-1] - target.measured.time[0] >= 4 * _OVER)
+
+
 def _wrong_start(ruler: Ruler, target: LogTarget, simulated: Array) -> bool:
     """Whether the log leaves a model that starts at rest at once, before the model's motion could explain it."""
-    since = target.measured.time - target.measured.time[0]
-    early = since < _SHOWS
-    if since[-1] < 4 * _OVER or early.sum() < 3:
+    early = target.measured.time - target.measured.time[0] < _SHOWS
+    if not _is_long(target) or early.sum() < 3:
         return False
     noise = np.array(target.noise)
     apart = ((target.measured.values - simulated) / noise)[early]

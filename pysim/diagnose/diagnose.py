@@ -60,7 +60,7 @@ def diagnose(
         story.note(_NOT_AT_HAND)
     elif subject.catalogue:
         base, final = search(story, nominal, base, most)
-    verdict, reason = decided(story, base, final)
+    verdict, reason = decided(story, base, final, why_none="" if most else "no effect was tried")
     missing = _missing(story, final) if verdict == UNKNOWN else ()
     return answered(story, final.at, verdict, reason, missing, _next_test(story))
 
@@ -86,7 +86,7 @@ def against(
     story = begin(subject, seed=0, workers=workers, progress=progress, journal=journal, settings=told)
     prior = _prior(story)
     last = _refit(story, prior) if refitted else Settled.as_is(story.ruler.plain, prior)
-    return answered(story, last.at, *decided(story, last, last, tried=False))
+    return answered(story, last.at, *decided(story, last, last, why_none="no effect was tried"))
 
 
 def rank(
@@ -111,7 +111,7 @@ def rank(
     tried = screened(story, base.whole)
     found = refitted(story, tried, nominal) if tried.promises else {}
     story.ranking += rows(story, tried, found, 1)
-    return answered(story, base.at, *decided(story, base, base))
+    return answered(story, base.at, *decided(story, base, base, why_none="effects were ranked, none was added"))
 
 
 def add(
@@ -161,7 +161,9 @@ def located(
     told: dict[str, object] = {"step": "located", "effects": [effect.name for effect in effects]}
     story = begin(subject, seed=0, workers=workers, progress=progress, journal=journal, settings=told)
     base, current = _with(story, effects)
-    return answered(story, current.at, *decided(story, base, current, tried=False), _missing(story, current))
+    return answered(
+        story, current.at, *decided(story, base, current, why_none="no effect was tried"), _missing(story, current)
+    )
 
 
 def _next_test(story: Story) -> NextTest | None:
@@ -213,7 +215,7 @@ def _prior(story: Story) -> Fitted:
     for line in story.counting():
         story.note(line)
     if not first.good:
-        why = story.ruler.failure(what, first.x) or "a number in its answer is not finite"
+        why = story.ruler.failure(what, first.x) or first.trouble or "a number in its answer is not finite"
         raise BadInput(
             f"{what.model.label} cannot be simulated through the tests at its own parameters, {why}; set others with "
             "--set, or leave that test out"

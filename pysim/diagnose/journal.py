@@ -88,13 +88,26 @@ def identity(subject: Subject, settings: Mapping[str, object]) -> str:
     digest = hashlib.sha256(subject.model.path.read_bytes())
     for target in subject.targets:
         for run in target.runs:
-            digest.update(repr((run.record, sorted(run.experiment.overrides.items()))).encode())
+            digest.update(repr((run.record, run.experiment.start, sorted(run.experiment.overrides.items()))).encode())
         if isinstance(target, TableTarget):
             digest.update(repr((target.source, target.reference)).encode())
     for record in subject.dataset.records if subject.dataset is not None else ():
         data = record.data
-        values = data.values if isinstance(data, Record) else np.stack([data.frequency, data.gain, data.phase])
-        digest.update(repr((record.source, record.use)).encode() + np.ascontiguousarray(values).tobytes())
+        numbers = [data.time, data.values] if isinstance(data, Record) else [data.frequency, data.gain, data.phase]
+        if not isinstance(data, Record) and data.covariance is not None:
+            numbers.append(data.covariance)
+        about = (
+            record.source,
+            record.kind,
+            record.use,
+            record.offset,
+            record.amplitude,
+            record.frequency,
+            record.command,
+        )
+        digest.update(repr(about).encode())
+        for one in numbers:
+            digest.update(np.ascontiguousarray(one).tobytes())
     signals = [] if subject.dataset is None else [repr(s) for s in subject.dataset.signals]
     catalogue = [(e.name, e.class_name, e.law, repr(e.parameters)) for e in subject.catalogue]
     bounds = sorted((name, *ends) for name, ends in subject.bounds.items())

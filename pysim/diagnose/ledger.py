@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from pysim.diagnose.subject import Extended, Subject
-from pysim.identify.greybox import Problem, Simulation
+from pysim.identify.greybox import Problem, Simulation, Threads
 from pysim.identify.greybox.comparison import Compared, compared
 from pysim.identify.greybox.parameters import ParameterSpace
 from pysim.simulate import Esdirk
@@ -18,11 +19,17 @@ from pysim.types.diagnosis import LedgerStep
 Array = NDArray[np.float64]
 
 
-def beside(subject: Subject, what: Extended, x: Array) -> Compared:
-    """Every record beside the model at x (n,) of its space, those held out too."""
+def beside(subject: Subject, what: Extended, x: Array, workers: int | None = None) -> Compared:
+    """Every record beside the model at x (n,) of its space, those held out too.
+
+    Args:
+        workers: runs at a time; all cores where None.
+    """
     nothing, values = np.zeros(0), what.space.values(x)
     fixed = ParameterSpace((), (), (), (), nothing, nothing, nothing, nothing, nothing.astype(bool), fixed=values)
-    return compared(Problem(what.model, fixed, subject.targets), nothing, Simulation(Esdirk(rtol=1e-6, atol=1e-6)))
+    return compared(
+        Problem(what.model, fixed, subject.targets), nothing, Simulation(Esdirk(rtol=1e-6, atol=1e-6), Threads(workers))
+    )
 
 
 def ledger_step(name: str, found: Compared, cost: float, skips: Mapping[str, float] | None = None) -> LedgerStep:
@@ -43,6 +50,18 @@ def ledger_step(name: str, found: Compared, cost: float, skips: Mapping[str, flo
     )
 
 
+def after(record: RecordFit, skips: Mapping[str, float]) -> RecordFit:
+    """A record without what does not count at its start."""
+    since = record.measured.time - record.measured.time[0]
+    keep = since >= skips.get(record.source, 0.0)
+    if keep.all():
+        return record
+    measured, simulated = (
+        replace(part, time=part.time[keep], values=part.values[keep]) for part in (record.measured, record.simulated)
+    )
+    return replace(record, measured=measured, simulated=simulated)
+
+
 def _worst(deviations: Sequence[Deviation]) -> Iterator[Deviation]:
     for symbol in dict.fromkeys(d.criterion.symbol for d in deviations):
         yield max((d for d in deviations if d.criterion.symbol == symbol), key=lambda d: d.value)
@@ -50,9 +69,5 @@ def _worst(deviations: Sequence[Deviation]) -> Iterator[Deviation]:
 
 def root_mean_square(records: Sequence[RecordFit], use: str, skips: Mapping[str, float]) -> float | None:
     """Of all samples that count over their noise, of records of one use; None where there are none."""
-    values = []
-    for record in records:
-        if record.use == use:
-            since = record.measured.time - record.measured.time[0]
-            values.append(record.residual.values[since >= skips.get(record.source, 0.0)].ravel())
+    values = [after(record, skips).residual.values.ravel() for record in records if record.use == use]
     return float(np.sqrt(np.mean(np.concatenate(values) ** 2))) if values else None

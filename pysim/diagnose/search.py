@@ -46,6 +46,8 @@ def search(story: Story, nominal: Fitted, base: Settled, most: int) -> tuple[Set
     """
     current = base
     for number in range(1, most + 1):
+        if len(current.at.what.effects) >= most:  # a round may add two
+            break
         found = _round(story, current.whole, nominal if number == 1 else None, number, most)
         if found is not None and number == 1:
             better = _freed(story, base, found)
@@ -54,9 +56,9 @@ def search(story: Story, nominal: Fitted, base: Settled, most: int) -> tuple[Set
                 found = _round(story, current.whole, nominal, number, most)
         if found is None:
             break
-        needed = _without_the_needless(story, found)
+        needed, known = _without_the_needless(story, found), current.at.what.effects
         current = settle(story, needed, needed.name)
-        story.enter(needed.what.effects[-1].name, current.at)
+        story.enter(" + ".join(e.name for e in needed.what.effects if e not in known), current.at)
         if story.journal.once(f"round {number}", dict)["done"]:
             break
     return base, current
@@ -94,6 +96,7 @@ def _round(story: Story, current: Fitted, nominal: Fitted | None, number: int, m
     if told["said"]:
         story.say(told["said"])
     if not told["chosen"]:
+        story.refused = told["said"]
         return None
     named = {e.name: e for e in story.subject.catalogue}
     what = extended(story.subject, [*current.what.effects, *(named[name] for name in told["chosen"])])
@@ -130,12 +133,8 @@ def _played(story: Story, current: Fitted, nominal: Fitted | None, number: int, 
         names = _together(story, tried, found)
         if names:
             part = f"{current.name} + {' + '.join(names)}"
-            return {
-                **answer,
-                "chosen": names,
-                "part": part,
-                "said": f"added {' and '.join(names)}, which work together",
-            }
+            said = f"added {' and '.join(names)}, which work together"
+            return {**answer, "ties": [], "chosen": names, "part": part, "said": said}
     return answer
 
 

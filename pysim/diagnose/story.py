@@ -27,7 +27,7 @@ from pysim.diagnose.corrections import (
 from pysim.diagnose.doubt import held_still
 from pysim.diagnose.fitted import Fitted
 from pysim.diagnose.journal import Journal, identity
-from pysim.diagnose.ledger import beside, ledger_step
+from pysim.diagnose.ledger import after, beside, ledger_step
 from pysim.diagnose.nuisance import Suspect
 from pysim.diagnose.residuals import Ruler, rulers
 from pysim.diagnose.steps import as_fine, with_tolerance
@@ -56,6 +56,7 @@ class Story:
         seed: of every draw.
         ruler, held: count what is fitted, and what is held out if anything is.
         journal: of finished parts.
+        refused: why the leader of the last round was not added; "" where there was none.
     """
 
     subject: Subject
@@ -75,6 +76,7 @@ class Story:
     suits: dict[tuple[str, ...], Ruler] = field(default_factory=dict)
     nuisances: tuple[Nuisance, ...] = ()
     tied: tuple[Fitted, Fitted] | None = None
+    refused: str = ""
     blames: dict[tuple[object, ...], Blame] = field(default_factory=dict)
     measured: tuple[Target, ...] = ()
     suspected: tuple[Suspect, ...] = ()
@@ -112,14 +114,14 @@ class Story:
 
     def enter(self, name: str, at: Fitted) -> LedgerStep:
         """A model joins the ledger."""
-        found = beside(self.subject, at.what, at.point.x)
+        found = beside(self.subject, at.what, at.point.x, self.ruler.workers)
         counted = [self.ruler, *([self.held] if self.held else [])]
         each = [pair for one in counted for pair in zip(one.targets, one.skips, strict=True)]
         skips = {target.source: skip for target, skip in each if isinstance(target, LogTarget)}
         step = ledger_step(name, found, at.point.cost, skips)
         self.ledger.append(step)
         estimates, directions = ((), ()) if name == "prior" else held_still(self.subject, at)
-        where = failures(found.records, self.subject.dataset)
+        where = failures([after(record, skips) for record in found.records], self.subject.dataset)
         self.stages.append(Stage(name, estimates, directions, found.records, found.responses, where))
         for note in found.notes:
             self.note(note)
@@ -175,7 +177,7 @@ class Story:
             return None
         lean = ruler.only([Suspect(*row) for row in kept["nuisances"]])
         if not point:
-            point.append(_again(lean, what, np.array(kept["x"]), np.array(kept["slopes"])))
+            point.append(_again(lean, what, np.array(kept["x"]), slopes_at=np.array(kept["slopes"])))
         return recounted(lean, ruler, Fitted(what, point[0]))
 
     def allow(self, what: Extended, x: Array) -> Evaluation:
@@ -269,10 +271,10 @@ def begin(
     return Story(subject, progress or (lambda told: None), seed, ruler, held, kept, notes=list(subject.notes))
 
 
-def _again(ruler: Ruler, what: Extended, x: Array, slopes: Array) -> Evaluation:
-    """A point of an earlier run, bit for bit."""
-    near = ruler.evaluation(what, slopes)
-    residual = near.residual if np.array_equal(x, slopes) else ruler.at(what, x)
+def _again(ruler: Ruler, what: Extended, x: Array, *, slopes_at: Array) -> Evaluation:
+    """A point of an earlier run, bit for bit, with slopes that were run at another (n,)."""
+    near = ruler.evaluation(what, slopes_at)
+    residual = near.residual if np.array_equal(x, slopes_at) else ruler.at(what, x)
     assert residual is not None  # it was there when it was written
     return replace(near, x=x, cost=float(residual @ residual), residual=residual)
 

@@ -117,6 +117,8 @@ def test_the_steps_alone() -> None:
     assert compared.where
     assert [step.step for step in against(subject, refitted=False).error] == ["prior"]
     ranked = rank(subject)
+    assert ranked.reason.endswith("effects were ranked, none was added")
+    assert diagnose(subject, most=0).reason.endswith("no effect was tried")
     assert ranked.ranking[0].effect == "toy.friction"
     assert ranked.ranking[0].refitted
     assert ranked.added == ()

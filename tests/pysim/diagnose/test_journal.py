@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from pysim.diagnose.journal import Journal, identity
-from pysim.types import BadInput
+from pysim.types import BadInput, Dataset, MeasuredRecord
 from tests.pysim.diagnose.toy import measured, toy_subject
 
 
@@ -52,14 +52,25 @@ def test_without_a_file_parts_are_kept_for_this_run_alone() -> None:
     assert [journal.once("one", lambda: k) for k in (1, 2)] == [1, 1]  # noqa: B023
 
 
+def other(dataset: Dataset, first: MeasuredRecord) -> Dataset:
+    """With another first record."""
+    return replace(dataset, records=(first, *dataset.records[1:]))
+
+
 def test_identity_is_that_of_model_data_catalogue_and_settings() -> None:
     one = toy_subject(measured(1))
     assert identity(one, {"seed": 0}) == identity(toy_subject(measured(1)), {"seed": 0})
+    record = one.dataset.records[0]
+    later = replace(record, data=replace(record.data, time=record.data.time + 0.5))
     others = [
+        *(
+            identity(replace(one, dataset=other(one.dataset, changed)), {"seed": 0})
+            for changed in (later, replace(record, kind="step"))
+        ),
         identity(one, {"seed": 1}),
         identity(toy_subject(measured(2)), {"seed": 0}),
         identity(toy_subject(measured(1), ("toy.bias",)), {"seed": 0}),
         identity(replace(one, free=("m", "d")), {"seed": 0}),
         identity(replace(one, bounds={"m": (0.5, 2.0)}), {"seed": 0}),
     ]
-    assert len({identity(one, {"seed": 0}), *others}) == 6
+    assert len({identity(one, {"seed": 0}), *others}) == 8

@@ -1,8 +1,8 @@
 """Answers of an older code that a newer one gives too: a sample, answered again and compared field by field.
 
-A change of words or of structure alone changes the fingerprint, but not one bit of what is computed; another one changes
-the answers to some cases only. Neither is taken on trust: cases drawn at random are answered again, and the older answers
-count for the newer code only where all agree. Those that are expected to change are named before, and do not count.
+A change of words or of structure alone changes the fingerprint, but not one bit of what is computed; another changes
+the answers to some cases only. Neither is taken on trust: cases drawn at random are answered again, and the older
+answers count for the newer code only where all agree. Those expected to change are named before, and do not count.
 """
 
 from __future__ import annotations
