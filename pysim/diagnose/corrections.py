@@ -1,4 +1,4 @@
-"""Finds the nuisances that the data hold, takes them off the measurements, and leaves out wrong starts."""
+"""Finds the nuisances that the data hold, and takes them off the measurements."""
 
 from __future__ import annotations
 
@@ -8,29 +8,21 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import stats
 
 from pysim.diagnose.blame import PLAUSIBLE, Blame, Evidence
 from pysim.diagnose.descent import mean_square
 from pysim.diagnose.fitted import Fitted
-from pysim.diagnose.nuisance import GAIN, OFFSET, SHIFT, Suspect, suspects, undisturbed
+from pysim.diagnose.nuisance import GAIN, SHIFT, Suspect, suspects, undisturbed
 from pysim.diagnose.refit import refit
 from pysim.diagnose.residuals import Ruler
 from pysim.diagnose.screen import across, column_space
 from pysim.diagnose.secants import with_secants
 from pysim.diagnose.subject import Extended
-from pysim.diagnose.whiten import whitening
+from pysim.diagnose.wrong_starts import answers, restless_beside, skips_beside, started
 from pysim.identify.greybox.evaluation import Evaluation
-from pysim.identify.greybox.log_target import LogTarget
-from pysim.simulate import simulate_many
-from pysim.types import Outcome
 
 Array = NDArray[np.float64]
 
-# s after which a plate that moved when its log began is at rest; s at its start in which that shows.
-_OVER, _SHOWS = 0.8, 0.15
-# A wrong start shows with this chance by noise alone, and the model moves little while it does.
-_BY_CHANCE, _STILL = 1e-6, 0.25
 # Share of a nuisance that parameters have to leave for it to be told from them.
 _ALIKE = 1e-2
 # Fall of the sum of squares from which another refit is worth its runs.
@@ -224,14 +216,14 @@ def _nearer(ruler: Ruler, at: Fitted) -> tuple[Ruler, Fitted]:
         shifts = {n.suspect: n.value for n in nuisances(ruler, at.point) if n.suspect.kind == SHIFT}
         off = is_off(ruler, at.point)
         moved = ruler if off else ruler.moved(shifts)
-        near = _answers(moved, at.what, at.point.x)
+        near = answers(moved, at.what, at.point.x)
         if near is None:
             break
-        closer = moved.with_other(near=tuple(near), skips=_skips(moved, near))
+        closer = moved.with_other(near=tuple(near), skips=skips_beside(moved, near))
         first = closer.evaluation(at.what, at.point.x)
         if not first.good:
             break
-        restless = _restless(closer, first)
+        restless = restless_beside(closer, first)
         if restless != closer.skips and not is_off(closer, first):
             closer = closer.with_other(skips=restless)
             first = closer.evaluation(at.what, at.point.x)
@@ -313,122 +305,8 @@ def allowing(ruler: Ruler, held: Ruler | None, what: Extended, x: Array) -> tupl
     Args:
         x: (n,) of the model, near the plant; the rulers stay as they are where it cannot be simulated there.
     """
-    near = _answers(ruler, what, x)
+    near = answers(ruler, what, x)
     if near is not None:
         everyone = suspects(ruler.targets)
-        ruler = ruler.with_other(suspected=everyone, near=tuple(near), skips=_skips(ruler, near))
+        ruler = ruler.with_other(suspected=everyone, near=tuple(near), skips=skips_beside(ruler, near))
     return ruler, None if held is None else started(held, what, x)
-
-
-def started(ruler: Ruler, what: Extended, x: Array) -> Ruler:
-    """The ruler without the starts that are wrong beside a model."""
-    answers = _answers(ruler, what, x)
-    return ruler if answers is None else ruler.with_other(skips=_skips(ruler, answers))
-
-
-def _skips(ruler: Ruler, answers: Sequence[Array]) -> tuple[float, ...]:
-    """Per target s at its start that do not count; what was left out once stays so."""
-    return tuple(
-        _OVER if skip or (isinstance(t, LogTarget) and _wrong_start(ruler, t, answers[place])) else 0.0
-        for t, skip, place in zip(ruler.targets, ruler.skips, _places(ruler), strict=True)
-    )
-
-
-def _answers(ruler: Ruler, what: Extended, x: Array) -> list[Array] | None:
-    """Of every run."""
-    runs = ruler.experiments(what.space.values(x))
-    records = simulate_many(what.model, runs, solver=ruler.solver, workers=ruler.workers)
-    good = all(r.outcome is Outcome.DONE and np.isfinite(r.values).all() for r in records)
-    return [r.values for r in records] if good else None
-
-
-def _places(ruler: Ruler) -> list[int]:
-    """Of each target's first run."""
-    return np.cumsum([0, *(len(t.runs) for t in ruler.targets)])[:-1].tolist()
-
-
-def _restless(ruler: Ruler, point: Evaluation) -> tuple[float, ...]:
-    """Skips with those logs that leave more at their very start than noise does, and than they leave after it.
-
-    So beside a model that is near the plant even a little motion shows that was left when a log began.
-    """
-    rows = np.split(point.residual, np.cumsum([w.size for w in ruler.whitenings])[:-1])
-    found = []
-    for target, own, skip in zip(ruler.targets, rows, ruler.skips, strict=True):
-        if isinstance(target, LogTarget) and not skip and _is_long(target):
-            time = target.measured.time
-            first = int(np.searchsorted(time, time[0] + _SHOWS)) * own.size // time.size
-            level = max(1.0, float(np.mean(own[first:] ** 2))) if first < own.size else np.inf
-            if float(np.sum(own[:first] ** 2)) > level * float(stats.chi2.isf(_BY_CHANCE, max(first, 1))):
-                skip = _OVER
-        found.append(skip)
-    return tuple(found)
-
-
-def _is_long(target: LogTarget) -> bool:
-    """Whether much of a log is left without its start."""
-    return bool(target.measured.time[-1] - target.measured.time[0] >= 4 * _OVER)
-
-
-def _wrong_start(ruler: Ruler, target: LogTarget, simulated: Array) -> bool:
-    """Whether the log leaves a model that starts at rest at once, before the model's motion could explain it."""
-    early = target.measured.time - target.measured.time[0] < _SHOWS
-    if not _is_long(target) or early.sum() < 3:
-        return False
-    noise = np.array(target.noise)
-    apart = ((target.measured.values - simulated) / noise)[early]
-    moved = (simulated / noise)[early]
-    apart, moved = apart - apart.mean(axis=0), moved - moved.mean(axis=0)
-    if np.sum(apart**2) < _STILL**2 * np.sum(moved**2):
-        return False
-    whole = np.zeros(simulated.shape)
-    whole[early] = apart
-    independent = whitening(target, ruler.noise).of(whole.reshape(-1, 1)).reshape(simulated.shape)[early]
-    return float(np.sum(independent**2)) > float(stats.chi2.isf(_BY_CHANCE, apart.size))
-
-
-def in_words(seen: Sequence[Nuisance], units: Mapping[str, str]) -> list[str]:
-    """A sentence for each nuisance.
-
-    Args:
-        units: of the signals.
-    """
-    return [_sentence(n, units) for n in seen]
-
-
-def _sentence(n: Nuisance, units: Mapping[str, str]) -> str:
-    name, reach = n.suspect.signal, 0.5 * (n.high - n.low)
-    if n.suspect.kind == GAIN:
-        return f"{name} reads {100 * n.value:+.3g} +- {100 * reach:.2g} percent: a gain of its sensor"
-    if n.suspect.kind == OFFSET:
-        unit = units.get(name, "")
-        return f"{name} is off by {n.value:+.3g} +- {reach:.2g} {unit}: an offset of its sensor".replace("  ", " ")
-    return f"outputs are logged {1e3 * n.value:+.3g} +- {1e3 * reach:.2g} ms after the command: a shift of clocks"
-
-
-def counting_in_words(ruler: Ruler, held: Ruler | None, units: Mapping[str, str], *, told: bool) -> list[str]:
-    """What a reader must know of how residuals are counted: noise that is not as told, logs cut at their start.
-
-    Args:
-        units: of the signals.
-        told: whether the data set tells the noise.
-    """
-    lines = []
-    for (_, name), noise in ruler.noise.items():
-        unit = units.get(name, "")
-        if noise.coloured:
-            lines.append(
-                f"the noise of {name} has memory: {noise.coloured:.3g} {unit} over {1e3 * noise.memory:.2g} ms beside "
-                f"{noise.white:.3g} {unit} of white noise; residuals are counted by what each sample adds"
-            )
-        elif told and not noise.plain:
-            lines.append(
-                f"the noise of {name} is told as {noise.told:.3g} {unit}; the logs show {noise.white:.3g} {unit}"
-            )
-    for one in (ruler, *([held] if held else [])):
-        for target, skip in zip(one.targets, one.skips, strict=True):
-            if skip and isinstance(target, LogTarget):
-                lines.append(
-                    f"{target.source}: the plant still moved when the log began; the first {skip:g} s are left out"
-                )
-    return lines

@@ -16,7 +16,6 @@ from pysim.diagnose.corrections import (
     recounted,
     settled,
     settled_before,
-    started,
 )
 from pysim.diagnose.fitted import Fitted
 from pysim.diagnose.nuisance import Suspect, undisturbed
@@ -25,6 +24,7 @@ from pysim.diagnose.residuals import Ruler
 from pysim.diagnose.roughness import roughness
 from pysim.diagnose.steps import fine_enough
 from pysim.diagnose.story import Story
+from pysim.diagnose.wrong_starts import started
 from pysim.identify.greybox.evaluation import Evaluation
 
 Array = NDArray[np.float64]

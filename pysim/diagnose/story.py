@@ -17,9 +17,7 @@ from pysim.diagnose.corrections import (
     Nuisance,
     allowing,
     blamed,
-    counting_in_words,
     held_beside,
-    in_words,
     leaning,
     recounted,
     told_apart,
@@ -29,6 +27,7 @@ from pysim.diagnose.fitted import Fitted
 from pysim.diagnose.journal import Journal, identity
 from pysim.diagnose.ledger import after, beside, ledger_step
 from pysim.diagnose.nuisance import Suspect
+from pysim.diagnose.nuisance_words import counting_in_words, in_words
 from pysim.diagnose.residuals import Ruler, rulers
 from pysim.diagnose.steps import as_fine, with_tolerance
 from pysim.diagnose.subject import Extended, Subject, extended

@@ -10,7 +10,6 @@ from pysim.diagnose.corrections import (
     corrected,
     held_beside,
     implausible,
-    in_words,
     leaning,
     nuisances,
     recounted,
@@ -20,6 +19,7 @@ from pysim.diagnose.corrections import (
 )
 from pysim.diagnose.fitted import Fitted
 from pysim.diagnose.nuisance import GAIN, OFFSET, SHIFT, Suspect, undisturbed
+from pysim.diagnose.nuisance_words import in_words
 from pysim.diagnose.refit import refit
 from pysim.diagnose.residuals import rulers
 from pysim.diagnose.subject import extended
