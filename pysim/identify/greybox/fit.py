@@ -14,7 +14,7 @@ from pysim.identify.greybox.comparison import compared
 from pysim.identify.greybox.evaluation import Evaluation, LastLook, evaluator, last_look
 from pysim.identify.greybox.gauss_newton import GaussNewton
 from pysim.identify.greybox.interior_point import InteriorPoint
-from pysim.identify.greybox.journal import Journal
+from pysim.identify.greybox.journal import Journal, digest
 from pysim.identify.greybox.objective import NOISE, Objective
 from pysim.identify.greybox.optimiser import Optimiser, State
 from pysim.identify.greybox.problem import Problem
@@ -43,7 +43,7 @@ class Effort:
         nominal: search from the model's own values too, where the given start is another. A fit that starts from a
             bent optimum may never leave it; leave this out only where the start is trusted.
         log: folder for a log per search; None keeps none.
-        resume: go on where the log of a killed fit ends.
+        resume: go on where the log of a killed fit ends; it has to be one of the same problem, to the last bit.
     """
 
     starts: int = 0
@@ -82,8 +82,8 @@ def fit(
     Returns:
         the best of all searches. Records held out are compared, never fitted.
     Raises:
-        BadInput: nothing free, nothing to fit for this objective, an optimiser that cannot minimise it, or a model
-            that could not be simulated at any start.
+        BadInput: nothing free, nothing to fit for this objective, an optimiser that cannot minimise it, a model that
+            could not be simulated at any start, or the log of another fit to resume.
     """
     if not problem.space.size:
         raise BadInput("fit: name at least one free parameter")
@@ -95,6 +95,8 @@ def fit(
             "values; choose the interior-point optimiser"
         )
     begun = starts(problem.model, problem.space, effort.starts, effort.seed, nominal=effort.nominal)
+    objective.chosen(problem.targets)  # what it refuses is refused before an earlier log is given up
+    _forget_earlier(effort, begun)
     states = _searched(problem, objective, optimiser, simulation, effort, begun, progress)
     good = {name: state for name, state in states.items() if state.best.good}
     if not good:
@@ -107,6 +109,20 @@ def fit(
     ]
     state = min(polished, key=lambda one: one.best.cost)
     return _result(problem, objective, optimiser, simulation, states, state, begun)
+
+
+def _forget_earlier(effort: Effort, begun: Mapping[str, Array]) -> None:
+    """A fit that begins anew and is killed is not to meet, in searches it never came to, what an earlier one left."""
+    if effort.log is None or effort.resume:
+        return
+    for name in begun:
+        for one in (name, _polish_of(name)):
+            Journal(effort.log / one, "").forget()
+
+
+def _polish_of(name: str) -> str:
+    """What the search is called that goes on from the end of this one."""
+    return f"{name}-polished"
 
 
 def _searched(
@@ -153,7 +169,7 @@ def _polished(
     if optimiser.rough() is None:
         return best
     fine = _one_search(
-        problem, objective, optimiser, simulation.searching(), effort, f"{name}-polished", best.best, progress
+        problem, objective, optimiser, simulation.searching(), effort, _polish_of(name), best.best, progress
     )
     if not fine.best.good:
         return replace(best, outcome=FitOutcome.STALLED, message=f"the optimum is a rough one: {fine.message}")
@@ -171,8 +187,7 @@ def _one_search(
     progress: Progress | None,
 ) -> State:
     x = start.x if isinstance(start, Evaluation) else start
-    settings = (simulation.solver, simulation.mismatch)
-    identity = repr((problem.model.token, problem.space, objective.name, optimiser, settings, x.tolist()))
+    folder = None if effort.log is None else effort.log / name
     return search(
         evaluator(problem, objective, simulation),
         optimiser,
@@ -180,10 +195,20 @@ def _one_search(
         start,
         squares=objective.squares,
         name=name,
-        journal=None if effort.log is None else Journal(effort.log / name, identity),
+        journal=None if folder is None else _journal(problem, objective, optimiser, simulation, folder, x),
         resume=effort.resume,
         progress=progress,
     )
+
+
+def _journal(
+    problem: Problem, objective: Objective, optimiser: Optimiser, simulation: Simulation, folder: Path, start: Array
+) -> Journal:
+    """Of this search only: of no other data, however little they differ."""
+    contents = digest((problem.space, problem.targets))
+    settings = (simulation.solver, simulation.mismatch)
+    identity = repr((problem.model.token, contents, objective.name, optimiser, settings, start.tolist()))
+    return Journal(folder, identity)
 
 
 def _result(

@@ -27,8 +27,7 @@ class Identifiability:
 
     Args:
         exact: (n, n_0) a basis of directions of ln(p) that change nothing, in a form with many zeros.
-        loose: directions known badly, each with its standard deviation.
-        directions: both as types with words, exact ones first.
+        directions: these in words, then those known badly, each with its standard deviation.
     """
 
     exact: Array

@@ -6,8 +6,10 @@ import hashlib
 import io
 import json
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, fields, is_dataclass
+from enum import Enum
+from numbers import Real
 from pathlib import Path
 
 import numpy as np
@@ -21,6 +23,8 @@ from pysim.types import BadInput, FitOutcome
 Array = NDArray[np.float64]
 
 LINES, STATE = "iterations.jsonl", "state.npz"
+# What a record says of itself, which no residual depends on.
+_SAID = ("origin", "message", "statistics")
 
 
 @dataclass(frozen=True)
@@ -33,7 +37,8 @@ class Journal:
 
     Args:
         folder: made where it is missing.
-        identity: text that tells this search from any other: model, parameters, data, objective, start.
+        identity: text that tells this search from any other: model, data, parameters, objective, optimiser, solver,
+            start. Arrays enter it by their `digest`: printed they lose digits.
     """
 
     folder: Path
@@ -43,10 +48,14 @@ class Journal:
     def _token(self) -> str:
         return hashlib.sha256(self.identity.encode()).hexdigest()
 
+    def forget(self) -> None:
+        """Leave nothing to go on from; the lines stay until a search begins."""
+        (self.folder / STATE).unlink(missing_ok=True)
+
     def begin(self) -> None:
         """Empty the log of what an earlier search left."""
         self.folder.mkdir(parents=True, exist_ok=True)
-        (self.folder / STATE).unlink(missing_ok=True)
+        self.forget()
         write_file(self.folder / LINES, "")
 
     def load(self) -> State | None:
@@ -62,7 +71,10 @@ class Journal:
             head = json.loads(str(content["head"]))
             arrays = {name: content[name] for name in content.files}
         if head["token"] != self._token:
-            raise BadInput(f"{path} belongs to another fit; resume with the same settings, or start anew elsewhere")
+            raise BadInput(
+                f"{path} belongs to another fit: other model, data, parameters, objective, optimiser, solver or start; "
+                "resume with the same ones, or begin anew, without resume or in another folder"
+            )
         self._forget_after(head["tried"])
         states, slopes = (_unpacked(arrays[name], arrays["known"]) for name in ("states", "state_slopes"))
         best = Evaluation(arrays["x"], float(arrays["cost"]), arrays["residual"], arrays["jacobian"], states, slopes)
@@ -120,6 +132,44 @@ class Journal:
             except (json.JSONDecodeError, KeyError):
                 break  # half a line, from the moment of the kill
         write_file(path, "".join(f"{line}\n" for line in keep))
+
+
+def digest(content: object) -> str:
+    """What only the same content has, to the last bit: dataclasses, mappings, rows, arrays, numbers and texts.
+
+    Raises:
+        TypeError: something else is among it.
+    """
+    found = hashlib.sha256()
+    for part in _exact(content):
+        found.update(part)
+    return found.hexdigest()
+
+
+def _exact(content: object) -> Iterator[bytes]:
+    """Every value behind its kind and size, so that nothing else reads the same."""
+    if isinstance(content, np.ndarray):
+        yield f"array {content.dtype.str} {content.shape}\n".encode()
+        yield content.tobytes()
+    elif is_dataclass(content):
+        names = [one.name for one in fields(content) if one.init and one.name not in _SAID]
+        yield f"{type(content).__name__} {names}\n".encode()
+        for name in names:
+            yield from _exact(getattr(content, name))
+    elif isinstance(content, Mapping):
+        yield f"mapping {sorted(content)}\n".encode()
+        for name in sorted(content):
+            yield from _exact(content[name])
+    elif isinstance(content, tuple | list):
+        yield f"row {len(content)}\n".encode()
+        for one in content:
+            yield from _exact(one)
+    elif isinstance(content, Real):
+        yield f"{float(content).hex()}\n".encode()
+    elif content is None or isinstance(content, str | Enum):
+        yield f"{content!r}\n".encode()
+    else:
+        raise TypeError(f"{type(content).__name__} has no digest; add its exact form here")
 
 
 def _packed(rows: Sequence[Array | None]) -> Array:

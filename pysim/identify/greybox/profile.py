@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import stats
 
-from pysim.identify.greybox.evaluation import evaluator
+from pysim.identify.greybox.evaluation import Evaluate, Evaluation, evaluator
 from pysim.identify.greybox.gauss_newton import GaussNewton
 from pysim.identify.greybox.objective import NOISE
 from pysim.identify.greybox.parameters import ParameterSpace
@@ -52,7 +52,7 @@ def profile(
     Args:
         problem: as it was fitted, by least squares.
         fit: its optimum.
-        name: of a free parameter.
+        name: of a free parameter; one of a single log, "x@log.txt", is held in that log only.
         level: of the interval.
         steps: at most, to either side.
     Raises:
@@ -95,19 +95,44 @@ class _Walker:
 
     def cost(self, value: float) -> float:
         """The smallest sum of squares with the parameter held at value."""
-        space, keep = self.problem.space, [i for i in range(self.problem.space.size) if i != self.place]
-        own = space.keys[self.place]
-        kept: dict[str, Any] = {name: tuple(getattr(space, name)[i] for i in keep) for name in _NAMES}
-        kept |= {name: getattr(space, name)[keep] for name in _ARRAYS}
-        tied = {tie.name: tie.factor * value for tie in space.ties if tie.of == own}
-        fixed = {**space.fixed, space.variables[self.place]: value, **tied}
-        ties = tuple(tie for tie in space.ties if tie.of != own)
-        rest = replace(space, **kept, start=self.others, ties=ties, fixed=fixed)
-        evaluate = evaluator(replace(self.problem, space=rest), NOISE, self.simulation)
+        rest = self._rest()
+        everywhere = self.problem.space.records[self.place] is None
+        evaluate = self._fixed(rest, value) if everywhere else self._held(value)
         state = search(evaluate, GaussNewton(), rest, rest.to_search(self.others), squares=True)
         if state.best.good:
             self.others = rest.to_model(state.best.x)
         return state.best.cost
+
+    def _rest(self) -> ParameterSpace:
+        """The space of all other parameters."""
+        space, keep = self.problem.space, [i for i in range(self.problem.space.size) if i != self.place]
+        kept: dict[str, Any] = {name: tuple(getattr(space, name)[i] for i in keep) for name in _NAMES}
+        kept |= {name: getattr(space, name)[keep] for name in _ARRAYS}
+        ties = tuple(tie for tie in space.ties if tie.of != space.keys[self.place])
+        return replace(space, **kept, start=self.others, ties=ties)
+
+    def _fixed(self, rest: ParameterSpace, value: float) -> Evaluate:
+        """The objective with the parameter, and what is tied to it, fixed in all logs."""
+        space = self.problem.space
+        tied = {tie.name: tie.factor * value for tie in space.ties if tie.of == space.keys[self.place]}
+        fixed = {**space.fixed, space.variables[self.place]: value, **tied}
+        return evaluator(replace(self.problem, space=replace(rest, fixed=fixed)), NOISE, self.simulation)
+
+    def _held(self, value: float) -> Evaluate:
+        """The objective with the parameter, of one log, held in that log.
+
+        What is fixed is so in all logs, so it stays in the space and only its slopes are left out.
+        """
+        space, place = self.problem.space, self.place
+        whole = evaluator(self.problem, NOISE, self.simulation)
+        held = space.to_search(np.insert(self.others, place, value))[place]
+
+        def evaluate(x: Array, states: tuple[Array | None, ...] = ()) -> Evaluation:
+            point = whole(np.insert(x, place, held), states)
+            slopes = tuple(None if by is None else np.delete(by, place, axis=1) for by in point.state_slopes)
+            return replace(point, x=x, jacobian=np.delete(point.jacobian, place, axis=1), state_slopes=slopes)
+
+        return evaluate
 
 
 def _end(walker: _Walker, fit: Fit, name: str, side: int, limit: float, steps: int, rows: dict[float, float]) -> float:

@@ -19,11 +19,10 @@ Array = NDArray[np.float64]
 
 LEVEL = 0.95
 # A parameter counts as undetermined when moving it alone moves along an exact direction by more than this share.
-_FARTHEST = 500.0  # logarithm of how many times a value may be off: beyond, nothing is known of it
 _TOUCHED = 1e-2
 # Nearer than this share of its standard deviation, or of the bounds' distance, an estimate stands at its bound.
 _AT_BOUND = 1e-6
-# Half width of a combination's interval, as a logarithm, beyond which numbers end.
+# Half width, as a logarithm, beyond which numbers end: of a parameter's interval as of a combination's.
 _FARTHEST = 300.0
 
 

@@ -1,4 +1,6 @@
 import math
+from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -11,7 +13,9 @@ from pysim.identify.greybox import (
     TIME,
     Effort,
     GaussNewton,
+    Measurements,
     Parameter,
+    Problem,
     Simulation,
     SinePlan,
     Tie,
@@ -21,7 +25,7 @@ from pysim.identify.greybox import (
     problem,
 )
 from pysim.simulate import Esdirk
-from pysim.types import BadInput, FitOutcome, Model
+from pysim.types import BadInput, FitOutcome, FrequencyResponse, MeasuredRecord, Model, Record
 from tests.pysim.identify.greybox import measurements as m
 
 TIGHT = Simulation(solver=Esdirk(rtol=1e-8, atol=1e-8))
@@ -200,22 +204,115 @@ def test_only_the_best_of_rough_searches_is_polished(lag: Model) -> None:
     assert found.cost <= min(map(min, rough.values())) * (1 + 1e-4)
 
 
-def test_a_killed_fit_resumes_bit_for_bit(lag: Model, tmp_path: Path) -> None:
-    class Killed(Exception):
-        pass
+class Killed(Exception):
+    """Stands for the end of the process."""
 
+
+def killing(after: int) -> Callable[[Tried], None]:
     def kill(tried: Tried) -> None:
-        if tried.tried == 2:
+        if tried.tried == after:
             raise Killed
 
-    records = [m.ramp_log(2.0, 0.7, seed=2), *(m.sine_log(2.0, 0.7, f, seed=1) for f in (0.5, 1.0))]
-    task = problem(lag, [m.dataset(records)], ["K", "T"])
-    whole = fit(task)
+    return kill
+
+
+def measured() -> list[MeasuredRecord]:
+    """A log over time, stepped sines and a table that tells how uncertain it is."""
+    table = m.table(2.0, 0.7, np.array([0.2, 0.5, 1.0]))
+    assert isinstance(table.data, FrequencyResponse)
+    response = replace(table.data, covariance=np.array([np.diag([1e-4, 1e-4, 1e-4])] * 3))
+    sines = [m.sine_log(2.0, 0.7, f, seed=1) for f in (0.5, 1.0)]
+    return [m.ramp_log(2.0, 0.7, seed=2), *sines, replace(table, data=response)]
+
+
+def logged(
+    lag: Model,
+    records: list[MeasuredRecord],
+    noise: float = m.NOISE,
+    overrides: dict[str, float] | None = None,
+    reference: float = 0.5,
+    upper: float = 10.0,
+) -> Problem:
+    data = [Measurements(m.dataset(records, noise), overrides or {})]
+    free = [Parameter("K", upper=upper), "T"]
+    return problem(lag, data, free, treatment=Treatment(reference_hz=reference))
+
+
+def test_a_killed_fit_resumes_bit_for_bit(lag: Model, tmp_path: Path) -> None:
+    """The problem is put together anew, as in another process."""
+    whole = fit(logged(lag, measured()))
     with pytest.raises(Killed):
-        fit(task, effort=Effort(log=tmp_path), progress=kill)
-    resumed = fit(task, effort=Effort(log=tmp_path, resume=True))
+        fit(logged(lag, measured()), effort=Effort(log=tmp_path), progress=killing(2))
+    resumed = fit(logged(lag, measured()), effort=Effort(log=tmp_path, resume=True))
     assert dict(resumed.values) == dict(whole.values)
     assert (resumed.cost, resumed.iterations) == (whole.cost, whole.iterations)
+
+
+def moved(record: MeasuredRecord, *, column: int | None) -> MeasuredRecord:
+    """A log with one value other by next to nothing, or with other times."""
+    assert isinstance(record.data, Record)
+    time, values = record.data.time.copy(), record.data.values.copy()
+    if column is None:
+        time[1:] += 1e-9
+    else:
+        values[-40, column] += 1e-12
+    return replace(record, data=replace(record.data, time=time, values=values))
+
+
+def doubtful(record: MeasuredRecord) -> MeasuredRecord:
+    """A table with a covariance that is other by next to nothing."""
+    assert isinstance(record.data, FrequencyResponse)
+    assert record.data.covariance is not None
+    return replace(record, data=replace(record.data, covariance=record.data.covariance * (1 + 1e-12)))
+
+
+def changed(place: int, change: Callable[[MeasuredRecord], MeasuredRecord]) -> list[MeasuredRecord]:
+    return [change(record) if i == place else record for i, record in enumerate(measured())]
+
+
+# What differs from the problem of the log, by next to nothing.
+OTHER: dict[str, Callable[[Model], Problem]] = {
+    "values": lambda lag: logged(lag, changed(0, lambda log: moved(log, column=1))),
+    "input": lambda lag: logged(lag, changed(0, lambda log: moved(log, column=0))),
+    "times": lambda lag: logged(lag, changed(0, lambda log: moved(log, column=None))),
+    "sine": lambda lag: logged(lag, changed(1, lambda log: moved(log, column=1))),
+    "use": lambda lag: logged(lag, changed(0, lambda log: replace(log, use="validate"))),
+    "source": lambda lag: logged(lag, changed(0, lambda log: replace(log, source="another.txt"))),
+    "covariance": lambda lag: logged(lag, changed(3, doubtful)),
+    "fewer": lambda lag: logged(lag, measured()[1:]),
+    "noise": lambda lag: logged(lag, measured(), noise=0.02000000001),
+    "overrides": lambda lag: logged(lag, measured(), overrides={"g": 1.00000000001}),
+    "reference": lambda lag: logged(lag, measured(), reference=1.0),
+    "bound": lambda lag: logged(lag, measured(), upper=10.00000000001),
+}
+
+
+@pytest.mark.parametrize("other", OTHER.values(), ids=OTHER)
+def test_a_fit_is_not_resumed_on_other_data(lag: Model, tmp_path: Path, other: Callable[[Model], Problem]) -> None:
+    with pytest.raises(Killed):
+        fit(logged(lag, measured()), effort=Effort(log=tmp_path), progress=killing(0))
+    with pytest.raises(BadInput, match=r"another fit: other .*data.*; resume with the same.*, or begin anew"):
+        fit(other(lag), effort=Effort(log=tmp_path, resume=True))
+
+
+def test_a_fit_begun_anew_meets_nothing_of_an_earlier_one(lag: Model, tmp_path: Path) -> None:
+    """It is killed before the searches that the earlier one has logged too."""
+    before, after = ([m.dataset([m.ramp_log(2.0, 0.7, seed=seed)])] for seed in (2, 3))
+    free = [Parameter("K", start=9.0), "T"]
+    fit(problem(lag, before, free), effort=Effort(log=tmp_path))
+    with pytest.raises(Killed):
+        fit(problem(lag, after, free), effort=Effort(log=tmp_path), progress=killing(1))
+    resumed = fit(problem(lag, after, free), effort=Effort(log=tmp_path, resume=True))
+    assert dict(resumed.values) == dict(fit(problem(lag, after, free)).values)
+
+
+def test_a_fit_that_is_refused_leaves_the_log_of_an_earlier_one(lag: Model, tmp_path: Path) -> None:
+    task = problem(lag, [m.dataset([m.ramp_log(2.0, 0.7, seed=2)])], ["K", "T"])
+    with pytest.raises(Killed):
+        fit(task, effort=Effort(log=tmp_path), progress=killing(1))
+    with pytest.raises(BadInput, match="needs frequency data"):
+        fit(task, objective=FREQUENCY, effort=Effort(log=tmp_path))
+    assert (tmp_path / "given" / "state.npz").is_file()
 
 
 def test_what_cannot_be_fitted_is_refused(lag: Model) -> None:
