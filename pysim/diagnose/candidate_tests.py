@@ -14,11 +14,14 @@ from pysim.types import BadInput, Dataset, Experiment, MeasuredSignal, Model, Re
 
 Array = NDArray[np.float64]
 
-# Offsets and amplitudes in shares of the largest command so far.
-_OFFSETS, _AMPLITUDES = (-0.75, -0.25, 0.25, 0.75), (0.05, 0.25)
+# Parts of equal width that the range of the command so far is cut into: where it went to both sides of zero, and where
+# it did not. A sine is around the middle of a part; its amplitudes in shares of half the part.
+_BOTH_SIDES, _ONE_SIDE, _AMPLITUDES = 4, 2, (0.2, 1.0)
+# Share of its largest size that a command must reach on either side to count as having been there.
+_SIDE = 0.1
 # Frequencies between the lowest and the highest, in equal ratios; samples a test takes at least, and whole periods.
 _FREQUENCIES, _SAMPLES, _PERIODS = 6, 300, 3
-# Of a wave: its samples, its significant height in shares of the largest command so far, and its seed.
+# Of a wave: its samples, its significant height in shares of half the range of the command so far, and its seed.
 _WAVE, _HEIGHT, _SEED = 2000, 0.8, 1
 # Samples in which a system must come to rest after a step, and when that comes, s.
 _WAIT, _SOON = 10_000, 0.01
@@ -104,9 +107,9 @@ class CandidateTest:
         if self.periods:
             sine = f"a sine of {self.frequency:.3g} Hz and {self.amplitude:.3g}{unit}"
             return f"{sine} around {self.offset:.3g}{unit} {seconds}"
-        return (
-            f"a wave of {self.amplitude:.3g}{unit} significant height, its peak at {self.frequency:.3g} Hz, {seconds}"
-        )
+        around = f" around {self.offset:.3g}{unit}" if self.offset else ""
+        wave = f"a wave of {self.amplitude:.3g}{unit} significant height{around}"
+        return f"{wave}, its peak at {self.frequency:.3g} Hz, {seconds}"
 
 
 @dataclass(frozen=True)
@@ -115,32 +118,64 @@ class _Range:
 
     Args:
         command: the one that is driven.
-        largest: absolute value, in its unit.
-        signs: whether it went to both sides.
+        lowest, highest: of its values, in its unit.
         interval: s between samples.
         band: lowest and highest frequency, Hz.
     """
 
     command: MeasuredSignal
-    largest: float
-    signs: bool
+    lowest: float
+    highest: float
     interval: float
     band: tuple[float, float]
+
+    @property
+    def middle(self) -> float:
+        """Of the range, in the command's unit."""
+        return (self.lowest + self.highest) / 2
+
+    @property
+    def half(self) -> float:
+        """Of the range's width, in the command's unit."""
+        return (self.highest - self.lowest) / 2
+
+    @property
+    def both_sides(self) -> bool:
+        """Whether the command went to both sides of zero."""
+        least = _SIDE * max(-self.lowest, self.highest)
+        return self.lowest < -least and self.highest > least
+
+    @property
+    def parts(self) -> int:
+        """That the range is cut into."""
+        return _BOTH_SIDES if self.both_sides else _ONE_SIDE
+
+    @property
+    def offsets(self) -> tuple[float, ...]:
+        """Middles of the parts, in the command's unit."""
+        halves = range(1 - self.parts, self.parts, 2)
+        return tuple(self.middle + number * (self.half / self.parts) for number in halves)
+
+    @property
+    def amplitudes(self) -> tuple[float, ...]:
+        """That stay within a part, in the command's unit."""
+        return tuple(self.half / self.parts * share for share in _AMPLITUDES)
 
 
 def candidate_tests(
     dataset: Dataset, settled: Callable[[Experiment], float], model: Model
 ) -> tuple[CandidateTest, ...]:
-    """Stepped sines and waves at commands no larger than those of the data set, and no faster than it can log.
+    """Stepped sines and waves that stay between the data set's lowest and highest command, no faster than it can log.
 
     Args:
         settled: when a run that records nothing yet comes to rest, s.
         model: of the system.
     Raises:
-        BadInput: no log over time, or other than one command.
+        BadInput: no log over time, other than one command, or one that never moves.
     """
     known = _range(dataset)
-    step = Step(0.0, _OFFSETS[-1] * known.largest, _WAIT * known.interval, lead=LeadIn(_SOON, 0.0, 0.0, 0.0))
+    farthest = max(known.offsets, key=lambda offset: (abs(offset), offset))
+    step = Step(0.0, farthest, _WAIT * known.interval, lead=LeadIn(_SOON, 0.0, 0.0, 0.0))
     commands = {known.command.variable: step.signal()}
     times = np.array(known.interval * np.arange(_WAIT))
     rest = settled(Experiment(times, ("time",), commands, rates=model.rate_inputs(commands))) - _SOON
@@ -154,25 +189,25 @@ def _range(dataset: Dataset) -> _Range:
     if len(inputs) != 1 or not logs:
         raise BadInput(f"data set {dataset.name!r}: a next test needs one command and a log over time to go by")
     columns = [log[inputs[0].name] for log in logs]
-    largest = max(float(np.abs(column).max()) for column in columns)
-    signs = min(column.min() for column in columns) < -0.1 * largest and max(c.max() for c in columns) > 0.1 * largest
+    lowest, highest = min(float(c.min()) for c in columns), max(float(c.max()) for c in columns)
+    if lowest == highest:
+        raise BadInput(f"data set {dataset.name!r}: a next test needs a command that moves in a log to go by")
     interval = float(np.median([np.median(np.diff(log.time)) for log in logs]))
     told = [record.frequency for record in dataset.logs() if record.frequency is not None]
     longest = max(float(log.time[-1] - log.time[0]) for log in logs)
     low, high = (min(told), max(told)) if len(set(told)) > 1 else (5 / longest, 1 / (8 * interval))
-    return _Range(inputs[0], largest, signs, interval, (low, high))
+    return _Range(inputs[0], lowest, highest, interval, (low, high))
 
 
 def _grid(known: _Range, hold: float) -> Iterator[CandidateTest]:
-    for offset in (share for share in _OFFSETS if known.signs or share > 0):
+    for offset in known.offsets:
         for frequency in np.geomspace(*known.band, _FREQUENCIES).tolist():
             periods = max(_PERIODS, math.ceil(_SAMPLES * known.interval * frequency - 1e-9))
-            for amplitude in _AMPLITUDES:
+            for amplitude in known.amplitudes:
                 yield CandidateTest(
-                    known.command, known.largest * offset, known.largest * amplitude, float(f"{frequency:.3g}"),
-                    periods, known.interval, hold,
-                )  # fmt: skip
+                    known.command, offset, amplitude, float(f"{frequency:.3g}"), periods, known.interval, hold
+                )
     low, high = known.band
-    for share in _PEAKS if known.signs else ():
+    for share in _PEAKS if known.both_sides else ():
         peak = float(f"{low * (high / low) ** share:.3g}")
-        yield CandidateTest(known.command, 0.0, known.largest * _HEIGHT, peak, 0, known.interval, hold)
+        yield CandidateTest(known.command, known.middle, known.half * _HEIGHT, peak, 0, known.interval, hold)

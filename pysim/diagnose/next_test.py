@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import math
 from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
@@ -12,13 +13,14 @@ from numpy.typing import NDArray
 
 from pysim.diagnose.candidate_tests import CandidateTest, candidate_tests
 from pysim.diagnose.fitted import Fitted
+from pysim.diagnose.noise import estimated_noise
 from pysim.diagnose.residuals import Ruler
 from pysim.diagnose.separation import Evidence, Table, cheapest, evidence
 from pysim.diagnose.subject import Subject
 from pysim.identify.greybox.log_target import LogTarget
 from pysim.identify.greybox.target import Run
 from pysim.simulate import Rodas, simulate
-from pysim.types import Dataset, Experiment, MeasuredSignal, NextTest, Record
+from pysim.types import BadInput, Dataset, Experiment, MeasuredSignal, NextTest, Outcome, Record
 
 Array = NDArray[np.float64]
 
@@ -39,17 +41,19 @@ def next_test(subject: Subject, one: Fitted, other: Fitted, *, workers: int | No
         one, other: with slopes that are exact at their points.
         workers: runs at a time; all cores where None.
     Raises:
-        BadInput: measurements without a log over time, or with other than one command.
+        BadInput: measurements without a log over time, with other than one command or one that never moves, or without
+            an output whose noise is told or seen.
     Source: Atkinson and Fedorov 1975, Biometrika 62:57 (T-optimality), with the information of the data at hand.
     """
     dataset = subject.dataset
     if dataset is None:
         return None
-    tests = candidate_tests(dataset, partial(_settled, subject, one), subject.model)
-    signals = _signals(subject, dataset, one, tests, workers)
+    at_hand = _logged(subject, dataset)
+    tests = candidate_tests(dataset, partial(_settled, subject, one, at_hand), subject.model)
+    signals = (*at_hand, *_unlogged(subject, dataset, one, tests, workers))
     table = _table(subject, one, other, tests, signals, workers)
     known = (_information(other), _information(one))
-    logged = tuple(s.name for s in dataset.signals if s.role == "output" and s in signals)
+    logged = tuple(s.name for s in at_hand)
     extra = tuple(s.name for s in signals if s.name not in logged)
     best: tuple[float, list[tuple[int, int]], tuple[str, ...]] = (0.0, [], ())
     for names in (logged, *((*logged, name) for name in extra)):
@@ -66,13 +70,30 @@ def next_test(subject: Subject, one: Fitted, other: Fitted, *, workers: int | No
     return NextTest(rivals, gain, _about(plan, names, logged), _plan_text(dataset, plan, names, signals, rivals))
 
 
-def _settled(subject: Subject, fitted: Fitted, run: Experiment) -> float:
-    """When all logged signals stay within their noise of where they end, s; the end where they do not."""
-    assert subject.dataset is not None
-    signals = [s for s in subject.dataset.signals if s.role == "output" and _noise(s) > 0]
+def _logged(subject: Subject, dataset: Dataset) -> tuple[MeasuredSignal, ...]:
+    """Outputs with their noise: as the data set tells it, else as the residuals of their logs are counted."""
+    outputs = [signal for signal in dataset.signals if signal.role == "output"]
+    untold = any(signal.noise is None for signal in outputs)
+    seen = estimated_noise(subject.targets, told=False) if untold else {}
+    found = []
+    for signal in outputs:
+        noise = seen.get((dataset.name, signal.name)) if signal.noise is None else None
+        if noise is not None:  # what is seen has the rounding in it
+            signal = replace(signal, noise=math.sqrt(max(noise.deviation**2 - _noise(signal) ** 2, 0.0)))
+        if _noise(signal) > 0:
+            found.append(signal)
+    return tuple(found)
+
+
+def _settled(subject: Subject, fitted: Fitted, signals: Sequence[MeasuredSignal], run: Experiment) -> float:
+    """When all signals stay within their noise of where they end, s; the end where they do not, or cannot be run."""
+    if not signals:
+        raise BadInput("a next test needs an output whose noise is known; tell it in the data set, or log the output")
     overrides = {**subject.targets[0].runs[0].experiment.overrides, **fitted.what.space.values(fitted.point.x)}
     asked = replace(run, record=tuple(s.variable for s in signals), overrides=overrides)
-    record = simulate(fitted.what.model, asked, solver=Rodas(rtol=1e-5, atol=1e-5))
+    record = simulate(fitted.what.model, asked, solver=Rodas(rtol=1e-5, atol=1e-5), check=False)
+    if record.outcome is not Outcome.DONE or not np.isfinite(record.values).all():
+        return float(run.times[-1])
     away = np.abs(record.values - record.values[-1]) > [_noise(s) for s in signals]
     last = np.flatnonzero(away.any(axis=1))
     return float(record.time[last[-1]]) if last.size else 0.0
@@ -86,23 +107,22 @@ def _information(fitted: Fitted) -> Array:
     return np.asarray(fitted.point.jacobian.T @ fitted.point.jacobian)
 
 
-def _signals(
+def _unlogged(
     subject: Subject, dataset: Dataset, one: Fitted, tests: Sequence[CandidateTest], workers: int | None
 ) -> tuple[MeasuredSignal, ...]:
-    """What may be logged: signals of the data set, then outputs and states of the model with noise assumed."""
-    logged = [s for s in dataset.signals if s.role == "output" and _noise(s) > 0]
+    """What may be logged beside the data set's signals: outputs and states of the model, with noise assumed."""
     known = {s.variable for s in dataset.signals}
     names = [v.name for v in subject.model.variables if v.causality == "output"] + list(subject.model.abilities.states)
     new = [name for name in dict.fromkeys(names) if name not in known and name in _names(subject) & _named(one)]
     if not new:
-        return tuple(logged)
+        return ()
     unit = [MeasuredSignal(name, "output", subject.model[name].unit, name, name, noise=1.0) for name in new]
     ruler = _ruler(subject, one, tests, unit, workers)
     values = ruler.at(one.what, one.point.x)
     if values is None:
-        return tuple(logged)
+        return ()
     spans = np.ptp(values.reshape(-1, len(new)), axis=0)
-    return (*logged, *(replace(s, noise=_UNLOGGED * span) for s, span in zip(unit, spans, strict=True) if span > 0))
+    return tuple(replace(s, noise=_UNLOGGED * span) for s, span in zip(unit, spans, strict=True) if span > 0)
 
 
 def _names(subject: Subject) -> set[str]:

@@ -12,7 +12,7 @@ from scipy import optimize
 from pysim.diagnose.fitted import Fitted
 from pysim.diagnose.locating.laws import KNOTS, UNIT, Law
 from pysim.diagnose.residuals import Ruler
-from pysim.diagnose.screen import column_space
+from pysim.diagnose.screen import across, column_space
 from pysim.diagnose.strengths import translated
 from pysim.diagnose.subject import Extended
 from pysim.identify.greybox import GaussNewton
@@ -176,11 +176,6 @@ def solve(left_over: Array, columns: Array, k: Array) -> Solution:
     return Solution(c, inverse * scale, fun, rest, freedom, np.array([bending, flat]), penalised)
 
 
-def across(rows: Array, span: Array) -> Array:
-    """Rows (n, ...) without what lies in the span's orthonormal columns (n, rank)."""
-    return rows - span @ (span.T @ rows)
-
-
 @dataclass(frozen=True)
 class Estimate:
     """A table fitted together with the model's parameters.
@@ -214,7 +209,7 @@ def first_order(ruler: Ruler, current: Fitted, span: Array, table: Table) -> Est
     else:
         return None
     here = current.point
-    columns, left_over = across(point.jacobian, span), across(here.residual, span)
+    columns, left_over = across(span, point.jacobian), across(span, here.residual)
     size = float(np.linalg.norm(columns)) / math.sqrt(KNOTS)
     if not size > 0:
         return None
@@ -275,8 +270,8 @@ def begun(ruler: Ruler, current: Fitted, near: Fitted, table: Table, values: Arr
     if not point.good:
         return None
     span = column_space(point.jacobian[:, :-KNOTS])
-    columns = across(point.jacobian[:, -KNOTS:], span)
-    without = across(point.residual, span) - columns @ x[-KNOTS:]
+    columns = across(span, point.jacobian[:, -KNOTS:])
+    without = across(span, point.residual) - columns @ x[-KNOTS:]
     return _estimate(point, table, solve(without, columns, table.knots).smoothing)
 
 
@@ -291,7 +286,7 @@ def _estimate(point: Evaluation, table: Table, before: Array) -> Estimate | None
     if not point.good:
         return None
     slopes, x = point.jacobian, point.x
-    columns = across(slopes[:, -KNOTS:], column_space(slopes[:, :-KNOTS]))
+    columns = across(column_space(slopes[:, :-KNOTS]), slopes[:, -KNOTS:])
     k, c, n, gram = table.knots, x[-KNOTS:], point.residual.size, columns.T @ columns
     rough = bends(k).T @ bends(k)
     prior = math.exp(before[0]) * rough + math.exp(before[1]) * lines(k) @ lines(k).T

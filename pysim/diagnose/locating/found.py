@@ -11,12 +11,12 @@ from numpy.typing import NDArray
 
 from pysim.diagnose.fitted import Fitted
 from pysim.diagnose.locating.drawn import Acted
-from pysim.diagnose.locating.fit import Estimate, across
+from pysim.diagnose.locating.fit import Estimate
 from pysim.diagnose.locating.formula import Formula
 from pysim.diagnose.locating.known import Known
 from pysim.diagnose.locating.laws import Law
 from pysim.diagnose.locating.shape import Told
-from pysim.diagnose.screen import column_space
+from pysim.diagnose.screen import across, column_space
 
 Array = NDArray[np.float64]
 
@@ -60,7 +60,7 @@ class Base:
     def of(cls, at: Fitted) -> Base:
         """From a point with slopes."""
         span = column_space(at.point.jacobian)
-        rest = across(at.point.residual, span)
+        rest = across(span, at.point.residual)
         return cls(at, span, float(rest @ rest), at.point.residual.size)
 
     def found(self, at: Estimate, *, fitted: bool = False) -> Found:

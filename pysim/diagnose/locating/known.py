@@ -23,6 +23,7 @@ from pysim.diagnose.start import start_at, start_off
 from pysim.diagnose.strengths import declared, setting, within
 from pysim.diagnose.subject import Subject, extended
 from pysim.diagnose.trials import start_amount
+from pysim.identify import HALF_95
 from pysim.identify.greybox.evaluation import Evaluation
 from pysim.types import BadInput, Effect
 
@@ -39,7 +40,6 @@ _OTHER = (0.2, 1.0, 2.0)
 _STEPS, _FAR_STEPS = 6, 9
 # Where a refit reaches less than this share of what was promised, it starts from the model's own parameters too.
 _KEPT = 0.5
-_Z95 = 1.959964
 
 
 @dataclass(frozen=True)
@@ -76,7 +76,7 @@ class Known:
         spread = np.sqrt(scale * np.diag(np.linalg.pinv(slopes.T @ slopes, rcond=1e-12, hermitian=True)))
         place, values = self.at.what.places[self.effect.name], space.to_model(x)
         own = [space.keys.index(f"{place}.{p.name}") for p in self.effect.strengths]
-        shares = [_Z95 * spread[j] * space.slope(x)[j] / abs(values[j]) for j in own if values[j]]
+        shares = [HALF_95 * spread[j] * space.slope(x)[j] / abs(values[j]) for j in own if values[j]]
         return float(min([*shares, 1.0]))
 
     def _sizes(self) -> Iterator[str]:

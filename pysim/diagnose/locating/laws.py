@@ -171,7 +171,7 @@ def _laws_of(slot: Slot, sees: tuple[str, ...], states: set[str]) -> Iterator[La
         argument = _bare(pairs[0][1])
         yield Law(slot.name, full(argument), tuple(Copy(full(y), full(z)) for y, z in pairs))
         return
-    free = [v for v in slot.gives if full(v) not in states and (not _rate_of(v, slot.gives) or v not in outputs)]
+    free = [v for v in slot.gives if full(v) not in states]
     if any(full(v) in states for v in slot.gives) and free:  # it moves by itself: what drives it, by how it moves
         for z in (v for v in slot.gives if full(v) in states):
             yield Law(slot.name, full(z), (Copy(full(free[-1]), full(z)),))

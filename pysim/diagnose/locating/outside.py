@@ -10,13 +10,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pysim.diagnose.fitted import Fitted
-from pysim.diagnose.locating.fit import Estimate, Solution, Table, across, knots, solve
+from pysim.diagnose.locating.fit import Estimate, Table, knots, solve
 from pysim.diagnose.locating.formula import formula
+from pysim.diagnose.locating.found import Base, Found
 from pysim.diagnose.locating.laws import KNOTS, Copy, Law
 from pysim.diagnose.locating.runs import thinned
 from pysim.diagnose.locating.shape import shape, told, units
 from pysim.diagnose.residuals import Ruler
-from pysim.diagnose.screen import column_space
+from pysim.diagnose.screen import across
 from pysim.identify.greybox.evaluation import Evaluation
 from pysim.identify.greybox.target import Simulated
 from pysim.simulate import simulate_many
@@ -68,15 +69,6 @@ class _Way:
         return driven.derivative(self.fine.time) if of_rate else driven.value(self.fine.time)
 
 
-@dataclass(frozen=True)
-class _Found:
-    """A term with what speaks for it: logarithm of the likelihood over that without a term, and its share."""
-
-    evidence: float
-    share: float
-    estimate: Estimate
-
-
 def outside(ruler: Ruler, current: Fitted) -> tuple[Missing, ...]:
     """Estimate the term that would close the gap if it stood at an input or an output of the model.
 
@@ -99,13 +91,13 @@ def outside(ruler: Ruler, current: Fitted) -> tuple[Missing, ...]:
     ways = _ways(ruler, current)
     if not ways:
         return ()
-    span = column_space(current.point.jacobian)
-    best: dict[str, _Found] = {}
+    base = Base.of(current)
+    best: dict[str, Found] = {}
     for place in _places(ways):
         samples = [way.signal(place.argument, place.law.of_rate) for way in ways]
         k = knots(np.concatenate(samples))
         columns = _at_input(ruler, current, ways, place, k) if place.is_input else _at_output(ruler, ways, place, k)
-        found = None if columns is None else _found(current, span, place, k, columns)
+        found = None if columns is None else _found(base, place, k, columns)
         if found is not None and (place.name not in best or found.evidence > best[place.name].evidence):
             best[place.name] = found
     return tuple(_missing(found) for found in sorted(best.values(), key=lambda f: -f.evidence))
@@ -178,30 +170,21 @@ def _at_output(ruler: Ruler, ways: Sequence[_Way], place: _Place, k: Array) -> A
     return ruler.span.across(ruler.weighed(answers))[:, 1:]
 
 
-def _found(current: Fitted, span: Array, place: _Place, k: Array, columns: Array) -> _Found | None:
-    own, left_over = across(columns, span), across(current.point.residual, span)
+def _found(base: Base, place: _Place, k: Array, columns: Array) -> Found | None:
+    point = base.at.point
+    own, left_over = across(base.span, columns), across(base.span, point.residual)
     size = float(np.linalg.norm(own)) / math.sqrt(KNOTS)
     if not size > 0:
         return None
     unit = float(np.linalg.norm(left_over)) / size
     solution = solve(left_over, own * unit, k)
-    table = Table(place.law, current.what.model, k, unit)
-    point = current.point
+    table = Table(place.law, base.at.what.model, k, unit)
     slopes = np.hstack([point.jacobian, columns * unit])
     whole = Evaluation(np.append(point.x, solution.values), point.cost, point.residual, slopes)
-    return _Found(*_worth(left_over, span, solution), Estimate(table, whole, solution))
+    return base.found(Estimate(table, whole, solution))
 
 
-def _worth(left_over: Array, span: Array, solution: Solution) -> tuple[float, float]:
-    """Evidence and share."""
-    rows, left = left_over.size, float(left_over @ left_over)
-    evidence = 0.5 * rows * math.log(left / rows) - solution.loss
-    noise, avoidable = max(1.0, solution.left / rows), left - (rows - span.shape[1])
-    gain = left - solution.left - solution.freedom * noise
-    return evidence, float(np.clip(gain / avoidable, 0.0, 1.0)) if avoidable > 0 else 0.0
-
-
-def _missing(found: _Found) -> Missing:
+def _missing(found: Found) -> Missing:
     law, model, of = found.estimate.table.law, found.estimate.table.model, told(found.estimate)
     unit_in, unit_out = units(law, model)[0], model[law.slot].unit  # added to the variable, never to its derivative
     said = formula(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,6 +12,7 @@ from pysim.diagnose.fitted import Fitted
 from pysim.diagnose.locating.laws import Law
 from pysim.diagnose.residuals import Ruler
 from pysim.identify.greybox.evaluation import Evaluation
+from pysim.identify.greybox.log_target import LogTarget
 from pysim.identify.greybox.sine_target import SineTarget
 from pysim.identify.greybox.target import Target
 from pysim.simulate import Esdirk, Rodas, simulate_many
@@ -29,19 +30,43 @@ _PATIENCE = 20
 _STEP = 4e-3
 
 
+@dataclass(frozen=True)
+class _Piece:
+    """What can be run without the rest: a log over time, a stepped sine, or a table of them.
+
+    Args:
+        misfit: sum of squares beyond noise.
+        time: simulated, s.
+        target: its number.
+        runs: their numbers in the target.
+        over_time: whether it is a log that is no stepped sine.
+    """
+
+    misfit: float
+    time: float
+    target: int
+    runs: tuple[int, ...]
+    over_time: bool = False
+
+    @property
+    def worth(self) -> float:
+        """Misfit for its time."""
+        return self.misfit / self.time**_POWER
+
+
 def thinned(ruler: Ruler, point: Evaluation) -> Ruler:
-    """A ruler of some of the runs: logs over time, and those stepped sines that show most of the misfit for their time.
+    """A ruler of those runs that show most of the misfit for their time, the best log over time always among them.
 
     Args:
         point: of the ruler's own model, with its residuals.
     """
-    rows = list(_pieces(ruler, point.residual))
-    whole = sum(time for _, time, _, _ in rows)
+    pieces = list(_pieces(ruler, point.residual))
+    whole = sum(piece.time for piece in pieces)
     used, kept = 0.0, dict[int, list[int]]()
-    for _, time, target, log in sorted(rows, key=lambda row: -row[0] / row[1] ** _POWER):
-        if not kept or used + time <= _SHARE * whole:
-            used += time
-            kept.setdefault(target, []).append(log)
+    for piece in _in_order(pieces):
+        if not kept or used + piece.time <= _SHARE * whole:
+            used += piece.time
+            kept.setdefault(piece.target, []).extend(piece.runs)
     chosen, near = [], []
     starts = np.cumsum([0, *(len(target.runs) for target in ruler.targets)])
     for number, logs in sorted(kept.items()):
@@ -62,18 +87,29 @@ def patient(ruler: Ruler, current: Fitted) -> Ruler:
     return replace(ruler, solver=replace(ruler.solver, max_steps=max(most, 1)))
 
 
-def _pieces(ruler: Ruler, residual: Array) -> Iterator[tuple[float, float, int, int]]:
-    """Misfit beyond noise, simulated time, number of the target, number of the run in it."""
+def _in_order(pieces: Sequence[_Piece]) -> list[_Piece]:
+    """By worth, the best log over time ahead of all."""
+    ordered = sorted(pieces, key=lambda piece: -piece.worth)
+    best = next((piece for piece in ordered if piece.over_time), None)
+    return sorted(ordered, key=lambda piece: piece is not best)
+
+
+def _pieces(ruler: Ruler, residual: Array) -> Iterator[_Piece]:
+    """In the order of the targets; a stepped sine that had not settled is taken to show more than any other."""
     rest = residual
     for number, (target, whitening) in enumerate(zip(ruler.targets, ruler.whitenings, strict=True)):
         own, rest = rest[: whitening.size], rest[whitening.size :]
-        if not isinstance(target, SineTarget):
-            times = [_duration(run.experiment) for run in target.runs]
-            yield (np.inf, sum(times), number, 0) if len(times) == 1 else (float(own @ own), sum(times), number, -1)
-            continue
-        for log, run in enumerate(target.runs):
-            part, own = own[: target.logs[log].harmonics.size], own[target.logs[log].harmonics.size :]
-            yield float(part @ part) - part.size, _duration(run.experiment), number, log
+        times = [_duration(run.experiment) for run in target.runs]
+        if isinstance(target, SineTarget):
+            for log, time in enumerate(times):
+                part, own = own[: target.logs[log].harmonics.size], own[target.logs[log].harmonics.size :]
+                yield _Piece(float(part @ part) - part.size, time, number, (log,))
+        elif isinstance(target, LogTarget):
+            over_time = target.kind != "frequency-response"  # a sine that had not settled is compared sample by sample
+            misfit = float(own @ own) - own.size if over_time else np.inf
+            yield _Piece(misfit, times[0], number, (0,), over_time)
+        else:
+            yield _Piece(float(own @ own), sum(times), number, tuple(range(len(times))))
 
 
 def _duration(experiment: Experiment) -> float:

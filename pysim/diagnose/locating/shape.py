@@ -8,9 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from pysim.diagnose.locating.fit import Estimate, across, bends, lines
+from pysim.diagnose.locating.fit import Estimate, bends, lines
 from pysim.diagnose.locating.laws import KNOTS, Law
-from pysim.diagnose.screen import column_space
+from pysim.diagnose.screen import across, column_space
+from pysim.identify import HALF_95
 from pysim.types import Model
 from pysim.types.diagnosis import Shape
 
@@ -19,7 +20,6 @@ Array = NDArray[np.float64]
 _POINTS = 81
 # A level or slope known no better than to this share of the term is taken as one that refitting absorbs.
 _ABSORBED = 0.5
-_Z95 = 1.959964
 # Curvature at an end, over that at the next knot, at most.
 _GROWS = 4.0
 # The band's doubt is that of a table held smooth with this share of the weight that fits best.
@@ -55,7 +55,7 @@ class Told:
     def doubt(self) -> Array:
         """(m, m) covariance of the values with what straight lines miss beside each knot."""
         sides = np.maximum(np.append(self.bent, 0.0), np.append(0.0, self.bent))
-        return self.covariance + np.diag((sides / _Z95) ** 2)
+        return self.covariance + np.diag((sides / HALF_95) ** 2)
 
 
 def told(estimate: Estimate) -> Told:
@@ -70,7 +70,7 @@ def told(estimate: Estimate) -> Told:
     """
     k, unit, solution = estimate.table.knots, estimate.table.unit, estimate.solution
     slopes, values = estimate.point.jacobian, estimate.point.x[-KNOTS:]
-    columns = across(slopes[:, -KNOTS:], column_space(slopes[:, :-KNOTS]))
+    columns = across(column_space(slopes[:, :-KNOTS]), slopes[:, -KNOTS:])
     rows = columns.shape[0]
     scale = max(1.0, solution.left / max(rows - solution.freedom, 1.0))
     rough = bends(k).T @ bends(k) * math.exp(solution.smoothing[0])
@@ -84,7 +84,7 @@ def told(estimate: Estimate) -> Told:
     known = line @ (line.T @ values) - absorbed @ (absorbed.T @ values)
     values = values + covariance @ known * math.exp(solution.smoothing[1]) / scale
     bias = covariance @ (rough @ values) * (1 - _UNDER) / scale
-    covariance = covariance + np.outer(bias, bias) / _Z95**2
+    covariance = covariance + np.outer(bias, bias) / HALF_95**2
     keep = np.eye(KNOTS) - absorbed @ absorbed.T
     return Told(k, unit * (keep @ values), unit**2 * (keep @ covariance @ keep), absorbed)
 
@@ -100,7 +100,7 @@ def shape(of: Told, law: Law, model: Model, along: Array, spread: Array | None =
     weights = np.stack([np.interp(grid, of.knots, row) for row in np.eye(KNOTS)], axis=1)
     value = weights @ (of.values + of.absorbed @ along)
     covariance = of.covariance if spread is None else of.covariance + of.absorbed @ spread @ of.absorbed.T
-    half = _Z95 * np.sqrt(np.maximum(np.einsum("gi,ij,gj->g", weights, covariance, weights), 0.0))
+    half = HALF_95 * np.sqrt(np.maximum(np.einsum("gi,ij,gj->g", weights, covariance, weights), 0.0))
     inside = np.clip(np.searchsorted(of.knots, grid, side="right") - 1, 0, KNOTS - 2)
     half = np.hypot(half, of.bent[inside])
     unit_in, unit_out = units(law, model)

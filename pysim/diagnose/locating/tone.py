@@ -10,12 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pysim.diagnose.fitted import Fitted
-from pysim.diagnose.locating.fit import across
 from pysim.diagnose.locating.laws import UNIT, Law, Term
 from pysim.diagnose.locating.shape import units
 from pysim.diagnose.residuals import Ruler
-from pysim.diagnose.screen import column_space
+from pysim.diagnose.screen import across, column_space
 from pysim.diagnose.where import tone
+from pysim.identify import HALF_95
 from pysim.identify.greybox.log_target import LogTarget
 from pysim.identify.greybox.parameters import ParameterSpace
 from pysim.simulate import Rodas
@@ -25,7 +25,7 @@ from pysim.types.diagnosis import Shape
 Array = NDArray[np.float64]
 
 _SINE, _COSINE, _FREQUENCY, _TERM = "missing_c1", "missing_c2", "missing_f", "missing_term1"
-_POINTS, _Z95 = 81, 1.959964
+_POINTS = 81
 # Between two lines of the spectrum, so many frequencies are tried.
 _FINE = 40
 # A swing that takes less of a log's misfit is no answer.
@@ -101,7 +101,7 @@ def tones(
         row = _swing(one, at, Swing(law), model, frequency)
         rows += [row] if row is not None else []
     span = column_space(point.jacobian)
-    rest = across(point.residual, span)
+    rest = across(span, point.residual)
     return _shared(rows, float(rest @ rest), rest.size - span.shape[1])
 
 
@@ -146,7 +146,7 @@ def _logs(ruler: Ruler, residual: Array) -> Iterator[tuple[int, Array, LogTarget
 def _swing(ruler: Ruler, at: Fitted, swing: Swing, model: Model, frequency: float) -> tuple[float, Missing] | None:
     """Sum of squares that the best sine at one place leaves, to first order, parameters refitted; and the sine."""
     span = column_space(at.point.jacobian)
-    left_over = across(at.point.residual, span)
+    left_over = across(span, at.point.residual)
     for power in (0, -3, -6, -9):
         unit = 10.0**power
         space = _space(at, frequency, unit)
@@ -155,7 +155,7 @@ def _swing(ruler: Ruler, at: Fitted, swing: Swing, model: Model, frequency: floa
             break
     else:
         return None
-    columns = across(point.jacobian, span)
+    columns = across(span, point.jacobian)
     if not np.linalg.norm(columns) > 0:
         return None
     amounts: Array = -np.asarray(np.linalg.lstsq(columns, left_over, rcond=None)[0], dtype=np.float64)
@@ -178,7 +178,7 @@ def _told(swing: Swing, model: Model, frequency: float, amounts: Array, covarian
     time = np.linspace(0, 2 / frequency, _POINTS)
     angle = 2 * np.pi * frequency * time
     waves = np.column_stack([np.sin(angle), np.cos(angle)])
-    half = _Z95 * np.sqrt(np.maximum(np.einsum("gi,ij,gj->g", waves, covariance, waves), 0.0))
+    half = HALF_95 * np.sqrt(np.maximum(np.einsum("gi,ij,gj->g", waves, covariance, waves), 0.0))
     value, unit = waves @ amounts, units(swing.law, model)[1]
     size, phase = float(np.hypot(*amounts)), float(np.arctan2(amounts[1], amounts[0]))
     written = f"{size:.3g}" if unit == "1" else f"{size:.3g} {unit}"

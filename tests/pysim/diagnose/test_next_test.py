@@ -1,6 +1,11 @@
 from collections.abc import Sequence
 from dataclasses import replace
+from importlib import import_module
 from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
 
 from pysim.bench import read_plan, run_plan
 from pysim.diagnose.fitted import Fitted
@@ -9,8 +14,11 @@ from pysim.diagnose.refit import refit
 from pysim.diagnose.residuals import Ruler, rulers
 from pysim.diagnose.subject import Subject, extended, subject
 from pysim.identify.greybox import Rest
-from pysim.types import Dataset
-from tests.pysim.diagnose.toy import CATALOGUE, base, build_variant, measured
+from pysim.identify.greybox.uncertainty import untold
+from pysim.types import BadInput, Dataset, Experiment, MeasuredSignal, Model, Outcome, Record, SimulationError
+from tests.pysim.diagnose.toy import CATALOGUE, NOISE, base, build_variant, measured
+
+NAMES = ("toy.friction", "toy.hardening")
 
 
 def fitted(own: Subject, ruler: Ruler, name: str, start: Fitted | None) -> Fitted:
@@ -21,21 +29,30 @@ def fitted(own: Subject, ruler: Ruler, name: str, start: Fitted | None) -> Fitte
 
 def rivals(data: Dataset, *names: str, starts: Sequence[Fitted | None] = (None, None)) -> tuple[Subject, list[Fitted]]:
     own = subject(base(), data, [CATALOGUE[name] for name in names], build_variant, rest=Rest(hold=20.0))
-    ruler, _ = rulers(own.targets)
+    ruler, _ = rulers(own.targets, told=not untold(own.notes))
     return own, [fitted(own, ruler, name, at) for name, at in zip(names, starts, strict=True)]
 
 
-def test_the_plan_separates_as_far_as_it_promises(tmp_path: Path) -> None:
+def tied() -> Dataset:
+    """Of a mass with friction, one log too short to tell it from another effect."""
     data = measured(4, "toy.friction", F_c=0.012)
     first = data.records[0]
     short = replace(first.data, time=first.data.time[:120], values=first.data.values[:120])
-    data = replace(data, records=(replace(first, data=short),))
-    names = ("toy.friction", "toy.hardening")
-    own, (one, other) = rivals(data, *names)
+    return replace(data, records=(replace(first, data=short),))
+
+
+def retold(data: Dataset, **told: float | None) -> Dataset:
+    """The same data with something else told of the output's noise."""
+    return replace(data, signals=tuple(replace(s, **told) if s.role == "output" else s for s in data.signals))
+
+
+def test_the_plan_separates_as_far_as_it_promises(tmp_path: Path) -> None:
+    data = tied()
+    own, (one, other) = rivals(data, *NAMES)
     before = other.point.cost - one.point.cost
     found = next_test(own, one, other)
     assert found is not None
-    assert found.separates == names
+    assert found.separates == NAMES
     assert found.gain >= ENOUGH > abs(before)
     path = tmp_path / "plan.toml"
     path.write_text(found.plan)
@@ -43,7 +60,7 @@ def test_the_plan_separates_as_far_as_it_promises(tmp_path: Path) -> None:
     true = {"m": 1.05, "d": 0.75, "k": 21.0, f"{places['toy.friction']}.F_c": 0.012}
     new = run_plan(truth, read_plan(path), 5, parameters=true).dataset
     joined = replace(data, records=(*data.records, *new.records))
-    _, (right, wrong) = rivals(joined, *names, starts=(one, other))
+    _, (right, wrong) = rivals(joined, *NAMES, starts=(one, other))
     gained = wrong.point.cost - right.point.cost - before
     assert gained > 0.4 * found.gain  # promised to first order: the longer way of larger amplitudes tells more
     assert gained > 20
@@ -53,3 +70,51 @@ def test_twins_stay_twins() -> None:
     data = measured(1, "toy.friction", F_c=0.4)
     own, (one, other) = rivals(data, "toy.friction", "toy.twin")
     assert next_test(own, one, other) is None
+
+
+@pytest.mark.parametrize("resolution", [None, 1e-3])
+def test_noise_that_is_not_told_is_taken_as_residuals_are_counted(tmp_path: Path, resolution: float | None) -> None:
+    data = retold(tied(), noise=None, resolution=resolution)
+    never_logged = MeasuredSignal("speed", "output", "m/s", "", "v")
+    own, (one, other) = rivals(replace(data, signals=(*data.signals, never_logged)), *NAMES)
+    found = next_test(own, one, other)
+    assert found is not None
+    assert found.gain >= ENOUGH
+    assert found.about.endswith("Log x.")
+    path = tmp_path / "plan.toml"
+    path.write_text(found.plan)
+    (planned,) = (sensor.signal for sensor in read_plan(path).sensors if sensor.signal.name == "x")
+    (counted,) = rulers(own.targets, told=False)[0].noise.values()
+    assert planned.deviation == pytest.approx(counted.deviation, rel=1e-5)
+    assert planned.deviation == pytest.approx(NOISE, rel=0.3)  # seen in 120 samples
+    assert planned.resolution == resolution
+
+
+def test_a_told_noise_counts_whatever_the_logs_show() -> None:
+    own, (one, other) = rivals(retold(tied(), noise=3 * NOISE, resolution=1e-3), *NAMES)
+    found = next_test(own, one, other)
+    assert found is not None
+    assert "noise = 0.003\nresolution = 0.001\n" in found.plan
+
+
+def test_without_any_noise_to_go_by_the_reason_is_told() -> None:
+    own, (one, other) = rivals(tied(), *NAMES)
+    unseen = replace(own, dataset=retold(tied(), noise=None), targets=())
+    with pytest.raises(BadInput, match="needs an output whose noise is known"):
+        next_test(unseen, one, other)
+
+
+@pytest.mark.parametrize("reached", [0, 100])
+def test_a_look_ahead_that_ends_early_waits_to_its_end(monkeypatch: pytest.MonkeyPatch, reached: int) -> None:
+    def simulate(model: Model, run: Experiment, *, check: bool = True, **_: Any) -> Record:
+        values = np.zeros((reached, len(run.record)))
+        record = Record(run.times[:reached], values, run.record, ("m",), Outcome.STEP_TOO_SMALL)
+        if check:
+            raise SimulationError("Mass: the step size fell below its limit", record)
+        return record
+
+    own, (one, other) = rivals(tied(), *NAMES)
+    monkeypatch.setattr(import_module("pysim.diagnose.next_test"), "simulate", simulate)
+    found = next_test(own, one, other)
+    assert found is not None
+    assert "lead.hold = 200\n" in f"{found.plan}\n"  # 10,000 samples of 0.02 s

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from pysim.diagnose.locating.fit import across, bends, knots, lines, solve
+from pysim.diagnose.locating.fit import bends, knots, lines, solve
 from pysim.diagnose.locating.laws import KNOTS
 
 
@@ -78,9 +78,3 @@ def test_a_term_has_evidence(samples) -> None:
     wrong = np.random.default_rng(4).permutation(z)
     right, other = solve(r, -hats(z, k), k), solve(r, -hats(wrong, k), k)
     assert right.loss < other.loss - 100
-
-
-def test_across_leaves_nothing_in_the_span() -> None:
-    rng = np.random.default_rng(5)
-    span = np.linalg.qr(rng.standard_normal((50, 4)))[0]
-    np.testing.assert_allclose(span.T @ across(rng.standard_normal((50, 3)), span), 0, atol=1e-12)
