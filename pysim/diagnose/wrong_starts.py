@@ -22,6 +22,8 @@ Array = NDArray[np.float64]
 _OVER, _SHOWS = 0.8, 0.15
 # A wrong start shows with this chance by noise alone, and the model moves little while it does.
 _BY_CHANCE, _STILL = 1e-6, 0.25
+# Lengths of a log, over those of the start left out: something is left, as of a sine that had not settled; much is.
+_LEFT, _MUCH_LEFT = 1.25, 4.0
 
 
 def started(ruler: Ruler, what: Extended, x: Array) -> Ruler:
@@ -63,7 +65,7 @@ def restless_beside(ruler: Ruler, point: Evaluation) -> tuple[float, ...]:
     rows = np.split(point.residual, np.cumsum([w.size for w in ruler.whitenings])[:-1])
     found = []
     for target, own, skip in zip(ruler.targets, rows, ruler.skips, strict=True):
-        if isinstance(target, LogTarget) and not skip and _is_long(target):
+        if isinstance(target, LogTarget) and not skip and _length(target) >= _LEFT * _OVER:
             time = target.measured.time
             first = int(np.searchsorted(time, time[0] + _SHOWS)) * own.size // time.size
             level = max(1.0, float(np.mean(own[first:] ** 2))) if first < own.size else np.inf
@@ -73,15 +75,15 @@ def restless_beside(ruler: Ruler, point: Evaluation) -> tuple[float, ...]:
     return tuple(found)
 
 
-def _is_long(target: LogTarget) -> bool:
-    """Whether much of a log is left without its start."""
-    return bool(target.measured.time[-1] - target.measured.time[0] >= 4 * _OVER)
+def _length(target: LogTarget) -> float:
+    """Of a log, s."""
+    return float(target.measured.time[-1] - target.measured.time[0])
 
 
 def _wrong_start(ruler: Ruler, target: LogTarget, simulated: Array) -> bool:
     """Whether the log leaves a model that starts at rest at once, before the model's motion could explain it."""
     early = target.measured.time - target.measured.time[0] < _SHOWS
-    if not _is_long(target) or early.sum() < 3:
+    if _length(target) < _MUCH_LEFT * _OVER or early.sum() < 3:
         return False
     noise = np.array(target.noise)
     apart = ((target.measured.values - simulated) / noise)[early]
