@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from pysim.types import Model, Variable
+    from pysim.types import Model
 
 Bounds = Mapping[str, tuple[float, float]]
 
@@ -51,21 +51,8 @@ def free_parameters(
 
 def _example(model: Model) -> str:
     """The options, for a parameter of the model."""
-    found = next((v for v in _settable(model) if v.causality == "parameter" and v.start), None)
-    name, start = ("NAME", 0.0) if found is None or found.start is None else (found.name, found.start)
-    low, high = sorted((0.1 * start, 10 * start))
-    return f"--free {name} --bounds {name}={low:g}:{high:g}" if start else "--free NAME --bounds NAME=LOW:HIGH"
-
-
-def _settable(model: Model) -> list[Variable]:
-    """Real numbers that a run may set, parameters first."""
-    real = [
-        v
-        for v in model.variables
-        if v.type in ("Real", "Float64")
-        and v.start is not None
-        and math.isfinite(v.start)
-        and v.variability != "constant"
-    ]
-    states = [v for v in real if v.name in model.abilities.states]
-    return [*(v for v in real if v.causality == "parameter"), *states]
+    for v in model.variables:
+        if v.causality == "parameter" and v.type in ("Real", "Float64") and v.start and math.isfinite(v.start):
+            low, high = sorted((0.1 * v.start, 10 * v.start))
+            return f"--free {v.name} --bounds {v.name}={low:g}:{high:g}"
+    return "--free NAME --bounds NAME=LOW:HIGH"

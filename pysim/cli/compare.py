@@ -84,8 +84,8 @@ def _story(args: argparse.Namespace) -> int:
             journal=journal,
         ),
     )
-    print(comparison_sentence(found), evidence_text(found), sep="\n\n")
     answer = comparison_sentence(found)
+    print(answer, evidence_text(found), sep="\n\n")
     finish(found, given, args, "compare", question="How far is the model from its measurements?", answer=answer)
     last = found.error[-1]
     return 0 if last.passes and last.criteria else 1

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from validation.blind.benchmark.answer import Answer
-from validation.blind.benchmark.carry import Carried, standing
+from validation.blind.benchmark.carry import Carried, Standing, standing
 from validation.blind.benchmark.fingerprint import fingerprint
 from validation.blind.benchmark.store import CLOCKED, FOLLOWED, PLACES, Store
 
@@ -34,18 +34,19 @@ class Kept:
 
 def read_kept(answers: Store | None = None) -> Kept:
     """What this package holds; its verdicts, or those of another folder."""
-    verdicts, code = answers or Store(), fingerprint()
-    counted = _standing(verdicts, code)
-    return Kept(
-        counted,
-        _standing(Store(PLACES), fingerprint(places=True)),
-        _standing(Store(FOLLOWED), code),
-        _standing(Store(CLOCKED), code),
-        len(verdicts.read()) - len(counted),
-        standing(verdicts, code).steps,
+    store, code = answers or Store(), fingerprint()
+    stored, alike = store.read(), standing(store, code)
+    counted = _counted(stored, alike)
+    places, followed, clocked = (
+        _counted(one.read(), standing(one, own))
+        for one, own in (
+            (Store(PLACES), fingerprint(places=True)),
+            (Store(FOLLOWED), code),
+            (Store(CLOCKED), code),
+        )
     )
+    return Kept(counted, places, followed, clocked, stale=len(stored) - len(counted), carried=alike.steps)
 
 
-def _standing(store: Store, code: str) -> dict[str, Answer]:
-    counts = standing(store, code).counts
-    return {name: answer for name, answer in store.read().items() if counts(answer)}
+def _counted(stored: Mapping[str, Answer], alike: Standing) -> dict[str, Answer]:
+    return {name: answer for name, answer in stored.items() if alike.counts(answer)}

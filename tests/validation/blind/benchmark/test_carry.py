@@ -1,10 +1,10 @@
 """Older answers stand for a newer code only where a drawn sample comes out the same; what does not is said."""
 
-import importlib
 import json
-from collections.abc import Iterator
+from collections.abc import Callable
 from dataclasses import asdict, replace
 from pathlib import Path
+from types import ModuleType
 
 import pytest
 
@@ -31,11 +31,8 @@ def other(case):
 
 
 @pytest.fixture
-def fake(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[object]:
-    (tmp_path / "fake_again.py").write_text(FAKE.replace("LAST", str(TABLE[0].seed)))
-    monkeypatch.syspath_prepend(str(tmp_path))
-    yield importlib.import_module("fake_again")
-    importlib.sys.modules.pop("fake_again", None)  # type: ignore[attr-defined]
+def fake(imported: Callable[[str], ModuleType]) -> ModuleType:
+    return imported(FAKE.replace("LAST", str(TABLE[0].seed)))
 
 
 def old(case: Case) -> Answer:
@@ -50,8 +47,8 @@ def store(tmp_path: Path) -> Store:
     return store
 
 
-def test_where_the_sample_comes_out_the_same_all_stand(store: Store, fake: Task) -> None:
-    task: Task = fake.same  # type: ignore[attr-defined]
+def test_where_the_sample_comes_out_the_same_all_stand(store: Store, fake: ModuleType) -> None:
+    task: Task = fake.same
     said: list[str] = []
     assert not any(map(standing(store, "new").counts, store.read().values()))
     assert carry(TABLE, store, task, Draw("old", 4, 3), "new", workers=1, say=said.append)
@@ -65,8 +62,8 @@ def test_where_the_sample_comes_out_the_same_all_stand(store: Store, fake: Task)
     assert all("the same; 9 s" in line for line in said[1:])
 
 
-def test_where_one_differs_none_stands_and_nothing_is_kept(store: Store, fake: Task) -> None:
-    task: Task = fake.other  # type: ignore[attr-defined]
+def test_where_one_differs_none_stands_and_nothing_is_kept(store: Store, fake: ModuleType) -> None:
+    task: Task = fake.other
     said: list[str] = []
     assert not carry(TABLE, store, task, Draw("old", 12, 3), "new", workers=1, say=said.append)
     assert standing(store, "new").steps == ()
@@ -75,14 +72,14 @@ def test_where_one_differs_none_stands_and_nothing_is_kept(store: Store, fake: T
     assert said[-1] == "1 of 12 differ: the older answers do not stand for this code"
 
 
-def test_a_code_that_answered_nothing_is_refused(store: Store, fake: Task) -> None:
-    task: Task = fake.same  # type: ignore[attr-defined]
+def test_a_code_that_answered_nothing_is_refused(store: Store, fake: ModuleType) -> None:
+    task: Task = fake.same
     with pytest.raises(BadInput, match="--from older: the store holds no answers of that code; it holds those of old"):
         carry(TABLE, store, task, Draw("older", 4, 3), "new", say=print)
 
 
-def test_what_may_change_is_neither_drawn_nor_counted(store: Store, fake: Task) -> None:
-    task: Task = fake.other  # type: ignore[attr-defined]
+def test_what_may_change_is_neither_drawn_nor_counted(store: Store, fake: ModuleType) -> None:
+    task: Task = fake.other
     assert carry(TABLE, store, task, Draw("old", 12, 3, (TABLE[0].name,)), "new", workers=1, say=lambda line: None)
     (step,) = read_carried(store)
     assert step.but == (TABLE[0].name,)

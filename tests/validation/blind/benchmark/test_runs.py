@@ -1,8 +1,8 @@
 """Choosing and running cases with a fake diagnosis: shards are parts, kills cost one case, a hang costs its own."""
 
-import importlib
-from collections.abc import Iterator
+from collections.abc import Callable
 from pathlib import Path
+from types import ModuleType
 
 import pytest
 
@@ -37,16 +37,8 @@ def troubled(case):
 
 
 @pytest.fixture
-def fake(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[object]:
-    (tmp_path / "fake_diagnosis.py").write_text(FAKE)
-    monkeypatch.syspath_prepend(str(tmp_path))
-    yield importlib.import_module("fake_diagnosis")
-    importlib.sys.modules.pop("fake_diagnosis", None)  # type: ignore[attr-defined]
-
-
-def lines() -> tuple[list[str], object]:
-    said: list[str] = []
-    return said, said.append
+def fake(imported: Callable[[str], ModuleType]) -> ModuleType:
+    return imported(FAKE)
 
 
 def test_shards_are_disjoint_and_together_everything() -> None:
@@ -72,9 +64,9 @@ def test_kinds_names_and_samples() -> None:
         Choice(shard=(5, 4))
 
 
-def test_answers_are_kept_and_not_asked_for_again(tmp_path: Path, fake: Task) -> None:
+def test_answers_are_kept_and_not_asked_for_again(tmp_path: Path, fake: ModuleType) -> None:
     store, said = Store(tmp_path / "answers"), []
-    task: Task = fake.right  # type: ignore[attr-defined]
+    task: Task = fake.right
     assert run(SOME[:4], store, task, "new", workers=2, say=said.append) == 4
     assert {name: a.verdict for name, a in store.read().items()} == {c.name: c.expected[0] for c in SOME[:4]}
     assert said[0].startswith("4 of 4 cases")
@@ -87,9 +79,9 @@ def test_answers_are_kept_and_not_asked_for_again(tmp_path: Path, fake: Task) ->
     assert run(SOME[:1], store, task, "newer", workers=1, say=said.append) == 1
 
 
-def test_a_case_that_fails_crashes_or_hangs_costs_itself_alone(tmp_path: Path, fake: Task) -> None:
+def test_a_case_that_fails_crashes_or_hangs_costs_itself_alone(tmp_path: Path, fake: ModuleType) -> None:
     store = Store(tmp_path / "answers")
-    task: Task = fake.troubled  # type: ignore[attr-defined]
+    task: Task = fake.troubled
     assert run(SOME, store, task, "new", workers=2, limit=3.0, say=lambda line: None) == 6
     found = {case.name.rpartition("-n")[2]: store.read()[case.name] for case in SOME}
     assert found["0.1-u"].trouble == "RuntimeError: no pump today"
@@ -100,9 +92,9 @@ def test_a_case_that_fails_crashes_or_hangs_costs_itself_alone(tmp_path: Path, f
     assert not any(found[k].verdict for k in ("0.1-u", "0.1-angle", "0.5-u"))
 
 
-def test_stopped_in_the_middle_it_has_kept_what_was_answered(tmp_path: Path, fake: Task) -> None:
+def test_stopped_in_the_middle_it_has_kept_what_was_answered(tmp_path: Path, fake: ModuleType) -> None:
     store = Store(tmp_path / "answers")
-    task: Task = fake.right  # type: ignore[attr-defined]
+    task: Task = fake.right
 
     def stop(line: str) -> None:
         if line.startswith("2/"):
