@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -10,6 +11,7 @@ import numpy as np
 from pysim.diagnose.answer import answered, decided
 from pysim.diagnose.corrections import Settled, recounted
 from pysim.diagnose.fitted import Fitted
+from pysim.diagnose.jumps import jumping
 from pysim.diagnose.locating.locate import locate
 from pysim.diagnose.next_test import next_test
 from pysim.diagnose.ranking import rows
@@ -27,6 +29,12 @@ from pysim.types.diagnosis import UNKNOWN
 
 # Effects that may be added one after the other.
 MOST = 3
+# How often a diagnosis is begun again without logs.
+_AGAIN = 2
+_JUMPS = (
+    "{log}: left out of the fit, because the model's answer jumps there where a parameter moves by 0.3 percent, as "
+    "where it has several steady states"
+)
 _NOT_AT_HAND = "the model's Modelica class is not at hand, so no effect of the catalogue could be tried"
 
 
@@ -53,16 +61,32 @@ def diagnose(
     """
     told: dict[str, object] = {"step": "diagnose", "most": most}
     story = begin(subject, seed=seed, workers=workers, progress=progress, journal=journal, settings=told)
-    nominal = _prior(story)
-    base = _refit(story, nominal)
-    final = base
-    if subject.build_variant is None:
-        story.note(_NOT_AT_HAND)
-    elif subject.catalogue:
-        base, final = search(story, nominal, base, most)
+    base, final = _searched(story, most)
+    for _ in range(_AGAIN):
+        story.now("asking whether the model jumps")
+        sources = story.journal.once("jumps", partial(jumping, final.lean, final.at))
+        story.stage("jumps")
+        if not sources:
+            break
+        line = _JUMPS.format(log=", ".join(sources))
+        story.say(f"{line}; begun again")
+        story = story.without(sources)
+        story.note(line)
+        base, final = _searched(story, most)
     verdict, reason = decided(story, base, final, why_none="" if most else "no effect was tried")
     missing = _missing(story, final) if verdict == UNKNOWN else ()
     return answered(story, final.at, verdict, reason, missing, _next_test(story))
+
+
+def _searched(story: Story, most: int) -> tuple[Settled, Settled]:
+    """The refitted base model, and with the effects that the data demand."""
+    nominal = _prior(story)
+    base = _refit(story, nominal)
+    if story.subject.build_variant is None:
+        story.note(_NOT_AT_HAND)
+    elif story.subject.catalogue:
+        return search(story, nominal, base, most)
+    return base, base
 
 
 def against(

@@ -8,12 +8,10 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from pysim.diagnose.subject import Subject
-from pysim.identify.greybox.table_target import TableTarget
+from pysim.identify.greybox.digest import digest
 from pysim.io import write_file
-from pysim.types import BadInput, Record
+from pysim.types import BadInput
 
 # Raised whenever the same line would mean something else.
 _FORM = 1
@@ -85,30 +83,8 @@ def _whole_lines(path: Path) -> list[dict[str, Any]]:
 
 def identity(subject: Subject, settings: Mapping[str, object]) -> str:
     """Text that is the same for the same model, data, catalogue and settings only."""
-    digest = hashlib.sha256(subject.model.path.read_bytes())
-    for target in subject.targets:
-        for run in target.runs:
-            digest.update(repr((run.record, run.experiment.start, sorted(run.experiment.overrides.items()))).encode())
-        if isinstance(target, TableTarget):
-            digest.update(repr((target.source, target.reference)).encode())
-    for record in subject.dataset.records if subject.dataset is not None else ():
-        data = record.data
-        numbers = [data.time, data.values] if isinstance(data, Record) else [data.frequency, data.gain, data.phase]
-        if not isinstance(data, Record) and data.covariance is not None:
-            numbers.append(data.covariance)
-        about = (
-            record.source,
-            record.kind,
-            record.use,
-            record.offset,
-            record.amplitude,
-            record.frequency,
-            record.command,
-        )
-        digest.update(repr(about).encode())
-        for one in numbers:
-            digest.update(np.ascontiguousarray(one).tobytes())
-    signals = [] if subject.dataset is None else [repr(s) for s in subject.dataset.signals]
+    model, data = hashlib.sha256(subject.model.path.read_bytes()).hexdigest(), subject.dataset
+    measured = digest((subject.targets, () if data is None else (data.signals, data.records)))
     catalogue = [(e.name, e.class_name, e.law, repr(e.parameters)) for e in subject.catalogue]
     bounds = sorted((name, *ends) for name, ends in subject.bounds.items())
-    return repr((digest.hexdigest(), subject.free, bounds, signals, catalogue, sorted(settings.items())))
+    return repr((model, measured, subject.free, bounds, catalogue, sorted(settings.items())))

@@ -25,11 +25,9 @@ def beside(subject: Subject, what: Extended, x: Array, workers: int | None = Non
     Args:
         workers: runs at a time; all cores where None.
     """
-    nothing, values = np.zeros(0), what.space.values(x)
-    fixed = ParameterSpace((), (), (), (), nothing, nothing, nothing, nothing, nothing.astype(bool), fixed=values)
-    return compared(
-        Problem(what.model, fixed, subject.targets), nothing, Simulation(Esdirk(rtol=1e-6, atol=1e-6), Threads(workers))
-    )
+    simulation = Simulation(Esdirk(rtol=1e-6, atol=1e-6), Threads(workers))
+    held = ParameterSpace.held(what.space.values(x))
+    return compared(Problem(what.model, held, subject.targets), np.zeros(0), simulation)
 
 
 def ledger_step(name: str, found: Compared, cost: float, skips: Mapping[str, float] | None = None) -> LedgerStep:

@@ -25,6 +25,7 @@ from pysim.diagnose.corrections import (
 from pysim.diagnose.doubt import held_still
 from pysim.diagnose.fitted import Fitted
 from pysim.diagnose.journal import Journal, identity
+from pysim.diagnose.jumps import without
 from pysim.diagnose.ledger import after, beside, ledger_step
 from pysim.diagnose.nuisance import Suspect
 from pysim.diagnose.nuisance_words import counting_in_words, in_words
@@ -110,6 +111,16 @@ class Story:
         self.stages.pop()
         self.ranking, self.ties, self.tied = [], [], None
         self.journal.afresh()
+
+    def without(self, sources: Sequence[str]) -> Story:
+        """The same diagnosis begun again without these logs."""
+        targets = without(self.measured, sources)
+        ruler, held = rulers(targets, self.ruler.workers, told=not untold(self.subject.notes))
+        self.journal.afresh()
+        subject = replace(self.subject, targets=targets)
+        return Story(
+            subject, self.tell, self.seed, ruler, held, self.journal, notes=list(subject.notes), seconds=self.seconds
+        )
 
     def enter(self, name: str, at: Fitted) -> LedgerStep:
         """A model joins the ledger."""

@@ -20,6 +20,7 @@ from pysim.diagnose.refit import chord_refit, refit_from
 from pysim.diagnose.rounds import Tried
 from pysim.diagnose.scores import by_score, score, share
 from pysim.diagnose.screen import Footprint, largest_value
+from pysim.diagnose.set_aside import set_aside
 from pysim.diagnose.start import start_at, start_off
 from pysim.diagnose.steps import run_again
 from pysim.diagnose.story import Story
@@ -72,7 +73,7 @@ def refitted(
     for name in order[:_FINAL]:
         if score(story, tried.current, found[name]) < _NEAR * best and name != order[0]:
             continue
-        end = _leader(story, tried, tried.contenders[name], found[name], nominal if name == order[0] else None)
+        end = _with_slopes(story, tried, tried.contenders[name], found[name], nominal, leads=name == order[0])
         if end is not None:
             found[name] = end
             story.say(
@@ -169,18 +170,30 @@ def start_amount(effect: Effect, amount: float) -> float:
     return math.copysign(float(np.clip(abs(amount), 1 / 3, 3.0)), amount)
 
 
-def _leader(story: Story, tried: Tried, one: Contender, at: Fitted, nominal: Fitted | None) -> Fitted | None:
-    """With slopes of its own; from the model's own parameters too where that leaves more than noise does."""
+def _with_slopes(
+    story: Story, tried: Tried, one: Contender, at: Fitted, nominal: Fitted | None, *, leads: bool
+) -> Fitted | None:
+    """With slopes of its own; where the leader leaves more than noise does, from other starts too."""
 
     def find() -> tuple[Evaluation, Array] | None:
         first = one.ruler.evaluation(one.what, at.point.x)
         end = refit_from(one.ruler, one.what, first, rounds=3 if tried.bent else 2) if first.good else None
-        if nominal is None or (end is not None and as_noise(one.ruler, end[0])):
-            return end
-        ends = [e for e in (end, _beside(one, at, recounted(tried.ruler, one.ruler, nominal))) if e is not None]
-        return min(ends, key=lambda e: e[0].cost, default=None)
+        if leads and nominal is not None and not _does(one, end):
+            end = _lower(end, _beside(one, at, recounted(tried.ruler, one.ruler, nominal)))
+        if leads and end is not None and not _does(one, end):
+            end = _lower(end, set_aside(one.ruler, one.what, end[0]))
+        return end
 
     return story.fitted(one.what, f"{tried.current.name} + {one.effect.name}", find, one.ruler)
+
+
+def _does(one: Contender, end: tuple[Evaluation, Array] | None) -> bool:
+    """Whether a refit leaves no more than noise."""
+    return end is not None and as_noise(one.ruler, end[0])
+
+
+def _lower(*ends: tuple[Evaluation, Array] | None) -> tuple[Evaluation, Array] | None:
+    return min((end for end in ends if end is not None), key=lambda end: end[0].cost, default=None)
 
 
 def _beside(one: Contender, at: Fitted, nominal: Fitted) -> tuple[Evaluation, Array] | None:

@@ -30,6 +30,11 @@ class Whitening(Protocol):
         """Rows that come out."""
         ...
 
+    @property
+    def parts(self) -> tuple[int, ...]:
+        """Rows of each log of the target."""
+        ...
+
     def of(self, rows: Array) -> Array:
         """Rows (n, m) as the target weighs them -> (size, m), independent and of variance 1."""
         ...
@@ -72,6 +77,11 @@ class Untouched:
 
     size: int
 
+    @property
+    def parts(self) -> tuple[int, ...]:
+        """All rows."""
+        return (self.size,)
+
     def of(self, rows: Array) -> Array:
         """The same rows."""
         return rows
@@ -103,6 +113,11 @@ class Innovations:
         """Rows that come out."""
         return int(self.scale.size)
 
+    @property
+    def parts(self) -> tuple[int, ...]:
+        """All rows."""
+        return (self.size,)
+
     def of(self, rows: Array) -> Array:
         """Samples in order, signal by signal within each."""
         signals = self.scale.shape[1]
@@ -127,7 +142,12 @@ class Harmonics:
     @property
     def size(self) -> int:
         """Rows that come out."""
-        return sum(size * len(log) for size, log in zip(self.sizes, self.logs, strict=True))
+        return sum(self.parts)
+
+    @property
+    def parts(self) -> tuple[int, ...]:
+        """Rows of each sine."""
+        return tuple(size * len(log) for size, log in zip(self.sizes, self.logs, strict=True))
 
     def of(self, rows: Array) -> Array:
         """Log by log, harmonic by harmonic, signal by signal within each."""

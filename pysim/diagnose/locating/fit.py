@@ -83,7 +83,7 @@ class Table:
         fixed = {**base.fixed, **dict(zip(self.law.knots, self.knots.tolist(), strict=True)), UNIT: self.unit}
         if not free:
             fixed |= base.values(current.point.x)
-            base = ParameterSpace((), (), (), (), *(np.zeros(0),) * 4, np.zeros(0, dtype=bool))
+            base = ParameterSpace.held({})
         names = self.law.values
         return ParameterSpace(
             keys=(*base.keys, *names),

@@ -11,10 +11,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pysim.identify.greybox.comparison import compared
+from pysim.identify.greybox.digest import digest
 from pysim.identify.greybox.evaluation import Evaluation, LastLook, evaluator, last_look
 from pysim.identify.greybox.gauss_newton import GaussNewton
 from pysim.identify.greybox.interior_point import InteriorPoint
-from pysim.identify.greybox.journal import Journal, digest
+from pysim.identify.greybox.journal import Journal
 from pysim.identify.greybox.objective import NOISE, Objective
 from pysim.identify.greybox.optimiser import Optimiser, State
 from pysim.identify.greybox.problem import Problem

@@ -78,6 +78,12 @@ class ParameterSpace:
     def __post_init__(self) -> None:
         object.__setattr__(self, "fixed", FrozenMapping(self.fixed))
 
+    @classmethod
+    def held(cls, values: Mapping[str, float]) -> ParameterSpace:
+        """Nothing free, these fixed."""
+        nothing = np.zeros(0)
+        return cls((), (), (), (), nothing, nothing, nothing, nothing, nothing.astype(bool), fixed=values)
+
     @property
     def size(self) -> int:
         """How many numbers are free."""

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -34,6 +34,14 @@ class SineTarget:
     reference: int | None
     kind: str = "frequency-response"
     domain: str = "frequency"
+
+    def without(self, sources: Collection[str]) -> SineTarget:
+        """The target without the logs of these sources; gains are as they are where the reference is among them."""
+        kept = [i for i, log in enumerate(self.logs) if log.source not in sources]
+        logs, runs = tuple(self.logs[i] for i in kept), tuple(self.runs[i] for i in kept)
+        return replace(
+            self, logs=logs, runs=runs, reference=kept.index(self.reference) if self.reference in kept else None
+        )
 
     def weighted(self, simulated: Sequence[Simulated]) -> Residual:
         """Mean and harmonics, uncorrelated, over their noise."""

@@ -1,5 +1,4 @@
 import json
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -7,10 +6,10 @@ import pytest
 
 from pysim.identify.greybox.gauss_newton import GaussNewton
 from pysim.identify.greybox.interior_point import InteriorPoint
-from pysim.identify.greybox.journal import LINES, STATE, Journal, digest
+from pysim.identify.greybox.journal import LINES, STATE, Journal
 from pysim.identify.greybox.optimiser import Optimiser
 from pysim.identify.greybox.search import Tried, search
-from pysim.types import BadInput, Record
+from pysim.types import BadInput
 from tests.pysim.identify.greybox.functions import evaluating, rosenbrock, rosenbrock_slopes, space
 
 
@@ -81,29 +80,3 @@ def test_a_log_of_another_fit_is_refused(tmp_path: Path) -> None:
     with pytest.raises(BadInput, match=r"state\.npz belongs to another fit: other .*; resume with the same"):
         search(evaluate, GaussNewton(), s, s.start, squares=True, journal=Journal(tmp_path, "b"), resume=True)
     assert (tmp_path / STATE).is_file()
-
-
-def test_a_digest_tells_the_last_bit_of_an_array() -> None:
-    s = space([1.0, 2.0])
-    assert digest(s) == digest(space([1.0, 2.0]))
-    assert digest(s) != digest(space([1.0, np.nextafter(2.0, 3.0)]))
-    long = np.zeros(5000)  # too long for numpy to print in full
-    assert digest(long) != digest(np.where(np.arange(5000) == 2500, 1.0, long))
-
-
-def test_a_digest_tells_kinds_and_sizes_apart() -> None:
-    different = [(), ((),), ("a", "b"), ("ab",), ("a", ("b",)), {"a": "b"}, None, "None", 1.0, "1.0", np.ones(4)]
-    different += [np.ones((2, 2)), np.ones(4, dtype=np.int64), (np.ones(2), np.ones(2)), (np.ones(1), np.ones(3))]
-    assert len({digest(one) for one in different}) == len(different)
-
-
-def test_a_digest_overlooks_order_of_names_and_what_is_only_said() -> None:
-    assert digest({"a": 1, "b": 2.0}) == digest({"b": 2.0, "a": 1.0})
-    record = Record(np.arange(2.0), np.ones((2, 1)), ("y",), ("m",), origin="measured, here/log.txt")
-    assert digest(record) == digest(replace(record, origin="measured, there/log.txt"))
-    assert digest(record) != digest(replace(record, units=("bar",)))
-
-
-def test_what_has_no_exact_form_is_refused() -> None:
-    with pytest.raises(TypeError, match="object has no digest"):
-        digest(("a", object()))
