@@ -68,3 +68,12 @@ def test_an_empty_store_and_a_missed_target_fail() -> None:
     answers[nulls[0].name] = right(nulls[0])
     (alarm,) = (f for f in targets(TABLE, Kept(answers)) if f.claim.startswith("a physical effect named"))
     assert alarm.holds
+
+
+def test_shares_of_too_few_cases_are_told() -> None:
+    answers = {case.name: right(case) for case in TABLE if case.kind == "named"}
+    nulls = [case.name for case in TABLE if case.kind == "none"]
+    answers |= {case.name: right(case) for case in TABLE if case.name in nulls[:299]}
+    counts = {f.claim: f for f in targets(TABLE, Kept(answers)) if "answered, short of" in f.claim}
+    assert [f.holds for f in counts.values()] == [False, True]
+    assert "cases 'none': 299 answered, short of 300 by" in counts
