@@ -152,9 +152,9 @@ def _told(job: Job, folder: Path) -> Job:
     found = _steps(lines)
     found += _steps(_lines(folder / _EARLIER))[len(found) :]
     if not lines:
-        return replace(job, steps=found)
+        return replace(job, steps=_standing(found))
     learned = tuple(line["text"] for line in lines if line["text"])
-    return replace(job, stage=lines[-1]["stage"], left=lines[-1]["left"], steps=found, learned=learned)
+    return replace(job, stage=lines[-1]["stage"], left=lines[-1]["left"], steps=_standing(found), learned=learned)
 
 
 def _lines(story: Path) -> list[dict[str, Any]]:
@@ -168,6 +168,15 @@ def _lines(story: Path) -> list[dict[str, Any]]:
 
 def _steps(lines: Sequence[Mapping[str, Any]]) -> tuple[dict[str, Any], ...]:
     return tuple(line["step"] for line in lines if line["step"] is not None)
+
+
+def _standing(steps: Sequence[dict[str, Any]]) -> tuple[dict[str, Any], ...]:
+    """But for those of models that were found again later, and all between."""
+    found: list[dict[str, Any]] = []
+    for step in steps:
+        names = [one["step"] for one in found]
+        found = [*found[: names.index(step["step"]) if step["step"] in names else None], step]
+    return tuple(found)
 
 
 @dataclass

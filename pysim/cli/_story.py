@@ -54,7 +54,7 @@ class Story:
         with self._lock:
             self._stage = told.stage
             if told.step is not None:
-                self._steps.append(told.step)
+                self._steps = entered(self._steps, told.step)
             elif told.text:
                 self._learned = [*self._learned, told.text][-_LEARNED:]
         self._draw()
@@ -91,6 +91,12 @@ class Story:
             up = f"\x1b[{self._drawn}A" if self._drawn else ""
             print(up + "".join(f"\r\x1b[K{line}\n" for line in lines), end="", file=sys.stderr, flush=True)
             self._drawn = len(lines)
+
+
+def entered(steps: Sequence[LedgerStep], step: LedgerStep) -> list[LedgerStep]:
+    """With one more; that of a model that was found again takes the place of the former one and of all behind it."""
+    names = [one.step for one in steps]
+    return [*steps[: names.index(step.step) if step.step in names else None], step]
 
 
 def block(title: str, stage: str, elapsed: float, steps: Sequence[LedgerStep], learned: Sequence[str]) -> list[str]:
@@ -147,7 +153,7 @@ class StoryFile:
 
         elapsed = time.monotonic() - self._begun
         if told.step is not None:
-            self._steps.append(told.step)
+            self._steps = entered(self._steps, told.step)
         line: dict[str, object] = {
             "seconds": round(elapsed, 3),
             "left": left(told.stage, elapsed, self._steps),

@@ -222,7 +222,13 @@ def test_what_goes_on_keeps_its_steps_until_it_has_found_them_again(project: Pro
 
     folder, runner = project.results("try"), Runner(project)
     story = folder / "story.jsonl"
-    for told, seen in ((["a", "b", "c"], "abc"), (["d"], "dbc"), ([], "abc"), (["e", "f", "g", "h"], "efgh")):
+    for told, seen in (
+        (["a", "b", "c"], "abc"),
+        (["d"], "dbc"),
+        ([], "abc"),
+        (["e", "f", "g", "h"], "efgh"),
+        (list("abcdbx"), "abx"),
+    ):
         text = "".join(line(step) for step in told)
         runner.start(
             work(project, f"open('results/try/story.jsonl', 'w').write({text!r}); import time; time.sleep(60)")

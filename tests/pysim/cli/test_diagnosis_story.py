@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from pysim.cli._story import Story, StoryFile, block, left
-from pysim.types import Told
+from pysim.cli._story import Story, StoryFile, block, entered, left
+from pysim.types import LedgerStep, Told
 from tests.pysim.diagnosis_story import step, story
 
 
@@ -31,6 +31,13 @@ def test_the_block_shows_time_stage_and_the_error_falling() -> None:
     assert lengths[0] == 24 > lengths[1] > lengths[2] == 0  # nothing but noise has no bar
     assert bars[0].endswith("held out    8.00")
     assert learned == "  - found"
+
+
+def test_a_model_that_is_found_again_takes_the_place_of_the_former_one() -> None:
+    steps: list[LedgerStep] = []
+    for name, error in (("prior", 8.0), ("refit", 4.0), ("toy.stop", 2.0), ("refit", 3.0), ("toy.friction", 1.0)):
+        steps = entered(steps, step(name, error, error, 0.9))
+    assert [(one.step, one.fit) for one in steps] == [("prior", 8.0), ("refit", 3.0), ("toy.friction", 1.0)]
 
 
 def test_in_the_first_round_it_says_how_long_it_may_take() -> None:
