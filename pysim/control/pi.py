@@ -15,8 +15,9 @@ class PI:
     """u(k) = u(k-1) + K_p e(k) + (K_p dt / T_i - K_p) e(k-1), e = reference - measured.
 
     The output that is remembered is the limited one, so that the integral does not wind up: the controller leaves its
-    limit with the first sample whose increment points inwards. With `active` at zero the output follows `track`, and
-    once it is active again it goes on from there without a jump; the first active step adds the integral's part only.
+    limit with the first sample whose increment points inwards. While `active` is not above 0.5 the output is
+    `track`, and once it is active again it goes on from there without a jump; the first active step adds the integral's
+    part only.
 
     Args:
         K_p: gain, output unit per unit of the error.
@@ -64,7 +65,7 @@ class PI:
         """One sample: (reference, measured, track, active) -> (u,)."""
         reference, measured, track, active = inputs
         error = reference - measured
-        if not active:
+        if active <= 0.5:
             self._u, self._error, self._begun = min(max(track, self.low), self.high), error, 0.0
             return (self._u,)
         return (self.advance(error, self.low, self.high),)

@@ -13,7 +13,7 @@ block PI "PI controller as a difference equation, thesis Eq. 5.33"
     annotation(Placement(transformation(extent={{-140, 10}, {-100, 50}})));
   Interfaces.RealInput track(unit="1") "Output while it is not active"
     annotation(Placement(transformation(extent={{-140, -50}, {-100, -10}})));
-  Interfaces.RealInput active(unit="1") "Controls unless this is 0"
+  Interfaces.RealInput active(unit="1") "Controls where this is above 0.5"
     annotation(Placement(transformation(extent={{-140, -100}, {-100, -60}})));
   Interfaces.RealOutput y(unit="1") "Output"
     annotation(Placement(transformation(extent={{100, -10}, {120, 10}})));

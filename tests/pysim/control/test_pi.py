@@ -39,6 +39,12 @@ def test_it_takes_over_without_a_jump() -> None:
     assert controller.step(0.0, (3.0, 0.0, 0.7, 1.0))[0] == pytest.approx(0.7 + 10.0 * 0.01 / 0.5 * 3.0)
 
 
+def test_it_is_active_above_a_half_as_its_twin_is() -> None:
+    pi = PI(2.0, 0.1, 0.01)
+    assert [pi.step(0.0, (1.0, 0.0, 0.25, active))[0] for active in (0.0, 0.3, 0.5)] == [0.25, 0.25, 0.25]
+    assert pi.step(0.0, (1.0, 0.0, 0.25, 0.51))[0] > 0.25
+
+
 def test_a_kept_state_goes_on_alike() -> None:
     errors = np.random.default_rng(2).standard_normal(100)
     whole = run(PI(1.0, 0.2, 0.01), errors)
