@@ -11,6 +11,7 @@ from typing import Protocol, TypeVar
 from fmpy import platform, platform_tuple, sharedLibraryExtension
 
 from pysim.io.archive import extracted
+from pysim.io.fmu import read_model, stamp
 from pysim.types import BadInput, Model
 
 Loaded = TypeVar("Loaded", covariant=True)
@@ -32,13 +33,22 @@ def check_binary(model: Model, library: str) -> None:
     Args:
         library: its name in the FMU, without suffix.
     Raises:
-        BadInput: it does not; says for which machines it has one.
+        BadInput: it does not; says for which machines it has one. So too where the FMU is gone, or has become another
+            since it was read.
     """
+    _check_same(model)
     folder = extracted(model.path) / "binaries"
     name = platform if model.abilities.fmi == 2 else platform_tuple
     if not (folder / name / f"{library}{sharedLibraryExtension}").is_file():
         present = ", ".join(sorted(p.name for p in folder.glob("*"))) or "none"
         raise BadInput(f"{model.label} has no binary for {name} (it has: {present}); export it for this machine")
+
+
+def _check_same(model: Model) -> None:
+    if not model.path.is_file():
+        raise BadInput(f"{model.label} is not at {model.path} any more; export it again")
+    if stamp(model.path) != model.stamp and read_model(model.path).token != model.token:
+        raise BadInput(f"{model.label} has become another since it was read; read it again with read_model")
 
 
 def load_library(load: Loader[Loaded], model: Model, library: str, instance: str) -> Loaded:

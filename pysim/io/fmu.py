@@ -36,8 +36,15 @@ def read_model(path: Path | str) -> Model:
         variables=tuple(_variable(v) for v in description.modelVariables),
         abilities=_abilities(description, path),
         stop_time=_stop_time(description),
+        stamp=stamp(path),
         declares_units=any(_unit(v) for v in description.modelVariables if v.causality != "independent"),
     )
+
+
+def stamp(path: Path) -> tuple[int, int]:
+    """When a file was changed last, in ns, and its size."""
+    known = path.stat()
+    return known.st_mtime_ns, known.st_size
 
 
 def _stop_time(d: ModelDescription) -> float | None:

@@ -80,6 +80,7 @@ class Model:
     abilities: Abilities = field(repr=False)
     stop_time: float | None = None  # s, of the FMU's own default experiment
     declares_units: bool = field(default=True, repr=False)  # of any variable
+    stamp: tuple[int, int] = field(default=(0, 0), repr=False, compare=False)  # of the file: modified, ns, and size
 
     @cached_property
     def _by_name(self) -> dict[str, Variable]:

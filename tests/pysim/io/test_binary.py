@@ -34,3 +34,20 @@ def test_a_library_that_cannot_be_loaded_is_told_and_leaves_the_working_director
     with pytest.raises(BadInput, match=r"^broken\.fmu: its library Lag cannot be loaded \(.*\); install what it needs"):
         load_library(kind, model, "Lag", "lag")
     assert os.getcwd() == before
+
+
+def test_an_fmu_that_has_become_another_since_it_was_read_is_told(tmp_path: Path) -> None:
+    model = text_model(LAG, tmp_path)
+    copy = tmp_path / "mine.fmu"
+    copy.write_bytes(model.path.read_bytes())
+    mine = read_model(copy)
+    os.utime(copy, ns=(1, 1))  # copied back, with another time
+    check_binary(mine, "Lag")
+    (tmp_path / "other").mkdir()
+    other = text_model(LAG.replace("parameter Real", "parameter Real more = 1; parameter Real", 1), tmp_path / "other")
+    copy.write_bytes(other.path.read_bytes())
+    with pytest.raises(BadInput, match=r"^mine\.fmu has become another since it was read; read it again"):
+        check_binary(mine, "Lag")
+    copy.unlink()
+    with pytest.raises(BadInput, match=r"^mine\.fmu is not at .*mine\.fmu any more; export it again"):
+        check_binary(mine, "Lag")
