@@ -1,7 +1,7 @@
 """Run FMUs fast: one compiled loop that calls the FMU's own functions."""
 
 from pysim.simulate._base import Solver
-from pysim.simulate._check import check_override
+from pysim.simulate._check import check_override, value_objection
 from pysim.simulate._many import simulate_many
 from pysim.simulate._messages import Mailbox
 from pysim.simulate._run import simulate
@@ -53,4 +53,5 @@ __all__ = [
     "sensitivities_many",
     "simulate",
     "simulate_many",
+    "value_objection",
 ]

@@ -5,7 +5,9 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from pysim.simulate._library import settable_types
+import numpy as np
+
+from pysim.simulate._library import REALS, settable_types
 from pysim.simulate.native.recording import GETTERS
 from pysim.types import BadInput, Experiment, Model, Variable
 
@@ -92,8 +94,28 @@ def _objection(model: Model, variable: Variable, value: float) -> str:
     if fixed or variable.variability == "constant" or variable.causality == "structuralParameter":
         kind = "constant" if variable.variability == "constant" else variable.causality
         return f"({kind}) cannot be set; override parameters, inputs or start values"
-    if not math.isfinite(value):
-        return f"cannot be set to {value}; give a finite number"
-    if variable.type not in ("Real", "Float64", "Float32") and value != round(value):
+    return value_objection(variable, value)
+
+
+def value_objection(variable: Variable, value: object) -> str:
+    """Why a variable cannot have a value, as the end of a sentence; empty if it can."""
+    try:
+        number = math.nan if isinstance(value, str) else float(value)  # type: ignore[arg-type]
+    except (TypeError, ValueError, OverflowError):
+        return f"cannot be set to {value!r}; give a number"
+    if not math.isfinite(number):
+        return f"cannot be set to {value!r}; give a finite number"
+    if variable.type in REALS:
+        return ""
+    if number != round(number):
         return f"is {variable.type} and cannot be set to {value}; give a whole number"
-    return ""
+    low, high = _range(variable.type)
+    return "" if low <= number <= high else f"is {variable.type} and cannot be set to {value}; give {low} to {high}"
+
+
+def _range(kind: str) -> tuple[int, int]:
+    """Least and largest number of a type that has whole ones only."""
+    if kind == "Boolean":
+        return 0, 1
+    limits = np.iinfo({"Integer": "int32", "Enumeration": "int32"}.get(kind, kind.lower()))
+    return int(limits.min), int(limits.max)

@@ -34,7 +34,7 @@ _SETTERS = {
     },
 }
 
-_REALS = frozenset({"Real", "Float32", "Float64"})
+REALS = frozenset({"Real", "Float32", "Float64"})
 
 
 def settable_types(model: Model) -> frozenset[str]:
@@ -165,7 +165,7 @@ class Instance:
             variable = self.model[name]
             references, numbers = groups.setdefault(variable.type, ([], []))
             references.append(variable.reference)
-            numbers.append(float(value) if variable.type in _REALS else int(value))
+            numbers.append(float(value) if variable.type in REALS else int(value))
         for kind, (references, numbers) in groups.items():
             getattr(self.fmu, _SETTERS[self.model.abilities.fmi][kind])(references, numbers)
 

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import math
-
-from pysim.simulate import check_override, is_number
+from pysim.simulate import check_override, is_number, value_objection
 from pysim.types import BadInput, Model, Port, Variable
 
 _INTERFACES = ("", "co-simulation", "model-exchange")
@@ -45,8 +43,8 @@ def check_value(model: Model, name: str, value: float) -> None:
         check_override(model, name, value)
     elif not fits(model, variable):
         raise BadInput(f"{model.path.name}: {name} is {variable.type}, no single number; leave it at its start")
-    elif not math.isfinite(value):
-        raise BadInput(f"{model.path.name}: {name} cannot be set to {value}; give a finite number")
+    elif why := value_objection(variable, value):
+        raise BadInput(f"{model.path.name}: {name} {why}")
 
 
 def chosen_interface(name: str, model: Model, wanted: str) -> str:

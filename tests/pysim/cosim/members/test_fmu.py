@@ -8,8 +8,8 @@ import pytest
 from pysim.cosim import MemberFailed
 from pysim.cosim.members import Fmu
 from pysim.io import read_model
-from pysim.simulate import Rodas
-from pysim.types import BadInput, Model, Outcome
+from pysim.simulate import Rodas, simulate
+from pysim.types import BadInput, Experiment, Model, Outcome
 from tests.broken import with_broken_library
 from tests.foreign import made_foreign
 from tests.pysim.cosim.members.driving import Driven, driven
@@ -293,6 +293,35 @@ def test_an_update_without_news_calls_nothing_that_a_strict_fmu_refuses(folder: 
         run.go()
         assert run["stair"] == 1.0
         assert run["way"] == pytest.approx(0.2, abs=1e-6)
+
+
+@pytest.mark.parametrize("fmi", [2, 3])
+def test_a_whole_number_is_given_one_that_it_can_be(folder: Path, fmi: int) -> None:
+    text = """model Counts
+  parameter Integer n = 3;
+  input Boolean b(start=true);
+  input Integer i(start=1);
+  output Real y(start=0, fixed=true);
+equation
+  der(y) = if b then n + i else 0;
+end Counts;
+"""
+    model = text_model(text, folder, fmi=fmi)
+    for name, value, cure in (
+        ("n", 2.5, "give a whole number"),
+        ("n", 3e10, "give -2147483648 to 2147483647"),
+        ("i", 0.5, "give a whole number"),
+        ("i", -3e10, "give -2147483648 to 2147483647"),
+        ("b", 2, "give 0 to 1"),
+        ("n", "2", "give a finite number"),
+        ("i", None, "give a number"),
+    ):
+        with pytest.raises(BadInput, match=rf"{name} .*cannot be set to .*{cure}"):
+            Fmu("counts", model, parameters={name: value})
+    with pytest.raises(BadInput, match=r"n is .* and cannot be set to 3"):
+        simulate(model, Experiment([0, 1], ("y",), overrides={"n": 3e10}), solver=Rodas())
+    record = simulate(model, Experiment([0, 1], ("y",), overrides={"n": 2, "b": True}), solver=Rodas())
+    assert record["y"][-1] == pytest.approx(3)
 
 
 def test_an_input_is_given_a_finite_number(folder: Path) -> None:
