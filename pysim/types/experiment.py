@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from copy import copy
 from dataclasses import dataclass, field
 from numbers import Real
@@ -46,7 +46,9 @@ class Experiment:
             raise BadInput(
                 f"experiment: record is the text {self.record!r}; write a tuple of names, ({self.record!r},)"
             )
-        times = np.array(self.times, dtype=np.float64)
+        if not isinstance(self.record, Iterable) or not all(isinstance(name, str) for name in self.record):
+            raise BadInput(f"experiment: record is {self.record!r}; write a tuple of the names of variables")
+        times = _times(self.times)
         times.setflags(write=False)
         object.__setattr__(self, "times", times)
         object.__setattr__(self, "record", tuple(self.record))
@@ -59,8 +61,8 @@ class Experiment:
         times = self.times
         if times.ndim != 1 or times.size == 0 or np.any(np.diff(times) <= 0) or not np.isfinite(times).all():
             raise BadInput("experiment: times must be a non-empty row of finite, increasing numbers")
-        if not math.isfinite(self.start):
-            raise BadInput(f"experiment: the start is {self.start} s; give a finite time")
+        if not isinstance(self.start, Real) or not math.isfinite(self.start):
+            raise BadInput(f"experiment: the start is {self.start!r} s; give a finite time")
         if times[0] < self.start:
             raise BadInput(f"experiment: the first time {times[0]} s lies before the start {self.start} s")
 
@@ -85,3 +87,10 @@ class Experiment:
         object.__setattr__(other, "overrides", FrozenMapping({**self.overrides, **values}))
         other._check_names()
         return other
+
+
+def _times(given: object) -> Array:
+    try:
+        return np.array(given, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise BadInput("experiment: times must be a non-empty row of finite, increasing numbers") from None

@@ -58,6 +58,8 @@ class Fmu:
         if not isinstance(model, Model):
             raise BadInput(f"{name}: model is {model!r}; give what pysim.io.read_model makes of an .fmu file")
         self.name, self.model, self.solver, self.events = name, model, solver, events
+        if isinstance(record, str):
+            raise BadInput(f"{name}: record is the text {record!r}; write a tuple of names, ({record!r},)")
         self.parameters, self.record = dict(parameters), tuple(record)
         for parameter, value in self.parameters.items():
             check_value(model, parameter, value)

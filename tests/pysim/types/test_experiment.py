@@ -16,6 +16,10 @@ _NONE = Signal.constant(0.0)
         ([0, np.inf], {}, "finite, increasing"),
         ([1], {"start": 2.0}, "lies before the start"),
         ([1], {"record": ()}, "at least one variable"),
+        (["a"], {}, "finite, increasing"),
+        ([1], {"record": None}, "record is None; write a tuple of the names"),
+        ([1], {"record": ("x", 1)}, r"record is \('x', 1\); write a tuple of the names"),
+        ([1], {"start": "0"}, "start is '0' s; give a finite time"),
         ([1], {"start": np.nan}, "start is nan s; give a finite time"),
         ([1], {"record": "abc"}, r"record is the text 'abc'; write a tuple of names, \('abc',\)"),
         ([1], {"inputs": {"u": 5.0}}, r"input 'u' is 5\.0; give a Signal, as Signal\.constant"),
@@ -26,7 +30,7 @@ _NONE = Signal.constant(0.0)
 )
 def test_what_makes_no_sense_is_refused(times, rest, words):
     with pytest.raises(BadInput, match=words):
-        Experiment(np.array(times, float), **{"record": ("x",), **rest})
+        Experiment(times, **{"record": ("x",), **rest})
 
 
 def test_override_leaves_the_original_alone():

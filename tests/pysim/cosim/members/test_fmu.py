@@ -187,6 +187,8 @@ def test_what_is_wrong_with_the_settings(folder: Path) -> None:
         Fmu("lag", model, parameters={"K": float("nan")})
     with pytest.raises(BadInput, match="has no variable 'z'"):
         Fmu("lag", model, record=("z",))
+    with pytest.raises(BadInput, match=r"lag: record is the text 'y'; write a tuple of names, \('y',\)"):
+        Fmu("lag", model, record="y")
     with pytest.raises(BadInput, match="interface 'CS' is not known; write one of co-simulation, model-exchange"):
         Fmu("lag", model, interface="CS")
     with pytest.raises(BadInput, match="feedthrough 'all' is not known; write one of standard, declared, none"):
