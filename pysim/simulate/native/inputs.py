@@ -70,20 +70,25 @@ def _offsets(sizes: Any) -> NDArray[np.int64]:
 
 
 def break_arrays(experiment: Experiment) -> dict[str, Any]:
-    """What BREAKS points to: times after the start at which an input jumps or kinks, up to the end of the run."""
+    """What BREAKS points to: times after the start at which an input jumps or kinks, up to the end of the run.
+
+    Where one jumps at the very end, a segment of no length lies behind it: the last row is one of after the jump.
+    """
     end = float(experiment.times[-1])
     if not experiment.inputs:
         return {"count": 1, "times": np.array([end]), "jumps": _NO_JUMP}
     found: dict[float, int] = {end: 0}
     for name, signal in experiment.inputs.items():
-        if not np.any((signal.starts > experiment.start) & (signal.starts < end)):
+        if not np.any((signal.starts > experiment.start) & (signal.starts <= end)):
             continue
         jumps, kinks = signal.breaks()
         if name in experiment.rates.values():
             jumps = jumps | kinks  # the input that carries the rate jumps where the signal kinks
         for t, jump, kink in zip(signal.starts.tolist(), jumps, kinks, strict=True):
-            if experiment.start < t < end and (jump or kink):
+            if experiment.start < t <= end and (jump or (kink and t < end)):
                 found[t] = max(found.get(t, 0), int(jump))
+    if found[end]:
+        found[np.inf] = 0
     times = sorted(found)
     return {"count": len(times), "times": np.array(times), "jumps": np.array([found[t] for t in times], dtype=np.int64)}
 

@@ -10,7 +10,7 @@ from pysim.simulate.native.compiled import doubles, entry, longs, native
 from pysim.simulate.native.events import crossed, handle_event, locate, settle
 from pysim.simulate.native.fmu_calls import WARNING, completed_step, get_indicators, get_nominals, get_states
 from pysim.simulate.native.method import dense_coefficients
-from pysim.simulate.native.passage import ended, next_segment
+from pysim.simulate.native.passage import at_break, ended, next_segment
 from pysim.simulate.native.point import all_finite, copy, evaluate, set_point
 from pysim.simulate.native.recording import interpolate, record_here, record_inside
 from pysim.simulate.native.state import MODEL_ERROR, NOT_FINITE, RUNNING, TERMINATED
@@ -121,7 +121,7 @@ def _arrive(job: Any, t_new: float, event: bool) -> int:
     if fmu.terminate != 0:
         return TERMINATED
     event, restart = event or fmu.event != 0 or run.t >= run.next_event, False
-    if run.t >= run.horizon and run.t < run.end:
+    if at_break(job):
         restart, event = True, event or longs(job.breaks.jumps)[run.segment] != 0
         next_segment(job)
     code = handle_event(job) if event else RUNNING

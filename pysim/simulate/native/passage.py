@@ -11,6 +11,12 @@ from pysim.simulate.native.state import DONE, RUNNING, TOO_MANY_STEPS
 
 
 @native
+def at_break(job: Any) -> bool:
+    """Whether the point reached is a break of the inputs with a segment behind it."""
+    return bool(job.run.t >= job.run.horizon and job.run.segment + 1 < job.breaks.count)
+
+
+@native
 def next_segment(job: Any) -> None:
     """Enter the first segment of the inputs, or the one behind the break that was reached."""
     run = job.run

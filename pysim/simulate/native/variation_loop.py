@@ -11,7 +11,7 @@ from pysim.simulate.native.events import crossed, handle_event, settle
 from pysim.simulate.native.fmu_calls import WARNING, completed_step, get_indicators, get_nominals, get_states
 from pysim.simulate.native.loop import resume
 from pysim.simulate.native.method import dense_coefficients
-from pysim.simulate.native.passage import ended, next_segment
+from pysim.simulate.native.passage import at_break, ended, next_segment
 from pysim.simulate.native.point import copy, set_point
 from pysim.simulate.native.recording import interpolate, read_row
 from pysim.simulate.native.state import MODEL_ERROR, NOT_FINITE, RUNNING, TERMINATED
@@ -162,7 +162,7 @@ def _arrive(job: Any, t_new: float) -> int:
         return TERMINATED
     if fmu.event != 0 or run.t >= run.next_event:
         return EVENT
-    code = _pass_break(job) if run.t >= run.horizon and run.t < run.end else RUNNING
+    code = _pass_break(job) if at_break(job) else RUNNING
     return _finish_point(job) if code == RUNNING else code
 
 

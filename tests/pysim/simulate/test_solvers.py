@@ -11,7 +11,7 @@ from pysim.simulate.native.method import ExplicitMethod
 from pysim.types import BadInput, Experiment, Signal
 from tests.pysim.simulate.fixture_fmus import BALL, OSCILLATOR
 from tests.pysim.simulate.solver_cases import SOLVERS, SolverCase
-from tests.pysim.simulate.text_models import PEAKS, text_model
+from tests.pysim.simulate.text_models import LAG, PEAKS, text_model
 
 _W, _D, _OMEGA = 2.0, 0.1, 3.0
 
@@ -108,3 +108,24 @@ def test_steps_below_its_duration_see_a_condition_that_comes_and_goes(case, tmp_
         solver = dataclasses.replace(solver, max_step=shorter)
     record = simulate(model, Experiment(np.array([0.0, 40 * math.pi]), ("n",)), solver=solver)
     assert record["n"][-1] == 20
+
+
+def test_the_last_row_is_that_after_a_jump_there_whether_the_run_goes_on_or_not(case: SolverCase, tmp_path) -> None:
+    model, push = text_model(LAG, tmp_path), Signal.steps([0.0, 0.2], [1.0, 5.0])
+    short, long = (
+        simulate(model, Experiment(np.array(times), ("y", "power"), {"u": push}), solver=case.make(case.coarse))
+        for times in ([0.0, 0.1, 0.2], [0.0, 0.1, 0.2, 0.3])
+    )
+    np.testing.assert_array_equal(short.values, long.values[:3])
+    assert short["power"][-1] == pytest.approx(2 * 5 * short["y"][-1])  # K u y
+    alone = simulate(model, Experiment(np.array([0.2]), ("y", "power"), {"u": push}), solver=case.make(case.coarse))
+    assert alone["power"][-1] == pytest.approx(2 * 5 * alone["y"][-1])
+
+
+def test_a_kink_at_the_end_is_no_break(fixture_model) -> None:
+    ramp = Signal.lines([0.0, 1.0, 2.0], [0.0, 1.0, 0.0])
+    records = [
+        simulate(fixture_model(OSCILLATOR), Experiment(np.array([0.5, 1.0]), ("x",), {"u": u}))
+        for u in (ramp, Signal.lines([0.0, 1.0], [0.0, 1.0]))
+    ]
+    assert records[0].statistics == records[1].statistics

@@ -87,6 +87,16 @@ def test_without_true_derivatives_differences_tell_the_same(fixture_model, why, 
     assert why in found.message
 
 
+def test_a_jump_at_the_end_is_in_the_last_row_and_its_derivatives(tmp_path):
+    push = Signal.steps([0.0, 0.2], [1.0, 5.0])
+    runs = [
+        sensitivities(text_model(LAG, tmp_path), Experiment(np.array(times), ("power",), {"u": push}), ("K",))
+        for times in ([0.0, 0.1, 0.2], [0.0, 0.1, 0.2, 0.3])
+    ]
+    np.testing.assert_array_equal(runs[0].record["power"], runs[1].record["power"][:3])
+    np.testing.assert_array_equal(runs[0].by_parameter, runs[1].by_parameter[:3])
+
+
 @pytest.mark.parametrize("fmi", [2, 3])
 def test_lag_after_a_step_by_parameters_start_and_output(tmp_path, fmi):
     model, t = text_model(LAG, tmp_path, fmi=fmi), np.linspace(0, 3, 61)
