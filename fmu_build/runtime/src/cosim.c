@@ -84,7 +84,9 @@ static void offer_update(Instance *s, Run *run) {
 
 static double limit_of(const Instance *s, const Run *run, double size) {
     const double limit = fmin(run->target, s->memory->next_event_time);
-    return s->model->n_x > 0 ? limit : fmin(limit, *s->t + size / STEPS_WITHOUT_STATES);
+    if (s->model->n_x > 0) return limit;
+    const double part = fmax(*s->t + size / STEPS_WITHOUT_STATES, nextafter(*s->t, INFINITY)); /* time moves on */
+    return fmin(limit, part);
 }
 
 static bool is_done(const Instance *s, const Run *run) {

@@ -17,6 +17,7 @@ from pysim.types import CoSimulation, Model, Outcome
 
 _WARNING, _DISCARD = 1, 2
 _ROUNDS = 1000  # of one event iteration
+_SAME_POINT = 1e-9  # of the step: an event so near to its end is there, as far as rounding of times can tell
 _NOTHING = bytes(3)  # no event, no end, no early return
 
 _P, _D, _I, _B = ctypes.c_void_p, ctypes.c_double, ctypes.c_int, ctypes.c_bool
@@ -151,10 +152,11 @@ class Stepping3:
         """See Member."""
         if self._discrete.size and self._in_event_mode():
             self._handle_event()
-        goal = end if end <= self._next_event else max(self._next_event, time)
-        if goal == time:
+        if self._next_event <= time:
             self.event = True  # due at once
             return time
+        near = max(_SAME_POINT * (end - time), 4 * math.ulp(end))
+        goal = self._next_event if self._next_event < end - near else end
         status = self._write()
         if status > _WARNING:
             self._instance.check(status, "an input could not be set")
@@ -167,11 +169,13 @@ class Stepping3:
             if ended:
                 raise MemberFailed(f"it ended the run{self._instance.mailbox.text()}", Outcome.TERMINATED)
             reached = self._answers.time.value if early else goal
-        self.event = needed or (self._event_mode and reached >= self._next_event)
+        if reached > end - near:
+            reached = end
+        self.event = needed or (self._event_mode and self._next_event <= reached + near)
         status = self._read()
         if status > _WARNING:
             self._instance.check(status, "an output could not be read")
-        return reached if reached < end else end
+        return reached
 
     def _explain(self, status: int) -> None:
         """A step that was not done."""

@@ -5,12 +5,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from pysim.cosim import MemberFailed
+from pysim.cosim import MemberFailed, System, cosimulate
 from pysim.cosim.members import Fmu
 from pysim.io import read_model
 from pysim.simulate import Rodas
-from pysim.types import BadInput, Model, Outcome
+from pysim.types import BadInput, Experiment, Model, Outcome, Port
 from tests.broken import with_broken_library
+from tests.cosim_parts import Linear
 from tests.foreign import made_foreign
 from tests.pysim.cosim.members.driving import Driven, driven
 from tests.pysim.simulate.text_models import DISCARDS, LAG, text_model
@@ -29,6 +30,18 @@ equation
     terminate("up there");
   end when;
 end Stairs;
+"""
+SAMPLES = """model Samples "No state; takes its input every T, and counts"
+  parameter Real T = 1e-3;
+  input Real u(start=0);
+  discrete output Real held(start=0, fixed=true);
+  discrete output Real count(start=0, fixed=true);
+equation
+  when sample(0, T) then
+    held = u;
+    count = pre(count) + 1;
+  end when;
+end Samples;
 """
 H, T, K = 0.1, 0.5, 2.0
 KINDS = [(fmi, interface) for fmi in (2, 3) for interface in ("co-simulation", "model-exchange")]
@@ -130,6 +143,30 @@ def test_an_event_of_fmi_3_is_handled_in_step_or_with_the_others(folder: Path, i
             run.time = member.step(run.time, 0.30000000000000004)
         assert run["stair"] == 1.0
         assert run["way"] == pytest.approx(0.05, abs=1e-6)
+
+
+def test_an_event_within_rounding_of_a_point_is_at_the_point(folder: Path) -> None:
+    """110*1e-4 is 0.011000000000000001, and 11*1e-3 is 0.011: nobody is asked for the step between them."""
+    sizes = []
+
+    class Watching(Linear):
+        def step(self, time: float, end: float) -> float:
+            sizes.append(end - time)
+            return super().step(time, end)
+
+    watching = Watching("w", (), (Port("y"),), A=[[0.0]], B=np.zeros((1, 0)), C=[[1.0]])
+    member = Fmu("c", text_model(SAMPLES, folder, fmi=3), parameters={"u": 0.0})
+    record = cosimulate(System((watching, member)), Experiment(np.arange(301) * 1e-4, ("c.count",)), step=1e-4)
+    assert record["c.count"].tolist() == [tick // 10 + 1 for tick in range(301)]
+    assert min(sizes) > 0.99e-4
+
+
+@pytest.mark.parametrize("fmi", [2, 3])
+def test_the_smallest_step_is_made_without_states_too(folder: Path, fmi: int) -> None:
+    with driven(Fmu("c", text_model(SAMPLES, folder, fmi=fmi), events=False), step=1e-4) as run:
+        run.go()
+        after = float(np.nextafter(run.time, 1.0))
+        assert run.member.step(run.time, after) == after
 
 
 @pytest.mark.parametrize("fmi", [2, 3])
