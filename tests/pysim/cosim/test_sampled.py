@@ -1,5 +1,6 @@
 """Sampled blocks: rate, delay and hold, to one sample."""
 
+import re
 from collections.abc import Sequence
 
 import numpy as np
@@ -144,3 +145,45 @@ def test_a_block_that_goes_wrong_is_named(way: str, words: str) -> None:
     record = caught.value.record
     assert record.time[-1] == pytest.approx(0.24)
     assert record.outcome is (Outcome.NOT_FINITE if way == "nan" else Outcome.MODEL_ERROR)
+
+
+class Constant(Stateless):
+    """Returns what it was given."""
+
+    inputs, outputs = (), (Port("u"),)
+
+    def __init__(self, row: object) -> None:
+        self.row = row
+
+    def step(self, time: float, inputs: Sequence[float]) -> object:
+        return self.row
+
+
+@pytest.mark.parametrize("late", [{}, {"delay": 0.1}, {"hold": 1}], ids=["at once", "delay", "hold"])
+@pytest.mark.parametrize(
+    ("row", "shown"),
+    [
+        ((np.array([1.0]),), "array([1.])"),
+        (np.array([[1.0]]), "array([1.])"),
+        ((np.array([1.0, 2.0]),), "array([1., 2.])"),
+        ((1 + 0j,), "(1+0j)"),
+        ((10**400,), "100000000000000000...0000000000000000000"),
+        (("1",), "'1'"),
+        ([None], "None"),
+    ],
+)
+def test_an_output_that_is_no_number_is_shown(row: object, shown: str, late: dict[str, float]) -> None:
+    system = System((Sampled("c", Constant(row), 0.1, **late),))  # type: ignore[arg-type]
+    words = re.escape(f"t = 0 s: c: its step returned u = {shown}") + r".*; return a number, as float\(\.\.\.\)$"
+    with pytest.raises(SimulationError, match=words):
+        cosimulate(system, Experiment(np.arange(3) * 0.1, ("c.u",)), step=0.1)
+
+
+@pytest.mark.parametrize("value", [True, np.float32(3), np.bool_(True), np.int64(2)])
+def test_numbers_of_all_kinds_are_taken(value: object) -> None:
+    record = cosimulate(
+        System((Sampled("c", Constant((value,)), 0.1),)),  # type: ignore[arg-type]
+        Experiment(np.arange(3) * 0.1, ("c.u",)),
+        step=0.1,
+    )
+    assert record["c.u"].tolist() == [float(value)] * 3  # type: ignore[arg-type]
