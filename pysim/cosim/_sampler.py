@@ -16,7 +16,7 @@ import numpy as np
 
 from pysim.cosim._fault import Fault, fault
 from pysim.cosim._layout import Layout, Row, Wire
-from pysim.cosim.sampled import Sampled
+from pysim.cosim.sampled import Sampled, numbers
 from pysim.types import Outcome
 
 
@@ -54,6 +54,7 @@ class Sampler:
     ) -> None:
         place = layout.places[sampled.name]
         self.name, self.hold, self._block, self._initial = sampled.name, sampled.hold, sampled.block, sampled.initial
+        self._remains = sampled.remains
         self._step, self._every, self._delay, self._period = sampled.block.step, every, delay, every * step
         self._view, self._ports = row.view, sampled.outputs
         self._wires = layout.wires_to(sampled.name)
@@ -65,8 +66,12 @@ class Sampler:
         self.reset()
 
     def reset(self) -> None:
-        """Be as ahead of the first sample."""
-        self._block.restore(self._initial)
+        """Be as ahead of the first sample.
+
+        Raises:
+            BadInput: the block cannot.
+        """
+        self._remains.begin(self.name, self._block, self._initial)
         values = tuple(port.start or 0.0 for port in self._ports)
         self._values: Sequence[float] = values
         self._before = values
@@ -159,9 +164,8 @@ class Sampler:
 
     def save(self) -> SamplerState:
         """All that the next samples depend on."""
-        return SamplerState(
-            tuple(self._block.state()), tuple(self._values), self._before, self._time, self._fresh, tuple(self._waiting)
-        )
+        block = numbers(self.name, self._block.state())
+        return SamplerState(block, tuple(self._values), self._before, self._time, self._fresh, tuple(self._waiting))
 
     def restore(self, state: SamplerState) -> None:
         """Go on from a state that was saved. Outputs are not written."""

@@ -220,6 +220,8 @@ class Run:
             stack.callback(_at_work.difference_update, [id(member) for member in self.system.members])
             for member in self._layout.members:
                 stack.callback(member.close)
+            for sampled in self._layout.blocks:
+                stack.callback(sampled.remains.end, sampled.block)
 
 
 def _claim(system: System) -> None:
