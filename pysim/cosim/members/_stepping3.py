@@ -12,12 +12,11 @@ import numpy as np
 
 from pysim.cosim.member import MemberFailed, Setup
 from pysim.cosim.members._library import READ_AT_ONCE, SteppingInstance
-from pysim.simulate import FmuState, FmuStates, is_smooth
+from pysim.simulate import FmuState, FmuStates, is_smooth, rounding
 from pysim.types import CoSimulation, Model, Outcome
 
 _WARNING, _DISCARD = 1, 2
 _ROUNDS = 1000  # of one event iteration
-_SAME_POINT = 1e-9  # of the step: an event so near to its end is there, as far as rounding of times can tell
 _NOTHING = bytes(3)  # no event, no end, no early return
 
 _P, _D, _I, _B = ctypes.c_void_p, ctypes.c_double, ctypes.c_int, ctypes.c_bool
@@ -155,7 +154,7 @@ class Stepping3:
         if self._next_event <= time:
             self.event = True  # due at once
             return time
-        near = max(_SAME_POINT * (end - time), 4 * math.ulp(end))
+        near = rounding(time, end)
         goal = self._next_event if self._next_event < end - near else end
         status = self._write()
         if status > _WARNING:

@@ -9,7 +9,7 @@ from pysim.cosim import MemberFailed, System, cosimulate
 from pysim.cosim.members import Fmu
 from pysim.io import read_model
 from pysim.simulate import Rodas
-from pysim.types import BadInput, Experiment, Model, Outcome, Port
+from pysim.types import BadInput, Experiment, Model, Outcome, Port, Signal
 from tests.broken import with_broken_library
 from tests.cosim_parts import Linear
 from tests.foreign import made_foreign
@@ -159,6 +159,37 @@ def test_an_event_within_rounding_of_a_point_is_at_the_point(folder: Path) -> No
     record = cosimulate(System((watching, member)), Experiment(np.arange(301) * 1e-4, ("c.count",)), step=1e-4)
     assert record["c.count"].tolist() == [tick // 10 + 1 for tick in range(301)]
     assert min(sizes) > 0.99e-4
+
+
+@pytest.mark.parametrize(("step", "every"), [(0.01, 1), (1 / 30, 3), (1e-4, 10)])
+@pytest.mark.parametrize(("fmi", "interface"), [kind for kind in KINDS if kind != (2, "co-simulation")])
+def test_a_sampled_fmu_takes_the_inputs_of_its_sample(
+    folder: Path, fmi: int, interface: str, step: float, every: int
+) -> None:
+    member = Fmu("c", text_model(SAMPLES, folder, fmi=fmi), interface=interface, parameters={"T": every * step})
+    times, ticks = step * np.arange(301), np.arange(301)
+    experiment = Experiment(times, ("c.held", "c.count"), {"c.u": Signal.lines([0, 100], [0, 100])})
+    record = cosimulate(System((member,)), experiment, step=step)
+    assert record["c.count"].tolist() == (ticks // every + 1).tolist()
+    np.testing.assert_allclose(record["c.held"], times[ticks // every * every], atol=1e-12)
+    assert record.statistics["events"] == 300 // every
+
+
+def test_an_event_that_is_due_is_kept_with_the_state(folder: Path) -> None:
+    with driven(Fmu("c", text_model(SAMPLES, folder), interface="model-exchange"), T=0.2) as run:
+        run.go(u=1.0)
+        assert not run.member.event
+        run.go()
+        assert run.member.event
+        kept = run.member.save()
+        for _ in range(2):
+            run.give(u=3.0)
+            run.member.update()
+            assert (run["held"], run["count"], run.member.event) == (3.0, 2.0, False)
+            run.member.restore(kept)
+            assert run.member.event
+        run.go(u=5.0)  # nobody has asked for an update: the step begins with it
+        assert (run["held"], run["count"], run.member.event) == (5.0, 2.0, False)
 
 
 @pytest.mark.parametrize("fmi", [2, 3])
