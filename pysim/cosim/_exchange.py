@@ -35,7 +35,6 @@ class Exchange:
         self._late = [self._samplers[b.name] for b in layout.blocks if b.delay > 0]
         self._moving = [self._samplers[b.name] for b in layout.blocks if b.delay > 0 or b.hold]
         self._wires = tuple(w for m in layout.members for w in layout.wires_to(m.name))
-        self._eventful = [m for m in layout.members if m.may_return_early]
         self._actions = self._plan(system)
         self.counts: Counter[str] = Counter()
 
@@ -49,8 +48,7 @@ class Exchange:
             self._driven[:] = self._signals.at(tick)
         for sampler in self._moving:
             sampler.deliver(tick, time)
-        if self._eventful:
-            self._handle_events()
+        self._handle_events()
         for action in self._actions:
             action(tick, time)
         view = self._row.view
@@ -70,7 +68,7 @@ class Exchange:
             self._driven[:] = self._signals.between(time) if tick is None else self._signals.at(tick)
         for sampler in self._moving:
             sampler.deliver(-1, time)
-        if self._eventful and events:
+        if events:
             self._handle_events()
         for action in self._actions:
             action(None, time)
@@ -97,7 +95,7 @@ class Exchange:
         return False
 
     def _handle_events(self) -> None:
-        for member in self._eventful:
+        for member in self._layout.members:
             if member.event:
                 self._row.carry(self._layout.wires_to(member.name))
                 update(member)

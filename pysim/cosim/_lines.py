@@ -9,13 +9,17 @@ from pysim.cosim._exchange import update
 from pysim.cosim._layout import Wire, indices
 from pysim.cosim.member import Array, Member
 
+# An extrapolation reaches so many times as far as the stretch it is made from: beyond that it is the stretch's
+# rounding, and a jump within it, that is carried on. Step doubling asks for four times at most.
+_FARTHEST = 10.0
+
 
 class Lines:
     """What drives the inputs at the begin and at the end of a step, and the inputs made from it.
 
     A member that takes rates gets the line itself; any other gets the line's mean over the step, which is as good to
     second order. Outputs of blocks and signals are known at the end too; outputs of members are extrapolated from the
-    step before, unless somebody knows better and writes it to `ends`.
+    step before, unless that was far shorter, or somebody knows better and writes it to `ends`.
 
     Attributes:
         begins, ends: (n_sources).
@@ -46,8 +50,9 @@ class Lines:
         self.ends[:] = core.sources
         if self.memory is not None:
             before, values = self.memory
-            share = (end - time) / (time - before)
-            self.ends[:outputs] += share * (self.begins[:outputs] - values[:outputs])
+            if end - time <= _FARTHEST * (time - before):
+                share = (end - time) / (time - before)
+                self.ends[:outputs] += share * (self.begins[:outputs] - values[:outputs])
         if core.layout.signals:
             self.ends[self._signals] = core.signals.between(end) if tick is None else core.signals.at(tick)
         for slots, sampler in self._moving:

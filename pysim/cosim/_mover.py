@@ -31,8 +31,8 @@ class Plain:
     def __init__(self, core: Core, stepper: Stepper, start: float, step: float) -> None:
         self._core, self._stepper, self._start, self._step = core, stepper, start, step
         self._advance = stepper.advance
-        self._eventful = [member for member in core.layout.members if member.may_return_early]
-        self._simple = not self._eventful and core.balance is None
+        self._members = core.layout.members
+        self._simple = core.balance is None and not any(member.may_return_early for member in self._members)
 
     @property
     def memory(self) -> Any:
@@ -48,6 +48,7 @@ class Plain:
         end = self._start + (number + 1) * self._step
         if self._simple:
             self._advance(self._start + number * self._step, end, number + 1)
+            self._look_for_events()
         else:
             self.stretch(self._start + number * self._step, end, number + 1)
 
@@ -67,14 +68,19 @@ class Plain:
                     self._core.exchange.between(reached, tick if reached == end else None, events=False)
                 balance.accept()
             if reached == end:
-                if self._eventful and any(member.event for member in self._eventful):
-                    self._note_event()
+                self._look_for_events()
                 return
             stalled = stalled + 1 if reached == time else 0
             check_stall("the system", stalled)
             self._note_event()
             self._core.exchange.between(reached)
             time = reached
+
+    def _look_for_events(self) -> None:
+        for member in self._members:
+            if member.event:
+                self._note_event()
+                return
 
     def _note_event(self) -> None:
         """Nothing is extrapolated over an event."""

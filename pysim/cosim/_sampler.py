@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import reprlib
 from collections import deque
 from collections.abc import Callable, Sequence
 from functools import partial
@@ -11,9 +12,11 @@ from operator import itemgetter
 from struct import Struct
 from typing import Any, NamedTuple
 
+import numpy as np
+
 from pysim.cosim._fault import Fault, fault
 from pysim.cosim._layout import Layout, Row, Wire
-from pysim.cosim.sampled import Sampled
+from pysim.cosim.sampled import Sampled, numbers
 from pysim.types import Outcome
 
 
@@ -51,6 +54,7 @@ class Sampler:
     ) -> None:
         place = layout.places[sampled.name]
         self.name, self.hold, self._block, self._initial = sampled.name, sampled.hold, sampled.block, sampled.initial
+        self._remains = sampled.remains
         self._step, self._every, self._delay, self._period = sampled.block.step, every, delay, every * step
         self._view, self._ports = row.view, sampled.outputs
         self._wires = layout.wires_to(sampled.name)
@@ -58,11 +62,16 @@ class Sampler:
         inputs, outputs = (Struct(f"{slots.stop - slots.start}d") for slots in (place.inputs, place.outputs))
         self._read = partial(inputs.unpack_from, row.view, 8 * place.inputs.start)
         self._write = partial(outputs.pack_into, row.view, 8 * place.outputs.start)
+        self._pack = outputs.pack
         self.reset()
 
     def reset(self) -> None:
-        """Be as ahead of the first sample."""
-        self._block.restore(self._initial)
+        """Be as ahead of the first sample.
+
+        Raises:
+            BadInput: the block cannot.
+        """
+        self._remains.begin(self.name, self._block, self._initial)
         values = tuple(port.start or 0.0 for port in self._ports)
         self._values: Sequence[float] = values
         self._before = values
@@ -90,12 +99,18 @@ class Sampler:
         try:
             values = self._step(time, inputs)
             total = sum(values)
-            good = total - total == 0 and len(values) == len(self._ports)
+            if not (total - total == 0 and len(values) == len(self._ports)):
+                self._check(values)
+            self._take(tick, time, values)
+        except Fault:
+            raise
         except Exception as error:
             raise self._wrong(values, error) from error
-        if not good:
-            values = self._checked(values)
+
+    def _take(self, tick: int, time: float, values: Sequence[float]) -> None:
+        """Set them, or keep them till they are due; either way they are packed now, which takes numbers only."""
         if self._delay:
+            self._pack(*values)
             self._waiting.append((tick + self._delay, tuple(values)))
         elif self.hold:
             self._set(time, tuple(values))
@@ -122,13 +137,23 @@ class Sampler:
 
     def _wrong(self, values: object, error: Exception) -> Fault:
         """What to say where the step raised, or what it returned is no row of numbers."""
-        if not isinstance(values, Real):
-            return fault(self.name, error)
-        row = ", ".join(port.name for port in self._ports) + ("," if len(self._ports) == 1 else "")
-        return Fault(self.name, f"its step returned the number {values}; let it return ({row})", Outcome.MODEL_ERROR)
+        if isinstance(values, Real):
+            row = ", ".join(port.name for port in self._ports) + ("," if len(self._ports) == 1 else "")
+            why = f"its step returned the number {values}; let it return ({row})"
+            return Fault(self.name, why, Outcome.MODEL_ERROR)
+        if isinstance(values, (tuple, list, np.ndarray)):
+            for port, value in zip(self._ports, values, strict=False):
+                if not _is_number(value):
+                    why = f"its step returned {port.name} = {reprlib.repr(value)}; return a number, as float(...)"
+                    return Fault(self.name, why, Outcome.MODEL_ERROR)
+        return fault(self.name, error)
 
-    def _checked(self, values: Sequence[float]) -> Sequence[float]:
-        """The values, if only their sum is too large; what is wrong with them otherwise."""
+    def _check(self, values: Sequence[float]) -> None:
+        """Check what has no finite sum, which may be too large only, or is not as long as it should be.
+
+        Raises:
+            Fault: what is wrong.
+        """
         names = [port.name for port in self._ports]
         if len(values) != len(names):
             why = f"its step returned {_count(values, 'value')} for {_count(names, 'output')}"
@@ -136,19 +161,25 @@ class Sampler:
         for name, value in zip(names, values, strict=True):
             if not isfinite(value):
                 raise Fault(self.name, f"its step returned {name} = {value}", Outcome.NOT_FINITE)
-        return values
 
     def save(self) -> SamplerState:
         """All that the next samples depend on."""
-        return SamplerState(
-            tuple(self._block.state()), tuple(self._values), self._before, self._time, self._fresh, tuple(self._waiting)
-        )
+        block = numbers(self.name, self._block.state())
+        return SamplerState(block, tuple(self._values), self._before, self._time, self._fresh, tuple(self._waiting))
 
     def restore(self, state: SamplerState) -> None:
         """Go on from a state that was saved. Outputs are not written."""
         self._block.restore(state.block)
         self._values, self._before, self._time, self._fresh = state.values, state.before, state.time, state.fresh
         self._waiting = deque(state.waiting)
+
+
+def _is_number(value: object) -> bool:
+    """Whether it is one that fits into 64 bits."""
+    try:
+        return isinstance(value, (Real, np.bool_)) and isinstance(float(value), float)
+    except OverflowError:
+        return False
 
 
 def _count(row: Sequence[object], what: str) -> str:

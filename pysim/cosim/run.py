@@ -7,6 +7,7 @@ from collections.abc import Callable
 from contextlib import ExitStack
 from dataclasses import dataclass, field
 from functools import partial
+from threading import Lock
 from types import TracebackType
 from typing import Any, TypeVar
 
@@ -23,13 +24,15 @@ from pysim.cosim.doubling import Doubling
 from pysim.cosim.iterated import check_rollback
 from pysim.cosim.jacobi import Jacobi
 from pysim.cosim.order import Order
-from pysim.cosim.system import System
+from pysim.cosim.sampled import Sampled
+from pysim.cosim.system import Part, System
 from pysim.types import BadInput, Experiment, Outcome, Record, SimulationError
 
 Result = TypeVar("Result")
 
-# Members of runs that are open; a member can be in one at a time.
+# Members and blocks of runs that are open; each can be in one at a time.
 _at_work: set[int] = set()
+_claiming = Lock()
 
 
 @dataclass(frozen=True)
@@ -217,13 +220,29 @@ class Run:
     def _close(self) -> None:
         self._open = False
         with ExitStack() as stack:  # every one is closed, whatever the others do
-            stack.callback(_at_work.difference_update, [id(member) for member in self.system.members])
+            stack.callback(_release, self.system)
             for member in self._layout.members:
                 stack.callback(member.close)
+            for sampled in self._layout.blocks:
+                stack.callback(sampled.remains.end, sampled.block)
 
 
 def _claim(system: System) -> None:
-    busy = [member.name for member in system.members if id(member) in _at_work]
-    if busy:
-        raise BadInput(f"co-simulation: {busy[0]} is at work in another run; close that first, or make another member")
-    _at_work.update(map(id, system.members))
+    with _claiming:
+        for member in system.members:
+            if _identity(member) in _at_work:
+                kind = "block" if isinstance(member, Sampled) else "member"
+                raise BadInput(
+                    f"co-simulation: {member.name} is at work in another run; close that first, or make another {kind}"
+                )
+        _at_work.update(map(_identity, system.members))
+
+
+def _release(system: System) -> None:
+    with _claiming:
+        _at_work.difference_update(map(_identity, system.members))
+
+
+def _identity(member: Part) -> int:
+    """Of what only one run can have: the member, or its block under whatever name."""
+    return id(member.block if isinstance(member, Sampled) else member)

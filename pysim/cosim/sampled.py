@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+import reprlib
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from numbers import Real
 
+import numpy as np
+
 from pysim.control import Block
+from pysim.cosim._remains import Remains
 from pysim.types import BadInput, Port
 
 
@@ -23,7 +27,8 @@ class Sampled:
             sample's own time, as by an ideal controller.
         hold: 0 keeps an output until the next sample; 1 lets it run on along the line through its last two values.
     Raises:
-        BadInput: no block, times that are not positive, an unknown hold, or a block made for another rate.
+        BadInput: no block, times that are not positive, an unknown hold, a block made for another rate, or one whose
+            state holds more than numbers.
     """
 
     name: str
@@ -32,6 +37,7 @@ class Sampled:
     delay: float = 0.0
     hold: int = 0
     initial: tuple[float, ...] = field(init=False, repr=False)
+    remains: Remains = field(init=False, repr=False, compare=False, default_factory=Remains)
 
     def __post_init__(self) -> None:
         for attribute in ("inputs", "outputs", "step", "state", "restore"):
@@ -54,7 +60,7 @@ class Sampled:
             raise BadInput(
                 f"{self.name}: the block has dt = {own:g} s but is sampled every {self.every:g} s; make both one"
             )
-        object.__setattr__(self, "initial", tuple(self.block.state()))
+        object.__setattr__(self, "initial", numbers(self.name, self.block.state()))
 
     @property
     def inputs(self) -> tuple[Port, ...]:
@@ -72,3 +78,19 @@ class Sampled:
         if self.delay > 0:
             return {}
         return {port.name: frozenset(p.name for p in self.inputs) for port in self.outputs}
+
+
+def numbers(name: str, state: Sequence[float]) -> tuple[float, ...]:
+    """A block's state, which has to stay as it is while the block goes on.
+
+    Raises:
+        BadInput: it holds an array, or whatever else could change in place.
+    """
+    kept = tuple(state)
+    for value in kept:
+        if not isinstance(value, (Real, np.bool_)):
+            raise BadInput(
+                f"{name}: its state holds {reprlib.repr(value)}, which is no number; return numbers alone, those of an "
+                "array x as tuple(x)"
+            )
+    return kept

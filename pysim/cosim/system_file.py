@@ -8,10 +8,9 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from pysim.cosim._prepare import undriven
 from pysim.cosim._python_class import made, python_class
+from pysim.cosim._rows import row_times
 from pysim.cosim.bond import Bond
 from pysim.cosim.connection import Connection
 from pysim.cosim.doubling import Doubling
@@ -197,7 +196,7 @@ def _experiment(toml: TomlFile, run: Section, system: System, step: float, stop:
         raise BadInput(f"{run.place}: no row lies between start = {start:g} s and stop = {end:g} s; move the stop")
     if (end - start) / every > _MOST_ROWS:
         raise BadInput(f"{run.place}: {(end - start) / every:.3g} rows are more than {_MOST_ROWS:,}; widen rows_every")
-    rows = np.asarray(start + every * np.arange(int((end - start) / every + 1e-6) + 1), dtype=np.float64)
+    rows = row_times(start, end, step, every)
     record = run.texts("record") if "record" in run.values else tuple(system.outputs)
     overrides = _numbers(_table(toml, "overrides"))
     return Experiment(rows, record, _inputs(toml), overrides, start)

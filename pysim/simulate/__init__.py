@@ -12,6 +12,7 @@ from pysim.simulate.native.compiled import is_compiled
 from pysim.simulate.rk4 import Rk4
 from pysim.simulate.rk45 import Rk45
 from pysim.simulate.rodas import Rodas
+from pysim.simulate.rounding import rounding
 from pysim.simulate.sensitivity.orbit import Orbit
 from pysim.simulate.sensitivity.periodic import Periodic, periodic_many
 from pysim.simulate.sensitivity.sensitivities import Sensitivities, sensitivities, sensitivities_many
@@ -49,6 +50,7 @@ __all__ = [
     "is_smooth",
     "open_stepwise",
     "periodic_many",
+    "rounding",
     "sensitivities",
     "sensitivities_many",
     "simulate",

@@ -55,6 +55,7 @@ class StepJob:
         self.job.restart(time, time)
         run = self.record["run"]
         self.t, self._end, self._horizon, self._segment = (run[name] for name in ("t", "end", "horizon", "segment"))
+        self._leaves, self._next_event = run["leaves"], run["next_event"]
         self._next, self._lines = self.record["rows"]["next"], self.record["inputs"]["count"]
 
     def _put_solver(self, instance: Instance, solver: Solver) -> None:
@@ -74,8 +75,13 @@ class StepJob:
         rate = np.zeros(n_u, dtype=np.int64)
         self.job.put("inputs", {"count": 0, "references": references, "rate": rate, **places, **lines})
 
-    def aim(self, end: float, row: float) -> None:
-        """The run is to go on to the time `end` (s), and to read its outputs at the time `row`."""
+    def aim(self, end: float, row: float, leaves: float = np.inf) -> None:
+        """The run is to go on to the time `end` (s), and to read its outputs at the time `row`.
+
+        Args:
+            leaves: s, time events from here on are not handled.
+        """
+        self._leaves[0] = leaves
         self._end[0] = self._horizon[0] = self._break[0] = end
         self._row[0], self._next[0] = row, 0
 
@@ -86,6 +92,11 @@ class StepJob:
         if values is not None:
             self._starts[:] = self.t[0]
             self._cubics[:, 0], self._cubics[:, 1] = values, rates
+
+    @property
+    def next_event(self) -> float:
+        """Time of the model's next time event, s."""
+        return float(self._next_event[0])
 
     @property
     def has_time_events(self) -> bool:

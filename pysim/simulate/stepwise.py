@@ -20,6 +20,7 @@ from pysim.simulate.fmu_values import FmuValues, pointer
 from pysim.simulate.native.fmu_calls import FATAL, WARNING
 from pysim.simulate.native.loop import integrate
 from pysim.simulate.native.state import DONE, RUNNING
+from pysim.simulate.rounding import rounding
 from pysim.types import Model, Outcome
 
 Array = NDArray[np.float64]
@@ -64,6 +65,7 @@ class SavedStep:
     job: SavedJob
     held: bytes
     sloped: bool
+    event: bool
     fmu: FmuState | None
 
 
@@ -90,6 +92,10 @@ class Stepwise:
 
     The calls of a run: `start`, `update` as often as wanted, `begin`, then `step`, `update`, `save` and `restore`; each
     may raise StepFailed. Inputs that change between two steps are an event, after which the solver begins afresh.
+
+    Attributes:
+        event: a time event falls on the time reached. It is left to the next `update` or `step`, for which the inputs
+            that belong to this time are written.
     """
 
     def __init__(self, instance: Instance, wires: Wires, solver: Solver) -> None:
@@ -102,7 +108,7 @@ class Stepwise:
         has_states = model.abilities.state_handling
         self._states = FmuStates(fmi, instance.fmu.component, instance.address) if has_states else None
         self._still = bytes(wires.rates.nbytes)
-        self._held, self._sloped, self._begun = b"", False, False
+        self._held, self._sloped, self._begun, self.event = b"", False, False, False
         self._stop, self._job = 0.0, self._new_job(0.0)
 
     @property
@@ -117,7 +123,7 @@ class Stepwise:
             self._instance.enter_initialisation(overrides, time, stop, control.rtol if control.step == 0.0 else None)
         except CallFailed as error:
             raise StepFailed(f"{error}{self._instance.mailbox.text()}") from error
-        self._begun, self._stop, self._job = False, stop, self._new_job(time)
+        self._begun, self._stop, self._job, self.event = False, stop, self._new_job(time), False
         self.update()
 
     def begin(self) -> None:
@@ -130,29 +136,37 @@ class Stepwise:
         self._settle()
 
     def update(self) -> None:
-        """Read the inputs and write the outputs with no time passing."""
-        if self._begun and self._smooth.size < len(self._wires.inputs) and self._held != self._wires.values.tobytes():
-            self._change(False)  # inputs that are not continuous can be set in event mode only
+        """Read the inputs and write the outputs with no time passing; handle an event that is due."""
+        if self.event or self._is_changed_at_an_event():
+            self._change(False)
             self._settle()
             return
         component = self._instance.fmu.component
         self._check(self._in.write(component), "an input could not be set")
         self._check(self._out.read(component), "an output could not be read")
 
+    def _is_changed_at_an_event(self) -> bool:
+        """Whether there are other values for inputs that are not continuous: these can be set in event mode only."""
+        is_rough = self._smooth.size < len(self._wires.inputs)
+        return self._begun and is_rough and self._held != self._wires.values.tobytes()
+
     def step(self, end: float) -> None:
         """Read the inputs, go on to a time (s) after the one reached, write the outputs."""
         sloped = self._wires.rates.tobytes() != self._still
-        if sloped or self._sloped or self._wires.values.tobytes() != self._held:
+        if self.event or sloped or self._sloped or self._wires.values.tobytes() != self._held:
             self._change(sloped)
-        self._job.aim(end, end)
+        near = rounding(self.time, end)
+        self._job.aim(end, end, end - near)
         code = RUNNING
         while code == RUNNING:
             code = integrate(self._job.record, _BUDGET)
         if code != DONE:
             self._fail(code)
+        self.event = self._job.next_event <= end + near
 
     def _change(self, sloped: bool) -> None:
-        """Other inputs from the time reached on: an event."""
+        """Other inputs from the time reached on, or an event that is due there: both are handled by what follows."""
+        self.event = False
         component = self._instance.fmu.component
         self._check(self._enter_event_mode(component), "event mode could not be entered")
         self._check(self._in.write(component), "an input could not be set")
@@ -187,12 +201,12 @@ class Stepwise:
             self._check(status, "its state could not be saved")
         elif self._job.has_time_events:
             raise StepFailed("its state could not be saved: it has events, and offers no saved states")
-        return SavedStep(self._job.save(into.job if into else None), self._held, self._sloped, fmu)
+        return SavedStep(self._job.save(into.job if into else None), self._held, self._sloped, self.event, fmu)
 
     def restore(self, saved: SavedStep) -> None:
         """Stand where `saved` was made. The outputs are not written."""
         self._job.restore(saved.job)
-        self._held, self._sloped = saved.held, saved.sloped
+        self._held, self._sloped, self.event = saved.held, saved.sloped, saved.event
         if self._states is not None and saved.fmu is not None:
             self._check(self._states.restore(saved.fmu), "its state could not be restored")
         else:

@@ -82,9 +82,18 @@ static void offer_update(Instance *s, Run *run) {
     run->target = fmin(run->target, fmax(time, *s->t));
 }
 
+/* An event within rounding of the step's end is there: else chance decides between the inputs of this step and those of
+   the next. */
+static double next_event(const Instance *s, const Run *run) {
+    const double time = s->memory->next_event_time;
+    return fabs(time - run->target) <= time_slack(s) ? run->target : time;
+}
+
 static double limit_of(const Instance *s, const Run *run, double size) {
-    const double limit = fmin(run->target, s->memory->next_event_time);
-    return s->model->n_x > 0 ? limit : fmin(limit, *s->t + size / STEPS_WITHOUT_STATES);
+    const double limit = fmin(run->target, next_event(s, run));
+    if (s->model->n_x > 0) return limit;
+    const double part = fmax(*s->t + size / STEPS_WITHOUT_STATES, nextafter(*s->t, INFINITY)); /* time moves on */
+    return fmin(limit, part);
 }
 
 static bool is_done(const Instance *s, const Run *run) {
@@ -110,7 +119,7 @@ static Status run_step(Instance *s, Run *run, double size) {
         status = worse(status, check_progress(s, run, before, size));
         if (status > STATUS_WARNING) break;
         offer_update(s, run);
-        if (event || *s->t >= s->memory->next_event_time) status = worse(status, handle_event(s, run));
+        if (event || *s->t >= next_event(s, run)) status = worse(status, handle_event(s, run));
     }
     return status;
 }

@@ -17,6 +17,18 @@ static void ticks_at_exact_times(void) {
     }
 }
 
+/* Of every three steps the third ends at a tick, one rounding step ahead of it or behind. */
+static void a_tick_within_rounding_of_a_steps_end_belongs_to_the_step(void) {
+    fmi2Component c = instantiate(fmi2CoSimulation);
+    initialise_from(c, 0.0, 0.0);
+    for (int k = 0; k < 300; k++) {
+        const double here = k * (1.0 / 30.0), next = (k + 1) * (1.0 / 30.0);
+        CHECK(fmi2DoStep(c, here, next - here, fmi2True) == fmi2OK);
+        CHECK(get_integer(c, "n") == (k + 1) / 3 + 1);
+    }
+    fmi2FreeInstance(c);
+}
+
 /* A million ticks: start + n interval, not a sum with a million rounding errors. */
 static void ticks_do_not_drift(void) {
     fmi2Component c = instantiate(fmi2ModelExchange);
@@ -69,6 +81,7 @@ static void the_start_may_lie_anywhere(void) {
 
 int main(void) {
     ticks_at_exact_times();
+    a_tick_within_rounding_of_a_steps_end_belongs_to_the_step();
     ticks_do_not_drift();
     a_tick_happens_once();
     a_discrete_input_acts_between_steps();

@@ -13,9 +13,8 @@ from pysim.types import Model
 class Exchange:
     """The calls of `Member`, for an FMU whose solver we are."""
 
-    event = False
-
     def __init__(self, model: Model, solver: Solver, ports: tuple[tuple[str, ...], tuple[str, ...]]) -> None:
+        self.event = False
         self._model, self._solver, self._ports, self._opened = model, solver, ports, ExitStack()
 
     def start(self, setup: Setup, overrides: Mapping[str, float]) -> None:
@@ -39,14 +38,15 @@ class Exchange:
     def update(self) -> None:
         """See Member."""
         # Inputs that are no continuous numbers may be set at events only; where nothing changed there is nothing to do.
-        if self._is_rough and self._seen == self._inputs.tobytes():
+        if self._is_rough and not self.event and self._seen == self._inputs.tobytes():
             return
         with _failures():
             self._stepper.update()
         self._note()
 
     def _note(self) -> None:
-        """What the outputs belong to now."""
+        """What the outputs belong to now, and whether an event is due."""
+        self.event = self._stepper.event
         if self._is_rough:
             self._seen = self._inputs.tobytes()
 
@@ -68,7 +68,7 @@ class Exchange:
         """See Member."""
         with _failures():
             self._stepper.restore(state)
-        self._seen = state.held
+        self._seen, self.event = state.held, state.event
 
     def close(self) -> None:
         """See Member."""

@@ -12,7 +12,7 @@ import numpy as np
 
 from pysim.cosim.member import MemberFailed, Setup
 from pysim.cosim.members._library import READ_AT_ONCE, SteppingInstance
-from pysim.simulate import FmuState, FmuStates, is_smooth
+from pysim.simulate import FmuState, FmuStates, is_smooth, rounding
 from pysim.types import CoSimulation, Model, Outcome
 
 _WARNING, _DISCARD = 1, 2
@@ -151,10 +151,11 @@ class Stepping3:
         """See Member."""
         if self._discrete.size and self._in_event_mode():
             self._handle_event()
-        goal = end if end <= self._next_event else max(self._next_event, time)
-        if goal == time:
+        if self._next_event <= time:
             self.event = True  # due at once
             return time
+        near = rounding(time, end)
+        goal = self._next_event if self._next_event < end - near else end
         status = self._write()
         if status > _WARNING:
             self._instance.check(status, "an input could not be set")
@@ -167,11 +168,13 @@ class Stepping3:
             if ended:
                 raise MemberFailed(f"it ended the run{self._instance.mailbox.text()}", Outcome.TERMINATED)
             reached = self._answers.time.value if early else goal
-        self.event = needed or (self._event_mode and reached >= self._next_event)
+        if reached > end - near:
+            reached = end
+        self.event = needed or (self._event_mode and self._next_event <= reached + near)
         status = self._read()
         if status > _WARNING:
             self._instance.check(status, "an output could not be read")
-        return reached if reached < end else end
+        return reached
 
     def _explain(self, status: int) -> None:
         """A step that was not done."""

@@ -13,7 +13,7 @@ import numpy as np
 from pysim.cosim.member import Member, MemberFailed, Setup
 from pysim.types import BadInput
 
-DONE, FAILED, REFUSED = "done", "failed", "refused"
+DONE, FAILED, REFUSED, UNREADABLE = "done", "failed", "refused", "unreadable"
 
 
 class Worker:
@@ -73,7 +73,13 @@ class Worker:
 
 def serve(source: BinaryIO, target: BinaryIO) -> None:
     """Answer until the other side goes away. An answer is (kind, what, outputs, event)."""
-    worker = Worker(pickle.load(source))
+    try:
+        worker = Worker(pickle.load(source))
+    except EOFError:
+        return
+    except Exception as error:  # whatever its module raises where it is imported
+        _answer(target, (UNREADABLE, str(error), b"", False))
+        return
     while True:
         try:
             name, inputs, arguments = pickle.load(source)
@@ -87,8 +93,12 @@ def serve(source: BinaryIO, target: BinaryIO) -> None:
             answer = (REFUSED, str(error), b"", False)
         except Exception as error:
             answer = (FAILED, (f"{type(error).__name__}: {error}", None), b"", False)
-        pickle.dump(answer, target, protocol=pickle.HIGHEST_PROTOCOL)
-        target.flush()
+        _answer(target, answer)
+
+
+def _answer(target: BinaryIO, answer: tuple[str, Any, bytes, bool]) -> None:
+    pickle.dump(answer, target, protocol=pickle.HIGHEST_PROTOCOL)
+    target.flush()
 
 
 def main() -> None:

@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 
 from pysim.cosim.member import Member, MemberFailed, Setup
-from pysim.cosim.members._worker import DONE, FAILED
+from pysim.cosim.members._worker import DONE, FAILED, UNREADABLE
 from pysim.types import BadInput, Outcome, Port
 
 _GONE = None
@@ -48,12 +48,12 @@ class Isolated:
     def __init__(self, member: Member, *, time_limit: float = 60.0) -> None:
         if not time_limit > 0:
             raise BadInput(f"{member.name}: the time limit is {time_limit:g} s; give a positive one")
+        if type(member).__module__ == "__main__":  # another process has another one
+            raise BadInput(_unsendable(member.name, f"{type(member).__name__} is a class of __main__"))
         try:
             self._message = pickle.dumps(member)
         except Exception as error:  # whatever the member's own parts raise
-            raise BadInput(
-                f"{member.name} cannot be sent to another process ({error}); make its class one of a module"
-            ) from error
+            raise BadInput(_unsendable(member.name, error)) from error
         self._member, self._limit = member, time_limit
         self._process: subprocess.Popen[bytes] | None = None
         self._setup: Setup | None = None
@@ -203,7 +203,7 @@ class Isolated:
         if kind == FAILED:
             text, outcome = what
             raise MemberFailed(text, outcome or Outcome.MODEL_ERROR)
-        raise BadInput(what)
+        raise BadInput(_unsendable(self.name, what) if kind == UNREADABLE else what)
 
     def _kill(self) -> None:
         process, self._process = self._process, None
@@ -219,6 +219,10 @@ class Isolated:
         if code < 0:
             return f"crashed ({signal.Signals(-code).name})"
         return f"ended by itself with code {code:#x}" if code > 255 else f"ended by itself with code {code}"
+
+
+def _unsendable(name: str, why: object) -> str:
+    return f"{name} cannot be sent to another process ({why}); make its class one of a module"
 
 
 def _listen(process: subprocess.Popen[bytes], answers: queue.SimpleQueue[Any]) -> None:

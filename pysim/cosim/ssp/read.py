@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
+from pysim.cosim._rows import row_times
 from pysim.cosim.connection import Connection, signal_conversion
 from pysim.cosim.gauss_seidel import GaussSeidel
 from pysim.cosim.iterated import Iterated
@@ -193,5 +194,8 @@ def _experiment(
     if not start + step <= end < np.inf:
         raise BadInput(f"{path}: no step lies between {start:g} s and {end:g} s; give the end of the run (--stop)")
     every = step if run is None or run.get("every") is None else max(_number(path, run, "every"), step)
-    rows = np.asarray(start + every * np.arange(int((end - start) / every + 1e-6) + 1), dtype=np.float64)
+    try:
+        rows = row_times(start, end, step, every)
+    except BadInput as error:
+        raise BadInput(f"{path}: {error}") from error
     return Experiment(rows, names, start=start)

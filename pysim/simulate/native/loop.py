@@ -14,7 +14,7 @@ from pysim.simulate.native.passage import at_break, ended, next_segment
 from pysim.simulate.native.point import all_finite, copy, evaluate, set_point
 from pysim.simulate.native.recording import interpolate, record_here, record_inside
 from pysim.simulate.native.state import MODEL_ERROR, NOT_FINITE, RUNNING, TERMINATED
-from pysim.simulate.native.stepping import accepted_step, first_step, next_target
+from pysim.simulate.native.stepping import accepted_step, first_step, next_target, next_time_event
 
 _STANDSTILL = 1e-15  # of the time so far and of the whole run: less is rounding
 
@@ -120,7 +120,7 @@ def _arrive(job: Any, t_new: float, event: bool) -> int:
     copy(work.z_new, work.z, work.m)
     if fmu.terminate != 0:
         return TERMINATED
-    event, restart = event or fmu.event != 0 or run.t >= run.next_event, False
+    event, restart = event or fmu.event != 0 or run.t >= next_time_event(job), False
     if at_break(job):
         restart, event = True, event or longs(job.breaks.jumps)[run.segment] != 0
         next_segment(job)

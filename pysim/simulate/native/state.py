@@ -35,6 +35,7 @@ RUN = np.dtype(
         ("horizon", np.float64),  # s, time of that break: inputs are smooth up to here
         ("inputs_at", np.float64),  # s, of the values that the FMU has; NaN where it has none of this segment
         ("next_event", np.float64),  # s, the model's next time event
+        ("leaves", np.float64),  # s, time events from here on are left to who drives the run
         ("status", np.int64),  # worst status of an FMI function so far
         ("crowd", np.int64),  # events since time last moved on
         ("jacobian_at", np.float64),  # s, where the Jacobian was taken; NaN where it was not

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
+
 from pysim.simulate.native.compiled import doubles, native
 from pysim.simulate.native.fmu_calls import DISCARD, WARNING
 from pysim.simulate.native.method import attempt_step
@@ -16,10 +18,17 @@ _GRID = 1e-9  # of a fixed step: nearer than that, two points are one
 
 
 @native
+def next_time_event(job: Any) -> float:
+    """Time (s) of the model's next time event; infinite where it is left to who drives the run."""
+    run = job.run
+    return run.next_event if run.next_event < run.leaves else np.inf
+
+
+@native
 def first_step(job: Any) -> float:
     """A step (s) from the size of x, of dx, and of what an Euler step changes (Hairer, Norsett, Wanner I, II.4)."""
     run, work, control = job.run, job.work, job.control
-    span = min(min(run.horizon, run.next_event) - run.t, control.max_step)
+    span = min(min(run.horizon, next_time_event(job)) - run.t, control.max_step)
     size, rate = error_norm(job, work.x, work.x, work.x), error_norm(job, work.dx, work.x, work.x)
     h = 0.01 * size / rate if min(size, rate) > 1e-5 else 1e-6 * span
     h = min(h, span)
@@ -40,7 +49,7 @@ def first_step(job: Any) -> float:
 def next_target(job: Any) -> float:
     """The time (s) that the next step must not pass: a break, a time event, or the next point of a fixed grid."""
     run, step = job.run, job.control.step
-    target = min(run.horizon, run.next_event)
+    target = min(run.horizon, next_time_event(job))
     if step == 0.0:
         return target
     while run.start + (run.grid + 1) * step <= run.t + _GRID * step:

@@ -73,7 +73,7 @@ def test_wrong_use(folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[s
     assert "none.toml" in capsys.readouterr().err
     assert main(["cosim", str(folder / "controlled.toml"), "--step", "0"]) == 2
     assert "--step 0: give a positive number" in capsys.readouterr().err
-    assert main(["cosim", str(folder / "controlled.toml"), "--step", "0.007"]) == 2
+    assert main(["cosim", str(folder / "controlled.toml"), "--step", "0.008"]) == 2
     assert "controlled.toml: controller: every = 0.01 s is no whole number" in capsys.readouterr().err
     assert main(["cosim", str(folder / "controlled.toml"), "--export-ssp", str(tmp_path / "a.zip")]) == 2
     assert ".ssp" in capsys.readouterr().err

@@ -1,5 +1,9 @@
 """Runs: what is refused ahead of them, failures on the way, events, initial values."""
 
+from concurrent.futures import ThreadPoolExecutor
+from threading import Barrier
+from time import sleep
+
 import numpy as np
 import pytest
 
@@ -253,6 +257,43 @@ def test_a_run_is_its_own() -> None:
         run.advance()
     with Run(system, experiment, step=0.1) as other, pytest.raises(BadInput, match="kept in another run"):
         other.restore(kept)
+
+
+def test_a_block_is_in_one_run_at_a_time() -> None:
+    block, experiment = Gain(2.0), Experiment(TIMES, ("g.y",), {"g.u": Signal.constant(1.0)})
+    one, other = (System((Sampled("g", block, every),)) for every in (0.1, 0.2))
+    with Run(one, experiment, step=0.1):
+        with pytest.raises(BadInput, match="g is at work in another run; close that first, or make another block"):
+            cosimulate(other, experiment, step=0.1)
+        with pytest.raises(BadInput, match="g is at work"):
+            cosimulate(other, experiment, step=0.1)
+    assert cosimulate(other, experiment, step=0.1)["g.y"][-1] == 2.0
+
+
+def test_of_two_threads_one_gets_the_member(monkeypatch: pytest.MonkeyPatch) -> None:
+    class Slow(set[int]):
+        """Lets another thread in after every look."""
+
+        def __contains__(self, item: object) -> bool:
+            found = super().__contains__(item)
+            sleep(0.1)
+            return found
+
+    monkeypatch.setattr("pysim.cosim.run._at_work", Slow())
+    system, experiment = System((integrator(x0=[1.0]),)), Experiment(TIMES, ("i.y",), {"i.u": Signal.constant(0.0)})
+    both = Barrier(2)
+
+    def enter() -> bool:
+        try:
+            with Run(system, experiment, step=0.1):
+                both.wait(5.0)
+        except BadInput:
+            both.wait(5.0)
+            return False
+        return True
+
+    with ThreadPoolExecutor(2) as threads:
+        assert sorted(future.result() for future in [threads.submit(enter) for _ in range(2)]) == [False, True]
 
 
 def test_going_back_forgets_what_was_recorded_after() -> None:

@@ -1,12 +1,13 @@
 """Sampled blocks: rate, delay and hold, to one sample."""
 
+import re
 from collections.abc import Sequence
 
 import numpy as np
 import pytest
 
 from pysim.control import PI, Gain, Stateless
-from pysim.cosim import Connection, Sampled, System, cosimulate
+from pysim.cosim import Connection, Run, Sampled, System, cosimulate
 from pysim.types import BadInput, Experiment, Outcome, Port, Signal, SimulationError
 from tests.cosim_parts import Linear
 
@@ -144,3 +145,103 @@ def test_a_block_that_goes_wrong_is_named(way: str, words: str) -> None:
     record = caught.value.record
     assert record.time[-1] == pytest.approx(0.24)
     assert record.outcome is (Outcome.NOT_FINITE if way == "nan" else Outcome.MODEL_ERROR)
+
+
+class Constant(Stateless):
+    """Returns what it was given."""
+
+    inputs, outputs = (), (Port("u"),)
+
+    def __init__(self, row: object) -> None:
+        self.row = row
+
+    def step(self, time: float, inputs: Sequence[float]) -> object:
+        return self.row
+
+
+@pytest.mark.parametrize("late", [{}, {"delay": 0.1}, {"hold": 1}], ids=["at once", "delay", "hold"])
+@pytest.mark.parametrize(
+    ("row", "shown"),
+    [
+        ((np.array([1.0]),), "array([1.])"),
+        (np.array([[1.0]]), "array([1.])"),
+        ((np.array([1.0, 2.0]),), "array([1., 2.])"),
+        ((1 + 0j,), "(1+0j)"),
+        ((10**400,), "100000000000000000...0000000000000000000"),
+        (("1",), "'1'"),
+        ([None], "None"),
+    ],
+)
+def test_an_output_that_is_no_number_is_shown(row: object, shown: str, late: dict[str, float]) -> None:
+    system = System((Sampled("c", Constant(row), 0.1, **late),))  # type: ignore[arg-type]
+    words = re.escape(f"t = 0 s: c: its step returned u = {shown}") + r".*; return a number, as float\(\.\.\.\)$"
+    with pytest.raises(SimulationError, match=words):
+        cosimulate(system, Experiment(np.arange(3) * 0.1, ("c.u",)), step=0.1)
+
+
+@pytest.mark.parametrize("value", [True, np.float32(3), np.bool_(True), np.int64(2)])
+def test_numbers_of_all_kinds_are_taken(value: object) -> None:
+    record = cosimulate(
+        System((Sampled("c", Constant((value,)), 0.1),)),  # type: ignore[arg-type]
+        Experiment(np.arange(3) * 0.1, ("c.u",)),
+        step=0.1,
+    )
+    assert record["c.u"].tolist() == [float(value)] * 3  # type: ignore[arg-type]
+
+
+class Adding:
+    """Adds up; `kept` are the attributes that its state has."""
+
+    inputs, outputs = (), (Port("u"),)
+
+    def __init__(self, start: object, *kept: str) -> None:
+        self.total, self.gain, self.kept = start, 1.0, kept
+        self.log: list[float] = []
+
+    def step(self, time: float, inputs: Sequence[float]) -> tuple[float]:
+        self.total = self.total + self.gain  # type: ignore[operator]
+        self.log.append(time)
+        return (float(self.total),)  # type: ignore[arg-type]
+
+    def state(self) -> tuple[float, ...]:
+        return tuple(getattr(self, name) for name in self.kept)
+
+    def restore(self, state: Sequence[float]) -> None:
+        for name, value in zip(self.kept, state, strict=True):
+            setattr(self, name, value)
+
+
+ADDED = Experiment(np.arange(4) * 0.1, ("c.u",))
+
+
+def test_a_state_is_made_of_numbers() -> None:
+    """An array would go on changing where it is kept."""
+    with pytest.raises(BadInput, match=r"c: its state holds array\(\[0\.\]\), which is no number; .* as tuple\(x\)"):
+        Sampled("c", Adding(np.zeros(1), "total"), 0.1)
+    block = Adding(0.0, "total")
+    with Run(System((Sampled("c", block, 0.1),)), ADDED, step=0.1) as run:
+        block.total = np.float64(1.0)
+        run.save()
+        block.total = np.ones(1)
+        with pytest.raises(BadInput, match=r"c: its state holds array\(\[1\.\]\)"):
+            run.save()
+
+
+def test_what_a_run_leaves_behind_beside_the_state_is_told() -> None:
+    block = Adding(0.0)
+    system = System((Sampled("c", block, 0.1),))
+    assert cosimulate(system, ADDED, step=0.1)["c.u"].tolist() == [1, 2, 3, 4]
+    for _ in range(2):
+        with pytest.raises(BadInput, match="c: the run before has changed its total, which restore does not bring"):
+            cosimulate(system, ADDED, step=0.1)
+    block.total = 0.0
+    assert cosimulate(system, ADDED, step=0.1)["c.u"].tolist() == [1, 2, 3, 4]
+
+
+def test_settings_may_be_changed_between_two_runs_and_logs_kept() -> None:
+    block = Adding(0.0, "total")
+    system = System((Sampled("c", block, 0.1),))
+    cosimulate(system, ADDED, step=0.1)
+    block.gain = 2.0
+    assert cosimulate(system, ADDED, step=0.1)["c.u"].tolist() == [2, 4, 6, 8]
+    assert len(block.log) == 8

@@ -113,6 +113,16 @@ def test_what_is_wrong_is_said_with_its_line(folder: Path, old: str, new: str, m
         read_system_file(written(folder, OSCILLATOR.replace(old, new, 1)))
 
 
+def test_the_stop_is_the_last_row(folder: Path) -> None:
+    assert "rows_every = 0.01" in OSCILLATOR
+    text = OSCILLATOR.replace("rows_every = 0.01", "rows_every = 0.3")
+    file = read_system_file(written(folder, text))
+    assert file.experiment.times.tolist() == pytest.approx([0.0, 0.3, 0.6, 0.9, 1.0], rel=1e-15)
+    assert ran(file).time[-1] == 1.0
+    with pytest.raises(BadInput, match=r"line 23: stop = 1\.0005 s is no whole number of steps of 0\.001 s"):
+        read_system_file(written(folder, text), stop=1.0005)
+
+
 def test_empty_tables_are_none(folder: Path) -> None:
     text = OSCILLATOR.replace("spring.k = 100.0", "") + "[inputs]\n"
     assert "[overrides]" in text

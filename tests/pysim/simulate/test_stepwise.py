@@ -122,6 +122,22 @@ def test_events_within_steps_are_the_models_own(fixture_model: FixtureModel, fmi
     assert record["bounces"][-1] >= 2
 
 
+def test_an_event_at_a_steps_end_is_left_to_what_follows(fixture_model: FixtureModel) -> None:
+    """The clock's level rises by one every 0.3 s; three steps of 0.1 s end one rounding step behind that."""
+    io = wires((), ("level",))
+    levels = []
+    with open_stepwise(fixture_model(CLOCK), io, solver=EXACT) as stepper:
+        begun(stepper)
+        for tick in range(1, 8):
+            stepper.step(tick * 0.1)
+            levels.append((float(io.results[0]), stepper.event))
+            if tick == 3:
+                stepper.update()
+                levels.append((float(io.results[0]), stepper.event))
+    off = [(0.0, False)] * 2
+    assert levels == [*off, (0.0, True), *[(1.0, False)] * 3, (1.0, True), (2.0, False)]
+
+
 def test_a_model_with_events_and_no_saved_states_says_so(fixture_model: FixtureModel) -> None:
     assert not can_be_saved(fixture_model(BALL))
     model, io = fixture_model(CLOCK), wires((), ("level",))

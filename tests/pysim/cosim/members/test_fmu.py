@@ -5,12 +5,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from pysim.cosim import MemberFailed
+from pysim.cosim import MemberFailed, System, cosimulate
 from pysim.cosim.members import Fmu
 from pysim.io import read_model
 from pysim.simulate import Rodas, simulate
-from pysim.types import BadInput, Experiment, Model, Outcome
+from pysim.types import BadInput, Experiment, Model, Outcome, Port, Signal
 from tests.broken import with_broken_library
+from tests.cosim_parts import Linear
 from tests.foreign import made_foreign
 from tests.pysim.cosim.members.driving import Driven, driven
 from tests.pysim.simulate.text_models import DISCARDS, LAG, text_model
@@ -29,6 +30,18 @@ equation
     terminate("up there");
   end when;
 end Stairs;
+"""
+SAMPLES = """model Samples "No state; takes its input every T, and counts"
+  parameter Real T = 1e-3;
+  input Real u(start=0);
+  discrete output Real held(start=0, fixed=true);
+  discrete output Real count(start=0, fixed=true);
+equation
+  when sample(0, T) then
+    held = u;
+    count = pre(count) + 1;
+  end when;
+end Samples;
 """
 H, T, K = 0.1, 0.5, 2.0
 KINDS = [(fmi, interface) for fmi in (2, 3) for interface in ("co-simulation", "model-exchange")]
@@ -130,6 +143,74 @@ def test_an_event_of_fmi_3_is_handled_in_step_or_with_the_others(folder: Path, i
             run.time = member.step(run.time, 0.30000000000000004)
         assert run["stair"] == 1.0
         assert run["way"] == pytest.approx(0.05, abs=1e-6)
+
+
+def test_an_event_within_rounding_of_a_point_is_at_the_point(folder: Path) -> None:
+    """110*1e-4 is 0.011000000000000001, and 11*1e-3 is 0.011: nobody is asked for the step between them."""
+    sizes = []
+
+    class Watching(Linear):
+        def step(self, time: float, end: float) -> float:
+            sizes.append(end - time)
+            return super().step(time, end)
+
+    watching = Watching("w", (), (Port("y"),), A=[[0.0]], B=np.zeros((1, 0)), C=[[1.0]])
+    member = Fmu("c", text_model(SAMPLES, folder, fmi=3), parameters={"u": 0.0})
+    record = cosimulate(System((watching, member)), Experiment(np.arange(301) * 1e-4, ("c.count",)), step=1e-4)
+    assert record["c.count"].tolist() == [tick // 10 + 1 for tick in range(301)]
+    assert min(sizes) > 0.99e-4
+
+
+@pytest.mark.parametrize(("step", "every"), [(0.01, 1), (1 / 30, 3), (1e-4, 10)])
+@pytest.mark.parametrize(("fmi", "interface"), [kind for kind in KINDS if kind != (2, "co-simulation")])
+def test_a_sampled_fmu_takes_the_inputs_of_its_sample(
+    folder: Path, fmi: int, interface: str, step: float, every: int
+) -> None:
+    member = Fmu("c", text_model(SAMPLES, folder, fmi=fmi), interface=interface, parameters={"T": every * step})
+    times, ticks = step * np.arange(301), np.arange(301)
+    experiment = Experiment(times, ("c.held", "c.count"), {"c.u": Signal.lines([0, 100], [0, 100])})
+    record = cosimulate(System((member,)), experiment, step=step)
+    assert record["c.count"].tolist() == (ticks // every + 1).tolist()
+    np.testing.assert_allclose(record["c.held"], times[ticks // every * every], atol=1e-12)
+    assert record.statistics["events"] == 300 // every
+
+
+@pytest.mark.parametrize(("step", "every"), [(0.01, 1), (1 / 30, 3), (1e-4, 10)])
+@pytest.mark.parametrize("fmi", [2, 3])
+def test_without_events_its_sample_is_one_step_late(folder: Path, fmi: int, step: float, every: int) -> None:
+    """The standard gives no way to tell of the event: the FMU handles it with the inputs that the step began with."""
+    model = text_model(SAMPLES, folder, fmi=fmi)
+    member = Fmu("c", model, interface="co-simulation", parameters={"T": every * step}, events=False)
+    times, ticks = step * np.arange(301), np.arange(301)
+    experiment = Experiment(times, ("c.held", "c.count"), {"c.u": Signal.lines([0, 100], [0, 100])})
+    record = cosimulate(System((member,)), experiment, step=step)
+    assert record["c.count"].tolist() == (ticks // every + 1).tolist()
+    np.testing.assert_allclose(record["c.held"], times[np.maximum(ticks // every * every - 1, 0)], atol=1e-12)
+
+
+def test_an_event_that_is_due_is_kept_with_the_state(folder: Path) -> None:
+    with driven(Fmu("c", text_model(SAMPLES, folder), interface="model-exchange"), T=0.2) as run:
+        run.go(u=1.0)
+        assert not run.member.event
+        run.go()
+        assert run.member.event
+        kept = run.member.save()
+        for _ in range(2):
+            run.give(u=3.0)
+            run.member.update()
+            assert (run["held"], run["count"], run.member.event) == (3.0, 2.0, False)
+            run.member.restore(kept)
+            assert run.member.event
+        run.go(u=5.0)  # nobody has asked for an update: the step begins with it
+        assert (run["held"], run["count"], run.member.event) == (5.0, 2.0, False)
+
+
+@pytest.mark.parametrize("fmi", [2, 3])
+def test_the_smallest_step_is_made_without_states_too(folder: Path, fmi: int) -> None:
+    with driven(Fmu("c", text_model(SAMPLES, folder, fmi=fmi), events=False), step=1e-4) as run:
+        run.go()
+        after = float(np.nextafter(run.time, 1.0))
+        assert run.member.step(run.time, after) == after
 
 
 @pytest.mark.parametrize("fmi", [2, 3])

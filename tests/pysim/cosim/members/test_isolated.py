@@ -2,6 +2,7 @@ import os
 import signal
 import sys
 from pathlib import Path
+from types import ModuleType
 
 import numpy as np
 import pytest
@@ -9,7 +10,8 @@ import pytest
 from pysim.cosim import MemberFailed, System, cosimulate
 from pysim.cosim.members import Fmu, Isolated
 from pysim.io import read_model
-from pysim.types import BadInput, Experiment, Model, Outcome
+from pysim.types import BadInput, Experiment, Model, Outcome, Port
+from tests.cosim_parts import Linear
 from tests.pysim.cosim.members.driving import driven
 from tests.pysim.simulate.fixture_fmus import FRAGILE, build
 from tests.pysim.simulate.text_models import LAG, text_model
@@ -98,3 +100,17 @@ def test_what_cannot_be_isolated(fragile: Model) -> None:
     member.solver = lambda: None  # type: ignore[assignment]
     with pytest.raises(BadInput, match="root cannot be sent to another process"):
         Isolated(member)
+
+
+@pytest.mark.parametrize(
+    ("module", "why"),
+    [("__main__", r"Mine is a class of __main__"), ("only_here", r"No module named 'only_here'")],
+)
+def test_a_class_that_another_process_does_not_have(module: str, why: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, module, ModuleType(module))
+    mine = type("Mine", (Linear,), {"__module__": module})
+    monkeypatch.setattr(sys.modules[module], "Mine", mine, raising=False)
+    member = mine("m", (), (Port("y"),), A=[[0.0]], B=np.zeros((1, 0)), C=[[1.0]])
+    words = rf"^m cannot be sent to another process \({why}\); make its class one of a module$"
+    with pytest.raises(BadInput, match=words):
+        cosimulate(System((Isolated(member),)), Experiment(np.arange(3) * 0.1, ("m.y",)), step=0.1)

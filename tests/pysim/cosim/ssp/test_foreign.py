@@ -128,6 +128,12 @@ def test_a_package_of_libcosim_runs(tmp_path: Path, fmus: dict[str, Path]) -> No
     np.testing.assert_allclose(record["mass.v"], 0.02 * omega * np.sin(omega * record.time), atol=1e-3)
 
 
+def test_a_stop_between_two_steps_is_refused(tmp_path: Path, fmus: dict[str, Path]) -> None:
+    place = package(tmp_path / "a.ssp", fmus, OMSIMULATOR)
+    with pytest.raises(BadInput, match=r"a\.ssp: stop = 0\.2005 s is no whole number of steps of 0\.001 s"):
+        read_ssp(place, stop=0.2005)
+
+
 def test_units_are_converted_as_the_standard_has_it(tmp_path: Path, fmus: dict[str, Path]) -> None:
     file = read_ssp(package(tmp_path / "a.ssp", fmus, OMSIMULATOR, spring="mm"))
     assert file.system.drivers["spring.v"].factor == 1000.0

@@ -52,6 +52,13 @@ def test_what_was_exported_comes_back_and_runs_the_same(folder: Path, tmp_path: 
     assert (shorter.step, shorter.experiment.times[-1]) == (2e-3, pytest.approx(0.1))
 
 
+def test_the_stop_is_the_last_row(folder: Path, tmp_path: Path) -> None:
+    file = read_system_file(folder / "oscillator.toml", stop=0.205)
+    write_ssp(file, tmp_path / "a.ssp")
+    times = read_ssp(tmp_path / "a.ssp").experiment.times
+    assert times[[0, 1, -2, -1]].tolist() == pytest.approx([0.0, 0.01, 0.2, 0.205], rel=1e-12)
+
+
 def test_the_description_follows_the_standards_schema(folder: Path, tmp_path: Path) -> None:
     file = read_system_file(folder / "oscillator.toml")
     driven = replace(file, order=Iterated())
