@@ -139,6 +139,29 @@ def test_pulse_counter_at_its_events(tmp_path: Path) -> None:
     assert np.abs(record["counter.omegaS"][turn]).min() > 0.8
 
 
+def from_the_start(name: str, stop: float, recorded: tuple[str, ...], **inputs: float) -> Record:
+    """Each input at its value from the first instant on."""
+    held = {name: Signal.constant(value) for name, value in inputs.items()}
+    return driven(built(f"LoadCircuit.{name}"), stop, recorded, held, 301)
+
+
+def test_measured_speed_has_the_sign_of_a_command_that_is_there_from_the_start() -> None:
+    """The bench is its own mirror image, and so is what its counter says."""
+    names = ("omega", "omegaS")
+    back = from_the_start("OpenTestBench", 3.0, names, alphaCMD=-30.0, u_ref=0.05)
+    forth = from_the_start("OpenTestBench", 3.0, names, alphaCMD=30.0, u_ref=-0.05)
+    assert back["omega"][-1] < -40
+    assert back["omegaS"][-1] == pytest.approx(back["omega"][-1], rel=0.01)
+    for name in names:
+        assert np.allclose(back[name][::50], -forth[name][::50], rtol=1e-4, atol=0)
+
+
+def test_controlled_bench_comes_to_a_negative_speed_asked_for_from_the_start() -> None:
+    record = from_the_start("TestBench", 20.0, ("contOmega", "omegaS"), omegaS_ref=-20.0)
+    assert record["contOmega"][-1] == pytest.approx(-20.0, rel=1e-3)
+    assert record["omegaS"][-1] == pytest.approx(-20.0, rel=1e-3)
+
+
 class At:
     """Derivatives of a bench at a state. Use as a context manager."""
 
