@@ -139,6 +139,31 @@ def test_pulse_counter_at_its_events(tmp_path: Path) -> None:
     assert np.abs(record["counter.omegaS"][turn]).min() > 0.8
 
 
+@pytest.mark.parametrize(("phi", "w"), [(1.0, 20.0), (1.0, -20.0), (-7.3, 20.0), (100.0, -20.0)])
+def test_speed_is_measured_wherever_the_shaft_starts(phi: float, w: float, tmp_path: Path) -> None:
+    """At even speed: the counter's first pulse a pitch from the start, the sensor's where its next tooth begins."""
+    text = f"""model Turned
+  HydraulicTestBench.Mechanics.Inertia inertia(J=0.1, phi(start={phi}), w(start={w}));
+  HydraulicTestBench.Mechanics.PulseSensor sensor;
+  HydraulicTestBench.LoadCircuit.PulseCounter counter;
+equation
+  sensor.direction = {w};
+  counter.direction = {w};
+  connect(inertia.flange_b, sensor.flange);
+  connect(inertia.flange_b, counter.flange);
+end Turned;
+"""
+    names = ("sensor.w", "sensor.count", "counter.omegaS", "counter.count")
+    record = simulate(written(tmp_path, text, "Turned"), Experiment(np.linspace(0, 1, 101), names), solver=Rodas())
+    tenths = np.array([phi, phi + w]) * 10 / (2 * np.pi)
+    teeth = np.diff(np.floor(tenths) if w > 0 else np.ceil(tenths + 0.5))[0]
+    assert record["sensor.count"][-1] == abs(teeth)
+    assert record["counter.count"][-1] == int(abs(w) * 10 / (2 * np.pi))
+    for name in ("sensor.w", "counter.omegaS"):
+        assert (record[name][:2] == 0).all(), name
+        assert np.allclose(record[name][record.time > 0.1], w, rtol=1e-6), name
+
+
 def from_the_start(name: str, stop: float, recorded: tuple[str, ...], **inputs: float) -> Record:
     """Each input at its value from the first instant on."""
     held = {name: Signal.constant(value) for name, value in inputs.items()}

@@ -16,7 +16,7 @@ model PulseCounter "Speed from the time between pulses, as the thesis' simulatio
   Types.Angle absMe "Its absolute value";
   Types.AngularVelocity contOmega "True speed";
   Real Timer(unit="s") "Time since the last pulse";
-  discrete Types.Angle EventTheta(start=0, fixed=true) "Position at the last pulse";
+  discrete Types.Angle EventTheta(start=0, fixed=true) "Position at the last pulse, before it at the start";
   discrete Types.AngularVelocity EventOmega(start=0, fixed=true) "True speed at the last pulse";
   discrete Real EventTimer(unit="s", start=0, fixed=true) "Time of the last pulse";
   discrete Types.AngularVelocity discOmega(start=0, fixed=true) "Mean speed between the last two pulses, unsigned";
@@ -28,8 +28,10 @@ equation
   sum5 = theta - EventTheta;
   absMe = abs(sum5);
   Timer = time - EventTimer;
-  when {theta > pre(EventTheta) + pitch, theta < pre(EventTheta) - pitch} then
+  when {initial(), theta > pre(EventTheta) + pitch, theta < pre(EventTheta) - pitch} then
     EventTheta = theta;
+  end when;
+  when {theta > pre(EventTheta) + pitch, theta < pre(EventTheta) - pitch} then
     EventOmega = contOmega;
     EventTimer = time;
     discOmega = pitch/(time - pre(EventTimer));
