@@ -245,6 +245,28 @@ def test_controllers_leave_no_error_at_rest() -> None:
     assert record["Tf"][-1] == pytest.approx(law, rel=1e-3)
 
 
+OTHER = {"rig.V_d_max": 50e-6, "rig.w_P": 200.0, "rig.alphaMAX": 0.2}
+FED = {  # bench: its motors' displacement, its load controller's command and the PI part of that
+    "TestBench": ("Vm_max", "load.limit1", "load.pI2"),
+    "SampledTestBench": ("rig.Vm_max", "load.u_ref", "load.pi"),
+}
+
+
+@pytest.mark.parametrize("bench", FED)
+def test_what_is_fed_forward_follows_the_bench(bench: str) -> None:
+    """Eq. 5.35 and 5.37; below 2 rad/s nothing else drives the pump."""
+    motors, command, part = FED[bench]
+    inputs = {"omegaS_ref": Signal.constant(1.5), "pL_ref": Signal.constant(0.0)}
+    record = simulate(
+        built(f"LoadCircuit.{bench}"),
+        Experiment(np.array([0.1]), ("rig.alphaCMD", command, part), inputs, {**OTHER, motors: 80e-6}),
+        solver=Rodas(),
+    )
+    assert record["rig.alphaCMD"][-1] == pytest.approx(100 * 80e-6 * 1.5 / (50e-6 * 200.0), rel=1e-9)
+    opening = record[command][-1] - record[part][-1]
+    assert opening == pytest.approx(-80e-6 / (2 * np.pi) / 0.0035 * 1.5, rel=1e-9)
+
+
 @pytest.mark.slow
 def test_bench_with_the_grey_box_in_its_pump(tmp_path: Path) -> None:
     record = steps(written(tmp_path, GREY, "GreyBench"), 40.0, ("contOmega", "pL"), omegaS_ref=30.0, pL_ref=40e5)
