@@ -153,6 +153,22 @@ def test_hose_as_it_comes_joins_what_gives_a_pressure_too(part: str, tmp_path: P
         assert record[name][-1] == pytest.approx(expected, rel=1e-3)
 
 
+def test_two_volumes_at_a_node_fill_as_one(tmp_path: Path) -> None:
+    text = tmp_path / "Two.mo"
+    text.write_text("""model Two
+  HydraulicTestBench.Hydraulics.FlowSource source(q=1e-5);
+  HydraulicTestBench.Hydraulics.Volume first(V=1e-3, beta=1.4e9, p_start=10e5);
+  HydraulicTestBench.Hydraulics.Volume second(V=3e-3, beta=1.4e9, p(fixed=false));
+equation
+  connect(source.port, first.port_a);
+  connect(first.port_b, second.port_a);
+end Two;
+""")
+    record = ran(built("Two", (), (text,)), 1.0, ("first.p", "second.p"))
+    for name in ("first.p", "second.p"):
+        assert np.allclose(record[name], 10e5 + 1.4e9 / 4e-3 * 1e-5 * record.time, rtol=1e-9), name
+
+
 def test_hose_with_air_is_softer_at_low_pressure(tmp_path: Path) -> None:
     """Its first resonance by the stiffness of oil with air beside the wall, at 2 and at 100 bar."""
     found = {}
