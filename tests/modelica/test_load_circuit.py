@@ -66,13 +66,14 @@ def test_supply_pressure_is_what_the_gains_of_table_5_1_imply() -> None:
 
 
 def test_open_bench_comes_to_the_speed_of_the_pump_s_flow() -> None:
-    names = ("omega", "pS", "pL", "Q_P", "T_s", "T_L", "u_sv", "volume_sB.p", "volume_LA.p", "volume_LB.p")
+    names = ("omega", "pS", "pL", "Q_P", "T_s", "T_L", "tau_v", "u_sv", "volume_sB.p", "volume_LA.p", "volume_LB.p")
     record = steps(built("LoadCircuit.OpenTestBench"), 30.0, names, alphaCMD=20.0, u_ref=-0.08)
     end = {name: float(record[name][-1]) for name in names}
     flow = 62091 / 60185 * 0.2 * 71e-6 * 1450 / 60
     assert end["Q_P"] == pytest.approx(flow, rel=1e-6)
     assert end["omega"] == pytest.approx(flow / K, rel=1e-4)
     assert end["T_s"] - end["T_L"] == pytest.approx(0.26 * end["omega"], rel=1e-3)
+    assert end["tau_v"] == pytest.approx(0.26 * end["omega"], rel=1e-12)
     # u < 0 joins A to the tank: both edges pass what the motor pumps, K omega, and share the pressure
     edge = (K * end["omega"] / (0.08 * K_SV)) ** 2 * RHO / 2
     assert end["volume_LA.p"] == pytest.approx(edge, rel=1e-3)
