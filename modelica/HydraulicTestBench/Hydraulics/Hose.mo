@@ -19,7 +19,8 @@ model Hose "Hose or pipe in segments, each with friction, inertia and compliance
   Interfaces.Port_b port_b "Outlet at positive flow"
     annotation(Placement(transformation(extent={{90, -10}, {110, 10}})));
   replaceable Fluids.ConstantStiffness fluid[n + 1](each beta=beta) constrainedby Interfaces.PartialFluid(
-    each beta=beta) "Stiffness of the oil over pressure, at each node";
+    each beta=beta) "Stiffness of the oil over pressure, at each node"
+    annotation(choicesAllMatching=true, Placement(transformation(extent={{-10, -60}, {10, -40}})));
   Types.Pressure p[n + 1](each start=p_start, each fixed=true) "Elastic pressure at the nodes, one at each end";
   Types.VolumeFlowRate q[n](each start=q_start, each fixed=true) "Flow from each node to the next";
   Types.VolumeFlowRate gain[n + 1] "Flow that stays at each node";

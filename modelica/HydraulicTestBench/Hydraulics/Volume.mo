@@ -10,7 +10,7 @@ model Volume "Oil in a rigid volume, thesis Eq. 3.4"
     annotation(Placement(transformation(extent={{90, -10}, {110, 10}})));
   replaceable Fluids.ConstantStiffness fluid(beta=beta) constrainedby Interfaces.PartialFluid(beta=beta)
     "Stiffness of the oil over pressure"
-    annotation(Placement(transformation(extent={{-12, -62}, {12, -38}})));
+    annotation(choicesAllMatching=true, Placement(transformation(extent={{-12, -62}, {12, -38}})));
   Types.Pressure p(start=p_start, fixed=true, stateSelect=StateSelect.prefer) "Pressure";
 equation
   port_a.p = p;

@@ -29,7 +29,7 @@ model TestBench "The whole test bench with its controllers, thesis Appendix G"
     Jeff=Jeff, Vm_max=Vm_max, c=c,
     redeclare Effects.ShaftFriction shaftFriction(tau_c=Tc, tau_s=Ts, r=r, omega_0=w0))
     constrainedby OpenTestBench(Jeff=Jeff, Vm_max=Vm_max, c=c) "Circuits and shaft"
-    annotation(Placement(transformation(extent={{20, -20}, {60, 20}})));
+    annotation(choicesAllMatching=true, Placement(transformation(extent={{20, -20}, {60, 20}})));
   SpeedController speed(
     final masterSpeed=masterSpeed, final alphaMAX=rig.alphaMAX,
     final feed=rig.Vm_max*rig.alphaMAX/(rig.V_d_max*rig.w_P)) "Part 3"
