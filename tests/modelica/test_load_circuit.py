@@ -66,13 +66,14 @@ def test_supply_pressure_is_what_the_gains_of_table_5_1_imply() -> None:
 
 
 def test_open_bench_comes_to_the_speed_of_the_pump_s_flow() -> None:
-    names = ("omega", "pS", "pL", "Q_P", "T_s", "T_L", "u_sv", "volume_sB.p", "volume_LA.p", "volume_LB.p")
+    names = ("omega", "pS", "pL", "Q_P", "T_s", "T_L", "tau_v", "u_sv", "volume_sB.p", "volume_LA.p", "volume_LB.p")
     record = steps(built("LoadCircuit.OpenTestBench"), 30.0, names, alphaCMD=20.0, u_ref=-0.08)
     end = {name: float(record[name][-1]) for name in names}
     flow = 62091 / 60185 * 0.2 * 71e-6 * 1450 / 60
     assert end["Q_P"] == pytest.approx(flow, rel=1e-6)
     assert end["omega"] == pytest.approx(flow / K, rel=1e-4)
     assert end["T_s"] - end["T_L"] == pytest.approx(0.26 * end["omega"], rel=1e-3)
+    assert end["tau_v"] == pytest.approx(0.26 * end["omega"], rel=1e-12)
     # u < 0 joins A to the tank: both edges pass what the motor pumps, K omega, and share the pressure
     edge = (K * end["omega"] / (0.08 * K_SV)) ** 2 * RHO / 2
     assert end["volume_LA.p"] == pytest.approx(edge, rel=1e-3)
@@ -139,6 +140,54 @@ def test_pulse_counter_at_its_events(tmp_path: Path) -> None:
     assert np.abs(record["counter.omegaS"][turn]).min() > 0.8
 
 
+@pytest.mark.parametrize(("phi", "w"), [(1.0, 20.0), (1.0, -20.0), (-7.3, 20.0), (100.0, -20.0)])
+def test_speed_is_measured_wherever_the_shaft_starts(phi: float, w: float, tmp_path: Path) -> None:
+    """At even speed: the counter's first pulse a pitch from the start, the sensor's where its next tooth begins."""
+    text = f"""model Turned
+  HydraulicTestBench.Mechanics.Inertia inertia(J=0.1, phi(start={phi}), w(start={w}));
+  HydraulicTestBench.Mechanics.PulseSensor sensor;
+  HydraulicTestBench.LoadCircuit.PulseCounter counter;
+equation
+  sensor.direction = {w};
+  counter.direction = {w};
+  connect(inertia.flange_b, sensor.flange);
+  connect(inertia.flange_b, counter.flange);
+end Turned;
+"""
+    names = ("sensor.w", "sensor.count", "counter.omegaS", "counter.count")
+    record = simulate(written(tmp_path, text, "Turned"), Experiment(np.linspace(0, 1, 101), names), solver=Rodas())
+    tenths = np.array([phi, phi + w]) * 10 / (2 * np.pi)
+    teeth = np.diff(np.floor(tenths) if w > 0 else np.ceil(tenths + 0.5))[0]
+    assert record["sensor.count"][-1] == abs(teeth)
+    assert record["counter.count"][-1] == int(abs(w) * 10 / (2 * np.pi))
+    for name in ("sensor.w", "counter.omegaS"):
+        assert (record[name][:2] == 0).all(), name
+        assert np.allclose(record[name][record.time > 0.1], w, rtol=1e-6), name
+
+
+def from_the_start(name: str, stop: float, recorded: tuple[str, ...], **inputs: float) -> Record:
+    """Each input at its value from the first instant on."""
+    held = {name: Signal.constant(value) for name, value in inputs.items()}
+    return driven(built(f"LoadCircuit.{name}"), stop, recorded, held, 301)
+
+
+def test_measured_speed_has_the_sign_of_a_command_that_is_there_from_the_start() -> None:
+    """The bench is its own mirror image, and so is what its counter says."""
+    names = ("omega", "omegaS")
+    back = from_the_start("OpenTestBench", 3.0, names, alphaCMD=-30.0, u_ref=0.05)
+    forth = from_the_start("OpenTestBench", 3.0, names, alphaCMD=30.0, u_ref=-0.05)
+    assert back["omega"][-1] < -40
+    assert back["omegaS"][-1] == pytest.approx(back["omega"][-1], rel=0.01)
+    for name in names:
+        assert np.allclose(back[name][::50], -forth[name][::50], rtol=1e-4, atol=0)
+
+
+def test_controlled_bench_comes_to_a_negative_speed_asked_for_from_the_start() -> None:
+    record = from_the_start("TestBench", 20.0, ("contOmega", "omegaS"), omegaS_ref=-20.0)
+    assert record["contOmega"][-1] == pytest.approx(-20.0, rel=1e-3)
+    assert record["omegaS"][-1] == pytest.approx(-20.0, rel=1e-3)
+
+
 class At:
     """Derivatives of a bench at a state. Use as a context manager."""
 
@@ -195,6 +244,28 @@ def test_controllers_leave_no_error_at_rest() -> None:
     assert record["pL"][-1] == pytest.approx(40e5, rel=1e-3)
     law = np.tanh(13.8806 * 30) * (14.8939 + (54.8258 - 14.8939) * np.exp(-30 / 8.3593))
     assert record["Tf"][-1] == pytest.approx(law, rel=1e-3)
+
+
+OTHER = {"rig.V_d_max": 50e-6, "rig.w_P": 200.0, "rig.alphaMAX": 0.2}
+FED = {  # bench: its motors' displacement, its load controller's command and the PI part of that
+    "TestBench": ("Vm_max", "load.limit1", "load.pI2"),
+    "SampledTestBench": ("rig.Vm_max", "load.u_ref", "load.pi"),
+}
+
+
+@pytest.mark.parametrize("bench", FED)
+def test_what_is_fed_forward_follows_the_bench(bench: str) -> None:
+    """Eq. 5.35 and 5.37; below 2 rad/s nothing else drives the pump."""
+    motors, command, part = FED[bench]
+    inputs = {"omegaS_ref": Signal.constant(1.5), "pL_ref": Signal.constant(0.0)}
+    record = simulate(
+        built(f"LoadCircuit.{bench}"),
+        Experiment(np.array([0.1]), ("rig.alphaCMD", command, part), inputs, {**OTHER, motors: 80e-6}),
+        solver=Rodas(),
+    )
+    assert record["rig.alphaCMD"][-1] == pytest.approx(100 * 80e-6 * 1.5 / (50e-6 * 200.0), rel=1e-9)
+    opening = record[command][-1] - record[part][-1]
+    assert opening == pytest.approx(-80e-6 / (2 * np.pi) / 0.0035 * 1.5, rel=1e-9)
 
 
 @pytest.mark.slow

@@ -10,6 +10,7 @@ import fmu_build
 from pysim.io import read_model
 from pysim.simulate import Rodas, simulate
 from pysim.types import Experiment, Record
+from tests.modelica.built import built
 
 FINE = Rodas(rtol=1e-8, atol=1e-8)
 # thesis Table 6.2
@@ -42,3 +43,45 @@ def test_friction_of_the_swing_is_eq_5_38_in_both_directions(tmp_path: Path) -> 
     assert omega.max() > 39
     assert omega.min() < -39
     assert np.abs(law).max() > 50
+
+
+JOINED = {  # parts that start together: declarations, connected flanges, their speed over time, the torque between them
+    "ConstantSpeed": ("ConstantSpeed first(w=151.8)", "", "flange", lambda t: np.full_like(t, 151.8), lambda t: 0 * t),
+    "PrescribedSpeed": (
+        "PrescribedSpeed first",
+        "first.w = 6*cos(2*time);",
+        "flange",
+        lambda t: 6 * np.cos(2 * t),
+        lambda t: -12 * np.sin(2 * t),
+    ),
+    "Inertia": ("Inertia first(J=2, w(start=3))", "", "flange_b", lambda t: np.full_like(t, 3.0), lambda t: 0 * t),
+}
+
+
+@pytest.mark.parametrize("part", JOINED)
+def test_inertia_starts_as_the_part_it_is_fixed_to(part: str, tmp_path: Path) -> None:
+    declared, equation, flange, speed, acceleration = JOINED[part]
+    text = tmp_path / "Joined.mo"
+    text.write_text(
+        f"model Joined\n  HydraulicTestBench.Mechanics.{declared};\n"
+        "  HydraulicTestBench.Mechanics.Inertia rotor(J=0.012, phi(fixed=false), w(fixed=false));\n"
+        f"equation\n  {equation}\n  connect(first.{flange}, rotor.flange_a);\nend Joined;\n"
+    )
+    names = ("rotor.w", "rotor.flange_a.tau")
+    record = simulate(built("Joined", (), (text,)), Experiment(np.linspace(0, 1, 11), names), solver=FINE)
+    assert np.allclose(record["rotor.w"], speed(record.time), rtol=1e-6)
+    assert np.allclose(record["rotor.flange_a.tau"], 0.012 * acceleration(record.time), atol=1e-7)
+
+
+def test_mass_starts_as_the_mass_it_is_fixed_to(tmp_path: Path) -> None:
+    text = tmp_path / "Masses.mo"
+    text.write_text("""model Masses
+  HydraulicTestBench.Mechanics.Mass first(m=2, g=0, s_start=4, v(start=3));
+  HydraulicTestBench.Mechanics.Mass second(m=1, g=0, s(fixed=false), v(fixed=false));
+equation
+  connect(first.flange_b, second.flange_a);
+end Masses;
+""")
+    run = Experiment(np.linspace(0, 1, 11), ("second.s",))
+    record = simulate(built("Masses", (), (text,)), run, solver=FINE)
+    assert np.allclose(record["second.s"], 4 + 3 * record.time, rtol=1e-9)

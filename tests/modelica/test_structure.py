@@ -95,6 +95,31 @@ end M;
     ]
 
 
+DECLARED = re.compile(r"^  (replaceable )?((?:[A-Z]\w*\.)*[A-Z]\w*) (\w+)(?=[\s(\[])([^;]*);", re.MULTILINE)
+NO_PARTS = {"Real", "Integer", "Boolean", "Types", "Data"}
+OFFERS = {"Crane", "Examples", "Hydraulics", "LoadCircuit"}
+
+
+def parts_of(file: Path) -> list[tuple[bool, str, str]]:
+    """(replaceable, name, the rest of its declaration) of each component that is no variable and no record."""
+    found = DECLARED.findall(without_texts(read(file)))
+    return [(bool(slot), name, rest) for slot, kind, name, rest in found if kind.split(".")[0] not in NO_PARTS]
+
+
+@pytest.mark.parametrize("file", [file for file in COMPONENTS if file.parent.name != "Pairs"], ids=class_name)
+def test_each_part_has_a_place_of_its_own_in_the_diagram(file: Path) -> None:
+    places = {name: re.search(r"Placement\(transformation\(([^)]*)", rest) for _, name, rest in parts_of(file)}
+    assert [name for name, place in places.items() if not place] == []
+    drawn = [place[1] for place in places.values() if place]
+    assert len(set(drawn)) == len(drawn)
+
+
+@pytest.mark.parametrize("file", [file for file in FILES if file.parent.name in OFFERS], ids=class_name)
+def test_slot_offers_what_fits(file: Path) -> None:
+    """A dialog lists the classes that a slot takes."""
+    assert [name for slot, name, rest in parts_of(file) if slot and "choicesAllMatching=true" not in rest] == []
+
+
 @ALL_FILES
 def test_lines_fit_the_page(file: Path) -> None:
     long = [n for n, line in enumerate(read(file).splitlines(), 1) if len(line) > 120]

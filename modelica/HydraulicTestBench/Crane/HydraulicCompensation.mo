@@ -34,25 +34,39 @@ model HydraulicCompensation "Crane whose winch is a motor in a closed circuit wi
   Interfaces.RealOutput z_PL(unit="m") "Height of the payload"
     annotation(Placement(transformation(extent={{100, -90}, {120, -70}})));
   replaceable Pump.GreyBoxPlate plate(alphaMAX=oil.alphaMAX) constrainedby Interfaces.PartialSwashPlate(
-    alphaMAX=oil.alphaMAX) "From the pump's command to its angle";
+    alphaMAX=oil.alphaMAX) "From the pump's command to its angle"
+    annotation(choicesAllMatching=true, Placement(transformation(extent={{-90, 50}, {-70, 70}})));
   Pump.MeanFlow pumpFlow(
     final V_d_max=geometry.V_d_max, final alphaMAX=oil.alphaMAX, final N_p=geometry.N_p, final eta_r=geometry.eta_r,
-    final psi=geometry.psi, final theta_0=0) "Flow of the pump";
-  Mechanics.ConstantSpeed drive(final w=w_P) "Drive of the pump";
-  Hydraulics.Volume volume_A(final V=V_s0, final beta=oil.beta, p_start=bench.p_refill + p_W) "Line A";
-  Hydraulics.Volume volume_B(final V=V_s0, final beta=oil.beta, p_start=bench.p_refill) "Line B";
-  Hydraulics.Tank refill(final p=bench.p_refill) "Refill";
-  Hydraulics.CheckValve refill_A(K=2e-5, final rho=oil.rho, p_crack=0) "Refill of line A";
-  Hydraulics.CheckValve refill_B(K=2e-5, final rho=oil.rho, p_crack=0) "Refill of line B";
-  Hydraulics.IdealMotor motor(final V_max=Vm_max, final alphaMAX=bench.alpha_m) "Motor";
-  Mechanics.Inertia inertia(final J=J_eff) "Drum and motor";
-  VesselDrum drum(final r_d=r_d) "Drum";
-  Mechanics.Wire wire(final k_w=k_w, final d_w=c_share*k_w) "Wire";
+    final psi=geometry.psi, final theta_0=0) "Flow of the pump"
+    annotation(Placement(transformation(extent={{-60, 40}, {-40, 60}})));
+  Mechanics.ConstantSpeed drive(final w=w_P) "Drive of the pump"
+    annotation(Placement(transformation(extent={{-90, 16}, {-70, 36}})));
+  Hydraulics.Volume volume_A(final V=V_s0, final beta=oil.beta, p_start=bench.p_refill + p_W) "Line A"
+    annotation(Placement(transformation(extent={{-28, 76}, {-12, 92}})));
+  Hydraulics.Volume volume_B(final V=V_s0, final beta=oil.beta, p_start=bench.p_refill) "Line B"
+    annotation(Placement(transformation(extent={{-28, 16}, {-12, 32}})));
+  Hydraulics.Tank refill(final p=bench.p_refill) "Refill"
+    annotation(Placement(transformation(extent={{-28, 46}, {-12, 62}})));
+  Hydraulics.CheckValve refill_A(K=2e-5, final rho=oil.rho, p_crack=0) "Refill of line A"
+    annotation(Placement(transformation(extent={{-4, 58}, {12, 74}})));
+  Hydraulics.CheckValve refill_B(K=2e-5, final rho=oil.rho, p_crack=0) "Refill of line B"
+    annotation(Placement(transformation(extent={{-4, 34}, {12, 50}})));
+  Hydraulics.IdealMotor motor(final V_max=Vm_max, final alphaMAX=bench.alpha_m) "Motor"
+    annotation(Placement(transformation(extent={{20, 44}, {40, 64}})));
+  Mechanics.Inertia inertia(final J=J_eff) "Drum and motor"
+    annotation(Placement(transformation(extent={{50, 44}, {70, 64}})));
+  VesselDrum drum(final r_d=r_d) "Drum"
+    annotation(Placement(transformation(extent={{50, 0}, {70, 20}})));
+  Mechanics.Wire wire(final k_w=k_w, final d_w=c_share*k_w) "Wire"
+    annotation(Placement(transformation(origin={60, -30}, extent={{-10, -10}, {10, 10}}, rotation=-90)));
   Payload payload(
     final m_PL=m_PL, final V_PL=V_PL, final A_PL=crane.A_PL, final C_d=crane.C_d, final rho_s=crane.rho_s,
-    final g=crane.g, z_start=-W/k_w) "Payload, hanging at rest at the start";
+    final g=crane.g, z_start=-W/k_w) "Payload, hanging at rest at the start"
+    annotation(Placement(transformation(extent={{50, -80}, {70, -60}})));
 protected
-  Mechanics.TorqueSource friction "Rotational damping";
+  Mechanics.TorqueSource friction "Rotational damping"
+    annotation(Placement(transformation(extent={{78, 66}, {94, 82}})));
 equation
   connect(alphaCMD, plate.alphaCMD);
   connect(alphaCMD_t, plate.alphaCMD_t);

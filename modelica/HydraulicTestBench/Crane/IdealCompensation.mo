@@ -41,7 +41,7 @@ equation
 <p>&omega;<sub>ref</sub> = -(dz<sub>v</sub>/dt)/r, and the load pressure that puts the torque of the wire on the bench's
 load motor. With full compensation the payload stands still and that pressure is constant.</p>
 <p><b>Source:</b> thesis Eq. 5.47 to 5.51; numbers chosen, see <code>Data.Crane</code>.</p>
-<p><b>Valid:</b> wire taut or slack. The wire's smooth beginning lets the payload hang 3 nm lower at rest than
+<p><b>Valid:</b> wire taut or slack. The wire's smooth beginning lets the payload hang 1.2 nm lower at rest than
 W/k<sub>w</sub>.</p>
 <p><b>Leaves out:</b> the winch's own dynamics: that is <code>HydraulicCompensation</code>.</p>
 </html>"));

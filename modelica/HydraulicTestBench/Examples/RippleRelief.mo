@@ -9,7 +9,7 @@ model RippleRelief "Two pumps, with ripple and without, each on a relief valve t
   Mechanics.ConstantSpeed drive(w=1450*2*Constants.pi/60) "Drive of both"
     annotation(Placement(transformation(extent={{-10, -10}, {10, 10}})));
   replaceable Pump.A4VSG rippling constrainedby Pump.A4VSG "Pump with simplified ripple"
-    annotation(Placement(transformation(extent={{-60, -20}, {-20, 20}})));
+    annotation(choicesAllMatching=true, Placement(transformation(extent={{-60, -20}, {-20, 20}})));
   Pump.A4VSG quiet(redeclare Pump.MeanFlow pumpFlow) "Pump without ripple"
     annotation(Placement(transformation(extent={{60, -20}, {20, 20}})));
   Hydraulics.Volume volume1(V=0.1e-3, beta=1.4e9) "Volume of the pump with ripple"

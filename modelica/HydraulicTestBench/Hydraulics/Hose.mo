@@ -6,7 +6,7 @@ model Hose "Hose or pipe in segments, each with friction, inertia and compliance
   parameter Integer n(min=1) = 12 "Segments";
   parameter Types.BulkModulus beta "Oil stiffness";
   parameter Types.BulkModulus beta_w = 350e6 "Stiffness of the wall: pressure over relative growth of the volume";
-  parameter Types.Duration T_w = 0 "Damping of the wall: pressure of a change lags by this time behind its volume";
+  parameter Types.Duration T_w = 1e-4 "Damping of the wall: pressure of a change lags by this time behind its volume";
   parameter Types.Density rho "Density of oil";
   parameter Types.KinematicViscosity nu(min=1e-9) = 46e-6 "Kinematic viscosity";
   parameter Real roughness(final unit="1", min=0) = 1e-4 "Height of the wall's roughness over the diameter";
@@ -19,7 +19,8 @@ model Hose "Hose or pipe in segments, each with friction, inertia and compliance
   Interfaces.Port_b port_b "Outlet at positive flow"
     annotation(Placement(transformation(extent={{90, -10}, {110, 10}})));
   replaceable Fluids.ConstantStiffness fluid[n + 1](each beta=beta) constrainedby Interfaces.PartialFluid(
-    each beta=beta) "Stiffness of the oil over pressure, at each node";
+    each beta=beta) "Stiffness of the oil over pressure, at each node"
+    annotation(choicesAllMatching=true, Placement(transformation(extent={{-10, -60}, {10, -40}})));
   Types.Pressure p[n + 1](each start=p_start, each fixed=true) "Elastic pressure at the nodes, one at each end";
   Types.VolumeFlowRate q[n](each start=q_start, each fixed=true) "Flow from each node to the next";
   Types.VolumeFlowRate gain[n + 1] "Flow that stays at each node";
@@ -47,9 +48,10 @@ equation
 as much at either end. Oil and wall give way together, 1/&beta;<sub>h</sub> = 1/&beta; + 1/&beta;<sub>w</sub>, and the
 speed of sound is &radic;(&beta;<sub>h</sub>/&rho;): 565 m/s with the default wall, 1265 m/s with a rigid one (say
 &beta;<sub>w</sub> = 1e15). The wall of a hose takes energy out of fast waves: p = p<sub>el</sub> + T<sub>w</sub>
-dp<sub>el</sub>/dt, a loss factor of &omega;T<sub>w</sub>; 0 is off.</p>
+dp<sub>el</sub>/dt, a loss factor of &omega;T<sub>w</sub>: 0.27 at 435 Hz with the default. 0 is off.</p>
 <p>Both ends are volumes. Connect them to what gives a flow from a pressure: pump, motor, valve, orifice, closed
-end. A <code>Tank</code> at an end needs T<sub>w</sub> above 0, which gives that end a flow.</p>
+end. Another hose, a <code>Volume</code>, a <code>Chamber</code> or a <code>Tank</code> at an end needs T<sub>w</sub>
+above 0, which gives that end a flow; at 0 that flow is 0/0 and the run ends at its start.</p>
 <p><b>Source:</b> thesis Section 4.5 has a hose without its equations. Line in segments and stiffness of hose walls
 (70 to
 350 MPa): H. E. Merritt, Hydraulic Control Systems, Chapters 2 and 3; friction:

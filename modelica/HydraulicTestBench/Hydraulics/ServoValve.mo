@@ -20,10 +20,10 @@ model ServoValve "4/3-way servo valve with the dynamics of its spool, thesis Eq.
     annotation(Placement(transformation(extent={{100, -10}, {120, 10}})));
   replaceable Pump.SecondOrderSpool spool(omega_v=omega_sv, zeta_v=zeta_sv) constrainedby Interfaces.PartialSpool(
     omega_v=omega_sv, zeta_v=zeta_sv) "Dynamics of the spool"
-    annotation(Placement(transformation(extent={{-72, -12}, {-48, 12}})));
+    annotation(choicesAllMatching=true, Placement(transformation(extent={{-72, -12}, {-48, 12}})));
   replaceable Interfaces.Neutral.Signal spoolOpening constrainedby Interfaces.PartialSignal
     "Opening of the edges from the spool position"
-    annotation(Placement(transformation(extent={{-32, -12}, {-8, 12}})));
+    annotation(choicesAllMatching=true, Placement(transformation(extent={{-32, -12}, {-8, 12}})));
   ProportionalValve edges(final rho=rho, final k1=0, final k2=0, final k3=K_sv, final dp_smooth=dp_smooth)
     "Four edges whose area is proportional to the opening"
     annotation(Placement(transformation(extent={{8, -12}, {32, 12}})));

@@ -15,13 +15,13 @@ model VariableMotor "Motor of variable displacement, thesis Eq. 5.7 to 5.9"
     annotation(Placement(transformation(extent={{-20, -20}, {20, 20}}, rotation=-90, origin={0, 120})));
   replaceable Interfaces.Neutral.InternalLeakage portLeakage constrainedby Interfaces.PartialTwoPort
     "Leakage from A to B"
-    annotation(Placement(transformation(extent={{-52, -12}, {-28, 12}})));
+    annotation(choicesAllMatching=true, Placement(transformation(extent={{-52, -12}, {-28, 12}})));
   replaceable Interfaces.Neutral.ExternalLeakage drainLeakage constrainedby Interfaces.PartialExternalLeakage
     "Leakage from A and B to the drain"
-    annotation(Placement(transformation(extent={{-12, -62}, {12, -38}})));
+    annotation(choicesAllMatching=true, Placement(transformation(extent={{-12, -62}, {12, -38}})));
   replaceable Interfaces.Neutral.TorqueLoss torqueLoss constrainedby Interfaces.PartialTorqueLoss
     "Torque lost between oil and shaft"
-    annotation(Placement(transformation(extent={{48, -12}, {72, 12}})));
+    annotation(choicesAllMatching=true, Placement(transformation(extent={{48, -12}, {72, 12}})));
   IdealMotor motor(final V_max=V_max, final alphaMAX=alphaMAX) "Displacement without losses"
     annotation(Placement(transformation(extent={{-12, 38}, {12, 62}})));
   Types.AngularVelocity omega = motor.omega "Speed";

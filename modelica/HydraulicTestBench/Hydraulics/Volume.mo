@@ -10,7 +10,7 @@ model Volume "Oil in a rigid volume, thesis Eq. 3.4"
     annotation(Placement(transformation(extent={{90, -10}, {110, 10}})));
   replaceable Fluids.ConstantStiffness fluid(beta=beta) constrainedby Interfaces.PartialFluid(beta=beta)
     "Stiffness of the oil over pressure"
-    annotation(Placement(transformation(extent={{-12, -62}, {12, -38}})));
+    annotation(choicesAllMatching=true, Placement(transformation(extent={{-12, -62}, {12, -38}})));
   Types.Pressure p(start=p_start, fixed=true, stateSelect=StateSelect.prefer) "Pressure";
 equation
   port_a.p = p;
@@ -20,6 +20,8 @@ equation
   annotation(Documentation(info="<html>
 <p>dp/dt = &beta;<sub>eff</sub>(p)/V &Sigma;Q. Where the volume changes, <code>Chamber</code> is the class to
 take.</p>
+<p>It starts at <code>p_start</code>. Joined directly to a second volume that would be one start too many:
+<code>p(fixed=false)</code> at one of the two takes the start of the other.</p>
 <p><b>Source:</b> thesis Eq. 3.4 at rest, 5.10.</p>
 <p><b>Valid:</b> sizes well below a wave length, c/f.</p>
 <p><b>Leaves out:</b> cavitation (the pressure may fall below vacuum), temperature, waves; elastic walls are in

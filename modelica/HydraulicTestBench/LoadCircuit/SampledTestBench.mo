@@ -14,9 +14,10 @@ model SampledTestBench "The whole test bench under its sampled controllers"
     annotation(Placement(transformation(extent={{100, -50}, {120, -30}})));
   Rig rig "Circuits and shaft"
     annotation(Placement(transformation(extent={{20, -20}, {60, 20}})));
-  Controllers.SpeedController speed(dt=dt) "Speed controller"
+  Controllers.SpeedController speed(
+    dt=dt, final largest=rig.alphaMAX, final feed=rig.Vm_max*rig.alphaMAX/(rig.V_d_max*rig.w_P)) "Speed controller"
     annotation(Placement(transformation(extent={{-60, 40}, {-20, 80}})));
-  Controllers.LoadController load(dt=dt) "Load controller"
+  Controllers.LoadController load(dt=dt, final feed=rig.Vm_max/(2*Constants.pi)/rig.bench.K_qu) "Load controller"
     annotation(Placement(transformation(extent={{-60, -80}, {-20, -40}})));
 equation
   connect(omegaS_ref, speed.reference);

@@ -29,10 +29,12 @@ model TestBench "The whole test bench with its controllers, thesis Appendix G"
     Jeff=Jeff, Vm_max=Vm_max, c=c,
     redeclare Effects.ShaftFriction shaftFriction(tau_c=Tc, tau_s=Ts, r=r, omega_0=w0))
     constrainedby OpenTestBench(Jeff=Jeff, Vm_max=Vm_max, c=c) "Circuits and shaft"
-    annotation(Placement(transformation(extent={{20, -20}, {60, 20}})));
-  SpeedController speed(final masterSpeed=masterSpeed) "Part 3"
+    annotation(choicesAllMatching=true, Placement(transformation(extent={{20, -20}, {60, 20}})));
+  SpeedController speed(
+    final masterSpeed=masterSpeed, final alphaMAX=rig.alphaMAX,
+    final feed=rig.Vm_max*rig.alphaMAX/(rig.V_d_max*rig.w_P)) "Part 3"
     annotation(Placement(transformation(extent={{-60, 40}, {-20, 80}})));
-  LoadController load(final masterLoad=masterLoad) "Part 4"
+  LoadController load(final masterLoad=masterLoad, final feed=rig.Vm_max/(2*Constants.pi)/bench.K_qu) "Part 4"
     annotation(Placement(transformation(extent={{-60, -80}, {-20, -40}})));
 
   // Names of thesis Tables 11 to 14
@@ -75,6 +77,8 @@ equation
 <p>For another pump or more physics, write a class of the bench and use it here; its friction is then its own:
 <code>model MyRig extends OpenTestBench(redeclare Pump.GreyBoxPlate plate, redeclare Effects.ShaftFriction
 shaftFriction(tau_c=14.9, tau_s=54.8)); end MyRig;</code> and <code>extends TestBench(redeclare MyRig rig)</code>.</p>
+<p>What is fed forward follows the displacements of motors and pump, the pump's speed and its largest angle as the bench
+has them. The flow gain K<sub>qu</sub> of the servo valve stays that of Table 5.1.</p>
 <p><b>Source:</b> thesis Fig. 5.13, Appendix G with the names of Tables 11 to 15. The table's Time is the simulation's
 time; names of blocks are here those of their outputs.</p>
 <p><b>Valid:</b> see <code>OpenTestBench</code>.</p>

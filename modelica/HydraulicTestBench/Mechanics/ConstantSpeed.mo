@@ -12,6 +12,8 @@ equation
   tau = -flange.tau;
   annotation(Documentation(info="<html>
 <p>An induction motor at its speed, without slip.</p>
+<p>An <code>Inertia</code> on its shaft takes its start from here: <code>Inertia rotor(J=0.01, phi(fixed=false),
+w(fixed=false))</code>.</p>
 <p><b>Source:</b> thesis Section 3.4.4, 1450 rpm.</p>
 <p><b>Leaves out:</b> slip: the flow measured in Section 4.1 hints at a speed somewhat above 1450 rpm.</p>
 </html>"));

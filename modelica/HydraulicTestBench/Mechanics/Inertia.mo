@@ -17,6 +17,9 @@ equation
   J*a = flange_a.tau + flange_b.tau;
   annotation(Documentation(info="<html>
 <p>J &alpha; = &tau;<sub>a</sub> + &tau;<sub>b</sub>, with both torques positive into the mass.</p>
+<p>It starts at angle 0 and at rest unless <code>phi(start=...)</code> and <code>w(start=...)</code> say otherwise. On a
+shaft that starts elsewhere already, at a drive or rigidly at a second mass, that would be one start too many:
+<code>Inertia rotor(J=0.01, phi(fixed=false), w(fixed=false))</code> takes the start of the other.</p>
 <p><b>Source:</b> thesis Eq. 5.40.</p>
 <p><b>Valid:</b> a rigid shaft.</p>
 <p><b>Leaves out:</b> torsion.</p>

@@ -19,6 +19,8 @@ equation
   m*a = flange_a.f + flange_b.f - m*g;
   annotation(Documentation(info="<html>
 <p>m a = f<sub>a</sub> + f<sub>b</sub> - m g.</p>
+<p>Its start is <code>s_start</code> and <code>v(start=...)</code>. Rigidly at a second mass that would be one start too
+many: <code>s(fixed=false), v(fixed=false)</code> on one of the two takes the start of the other.</p>
 <p><b>Source:</b> Newton's law; thesis Section 5.7, where the weight of the payload is missing in Eq. 5.44.</p>
 <p><b>Valid:</b> a rigid body.</p>
 </html>"));

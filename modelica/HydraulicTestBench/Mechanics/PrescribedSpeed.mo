@@ -14,8 +14,8 @@ equation
   annotation(Documentation(info="<html>
 <p>As <code>ConstantSpeed</code>, with the speed from a signal.</p>
 <p><b>Source:</b> this library, for joining shafts of two programs.</p>
-<p><b>Valid:</b> at parts that give a torque from speed. At an <code>Inertia</code> the derivative of the signal
-would be
-needed.</p>
+<p><b>Valid:</b> at parts that give a torque from speed. At an <code>Inertia</code>, written <code>Inertia rotor(J=0.01,
+phi(fixed=false), w(fixed=false))</code>, the signal has to be one with a derivative: an expression of time and states,
+not an input of the whole model.</p>
 </html>"));
 end PrescribedSpeed;

@@ -20,12 +20,13 @@ equation
   teeth = pulses*flange.phi/(2*Constants.pi);
   forward = teeth > pre(ahead);
   backward = teeth < pre(behind);
-  // Edges are thresholds that move on once passed: none is lost in a long step of the solver.
-  when {forward, teeth < pre(ahead) - 1} then
-    ahead = if forward then pre(ahead) + 1 else pre(ahead) - 1;
+  // Edges are thresholds that move on once passed: none is lost in a long step of the solver. The first ones lie on
+  // either side of where the shaft starts: one that is passed already would never be passed again.
+  when {initial(), forward, teeth < pre(ahead) - 1} then
+    ahead = if initial() then ceil(teeth) else if forward then pre(ahead) + 1 else pre(ahead) - 1;
   end when;
-  when {backward, teeth > pre(behind) + 1} then
-    behind = if backward then pre(behind) - 1 else pre(behind) + 1;
+  when {initial(), backward, teeth > pre(behind) + 1} then
+    behind = if initial() then floor(teeth + 0.5) - 0.5 else if backward then pre(behind) - 1 else pre(behind) + 1;
   end when;
   when {forward, backward} then
     t_pulse = time;

@@ -4,5 +4,7 @@ type Percent = Real(
     nominal=10) "Share of full deflection in percent"
   annotation(Documentation(info="<html>
 <p>The bench commands and logs the swash plate angle in percent of 15 degrees.</p>
+<p>The symbol % is FMI's and everyday's; Modelica's own units are made of letters (Modelica Language Specification 3.6,
+Section 19.1), and a strict tool may say so.</p>
 <p><b>Source:</b> thesis, nomenclature; the numbers inside a model are SI units.</p>
 </html>"));

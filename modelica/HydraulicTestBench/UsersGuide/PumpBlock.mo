@@ -39,7 +39,8 @@ Behind a hose little of it is left (<code>Examples.RippleHose</code>), at a reli
 (<code>Examples.RippleRelief</code>).</p>
 <p><b>Volumes between parts.</b> Pump, motor, valves and orifices give a flow from pressures; <code>Volume</code>,
 <code>Chamber</code> and the ends of a <code>Hose</code> give a pressure from flows. Put one of these between any two of
-those, and no equation has to be iterated. Two volumes at one node share a pressure, which the compiler finds too.</p>
+those, and no equation has to be iterated. Two volumes at one node share a pressure, and only one of them can say
+what it is at the start: write <code>p(fixed=false)</code> at the other.</p>
 <p><b>Source:</b> thesis Section 3.5 and Appendix F.</p>
 </html>"));
 end PumpBlock;

@@ -3,7 +3,7 @@ model HoseMode "First resonance of a closed hose, against the closed form"
   extends Icons.Example;
   parameter Integer n = 12 "Segments";
   Hydraulics.Hose hose(
-    l=3, d=10e-3, n=n, beta=1.4e9, beta_w=350e6, rho=875, nu=46e-6, roughness=0,
+    l=3, d=10e-3, n=n, beta=1.4e9, beta_w=350e6, T_w=0, rho=875, nu=46e-6, roughness=0,
     p(start={p_0*cos(Constants.pi*i/n) for i in 0:n})) "Hose, released from the shape of its first mode"
     annotation(Placement(transformation(extent={{-20, -20}, {20, 20}})));
   parameter Types.Pressure p_0 = 1e5 "Amplitude";

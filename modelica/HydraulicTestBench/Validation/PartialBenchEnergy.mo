@@ -28,7 +28,7 @@ equation
     + bench.rig.valve.port_T.p*bench.rig.valve.port_T.q + bench.rig.valve.port_A.p*bench.rig.valve.port_A.q
     + bench.rig.valve.port_B.p*bench.rig.valve.port_B.q;
   der(given_w) = (bench.rig.motorS.tau + bench.rig.motorL.tau)*bench.rig.omega;
-  der(taken_w) = (bench.Tf + bench.rig.tau_c)*bench.rig.omega;
+  der(taken_w) = (bench.Tf + bench.rig.tau_v)*bench.rig.omega;
   der(passed) = abs(bench.rig.motorS.tau*bench.rig.omega) + abs(bench.rig.motorL.tau*bench.rig.omega);
   stored_s = bench.rig.V_s0/(2*bench.rig.beta)*(bench.rig.volume_sA.p^2 + bench.rig.volume_sB.p^2 - 2*p_s^2);
   stored_L = bench.rig.V_L0/(2*bench.rig.beta)*(bench.rig.volume_LA.p^2 + bench.rig.volume_LB.p^2 - 2*p_L^2);
