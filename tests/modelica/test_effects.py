@@ -11,6 +11,9 @@ import numpy as np
 import pytest
 
 from pysim.io import read_model
+from pysim.simulate import simulate
+from pysim.types import Experiment
+from tests.modelica.built import FINE, built
 from tests.modelica.effects import (
     BYPASSED,
     CATALOGUE,
@@ -75,6 +78,25 @@ def test_the_catalogue_is_the_standard_list() -> None:
     found = {e.name: (e.slot, {p.name for p in e.strengths}) for e in CATALOGUE.values()}
     assert found == STANDARD
     assert set(BYPASSED) == {"sensor.lag", "card.sampling", "valve.hysteresis"}
+
+
+def test_play_that_is_off_is_off_from_any_start(tmp_path: Path) -> None:
+    text = tmp_path / "Off.mo"
+    text.write_text("""model Off
+  HydraulicTestBench.Pump.FreeGreyBox pump(piston(x(start=5e-3)));
+  HydraulicTestBench.Pump.FreeGreyBox play(
+    piston(x(start=5e-3)), redeclare HydraulicTestBench.Effects.LinkageBacklash linkage);
+equation
+  pump.alphaCMD = 0;
+  pump.alphaCMD_t = 0;
+  play.alphaCMD = 0;
+  play.alphaCMD_t = 0;
+end Off;
+""")
+    names = ("pump.alphaPercent", "play.alphaPercent")
+    record = simulate(built("Off", (), (text,)), Experiment(np.linspace(0, 0.5, 51), names), solver=FINE)
+    assert record[names[0]][0] > 10
+    assert np.allclose(record[names[1]], record[names[0]], rtol=0, atol=1e-5)
 
 
 @pytest.mark.slow
