@@ -14,6 +14,9 @@ import pytest
 import fmu_build
 from pysim.effects import Variant, fitting, read_catalogue, slots, variant
 from pysim.io import read_model
+from pysim.simulate import Rodas, simulate
+from pysim.types import Experiment
+from tests.modelica.built import built
 from tests.modelica.library import LIBRARY
 from tests.modelica.test_load_circuit import BETA, K_SV, RHO, STATE, At, K
 
@@ -140,6 +143,24 @@ def test_coupling_is_spring_and_damper_between_the_halves(base: At, tmp_path: Pa
     assert rates["inertiaL.w"] - level["inertiaL.w"] == pytest.approx(-torque / HALF, rel=1e-9)
     together = 0.5 * (level["inertiaS.w"] + level["inertiaL.w"])
     assert together == pytest.approx(base.rates(STATE, {})["inertiaS.w"], rel=1e-9)
+
+
+def test_coupling_turns_as_one_at_the_start(tmp_path: Path) -> None:
+    text = tmp_path / "Turning.mo"
+    text.write_text("""model Turning
+  HydraulicTestBench.LoadCircuit.OpenTestBench bench(
+    inertiaS(phi(start=1), w(start=20)),
+    redeclare HydraulicTestBench.Effects.CouplingCompliance coupling(inverse_k_t=3e-4));
+equation
+  bench.alphaCMD = 0;
+  bench.alphaCMD_t = 0;
+  bench.u_ref = 0;
+end Turning;
+""")
+    names = ("bench.inertiaS.w", "bench.inertiaL.w", "bench.inertiaL.phi")
+    run = Experiment(np.array([0.0, 1e-3]), names)
+    start = simulate(built("Turning", (), (text,)), run, solver=Rodas()).values[0]
+    assert start == pytest.approx([20, 20, 1])
 
 
 @pytest.mark.slow
