@@ -34,7 +34,7 @@ equation
   QBar = omega/(2*Constants.pi)*alpha/alphaMAX*V_d_max;
   DQPA = QPA - QBar;
   DQPB = QPB + QBar;
-  f_r = (if N_p == 2*div(N_p, 2) then 1 else 2)*N_p*omega/(4*Constants.pi);
+  f_r = (if N_p == 2*div(N_p, 2) then 1 else 2)*N_p*abs(omega)/(4*Constants.pi);
   A_r = psi*eta_r*QBar;
   O_r = -2/Constants.pi*A_r;
   port_A.q = -QPA;
