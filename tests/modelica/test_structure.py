@@ -97,7 +97,7 @@ end M;
 
 DECLARED = re.compile(r"^  (replaceable )?((?:[A-Z]\w*\.)*[A-Z]\w*) (\w+)(?=[\s(\[])([^;]*);", re.MULTILINE)
 NO_PARTS = {"Real", "Integer", "Boolean", "Types", "Data"}
-OFFERS = {"Crane", "Examples", "Hydraulics", "LoadCircuit"}
+OFFERS = {"Crane", "Examples", "Hydraulics", "LoadCircuit", "Pairs", "Pump"}
 
 
 def parts_of(file: Path) -> list[tuple[bool, str, str]]:

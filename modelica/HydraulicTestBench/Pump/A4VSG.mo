@@ -26,16 +26,16 @@ model A4VSG "Bosch Rexroth A4VSG 71 pump as one block: shaft, ports A and B, dra
     V_d_max=V_d_max, alphaMAX=alphaMAX, N_p=N_p, eta_r=eta_r, psi=psi, theta_0=theta_0)
     constrainedby Interfaces.PartialPumpFlow(
     V_d_max=V_d_max, alphaMAX=alphaMAX, N_p=N_p, eta_r=eta_r, psi=psi, theta_0=theta_0) "Flow and torque"
-    annotation(Placement(transformation(extent={{168, -32}, {192, -8}})));
+    annotation(choicesAllMatching=true, Placement(transformation(extent={{168, -32}, {192, -8}})));
   replaceable Interfaces.Neutral.InternalLeakage portLeakage constrainedby Interfaces.PartialTwoPort
     "Leakage from A to B"
-    annotation(Placement(transformation(extent={{208, -32}, {232, -8}})));
+    annotation(choicesAllMatching=true, Placement(transformation(extent={{208, -32}, {232, -8}})));
   replaceable Interfaces.Neutral.ExternalLeakage drainLeakage constrainedby Interfaces.PartialExternalLeakage
     "Leakage from A and B to the drain"
-    annotation(Placement(transformation(extent={{208, -152}, {232, -128}})));
+    annotation(choicesAllMatching=true, Placement(transformation(extent={{208, -152}, {232, -128}})));
   replaceable Interfaces.Neutral.TorqueLoss torqueLoss constrainedby Interfaces.PartialTorqueLoss
     "Torque lost between shaft and oil"
-    annotation(Placement(transformation(extent={{-172, -112}, {-148, -88}})));
+    annotation(choicesAllMatching=true, Placement(transformation(extent={{-172, -112}, {-148, -88}})));
 
   // Names of thesis Tables 9 and 10
   Types.VolumeFlowRate QBar = pumpFlow.QBar "Mean flow, Eq. 3.48";

@@ -22,7 +22,7 @@ model A4VSGSignals "The pump block with signals for its connectors: what to comp
   Interfaces.RealOutput tau(unit="N.m", nominal=100) "Torque the drive has to deliver"
     annotation(Placement(transformation(extent={{100, -90}, {120, -70}})));
   replaceable A4VSG pump constrainedby A4VSG "Pump"
-    annotation(Placement(transformation(extent={{-20, -20}, {20, 20}})));
+    annotation(choicesAllMatching=true, Placement(transformation(extent={{-20, -20}, {20, 20}})));
   Mechanics.PrescribedSpeed drive "Shaft"
     annotation(Placement(transformation(extent={{-70, -10}, {-50, 10}})));
   Hydraulics.PrescribedPressure outlet "Port A"

@@ -71,46 +71,46 @@ model SwashPlateControl "Swash plate control of the A4VSG pump: card, proportion
   // serves the default, that of the constraining class whatever is put in its place.
   replaceable CommandRateObserver commandRate constrainedby Interfaces.PartialCommandRate
     "Rate of the command"
-    annotation(Placement(transformation(extent={{-172, 48}, {-148, 72}})));
+    annotation(choicesAllMatching=true, Placement(transformation(extent={{-172, 48}, {-148, 72}})));
   replaceable Interfaces.Neutral.SignalWithRate angleError constrainedby Interfaces.PartialSignalWithRate
     "What the outer controller sees of the angle error"
-    annotation(Placement(transformation(extent={{-132, 8}, {-108, 32}})));
+    annotation(choicesAllMatching=true, Placement(transformation(extent={{-132, 8}, {-108, 32}})));
   replaceable Interfaces.Neutral.Signal cardOutput constrainedby Interfaces.PartialSignal
     "What becomes of the card's command at its output"
-    annotation(Placement(transformation(extent={{-52, 8}, {-28, 32}})));
+    annotation(choicesAllMatching=true, Placement(transformation(extent={{-52, 8}, {-28, 32}})));
   replaceable Interfaces.Neutral.Signal spoolCommand constrainedby Interfaces.PartialSignal
     "What becomes of the command on its way to the spool, ahead of the dead time"
-    annotation(Placement(transformation(extent={{-12, 8}, {12, 32}})));
+    annotation(choicesAllMatching=true, Placement(transformation(extent={{-12, 8}, {12, 32}})));
   replaceable PadeDeadTime deadTime(tau=tau) constrainedby Interfaces.PartialDeadTime(tau=tau)
     "Dead time"
-    annotation(Placement(transformation(extent={{28, 8}, {52, 32}})));
+    annotation(choicesAllMatching=true, Placement(transformation(extent={{28, 8}, {52, 32}})));
   replaceable SecondOrderSpool spool(omega_v=omega_v, zeta_v=zeta_v) constrainedby Interfaces.PartialSpool(
     omega_v=omega_v, zeta_v=zeta_v) "Dynamics of the spool"
-    annotation(Placement(transformation(extent={{68, 8}, {92, 32}})));
+    annotation(choicesAllMatching=true, Placement(transformation(extent={{68, 8}, {92, 32}})));
   replaceable Interfaces.Neutral.Signal spoolOpening constrainedby Interfaces.PartialSignal
     "Opening of the edges from the spool position"
-    annotation(Placement(transformation(extent={{108, 8}, {132, 32}})));
+    annotation(choicesAllMatching=true, Placement(transformation(extent={{108, 8}, {132, 32}})));
   replaceable Interfaces.Neutral.Supply supply(pS=pS) constrainedby Interfaces.PartialSupply(pS=pS)
     "Supply pressure"
-    annotation(Placement(transformation(extent={{-152, -52}, {-128, -28}})));
+    annotation(choicesAllMatching=true, Placement(transformation(extent={{-152, -52}, {-128, -28}})));
   replaceable Interfaces.Neutral.Compressibility oil constrainedby Interfaces.PartialCompressibility
     "What makes the oil softer"
-    annotation(Placement(transformation(extent={{-32, -102}, {-8, -78}})));
+    annotation(choicesAllMatching=true, Placement(transformation(extent={{-32, -102}, {-8, -78}})));
   replaceable Interfaces.Neutral.InternalLeakage internalLeakage constrainedby Interfaces.PartialTwoPort
     "Flow between the chambers beside Eq. 3.6"
-    annotation(Placement(transformation(extent={{48, -102}, {72, -78}})));
+    annotation(choicesAllMatching=true, Placement(transformation(extent={{48, -102}, {72, -78}})));
   replaceable Interfaces.Neutral.ExternalLeakage externalLeakage constrainedby Interfaces.PartialExternalLeakage
     "Flow from the chambers to the tank"
-    annotation(Placement(transformation(extent={{8, -162}, {32, -138}})));
+    annotation(choicesAllMatching=true, Placement(transformation(extent={{8, -162}, {32, -138}})));
   replaceable Interfaces.Neutral.PistonForce pistonForce constrainedby Interfaces.PartialPistonForce
     "Force on the piston beside Eq. 3.9"
-    annotation(Placement(transformation(extent={{88, -52}, {112, -28}})));
+    annotation(choicesAllMatching=true, Placement(transformation(extent={{88, -52}, {112, -28}})));
   replaceable Interfaces.Neutral.SignalWithRate linkage constrainedby Interfaces.PartialSignalWithRate
     "Position of the swash plate's end of the linkage"
-    annotation(Placement(transformation(extent={{128, -102}, {152, -78}})));
+    annotation(choicesAllMatching=true, Placement(transformation(extent={{128, -102}, {152, -78}})));
   replaceable Interfaces.Neutral.SignalWithRate angleSensor constrainedby Interfaces.PartialSignalWithRate
     "What the sensor makes of the angle"
-    annotation(Placement(transformation(extent={{208, -102}, {232, -78}})));
+    annotation(choicesAllMatching=true, Placement(transformation(extent={{208, -102}, {232, -78}})));
 
   // Fixed parts
   ControllerCard card(final K_p=K_p, final K_D=K_D, final T_d=T_d) "Controller card"
@@ -225,7 +225,8 @@ output.</p>
 <p><b>FMUs:</b> compile <code>FreeGreyBox</code> for Table 4.6 and <code>LockedGreyBox</code> for Table 4.5. They differ
 in the start values of the 13 identified parameters alone, each of which can be set in the FMU.</p>
 <p><b>Command rate:</b> the PD controller needs the rate of the command. Feed it to <code>alphaCMD_t</code> where it is
-known; leave that input alone where it is not, and <code>CommandRateObserver</code> estimates it.</p>
+known. Where it is not it is 0, as an FMU's input that is left alone (in a model write so, or connect a
+<code>Sources.Constant</code>), and <code>CommandRateObserver</code> estimates it.</p>
 <p><b>Slots:</b> every <code>replaceable</code> part is a place where physics may be missing;
 <code>Interfaces.Neutral</code>
 fills it with nothing. <code>UsersGuide.Slots</code> lists them, <code>UsersGuide.AddAnEffect</code> shows how to put

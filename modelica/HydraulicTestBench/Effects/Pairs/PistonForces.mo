@@ -1,8 +1,10 @@
 within HydraulicTestBench.Effects.Pairs;
 model PistonForces "Two forces on the control piston"
   extends Interfaces.PartialPistonForce;
-  replaceable Interfaces.Neutral.PistonForce first constrainedby Interfaces.PartialPistonForce "First effect";
-  replaceable Interfaces.Neutral.PistonForce second constrainedby Interfaces.PartialPistonForce "Second effect";
+  replaceable Interfaces.Neutral.PistonForce first constrainedby Interfaces.PartialPistonForce "First effect"
+    annotation(choicesAllMatching=true);
+  replaceable Interfaces.Neutral.PistonForce second constrainedby Interfaces.PartialPistonForce "Second effect"
+    annotation(choicesAllMatching=true);
 equation
   first.x = x;
   first.v = v;

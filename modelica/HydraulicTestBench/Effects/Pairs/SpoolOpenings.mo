@@ -1,8 +1,10 @@
 within HydraulicTestBench.Effects.Pairs;
 model SpoolOpenings "Two changes of the valve's opening, one behind the other"
   extends Interfaces.PartialSignal;
-  replaceable Interfaces.Neutral.Signal first constrainedby Interfaces.PartialSignal "First effect";
-  replaceable Interfaces.Neutral.Signal second constrainedby Interfaces.PartialSignal "Second effect";
+  replaceable Interfaces.Neutral.Signal first constrainedby Interfaces.PartialSignal "First effect"
+    annotation(choicesAllMatching=true);
+  replaceable Interfaces.Neutral.Signal second constrainedby Interfaces.PartialSignal "Second effect"
+    annotation(choicesAllMatching=true);
 equation
   first.s = s;
   second.s = first.y;
