@@ -13,9 +13,10 @@ record PumpGeometry "Displacement, pistons and port plate of the A4VSG 71 pump, 
 <p>The thesis' numbers but for the last two, which follow from the others by Eq. 3.23 to 3.62: the flow's spikes reach
 2.0374 l/min below the mean of 102.95 l/min, its smooth tops 0.6392 l/min above it, and &psi; = 0.6392/(2.0374 (1 -
 2/&pi;)) = 0.8634.</p>
-<p><b>Source:</b> thesis Section 3.4.4, Table 1. Eq. 3.63 prints 0.8638, from rounded inputs. Eq. 3.52 prints 2.063
-l/min, which the given geometry does not have and Eq. 3.63 does not use (0.0198 there is 2.038 l/min). By the words of
-Eq. 3.51 &eta;<sub>r</sub> is the largest ripple above the mean; the numbers are those of the largest below it.</p>
+<p><b>Source:</b> thesis Section 3.4.4, Table 1. Eq. 3.63 prints 0.8638; its printed factors give 0.8629. Eq. 3.52
+prints 2.063 l/min, which the given geometry does not have and Eq. 3.63 does not use (0.0198 there is 2.038 l/min). By
+the words of Eq. 3.51 &eta;<sub>r</sub> is the largest ripple above the mean; the numbers are those of the largest below
+it.</p>
 <p><b>Leaves out:</b> that &eta;<sub>r</sub> changes with the number of pistons (Fig. 3.10): set both together.</p>
 </html>"));
 end PumpGeometry;
