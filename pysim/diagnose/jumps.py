@@ -29,12 +29,12 @@ _JUMP, _BEND = 10.0, 0.25
 _FEW = 0.5
 
 
-def logs(ruler: Ruler) -> dict[str, slice]:
+def logs(ruler: Ruler) -> list[tuple[str, slice]]:
     """Source of each log and its rows among the residuals."""
     targets = zip(ruler.targets, ruler.whitenings, strict=True)
     parts = [(source, rows) for t, w in targets for source, rows in zip(_sources(t), w.parts, strict=True)]
     ends = np.cumsum([0, *(rows for _, rows in parts)]).tolist()
-    return {source: slice(*rows) for (source, _), rows in zip(parts, pairwise(ends), strict=True)}
+    return [(source, slice(*rows)) for (source, _), rows in zip(parts, pairwise(ends), strict=True)]
 
 
 def jumping(ruler: Ruler, at: Fitted) -> list[str]:
@@ -58,12 +58,10 @@ def jumping(ruler: Ruler, at: Fitted) -> list[str]:
     for above, below in zip(runs, runs, strict=True):
         if above is not None and below is not None:
             straight, beside = above - below, above - 2 * here + below
-            lengths = {
-                source: np.linalg.norm([straight[rows], beside[rows]], axis=1) for source, rows in places.items()
-            }
-            found |= {source for source, (long, bend) in lengths.items() if bend > max(_JUMP, _BEND * long)}
-    share = sum(places[source].stop - places[source].start for source in found) / at.point.residual.size
-    return [source for source in places if source in found and share < _FEW]
+            lengths = ((source, np.linalg.norm([straight[rows], beside[rows]], axis=1)) for source, rows in places)
+            found |= {source for source, (long, bend) in lengths if bend > max(_JUMP, _BEND * long)}
+    share = sum(rows.stop - rows.start for source, rows in places if source in found) / at.point.residual.size
+    return list(dict.fromkeys(source for source, _ in places if source in found and share < _FEW))
 
 
 def without(targets: Sequence[Target], sources: Collection[str]) -> tuple[Target, ...]:
@@ -73,4 +71,5 @@ def without(targets: Sequence[Target], sources: Collection[str]) -> tuple[Target
 
 
 def _sources(target: Target) -> list[str]:
-    return list(dict.fromkeys(run.record for run in target.runs))
+    """Of a target's logs."""
+    return [log.source for log in target.logs] if isinstance(target, SineTarget) else [target.runs[0].record]

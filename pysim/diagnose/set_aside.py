@@ -54,7 +54,7 @@ def set_aside(ruler: Ruler, what: Extended, end: Evaluation) -> tuple[Evaluation
 def _carrier(ruler: Ruler, point: Evaluation, counts: NDArray[np.bool_]) -> slice | None:
     """Rows of the log that leaves most, if it leaves much of all; those that do not count are left out."""
     squares = np.where(counts, point.residual**2 - 1.0, 0.0)
-    small = [rows for rows in logs(ruler).values() if rows.stop - rows.start < _FEW * squares.size]
+    small = [rows for _, rows in logs(ruler) if rows.stop - rows.start < _FEW * squares.size]
     worst = max(small, key=lambda rows: float(squares[rows].sum()), default=None)
     if worst is None or float(squares[worst].sum()) < _CARRIES * max(float(squares.sum()), 1.0):
         return None

@@ -46,10 +46,18 @@ def test_every_log_has_its_rows() -> None:
     still = [sines(np.zeros, 0.1, (1.0, 100.0)), wave(np.zeros(50), 0.1)]
     ruler = Ruler(tuple(still))
     found = logs(ruler)
-    assert list(found) == ["1Hz", "100Hz", "y"]
-    sizes = [rows.stop - rows.start for rows in found.values()]
+    assert [source for source, _ in found] == ["1Hz", "100Hz", "y"]
+    sizes = [rows.stop - rows.start for _, rows in found]
     assert sizes == [2 * still[0].logs[0].count + 1, 2 * still[0].logs[1].count + 1, 50]
     assert sum(sizes) == sum(made.size for made in ruler.whitenings)
+
+
+def test_logs_of_one_name_are_rows_of_their_own() -> None:
+    twice = sines(np.zeros, 0.1, (1.0, 2.0))
+    twice = replace(twice, logs=tuple(replace(log, source="a.txt") for log in twice.logs))
+    ruler = Ruler((twice, wave(np.zeros(50), 0.1), wave(np.zeros(50), 0.1)))
+    assert [source for source, _ in logs(ruler)] == ["a.txt", "a.txt", "y", "y"]
+    assert logs(ruler)[-1][1].stop == sum(made.size for made in ruler.whitenings)
 
 
 def test_logs_are_left_out_of_targets_one_by_one() -> None:
