@@ -30,8 +30,7 @@ def extracted(path: Path) -> Path:
     Raises:
         BadInput: not a zip archive, one that is damaged or encrypted, or a member that would land outside the folder.
     """
-    stat = path.stat()
-    folder = _folder(path.resolve(), stat.st_mtime_ns, stat.st_size)
+    folder = _folder(path.resolve(), stamp(path))
     try:
         with suppress(PermissionError):  # another user's
             os.utime(folder)  # used just now
@@ -41,8 +40,14 @@ def extracted(path: Path) -> Path:
     return folder
 
 
+def stamp(path: Path) -> tuple[int, int]:
+    """When a file was changed last, in ns, and its size."""
+    known = path.stat()
+    return known.st_mtime_ns, known.st_size
+
+
 @lru_cache(maxsize=64)
-def _folder(path: Path, _modified: int, _size: int) -> Path:
+def _folder(path: Path, _stamp: tuple[int, int]) -> Path:
     return cache_folder("fmu") / hashlib.sha256(path.read_bytes()).hexdigest()[:32]
 
 

@@ -10,8 +10,8 @@ from typing import Protocol, TypeVar
 
 from fmpy import platform, platform_tuple, sharedLibraryExtension
 
-from pysim.io.archive import extracted
-from pysim.io.fmu import read_model, stamp
+from pysim.io.archive import extracted, stamp
+from pysim.io.fmu import read_model
 from pysim.types import BadInput, Model
 
 Loaded = TypeVar("Loaded", covariant=True)

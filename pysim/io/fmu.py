@@ -8,7 +8,7 @@ from pathlib import Path
 
 from fmpy.model_description import ModelDescription, ModelVariable, Unknown, read_model_description
 
-from pysim.io.archive import DAMAGED
+from pysim.io.archive import DAMAGED, stamp
 from pysim.types import Abilities, BadInput, CoSimulation, Model, Variable
 
 
@@ -39,12 +39,6 @@ def read_model(path: Path | str) -> Model:
         stamp=stamp(path),
         declares_units=any(_unit(v) for v in description.modelVariables if v.causality != "independent"),
     )
-
-
-def stamp(path: Path) -> tuple[int, int]:
-    """When a file was changed last, in ns, and its size."""
-    known = path.stat()
-    return known.st_mtime_ns, known.st_size
 
 
 def _stop_time(d: ModelDescription) -> float | None:
