@@ -16,6 +16,7 @@ from pysim.app.processes import Started, end, last_words, run_pysim
 from pysim.app.project import Project
 from pysim.io import write_file
 from pysim.types import BadInput
+from pysim.types.diagnosis import standing
 
 RUNNING, DONE, STOPPED, FAILED = "running", "done", "stopped", "failed"
 _JOB, _STORY, _OUTPUT = "job.json", "story.jsonl", "output.txt"
@@ -151,10 +152,11 @@ def _told(job: Job, folder: Path) -> Job:
     lines = _lines(folder / _STORY)
     found = _steps(lines)
     found += _steps(_lines(folder / _EARLIER))[len(found) :]
+    steps = tuple(standing(found, lambda step: str(step["step"])))
     if not lines:
-        return replace(job, steps=_standing(found))
+        return replace(job, steps=steps)
     learned = tuple(line["text"] for line in lines if line["text"])
-    return replace(job, stage=lines[-1]["stage"], left=lines[-1]["left"], steps=_standing(found), learned=learned)
+    return replace(job, stage=lines[-1]["stage"], left=lines[-1]["left"], steps=steps, learned=learned)
 
 
 def _lines(story: Path) -> list[dict[str, Any]]:
@@ -168,15 +170,6 @@ def _lines(story: Path) -> list[dict[str, Any]]:
 
 def _steps(lines: Sequence[Mapping[str, Any]]) -> tuple[dict[str, Any], ...]:
     return tuple(line["step"] for line in lines if line["step"] is not None)
-
-
-def _standing(steps: Sequence[dict[str, Any]]) -> tuple[dict[str, Any], ...]:
-    """But for those of models that were found again later, and all between."""
-    found: list[dict[str, Any]] = []
-    for step in steps:
-        names = [one["step"] for one in found]
-        found = [*found[: names.index(step["step"]) if step["step"] in names else None], step]
-    return tuple(found)
 
 
 @dataclass

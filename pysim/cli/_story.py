@@ -13,6 +13,7 @@ from types import TracebackType
 from typing import TYPE_CHECKING
 
 from pysim.cli._terminal import draws_over
+from pysim.types.diagnosis import standing
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -54,7 +55,7 @@ class Story:
         with self._lock:
             self._stage = told.stage
             if told.step is not None:
-                self._steps = entered(self._steps, told.step)
+                self._steps = standing([*self._steps, told.step], lambda step: step.step)
             elif told.text:
                 self._learned = [*self._learned, told.text][-_LEARNED:]
         self._draw()
@@ -91,12 +92,6 @@ class Story:
             up = f"\x1b[{self._drawn}A" if self._drawn else ""
             print(up + "".join(f"\r\x1b[K{line}\n" for line in lines), end="", file=sys.stderr, flush=True)
             self._drawn = len(lines)
-
-
-def entered(steps: Sequence[LedgerStep], step: LedgerStep) -> list[LedgerStep]:
-    """With one more; that of a model that was found again takes the place of the former one and of all behind it."""
-    names = [one.step for one in steps]
-    return [*steps[: names.index(step.step) if step.step in names else None], step]
 
 
 def block(title: str, stage: str, elapsed: float, steps: Sequence[LedgerStep], learned: Sequence[str]) -> list[str]:
@@ -153,7 +148,7 @@ class StoryFile:
 
         elapsed = time.monotonic() - self._begun
         if told.step is not None:
-            self._steps = entered(self._steps, told.step)
+            self._steps = standing([*self._steps, told.step], lambda step: step.step)
         line: dict[str, object] = {
             "seconds": round(elapsed, 3),
             "left": left(told.stage, elapsed, self._steps),

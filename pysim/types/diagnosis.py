@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,6 +15,8 @@ from pysim.types.errors import BadInput
 from pysim.types.fit import Direction, Estimate, RecordFit, ResponseFit
 
 Array = NDArray[np.float64]
+
+Step = TypeVar("Step")
 
 NONE, UNKNOWN = "none", "unknown"
 
@@ -81,6 +84,15 @@ class LedgerStep:
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "criteria", FrozenMapping(self.criteria))
+
+
+def standing(steps: Iterable[Step], name: Callable[[Step], str]) -> list[Step]:
+    """Steps as they were told, but for those of models that were found again later, and all between."""
+    found: list[Step] = []
+    for step in steps:
+        names = [name(one) for one in found]
+        found = [*found[: names.index(name(step)) if name(step) in names else None], step]
+    return found
 
 
 @dataclass(frozen=True)

@@ -8,8 +8,9 @@ from pathlib import Path
 
 import pytest
 
-from pysim.cli._story import Story, StoryFile, block, entered, left
+from pysim.cli._story import Story, StoryFile, block, left
 from pysim.types import LedgerStep, Told
+from pysim.types.diagnosis import standing
 from tests.pysim.diagnosis_story import step, story
 
 
@@ -36,7 +37,7 @@ def test_the_block_shows_time_stage_and_the_error_falling() -> None:
 def test_a_model_that_is_found_again_takes_the_place_of_the_former_one() -> None:
     steps: list[LedgerStep] = []
     for name, error in (("prior", 8.0), ("refit", 4.0), ("toy.stop", 2.0), ("refit", 3.0), ("toy.friction", 1.0)):
-        steps = entered(steps, step(name, error, error, 0.9))
+        steps = standing([*steps, step(name, error, error, 0.9)], lambda one: one.step)
     assert [(one.step, one.fit) for one in steps] == [("prior", 8.0), ("refit", 3.0), ("toy.friction", 1.0)]
 
 
