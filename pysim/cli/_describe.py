@@ -45,7 +45,7 @@ class Draft:
         roles, units: of the signals, by name, in their order.
         columns: log, relative to the folder -> its columns as dataset.toml names them.
         sines: log -> what it is as a stepped sine.
-        milliseconds: whether the times are in ms.
+        clocks: units of time that headings tell -> the log that does so first.
         remarks: what the user should know.
     """
 
@@ -54,8 +54,13 @@ class Draft:
     units: dict[str, str] = field(default_factory=dict)
     columns: dict[str, list[str]] = field(default_factory=dict)
     sines: dict[str, MeasuredRecord] = field(default_factory=dict)
-    milliseconds: bool = False
+    clocks: dict[str, str] = field(default_factory=dict)
     remarks: list[str] = field(default_factory=list)
+
+    @property
+    def time_unit(self) -> str:
+        """Of all logs; s where no heading tells one."""
+        return next(iter(self.clocks), "s")
 
 
 def draft(folder: Path, inputs: Mapping[str, str], responses: Mapping[str, str]) -> Draft:
@@ -65,7 +70,8 @@ def draft(folder: Path, inputs: Mapping[str, str], responses: Mapping[str, str])
         inputs, responses: signal -> unit, as the command line names them; where it names none, the column behind the
             time is taken for the command and all others for what answers.
     Raises:
-        BadInput: no logs, one that cannot be read, or columns that are not those that were named.
+        BadInput: no logs, one that cannot be read, columns that are not those that were named, or times in several
+            units.
     """
     from pysim.io import LOG_SUFFIXES, column_names
     from pysim.types import BadInput
@@ -98,13 +104,30 @@ def _column(heading: str) -> Column:
     return Column(heading, match["name"] if match else heading, unit if unit in UNITS else "")
 
 
+def _take_clock(found: Draft, path: Path, heading: str) -> None:
+    """The unit of a log's times, where its heading tells one."""
+    from pysim.types import SI, BadInput
+
+    match = _HEADING.fullmatch(heading)
+    if match is None:
+        return
+    unit = match["unit"].strip()
+    if unit not in SI or SI[unit][0] != "s":
+        found.remarks.append(f"time: taken for s, though {_source(found, path)} heads it {heading!r}; say time_unit")
+        return
+    found.clocks.setdefault(unit, _source(found, path))
+    if len(found.clocks) > 1:
+        told = ", ".join(f"{one} in {where}" for one, where in found.clocks.items())
+        raise BadInput(f"{found.folder}: times are in {told}; put logs of one unit of time into a folder of their own")
+
+
 def _take(found: Draft, path: Path, columns: Sequence[Column], *, named: bool) -> None:
     """One log: its columns, and the signals that nobody named before."""
     by_name = path.suffix.lower() in _NAMED
     names = _names(found, path, columns, by_name) if named else _guessed(found, columns, by_name)
     for name, column in zip(names, columns, strict=True):
         if name == "time":
-            found.milliseconds |= column.unit == "ms"
+            _take_clock(found, path, column.heading)
     found.columns[_source(found, path)] = [name for name in names if name != "-"] if by_name else names
 
 
@@ -151,7 +174,7 @@ def _find_sines(found: Draft) -> None:
     order = ["time", *found.roles]
     if not sines:
         return
-    if found.milliseconds or any(found.columns[source] != order for source in sines):
+    if found.time_unit != "s" or any(found.columns[source] != order for source in sines):
         found.remarks.append("stepped sines: write kind, offset, amplitude and frequency into each of their records")
         return
     signals = [MeasuredSignal(name, role, "1", name, name) for name, role in found.roles.items()]  # in the files' units
@@ -180,7 +203,8 @@ def draft_text(found: Draft) -> str:
         f"name = {_toml(found.folder.resolve().name)}",
         '# description = "what was tested, and on which bench"',
     ]
-    head += ['time_unit = "ms"'] if found.milliseconds else ['# time_unit = "ms"    # where the times are not in s']
+    told = f"time_unit = {_toml(found.time_unit)}"
+    head += [told] if found.time_unit != "s" else ['# time_unit = "ms"    # where the times are not in s']
     parts = ["\n".join(head), *(_signal(found, name) for name in found.roles)]
     parts += [_record(found, source, first=not k) for k, source in enumerate(found.columns)]
     return "\n\n".join(parts) + "\n"

@@ -24,29 +24,6 @@ def logs(tmp_path: Path) -> list[Path]:
     return paths
 
 
-def test_headings_and_the_model_fill_in_what_they_can() -> None:
-    from pysim.app.pages.bare import guess, matched
-
-    assert [guess(k, name)["role"] for k, name in enumerate(("t", "u", "a", "b"))] == [
-        "time",
-        "input",
-        "output",
-        "output",
-    ]
-    column = guess(2, "x [mm]")
-    assert (column["name"], column["unit"]) == ("x", "mm")
-    assert guess(2, "x [furlong]")["unit"] == ""
-    assert guess(2, "x [mm]", fixed=True)["name"] == "x [mm]"
-    matched(column, [["F", "input", "N", ""], ["X", "output", "m", ""]])
-    assert (column["variable"], column["unit"], column["role"]) == ("X", "mm", "output")  # the heading's unit stays
-    bare = guess(2, "F")
-    matched(bare, [["F", "input", "N", ""]])
-    assert (bare["variable"], bare["unit"], bare["role"]) == ("F", "N", "input")
-    bare["variable"] = ""
-    matched(bare, [["F", "input", "N", ""]])
-    assert bare["variable"] == ""  # what was chosen stays
-
-
 def test_single_logs_are_described_on_the_page(shown: Any, logs: list[Path], tmp_path: Path) -> None:
     folder = tmp_path / "project"
     (tmp_path / "Toy.mo").write_text(TEXT)

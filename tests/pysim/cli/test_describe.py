@@ -61,6 +61,22 @@ def test_signals_are_named_by_their_headings_others_left_out(tmp_path: Path) -> 
     assert content["signals"]["y"]["unit"] == "bar"
 
 
+def test_a_clock_of_another_pace_is_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    log = write(tmp_path / "log.csv", "t [min],cmd [%],y [bar]")
+    assert main(["data", "describe", str(tmp_path)]) == 0
+    assert tomllib.loads((tmp_path / "dataset.toml").read_text(encoding="utf-8"))["dataset"]["time_unit"] == "min"
+    (tmp_path / "dataset.toml").unlink()
+    write(log, "t [ticks],cmd [%],y [bar]")
+    capsys.readouterr()
+    assert main(["data", "describe", str(tmp_path)]) == 0
+    assert "time: taken for s, though log.csv heads it 't [ticks]'" in capsys.readouterr().out
+    (tmp_path / "dataset.toml").unlink()
+    write(log, "t [ms],cmd [%],y [bar]")
+    write(tmp_path / "other.csv", "t [s],cmd [%],y [bar]")
+    assert main(["data", "describe", str(tmp_path)]) == 2
+    assert "times are in ms in log.csv, s in other.csv" in capsys.readouterr().err
+
+
 def test_signals_are_counted_where_the_headings_are_others(tmp_path: Path) -> None:
     write(tmp_path / "a.csv", "A,B,C,D")
     words = ["--input", "cmd:%,load:N.m", "--response", "y:bar"]
