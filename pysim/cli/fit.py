@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
-    from pysim.identify.greybox import Problem, Tried
+    from pysim.identify.greybox import Problem, Profile, Tried
     from pysim.types import Dataset, Fit, Model
 
 
@@ -52,6 +52,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Print the estimates; 0 when the search converged, 1 when it did not."""
+    from pysim.cli._any_model import read_fmu_or_class
+    from pysim.cli._measurements import read_measurements
     from pysim.cli._options import names_of
     from pysim.cli._outputs import JSON, prepare_file, prepare_folder, refuse_inside
     from pysim.cli._progress import announce_compilation
@@ -65,8 +67,8 @@ def run(args: argparse.Namespace) -> int:
         fit,
         profile,
     )
-    from pysim.io import write_file
-    from pysim.report.fit import fit_data, fit_text
+    from pysim.io import in_model_units
+    from pysim.report.fit import fit_text
 
     if args.output:
         prepare_folder(args.output, read=args.data)
@@ -74,7 +76,11 @@ def run(args: argparse.Namespace) -> int:
         prepare_file(args.json, "--json", JSON, read=args.data)
     if args.log:
         refuse_inside(args.log, "--log", args.data)
-    problem = _problem(args)
+    model = read_fmu_or_class(args.model, args.library)
+    datasets = [in_model_units(read_measurements(folder), model) for folder in args.data]
+    problem = _problem(args, model, datasets)
+    profiled = names_of(args.profile)
+    _refuse_unprofiled(problem, profiled)
     simulation = Simulation(workers=Processes()) if args.isolate else Simulation()
     log = args.log or (args.output / "log" if args.output else None)
     optimiser = {"gauss-newton": GaussNewton(), "interior-point": InteriorPoint(), None: None}[args.optimiser]
@@ -92,16 +98,14 @@ def run(args: argparse.Namespace) -> int:
         cure = "the same command with --resume goes on where it was"
         raise KeyboardInterrupt(cure if log else "with --output DIR a fit can be gone on with, by --resume") from None
     print(fit_text(result))
-    profiles = [profile(problem, result, name, simulation=simulation) for name in names_of(args.profile)]
-    for one in profiles:
-        print(f"Profile of {one.name}: 95 % from {one.interval[0]:.5g} to {one.interval[1]:.5g}")
-    if args.json:
-        data = fit_data(result) | {
-            "profiles": {p.name: {"interval": list(p.interval), "points": p.points.tolist()} for p in profiles}
-        }
-        write_file(args.json, json.dumps(data, indent=1, allow_nan=False))
+    _write_numbers(args, result, [])
     if args.output:
-        _write_report(args, result)
+        _write_report(args, result, datasets)
+    profiles = []
+    for name in profiled:
+        profiles.append(profile(problem, result, name, simulation=simulation))
+        print(f"Profile of {name}: 95 % from {profiles[-1].interval[0]:.5g} to {profiles[-1].interval[1]:.5g}")
+        _write_numbers(args, result, profiles)
     return 0 if result.outcome.name == "CONVERGED" else 1
 
 
@@ -109,20 +113,44 @@ def _say(tried: Tried) -> None:
     print(f"\r{tried.search}: point {tried.tried}, cost {tried.best:.6g}   ", end="", file=sys.stderr, flush=True)
 
 
-def _problem(args: argparse.Namespace) -> Problem:
-    from pysim.cli._any_model import read_fmu_or_class
-    from pysim.cli._measurements import read_measurements
+def _refuse_unprofiled(problem: Problem, names: Sequence[str]) -> None:
+    """What the search for intervals would refuse, before anything is fitted."""
+    from pysim.types import BadInput
+
+    keys = problem.space.keys
+    for name in names:
+        if name not in keys:
+            raise BadInput(f"--profile {name}: not a free parameter; choose of {', '.join(keys)}")
+        if len(keys) == 1:
+            raise BadInput(f"--profile {name}: it is the only free parameter; its interval needs no profile")
+
+
+def _write_numbers(args: argparse.Namespace, result: Fit, profiles: Sequence[Profile]) -> None:
+    """After the fit and after each profile, which may take as long again."""
+    from pysim.io import json_number, write_file
+    from pysim.report.fit import fit_data
+
+    if not args.json:
+        return
+    found = {
+        p.name: {
+            "interval": [json_number(end) for end in p.interval],
+            "points": [[json_number(v) for v in point] for point in p.points.tolist()],
+        }
+        for p in profiles
+    }
+    write_file(args.json, json.dumps(fit_data(result) | {"profiles": found}, indent=1, allow_nan=False))
+
+
+def _problem(args: argparse.Namespace, model: Model, datasets: Sequence[Dataset]) -> Problem:
     from pysim.cli._options import bounded, chosen_reference, names_of
     from pysim.identify.greybox import Measurements, Parameter, Tie, Treatment, problem
-    from pysim.io import in_model_units
 
-    model = read_fmu_or_class(args.model, args.library)
     names, bounds = names_of(args.free), bounded(args.bounds)
     ties = [Tie(*_tie(text)) for text in args.tie]
     starts, fixed = _values(args, model, names, [tie.name for tie in ties])
     _refuse_idle([*starts, *bounds], names)
     free = [Parameter(name, starts.get(name), *bounds.get(name, (None, None))) for name in names]
-    datasets = [in_model_units(read_measurements(folder), model) for folder in args.data]
     _refuse_still(datasets)
     outputs = tuple(names_of(args.signal)) or None
     data = [Measurements(one, outputs=outputs) for one in datasets]
@@ -185,48 +213,19 @@ def _tie(text: str) -> tuple[str, str, float]:
     return name, of, number
 
 
-def _write_report(args: argparse.Namespace, result: Fit) -> None:
+def _write_report(args: argparse.Namespace, result: Fit, datasets: Sequence[Dataset]) -> None:
+    from pysim.cli._fit_pictures import fit_pictures
     from pysim.cli._outputs import command_line
     from pysim.io import write_file
     from pysim.report.fit import fit_page
 
     lines = [f'"{name}" = {value!r}' for name, value in result.values.items() if "@" not in name]
     write_file(args.output / "parameters.toml", "\n".join([*lines, ""]))
-    pictures = _pictures(result, args.output)
-    write_file(args.output / "report.html", fit_page(result, pictures=pictures, redo=command_line(_words(args))))
+    pictures = fit_pictures(result, datasets, args.output)
+    units = {signal.name: signal.unit for one in datasets for signal in one.signals if signal.role == "input"}
+    page = fit_page(result, units=units, pictures=pictures, redo=command_line(_words(args)))
+    write_file(args.output / "report.html", page)
     print(f"Report: {args.output / 'report.html'}; for --parameters: {args.output / 'parameters.toml'}")
-
-
-def _pictures(result: Fit, folder: Path) -> dict[str, bytes]:
-    """Written as PNG and SVG; caption -> SVG for the page."""
-    from pysim.io import write_file
-    from pysim.plot import (
-        fit_correlation_figure,
-        fit_harmonics_figure,
-        fit_parameters_figure,
-        fit_record_figure,
-        render,
-    )
-
-    figures = {"parameters": ("Parameters between their bounds.", fit_parameters_figure(result))}
-    figures["correlation"] = ("Correlations of the estimates.", fit_correlation_figure(result))
-    sines: dict[str, list] = {}
-    for i, record in enumerate(result.records):
-        if record.harmonics:
-            sines.setdefault(str(Path(record.source).parent), []).append(record)
-        else:
-            caption = f"{record.source} ({record.use}): measured, fitted, and what is left."
-            figures[f"record_{i}"] = (caption, fit_record_figure(record))
-    for i, (test, records) in enumerate(sines.items()):
-        caption = f"Stepped sines {test}: points measured, lines fitted; grey: 95 percent of noise."
-        figures[f"sines_{i}"] = (caption, fit_harmonics_figure(records, test))
-    pictures = {}
-    for name, (caption, figure) in figures.items():
-        write_file(folder / f"{name}.png", render(figure, "png"))
-        figure.set_layout_engine("none")  # found by the first drawing
-        pictures[caption] = render(figure, "svg")
-        write_file(folder / f"{name}.svg", pictures[caption])
-    return pictures
 
 
 def _words(args: argparse.Namespace) -> list[str]:

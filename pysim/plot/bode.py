@@ -48,6 +48,8 @@ def bode_figure(comparisons: Sequence[Comparison], offset: float) -> Figure:
     for column in range(count):
         tests = [(comparison.label, tests[column]) for comparison, tests in zip(comparisons, columns, strict=True)]
         _draw_column(axes[0, column], axes[1, column], tests, handles, comparisons[0])
+    measured = [test.measured.frequency for test in columns[0]]
+    frequency_axis(axes[1, 0], min(f[0] for f in measured), max(f[-1] for f in measured))  # shared by all columns
     reference_hz = comparisons[0].reference_hz
     relative = "" if reference_hz is None else f" relative to {reference_hz:g} Hz"
     axes[0, 0].set_ylabel(f"Magnitude{relative} (dB)", fontsize=TEXT)
@@ -90,7 +92,6 @@ def _draw_column(
     offset, amplitude = (shown_value(x, unit) for x in (measured.test.offset, measured.test.amplitude))
     top.set_title(f"offset {offset}, amplitude {amplitude}", fontsize=TEXT)
     _write_verdicts(top, tests)
-    frequency_axis(bottom, f[0], f[-1])
     bottom.set_xlabel("Frequency (Hz)", fontsize=TEXT)
 
 

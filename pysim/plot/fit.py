@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -26,7 +27,7 @@ from pysim.plot.style import (
 )
 from pysim.types import BadInput, Estimate, Fit, RecordFit
 
-_MANY = 5000  # samples beyond which lines are drawn thin
+_MANY = 5000  # samples beyond which lines are drawn thin, and as pixels
 _CELL_IN, _NAME_IN = 0.46, 0.075  # in, a cell of the correlations and a letter of a name
 
 
@@ -38,13 +39,14 @@ def fit_record_figure(record: RecordFit) -> Figure:
     time, residual = record.measured.time, record.residual.values
     for j, (name, unit) in enumerate(zip(names, record.measured.units, strict=True)):
         top, low = axes[:, j]
-        width = 0.7 if time.size > _MANY else 1.2
+        many = time.size > _MANY
+        look: dict[str, Any] = {"linewidth": 0.7 if many else 1.2, "rasterized": many}
         shown, factor = shown_unit(unit)
-        (measured,) = top.plot(time, factor * record.measured.values[:, j], color=MEASURED, linewidth=width)
+        (measured,) = top.plot(time, factor * record.measured.values[:, j], color=MEASURED, **look)
         simulated = factor * record.simulated.values[:, j]
-        (model,) = top.plot(time, simulated, color=COLOURS[1], linewidth=width, linestyle="--")
+        (model,) = top.plot(time, simulated, color=COLOURS[1], linestyle="--", **look)
         low.axhspan(-HALF_95, HALF_95, color=BAND, linewidth=0)
-        low.plot(time, residual[:, j], color=COLOURS[0], linewidth=0, marker=".", markersize=1.5)
+        low.plot(time, residual[:, j], color=COLOURS[0], linewidth=0, marker=".", markersize=1.5, rasterized=many)
         top.set_ylabel(f"{name} ({shown})", fontsize=TEXT)
         low.set_ylabel("Residual (noise s.d.)", fontsize=TEXT)
         low.set_xlabel("Time (s)", fontsize=TEXT)
@@ -55,23 +57,25 @@ def fit_record_figure(record: RecordFit) -> Figure:
     return figure
 
 
-def fit_harmonics_figure(records: Sequence[RecordFit], title: str) -> Figure:
+def fit_harmonics_figure(records: Sequence[RecordFit], title: str, signal: str) -> Figure:
     """Gain of the harmonics over the frequency of the test, and what is left in standard deviations.
 
     Args:
         records: stepped sines of one test.
         title: of the figure.
+        signal: that answers.
     Raises:
-        BadInput: a record without harmonics.
+        BadInput: a record without harmonics of that signal.
     """
-    if not records or not all(record.harmonics for record in records):
-        raise BadInput("harmonics figure: needs records of stepped sines")
+    rows = sorted((h for one in records for h in one.harmonics if h.signal == signal), key=lambda h: h.frequency)
+    if not rows or len(rows) < len(records):
+        raise BadInput(f"harmonics figure: needs records of stepped sines that hold {signal}")
     figure = new_figure(7.4, 5.2)
     top, low = figure.subplots(2, 1, sharex=True, height_ratios=(3, 2))
-    rows = sorted((record.harmonics[0] for record in records), key=lambda h: h.frequency)
     most = max(h.measured.size for h in rows)
     handles, labels, least = [], [], np.inf
-    unit, factor = shown_unit(records[0].measured.units[0])
+    log = records[0].measured
+    unit, factor = shown_unit(log.units[log.names.index(signal)])
     for k in range(1, most):
         own = [h for h in rows if h.measured.size > k]
         f = np.array([h.frequency for h in own])
@@ -90,7 +94,7 @@ def fit_harmonics_figure(records: Sequence[RecordFit], title: str) -> Figure:
     low.axhspan(0, 1.73, color=BAND, linewidth=0)  # 95 percent of the sizes of complex normal errors
     size_axis(top)
     top.set_ylim(bottom=0.1 * least)  # a decade below the smallest noise there is nothing to see
-    top.set_ylabel(f"Amplitude of {rows[0].signal} ({unit})", fontsize=TEXT)
+    top.set_ylabel(f"Amplitude of {signal} ({unit})", fontsize=TEXT)
     low.set_ylabel("Left over (s.d.)", fontsize=TEXT)
     low.set_xlabel("Frequency (Hz)", fontsize=TEXT)
     for axes in (top, low):

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 import textwrap
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
-from pysim.io import json_number
+from pysim.io import json_number, shown_value
 from pysim.report.page import cell, commands, heading, items, page, paragraph, picture, table
 from pysim.types import Estimate, Fit, FitOutcome, RecordFit, ResponseFit
 
@@ -140,11 +140,12 @@ def _response(response: ResponseFit) -> dict[str, Any]:
     }
 
 
-def fit_page(fit: Fit, *, pictures: Mapping[str, bytes], redo: str) -> str:
+def fit_page(fit: Fit, *, units: Mapping[str, str], pictures: Sequence[tuple[str, bytes]], redo: str) -> str:
     """A self-contained page: outcome, estimates, what is not determined, records, responses, pictures.
 
     Args:
-        pictures: caption -> SVG.
+        units: of the inputs, by name.
+        pictures: captions with their SVG.
         redo: the command line that makes it again.
     """
     verdict = [
@@ -157,8 +158,8 @@ def fit_page(fit: Fit, *, pictures: Mapping[str, bytes], redo: str) -> str:
         parts += [heading("What the data do not determine"), items(d.words for d in fit.undetermined)]
         parts += [_combinations(fit)] if fit.combinations else []
     parts += [heading("What each record leaves over"), _records(fit)]
-    parts += [_responses(fit)] if fit.responses else []
-    parts += [heading("Pictures"), *(picture(svg, caption) for caption, svg in pictures.items())]
+    parts += [_responses(fit, units)] if fit.responses else []
+    parts += [heading("Pictures"), *(picture(svg, caption) for caption, svg in pictures)]
     parts += [paragraph(_METHOD), heading("Do it again"), commands(redo)]
     return page("A model fitted to its measurements", f"{fit.model}; {fit.objective}; {fit.optimiser}.", parts)
 
@@ -197,11 +198,15 @@ def _records(fit: Fit) -> str:
     return table("Root-mean-square residual over the noise", head, rows)
 
 
-def _responses(fit: Fit) -> str:
+def _responses(fit: Fit, units: Mapping[str, str]) -> str:
     rows, head = [], ["data set", "use", "offset", "amplitude", "signal"]
+    kinds = set(units.values())
+    only = kinds.pop() if len(kinds) == 1 else "1"  # stepped sines do not tell which input swung
     for response in fit.responses:
         test, deviations = response.comparison.measured.test, response.comparison.deviations
-        texts = (response.dataset, response.use, f"{test.offset:g}", f"{test.amplitude:g}", test.output)
+        unit = units.get(test.input, only)
+        offset, amplitude = (shown_value(value, unit) for value in (test.offset, test.amplitude))
+        texts = (response.dataset, response.use, offset, amplitude, test.output)
         verdict = cell("pass", "pass") if response.comparison.passes else cell("fail", "fail")
         numbers = [cell(f"{d.value:.2f}", "" if d.passes else "beyond") for d in deviations]
         rows.append([*(cell(text) for text in texts), *numbers, verdict])

@@ -1,5 +1,6 @@
 import json
 import tomllib
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -63,6 +64,40 @@ def test_so_is_one_that_is_refitted_and_compared(place: Path, tmp_path: Path) ->
     found = json.loads((tmp_path / "refit.json").read_text())["parameters"]
     assert found["T"]["value"] == pytest.approx(0.7, rel=1e-2)
     assert found["K"]["value"] != pytest.approx(2.0, rel=1e-2)  # relative gains say nothing of it
+
+
+def test_each_operating_point_has_a_picture(place: Path, tmp_path: Path) -> None:
+    """Logs of two of them in one folder, and two data sets whose files have the same names."""
+    sines = [replace(m.sine_log(2.0, 0.7, f, seed=1), source=f"{f:g}Hz.txt") for f in (0.5, 1.0)]
+    other = [replace(sine, source=f"other{sine.source}", amplitude=2 * float(sine.amplitude or 1)) for sine in sines]
+    for name in ("one", "two"):
+        write_dataset(tmp_path / name, replace(m.dataset([m.ramp_log(2.0, 0.7, seed=2), *sines, *other]), name=name))
+    words = ["fit", str(place / "Lag.fmu"), "--data", str(tmp_path / "one"), "--data", str(tmp_path / "two")]
+    assert main([*words, "--free", "K,T", "--fix", "g=1", "--output", str(tmp_path / "out")]) == 0
+    page = (tmp_path / "out" / "report.html").read_text()
+    assert len(list((tmp_path / "out").glob("sines_*.png"))) == 4
+    assert page.count("<img") == 2 + 2 + 4
+    assert "Stepped sines, y at w 1, amplitude 2 (one): points measured" in page
+    assert "Stepped sines, y at w 1, amplitude 4 (two): points measured" in page
+
+
+def test_profiles_that_cannot_be_are_refused_before_the_fit(
+    place: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    words = ["fit", str(place / "Lag.fmu"), "--data", str(place / "data"), "--fix", "g=1", "--free"]
+    assert main([*words, "K,T", "--profile", "K,tau"]) == 2
+    assert "--profile tau: not a free parameter; choose of K, T" in capsys.readouterr().err
+    assert main([*words, "K", "--profile", "K"]) == 2
+    said = capsys.readouterr()
+    assert "the only free parameter" in said.err
+    assert "cost" not in said.err
+
+
+def test_an_interval_without_an_end_is_written(place: Path, tmp_path: Path) -> None:
+    """Gain and factor are known as a product only."""
+    words = ["fit", str(place / "Lag.fmu"), "--data", str(place / "data"), "--free", "K,T,g", "--profile", "g"]
+    assert main([*words, "--json", str(tmp_path / "fit.json")]) in (0, 1)
+    assert len(json.loads((tmp_path / "fit.json").read_text())["profiles"]["g"]["interval"]) == 2
 
 
 @pytest.mark.parametrize(("more", "cure"), [([], "--output DIR"), (["--log", "log"], "--resume goes on where it was")])

@@ -24,12 +24,25 @@ def test_a_record_is_drawn_with_its_residual_in_noise() -> None:
 
 
 def test_harmonics_show_measured_points_and_simulated_lines() -> None:
-    figure = fit_harmonics_figure(small_fit().records[1:], "O+25")
+    figure = fit_harmonics_figure(small_fit().records[1:], "O+25", "y")
     top = figure.axes[0]
     assert top.lines[0].get_ydata() == pytest.approx([9.0, 9.0])
     assert top.lines[1].get_ydata() == pytest.approx([9.01, 9.01])
     with pytest.raises(BadInput, match="stepped sines"):
-        fit_harmonics_figure(small_fit().records[:1], "O+25")
+        fit_harmonics_figure(small_fit().records[:1], "O+25", "y")
+    with pytest.raises(BadInput, match="hold u"):
+        fit_harmonics_figure(small_fit().records[1:], "O+25", "u")
+
+
+def test_long_logs_are_drawn_as_pixels() -> None:
+    record = small_fit().records[0]
+    time = np.arange(20_000) / 1000
+    measured, simulated = (
+        replace(log, time=time, values=np.resize(log.values, (time.size, 2)))
+        for log in (record.measured, record.simulated)
+    )
+    figure = fit_record_figure(replace(record, measured=measured, simulated=simulated))
+    assert render(figure, "svg").count(b"<use ") < 500  # a mark of its own for each tick, not for each sample
 
 
 def test_pictures_of_records_are_in_units_that_people_read() -> None:
@@ -44,10 +57,10 @@ def test_pictures_of_records_are_in_units_that_people_read() -> None:
     top = fit_record_figure(turned[0]).axes[0]
     assert top.get_ylabel().endswith("(rpm)")
     assert [line.get_ydata()[0] for line in top.lines] == pytest.approx([0.0, 0.2 * 30 / np.pi])
-    top, low = fit_harmonics_figure(turned[1:], "O+25").axes
+    top, low = fit_harmonics_figure(turned[1:], "O+25", "y").axes
     assert top.get_ylabel().endswith("(rpm)")
     assert top.lines[1].get_ydata() == pytest.approx([9.01 * 30 / np.pi] * 2)
-    was = fit_harmonics_figure(small_fit().records[1:], "O+25").axes[1]
+    was = fit_harmonics_figure(small_fit().records[1:], "O+25", "y").axes[1]
     assert low.lines[0].get_ydata() == pytest.approx(was.lines[0].get_ydata())  # in standard deviations as before
 
 

@@ -55,6 +55,18 @@ def test_bode_names_what_stands_for_the_measurements_and_takes_off_whole_turns()
     assert (rows.get_yticklabels()[0].get_text(), rows.get_ylabel()) == ("100 / 20", "Offset / amplitude (bar)")
 
 
+def test_bode_shows_the_range_of_every_test() -> None:
+    """A large amplitude is often measured up to a lower frequency than a small one."""
+    one = comparison("A")
+    whole = [test for test in one.tests if test.measured.test.offset == 50.0]
+    short = replace(
+        whole[-1].measured, **{k: getattr(whole[-1].measured, k)[:3] for k in ("frequency", "gain", "phase")}
+    )
+    figure = bode_figure([replace(one, tests=(whole[0], replace(whole[-1], measured=short, simulated=None)))], 50.0)
+    f = whole[0].measured.frequency
+    assert all(axes.get_xlim() == pytest.approx((f[0], f[-1])) for axes in figure.axes)
+
+
 def test_bode_leaves_out_what_did_not_run() -> None:
     assert len(curves(bode_figure(SETS, -50.0), 0)) == 2
     with pytest.raises(BadInput, match="no test at offset 7"):

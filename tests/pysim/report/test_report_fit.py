@@ -34,6 +34,6 @@ def test_the_data_are_plain_and_finite() -> None:
 
 
 def test_the_page_holds_everything_a_reader_needs() -> None:
-    page = fit_page(small_fit(), pictures={"A picture": b"<svg/>"}, redo="pysim fit")
-    for text in ("not determined by itself", "K g", "wave.txt", "A picture", "pysim fit", "Table 1.4"):
+    page = fit_page(small_fit(), units={"w": "rad"}, pictures=[("A picture", b"<svg/>")], redo="pysim fit")
+    for text in ("not determined by itself", "K g", "wave.txt", "A picture", "pysim fit", "Table 1.4", "1432.39 deg"):
         assert text in page
