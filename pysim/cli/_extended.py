@@ -47,18 +47,23 @@ def _last(name: str) -> str:
 
 def _comment(found: Diagnosis, given: Given, name: str) -> str:
     """What it is, from which data, and when not to trust it."""
+    from pysim.cli._outputs import quoted
+
     own = given.libraries
-    more = "".join(f" --library {library}" for library in own)
+    more = (word for library in own for word in ("--library", str(library)))
+    build = quoted(["fmu-build", name, "--library", f"{name}.mo", *more])
     parts = [
         f"{name}: {given.model_name} with {', '.join(one.effect.name for one in found.added)}.",
         f"Every number below was fitted to the records of data set {given.dataset.name} that are marked fit; intervals "
         "and evidence are in report.html beside this file.",
-        f"Compiles by: fmu-build {name} --library {name}.mo{more}",
+        f"Compiles by: {build}",
         "Do not trust it",
         *(f"- {text}" for text in _limits(found, given.dataset)),
     ]
     indent = {True: "  ", False: ""}
-    wrapped = [textwrap.fill(p, _WIDTH, subsequent_indent=indent[p.startswith("-")]) for p in parts]
+    wrapped = [
+        p if build in p else textwrap.fill(p, _WIDTH, subsequent_indent=indent[p.startswith("-")]) for p in parts
+    ]  # a command is pasted, and stays on its line
     return "\n".join(wrapped)
 
 
@@ -85,13 +90,18 @@ def _limits(found: Diagnosis, dataset: Dataset) -> list[str]:
 
 def _excited(dataset: Dataset) -> str:
     """Ranges of the inputs, and the frequencies of stepped sines."""
+    from pysim.io import shown_unit
+
     ranges: dict[str, tuple[float, float]] = {}
     for record in dataset.logs():
         for name in dataset.columns(record, "input"):
             values = record.data[name]  # type: ignore[index]
             low, high = ranges.get(name, (float("inf"), -float("inf")))
             ranges[name] = (min(low, float(values.min())), max(high, float(values.max())))
-    texts = [f"{name} from {low:.4g} to {high:.4g} {dataset.signal(name).unit}" for name, (low, high) in ranges.items()]
+    texts = []
+    for name, (low, high) in ranges.items():
+        unit, factor = shown_unit(dataset.signal(name).unit)
+        texts.append(f"{name} from {factor * low:.4g} to {factor * high:.4g} {unit}")
     sines = [record.frequency for record in dataset.records if record.frequency is not None]
     texts += [f"sines from {min(sines):g} to {max(sines):g} Hz"] if sines else []
     return "; ".join(texts) or "see the data set"

@@ -66,7 +66,7 @@ def chosen_reference(given: float | None, responses: Iterable[FrequencyResponse]
 
 def reference_words(args: argparse.Namespace) -> list[str]:
     """`--reference-hz` as it was chosen, for the line that repeats the command."""
-    return ["--reference-hz", "none" if args.reference_hz is None else f"{args.reference_hz:g}"]
+    return ["--reference-hz", "none" if args.reference_hz is None else repr(args.reference_hz)]
 
 
 def reference_hz(text: str) -> float | None:

@@ -78,13 +78,17 @@ def _probe(folder: Path, what: str, cure: str) -> None:
         raise BadInput(f"{what}: cannot write there ({error.strerror or error}); {cure}") from error
 
 
+def quoted(words: Sequence[str]) -> str:
+    """Words as this system's shell takes them."""
+    return subprocess.list2cmdline(words) if sys.platform == "win32" else shlex.join(words)
+
+
 def command_line(words: Sequence[str], folder: Path = Path()) -> str:
     """The line that runs `pysim` with these words again in a folder, quoted for a shell.
 
     Where this process runs in the environment that run.py made, `pysim` is on nobody's path and run.py is the way in.
     """
     windows = sys.platform == "win32"
-    quoted = subprocess.list2cmdline if windows else shlex.join
     root = Path(__file__).resolve().parents[2]
     if Path(sys.prefix).resolve() != root / ".venv" or not (root / "run.py").is_file():
         return quoted(["pysim", *words])

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 def write_pictures(comparisons: Sequence[Comparison], folder: Path) -> dict[str, bytes]:
     """Write deviations.png and a Bode plot per offset; return caption -> SVG for the report."""
-    from pysim.io import write_file
+    from pysim.io import shown_value, write_file
     from pysim.plot import bode_figure, deviation_figure, render
 
     figures: dict[str, tuple[str, float | None]] = {
@@ -20,9 +20,8 @@ def write_pictures(comparisons: Sequence[Comparison], folder: Path) -> dict[str,
     }
     first = comparisons[0]
     for offset in sorted({test.measured.test.offset for test in first.tests}):
-        caption = (
-            f"Offset {offset:g} {first.command_unit}: {first.measured_name}, and simulated; grey: what is allowed."
-        )
+        around = shown_value(offset, first.command_unit)
+        caption = f"Offset {around}: {first.measured_name}, and simulated; grey: what is allowed."
         figures[f"bode_O{offset:+g}.png"] = (caption, offset)
     pictures = {}
     for name, (caption, at) in figures.items():

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import math
 from pathlib import Path
 
 _HIGHEST_PORT = 65535
@@ -38,8 +39,8 @@ def run(args: argparse.Namespace) -> int:
         raise BadInput(f"the workbench needs {error.name}; {cure}") from error
     if not 0 <= args.port <= _HIGHEST_PORT:
         raise BadInput(f"--port {args.port}: write a number from 0 (any that is free) to {_HIGHEST_PORT}")
-    if not (args.limit_mb > 0 and args.limit_s > 0):
-        raise BadInput("--limit-mb and --limit-s: write numbers above zero")
+    if not (0 < args.limit_mb < math.inf and 0 < args.limit_s < math.inf):
+        raise BadInput("--limit-mb and --limit-s: write finite numbers above zero")
     limits = Limits(size=round(args.limit_mb * 2**20))
     serve(
         args.project,

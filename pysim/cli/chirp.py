@@ -12,6 +12,8 @@ if TYPE_CHECKING:
     from pysim.identify.chirp import ChirpAnalysis
     from pysim.types import Dataset, FrequencyResponse
 
+_UNITS = "%,%"  # of command and response, where none are told
+
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The words behind `pysim chirp`."""
@@ -19,7 +21,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--columns", metavar="TIME,COMMAND,RESPONSE", help="of a single log, in its order; the first must be time"
     )
-    parser.add_argument("--units", metavar="UNIT,UNIT", default="%,%", help="of command and response there (%%,%%)")
+    parser.add_argument("--units", metavar="UNIT,UNIT", help="of command and response there (%%,%%)")
     parser.add_argument("--signal", metavar="NAME", help="the responding signal, where the logs hold several")
     parser.add_argument(
         "--level", type=float, help="what tops and bottoms count from, in the response's SI unit (the command's offset)"
@@ -55,12 +57,15 @@ def _read(args: argparse.Namespace) -> Dataset:
     from pysim.types import BadInput
 
     if args.data.is_dir() or args.data.suffix == ".toml":
+        for option in ("columns", "units"):
+            if getattr(args, option):
+                raise BadInput(f"--{option}: {args.data} is a data set, whose dataset.toml says that; leave it out")
         return read_measurements(args.data)
     if not args.columns:
         raise BadInput(
             f"{args.data}: is no data set; for a single log name its columns: --columns time,command,response"
         )
-    columns, units = (tuple(word.strip() for word in text.split(",")) for text in (args.columns, args.units))
+    columns, units = (tuple(word.strip() for word in text.split(",")) for text in (args.columns, args.units or _UNITS))
     return read_single_log(args.data, "chirp", columns, units)
 
 
@@ -94,10 +99,9 @@ def _write_report(args: argparse.Namespace, dataset: Dataset, analyses: Sequence
         write_file(args.output / f"{name}.svg", svg)
         pictures[f"{one.source}: tops, bottoms and their mean with its 95 percent interval."] = svg
     words = ["chirp", str(args.data), "--output", str(args.output)]
-    for option in ("columns", "signal", "level"):
+    for option in ("columns", "units", "signal", "level"):
         value = getattr(args, option)
         words += [] if value is None else [f"--{option}={value}"]  # with =, or -1e-05 would be an option
-    words += ["--units", args.units] if args.columns else []
     text = chirp_page(analyses, dataset=dataset.name, pictures=pictures, redo=command_line(words))
     write_file(args.output / "report.html", text)
     print(f"Report: {args.output / 'report.html'}")

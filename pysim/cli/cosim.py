@@ -122,7 +122,7 @@ def _write_report(args: argparse.Namespace, file: SystemFile, record: Record, se
     words = ["cosim", str(args.system), "--output", str(args.output)]
     for option in ("stop", "step"):
         value = getattr(args, option)
-        words += [] if value is None else [f"--{option}", f"{value:g}"]
+        words += [] if value is None else [f"--{option}", repr(value)]
     text = cosim_page(
         file.name,
         record,

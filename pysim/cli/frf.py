@@ -68,7 +68,7 @@ def _write_report(args: argparse.Namespace, name: str, responses: Sequence[Measu
     write_file(args.output / "frf.svg", svg)
     pictures = {"Magnitude, phase and harmonics; bars: 95 percent intervals; filled: beyond the noise.": svg}
     words = ["frf", str(args.dataset), *reference_words(args), "--output", str(args.output)]
-    words += ["--settle", f"{args.settle:g}", "--settle-periods", f"{args.settle_periods:g}"]
+    words += ["--settle", repr(args.settle), "--settle-periods", repr(args.settle_periods)]
     words += ["--signal", args.signal] if args.signal else []
     text = frf_page(responses, args.reference_hz, dataset=name, pictures=pictures, redo=command_line(words))
     write_file(args.output / "report.html", text)

@@ -92,7 +92,7 @@ def _write_report(args: argparse.Namespace, fit: FrictionFit, thesis: FrictionFi
     words = ["friction", str(args.dataset), "--speed", args.speed, "--supply", args.supply]
     words += ["--supply-gain", f"{args.supply_gain!r}", "--inertia", f"{args.inertia!r}"]
     words += ["--load", args.load, "--load-gain", f"{args.load_gain!r}"] if args.load else []
-    words += ["--pulses", "none" if args.pulses is None else str(args.pulses), "--cutoff-hz", f"{args.cutoff_hz:g}"]
+    words += ["--pulses", "none" if args.pulses is None else str(args.pulses), "--cutoff-hz", repr(args.cutoff_hz)]
     load = f" and {args.load}" if args.load else ""
     about = f"{args.dataset}: {args.speed} against {args.supply}{load}, inertia {args.inertia:g} kg.m2."
     text = friction_page(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import json
 import re
-from collections.abc import Mapping
+from collections.abc import Sequence
 from fnmatch import fnmatch
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -50,19 +50,43 @@ def run(args: argparse.Namespace) -> int:
     from pysim.io import write_file
     from pysim.report.multisine import multisine_data, multisine_text
 
+    _refuse_idle(args)
     records, columns = _read(args)
     if args.output:
         prepare_folder(args.output, read=args.data)
     if args.json:
         prepare_file(args.json, "--json", JSON, read=args.data)
     found = _analyse(args, records, columns)
-    print("\n\n".join(multisine_text(name, bla) for name, bla in found.items()))
+    print("\n\n".join(multisine_text(name, bla) for name, bla in found))
     if args.json:
-        data = [multisine_data(name, bla) for name, bla in found.items()]
+        data = [multisine_data(name, bla) for name, bla in found]
         write_file(args.json, json.dumps({"approximations": data}, indent=1, allow_nan=False))
     if args.output:
         _write_report(args, found)
     return 0
+
+
+def _is_arbitrary(args: argparse.Namespace) -> bool:
+    return args.period is None or args.method == "arbitrary"
+
+
+def _refuse_idle(args: argparse.Namespace) -> None:
+    """Options that the way the logs are taken has no use for."""
+    from pysim.types import BadInput
+
+    if args.period is None and args.method not in ("auto", "arbitrary"):
+        raise BadInput(f"--method {args.method}: needs the period of the multisine; write --period SECONDS")
+    idle = ("start", "periods", "drop", "lines") if _is_arbitrary(args) else ("band",)
+    cure = "goes with --period SECONDS and a method for it" if _is_arbitrary(args) else "goes without a period"
+    for option in idle:
+        if getattr(args, option) is not None:
+            raise BadInput(f"--{option} {cure}; leave one of them out")
+    if args.records != "*" and not _is_dataset(args):
+        raise BadInput("--records chooses among the logs of a data set; name the files that are to be taken instead")
+
+
+def _is_dataset(args: argparse.Namespace) -> bool:
+    return len(args.data) == 1 and args.data[0].suffix.lower() not in (".csv", ".npz")
 
 
 def _read(args: argparse.Namespace) -> tuple[list[Record], tuple[str, ...]]:
@@ -72,7 +96,7 @@ def _read(args: argparse.Namespace) -> tuple[list[Record], tuple[str, ...]]:
     from pysim.io import read_dataset, read_record
     from pysim.types import BadInput, Record
 
-    if len(args.data) == 1 and args.data[0].suffix.lower() not in (".csv", ".npz"):
+    if _is_dataset(args):
         dataset = read_dataset(args.data[0])
         logs = [log for log in dataset.logs() if fnmatch(log.source, args.records)]
         logs = [log for log in logs if log.kind in _KINDS] if args.records == "*" else logs
@@ -86,7 +110,7 @@ def _read(args: argparse.Namespace) -> tuple[list[Record], tuple[str, ...]]:
         if not (args.input and args.signal):
             raise BadInput("multisine: records do not tell what is input; write --input NAME --signal NAME")
         columns = (args.input, args.signal)
-        records = [replace(read_record(path), origin=path.name) for path in args.data]
+        records = [replace(read_record(path), origin=str(path)) for path in args.data]
     return records, columns if args.reference is None else (*columns, args.reference)
 
 
@@ -117,21 +141,18 @@ def _column(args: argparse.Namespace, dataset: Dataset, log: MeasuredRecord, rol
 
 def _analyse(
     args: argparse.Namespace, records: list[Record], columns: tuple[str, ...]
-) -> dict[str, BestLinearApproximation]:
-    """A result per test, where the records are periodic, else one per record."""
+) -> list[tuple[str, BestLinearApproximation]]:
+    """A result per test with its name, where the records are periodic, else one per record."""
     from pysim.io import shown_value
-    from pysim.types import BadInput
 
-    if args.period is None or args.method == "arbitrary":
-        if args.method not in ("auto", "arbitrary"):
-            raise BadInput(f"--method {args.method}: needs the period of the multisine; write --period SECONDS")
-        return {record.origin: _arbitrary(args, record, columns) for record in records}
-    found: dict[str, BestLinearApproximation] = {}
+    if _is_arbitrary(args):
+        return [(record.origin, _arbitrary(args, record, columns)) for record in records]
+    found: list[tuple[str, BestLinearApproximation]] = []
     for bla in _periodic(args, records, columns):
         test = bla.test
         offset, rms = shown_value(test.offset, test.input_unit, ".4g"), shown_value(test.rms, test.input_unit, ".3g")
         name = f"{test.input} around {offset}, rms {rms}"
-        found[name if name not in found else f"{name}, {bla.origin}"] = bla
+        found.append((name if all(name != other for other, _ in found) else f"{name}, {bla.origin}", bla))
     return found
 
 
@@ -177,19 +198,20 @@ def _arbitrary(args: argparse.Namespace, record: Record, columns: tuple[str, ...
     return local_polynomial_approximation(record, columns, band=band)
 
 
-def _write_report(args: argparse.Namespace, found: Mapping[str, BestLinearApproximation]) -> None:
+def _write_report(args: argparse.Namespace, found: Sequence[tuple[str, BestLinearApproximation]]) -> None:
     from pysim.cli._outputs import command_line
     from pysim.io import write_file
     from pysim.plot import multisine_figure, render
     from pysim.report.multisine import multisine_page
 
-    pictures = {}
-    for i, (name, bla) in enumerate(found.items(), start=1):
+    pictures = []
+    for i, (name, bla) in enumerate(found, start=1):
         figure = multisine_figure([bla], [name])
         write_file(args.output / f"multisine_{i}.png", render(figure, "png"))
         svg = render(figure, "svg")
         write_file(args.output / f"multisine_{i}.svg", svg)
-        pictures[f"{name}: gain with its 95 percent band, and the levels beside it; points are single lines."] = svg
+        caption = f"{name}: gain with its 95 percent band, and the levels beside it; points are single lines."
+        pictures.append((caption, svg))
     title = f"Best linear approximation of {args.data[0].name}"
     text = multisine_page(title, found, pictures=pictures, redo=command_line(_words(args)))
     write_file(args.output / "report.html", text)
@@ -204,5 +226,5 @@ def _words(args: argparse.Namespace) -> list[str]:
         if value is not None:
             words += [f"--{name}", str(value)]
     if args.band is not None:
-        words += ["--band", *(f"{x:g}" for x in args.band)]
+        words += ["--band", *(repr(x) for x in args.band)]
     return words + (["--records", args.records] if args.records != "*" else [])

@@ -172,7 +172,7 @@ def _facts(test: Excitation, args: argparse.Namespace) -> list[str]:
     import numpy as np
 
     signal = test.signal()
-    t = np.arange(math.floor((test.end - test.onset) * args.sampling)) / args.sampling + test.onset
+    t = np.arange(max(1, math.floor((test.end - test.onset) * args.sampling))) / args.sampling + test.onset
     value, fastest = signal.value(t), float(np.abs(signal.derivative(t)).max())
     unit = args.unit
     facts = [f"excitation from {test.onset:g} to {test.end:g} s, {test.duration:g} s in all"]

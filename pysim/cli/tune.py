@@ -107,7 +107,7 @@ def _write_report(args: argparse.Namespace, loops: dict[str, Gains]) -> None:
     svg = render(figure, "svg")
     write_file(args.output / "tuning.svg", svg)
     caption = "Open loop with its crossovers, closed loop, and the sampled loop after unit steps."
-    words = ["tune", args.plant, "--output", str(args.output), "--dt", f"{args.dt:g}"]
+    words = ["tune", args.plant, "--output", str(args.output), "--dt", repr(args.dt)]
     for option in ("numerator", "denominator", "delay", "phase_margin", "crossover", "gain_margin"):
         value = getattr(args, option)
         words += [] if value is None else [f"--{option.replace('_', '-')}={value}"]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -14,6 +14,7 @@ from pysim.report.page import cell, commands, heading, items, page, paragraph, p
 from pysim.types import BestLinearApproximation, Distortion, Level
 
 Array = NDArray[np.float64]
+Named = Sequence[tuple[str, BestLinearApproximation]]  # what each was found from, and what was found
 
 _ROWS = 12  # frequencies in a table; all of them are in the data
 _ALARM = 0.01  # p-value below which a distortion counts as seen
@@ -75,25 +76,29 @@ def multisine_data(name: str, bla: BestLinearApproximation) -> dict[str, Any]:
 
 def multisine_page(
     title: str,
-    approximations: Mapping[str, BestLinearApproximation],
+    approximations: Named,
     *,
-    pictures: Mapping[str, bytes],
+    pictures: Sequence[tuple[str, bytes]],
     redo: str,
 ) -> str:
-    """A self-contained HTML page; arguments as `comparison_page`, a name per approximation."""
+    """A self-contained HTML page.
+
+    Args:
+        approximations: each with its name.
+        pictures: captions with their SVG.
+        redo: the command line that makes it again.
+    """
     parts = multisine_section(approximations, pictures=pictures)
     lead = "How much of the response is linear, how much noise, how much distortion, line by line."
     return page(title, lead, [*parts, heading("Do it again"), commands(redo)])
 
 
-def multisine_section(
-    approximations: Mapping[str, BestLinearApproximation], *, pictures: Mapping[str, bytes]
-) -> list[str]:
+def multisine_section(approximations: Named, *, pictures: Sequence[tuple[str, bytes]]) -> list[str]:
     """HTML: verdicts, pictures and a table per approximation."""
     parts = [heading("Best linear approximation")]
-    for name, bla in approximations.items():
+    for name, bla in approximations:
         parts += [paragraph(f"{name}, {bla.method}."), items(verdicts(bla))]
-    parts += [picture(svg, caption) for caption, svg in pictures.items()]
+    parts += [picture(svg, caption) for caption, svg in pictures]
     parts.append(
         paragraph(
             "Levels are mean squares of one realisation over its periods, divided by the input's power on a line; they "
@@ -102,7 +107,7 @@ def multisine_section(
             note=True,
         )
     )
-    for name, bla in approximations.items():
+    for name, bla in approximations:
         rows = [[cell(text) for text in row] for row in _table_rows(bla)]
         parts.append(table(f"{name}: some of {bla.frequency.size} lines, ± for 95 percent", _heads(bla), rows))
     return parts

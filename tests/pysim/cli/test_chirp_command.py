@@ -81,3 +81,7 @@ def test_a_single_log_needs_its_columns(bench: Path, capsys: pytest.CaptureFixtu
     assert main(["chirp", log, "--columns", "time,u,y", "--units", "%"]) == 2
     assert main(["chirp", str(bench / "none.txt"), "--columns", "time,u,y"]) == 2
     assert main(["chirp", str(bench), "--signal", "z"]) == 2
+    capsys.readouterr()
+    for option, words in (("--columns", "time,u,y"), ("--units", "bar,bar")):
+        assert main(["chirp", str(bench), option, words]) == 2
+        assert f"{option}: {bench} is a data set" in capsys.readouterr().err

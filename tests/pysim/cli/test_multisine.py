@@ -91,6 +91,17 @@ def test_without_a_period_any_signal_will_do(records: list[str], capsys: pytest.
     assert "local polynomial" in capsys.readouterr().out
 
 
+def test_files_of_one_name_both_have_a_result(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    paths = [tmp_path / name / "log.npz" for name in ("a", "b")]
+    for seed, path in enumerate(paths):
+        path.parent.mkdir()
+        write_record(log(seed), path)
+    assert main(["multisine", *map(str, paths), *NAMES, "--output", str(tmp_path / "out")]) == 0
+    printed = capsys.readouterr().out
+    assert all(str(path) in printed for path in paths)
+    assert (tmp_path / "out" / "report.html").read_text().count("<img") == 2
+
+
 def data_set(folder: Path) -> Path:
     rows = []
     for amplitude in (5, 10):
@@ -132,6 +143,10 @@ def test_a_data_set_has_a_result_per_working_point(tmp_path: Path, capsys: pytes
         (["--input", "u", "--signal", "z", "--period", "2"], "no signal 'z'"),
         ([*NAMES, "--period", "2", "--periods", "9"], "9 periods are asked for"),
         ([*NAMES, "--period", "2", "--lines", "1,3,9999"], "line 9999 is not below half of"),
+        ([*NAMES, "--lines", "1,3"], "--lines goes with --period SECONDS"),
+        ([*NAMES, "--period", "2", "--method", "arbitrary", "--drop", "1"], "--drop goes with --period SECONDS"),
+        ([*NAMES, "--period", "2", "--band", "1", "20"], "--band goes without a period"),
+        ([*NAMES, "--records", "a*"], "--records chooses among the logs of a data set"),
     ],
 )
 def test_wrong_use(records: list[str], words: list[str], message: str, capsys: pytest.CaptureFixture[str]) -> None:

@@ -102,6 +102,12 @@ def test_wrong_use(
     assert not (tmp_path / "s.csv").exists()
 
 
+def test_a_command_of_a_single_row_has_its_facts(tmp_path: Path, capsys: pytest.CaptureFixture) -> None:
+    words = ["signal", "step", "--height", "1", "--length", "0.0004", "-o", str(tmp_path / "s.csv")]
+    assert main(words) == 0
+    assert "jumps at" in capsys.readouterr().out
+
+
 def test_the_file_may_be_called_output_as_elsewhere(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture
 ) -> None:

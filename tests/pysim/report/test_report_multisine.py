@@ -63,6 +63,6 @@ def test_data_is_complete_and_json() -> None:
 
 
 def test_page_holds_tables_pictures_and_the_command() -> None:
-    page = multisine_page("A title", {"bench": SQUARE}, pictures={"A caption": b"<svg/>"}, redo="pysim multisine x")
+    page = multisine_page("A title", [("bench", SQUARE)], pictures=[("A caption", b"<svg/>")], redo="pysim multisine x")
     for words in ("A title", "bench, fast", "A caption", "pysim multisine x", "Distortion even is there", "<table>"):
         assert words in page
