@@ -153,7 +153,7 @@ def time_logs_figure(dataset: Dataset) -> Figure:
     for panel in axes[-1]:
         panel.set_xlabel("Time (s)", fontsize=TEXT)
     figure.align_ylabels()
-    lines = [Line2D([], [], color=_colour(dataset, name, names)) for name in names]
+    lines = [Line2D([], [], **_look(dataset, name, names)) for name in names]
     legend_above(figure, lines, names)
     return figure
 
@@ -167,16 +167,18 @@ def _shown(dataset: Dataset, name: str) -> tuple[str, float]:
     return shown_unit(dataset.signal(name).unit if name else "")
 
 
-def _colour(dataset: Dataset, name: str, names: Sequence[str]) -> str:
-    """Black for inputs; outputs each their own."""
-    outputs = [other for other in names if dataset.signal(other).role == "output"]
-    return COLOURS[outputs.index(name) % len(COLOURS)] if name in outputs else MEASURED
+def _look(dataset: Dataset, name: str, names: Sequence[str]) -> dict[str, Any]:
+    """Black for inputs, a colour of its own for each output; a dash of its own for each of either."""
+    role = dataset.signal(name).role
+    k = [other for other in names if dataset.signal(other).role == role].index(name)
+    colour = MEASURED if role == "input" else COLOURS[k % len(COLOURS)]
+    return {"color": colour, "linestyle": DASHES[k % len(DASHES)], "linewidth": 0.7}
 
 
 def _draw(panel: Axes, dataset: Dataset, record: MeasuredRecord, name: str, names: Sequence[str]) -> None:
     assert isinstance(record.data, Record)
     values = _shown(dataset, name)[1] * record.data[name]
-    panel.plot(record.data.time, values, color=_colour(dataset, name, names), linewidth=0.7)
+    panel.plot(record.data.time, values, **_look(dataset, name, names))
 
 
 def _draw_periods(panel: Axes, dataset: Dataset, record: MeasuredRecord, name: str, look: dict[str, Any]) -> None:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
 from matplotlib.artist import Artist
@@ -16,6 +17,7 @@ from pysim.plot.diagnosis_records import stages_compared
 from pysim.plot.style import (
     BAND,
     COLOURS,
+    DASHES,
     LIMIT,
     SMALL,
     TEXT,
@@ -55,10 +57,10 @@ def diagnosis_spectrum_figure(diagnosis: Diagnosis) -> Figure:
     axes = figure.subplots(rows, columns, squeeze=False, sharey=True)
     handles: dict[str, Artist] = {}
     for own, (record, j) in zip(axes.ravel(), panels, strict=False):
-        beside = [(name, _same(stage.records, record), colour) for name, stage, colour in shown]
-        for name, one, colour in beside:
+        for (name, stage, colour), dash in zip(shown, reversed(DASHES[: len(shown)]), strict=True):  # the last: solid
+            one = _same(stage.records, record)
             if one is not None:
-                handles[name] = _draw(own, one, j, colour)
+                handles[name] = _draw(own, one, j, {"color": colour, "linestyle": dash})
         own.set_title(f"{record.source}: {record.measured.names[j]}", fontsize=SMALL, loc="left")
     for own in axes.ravel()[len(panels) :]:
         own.set_visible(False)
@@ -74,7 +76,7 @@ def _same(records: Sequence[RecordFit], record: RecordFit) -> RecordFit | None:
     return next((one for one in records if one.source == record.source), None)
 
 
-def _draw(axes: Axes, record: RecordFit, column: int, colour: str) -> Artist:
+def _draw(axes: Axes, record: RecordFit, column: int, look: Mapping[str, Any]) -> Artist:
     residual = record.residual
     frequency, power, freedom = residual_spectrum(residual.time, residual.values[:, column])
     if not axes.lines:
@@ -84,5 +86,5 @@ def _draw(axes: Axes, record: RecordFit, column: int, colour: str) -> Artist:
         axes.axhspan(low, high, color=BAND, alpha=0.6, linewidth=0, zorder=0)
         axes.axhline(1.0, color=LIMIT, linewidth=0.8, zorder=1)
         frequency_axis(axes, float(frequency[0]), float(frequency[-1]))
-    (line,) = axes.plot(frequency, power, color=colour, linewidth=1.2, zorder=3 if colour == COLOURS[0] else 2)
+    (line,) = axes.plot(frequency, power, **look, linewidth=1.2, zorder=3 if look["color"] == COLOURS[0] else 2)
     return line

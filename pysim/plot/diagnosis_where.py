@@ -13,6 +13,7 @@ from matplotlib.figure import Figure
 from matplotlib.image import AxesImage
 from numpy.typing import NDArray
 
+from pysim.io import shown_value
 from pysim.plot.diagnosis_records import base_of, stages_compared
 from pysim.plot.style import BAND, COLOURS, LIMIT, SMALL, TEXT, legend_above, new_figure, quiet
 from pysim.types import BadInput, Dataset, Diagnosis, RecordFit, Stage
@@ -66,25 +67,38 @@ def diagnosis_map_figure(diagnosis: Diagnosis, dataset: Dataset) -> Figure:
 
 
 def _sines(name: str, stage: Stage, dataset: Dataset) -> _Field:
-    tests = {record.source: record for record in dataset.records}
-    found = _Field(f"Stepped sines by frequency (Hz), {name}")
+    """Rows by operating point; of a test that was repeated the worst is shown."""
     own = [record for record in stage.records if record.harmonics]
     several = len({n for record in own for n in record.measured.names}) > 1
-    for record in sorted(own, key=lambda r: r.harmonics[0].frequency):
-        test = tests.get(record.source)
-        offset, amplitude = (None, None) if test is None else (test.offset, test.amplitude)
-        place = record.source if offset is None else f"offset {offset:g}, amplitude {amplitude:g}"
+    rows: dict[tuple[_Point, str], dict[str, float]] = {}
+    for record in own:
+        point, frequency = _point(record.source, dataset), f"{record.harmonics[0].frequency:g}"
         for signal, value in record.rms.items():
-            row = found.rows.setdefault(f"{place}: {signal}" if several else place, {})
-            row[f"{record.harmonics[0].frequency:g}"] = value
-    found.rows = dict(sorted(found.rows.items(), key=lambda row: _numbers(row[0])))
-    return found
+            row = rows.setdefault((point, signal if several else ""), {})
+            row[frequency] = max(value, row.get(frequency, 0.0))
+    named = {f"{point.label}{f': {signal}' if signal else ''}": rows[point, signal] for point, signal in sorted(rows)}
+    return _Field(f"Stepped sines by frequency (Hz), {name}", named)
 
 
-def _numbers(label: str) -> tuple[float, ...]:
-    """What a label is sorted by: the numbers in it."""
-    words = label.replace(",", " ").replace(":", " ").split()
-    return tuple(float(word) for word in words if word.lstrip("+-").replace(".", "", 1).isdigit())
+@dataclass(frozen=True, order=True)
+class _Point:
+    """What a stepped sine swings around and how far, the command's unit in SI; the log where that is not told."""
+
+    command: str
+    offset: float
+    amplitude: float
+    label: str
+
+
+def _point(source: str, dataset: Dataset) -> _Point:
+    test = next((record for record in dataset.records if record.source == source), None)
+    if test is None or test.offset is None or test.amplitude is None:
+        return _Point("", 0.0, 0.0, source)
+    unit = dataset.signal(test.command).unit if test.command else ""
+    several = len({record.command for record in dataset.logs() if record.command}) > 1
+    of = f"{test.command} at " if several else ""
+    label = f"{of}offset {shown_value(test.offset, unit)}, amplitude {shown_value(test.amplitude, unit)}"
+    return _Point(test.command, test.offset, test.amplitude, label)
 
 
 def _logs(name: str, stage: Stage) -> _Field:
@@ -102,12 +116,7 @@ def _windows(record: RecordFit, column: int) -> dict[str, float]:
 
 
 def _short(record: RecordFit) -> str:
-    return f"{_name(record.source)} ({'held out' if record.use == 'validate' else 'fitted'})"
-
-
-def _name(source: str) -> str:
-    """Without the file's suffix."""
-    return source.rpartition(".")[0] or source
+    return f"{record.source} ({'held out' if record.use == 'validate' else 'fitted'})"
 
 
 def _draw(axes: Axes, panel: _Field, norm: LogNorm) -> AxesImage:
@@ -162,7 +171,7 @@ def diagnosis_failures_figure(diagnosis: Diagnosis) -> Figure:
     axes.axvline(1.0, color=LIMIT, linewidth=1.0)
     axes.set_xlim(0, 1.12 * max(high, 1.0))
     axes.set_ylim(len(rows) - 0.4, -0.6)
-    axes.set_yticks(range(len(rows)), [f"{_name(f.record)}, {f.signal}: {f.region}" for f in rows], fontsize=SMALL)
+    axes.set_yticks(range(len(rows)), [f"{f.record}, {f.signal}: {f.region}" for f in rows], fontsize=SMALL)
     axes.set_xlabel("Residual over noise (-); 1: noise alone", fontsize=TEXT)
     legend_above(figure, handles, names)
     return figure

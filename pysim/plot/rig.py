@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 from matplotlib.artist import Artist
@@ -10,7 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from pysim.plot.style import BAND, COLOURS, LIMIT, MEASURED, TEXT, legend_above, new_figure, quiet
+from pysim.plot.style import BAND, COLOURS, DASHES, LIMIT, MEASURED, TEXT, legend_above, new_figure, quiet
 from pysim.rig import HeaveTest, StepTest, standstills
 from pysim.rig.heave_test import slow_part
 from pysim.types import BadInput, Record
@@ -18,7 +19,9 @@ from pysim.types import BadInput, Record
 Array = NDArray[np.float64]
 
 _BAR = 1e-5
-_TRUE, _PULSES = COLOURS[0], COLOURS[1]
+_TRUE: dict[str, Any] = {"color": COLOURS[0], "linewidth": 1.3}
+_PULSES: dict[str, Any] = {"color": COLOURS[1], "linestyle": DASHES[3], "linewidth": 1.0}
+_REFERENCE: dict[str, Any] = {"color": MEASURED, "linestyle": DASHES[1], "linewidth": 1.1}
 
 
 def rig_step_figure(record: Record, test: StepTest, *, band: float = 0.05) -> Figure:
@@ -64,11 +67,11 @@ def _draw_quantity(
     time = record.time[shown]
     factor = 1.0 if kind == "speed" else _BAR
     handles: dict[str, Artist] = {}
-    (handles["reference"],) = axes.plot(time, factor * _reference(test, kind, time), color=MEASURED, linewidth=1.1)
+    (handles["reference"],) = axes.plot(time, factor * _reference(test, kind, time), **_REFERENCE)
     if kind == "speed":
-        (handles["by the pulses"],) = axes.plot(time, record["rig.omegaS"][shown], color=_PULSES, linewidth=1.0)
+        (handles["by the pulses"],) = axes.plot(time, record["rig.omegaS"][shown], **_PULSES)
     signal = "rig.omega" if kind == "speed" else "rig.pL"
-    (handles["simulated"],) = axes.plot(time, factor * record[signal][shown], color=_TRUE, linewidth=1.3)
+    (handles["simulated"],) = axes.plot(time, factor * record[signal][shown], **_TRUE)
     axes.set_ylabel("Speed (rad/s)" if kind == "speed" else "Load pressure (bar)", fontsize=TEXT)
     return handles
 
@@ -84,18 +87,18 @@ def rig_heave_figure(record: Record, test: HeaveTest) -> Figure:
     speed, load, supply, close = figure.subplots(4, 1, height_ratios=(1.4, 1.0, 1.0, 1.3))
     handles: dict[str, Artist] = {}
     time, spans = record.time, standstills(record.time, record["rig.omega"])
-    (handles["simulated"],) = speed.plot(time, record["rig.omega"], color=_TRUE, linewidth=0.9)
-    (handles["reference"],) = speed.plot(time, record["crane.omegaS_ref"], color=MEASURED, linewidth=1.1)
-    load.plot(time, _BAR * record["rig.pL"], color=_TRUE, linewidth=0.8)
-    load.plot(time, _BAR * record["crane.pL_ref"], color=MEASURED, linewidth=1.1)
-    supply.plot(time, _BAR * record["rig.pS"], color=_TRUE, linewidth=0.8)
+    (handles["simulated"],) = speed.plot(time, record["rig.omega"], **_TRUE)
+    (handles["reference"],) = speed.plot(time, record["crane.omegaS_ref"], **_REFERENCE)
+    load.plot(time, _BAR * record["rig.pL"], **_TRUE)
+    load.plot(time, _BAR * record["crane.pL_ref"], **_REFERENCE)
+    supply.plot(time, _BAR * record["rig.pS"], **_TRUE)
     for axes, label in ((speed, "Speed (rad/s)"), (load, "Load pressure (bar)"), (supply, "Supply pressure (bar)")):
         axes.set_ylabel(label, fontsize=TEXT)
         axes.set_xlim(time[0], time[-1])
     shown = _within(time, _reversal(time, spans, test))
-    (handles["by the pulses"],) = close.plot(time[shown], record["rig.omegaS"][shown], color=_PULSES, linewidth=1.0)
-    close.plot(time[shown], record["rig.omega"][shown], color=_TRUE, linewidth=1.4)
-    close.plot(time[shown], record["crane.omegaS_ref"][shown], color=MEASURED, linewidth=1.1)
+    (handles["by the pulses"],) = close.plot(time[shown], record["rig.omegaS"][shown], **_PULSES)
+    close.plot(time[shown], record["rig.omega"][shown], **_TRUE)
+    close.plot(time[shown], record["crane.omegaS_ref"][shown], **_REFERENCE)
     close.set_xlim(time[shown][0], time[shown][-1])
     for begin, end in spans:
         field = close.axvspan(begin, end, color=BAND, alpha=0.7, linewidth=0)

@@ -75,7 +75,7 @@ def dataset() -> Dataset:
     signals = (MeasuredSignal("F", "input", "N", "force", "F"), MeasuredSignal("x", "output", "m", "place", "x", 0.5))
     empty = Record(np.arange(2.0), np.zeros((2, 2)), ("F", "x"), ("N", "m"))
     sines = [
-        MeasuredRecord(f"sines/{f:g}Hz.txt", "frequency-response", "fit", empty, 50.0, 10.0, f) for f in (1.0, 5.0)
+        MeasuredRecord(f"sines/{f:g}Hz.txt", "frequency-response", "fit", empty, 50.0, 10.0, f, "F") for f in (1.0, 5.0)
     ]
     logs = [MeasuredRecord(f"{n}.txt", "stochastic", u, empty) for n, u in (("wave", "fit"), ("held", "validate"))]
     return Dataset("toy", "a mass", "mass", signals, (*sines, *logs))

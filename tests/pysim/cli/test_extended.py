@@ -1,5 +1,6 @@
 """The class that is written for the user: named after theirs, its limits told, compiled again from its folder."""
 
+import shutil
 from dataclasses import replace
 from pathlib import Path
 
@@ -7,6 +8,7 @@ import pytest
 
 from fmu_build import build
 from pysim.cli._extended import extended_name, relative_files, write_extended
+from pysim.cli._outputs import quoted
 from pysim.cli._subject import Given
 from pysim.cli._variants import Variants
 from pysim.diagnose import diagnose
@@ -55,6 +57,17 @@ def test_the_header_tells_what_it_is_and_when_not_to_trust_it(found: Diagnosis, 
     assert "these data do not tell toy.friction, toy.twin apart" in words
     assert "more than noise is left" in words
     assert "no record was held out" in words
+
+
+def test_the_command_in_the_header_can_be_pasted(found: Diagnosis, tmp_path: Path) -> None:
+    """A path with blanks, and longer than a line of the comment."""
+    folder = tmp_path / "my libraries" / ("long " * 20).strip()
+    folder.mkdir(parents=True)
+    copied = Path(shutil.copy(library(), folder))
+    head = write_extended(found, replace(given(), libraries=(copied,)), tmp_path)["modelica"].read_text()
+    (line,) = (line for line in head.splitlines() if "Compiles by:" in line)
+    words = ["fmu-build", "MassWithRubbing", "--library", "MassWithRubbing.mo", "--library", str(copied)]
+    assert line.partition("Compiles by: ")[2] == quoted(words)
 
 
 def test_where_nothing_was_added_nothing_is_written(found: Diagnosis, tmp_path: Path) -> None:

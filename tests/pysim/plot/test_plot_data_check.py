@@ -100,6 +100,14 @@ def test_logs_over_time_have_a_panel_per_unit() -> None:
     np.testing.assert_allclose(speed.get_lines()[0].get_ydata(), np.sin(2 * np.pi * TIME) * 30 / np.pi)
 
 
+def test_signals_of_one_role_differ_by_dash_too() -> None:
+    second = replace(SIGNALS[2], role="input")
+    both = Dataset("d", "", "", (*SIGNALS[:2], second), (record(None),))
+    one, other = time_logs_figure(both).axes[0].get_lines()
+    assert one.get_color() == other.get_color()
+    assert one.get_linestyle() != other.get_linestyle()
+
+
 @pytest.mark.parametrize(
     ("draw", "other"), [(coverage_figure, None), (sine_logs_figure, None), (time_logs_figure, 1.0)]
 )

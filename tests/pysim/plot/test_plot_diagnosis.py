@@ -95,12 +95,26 @@ def test_the_map_holds_the_residuals_by_test_and_frequency() -> None:
     figure = diagnosis_map_figure(story(), dataset())
     before, after, logs, _, _ = figure.axes
     assert [label.get_text() for label in before.get_xticklabels()] == ["1", "5"]
-    assert [label.get_text() for label in before.get_yticklabels()] == ["offset 50, amplitude 10"]
+    assert [label.get_text() for label in before.get_yticklabels()] == ["offset 50 N, amplitude 10 N"]
     assert texts(before) == ["4.6", "3.2"]  # the roots of 1 + 4.5^2 and 1 + 3^2
     assert texts(after) == ["1.0", "1.0"]
-    assert [label.get_text() for label in logs.get_yticklabels()] == ["wave (fitted): x", "held (held out): x"]
+    assert [label.get_text() for label in logs.get_yticklabels()] == ["wave.txt (fitted): x", "held.txt (held out): x"]
     with pytest.raises(BadInput, match="residual map"):
         diagnosis_map_figure(story(stages=()), dataset())
+
+
+def test_of_a_test_that_was_repeated_the_map_shows_the_worst() -> None:
+    told, data = story(), dataset()
+    stages = []
+    for one in told.stages:
+        sines = [record for record in one.records if record.harmonics]
+        again = [replace(r, source=f"again/{r.source}", noise=tuple(n / 3 for n in r.noise)) for r in sines]
+        stages.append(replace(one, records=(*one.records, *again)))
+    repeated = tuple(replace(r, source=f"again/{r.source}") for r in data.records if r.frequency)
+    both = replace(data, records=(*data.records, *repeated))
+    before = diagnosis_map_figure(replace(told, stages=tuple(stages)), both).axes[0]
+    assert [label.get_text() for label in before.get_yticklabels()] == ["offset 50 N, amplitude 10 N"]
+    assert [float(text) for text in texts(before)] == pytest.approx([3 * 4.6, 3 * 3.2], abs=0.2)
 
 
 def test_failures_stand_by_rank_with_what_is_left_in_the_end() -> None:
