@@ -2,11 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from itertools import count
+from typing import Any, NamedTuple, TypeVar
 
+from pysim.app.working_point import command_unit, working_point
 from pysim.types import Dataset
+
+_Row = dict[str, tuple[float, str]]  # column -> error and source
+_Key = TypeVar("_Key")
+
+
+class _Point(NamedTuple):
+    """What the cells of a row have in common, in the order of the rows."""
+
+    command: str
+    offset: float
+    amplitude: float
+    signal: str
 
 
 @dataclass(frozen=True)
@@ -30,32 +44,56 @@ class ErrorMap:
 def error_maps(stage: Mapping[str, Any], dataset: Dataset) -> list[ErrorMap]:
     """The maps of a stage that have something to show: stepped sines, then other logs by signal.
 
+    A test that was repeated has a row of its own.
+
     Args:
         stage: as a file of stages has it.
     """
     tests = {record.source: record for record in dataset.records}
-    sines: dict[tuple[float, float, str], dict[str, tuple[float, str]]] = {}
-    logs: dict[str, dict[str, tuple[float, str]]] = {}
+    sines: dict[tuple[_Point, int], _Row] = {}
+    logs: dict[tuple[str, int], _Row] = {}
     for record in stage["records"]:
         for signal, value in zip(record["names"], record["rms"], strict=True):
             if value is None:
                 continue
-            test = tests.get(record["source"])
+            test, cell = tests.get(record["source"]), (value, record["source"])
             if record["frequency"] is not None and test is not None and test.offset is not None:
-                row = (test.offset, float(test.amplitude or 0.0), signal)
-                sines.setdefault(row, {})[f"{record['frequency']:g}"] = (value, record["source"])
+                point = _Point(test.command, test.offset, float(test.amplitude or 0.0), signal)
+                _put(sines, point, f"{record['frequency']:g}", cell)
             else:
                 use = "held out" if record["use"] == "validate" else "fitted"
-                logs.setdefault(f"{record['source']} ({use})", {})[signal] = (value, record["source"])
-    several = len({signal for *_, signal in sines}) > 1
-    named = {f"{o:g} ± {a:g}{f', {s}' if several else ''}": sines[o, a, s] for o, a, s in sorted(sines)}
+                _put(logs, f"{record['source']} ({use})", signal, cell)
+    words = _words([point for point, _ in sines], dataset)
+    named = {_repeated(words[point], repeat): sines[point, repeat] for point, repeat in sorted(sines)}
+    others = {_repeated(name, repeat): row for (name, repeat), row in logs.items()}
     frequencies = sorted({column for row in named.values() for column in row}, key=float)
-    signals = list(dict.fromkeys(column for row in logs.values() for column in row))
-    maps = [_map("Frequency (Hz)", named, frequencies), _map("", logs, signals)]
+    signals = list(dict.fromkeys(column for row in others.values() for column in row))
+    maps = [_map("Frequency (Hz)", named, frequencies), _map("", others, signals)]
     return [one for one in maps if one.rows]
 
 
-def _map(title: str, rows: Mapping[str, Mapping[str, tuple[float, str]]], columns: list[str]) -> ErrorMap:
+def _put(table: dict[tuple[_Key, int], _Row], row: _Key, column: str, cell: tuple[float, str]) -> None:
+    """In the first row of that key where the column is free: no repeat hides another."""
+    repeat = next(k for k in count(1) if column not in table.get((row, k), {}))
+    table.setdefault((row, repeat), {})[column] = cell
+
+
+def _repeated(name: str, repeat: int) -> str:
+    return name if repeat == 1 else f"{name}, repeat {repeat}"
+
+
+def _words(points: Sequence[_Point], dataset: Dataset) -> dict[_Point, str]:
+    """What the rows are called; inputs and signals are named where there are several."""
+    inputs, signals = len({p.command for p in points}) > 1, len({p.signal for p in points}) > 1
+    return {
+        p: (f"{p.command}: " if inputs else "")
+        + working_point(p.offset, p.amplitude, command_unit(dataset, p.command))
+        + (f", {p.signal}" if signals else "")
+        for p in points
+    }
+
+
+def _map(title: str, rows: Mapping[str, _Row], columns: list[str]) -> ErrorMap:
     values = tuple(tuple(row[c][0] if c in row else None for c in columns) for row in rows.values())
     sources = tuple(tuple(row[c][1] if c in row else "" for c in columns) for row in rows.values())
     return ErrorMap(title, tuple(rows), tuple(columns), values, sources)

@@ -13,6 +13,7 @@ from nicegui.elements.mixins.text_element import TextElement
 
 from pysim.app.sketch import Sketch
 from pysim.app.upload import Limits
+from pysim.io import shown_value
 
 _STATIC = Path(__file__).parent / "static"
 _PULSE = 0.3  # s between two looks at what has changed
@@ -88,6 +89,15 @@ class Table(Element, component=str(_STATIC / "table.js")):
         """Mark a row."""
         self._props["picked"] = row
         self.update()
+
+
+def quantity(value: float | None, unit: str) -> dict[str, Any] | str:
+    """A cell of a table, with its unit; empty where there is no value.
+
+    Args:
+        value: in an SI unit, "1" or "%", by which rows are sorted.
+    """
+    return "" if value is None else {"text": shown_value(value, unit), "value": value}
 
 
 class Drawing(Element, component=str(_STATIC / "drawing.js")):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
@@ -14,9 +14,10 @@ from pysim.app.desk import Desk
 from pysim.app.error_map import ErrorMap, error_maps
 from pysim.app.figures import bode_figure, map_figure, step_name
 from pysim.app.pages.common import busy, ended, nothing, segments, start
-from pysim.app.parts import Chart, Table, box, button, card, head, live, text
+from pysim.app.parts import Chart, Table, box, button, card, head, live, quantity, text
 from pysim.app.records import MOST, compared_overlay, measured_overlay, stage_keys
-from pysim.types import Record
+from pysim.app.working_point import command_unit, response_unit, working_point
+from pysim.types import Dataset, MeasuredRecord, Record
 
 
 @dataclass
@@ -97,7 +98,7 @@ def _record(desk: Desk, view: _View) -> None:
     """One record with all models, and the list of all."""
     check = desk.loaded.check if desk.loaded else None
     logs = check.dataset.logs() if check else ()
-    if not logs:
+    if check is None or not logs:
         if check is None or not check.records:
             nothing("No records yet", "Drop a data set on the page Data.")
         return
@@ -128,7 +129,7 @@ def _record(desk: Desk, view: _View) -> None:
             overlay.figure(), f"{source}: measured and simulated over time", height=round(120 + 165 * panels),
             series={**series, "span": overlay.span, "most": MOST},
         )  # fmt: skip
-    _list(view, logs, errors, source)
+    _list(view, check.dataset, errors, source)
 
 
 def _errors(answer: Answer | None) -> dict[str, list[float]]:
@@ -140,21 +141,22 @@ def _errors(answer: Answer | None) -> dict[str, list[float]]:
     return found
 
 
-def _list(view: _View, logs: Any, errors: dict[str, list[float]], source: str) -> None:
+def _list(view: _View, dataset: Dataset, errors: dict[str, list[float]], source: str) -> None:
+    logs = dataset.logs()
     columns = [("record", "words"), ("use", "words"), ("offset", "number"), ("amplitude", "number"), ("Hz", "number")]
     count = max((len(one) for one in errors.values()), default=0)
     columns += [("error, refitted" if k == 0 else "error, now", "number") for k in range(count)]
-    rows = []
-    for log in logs:
-        told = [_told(value) for value in (log.offset, log.amplitude, log.frequency)]
-        cells = [
-            {"text": f"{v:.2f}", "value": v, "mark": "high" if v > 1.5 else "low"} for v in errors.get(log.source, [])
-        ]
-        cells += [""] * (count - len(cells))  # type: ignore[list-item]
-        rows.append([log.source, "held out" if log.use == "validate" else "fitted", *told, *cells])
+    rows = [_row(log, command_unit(dataset, log.command), errors.get(log.source, []), count) for log in logs]
     picked = next(k for k, log in enumerate(logs) if log.source == source)
     with card("All records"):
         Table("Records", columns, rows, on_row=lambda k: _open(view, logs[k].source), picked=picked, height="330px")
+
+
+def _row(log: MeasuredRecord, unit: str, errors: list[float], count: int) -> list[Any]:
+    """A log with its errors over noise, of which there are cells for so many."""
+    told = [quantity(log.offset, unit), quantity(log.amplitude, unit), _told(log.frequency)]
+    cells = [{"text": f"{v:.2f}", "value": v, "mark": "high" if v > 1.5 else "low"} for v in errors]
+    return [log.source, "held out" if log.use == "validate" else "fitted", *told, *cells, *[""] * (count - len(cells))]
 
 
 def _told(value: float | None) -> str:
@@ -164,7 +166,8 @@ def _told(value: float | None) -> str:
 def _bode(desk: Desk, view: _View) -> None:
     """A frequency response with the band of Table 1.3 and its verdict."""
     answer = _answer(desk)
-    if answer is None or not answer.base["responses"]:
+    check = desk.loaded.check if desk.loaded else None
+    if answer is None or check is None or not answer.base["responses"]:
         return
     tests = answer.base["responses"]
     number = view.response if view.response < len(tests) else 0
@@ -183,7 +186,7 @@ def _bode(desk: Desk, view: _View) -> None:
                 "passes Table 1.3" if last["passes"] else "beyond Table 1.3",
                 f"chip {'good' if last['passes'] else 'bad'}",
             )
-        options = [(str(k), f"{t['offset']:g} ± {t['amplitude']:g}") for k, t in enumerate(tests)]
+        options = [(str(k), words) for k, words in enumerate(_points(tests, check.dataset))]
         segments(options, str(number), lambda key: _set(view, response=int(key)), "Operating point")
         if last["message"]:
             text("p", str(last["message"]), "note bad")
@@ -194,3 +197,10 @@ def _bode(desk: Desk, view: _View) -> None:
             if d["value"] is not None
         )
         text("p", f"{told}." if told else "", "small")
+
+
+def _points(tests: Sequence[Mapping[str, Any]], dataset: Dataset) -> list[str]:
+    """What frequency responses are told apart by."""
+    several = len({test["output"] for test in tests}) > 1
+    points = [working_point(t["offset"], t["amplitude"], response_unit(dataset, t)) for t in tests]
+    return [f"{p}, {t['output']}" if several else p for p, t in zip(points, tests, strict=True)]

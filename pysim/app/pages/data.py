@@ -12,7 +12,7 @@ from pysim.app.description import change_description, read_description
 from pysim.app.desk import Desk, Loaded
 from pysim.app.pages.bare import describe_form
 from pysim.app.pages.common import amount, attempt, busy, counted, ended, start
-from pysim.app.parts import Chart, Choice, Drop, Table, box, button, card, head, live, note, say, text
+from pysim.app.parts import Chart, Choice, Drop, Table, box, button, card, head, live, note, quantity, say, text
 from pysim.app.records import MOST, measured_overlay
 from pysim.identify.data_check import DataCheck, RecordCheck
 from pysim.types import UNITS, BadInput
@@ -229,13 +229,14 @@ def _hold(content: dict[str, Any], source: str, on: bool) -> None:
 def _row(record: RecordCheck) -> list[Any]:
     base = record.clock
     clock = ["", ""] if base is None else [f"{base.duration:.4g}", f"{base.rate:.4g}"]
-    told = ["" if v is None else f"{v:g}" for v in (record.offset, record.amplitude, record.frequency)]
     return [
         record.source,
         record.use == "validate",
         record.kind,
         record.rows,
         *clock,
-        *told,
+        quantity(record.offset, record.unit),
+        quantity(record.amplitude, record.unit),
+        "" if record.frequency is None else f"{record.frequency:g}",
         "; ".join(record.warnings),
     ]

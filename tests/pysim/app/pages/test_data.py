@@ -1,0 +1,16 @@
+"""The page of data: what stands in its tables, and what its buttons write."""
+
+from dataclasses import replace
+
+from pysim.app.pages.data import _row
+from pysim.identify.data_check import check_dataset
+from tests.pysim.diagnosis_story import dataset
+
+
+def test_a_point_is_told_with_its_unit_and_sorted_by_its_size() -> None:
+    signals = tuple(replace(signal, unit="Pa") if signal.name == "F" else signal for signal in dataset().signals)
+    sine = replace(dataset().records[0], command="F", offset=1e7, amplitude=2e6)
+    row = _row(check_dataset(replace(dataset(), signals=signals, records=(sine,))).records[0])
+    assert row[-4:-1] == [{"text": "100 bar", "value": 1e7}, {"text": "20 bar", "value": 2e6}, "1"]
+    log = _row(check_dataset(dataset()).records[-1])
+    assert log[-4:-1] == ["", "", ""]
