@@ -46,6 +46,12 @@ def test_a_model_a_turn_away_is_drawn_beside_what_was_measured() -> None:
     assert trace(found, "refitted")["line"]["dash"] != trace(found, "measured")["line"]["dash"]
 
 
+def test_frequencies_have_numbers_wherever_they_lie_and_however_near_one_looks() -> None:
+    found = bode_figure(response(frequency=[250.0, 500.0, 900.0]), [])["layout"]["xaxis"]
+    assert (found["type"], found["tickformat"]) == ("log", "~g")
+    assert {"tickvals", "ticktext", "dtick"}.isdisjoint(found)  # Plotly finds them anew at each zoom
+
+
 @pytest.mark.parametrize(
     ("frequency", "title"),
     [
