@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import shutil
 import zipfile
-from collections.abc import AsyncIterator, Iterator
+from collections.abc import AsyncIterator, Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path, PurePosixPath, PureWindowsPath
 from secrets import token_urlsafe
@@ -63,7 +63,7 @@ class Batch:
         Raises:
             BadInput: a name that would leave the folder, or one file too many.
         """
-        parts = [part for part in PurePosixPath(name.replace("\\", "/")).parts if part != "."]
+        parts = _parts(name)
         bad = not parts or ".." in parts or parts[0] == "/" or PureWindowsPath(name).drive or "\0" in name
         if bad or not name.isprintable() or any(len(part) > 200 for part in parts) or len(parts) > 20:
             raise BadInput(f"{name[:80]!r} is no name of a file below the dropped folder; rename it")
@@ -109,7 +109,7 @@ class Batch:
         inside = path.parent.relative_to(self.folder / self.name)
         with zipfile.ZipFile(path) as archive:
             for member in archive.infolist():
-                if member.is_dir():
+                if member.is_dir() or _hidden(_parts(member.filename)):
                     continue
                 target = self.target((inside / member.filename).as_posix() if inside.parts else member.filename)
                 with archive.open(member) as source, target.open("wb") as file:
@@ -134,9 +134,10 @@ def adopt(batch: Batch, project: Project) -> Adopted:
     Raises:
         BadInput: nothing in it that could be used, or two data sets.
     """
+    root = batch.folder / batch.name
     try:
+        _sweep(root)
         batch.unpack()
-        root = batch.folder / batch.name
         descriptions = [path for path in _files(root) if path.name == "dataset.toml"]
         if descriptions:
             return _dataset(descriptions, project)
@@ -156,12 +157,27 @@ def adopt(batch: Batch, project: Project) -> Adopted:
 
 
 def _files(root: Path) -> list[Path]:
-    return sorted(path for path in root.rglob("*") if path.is_file() and not _hidden(path.relative_to(root)))
+    return sorted(path for path in root.rglob("*") if path.is_file())
 
 
-def _hidden(path: Path) -> bool:
+def _sweep(root: Path) -> None:
+    """Remove what is hidden, and folders that have nothing else: they would be taken for the user's."""
+    for path in sorted(root.rglob("*"), reverse=True):  # what is in a folder before the folder
+        if path.is_dir():
+            if not any(path.iterdir()):
+                path.rmdir()
+        elif _hidden(path.relative_to(root).parts):
+            path.unlink()
+
+
+def _hidden(parts: Sequence[str]) -> bool:
     """What systems leave beside a user's files."""
-    return any(part.startswith(".") or part == "__MACOSX" for part in path.parts)
+    return any((part.startswith(".") and part != "..") or part == "__MACOSX" for part in parts)
+
+
+def _parts(name: str) -> list[str]:
+    """Folders and file of a name, whatever the system that wrote it."""
+    return [part for part in PurePosixPath(name.replace("\\", "/")).parts if part != "."]
 
 
 def _dataset(descriptions: list[Path], project: Project) -> Adopted:

@@ -58,6 +58,15 @@ def test_bare_logs_wait_for_their_description(project: Project) -> None:
     assert (project.data / "a.csv").is_file()
 
 
+@pytest.mark.parametrize("as_zip", [False, True])
+def test_what_a_system_leaves_beside_logs_is_taken_for_nobody_s(project: Project, as_zip: bool) -> None:
+    files = {"logs/a.csv": b"0,1\n", "logs/.DS_Store": b"?", "__MACOSX/logs/._a.csv": b"?", ".git/x/b.csv": b"?"}
+    if as_zip:
+        files = {"logs.zip": packed({**files, "__MACOSX/._a/b|c.csv": b""}), "._logs.zip": b"of another disk"}
+    assert adopt(batch(project, files), project).text.startswith("1 logs without")
+    assert [path.relative_to(project.data).as_posix() for path in project.data.rglob("*")] == ["a.csv"]
+
+
 @pytest.mark.parametrize("place", ["", "Lib/"])
 def test_a_library_and_an_fmu_become_the_model(project: Project, place: str) -> None:
     files = {"Lib/package.mo": b"package Lib end Lib;", "Lib/Sub/package.mo": b"", f"{place}pump.fmu": b"PK"}
