@@ -2,6 +2,7 @@
 
 import asyncio
 import io
+import re
 import zipfile
 from collections.abc import AsyncIterator
 from pathlib import Path
@@ -98,6 +99,32 @@ def test_no_name_leaves_the_folder(project: Project, name: str) -> None:
         with pytest.raises(BadInput, match="below the dropped folder"):
             adopt(inside, project)
     assert not (project.folder.parent / "a.txt").exists()
+
+
+@pytest.mark.parametrize(
+    ("name", "why"),
+    [
+        ("logs/2024-01-01 12:30.csv", "'2024-01-01 12:30.csv' has : in it"),
+        ('a"b?.csv', "'a\"b?.csv' has \" ? in it"),
+        ("run./a.csv", "'run.' ends with a dot"),
+        ("a.csv ", "'a.csv ' ends with a space"),
+        ("nul.csv", "'nul.csv' is the name of a device"),
+        ("COM1/a.csv", "'COM1' is the name of a device"),
+    ],
+)
+def test_a_name_that_windows_does_not_take_is_refused_everywhere(project: Project, name: str, why: str) -> None:
+    message = re.escape(f"{name!r}: {why}, which Windows does not take; rename it")
+    with pytest.raises(BadInput, match=message):
+        batch(project, {name: b"0,1\n"})
+    with pytest.raises(BadInput, match=message):
+        adopt(batch(project, {"a.zip": packed({name: b"0,1\n"})}), project)
+    assert not project.data.exists()
+
+
+def test_names_that_every_system_keeps_are_taken(project: Project) -> None:
+    names = ("console.csv", "com10.csv", "Größe (2), 50 % + 1.csv", "a..b.csv")
+    adopt(batch(project, dict.fromkeys(names, b"0,1\n")), project)
+    assert sorted(path.name for path in project.data.iterdir()) == sorted(names)
 
 
 def test_limits_hold_for_what_comes_in_and_for_what_is_unpacked(project: Project) -> None:
