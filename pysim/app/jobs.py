@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import contextlib
 import json
-import shutil
 import subprocess
 import time
 from collections.abc import Mapping, Sequence
@@ -12,6 +11,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
+from pysim.app.disk import remove
 from pysim.app.processes import Started, end, last_words, run_pysim
 from pysim.app.project import Project
 from pysim.io import write_file
@@ -197,7 +197,7 @@ class Runner:
         """Begin.
 
         Raises:
-            BadInput: something runs already, here or in the folder of the result.
+            BadInput: something runs already, here or in the folder of the result, or another program has a file of it.
         """
         if self._process is not None and self._job is not None:
             raise BadInput(f"{self._job.work.title} is running; wait for it, or stop it first")
@@ -206,7 +206,7 @@ class Runner:
         if before is not None and before.process is not None and before.lives:
             raise BadInput(f"{folder} is being written by process {before.process.pid}; wait for it, or end it first")
         if before is not None and (before.fingerprint != now or before.state == DONE):
-            shutil.rmtree(folder)  # of other data or another model, or to be done anew
+            remove(folder, self.project.uploads)  # of other data or another model, or to be done anew
         folder.mkdir(parents=True, exist_ok=True)
         _put_by(folder)
         job = _told(Job(work, RUNNING, time.time(), None, now, stage="starting"), folder)

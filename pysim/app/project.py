@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
+import contextlib
 import hashlib
 import json
 import re
-import shutil
 import tomllib
 from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
 from pathlib import Path
 from typing import Any
 
+from pysim.app.disk import move_all
 from pysim.io import write_file
 from pysim.types import BadInput
 
@@ -77,6 +78,11 @@ class Project:
         return self.folder / "model"
 
     @property
+    def uploads(self) -> Path:
+        """Where a drop comes in and what is thrown away goes; a server that starts empties it."""
+        return self.folder / "uploads"
+
+    @property
     def description(self) -> Path:
         """The data set's dataset.toml."""
         return self.data / "dataset.toml"
@@ -132,33 +138,40 @@ class Project:
 
         Returns:
             where that is, in the project; "" where nothing was there.
+        Raises:
+            BadInput: a file that another program has open; all is as it was.
         """
-        kept = ""
-        if self.data.exists():
-            place = self._earlier("data")
-            shutil.move(str(self.data), str(place))
-            kept = place.relative_to(self.folder).as_posix()
-        shutil.move(str(folder), str(self.data))
-        return kept
+        place = self._earlier("data") if self.data.exists() else None
+        before = [] if place is None else [(self.data, place)]
+        move_all([*before, (folder, self.data)])
+        return self._told(place)
 
     def replace_models(self, paths: Sequence[Path]) -> str:
         """Take files and folders, each of another name, into `model`; those of the same names are kept as data are.
 
         Returns:
             as `replace_data`.
+        Raises:
+            BadInput: as `replace_data`.
         """
         self.models.mkdir(exist_ok=True)
-        before = [self.models / path.name for path in paths if (self.models / path.name).exists()]
-        kept = ""
-        if before:
-            place = self._earlier("model")
+        old = [self.models / path.name for path in paths if (self.models / path.name).exists()]
+        place = self._earlier("model") if old else None
+        before = [] if place is None else [(path, place / path.name) for path in old]
+        if place is not None:
             place.mkdir()
-            for old in before:
-                shutil.move(str(old), str(place / old.name))
-            kept = place.relative_to(self.folder).as_posix()
-        for path in paths:
-            shutil.move(str(path), str(self.models / path.name))
-        return kept
+        try:
+            move_all([*before, *((path, self.models / path.name) for path in paths)])
+        except BadInput:
+            if place is not None:
+                with contextlib.suppress(OSError):  # not where something could not go back
+                    place.rmdir()
+            raise
+        return self._told(place)
+
+    def _told(self, place: Path | None) -> str:
+        """Where it is, seen from the project."""
+        return "" if place is None else place.relative_to(self.folder).as_posix()
 
     def _earlier(self, kind: str) -> Path:
         """A new place below `earlier`, numbered on from the highest: the user may have removed any of them."""

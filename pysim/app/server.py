@@ -17,13 +17,14 @@ from fastapi.responses import FileResponse, PlainTextResponse, Response
 from nicegui import app, run, ui
 
 from pysim.app.desk import Desk
+from pysim.app.disk import disk_trouble
 from pysim.app.guard import Guard
 from pysim.app.jobs import Runner, settle
 from pysim.app.lock import held
 from pysim.app.pages.shell import shell
 from pysim.app.project import Project
 from pysim.app.records import MOST, Overlay, compared_overlay, measured_overlay
-from pysim.app.upload import Batch, Limits, adopt
+from pysim.app.upload import Adopted, Batch, Limits, adopt
 from pysim.types import BadInput
 
 _STATIC = Path(__file__).parent / "static"
@@ -59,7 +60,7 @@ def serve(
         port = _port(host, port)
         tell(page_address(host, port))
         settle(project)
-        shutil.rmtree(project.folder / "uploads", ignore_errors=True)  # what came in half when a server ended
+        shutil.rmtree(project.uploads, ignore_errors=True)  # what came in half when a server ended
         _run(Desk(project, Runner(project, limit_s), limits, redo), host, port, show=show)
 
 
@@ -140,9 +141,12 @@ def _routes(desk: Desk) -> None:
         for old in list(desk.batches.values()):  # one drop at a time; what was left half way goes
             old.end()
         desk.batches.clear()
-        batch = Batch(desk.project.folder / "uploads", desk.limits)
+        batch = Batch(desk.project.uploads, desk.limits)
+        try:
+            (batch.folder / batch.name).mkdir(parents=True)
+        except OSError as error:
+            return PlainTextResponse(str(disk_trouble(error)), 507)
         desk.batches[batch.name] = batch
-        (batch.folder / batch.name).mkdir(parents=True)
         return PlainTextResponse(batch.name)
 
     @app.put("/upload/{name}")
@@ -157,7 +161,7 @@ def _routes(desk: Desk) -> None:
             return PlainTextResponse(str(error), 413)
         except OSError as error:
             desk.batches.pop(name).end()
-            return PlainTextResponse(f"it cannot be kept ({error.strerror}); make room on the disk", 507)
+            return PlainTextResponse(str(disk_trouble(error)), 507)
         return PlainTextResponse("kept")
 
     @app.post("/upload/{name}/done")
@@ -171,20 +175,16 @@ def _routes(desk: Desk) -> None:
         desk.taking = True
         try:
             adopted = await run.io_bound(adopt, batch, desk.project)  # a large archive does not hold up the page
+            if adopted is None:
+                return PlainTextResponse("the server is ending; start it again, then drop it again", 503)
+            _choose(desk.project, adopted)
         except BadInput as error:
             return PlainTextResponse(str(error), 422)
+        except OSError as error:
+            return PlainTextResponse(str(disk_trouble(error)), 507)
         finally:
             desk.taking = False
-        if adopted is None:
-            return PlainTextResponse("the server is ending; start it again, then drop it again", 503)
-        if adopted.kind == "model":
-            settings = desk.project.settings()
-            libraries = tuple(dict.fromkeys((*settings.libraries, *adopted.libraries)))
-            desk.project.change(model=adopted.model or settings.model, libraries=libraries, added=())
-            await desk.read_model()
-        else:
-            desk.project.change(added=())
-            await desk.read_data()
+        await (desk.read_model() if adopted.kind == "model" else desk.read_data())
         return PlainTextResponse(adopted.text)
 
     @app.get("/series")
@@ -202,6 +202,13 @@ def _routes(desk: Desk) -> None:
             return PlainTextResponse("no such file", 404)
         shown = path.suffix in (".html", ".png", ".svg")
         return FileResponse(path, filename=path.name, content_disposition_type="inline" if shown else "attachment")
+
+
+def _choose(project: Project, adopted: Adopted) -> None:
+    """What was dropped is what is worked with from now on."""
+    settings = project.settings()
+    libraries = tuple(dict.fromkeys((*settings.libraries, *adopted.libraries)))
+    project.change(model=adopted.model or settings.model, libraries=libraries, added=())
 
 
 def overlay_of(desk: Desk, of: str, record: int) -> Overlay | None:

@@ -9,17 +9,21 @@ from typing import Any
 from nicegui import ui
 
 from pysim.app.desk import Desk
+from pysim.app.disk import disk_trouble
 from pysim.app.jobs import FAILED, STOPPED, Work
 from pysim.app.parts import box, button, note, say, text
 from pysim.types import BadInput
 
 
-def attempt(action: Callable[[], None]) -> bool:
+def attempt(action: Callable[[], object]) -> bool:
     """Do what a button says; what cannot be is said in a sentence."""
     try:
         action()
     except BadInput as error:
         say(str(error), bad=True)
+        return False
+    except OSError as error:
+        say(str(disk_trouble(error)), bad=True)
         return False
     return True
 

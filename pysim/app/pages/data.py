@@ -87,8 +87,8 @@ def _model(desk: Desk) -> None:
 
 
 def _use(desk: Desk, name: str) -> None:
-    desk.project.change(model=name.strip(), added=())
-    background_tasks.create(desk.read_model())
+    if attempt(lambda: desk.project.change(model=name.strip(), added=())):
+        background_tasks.create(desk.read_model())
 
 
 def _data(desk: Desk) -> None:

@@ -11,7 +11,7 @@ from pysim.app.desk import Desk
 from pysim.app.jobs import FAILED, Job
 from pysim.app.pages.add import add_page
 from pysim.app.pages.candidates import candidates_page
-from pysim.app.pages.common import counted
+from pysim.app.pages.common import attempt, counted
 from pysim.app.pages.compare import compare_page
 from pysim.app.pages.data import data_page
 from pysim.app.pages.locate import locate_page
@@ -73,7 +73,8 @@ def _look_button(desk: Desk) -> None:
     look = desk.project.settings().look
     after = LOOKS[(LOOKS.index(look) + 1) % len(LOOKS)]
     words = {"auto": "◐ Auto", "light": "☀ Light", "dark": "☾ Dark"}[look]
-    button(words, lambda: desk.project.change(look=after), "quiet").props(f'title="Look: {look}; press for {after}"')
+    press = button(words, lambda: attempt(lambda: desk.project.change(look=after)), "quiet")
+    press.props(f'title="Look: {look}; press for {after}"')
 
 
 def _what(desk: Desk) -> None:

@@ -105,6 +105,28 @@ def test_a_killed_server_makes_room_for_the_next_and_ipv6_is_answered(tmp_path: 
             assert status(other) == 303
 
 
+def test_a_drop_that_the_disk_refuses_is_told_in_a_sentence(tmp_path: Path) -> None:
+    (tmp_path / "p/data").mkdir(parents=True)
+    (tmp_path / "p/project.toml").write_text("")
+    (tmp_path / "p/earlier").write_text("where the data set should go")
+    with server(tmp_path / "p") as address:
+        _, name = asked(address, "POST", "/upload")
+        assert asked(address, "PUT", f"/upload/{name}?name=a.csv", b"0,1\n") == (200, "kept")
+        code, words = asked(address, "POST", f"/upload/{name}/done")
+        assert (code, words.partition(";")[0]) == (507, f"{tmp_path / 'p/earlier'}: File exists")
+    assert list((tmp_path / "p/uploads").iterdir()) == []
+
+
+def asked(address: str, method: str, path: str, body: bytes = b"") -> tuple[int, str]:
+    """Status and text of what is not a page."""
+    parts = urlsplit(address)
+    connection = http.client.HTTPConnection(parts.hostname or "", parts.port, timeout=60)
+    cookie = f"pysim_app_{parts.port}={address.partition('token=')[2]}"
+    connection.request(method, path, body, {"Cookie": cookie})
+    answer = connection.getresponse()
+    return answer.status, answer.read().decode()
+
+
 def status(address: str, **headers: str) -> int:
     """Of a page, whatever it leads to."""
     parts = urlsplit(address)
