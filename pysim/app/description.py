@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from pysim.io import read_dataset_partly, read_toml, write_file
+from pysim.io import log_source, read_dataset_partly, read_toml, write_file
 from pysim.types import BadInput, Dataset
 
 _SINE = "frequency-response"
@@ -62,6 +62,38 @@ def change_description(path: Path, content: Mapping[str, Any], *, read: bool = T
         else:
             write_file(path, before)
         raise
+
+
+def hold_out(content: dict[str, Any], read: Sequence[str], number: int, on: bool) -> None:
+    """Hold a record out, or fit it again.
+
+    Args:
+        content: of a dataset.toml; changed.
+        read: sources of the records that could be read, in order.
+        number: which of these. Where other records of its file were refused, all of that file are meant.
+    """
+    own = [record for record in content["records"] if _source(record) == read[number]]
+    if len(own) == read.count(read[number]):
+        own = [own[read[:number].count(read[number])]]
+    for record in own:
+        record["use"] = "validate" if on else "fit"
+
+
+def leave_out(content: dict[str, Any], sources: Collection[str]) -> None:
+    """Leave out all records of some files.
+
+    Args:
+        content: of a dataset.toml; changed.
+    Raises:
+        BadInput: no other is left.
+    """
+    content["records"] = [record for record in content["records"] if _source(record) not in sources]
+    if not content["records"]:
+        raise BadInput("no record would be left; mend at least one and drop the folder again")
+
+
+def _source(record: Mapping[str, Any]) -> str:
+    return log_source(str(record.get("file")))
 
 
 def refuse_outside(path: Path) -> None:

@@ -15,7 +15,7 @@ from pysim.io.single_log import read_single_log
 from pysim.io.stages import StageFile, read_stages, write_stages
 from pysim.io.text_table import read_text
 from pysim.io.thesis_folder import LOG_SUFFIXES, read_thesis_folder
-from pysim.io.toml_section import Section, TomlFile, read_toml
+from pysim.io.toml_section import Section, TomlFile, log_source, read_toml
 from pysim.io.units import SI, shown_unit, shown_value, signal_in_si
 from pysim.io.write_dataset import write_dataset
 
@@ -35,6 +35,7 @@ __all__ = [
     "in_model_units",
     "json_number",
     "load_library",
+    "log_source",
     "read_dataset",
     "read_dataset_partly",
     "read_model",

@@ -18,6 +18,11 @@ _NO_VALUE = ("Invalid value", "Expected newline")
 _BARE = re.compile(r"""\s*([\w.-]+)\s*=\s*([^"'\[\]{}#]*[^"'\[\]{}#\s])\s*(?:#.*)?""")  # a value without quotes
 
 
+def log_source(name: str) -> str:
+    """The file a record names, as its `source`: with / between folders whatever the system, without "./" and "//"."""
+    return PureWindowsPath(name).as_posix()
+
+
 @dataclass(frozen=True)
 class Section:
     """A table and where it begins.
@@ -44,7 +49,7 @@ class Section:
         name = self.text("file")
         if not name.isprintable():  # TOML reads the \t of logs\test.txt as a tab
             raise BadInput(f"{self.place}: file = {name!r} is no name; write / between folders")
-        return PureWindowsPath(name).as_posix()
+        return log_source(name)
 
     def number(self, key: str) -> float:
         """A finite number that must be there."""

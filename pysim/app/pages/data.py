@@ -8,14 +8,14 @@ from typing import Any
 
 from nicegui import background_tasks, ui
 
-from pysim.app.description import change_description, read_description
+from pysim.app.description import change_description, hold_out, leave_out, read_description
 from pysim.app.desk import Desk, Loaded
 from pysim.app.pages.bare import describe_form
 from pysim.app.pages.common import amount, attempt, busy, counted, ended, start
 from pysim.app.parts import Chart, Choice, Drop, Table, box, button, card, head, live, note, quantity, say, text
 from pysim.app.records import MOST, measured_overlay
 from pysim.identify.data_check import DataCheck, RecordCheck
-from pysim.types import UNITS, BadInput
+from pysim.types import UNITS, BadInput, Record
 
 MODELS = ("HydraulicTestBench.Pump.FreeGreyBox", "HydraulicTestBench.Pump.LockedGreyBox")
 
@@ -116,14 +116,8 @@ def _refused(desk: Desk, loaded: Loaded) -> None:
         )
         with box("row"):
             files = {file for file, _ in loaded.refused}
-            button("Leave them out", lambda: _change(desk, lambda c: _without(c, files), safe=True), "small")
+            button("Leave them out", lambda: _change(desk, lambda c: leave_out(c, files), safe=True), "small")
             text("span", "or mend them and drop the folder again", "small")
-
-
-def _without(content: dict[str, Any], files: set[str]) -> None:
-    content["records"] = [r for r in content["records"] if str(r.get("file")).replace("\\", "/") not in files]
-    if not content["records"]:
-        raise BadInput("no record would be left; mend at least one and drop the folder again")
 
 
 def _change(desk: Desk, edit: Callable[[dict[str, Any]], Any], *, safe: bool = False) -> None:
@@ -196,6 +190,7 @@ def _records(desk: Desk, preview: dict[str, int]) -> None:
         ("look at", "words"),
     ]
     held = sum(record.use == "validate" for record in check.records)
+    read = [record.source for record in check.records]
     with card(f"{counted(len(check.records), 'record')}, {held} held out"):
         text(
             "p",
@@ -205,25 +200,25 @@ def _records(desk: Desk, preview: dict[str, int]) -> None:
         Table(
             "Records", columns, [_row(record) for record in check.records], height="360px",
             on_row=lambda k: preview.update(record=k), picked=preview.get("record", -1),
-            on_tick=lambda k, on: _change(desk, lambda c: _hold(c, check.records[k].source, on), safe=True),
+            on_tick=lambda k, on: _change(desk, lambda c: hold_out(c, read, k, on), safe=True),
         )  # fmt: skip
-    logs = [record.source for record in check.dataset.logs()]
-    source = check.records[preview["record"]].source if preview.get("record", -1) in range(len(check.records)) else ""
-    if source in logs:
-        number = logs.index(source)
-        overlay = measured_overlay(check.dataset.logs()[number])
+    number = _log_number(check, preview.get("record", -1))
+    if number is not None:
+        log = check.dataset.logs()[number]
+        overlay = measured_overlay(log)
         series = {"url": f"/series?of=data&record={number}", "traces": list(range(len(overlay.lines)))}
-        with card(source):
+        with card(log.source):
             Chart(
-                overlay.figure(), f"{source} over time", height=110 + 130 * len(overlay.names),
+                overlay.figure(), f"{log.source} over time", height=110 + 130 * len(overlay.names),
                 series={**series, "span": overlay.span, "most": MOST},
             )  # fmt: skip
 
 
-def _hold(content: dict[str, Any], source: str, on: bool) -> None:
-    for record in content["records"]:
-        if str(record.get("file")).replace("\\", "/") == source:
-            record["use"] = "validate" if on else "fit"
+def _log_number(check: DataCheck, row: int) -> int | None:
+    """Which of the logs a record is, by its place: two may be of one file; None where it is none."""
+    if row not in range(len(check.records)) or not isinstance(check.dataset.records[row].data, Record):
+        return None
+    return sum(isinstance(record.data, Record) for record in check.dataset.records[:row])
 
 
 def _row(record: RecordCheck) -> list[Any]:

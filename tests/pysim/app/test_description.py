@@ -1,10 +1,11 @@
 """dataset.toml edited: what is written reads back, and what is refused leaves it as it was."""
 
 from pathlib import Path
+from typing import Any
 
 import pytest
 
-from pysim.app.description import change_description, described, read_description, refuse_outside
+from pysim.app.description import change_description, described, hold_out, leave_out, read_description, refuse_outside
 from pysim.io import read_dataset, write_dataset
 from pysim.types import BadInput
 from tests.pysim.diagnose.toy import measured
@@ -71,3 +72,45 @@ def test_bare_logs_get_a_description_that_reads(tmp_path: Path) -> None:
     assert found.signal("p").noise == 0.5e5
     with pytest.raises(BadInput, match="at least one input"):
         described("logs", columns[:1], [])
+
+
+FILES = ["./logs/a.csv", "logs//a.csv", "logs\\b.csv"]  # as a user may write them
+READ = ["logs/a.csv", "logs/a.csv", "logs/b.csv"]  # as they are read
+
+
+def content() -> dict[str, Any]:
+    """Two records of one log, of other columns, and one of another."""
+    return {"records": [{"file": file, "columns": ["time", f"x{k}"]} for k, file in enumerate(FILES)]}
+
+
+@pytest.mark.parametrize("number", [0, 1, 2])
+def test_a_record_is_held_out_alone_however_its_file_is_written(number: int) -> None:
+    found = content()
+    hold_out(found, READ, number, True)
+    assert [record.get("use") for record in found["records"]] == ["validate" if k == number else None for k in range(3)]
+    hold_out(found, READ, number, False)
+    assert found["records"][number]["use"] == "fit"
+
+
+def test_a_log_of_which_a_record_was_refused_is_held_out_as_a_whole() -> None:
+    found = content()
+    hold_out(found, READ[1:], 0, True)
+    assert [record.get("use") for record in found["records"]] == ["validate", "validate", None]
+
+
+def test_refused_logs_are_left_out_however_their_files_are_written() -> None:
+    found = content()
+    leave_out(found, {"logs/a.csv"})
+    assert [record["file"] for record in found["records"]] == ["logs\\b.csv"]
+    with pytest.raises(BadInput, match="no record would be left"):
+        leave_out(found, {"logs/b.csv"})
+
+
+def test_sources_are_those_of_the_reader(path: Path) -> None:
+    found = read_description(path)
+    for record in found["records"]:
+        record["file"] = f"./{record['file']}"
+    change_description(path, found)
+    read = [record.source for record in read_dataset(path.parent).records]
+    hold_out(found, read, 0, True)
+    assert found["records"][0]["use"] == "validate"
