@@ -57,7 +57,7 @@ def serve(
     """
     project = Project.at(folder)
     with held(project.folder) as tell:
-        port = _port(host, port)
+        port = free_port(host, port)
         tell(page_address(host, port))
         settle(project)
         shutil.rmtree(project.uploads, ignore_errors=True)  # what came in half when a server ended
@@ -118,15 +118,18 @@ async def _announce(words: str, host: str, port: int, show: str) -> None:
         await run.io_bound(webbrowser.open, show)
 
 
-def _port(host: str, port: int) -> int:
+def free_port(host: str, port: int) -> int:
     """A port that is free.
+
+    One that a server has just left is. On Windows it is so by itself, and SO_REUSEADDR would give out one that is in
+    use: there it is asked for alone.
 
     Raises:
         BadInput: the wanted one is not.
     """
     try:
         with socket.socket(socket.AF_INET6 if ":" in host else socket.AF_INET) as probe:
-            probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+            probe.setsockopt(socket.SOL_SOCKET, getattr(socket, "SO_EXCLUSIVEADDRUSE", socket.SO_REUSEADDR), 1)
             probe.bind((host, port))
             return int(probe.getsockname()[1])
     except OSError as error:

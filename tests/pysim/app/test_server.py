@@ -16,7 +16,7 @@ import pytest
 from pysim.app.answers import Answer
 from pysim.app.jobs import DONE, Job, Work
 from pysim.app.lock import held
-from pysim.app.server import overlay_of, page_address, serve
+from pysim.app.server import free_port, overlay_of, page_address, serve
 from pysim.app.upload import Limits
 from pysim.io import read_stages, write_stages
 from pysim.report.diagnosis import diagnosis_data
@@ -73,6 +73,28 @@ def test_a_second_server_touches_nothing_and_tells_where_the_first_is(tmp_path: 
             serve(tmp_path / "p", redo=" ".join, show=False, limits=Limits())
     assert running.read_bytes() == before
     assert coming.exists()
+
+
+def test_a_port_that_another_has_is_refused() -> None:
+    with socket.socket() as other:
+        other.bind(("127.0.0.1", 0))
+        other.listen()
+        number = other.getsockname()[1]
+        with pytest.raises(BadInput, match=rf"--port {number} at 127.0.0.1: .*; name another, or leave it out"):
+            free_port("127.0.0.1", number)
+
+
+def test_on_windows_a_port_is_asked_for_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+    seen: list[int] = []
+
+    class Probe(socket.socket):
+        def setsockopt(self, level: int, option: int, value: Any) -> None:  # type: ignore[override]
+            seen.append(option)
+
+    monkeypatch.setattr(socket, "SO_EXCLUSIVEADDRUSE", ~socket.SO_REUSEADDR, raising=False)
+    monkeypatch.setattr(socket, "socket", Probe)
+    assert free_port("127.0.0.1", 0) > 0
+    assert seen == [~socket.SO_REUSEADDR]
 
 
 @pytest.fixture
