@@ -18,8 +18,12 @@ from pysim.app.processes import end, last_words, run_pysim
 from pysim.app.project import Project
 from pysim.app.sketch import Sketch, sketches
 
-_LIMIT = 240.0  # s
+_LIMIT = 1200.0  # s: the 900 that fmu_build.pack.compiler grants the first compilation, and more than any model takes
 _NAP = 0.1  # s
+_LATE = (
+    "the model was not ready within {limit:g} s; the first one on a machine takes some minutes on Windows, and what is "
+    "compiled is kept: use it again, and if that takes as long, try it in a terminal with pysim model"
+)
 
 
 @dataclass(frozen=True)
@@ -61,7 +65,7 @@ async def build_model(project: Project, wanted: Callable[[], bool], *, limit: fl
             end(process, hard=True)
             process.wait()
         if late:
-            return Built(trouble=f"the model was not ready within {limit:g} s; check that it can be simulated")
+            return Built(trouble=_LATE.format(limit=limit))
         if not path.is_file():
             return Built(trouble=last_words(log))
         model = json.loads(path.read_text(encoding="utf-8"))

@@ -67,7 +67,7 @@ def _model(desk: Desk) -> None:
             button("Use this model", lambda: _use(desk, str(field.value)), "" if settings.model else "main", off=off)
             if desk.model_busy:
                 box("spin")
-                text("span", "building the model", "small")
+                text("span", "building the model; the first on a machine takes some minutes on Windows", "small")
         if not settings.model:
             text("p", f"A Modelica class, such as {MODELS[0]}, or drop an .fmu or a library above.", "small")
         if desk.model_trouble:

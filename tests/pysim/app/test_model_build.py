@@ -10,6 +10,7 @@ from types import SimpleNamespace
 
 import pytest
 
+from fmu_build.pack import compiler
 from pysim.app import model_build
 from pysim.app.desk import Desk
 from pysim.app.jobs import Runner
@@ -97,8 +98,13 @@ def test_a_build_beyond_its_limit_is_ended_with_all_that_it_has_started(
     clock = SimpleNamespace(monotonic=lambda: 9.0 if (project.folder / "child").exists() else 0.0)
     monkeypatch.setattr(model_build, "time", clock)
     built = asyncio.run(build_model(project, lambda: True, limit=5.0))
-    assert built.trouble == "the model was not ready within 5 s; check that it can be simulated"
+    assert built.trouble.startswith("the model was not ready within 5 s; the first one on a machine takes some minutes")
+    assert "use it again" in built.trouble
     assert not alive(child(project.folder))
+
+
+def test_the_first_compilation_has_the_time_that_the_compiler_grants_it() -> None:
+    assert model_build._LIMIT > compiler._LONGEST_S
 
 
 def test_a_build_that_nobody_waits_for_is_ended(project: Project, started: "list[subprocess.Popen[bytes]]") -> None:
