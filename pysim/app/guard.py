@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import hmac
-from collections.abc import Awaitable, Callable, MutableMapping
+from collections.abc import Awaitable, Callable, Iterable, MutableMapping
 from typing import Any
-from urllib.parse import parse_qsl, urlencode, urlsplit
+from urllib.parse import parse_qsl, quote, urlencode, urlsplit
 
 Scope = MutableMapping[str, Any]
 Receive = Callable[[], Awaitable[MutableMapping[str, Any]]]
 Send = Callable[[MutableMapping[str, Any]], Awaitable[None]]
 App = Callable[[Scope, Receive, Send], Awaitable[None]]
 
+_HTTP = 80
 _POLICY = (
     "default-src 'self'; script-src 'self' 'unsafe-inline' 'unsafe-eval' blob:; style-src 'self' 'unsafe-inline'; "
     "img-src 'self' data: blob:; font-src 'self' data:; connect-src 'self' ws: wss:; worker-src 'self' blob:; "
@@ -25,6 +26,11 @@ _HEADERS = (
 _REFUSED = b"This page needs the address with its token, as pysim app printed it in the terminal.\n"
 
 
+def host_names(names: Iterable[str], port: int) -> frozenset[str]:
+    """How a browser asks for a server of these names: it leaves the port out where that is the one of http."""
+    return frozenset(f"{name}:{port}" for name in names) | (frozenset(names) if port == _HTTP else frozenset())
+
+
 class Guard:
     """Lets through what carries the token, as a cookie or in the address, and names a host that it knows.
 
@@ -34,7 +40,7 @@ class Guard:
     Args:
         app: behind it.
         token: that has to be shown.
-        hosts: names of this server, with port; empty: any.
+        hosts: `host_names` of this server; empty: any.
         cookie: name under which the browser keeps the token.
     """
 
@@ -53,7 +59,8 @@ class Guard:
             await _refuse(scope, send)
         elif shown and scope["type"] == "http" and scope["method"] == "GET":
             rest = urlencode([(key, value) for key, value in words if key != "token"])
-            await self._welcome(send, scope["path"] + (f"?{rest}" if rest else ""))
+            place = quote(scope["path"].lstrip("/"), errors="replace")
+            await self._welcome(send, place + (f"?{rest}" if rest else ""))
         else:
             await self._app(scope, receive, _with_headers(send))
 
@@ -72,12 +79,19 @@ class Guard:
         if self._hosts and host not in self._hosts:
             return True
         origin = headers.get("origin")
-        return origin is not None and urlsplit(origin).netloc != host
+        try:
+            return origin is not None and urlsplit(origin).netloc != host
+        except ValueError:  # an address that is none
+            return True
 
     async def _welcome(self, send: Send, place: str) -> None:
-        """Keep the token as a cookie, and go on without it in the address."""
+        """Keep the token as a cookie, and go on without it in the address.
+
+        Args:
+            place: below the address of the server, quoted.
+        """
         cookie = f"{self._cookie}={self._token}; Path=/; HttpOnly; SameSite=Strict"
-        headers = [(b"location", b"/" + place.lstrip("/").encode("latin-1")), (b"set-cookie", cookie.encode())]
+        headers = [(b"location", f"/{place}".encode()), (b"set-cookie", cookie.encode())]
         await send({"type": "http.response.start", "status": 303, "headers": [*headers, *_HEADERS]})
         await send({"type": "http.response.body", "body": b""})
 

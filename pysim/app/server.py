@@ -18,7 +18,7 @@ from nicegui import app, run, ui
 
 from pysim.app.desk import Desk
 from pysim.app.disk import disk_trouble
-from pysim.app.guard import Guard
+from pysim.app.guard import Guard, host_names
 from pysim.app.jobs import Runner, settle
 from pysim.app.lock import held
 from pysim.app.pages.shell import shell
@@ -66,8 +66,8 @@ def serve(
 
 def _run(desk: Desk, host: str, port: int, *, show: bool) -> None:
     token = token_urlsafe(24)
-    known = {f"{name}:{port}" for name in ("127.0.0.1", "localhost", "[::1]")} if host in _LOOPBACK else set()
-    app.add_middleware(Guard, token=token, hosts=frozenset(known), cookie=f"pysim_app_{port}")
+    known = host_names(("127.0.0.1", "localhost", "[::1]") if host in _LOOPBACK else (), port)
+    app.add_middleware(Guard, token=token, hosts=known, cookie=f"pysim_app_{port}")
     address = f"{page_address(host, port)}/?token={token}"
     words = f"Workbench: {address}\nProject: {desk.project.folder}\nCtrl-C ends it."
     _routes(desk)

@@ -6,12 +6,12 @@ from typing import Any
 
 import pytest
 
-from pysim.app.guard import Guard
+from pysim.app.guard import Guard, host_names
 
 Message = MutableMapping[str, Any]
 
 
-def asked(kind: str, query: str = "", **headers: str) -> list[Message]:
+def asked(kind: str, query: str = "", path: str = "/a b", **headers: str) -> list[Message]:
     """What a request of that kind is answered with by a server that says "inside"."""
     sent: list[Message] = []
 
@@ -26,9 +26,9 @@ def asked(kind: str, query: str = "", **headers: str) -> list[Message]:
         return {"type": "http.request"}
 
     own = {"host": "127.0.0.1:80", **headers}
-    scope = {"type": kind, "path": "/a b", "method": "GET", "query_string": query.encode()}
+    scope = {"type": kind, "path": path, "method": "GET", "query_string": query.encode()}
     scope["headers"] = [(key.encode(), value.encode("latin-1")) for key, value in own.items()]
-    guard = Guard(inside, "secret", frozenset({"127.0.0.1:80"}), "own")
+    guard = Guard(inside, "secret", host_names(["127.0.0.1"], 80), "own")
     asyncio.run(guard(scope, receive, send))
     return sent
 
@@ -37,7 +37,7 @@ def test_the_token_in_the_address_becomes_a_cookie_and_leaves_the_address() -> N
     start, _ = asked("http", "x=1&token=secret")
     headers = dict(start["headers"])
     assert start["status"] == 303
-    assert headers[b"location"] == b"/a b?x=1"
+    assert headers[b"location"] == b"/a%20b?x=1"
     assert headers[b"set-cookie"] == b"own=secret; Path=/; HttpOnly; SameSite=Strict"
 
 
@@ -72,9 +72,26 @@ def test_cookies_of_other_ports_lock_nobody_out(foreign: str) -> None:
     assert start["status"] == 403
 
 
-def test_it_never_leads_to_another_host() -> None:
-    start, _ = asked("http", "token=secret")
-    assert not dict(start["headers"])[b"location"].startswith(b"//")
+@pytest.mark.parametrize(
+    ("path", "place"),
+    [
+        ("//evil.example", b"/evil.example"),
+        ("/\\evil.example", b"/%5Cevil.example"),  # which a browser takes for //
+        ("/Größe €?", b"/Gr%C3%B6%C3%9Fe%20%E2%82%AC%3F"),
+        ("/\udc80", b"/%3F"),
+    ],
+)
+def test_it_leads_to_the_place_that_was_asked_for_and_never_to_another_host(path: str, place: bytes) -> None:
+    start, _ = asked("http", "token=secret", path)
+    assert (start["status"], dict(start["headers"])[b"location"]) == (303, place)
+
+
+def test_a_browser_leaves_the_port_of_http_out() -> None:
+    assert host_names(["localhost"], 80) == {"localhost", "localhost:80"}
+    assert host_names(["localhost"], 8080) == {"localhost:8080"}
+    assert host_names([], 80) == set()  # any
+    start, body = asked("http", cookie="own=secret", host="127.0.0.1", origin="http://127.0.0.1")
+    assert (start["status"], body["body"]) == (200, b"inside")
 
 
 @pytest.mark.parametrize(
@@ -89,6 +106,8 @@ def test_it_never_leads_to_another_host() -> None:
         ("token=secret", {"host": "evil.example:80"}),
         ("token=secret", {"origin": "http://evil.example"}),
         ("", {"cookie": "own=secret", "origin": "null"}),
+        ("", {"cookie": "own=secret", "origin": "http://["}),
+        ("token=secret", {"origin": "http://["}),
     ],
 )
 def test_all_others_stay_outside(query: str, headers: dict[str, str]) -> None:
