@@ -17,13 +17,14 @@ from pysim.app.began import began
 
 _TASKKILL_LIMIT = 10.0  # s; it answers at once
 _NAP = 0.02  # s
+_ENCODING = "utf-8:backslashreplace"  # of what a command says, as `last_words` reads it; Windows would take a code page
 
 
 def run_pysim(words: Sequence[str], folder: Path, output: Any) -> subprocess.Popen[bytes]:
     """`pysim` with these words in a process of its own, in that folder; nothing of the folder is imported."""
     root = str(Path(__file__).resolve().parents[2])
     path = os.pathsep.join([root, *filter(None, [os.environ.get("PYTHONPATH")])])
-    environment = {**os.environ, "PYTHONPATH": path, "PYTHONUNBUFFERED": "1"}
+    environment = {**os.environ, "PYTHONPATH": path, "PYTHONUNBUFFERED": "1", "PYTHONIOENCODING": _ENCODING}
     command = [sys.executable, "-P", "-m", "pysim", *words]
     own: dict[str, Any] = {"creationflags": 0x200} if sys.platform == "win32" else {}  # CREATE_NEW_PROCESS_GROUP
     return subprocess.Popen(

@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 from pysim.app import processes
-from pysim.app.processes import Started, end
+from pysim.app.processes import Started, end, last_words, run_pysim
 from tests.pysim.app.alive import PARENT, alive, child
 
 
@@ -78,3 +78,13 @@ def test_what_cannot_be_ended_is_said(monkeypatch: pytest.MonkeyPatch) -> None:
 
     monkeypatch.setattr(processes.os, "killpg", refused)
     assert not Started.of(os.getpid()).end(0.05)
+
+
+def test_what_a_command_says_is_read_as_it_was_said(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("PYTHONIOENCODING", "cp1252")  # as where output goes to a file on Windows
+    begin = subprocess.Popen
+    say = "print('pysim compare: Prüfstand/Größe.csv: \\u2265 2 rows \\udc80')"
+    monkeypatch.setattr(processes.subprocess, "Popen", lambda _, **more: begin([sys.executable, "-c", say], **more))
+    with (tmp_path / "output.txt").open("wb") as output:
+        assert run_pysim(["compare"], tmp_path, output).wait(60) == 0
+    assert last_words(tmp_path / "output.txt") == "Prüfstand/Größe.csv: ≥ 2 rows \\udc80"
