@@ -25,7 +25,7 @@ class Settings:
     """What the user chose.
 
     Args:
-        model: a Modelica class, or the name of an .fmu below `model/`.
+        model: a Modelica class, or an .fmu as it is seen from the project: `model/Pump.fmu`.
         libraries: of the user's, below the project.
         free: parameters that may be refitted; empty: all that the model bounds.
         added: effects that the model has now, in order.
@@ -121,6 +121,13 @@ class Project:
         settings = replace(self.settings(), **values)
         self.save(settings)
         return settings
+
+    def model_name(self, name: str) -> str:
+        """What the settings call the model that a user names: `Pump.fmu` may lie below `model/`."""
+        name = name.strip()
+        below = self.models / name
+        bare = name.lower().endswith(".fmu") and not (self.folder / name).is_file() and below.is_file()
+        return below.relative_to(self.folder).as_posix() if bare else name
 
     def fingerprint(self) -> str:
         """Of all that a result depends on: data, model and what may be refitted."""

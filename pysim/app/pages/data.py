@@ -87,7 +87,7 @@ def _model(desk: Desk) -> None:
 
 
 def _use(desk: Desk, name: str) -> None:
-    if attempt(lambda: desk.project.change(model=name.strip(), added=())):
+    if attempt(lambda: desk.project.change(model=desk.project.model_name(name), added=())):
         background_tasks.create(desk.read_model())
 
 

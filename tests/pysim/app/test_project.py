@@ -94,3 +94,14 @@ def test_what_another_program_shows_is_replaced_whole_or_not_at_all(
     assert sorted(path.name for path in coming.iterdir()) == ["A.mo", "B.mo", "a.txt"]
     monkeypatch.undo()
     assert replace() in ("earlier/data-1", "earlier/model-1")
+
+
+def test_an_fmu_below_model_may_be_named_without_its_folder(tmp_path: Path) -> None:
+    project = Project.at(tmp_path / "p")
+    (project.models / "sub").mkdir(parents=True)
+    for name in ("Pump.fmu", "sub/Other.FMU", "both.fmu"):
+        (project.models / name).write_text("")
+    (project.folder / "both.fmu").write_text("")
+    written = [" Pump.fmu ", "model/Pump.fmu", "sub/Other.FMU", "both.fmu", "gone.fmu", "Lib.Pump", ""]
+    found = ["model/Pump.fmu", "model/Pump.fmu", "model/sub/Other.FMU", "both.fmu", "gone.fmu", "Lib.Pump", ""]
+    assert [project.model_name(name) for name in written] == found
