@@ -15,6 +15,9 @@ Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
 _SMALL = 1e-3  # of the loop gain, below which antiphase is of no interest
+_NEAR = 0.7  # of the loop gain, below which dead time turns 1 + L by less than a quarter
+_TURN = 0.5  # rad that the dead time may turn a loop of such a gain from one frequency to the next
+_MOST = 300_000  # frequencies
 _BISECTIONS = 60  # each halves the bracket of a crossing; ends at rounding
 _ON_AXIS = 1e-9  # of a pole's size: nearer to the imaginary axis than that it lies there
 
@@ -28,7 +31,8 @@ class Margins:
         phase_margins: (n,) rad at these, within -pi ... pi.
         phase_crossovers: (m,) rad/s where L is real and negative, and more than a thousandth, rising.
         gain_margins: (m,) 1/|L| there.
-        delay_margin: s of dead time that the loop bears; infinite without crossover.
+        delay_margin: s of dead time that the loop bears; infinite without crossover, but zero where |L| stays above 1
+            at the end, which a plant that answers at once can do.
         peak_sensitivity: largest 1/|1 + L|.
         bandwidth: rad/s, where the closed loop first crosses -3 dB; infinite where it does not.
         stable: whether the closed loop is.
@@ -91,19 +95,29 @@ def margins(plant: Plant, K_p: float, T_i: float) -> Margins:
     real_axis = _roots(omega, loop.imag, turned, _undamped(plant))  # L changes sides through infinity there
     values = open_loop(plant, K_p, T_i, real_axis).real
     negative = values < -_SMALL
-    # dead time turns L by omega T: a turn from the margin's angle, counted as positive, down to the critical point
-    delays = np.mod(phase_margins, 2 * np.pi) / crossovers
     edges = _roots(omega, _beyond_3_db(loop), lambda w: _beyond_3_db(open_loop(plant, K_p, T_i, w)))
     return Margins(
         crossovers,
         phase_margins,
         real_axis[negative],
         -1 / values[negative],
-        float(delays.min()) if delays.size else np.inf,
+        _delay_margin(crossovers, phase_margins) if _last(plant, K_p) < 1 else 0.0,
         float(1 / np.abs(1 + loop).min()),
         float(edges[0]) if edges.size else np.inf,
         _is_stable(plant, K_p, T_i, omega),
     )
+
+
+def _last(plant: Plant, K_p: float) -> float:
+    """|L| at the highest frequencies: zero but for a plant that answers at once."""
+    at_once = len(plant.numerator) == len(plant.denominator)
+    return abs(K_p * plant.numerator[0] / plant.denominator[0]) if at_once else 0.0
+
+
+def _delay_margin(crossovers: Array, phase_margins: Array) -> float:
+    """Dead time turns L by omega T: a turn from the margin's angle, counted as positive, to the critical point."""
+    delays = np.mod(phase_margins, 2 * np.pi) / crossovers
+    return float(delays.min()) if delays.size else np.inf
 
 
 def _beyond_3_db(loop: Complex) -> Array:
@@ -112,15 +126,27 @@ def _beyond_3_db(loop: Complex) -> Array:
 
 
 def _frequencies(plant: Plant, K_p: float, T_i: float) -> Array:
-    """The plant's, and far enough on either side for the controller's corner and a slow integral."""
+    """The plant's, and far enough on either side for the controller's corner, a slow integral and a high gain."""
     own = plant.frequencies()
-    slow = min(own[0], 1e-4 / T_i)
-    gain = float(np.abs(open_loop(plant, K_p, T_i, np.array([slow])))[0])
-    slow *= min(1.0, 1e-3 * gain)  # down there the loop falls with the frequency at least
-    wide = np.geomspace(slow, max(own[-1], 1e3 / T_i), 4000)
-    omega = np.unique(np.concatenate([own, wide]))
-    at_pole = np.isclose(omega[:, None], _undamped(plant), rtol=_ON_AXIS, atol=0.0).any(axis=1)
-    return np.asarray(omega[~at_pole])
+    slow, fast = min(own[0], 1e-4 / T_i), max(own[-1], 1e3 / T_i)
+    low, high = np.abs(open_loop(plant, K_p, T_i, np.array([slow, fast])))
+    slow *= min(1.0, 1e-3 * low)  # down there the loop falls with the frequency at least
+    falls = len(plant.denominator) - len(plant.numerator)  # and up there with this power of it
+    if falls:
+        fast *= max(1.0, high / _SMALL) ** (1 / falls)
+    omega = np.unique(np.concatenate([own, np.geomspace(slow, fast, 4000)]))
+    omega = omega[~np.isclose(omega[:, None], _undamped(plant), rtol=_ON_AXIS, atol=0.0).any(axis=1)]
+    return _close_enough(omega, np.abs(open_loop(plant, K_p, T_i, omega)), plant.delay)
+
+
+def _close_enough(omega: Array, size: Array, delay: float) -> Array:
+    """More frequencies where a loop of gain `size` (n,) counts and the dead time would turn it too far between two."""
+    counts = np.maximum(size[1:], size[:-1]) > _NEAR
+    parts = np.where(counts, np.ceil(np.diff(omega) * delay / _TURN), 1.0).clip(min=1.0)
+    place = np.append(0.0, np.cumsum(parts))
+    if place[-1] > _MOST:  # so many turns with a gain above one are beyond all margins
+        return omega
+    return np.interp(np.arange(place[-1] + 1), place, omega)
 
 
 def _undamped(plant: Plant) -> Array:
@@ -148,6 +174,9 @@ def _is_stable(plant: Plant, K_p: float, T_i: float, omega: Array) -> bool:
     With dead time by the argument principle: of a polynomial's degree n, F turns by n pi/2 along the positive imaginary
     axis, and by pi less for each root on the right. Unlike 1 + L, it has no poles, which could lie on that axis. N of
     the degree of D leaves it swinging by less than pi/2 there, or, with a gain above one, roots on the right.
+
+    Where |L| > 1 it turns with the dead time. All else together cannot turn it back by more than 3 n + 2 half turns:
+    n for each of D and N, one for each crossover and both ends.
     """
     forward = np.polymul(plant.numerator, (K_p * T_i, K_p))
     own = np.polymul(plant.denominator, (T_i, 0.0))
@@ -156,5 +185,9 @@ def _is_stable(plant: Plant, K_p: float, T_i: float, omega: Array) -> bool:
     if forward.size == own.size and abs(forward[0]) >= abs(own[0]):
         return False
     s = 1j * omega
-    turn = np.unwrap(np.angle(np.polyval(own, s) + np.polyval(forward, s) * np.exp(-s * plant.delay)))
+    free, fed = np.polyval(own, s), np.polyval(forward, s)
+    above = np.abs(fed) > np.abs(free)
+    if plant.delay * np.diff(omega)[above[1:] & above[:-1]].sum() > 4 * own.size * np.pi:
+        return False
+    turn = np.unwrap(np.angle(free + fed * np.exp(-s * plant.delay)))
     return bool(abs(turn[-1] - turn[0] - (own.size - 1) * np.pi / 2) < np.pi / 2)

@@ -103,6 +103,36 @@ def test_a_gain_above_one_at_high_frequencies_bears_no_dead_time() -> None:
     assert not margins(Plant((1.0, 2.0), (1.0, 1.0), 1e-3), 1.1, 10.0).stable
 
 
+@pytest.mark.parametrize("gain", [5e3, 5e6])
+def test_a_crossover_far_beyond_the_plants_corners_is_found(gain: float) -> None:
+    """k/(s + 1) with the integral at the same corner is k/s."""
+    found = margins(Plant((1.0,), (1.0, 1.0)), gain, 1.0)
+    assert found.crossover == pytest.approx(gain, rel=1e-9)
+    assert found.phase_margin == pytest.approx(math.pi / 2, rel=1e-9)
+    assert found.delay_margin == pytest.approx(math.pi / 2 / gain, rel=1e-9)
+    assert found.stable
+
+
+@pytest.mark.parametrize("gain", [1.0, 3e2, 5e3, 7e4, 1e6])
+@pytest.mark.parametrize("turn", [1.5, 1.65, 6.9, 40.0, 1e3, 1e6])
+def test_dead_time_before_a_lag_under_a_high_gain(gain: float, turn: float) -> None:
+    """k exp(-s T)/s, at a crossover far beyond the plant's corner: stable with k T below a quarter turn."""
+    found = margins(Plant((1.0,), (1.0, 1.0), delay=turn / gain), gain, 1.0)
+    assert found.stable == (turn < math.pi / 2)
+    assert found.crossover == pytest.approx(gain, rel=1e-9)
+
+
+def test_a_loop_that_answers_at_once_with_more_than_it_gets_bears_no_dead_time() -> None:
+    """2 (s + 2)/(s + 1): the gain falls to 2 and is never one."""
+    plant = Plant((1.0, 2.0), (1.0, 1.0))
+    found = margins(plant, 2.0, 1e3)
+    assert found.stable
+    assert found.crossovers.size == 0
+    assert found.delay_margin == 0.0
+    assert not margins(plant.delayed(1e-6), 2.0, 1e3).stable
+    assert margins(plant, 0.6, 1e3).delay_margin > 0.0
+
+
 def test_wrong_gains_are_refused() -> None:
     with pytest.raises(BadInput, match="positive time"):
         margins(INTEGRATOR, 1.0, 0.0)
