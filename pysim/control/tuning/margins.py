@@ -31,8 +31,8 @@ class Margins:
         phase_margins: (n,) rad at these, within -pi ... pi.
         phase_crossovers: (m,) rad/s where L is real and negative, and more than a thousandth, rising.
         gain_margins: (m,) 1/|L| there.
-        delay_margin: s of dead time that the loop bears; infinite without crossover, but zero where |L| stays above 1
-            at the end, which a plant that answers at once can do.
+        delay_margin: s of dead time that the loop bears; infinite without crossover. Zero where it is not stable, and
+            where |L| stays above 1 at the end, which a plant that answers at once can do.
         peak_sensitivity: largest 1/|1 + L|.
         bandwidth: rad/s, where the closed loop first crosses -3 dB; infinite where it does not.
         stable: whether the closed loop is.
@@ -95,16 +95,17 @@ def margins(plant: Plant, K_p: float, T_i: float) -> Margins:
     real_axis = _roots(omega, loop.imag, turned, _undamped(plant))  # L changes sides through infinity there
     values = open_loop(plant, K_p, T_i, real_axis).real
     negative = values < -_SMALL
+    stable = _is_stable(plant, K_p, T_i, omega)
     edges = _roots(omega, _beyond_3_db(loop), lambda w: _beyond_3_db(open_loop(plant, K_p, T_i, w)))
     return Margins(
         crossovers,
         phase_margins,
         real_axis[negative],
         -1 / values[negative],
-        _delay_margin(crossovers, phase_margins) if _last(plant, K_p) < 1 else 0.0,
+        _delay_margin(crossovers, phase_margins) if stable and _last(plant, K_p) < 1 else 0.0,
         float(1 / np.abs(1 + loop).min()),
         float(edges[0]) if edges.size else np.inf,
-        _is_stable(plant, K_p, T_i, omega),
+        stable,
     )
 
 

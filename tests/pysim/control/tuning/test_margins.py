@@ -44,6 +44,12 @@ def test_a_loop_bears_its_delay_margin_and_no_more(plant: Plant, K_p: float, T_i
     assert not margins(plant.delayed(1.01 * most), K_p, T_i).stable
 
 
+def test_an_unstable_loop_bears_no_dead_time() -> None:
+    found = margins(Plant((2.0,), (0.5, 1.0), delay=0.05), 20.0, 0.5)
+    assert not found.stable
+    assert found.delay_margin == 0.0
+
+
 def test_dead_time_agrees_with_its_pade_approximation() -> None:
     T = 0.02
     pade = Plant((T**2 / 12, -T / 2, 1.0), (T**2 / 12, T / 2, 1.0))
