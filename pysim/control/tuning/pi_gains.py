@@ -16,6 +16,7 @@ Array = NDArray[np.float64]
 
 _TIMES = 400  # integration times that are tried
 _ALIKE = 0.99  # of the largest K_p/T_i: as fast
+_ON_AXIS = 1e-6  # of a root's size: further on the right than that it is unstable, and not rounded
 
 
 @dataclass(frozen=True)
@@ -56,7 +57,7 @@ def reachable_phase_margins(plant: Plant, crossover: float) -> tuple[float, floa
     """
     if not 0 < crossover < math.inf:
         raise BadInput(f"crossover: {crossover:g} rad/s; give a positive frequency")
-    most = _phase(plant, crossover) + math.pi
+    most = float(_phase(plant, np.array([crossover]))[0]) + math.pi
     return most - math.pi / 2, most
 
 
@@ -109,9 +110,12 @@ def fastest_pi(plant: Plant, *, phase_margin: float, gain_margin: float = 2.0) -
             f"margins: {math.degrees(phase_margin):.4g} degrees and {gain_margin:.3g}; give 0 to 90 degrees, above 1"
         )
     omega = plant.frequencies()
-    response = plant.response(omega) * _steady_sign(plant)
+    response, phase = plant.response(omega) * _steady_sign(plant), _phase(plant, omega)
     steps = np.geomspace(1e-2 / omega[-1], 1 / omega[0], _TIMES)
-    integrals = [_largest_integral(response, omega, T_i, phase_margin, gain_margin) for T_i in steps]
+    integrals = []
+    for T_i in steps:
+        loop, turned = response * (T_i + 1 / (1j * omega)), phase + np.arctan(omega * T_i) - math.pi / 2
+        integrals.append(_largest_integral(loop, turned, phase_margin, gain_margin))
     best = int(np.argmax(integrals))
     if integrals[best] == 0.0:
         raise BadInput(f"{plant.name}: no gain keeps these margins; ask for smaller ones")
@@ -125,13 +129,9 @@ def fastest_pi(plant: Plant, *, phase_margin: float, gain_margin: float = 2.0) -
     return known_pi(plant, K_p, T_i)
 
 
-def _largest_integral(
-    response: NDArray[np.complex128], omega: Array, T_i: float, phase_margin: float, gain_margin: float
-) -> float:
-    """K_p/T_i, at most so large that both margins are kept."""
-    loop = response * (T_i + 1 / (1j * omega))
-    size, phase = np.abs(loop), np.unwrap(np.angle(loop))
-    phase -= 2 * math.pi if phase[0] > math.pi / 2 else 0.0  # two integrators: half a turn behind, not ahead
+def _largest_integral(loop: NDArray[np.complex128], phase: Array, phase_margin: float, gain_margin: float) -> float:
+    """K_p/T_i, at most so large that a loop (n,) of continuous phase (n,) at K_p/T_i = 1 keeps both margins."""
+    size = np.abs(loop)
     short = phase + math.pi < phase_margin
     first = int(np.argmin(short)) if short[0] else 0  # so many at the low end are in antiphase for two integrators
     if short.all():
@@ -150,9 +150,22 @@ def _steady_sign(plant: Plant) -> float:
     return float(np.sign(np.trim_zeros(plant.numerator, "b")[-1] / np.trim_zeros(plant.denominator, "b")[-1]))
 
 
-def _phase(plant: Plant, omega: float) -> float:
-    """Continuous phase at one frequency, rad, counted from the sign and the integrators at low frequency."""
-    grid = plant.frequencies()
-    grid = np.append(grid[grid < omega], omega)
-    response = plant.response(grid) * _steady_sign(plant)
-    return float(np.unwrap(np.angle(response))[-1])
+def _phase(plant: Plant, omega: Array) -> Array:
+    """Continuous phase (n,) at frequencies (n,), rad, counted from the sign and the integrators at low frequency.
+
+    The roots tell which of all turns it is: one on the left, at zero or on the axis turns forward, one on the right
+    back.
+    """
+    zeros = np.asarray(np.roots(plant.numerator), dtype=np.complex128)
+    near = _turned(zeros, omega) - _turned(plant.poles(), omega) - omega * plant.delay
+    phase = np.angle(plant.response(omega) * _steady_sign(plant))
+    return np.asarray(phase + 2 * math.pi * np.round((near - phase) / (2 * math.pi)), dtype=np.float64)
+
+
+def _turned(roots: NDArray[np.complex128], omega: Array) -> Array:
+    """By how much the product of all (1 - j omega/root) turns up to each frequency (n,), rad; a root of 0 by pi/2."""
+    turned = np.zeros(omega.size)
+    for root in roots:
+        forward = 1.0 if root.real <= _ON_AXIS * abs(root) else -1.0
+        turned += forward * np.arctan2(omega - root.imag, abs(root.real))
+    return turned

@@ -66,6 +66,35 @@ def test_a_margin_out_of_reach_names_what_is_within() -> None:
         reachable_phase_margins(LAG, 0.0)
 
 
+@pytest.mark.parametrize(
+    ("numerator", "denominator", "delay", "phase"),
+    [
+        ((1,), (1, 0), 0.0, -90.0),
+        ((1,), (1, 0, 0), 0.0, -180.0),
+        ((-1,), (1, 0, 0), 0.0, -180.0),  # its sign is the gain's
+        ((1,), (1, 0, 0, 0), 0.0, -270.0),
+        ((1, 0), (1, 2, 1), 0.0, 0.0),  # 90 degrees ahead at 0, 90 behind by 1 rad/s
+        ((1, 1), (1, 0, 0), 0.0, -135.0),
+        ((1,), (1, 0, 0), math.pi, -360.0),
+        ((1,), (1, 0, 0.25), 0.0, -180.0),  # an undamped pair is one of little damping
+        ((1, -1), (1, 1), 0.0, -90.0),
+        ((1,), (1, -1), 0.0, 45.0),
+        ((1,), (1, 1), 1e4, -45.0 - math.degrees(1e4)),
+    ],
+)
+def test_phase_counts_from_the_integrators(
+    numerator: tuple[float, ...], denominator: tuple[float, ...], delay: float, phase: float
+) -> None:
+    least, most = reachable_phase_margins(Plant(numerator, denominator, delay), 1.0)
+    assert math.degrees(most) - 180.0 == pytest.approx(phase, abs=1e-9 + 1e-12 * abs(phase))
+    assert math.degrees(most - least) == pytest.approx(90.0)
+
+
+def test_no_pi_controller_holds_two_integrators() -> None:
+    with pytest.raises(BadInput, match="ask for -90 to 0 degrees"):
+        tune_pi(Plant((1,), (1, 0, 0)), crossover=1.0, phase_margin=math.radians(300))
+
+
 @pytest.mark.parametrize("plant", [load_pressure_plant(), load_pressure_plant().delayed(0.01), shaft_speed_plant()])
 def test_fastest_keeps_its_margins_and_more_would_not(plant: Plant) -> None:
     found = fastest_pi(plant, phase_margin=math.radians(60), gain_margin=3.0)
@@ -80,6 +109,13 @@ def test_fastest_of_an_integrator_behind_a_dead_time() -> None:
     """k exp(-sT)/s: 60 degrees with gain alone would be at k = pi/(6T); the integral costs some of it."""
     found = fastest_pi(Plant((1.0,), (1.0, 0.0), delay=0.1), phase_margin=math.radians(60))
     assert 0.5 * math.pi / 0.6 < found.K_p < math.pi / 0.6
+
+
+def test_fastest_of_two_integrators_with_a_lead() -> None:
+    """(s + 1)/s^2 behind a dead time: antiphase at the lowest frequencies, where the gain is high, does not count."""
+    found = fastest_pi(Plant((1.0, 1.0), (1.0, 0.0, 0.0), delay=0.01), phase_margin=math.radians(60))
+    assert found.loop.stable
+    assert found.loop.phase_margin >= math.radians(60) - 1e-2
 
 
 def test_an_integral_has_a_time_that_can_be_built() -> None:
