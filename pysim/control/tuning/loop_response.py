@@ -38,7 +38,7 @@ def loop_response(
     Args:
         dt: s between the controller's steps; the plant's dead time is rounded to a whole number of them.
         stop: s.
-        reference, disturbance: steps at time 0, the latter added to the command.
+        reference, disturbance: steps at time 0, the latter added to the command, and so ahead of the dead time.
     Raises:
         BadInput: times that are not positive, or a plant that answers at once.
     Source: thesis Eq. 5.33.
@@ -56,7 +56,7 @@ def loop_response(
     for k in range(count):
         output[k] = C @ x
         (command[k + lag],) = controller.step(k * dt, (reference, output[k], 0.0, 1.0))
-        x = A @ x + B * (command[k] + disturbance)
+        x = A @ x + B * (command[k] + disturbance * (k >= lag))
     return LoopResponse(np.arange(count, dtype=np.float64) * dt, output, command[lag:])
 
 

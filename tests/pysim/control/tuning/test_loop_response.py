@@ -36,6 +36,13 @@ def test_dead_time_comes_first() -> None:
     assert found.command[0] == 1.0
 
 
+def test_a_disturbance_takes_the_dead_time_of_the_command_it_is_added_to() -> None:
+    plant = Plant((1.0,), (1.0, 0.0), delay=0.03)
+    found = loop_response(plant, 1.0, 1.0, dt=0.01, stop=0.2, reference=0.0, disturbance=1.0)
+    assert found.output[:4].tolist() == [0, 0, 0, 0]
+    assert found.output[4] == pytest.approx(0.01)
+
+
 def test_load_pressure_comes_to_rest_without_error() -> None:
     found = loop_response(load_pressure_plant(), 1.98e-9, 0.03, dt=1e-3, stop=2.0)
     assert found.output[-1] == pytest.approx(1.0, abs=1e-6)
