@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
@@ -27,6 +28,10 @@ from pysim.types import BadInput
 
 Array = NDArray[np.float64]
 
+_STEPS = 40  # of the sampled controller, at least, in the right column
+_POINTS = 400  # at least, of a curve there
+_PICTURE = 4.0  # steps of the reference; an answer that grows beyond is cut off
+
 
 @dataclass(frozen=True)
 class _Look:
@@ -37,6 +42,7 @@ class _Look:
 def tuning_figure(loops: Mapping[str, Gains], *, dt: float) -> Figure:
     """Left the open loop with its crossovers, in the middle the closed loop, right the answers to two unit steps:
     of the reference, and of a disturbance at the plant's input as a share of what it would come to without controller.
+    A loop that is stable and under the sampled controller goes off is drawn until it leaves the picture.
 
     Args:
         loops: label -> gains on their plant.
@@ -58,7 +64,7 @@ def tuning_figure(loops: Mapping[str, Gains], *, dt: float) -> Figure:
     for k, (label, gains) in enumerate(loops.items()):
         look = _Look(COLOURS[k % len(COLOURS)], DASHES[k % len(DASHES)])
         handles[label] = _draw_frequency(axes, gains, hertz, look)
-        _draw_time(axes[:, 2], gains, dt, _stop(loops), look)
+        _draw_time(axes[:, 2], gains, dt, _stop(loops, dt), look)
     _label(axes, hertz)
     legend_above(figure, list(handles.values()), list(handles))
     return figure
@@ -68,14 +74,14 @@ def _range(loops: Mapping[str, Gains]) -> Array:
     """Hz (n,), two decades on either side of the crossovers, and up to the plants' own corners."""
     crossovers = [float(w) for gains in loops.values() for w in gains.loop.crossovers] or [1.0]
     corners = [abs(p) for gains in loops.values() for p in gains.plant.poles()]
-    low, high = min(crossovers) / 50, max(50 * min(crossovers), 1.5 * max(corners, default=0.0))
+    low, high = min(crossovers) / 50, max(50 * max(crossovers), 1.5 * max(corners, default=0.0))
     return np.asarray(np.geomspace(low, high, 4000) / (2 * np.pi), dtype=np.float64)
 
 
-def _stop(loops: Mapping[str, Gains]) -> float:
-    """s, until the slowest loop that comes to rest has done so."""
+def _stop(loops: Mapping[str, Gains], dt: float) -> float:
+    """s, until the slowest loop that comes to rest has done so, and the sampled controller has shown what it does."""
     slowest = min((g.loop.crossovers.min() for g in loops.values() if g.loop.crossovers.size), default=1.0)
-    return float(7 / slowest)
+    return float(max(7 / slowest, _STEPS * dt))
 
 
 def _draw_frequency(axes: NDArray[np.object_], gains: Gains, hertz: Array, look: _Look) -> Artist:
@@ -97,11 +103,27 @@ def _draw_time(axes: NDArray[np.object_], gains: Gains, dt: float, stop: float, 
     kwargs = {"color": look.colour, "linestyle": look.dash, "linewidth": 1.5}
     if not gains.loop.stable:
         return
-    fine = min(dt, stop / 400)
-    step = loop_response(gains.plant, gains.K_p, gains.T_i, dt=fine, stop=stop)
-    hit = loop_response(gains.plant, gains.K_p, gains.T_i, dt=fine, stop=stop, reference=0.0, disturbance=1.0)
-    axes[0].plot(step.time, step.output, **kwargs)
-    axes[1].plot(hit.time, hit.output / _steady(gains), **kwargs)
+    parts = math.ceil(dt * _POINTS / stop)
+    step = loop_response(gains.plant, gains.K_p, gains.T_i, dt=dt, stop=stop, parts=parts)
+    hit = loop_response(
+        gains.plant, gains.K_p, gains.T_i, dt=dt, stop=stop, reference=0.0, disturbance=1.0, parts=parts
+    )
+    end = _leaves(step.output)
+    axes[0].plot(step.time[:end], step.output[:end], **kwargs)
+    axes[1].plot(hit.time[:end], hit.output[:end] / _steady(gains), **kwargs)
+    if end < step.time.size:
+        at = (float(step.time[end - 1]), float(step.output[end - 1]))
+        axes[0].annotate("goes off", at, color=look.colour, fontsize=TEXT)
+
+
+def _leaves(output: Array) -> int:
+    """How many of an answer's points to draw: all, but of one that still grows those in the picture."""
+    size = np.abs(output)
+    late = 3 * size.size // 4
+    beyond = size > _PICTURE
+    if not beyond.any() or size[late:].max() < size[:late].max(initial=0.0):
+        return size.size
+    return max(1, int(np.argmax(beyond)))
 
 
 def _steady(gains: Gains) -> float:

@@ -14,6 +14,8 @@ from pysim.types import BadInput
 
 Array = NDArray[np.float64]
 
+_OFF = 1e100  # an answer beyond that has gone off; its squares overflow
+
 
 @dataclass(frozen=True)
 class LoopResponse:
@@ -31,33 +33,50 @@ class LoopResponse:
 
 
 def loop_response(
-    plant: Plant, K_p: float, T_i: float, *, dt: float, stop: float, reference: float = 1.0, disturbance: float = 0.0
+    plant: Plant,
+    K_p: float,
+    T_i: float,
+    *,
+    dt: float,
+    stop: float,
+    reference: float = 1.0,
+    disturbance: float = 0.0,
+    parts: int = 1,
 ) -> LoopResponse:
     """Plant, exactly discretised, under the difference equation of the PI controller.
 
     Args:
-        dt: s between the controller's steps; the plant's dead time is rounded to a whole number of them.
-        stop: s.
+        dt: s between the controller's steps.
+        stop: s; a loop that has gone off to beyond 1e100 ends there.
         reference, disturbance: steps at time 0, the latter added to the command, and so ahead of the dead time.
+        parts: of dt, at whose ends the plant is looked at, and to which its dead time is rounded.
     Raises:
-        BadInput: times that are not positive, or a plant that answers at once.
+        BadInput: times or parts that are not positive, or a plant that answers at once.
     Source: thesis Eq. 5.33.
     """
     if not 0 < dt < stop < np.inf:
         raise BadInput(f"loop response: dt = {dt:g} s and stop = {stop:g} s; give 0 < dt < stop")
+    if parts < 1:
+        raise BadInput(f"loop response: {parts} parts of a step of {dt:g} s; give 1 or more")
     if len(plant.numerator) == len(plant.denominator):
         raise BadInput(f"loop response: the {plant.name} answers at once; give it a lag")
-    A, B, C = _sampled(plant, dt)
+    fine = dt / parts
+    A, B, C = _sampled(plant, fine)
     controller = PI(K_p, T_i, dt)
     # the error before the step is zero, so that the step itself passes the gain as well
     controller.step(0.0, (0.0, 0.0, 0.0, 1.0))
-    count, lag = round(stop / dt) + 1, round(plant.delay / dt)
-    x, output, command = np.zeros(A.shape[0]), np.zeros(count), np.zeros(count + lag)
+    count, lag = round(stop / dt) * parts + 1, round(plant.delay / fine)
+    x, output, command, u = np.zeros(A.shape[0]), np.zeros(count), np.zeros(count + lag), 0.0
     for k in range(count):
         output[k] = C @ x
-        (command[k + lag],) = controller.step(k * dt, (reference, output[k], 0.0, 1.0))
+        if not abs(output[k]) < _OFF:
+            count = k
+            break
+        if k % parts == 0:
+            (u,) = controller.step(k * fine, (reference, output[k], 0.0, 1.0))
+        command[k + lag] = u
         x = A @ x + B * (command[k] + disturbance * (k >= lag))
-    return LoopResponse(np.arange(count, dtype=np.float64) * dt, output, command[lag:])
+    return LoopResponse(np.arange(count, dtype=np.float64) * fine, output[:count], command[lag : lag + count])
 
 
 def _sampled(plant: Plant, dt: float) -> tuple[Array, Array, Array]:

@@ -3,7 +3,15 @@ import math
 import numpy as np
 import pytest
 
-from pysim.control.tuning import fastest_pi, known_pi, load_pressure_plant, loop_response, shaft_speed_plant
+from pysim.control.tuning import (
+    Plant,
+    fastest_pi,
+    known_pi,
+    load_pressure_plant,
+    loop_response,
+    shaft_speed_plant,
+    tune_pi,
+)
 from pysim.control.tuning.margins import open_loop
 from pysim.plot.tuning import tuning_figure
 from pysim.types import BadInput
@@ -19,7 +27,8 @@ def test_what_is_drawn_is_the_loop() -> None:
     dot = axes[0].lines[1].get_xdata()
     assert float(np.asarray(dot)[0]) == pytest.approx(gains.loop.crossover / (2 * math.pi))
     time, step = (np.asarray(x) for x in axes[2].lines[0].get_data())
-    wanted = loop_response(gains.plant, 1.98e-9, 0.03, dt=float(time[1]), stop=float(time[-1]))
+    parts = round(1e-3 / float(time[1]))
+    wanted = loop_response(gains.plant, 1.98e-9, 0.03, dt=1e-3, stop=float(time[-1]), parts=parts)
     assert step == pytest.approx(wanted.output[: step.size])
     assert axes[3].get_xlabel() == "Frequency (Hz)"
 
@@ -30,6 +39,39 @@ def test_a_loop_per_label_and_no_steps_of_an_unstable_one() -> None:
     figure = tuning_figure(loops, dt=1e-3)
     assert [text.get_text() for text in figure.legends[0].get_texts()] == list(loops)
     assert len(figure.axes[2].lines) == 1
+
+
+def test_frequencies_reach_beyond_the_fastest_crossover() -> None:
+    plant = Plant((1.0,), (0.1, 1.0))
+    loops = {"slow": known_pi(plant, 0.1, 0.1), "fast": known_pi(plant, 100.0, 0.1)}
+    hertz = np.asarray(tuning_figure(loops, dt=1e-4).axes[0].lines[0].get_xdata())
+    crossovers = [gains.loop.crossover / (2 * math.pi) for gains in loops.values()]
+    assert hertz[0] <= min(crossovers) / 49
+    assert hertz[-1] >= 49 * max(crossovers)
+
+
+def test_steps_are_those_of_the_controller_as_it_is_sampled() -> None:
+    """5 Hz on a lag of 0.1 s, sampled at 20 Hz: the loop goes off."""
+    gains = tune_pi(Plant((1.0,), (0.1, 1.0)), crossover=10 * math.pi, phase_margin=math.radians(60))
+    axes = tuning_figure({"tuned": gains}, dt=0.05).axes
+    time, step = (np.asarray(x) for x in axes[2].lines[0].get_data())
+    assert time[-1] > 10 * 0.05
+    assert np.isin(np.round(np.arange(10) * 0.05, 9), np.round(time, 9)).all()
+    assert 2.5 < np.abs(step).max() <= 4.0  # drawn as far as it stays in the picture
+    assert [text.get_text() for text in axes[2].texts] == ["goes off"]
+    assert np.abs(np.asarray(axes[5].lines[0].get_ydata())).max() < 10.0
+    calm = tuning_figure({"tuned": gains}, dt=1e-3).axes[2]
+    assert not calm.texts
+    assert np.asarray(calm.lines[0].get_ydata())[-1] == pytest.approx(1.0, abs=0.05)
+
+
+@pytest.mark.parametrize("dt", [0.05, 1.0, 50.0])
+def test_a_loop_far_too_fast_for_its_sampling_is_drawn_readably(dt: float) -> None:
+    gains = known_pi(Plant((1.0,), (0.1, 1.0)), 100.0, 0.1)
+    axes = tuning_figure({"wild": gains, "calm": known_pi(gains.plant, 1e-3 / dt, 0.1)}, dt=dt).axes
+    assert [text.get_text() for text in axes[2].texts] == ["goes off"]
+    low, high = axes[2].get_ylim()
+    assert -5 < low < high < 5
 
 
 def test_nothing_to_draw_is_refused() -> None:

@@ -48,8 +48,33 @@ def test_load_pressure_comes_to_rest_without_error() -> None:
     assert found.output[-1] == pytest.approx(1.0, abs=1e-6)
 
 
+def test_parts_of_a_step_look_closer_at_the_same_loop() -> None:
+    plant = load_pressure_plant().delayed(0.02)
+    coarse = loop_response(plant, 1.98e-9, 0.03, dt=0.01, stop=1.0)
+    fine = loop_response(plant, 1.98e-9, 0.03, dt=0.01, stop=1.0, parts=5)
+    assert fine.time[::5] == pytest.approx(coarse.time)
+    assert fine.output[::5] == pytest.approx(coarse.output, abs=1e-9)
+    assert np.ptp(fine.command[:-1].reshape(-1, 5), axis=1).max() == 0.0
+
+
+def test_dead_time_is_rounded_to_the_parts() -> None:
+    """k t under a gain: nothing up to the dead time, half a step's worth half a step later."""
+    plant = Plant((1.0,), (1.0, 0.0), delay=0.005)
+    found = loop_response(plant, 1.0, 1e9, dt=0.01, stop=0.02, parts=2)
+    assert found.output[:3] == pytest.approx([0.0, 0.0, 0.005])
+
+
+def test_a_loop_that_goes_off_ends_as_numbers() -> None:
+    found = loop_response(INTEGRATOR, 50.0, 1.0, dt=0.1, stop=1e3)
+    assert np.isfinite(found.output).all()
+    assert 1e90 < np.abs(found.output).max() < 1e100
+    assert found.time.size == found.output.size == found.command.size < 1000
+
+
 def test_what_cannot_be_stepped_is_refused() -> None:
     with pytest.raises(BadInput, match="0 < dt < stop"):
         loop_response(INTEGRATOR, 1.0, 1.0, dt=1.0, stop=0.5)
+    with pytest.raises(BadInput, match="give 1 or more"):
+        loop_response(INTEGRATOR, 1.0, 1.0, dt=0.1, stop=0.5, parts=0)
     with pytest.raises(BadInput, match="give it a lag"):
         loop_response(Plant((1.0, 1.0), (1.0, 2.0)), 1.0, 1.0, dt=0.1, stop=1.0)
