@@ -160,10 +160,13 @@ class WaveTest(_SingleTest):
     command: StochasticWave
     folder: str = "stochastic"
 
+    def __post_init__(self) -> None:
+        _at_offset("wave", self.command)
+
     def runs(self, unit: float) -> Iterator[Run]:
         """One run."""
         name = f"Tp{self.command.spectrum.peak_period:g}s"
-        return self._run("stochastic", name, _at_offset(self.command.lead))
+        return self._run("stochastic", name, _at_offset("wave", self.command))
 
 
 @dataclass(frozen=True)
@@ -173,11 +176,14 @@ class StepTest(_SingleTest):
     command: Step
     folder: str = "step"
 
+    def __post_init__(self) -> None:
+        _at_offset("step", self.command)
+
     def runs(self, unit: float) -> Iterator[Run]:
         """One run."""
         offset, height = self.command.offset, self.command.height
         name = f"O{offset / unit:+g}_H{height / unit:+g}"
-        return self._run("step", name, _at_offset(self.command.lead), offset)
+        return self._run("step", name, _at_offset("step", self.command), offset)
 
 
 @dataclass(frozen=True)
@@ -225,6 +231,11 @@ def _point(offset: float, amplitude: float, unit: float) -> str:
     return f"O{offset / unit:+g}_A{amplitude / unit:g}"
 
 
-def _at_offset(lead: LeadIn) -> float:
-    """When the command has come to its offset, s."""
-    return lead.rest + lead.ramp
+def _at_offset(kind: str, command: StochasticWave | Step) -> float:
+    """From when on the command rests at its offset, s."""
+    lead = command.lead
+    if lead.hold > 0:
+        return lead.rest + lead.ramp
+    if command.offset == 0 and lead.onset > 0:
+        return 0.0
+    raise BadInput(f"{kind}: without a hold its log cannot start at rest at the offset; give the lead a hold")

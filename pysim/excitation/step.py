@@ -20,7 +20,8 @@ class Step:
         back: whether a second step returns to the offset.
         lead: how the command comes to its offset and back to zero.
     Raises:
-        BadInput: no height, no lead-in, a length that is not positive, or a number that is not finite.
+        BadInput: no height, no lead-in, one that jumps to the offset at the onset, a length that is not positive, or a
+            number that is not finite.
     """
 
     offset: float
@@ -37,6 +38,8 @@ class Step:
             raise BadInput("step: the height is 0; give one of either sign")
         if self.lead.onset == 0:  # a signal's first value also holds before it
             raise BadInput("step: without a lead-in there is no level to step from; give a rest, a ramp or a hold")
+        if self.offset != 0 and self.lead.ramp == self.lead.hold == 0:
+            raise BadInput(f"step: it would start from 0, not from its offset {self.offset:g}; give a ramp or a hold")
 
     @property
     def highest_hz(self) -> float:

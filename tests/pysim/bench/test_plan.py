@@ -1,9 +1,21 @@
 """What a plan refuses, and how long its sines last."""
 
+import numpy as np
 import pytest
 
-from pysim.bench import ChirpTest, Logger, MultisineTest, Plan, Sensor, SteppedSines, StepTest, Truth, truth_data
-from pysim.excitation import Chirp, LineGrid, Multisine, Step
+from pysim.bench import (
+    ChirpTest,
+    Logger,
+    MultisineTest,
+    Plan,
+    Sensor,
+    SteppedSines,
+    StepTest,
+    Truth,
+    WaveTest,
+    truth_data,
+)
+from pysim.excitation import Chirp, LeadIn, LineGrid, Multisine, PiersonMoskowitz, Step, StochasticWave
 from pysim.types import BadInput, Dataset, MeasuredSignal
 
 COMMAND = Sensor(MeasuredSignal("u", "input", "Pa", "", "u"))
@@ -29,6 +41,18 @@ def test_files_are_named_in_the_files_units() -> None:
     ]
 
 
+@pytest.mark.parametrize(("lead", "starts"), [(LeadIn(), 1.0), (LeadIn(hold=0.0), 0.0), (LeadIn(0.3, 0.0, 0.0), 0.0)])
+def test_logs_of_waves_and_steps_start_at_rest_at_the_offset(lead: LeadIn, starts: float) -> None:
+    step = StepTest("u", ("y",), Step(0.0, 1.0, 1.0, lead=lead))
+    for run in plan(step, _wave(lead)).runs():
+        assert run.log_from == starts
+        assert run.command.signal().value(np.array([run.log_from])) == pytest.approx([0.0])
+
+
+def _wave(lead: LeadIn) -> WaveTest:
+    return WaveTest("u", ("y",), StochasticWave(PiersonMoskowitz(1.0, 1.0), 10.0, 1, lead=lead))
+
+
 @pytest.mark.parametrize(
     ("frequency", "periods"), [(0.01, 1), (0.1, 2), (0.5, 3), (2, 3), (4, 5), (6, 8), (10, 12), (13, 16), (30, 36)]
 )
@@ -46,6 +70,8 @@ def test_whole_periods_between_least_and_most(frequency: float, periods: int) ->
         (lambda: plan(ChirpTest("y", ("y",), CHIRP.command)), "'y' is no signal with the role input; use u"),
         (lambda: plan(ChirpTest("u", ("u",), CHIRP.command)), "'u' is no signal with the role output; use y"),
         (lambda: plan(ChirpTest("u", (), CHIRP.command)), "a test measures nothing"),
+        (lambda: StepTest("u", ("y",), Step(5, 2, 1, lead=LeadIn(hold=0))), "step: without a hold"),
+        (lambda: _wave(LeadIn.none()), "wave: without a hold its log cannot start at rest at the offset"),
         (lambda: SteppedSines("u", ("y",), (), (1.0,)), "at least one pair of offset and amplitude"),
         (lambda: SteppedSines("u", ("y",), ((0, 1),), (1.0,), most=1.0), "most not less than least"),
     ],
