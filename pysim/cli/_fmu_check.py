@@ -26,7 +26,7 @@ def check_files(args: argparse.Namespace) -> int:
         prepare_file(args.json, "--json", JSON)
     reports = []
     for file in files:
-        model = read_model(file)
+        model = read_model(file, faulty=True)
         own = model.abilities.stepping
         check_binary(model, own.library if own and not model.abilities.model_exchange else model.abilities.library)
         with ProgressBar(file.stem) as progress:

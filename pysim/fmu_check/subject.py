@@ -12,6 +12,7 @@ from fmpy.model_description import ModelDescription, ModelVariable, read_model_d
 from numpy.typing import NDArray
 
 from pysim.io import extracted, read_model
+from pysim.types import BadInput
 
 Array = NDArray[np.float64]
 MODEL_EXCHANGE, CO_SIMULATION = "me", "cs"
@@ -49,8 +50,16 @@ class Subject:
 
     @cached_property
     def states(self) -> tuple[ModelVariable, ...]:
-        """In the order of the state vector."""
-        return tuple(unknown.variable.derivative for unknown in self.description.derivatives)
+        """In the order of the state vector.
+
+        Raises:
+            BadInput: a derivative does not say of which state; nothing of it can be run then.
+        """
+        found = tuple(unknown.variable.derivative for unknown in self.description.derivatives)
+        if None in found:
+            name = self.derivatives[found.index(None)].name
+            raise BadInput(f"{name} stands among the derivatives without the attribute derivative: of which state?")
+        return found
 
     @cached_property
     def derivatives(self) -> tuple[ModelVariable, ...]:
@@ -115,12 +124,12 @@ class Subject:
 
 
 def read_subject(path: Path) -> Subject:
-    """Unpack an FMU.
+    """Unpack an FMU, one whose description is at fault too.
 
     Raises:
         BadInput: no such file, or no FMU of FMI 2 or 3.
     """
-    model = read_model(path)
+    model = read_model(path, faulty=True)
     return Subject(model.path, extracted(model.path), read_model_description(str(model.path), validate=False))
 
 

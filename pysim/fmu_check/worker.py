@@ -15,8 +15,9 @@ from typing import Any
 
 from pysim.fmu_check.checks import CHECKS
 from pysim.fmu_check.instance import CallFailed
-from pysim.fmu_check.result import FAILS, CheckResult
+from pysim.fmu_check.result import FAILS, CheckResult, skipped
 from pysim.fmu_check.subject import Subject, read_subject
+from pysim.types import BadInput
 
 
 def main(words: Sequence[str]) -> None:
@@ -33,9 +34,13 @@ def main(words: Sequence[str]) -> None:
 
 
 def results_of(name: str, subject: Subject) -> Iterator[CheckResult]:
-    """A check's results; an error of the FMU in a legal call, or of ours, becomes one."""
+    """A check's results; a description that it cannot be tried by, an error of the FMU in a legal call, or of ours,
+    becomes one.
+    """
     try:
         yield from CHECKS[name](subject)
+    except BadInput as error:
+        yield skipped(name.partition(":")[0], f"{name!r} can be tried", str(error))
     except CallFailed as error:
         yield CheckResult(name.partition(":")[0], f"every legal call of {name!r} is obeyed", FAILS, str(error))
     except Exception as error:  # FMPy raises bare exceptions, and the other checks are still to be tried

@@ -12,11 +12,13 @@ from pysim.io.archive import DAMAGED, stamp
 from pysim.types import Abilities, BadInput, CoSimulation, Model, Variable
 
 
-def read_model(path: Path | str) -> Model:
+def read_model(path: Path | str, *, faulty: bool = False) -> Model:
     """Read the variable table and the abilities of an FMU (FMI 2.0 or 3.0). Loads and extracts nothing.
 
+    Args:
+        faulty: take one whose states it does not tell, too, without those, as a check of FMUs has to.
     Raises:
-        BadInput: no such file, not an FMU, or FMI 1.0.
+        BadInput: no such file, not an FMU, FMI 1.0, or a derivative that does not say of which state.
     """
     path = Path(path)
     if not path.is_file():
@@ -34,7 +36,7 @@ def read_model(path: Path | str) -> Model:
         name=description.modelName,
         token=description.guid,
         variables=tuple(_variable(v) for v in description.modelVariables),
-        abilities=_abilities(description, path),
+        abilities=_abilities(description, path, _states(description, path, faulty)),
         stop_time=_stop_time(description),
         stamp=stamp(path),
         declares_units=any(_unit(v) for v in description.modelVariables if v.causality != "independent"),
@@ -82,7 +84,18 @@ def _number(text: str | None) -> float | None:
         return None
 
 
-def _abilities(d: ModelDescription, path: Path) -> Abilities:
+def _states(d: ModelDescription, path: Path, faulty: bool) -> tuple[str, ...]:
+    """Their names in the order of the state vector."""
+    for name in (u.variable.name for u in d.derivatives if u.variable.derivative is None):
+        if not faulty:
+            raise BadInput(
+                f"{path}: its model structure lists {name} among the derivatives, no attribute says of which state; "
+                "export it again with the attribute derivative"
+            )
+    return tuple(u.variable.derivative.name for u in d.derivatives if u.variable.derivative is not None)
+
+
+def _abilities(d: ModelDescription, path: Path, states: tuple[str, ...]) -> Abilities:
     kind = d.modelExchange or d.coSimulation
     if kind is None:
         raise BadInput(f"{path} offers neither model exchange nor co-simulation; export it with one of them")
@@ -95,7 +108,7 @@ def _abilities(d: ModelDescription, path: Path) -> Abilities:
         or _provides_derivatives_3(path, type(kind).__name__),
         state_handling=kind.canGetAndSetFMUstate,
         event_indicators=d.numberOfEventIndicators,
-        states=tuple(v.derivative.name for v in derivatives),
+        states=states,
         derivatives=tuple(v.name for v in derivatives),
         library=kind.modelIdentifier,
         needs_completed_step=getattr(kind, "needsCompletedIntegratorStep", False),

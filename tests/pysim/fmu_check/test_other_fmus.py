@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from fmu_build import build
+from pysim.fmu_check import check_fmu
 from pysim.fmu_check.checks import CHECKS
 from pysim.fmu_check.subject import Subject, read_subject
 from tests.foreign import made_foreign
@@ -50,6 +51,20 @@ def test_model_exchange_alone(tmp_path: Path) -> None:
     assert set().union(*good.values()) == {"holds", "skipped"}
     bad = verdicts(read_subject(without("CoSimulation", planted("IDLE_GAIN", tmp_path), tmp_path / "bad.fmu")))
     assert "doubtful" in bad["parameters"]
+
+
+def test_a_derivative_of_no_state_is_reported_and_the_rest_skipped(tmp_path: Path) -> None:
+    bad = tmp_path / "bad.fmu"
+    with zipfile.ZipFile(planted("NONE", tmp_path)) as old, zipfile.ZipFile(bad, "w") as new:
+        for item in old.infolist():
+            new.writestr(item, old.read(item).replace(b' derivative="1"', b""))
+    first, *rest = check_fmu(bad, ("description", "start values", "runs")).results
+    assert first.verdict == "fails"
+    assert '"der(x)"' in first.detail
+    assert 'must have the attribute "derivative"' in first.detail
+    *_, last = rest
+    assert (last.check, last.verdict) == ("runs", "skipped")
+    assert "der(x) stands among the derivatives" in last.detail
 
 
 TEXT = """model Lag "Follows its input"

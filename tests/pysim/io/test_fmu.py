@@ -47,6 +47,16 @@ def test_dependencies_are_names_and_none_where_not_given(tmp_path):
     assert read_model(path).abilities.dependencies == (frozenset({"v"}), frozenset({"x", "v", "u"}))
 
 
+@pytest.mark.parametrize("fmi", [2, 3])
+def test_a_derivative_of_no_state_is_named(tmp_path, fmi):
+    with zipfile.ZipFile(build(OSCILLATOR, fmi, tmp_path)) as archive:
+        text = archive.read("modelDescription.xml").decode()
+    path = write(tmp_path / "stateless.fmu", re.sub(r' derivative="\d+"', "", text, count=1))
+    with pytest.raises(BadInput, match=r"stateless\.fmu: .* der\(x\) among the derivatives, .* says of which state"):
+        read_model(path)
+    assert read_model(path, faulty=True).abilities.states == ("v",)
+
+
 def write(path: Path, description: str | None) -> Path:
     with zipfile.ZipFile(path, "w") as archive:
         if description is not None:
