@@ -20,7 +20,7 @@ from pysim.fmu_check.result import DOUBTFUL, FAILS, CheckResult
 from pysim.fmu_check.subject import read_subject
 from pysim.types import BadInput
 
-PATIENCE_S = 120.0  # without a word from a check
+PATIENCE_S = 120.0  # without an answer of the FMU
 _FAREWELL_S = 5.0  # for the last words of a worker that has ended to arrive
 
 
@@ -56,7 +56,7 @@ def check_fmu(
     Args:
         checks: their names, of CHECKS.
         progress: told of checks done and of all.
-        patience: s that a check may take without a word before it is stopped.
+        patience: s that the FMU may take for an answer before its check is stopped; more than a second.
     Returns:
         the results in the order of the checks.
     Raises:
@@ -103,7 +103,7 @@ def _work(
             count += 1
         elif "result" in data:
             results.append(CheckResult(**data["result"]))
-        else:
+        elif "done" in data:
             worker.wait()
             return len(names), results
     hangs = worker.poll() is None

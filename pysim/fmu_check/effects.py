@@ -41,7 +41,8 @@ def check_effects(subject: Subject) -> Iterator[CheckResult]:
         idle = [k for k in idle if k not in showing]
         if not idle:
             break
-    where = f"{len(parameters)} tried, in {_DRAWS} surroundings, at points near and far and in a run"
+    tried = f"{len(parameters)} of {len(subject.parameters)} tried"
+    where = f"{tried}, in {_DRAWS} surroundings, at points near and far and in a run"
     yield none_of(NAME, claim, [parameters[k].name for k in idle], otherwise=DOUBTFUL, note=where)
     only = [parameters[k].name for k in hidden]
     yield none_of(NAME, "every parameter has an effect at the declared values of the others", only, otherwise=DOUBTFUL)

@@ -141,6 +141,7 @@ def opened(subject: Subject, kind: str, name: str = "checked") -> Iterator[Insta
         yield instance
     finally:
         instance.raw.freeInstance()
+        subject.alive()
 
 
 def _text(message: object) -> str:

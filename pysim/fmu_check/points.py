@@ -30,6 +30,7 @@ class Points:
         """Set states and inputs (n,)."""
         self.instance.set(self._inputs, values[self._n :])
         self.instance.set_states(values[: self._n])
+        self.instance.subject.alive()
 
     def values(self, at: Array) -> Array:
         """Unknowns (n_unknowns,) at these knowns."""

@@ -93,9 +93,15 @@ def _reference(subject: Subject, tolerance: float) -> Array:
         input=signals,
         output=[v.name for v in subject.shown],
         record_events=False,
+        step_finished=lambda time, recorder: _goes_on(subject),
     )
     wanted = subject.start + size * np.arange(1, count + 1)
     return np.column_stack([np.interp(wanted, result["time"], result[v.name]) for v in subject.shown])
+
+
+def _goes_on(subject: Subject) -> bool:
+    subject.alive()
+    return True
 
 
 def _off(subject: Subject, run: Array, reference: Array) -> float:

@@ -22,4 +22,5 @@ def stepped(
     for k in range(first, first + count):
         instance.raw.doStep(subject.start + k * size, size)
         found.append(instance.get(rows))
+        subject.alive()
     return np.array(found).reshape(count, len(rows))

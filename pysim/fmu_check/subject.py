@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -20,13 +20,25 @@ _REAL = ("Real", "Float64")
 _LONGEST = 2000  # communication steps in one run
 
 
+def _silent() -> None:
+    """Nobody waits for a sign of life."""
+
+
 @dataclass(frozen=True)
 class Subject:
-    """Only scalar real variables are looked at; whole numbers, texts and arrays keep their start values."""
+    """Only scalar real variables are looked at; whole numbers, texts and arrays keep their start values.
+
+    Args:
+        path: of the file.
+        folder: where it is unpacked.
+        description: what it says of itself.
+        alive: called whenever the FMU has answered, as a check of a large one takes long.
+    """
 
     path: Path
     folder: Path
     description: ModelDescription
+    alive: Callable[[], None] = _silent
 
     @property
     def fmi(self) -> int:
@@ -123,14 +135,16 @@ class Subject:
         return moved(self.inputs, np.array([number(v.start) for v in self.inputs]), share)
 
 
-def read_subject(path: Path) -> Subject:
+def read_subject(path: Path, alive: Callable[[], None] = _silent) -> Subject:
     """Unpack an FMU, one whose description is at fault too.
 
+    Args:
+        alive: called whenever it has answered.
     Raises:
         BadInput: no such file, or no FMU of FMI 2 or 3.
     """
     model = read_model(path, faulty=True)
-    return Subject(model.path, extracted(model.path), read_model_description(str(model.path), validate=False))
+    return Subject(model.path, extracted(model.path), read_model_description(str(model.path), validate=False), alive)
 
 
 def references(variables: Sequence[ModelVariable]) -> list[int]:

@@ -1,6 +1,7 @@
 """`python -m pysim.fmu_check.worker FMU NUMBER ...`: run checks by their place, one line of JSON for all that is found.
 
-A process of its own, for an FMU may crash it. The line {"started": ...} comes before each check.
+A process of its own, for an FMU may crash it. The line {"started": ...} comes before each check, and {"alive": true}
+every other second of a long one, as long as the FMU answers.
 """
 
 from __future__ import annotations
@@ -8,8 +9,9 @@ from __future__ import annotations
 import json
 import os
 import sys
+import time
 import traceback
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -19,12 +21,14 @@ from pysim.fmu_check.result import FAILS, CheckResult, skipped
 from pysim.fmu_check.subject import Subject, read_subject
 from pysim.types import BadInput
 
+_EVERY_S = 1.0  # between two signs of life
+
 
 def main(words: Sequence[str]) -> None:
     """Write to standard output; whatever the FMU prints goes nowhere."""
     channel = os.fdopen(os.dup(1), "w", encoding="utf-8")
     os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
-    subject, names = read_subject(Path(words[0])), list(CHECKS)
+    subject, names = read_subject(Path(words[0]), _sign_of_life(channel)), list(CHECKS)
     for word in words[1:]:
         name = names[int(word)]
         _say(channel, {"started": name})
@@ -47,6 +51,19 @@ def results_of(name: str, subject: Subject) -> Iterator[CheckResult]:
         where = traceback.extract_tb(error.__traceback__)[-1].name
         text = f"{type(error).__name__} in {where}: {error}"
         yield CheckResult(name.partition(":")[0], f"{name!r} can be tried", FAILS, text)
+
+
+def _sign_of_life(channel: Any) -> Callable[[], None]:
+    """What is called at every answer of the FMU, and says so now and then."""
+    told = time.monotonic()
+
+    def alive() -> None:
+        nonlocal told
+        if time.monotonic() > told + _EVERY_S:
+            told = time.monotonic()
+            _say(channel, {"alive": True})
+
+    return alive
 
 
 def _say(channel: Any, data: dict[str, Any]) -> None:

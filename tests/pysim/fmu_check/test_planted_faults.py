@@ -30,7 +30,7 @@ FOUND = {
     "OTHER_DERIVATIVE": ("derivatives", "fails", "what the call for derivatives gives", "der(v)"),
 }
 DEADLY = {"CRASH_EARLY", "CRASH_SAVE", "HANG"}
-HARMLESS = {"NONE", "TALKATIVE"}
+HARMLESS = {"NONE", "SLOW", "TALKATIVE"}
 
 
 def test_every_fault_is_expected_somewhere() -> None:
@@ -83,6 +83,12 @@ def test_a_hang_is_a_finding(subject: Callable[[str], Subject]) -> None:
     (hang,) = check_fmu(subject("HANG").path, (name,), patience=3.0).results
     assert hang.verdict == "fails"
     assert "hangs" in hang.detail
+
+
+def test_many_slow_answers_are_no_hang(subject: Callable[[str], Subject]) -> None:
+    """Half a second for each of eight instances."""
+    results = check_fmu(subject("SLOW").path, ("start values",), patience=3.0).results
+    assert [result.verdict for result in results] == ["holds"] * 3
 
 
 def test_what_an_fmu_writes_to_the_standard_error_does_not_hold_it_up(subject: Callable[[str], Subject]) -> None:
