@@ -61,10 +61,10 @@ class StepTest:
         base = self.speed if kind == "speed" else self.load
         if kind != self.kind:
             return Signal.lines([0.0, 1.0], [0.0, base])
-        end = self.at + self.length + 1.0
-        return Signal.lines(
-            [0.0, 1.0, self.at, self.at + 1e-9, end], [0.0, base, base, base + self.size, base + self.size]
-        )
+        before = [0.0, 1.0] if self.at == 1.0 else [0.0, 1.0, self.at]
+        levels = [0.0, base, base][: len(before)]
+        behind = [self.at + 1e-9, self.at + self.length + 1.0]
+        return Signal.lines(before + behind, levels + 2 * [base + self.size])
 
     def experiment(self, feed: Feed = "reference", *, every: float = _ROW) -> Experiment:
         """For `rig_system` without a crane, a row every so many seconds, a whole number of communication steps."""
