@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Literal
 
-from pysim.control import CompensatedLoadController, LoadController, SpeedController
+from pysim.control import Block, LoadController, SpeedController
 from pysim.cosim import Connection, Member, Sampled, System
 from pysim.types import BadInput
 
@@ -21,8 +21,8 @@ def rig_system(
     rig: Member,
     *,
     dt: float = 1e-3,
-    speed: SpeedController | None = None,
-    load: LoadController | CompensatedLoadController | None = None,
+    speed: Block | None = None,
+    load: Block | None = None,
     feed: Feed = "reference",
     crane: Member | None = None,
     delay: float = 0.0,
@@ -35,7 +35,8 @@ def rig_system(
     Args:
         rig: LoadCircuit.Rig, or what has its inputs and outputs, called "rig".
         dt: s between two steps of both controllers.
-        speed, load: with this dt; the thesis' by default (Table 6.1, manually tuned).
+        speed, load: with this dt and the ports of the thesis' controllers, which they are by default (Table 6.1,
+            manually tuned); a load controller with an input "supply" is told the supply pressure too.
         feed: whose flow the load controller feeds forward: the reference's, as in the thesis, the pulses', or the
             true speed's, as a good sensor would tell it.
         crane: Crane.IdealCompensation, called "crane".
@@ -48,15 +49,17 @@ def rig_system(
     for member, name in ((rig, "rig"), (crane, "crane")):
         if member is not None and member.name != name:
             raise BadInput(f"rig: the member {member.name!r} stands for the {name}; call it {name!r}")
-    speed = SpeedController(dt) if speed is None else speed
-    load = LoadController(dt) if load is None else load
+    blocks = (
+        Sampled("speed", SpeedController(dt) if speed is None else speed, dt, delay),
+        Sampled("load", LoadController(dt) if load is None else load, dt, delay),
+    )
     wires = [
         Connection("rig.omegaS", "speed.measured"),
         Connection("speed.alphaCMD", "rig.alphaCMD"),
         Connection("rig.pL", "load.measured"),
         Connection("load.u_ref", "rig.u_ref"),
     ]
-    if isinstance(load, CompensatedLoadController):
+    if "supply" in (port.name for port in blocks[1].block.inputs):
         wires.append(Connection("rig.pSupply", "load.supply"))
     if feed in _FEED:
         wires.append(Connection(_FEED[feed], "load.speed"))
@@ -66,6 +69,5 @@ def rig_system(
             Connection("crane.pL_ref", "load.reference"),
         ]
         wires += [] if feed in _FEED else [Connection("crane.omegaS_ref", "load.speed")]
-    blocks = (Sampled("speed", speed, dt, delay), Sampled("load", load, dt, delay))
     members = (rig, *blocks) if crane is None else (crane, rig, *blocks)
     return System(members, tuple(wires))

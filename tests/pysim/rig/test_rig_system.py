@@ -1,12 +1,14 @@
+from collections.abc import Sequence
+
 import numpy as np
 import pytest
 
-from pysim.control import CompensatedLoadController
-from pysim.cosim import cosimulate
+from pysim.control import CompensatedLoadController, Stateless
+from pysim.cosim import Connection, cosimulate
 from pysim.cosim.members import Fmu
 from pysim.rig import HeaveTest, StepTest, rig_member, rig_system
 from pysim.simulate import Rodas, simulate
-from pysim.types import BadInput, Experiment, Record
+from pysim.types import BadInput, Experiment, Port, Record
 from tests.pysim.rig.rigs import model
 
 FINE = Rodas(rtol=1e-7, atol=1e-7)
@@ -52,6 +54,24 @@ def test_other_controllers_and_another_feed_forward() -> None:
     late = crane_run(delay=5e-3)
     first = np.flatnonzero(crane_run()["load.u_ref"])[0]
     assert np.flatnonzero(late["load.u_ref"])[0] - first == pytest.approx(2.5, abs=0.6)  # rows of 2 ms
+
+
+class OwnLoadController(Stateless):
+    """A feed forward that knows the pressure drop; nothing of the thesis' classes."""
+
+    inputs = (Port("reference", "Pa"), Port("measured", "Pa"), Port("speed", "rad/s"), Port("supply", "Pa"))
+    outputs = (Port("u_ref", "1"), Port("pi", "1"))
+
+    def step(self, time: float, inputs: Sequence[float]) -> tuple[float, float]:
+        _, measured, speed, supply = inputs
+        return speed * 1e-3 * (supply - measured) / 300e5, 0.0
+
+
+def test_an_own_load_controller_is_told_the_supply_pressure() -> None:
+    rig, crane = rig_member(model("LoadCircuit.Rig")), Fmu("crane", model("Crane.IdealCompensation"))
+    wires = rig_system(rig, load=OwnLoadController(), crane=crane).connections
+    assert Connection("rig.pSupply", "load.supply") in wires
+    assert Connection("rig.pSupply", "load.supply") not in rig_system(rig, crane=crane).connections
 
 
 def test_misuse_is_told() -> None:
