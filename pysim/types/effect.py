@@ -101,14 +101,17 @@ class Effect:
 
         Args:
             place: where in the model it is; its slot by default.
-            values: by name, in the parameter's unit; a name people use, such as u_max, is turned over.
+            values: by name, in the parameter's unit; a name people use, such as u_max, is turned over, infinity to off.
         Raises:
-            BadInput: an unknown name, or a value outside its bounds.
+            BadInput: an unknown name, or a value outside its bounds, as zero of one that is turned over.
         """
         settings = {}
         for name, value in values.items():
             parameter = self[name]
-            number = 1 / value if name == parameter.inverse and value else value
+            turned = name == parameter.inverse
+            if turned and value == 0:
+                raise BadInput(f"{self.name}: {name} = 0 has no inverse; give another value, or inf for no effect")
+            number = 1 / value if turned else value
             if not parameter.min <= number <= parameter.max:
                 raise BadInput(
                     f"{self.name}: {name} = {value:g} is outside its bounds; "

@@ -21,6 +21,7 @@ def test_settings_go_to_the_slot_or_another_place() -> None:
 
 def test_names_that_people_use_are_turned_over() -> None:
     assert dict(EFFECT.on(RUN, u_max=0.25).overrides) == {"pistonForce.inverse_u_max": 4.0}
+    assert dict(EFFECT.on(RUN, u_max=math.inf).overrides) == {"pistonForce.inverse_u_max": 0.0}
     assert STOP.reported(4.0) == ("u_max", 0.25)
     assert STOP.reported(0.0) == ("u_max", math.inf)
     assert FRICTION.reported(80.0) == ("F_c", 80.0)
@@ -36,6 +37,7 @@ def test_strengths_are_what_can_be_off() -> None:
         ({"F_c": 601.0}, "F_c may be 0 to 600 N"),
         ({"F_d": 1.0}, "no parameter 'F_d'; it has F_c, v_s"),
         ({"u_max": 0.01}, "is outside"),
+        ({"u_max": 0.0}, "u_max = 0 has no inverse; give another value, or inf"),
     ],
 )
 def test_refuses_settings(values: dict[str, float], message: str) -> None:
