@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from pysim.bench.bench_tests import BenchTest, Run
 from pysim.bench.logger import Logger
 from pysim.bench.sensor import Sensor
+from pysim.io.file_names import same_file, unusable_name
 from pysim.types import BadInput
 
 
@@ -26,7 +27,8 @@ class Plan:
         units: signal -> (unit in the files, how many SI units that is); the SI unit where not told.
     Raises:
         BadInput: no test, a signal named twice, a test of an unknown signal or of one in the wrong role, an input that
-            follows itself or what is none, or two tests that would write the same file.
+            follows itself or what is none, two tests that would write the same file, on whatever system, or one whose
+            file Windows has no name for.
     """
 
     name: str
@@ -53,12 +55,19 @@ class Plan:
                 raise BadInput(f"plan {self.name!r}: {name!r} follows {other!r}; an input can follow one of {free}")
         for test in self.tests:
             self._check(test)
-        sources = [run.source for run in self.runs()]
-        for source in sources:
-            if sources.count(source) > 1:
-                raise BadInput(
-                    f"plan {self.name!r}: two tests are logged to {source}; name one of them anew or drop it"
-                )
+        self._check_files()
+
+    def _check_files(self) -> None:
+        seen: dict[str, str] = {}
+        for source in (run.source for run in self.runs()):
+            why = unusable_name(source)
+            if why:
+                raise BadInput(f"plan {self.name!r}: a test is logged to {source!r}, but {why}; name it anew")
+            one = same_file(source)
+            if one in seen:
+                both = source if seen[one] == source else f"{seen[one]} and {source}, one file on Windows and macOS"
+                raise BadInput(f"plan {self.name!r}: two tests are logged to {both}; name one of them anew or drop it")
+            seen[one] = source
 
     def _check(self, test: BenchTest) -> None:
         if not test.outputs:

@@ -49,6 +49,10 @@ def test_logs_of_waves_and_steps_start_at_rest_at_the_offset(lead: LeadIn, start
         assert run.command.signal().value(np.array([run.log_from])) == pytest.approx([0.0])
 
 
+def _named(name: str, folder: str = "chirp") -> ChirpTest:
+    return ChirpTest("u", ("y",), CHIRP.command, name=name, folder=folder)
+
+
 def _wave(lead: LeadIn) -> WaveTest:
     return WaveTest("u", ("y",), StochasticWave(PiersonMoskowitz(1.0, 1.0), 10.0, 1, lead=lead))
 
@@ -66,6 +70,12 @@ def test_whole_periods_between_least_and_most(frequency: float, periods: int) ->
     [
         (lambda: plan(), "plan 'p' has no tests"),
         (lambda: plan(CHIRP, CHIRP), r"two tests are logged to chirp/O\+2_A1\.txt"),
+        (
+            lambda: plan(_named("A"), _named("a")),
+            "logged to chirp/A.txt and chirp/a.txt, one file on Windows and macOS",
+        ),
+        (lambda: plan(_named("Nul")), "logged to 'chirp/Nul.txt', but 'Nul.txt' is a device on Windows; name it anew"),
+        (lambda: plan(_named("a", folder="logs ")), "Windows drops the end of 'logs '"),
         (lambda: plan(CHIRP, sensors=(COMMAND, ANSWER, ANSWER)), "the signal 'y' stands there twice"),
         (lambda: plan(ChirpTest("y", ("y",), CHIRP.command)), "'y' is no signal with the role input; use u"),
         (lambda: plan(ChirpTest("u", ("u",), CHIRP.command)), "'u' is no signal with the role output; use y"),
