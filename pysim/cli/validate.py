@@ -37,11 +37,23 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """0 when every claim that could be tried holds, 1 when one fails."""
+    _refuse_idle(args)
     if args.names[:1] == [FMU]:
         from pysim.cli._fmu_check import check_files
 
         return check_files(args)
     return _suite(args)
+
+
+def _refuse_idle(args: argparse.Namespace) -> None:
+    """Cases and FMUs have options of their own."""
+    from pysim.types import BadInput
+
+    fmu = args.names[:1] == [FMU]
+    for option in ("quick", "list", "record") if fmu else ("strict",):
+        if getattr(args, option):
+            meant = "of cases; leave it out, or leave out fmu" if fmu else "of `validate fmu FILE`; leave it out"
+            raise BadInput(f"--{option} is an option {meant}")
 
 
 def _suite(args: argparse.Namespace) -> int:
@@ -58,7 +70,9 @@ def _suite(args: argparse.Namespace) -> int:
     if args.output:
         prepare_folder(args.output)
     if args.json:
-        prepare_file(args.json, "--json", (".json", ".jsonl")).unlink(missing_ok=True)
+        numbers = prepare_file(args.json, "--json", (".json", ".jsonl"))
+        if numbers.is_file():  # not a device, such as /dev/null
+            numbers.unlink()
     checkout = _checkout() if args.record else None
     show = _Show(len(names))
     results = []

@@ -58,6 +58,31 @@ def test_what_is_written(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Non
     assert "a picture" in (out / "report.html").read_text(encoding="utf-8")
 
 
+@pytest.mark.skipif(not Path("/dev/null").is_char_device(), reason="a device of POSIX systems")
+def test_a_device_is_written_to_and_stays(tmp_path: Path) -> None:
+    device = tmp_path / "numbers.json"
+    device.symlink_to("/dev/null")
+    assert main(["validate", "good", "--json", str(device)]) == 0
+    assert device.is_char_device()
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (["good", "--strict"], "--strict is an option of `validate fmu FILE`"),
+        (["--list", "--strict"], "--strict is an option of"),
+        (["fmu", "none.fmu", "--quick"], "--quick is an option of cases"),
+        (["fmu", "none.fmu", "--list"], "--list is an option of cases"),
+        (["fmu", "none.fmu", "--record"], "--record is an option of cases; leave it out, or leave out fmu"),
+    ],
+)
+def test_options_that_would_do_nothing_are_refused(
+    words: list[str], told: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["validate", *words]) == 2
+    assert told in capsys.readouterr().err
+
+
 def test_record(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "validation").mkdir()
     readme = tmp_path / "README.md"
