@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
@@ -178,7 +179,7 @@ def load(project: Project) -> Loaded | None:
         return Loaded(None)
     try:
         dataset, refused = read_dataset_partly(project.data)
-        short = tuple((file, why.replace(f"{project.data}/", "")) for file, why in refused)
+        short = tuple((file, why.replace(f"{project.data}{os.sep}", "")) for file, why in refused)
         return Loaded(check_dataset(dataset), short)
     except BadInput as error:
-        return Loaded(None, trouble=str(error).replace(f"{project.data}/", ""))
+        return Loaded(None, trouble=str(error).replace(f"{project.data}{os.sep}", ""))

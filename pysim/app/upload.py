@@ -156,7 +156,8 @@ def adopt(batch: Batch, project: Project) -> Adopted:
             taken = ", ".join(LOG_SUFFIXES)
             raise BadInput(f"no data set, no logs and no model in this: {found}; drop logs as {taken}")
         kept = project.replace_data(_single(root))
-        text = f"{len(logs)} logs without a dataset.toml; say below what their columns are{_kept(kept)}"
+        many = "1 log" if len(logs) == 1 else f"{len(logs)} logs"
+        text = f"{many} without a dataset.toml; say below what their columns are{_kept(kept)}"
         return Adopted("logs", text)
     finally:
         batch.end()

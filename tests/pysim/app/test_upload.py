@@ -64,7 +64,7 @@ def test_what_a_system_leaves_beside_logs_is_taken_for_nobody_s(project: Project
     files = {"logs/a.csv": b"0,1\n", "logs/.DS_Store": b"?", "__MACOSX/logs/._a.csv": b"?", ".git/x/b.csv": b"?"}
     if as_zip:
         files = {"logs.zip": packed({**files, "__MACOSX/._a/b|c.csv": b""}), "._logs.zip": b"of another disk"}
-    assert adopt(batch(project, files), project).text.startswith("1 logs without")
+    assert adopt(batch(project, files), project).text.startswith("1 log without")
     assert [path.relative_to(project.data).as_posix() for path in project.data.rglob("*")] == ["a.csv"]
 
 
