@@ -181,6 +181,8 @@ def _is_stable(plant: Plant, K_p: float, T_i: float, omega: Array) -> bool:
     """
     forward = np.polymul(plant.numerator, (K_p * T_i, K_p))
     own = np.polymul(plant.denominator, (T_i, 0.0))
+    if forward[-1] == 0.0:  # the plant's zero at 0 hides the integral, a root at 0
+        return False
     if plant.delay == 0:
         return bool((np.roots(np.polyadd(own, forward)).real < 0).all())
     if forward.size == own.size and abs(forward[0]) >= abs(own[0]):

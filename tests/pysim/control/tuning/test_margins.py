@@ -71,6 +71,12 @@ def test_of_several_crossovers_the_least_margin_counts() -> None:
     assert sizes == pytest.approx(np.ones(3), rel=1e-9)
 
 
+@pytest.mark.parametrize("delay", [0.0, 0.01, 0.025989301039727467])
+def test_a_plant_that_passes_nothing_steady_lets_the_integral_run_away(delay: float) -> None:
+    plant = Plant((0.059371069199740084, 0.0), (1.0, 51.691153462354805, 22.382345901834103), delay)
+    assert not margins(plant, 979.2574080716894, 1.0888393181258733).stable
+
+
 def test_an_unstable_plant_stays_one() -> None:
     assert not margins(shaft_speed_plant(c=-1.4), 1.41e-7, 0.000159).stable
     assert not margins(shaft_speed_plant(c=-1.4).delayed(1e-3), 1.41e-7, 0.000159).stable
