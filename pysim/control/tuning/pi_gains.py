@@ -101,10 +101,12 @@ def fastest_pi(plant: Plant, *, phase_margin: float, gain_margin: float = 2.0) -
         phase_margin: rad, the least at any crossover.
         gain_margin: by how much the gain may rise, at least.
     Raises:
-        BadInput: a plant that is unstable by itself, or margins that no gain keeps.
+        BadInput: a plant that is unstable by itself or lets no constant through, or margins that no gain keeps.
     """
     if (plant.poles().real > 0).any():
         raise BadInput(f"{plant.name}: it is unstable by itself; choose a crossover and use tune_pi")
+    if plant.numerator[-1] == 0:
+        raise BadInput(f"{plant.name}: nothing of a constant comes through it; an integral of the error cannot settle")
     if not (0 < phase_margin < math.pi / 2 and gain_margin > 1):
         raise BadInput(
             f"margins: {math.degrees(phase_margin):.4g} degrees and {gain_margin:.3g}; give 0 to 90 degrees, above 1"

@@ -133,5 +133,7 @@ def test_fastest_needs_a_limit_and_a_stable_plant() -> None:
         fastest_pi(LAG, phase_margin=math.radians(60))
     with pytest.raises(BadInput, match="unstable by itself"):
         fastest_pi(shaft_speed_plant(c=-1.4), phase_margin=math.radians(60))
+    with pytest.raises(BadInput, match="nothing of a constant comes through"):
+        fastest_pi(Plant((1.0, 0.0), (1.0, 2.0, 1.0), 0.01), phase_margin=math.radians(60))
     with pytest.raises(BadInput, match="0 to 90 degrees"):
         fastest_pi(LAG, phase_margin=0.0)
