@@ -65,7 +65,7 @@ def sine_fit(
     inverse = np.linalg.inv(r)
     covariance = (residual if noise is None else noise) ** 2 * inverse @ inverse.T
     amplitude, phase = float(np.hypot(c[0], c[1])), float(np.arctan2(c[1], c[0]))
-    return SineFit(amplitude, phase, float(c[2]), _to_polar(covariance, amplitude, phase), residual)
+    return SineFit(amplitude, phase, float(c[2]), to_polar(covariance, amplitude, phase), residual)
 
 
 def _regressors(time: Array, frequency: float) -> Array:
@@ -74,7 +74,7 @@ def _regressors(time: Array, frequency: float) -> Array:
     return np.column_stack([np.sin(angle), np.cos(angle), np.ones_like(angle)])
 
 
-def _to_polar(covariance: Array, amplitude: float, phase: float) -> Array:
+def to_polar(covariance: Array, amplitude: float, phase: float) -> Array:
     """From the covariance of (c_1, c_2, c_3) to that of (amplitude, phase, offset), by the slopes of Eq. 2.8-2.10."""
     s, c = np.sin(phase), np.cos(phase)
     if amplitude == 0.0:  # nothing swings: any phase is as good as another

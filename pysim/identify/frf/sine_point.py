@@ -9,9 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.stats import chi2
 
-from pysim.identify._near_orthogonal import near_orthogonal_fit
+from pysim.identify.frf.harmonic_fit import HarmonicFit, harmonic_fit, told_apart
 from pysim.identify.frf.noise import COLOURED, ResidualNoise, residual_noise
 from pysim.identify.logged import LoggedWave, logged_wave
+from pysim.identify.sampling import sampling
+from pysim.identify.sine_fit import to_polar
 from pysim.types import BadInput, MeasuredRecord, Record
 
 Array = NDArray[np.float64]
@@ -102,28 +104,33 @@ def sine_point(
     command = logged_wave(record, input_)
     assert isinstance(record.data, Record)  # logged_wave has refused anything else
     frequency = float(command.frequency)
-    inside, periods, remarks = _fitted_part(record, command, window or Window())
-    t, y = record.data.time[inside], record.data[output][inside]
-    count = _harmonic_count(t, frequency)
+    part = _fitted_part(record, command, window or Window())
+    remarks = list(part.remarks)
+    t, y = record.data.time[part.inside], record.data[output][part.inside]
+    angle = command.angle(t)
+    count = _harmonic_count(t, frequency, part)
     if count < 1:
         raise BadInput(
-            f"{record.source}: the {t.size} samples of {periods} period{'s' if periods > 1 else ''} behind the settling"
-            f" do not show {frequency:g} Hz; shorten the settling, record longer or sample faster"
+            f"{record.source}: the {t.size} samples of {part.periods} period{'s' if part.periods > 1 else ''} behind "
+            f"the settling do not show {frequency:g} Hz; shorten the settling, record longer or sample faster"
         )
-    waves = _waves(command.angle(t), count)
-    coefficients = near_orthogonal_fit(waves, y)
-    interval = float(t[-1] - t[0]) / (t.size - 1)
-    judged = residual_noise(y - waves @ coefficients, waves, frequency, interval, declared=noise)
+    if part.holes:
+        count, told = _told_apart(record.source, angle, count, frequency, part.holes)
+        remarks += told
+    interval = part.step if part.holes else float(t[-1] - t[0]) / (t.size - 1)
+    lost = bool(part.holes)
+    fit = harmonic_fit(angle, y, count, lost=lost)
+    coefficients = fit.coefficients
+    judged = residual_noise(fit.left_over, fit.columns, frequency, interval, declared=noise)
     amplitude = float(np.hypot(*coefficients[:2]))
     if amplitude <= 1e-12 * float(np.max(np.abs(y))):
         raise BadInput(f"{record.source}: {output} does not move at {frequency:g} Hz; there is no response")
     gain = amplitude / command.amplitude
     sizes = np.hypot(coefficients[0:-1:2], coefficients[1::2])
-    spread = judged.deviation * math.sqrt(2 / t.size)  # of a coefficient: sum sin^2 is n/2
-    power = float(np.sum(sizes[1:] ** 2)) / spread**2 if spread > 0 else math.inf * float(np.any(sizes[1:] > 0))
-    distorted = bool(count > 1 and chi2.sf(power, 2 * (count - 1)) < _UNLIKELY)
-    if periods > 1:
-        remarks += _unsteady(command.angle(t), y, count, interval, noise)
+    spread = judged.deviation * math.sqrt(float(np.mean(np.diag(fit.inverse)[2 if count > 1 else 0 : -1])))
+    distorted = bool(count > 1 and chi2.sf(_power(fit, slice(2, -1), judged.deviation), 2 * (count - 1)) < _UNLIKELY)
+    if part.periods > 1:
+        remarks += _unsteady(harmonic_fit(angle, y, count, lost=lost, drifting=True), y, frequency, interval, noise)
     if judged.basis == COLOURED:
         remarks.append("residuals have a memory; intervals follow their spectrum")
     return SinePoint(
@@ -133,21 +140,40 @@ def sine_point(
         gain=gain,
         phase=float(np.arctan2(coefficients[1], coefficients[0])),
         mean=float(coefficients[-1]),
-        covariance=_covariance(command, gain, judged, t.size),
+        covariance=_covariance(command, fit, judged),
         harmonics=sizes[1:] / amplitude,
         harmonics_noise=spread / amplitude,
         distorted=distorted,
         noise=judged,
-        periods=periods,
+        periods=part.periods,
         remarks=tuple(remarks),
     )
 
 
-def _fitted_part(record: MeasuredRecord, command: LoggedWave, window: Window) -> tuple[slice, int, list[str]]:
-    """The samples of the last whole periods, how many, and what speaks against them."""
+@dataclass(frozen=True)
+class _Part:
+    """What of a log is fitted.
+
+    Args:
+        inside: samples of the last whole periods.
+        periods: how many.
+        step: s between samples.
+        holes: (from, to) in s, where samples are lost.
+        remarks: what speaks against it.
+    """
+
+    inside: slice
+    periods: int
+    step: float
+    holes: tuple[tuple[float, float], ...]
+    remarks: tuple[str, ...]
+
+
+def _fitted_part(record: MeasuredRecord, command: LoggedWave, window: Window) -> _Part:
     assert isinstance(record.data, Record)
     t, period = record.data.time, 1 / command.frequency
-    dt = float(np.median(np.diff(t)))
+    found = sampling(t)
+    dt = found.step
     available = (command.end - command.start + dt) / period + 1e-6
     settled = available - max(window.settle_periods, window.settle_time / period)
     if available < 1:
@@ -156,53 +182,71 @@ def _fitted_part(record: MeasuredRecord, command: LoggedWave, window: Window) ->
             "the transients"
         )
     periods = max(int(settled), 1)
-    remarks = []
+    remarks: tuple[str, ...] = ()
     if settled < 1:
         before = command.end - period - command.start
-        remarks.append(f"the fitted period begins {before:.2g} s after the sine; the transients may not have died")
+        remarks = (f"the fitted period begins {before:.2g} s after the sine; the transients may not have died",)
     first = command.end - periods * period
-    inside = slice(int(np.searchsorted(t, first + 0.5 * dt)), int(np.searchsorted(t, command.end + 0.5 * dt)))
-    return inside, periods, remarks
+    begin, end = (int(np.searchsorted(t, at + 0.5 * dt)) for at in (first, command.end))
+    gaps = found.gaps[(found.gaps >= begin - 1) & (found.gaps < end - 1)]
+    holes = tuple((max(float(t[k]), first), float(t[k + 1])) for k in gaps)
+    return _Part(slice(begin, end), periods, dt, holes, remarks)
 
 
-def _harmonic_count(t: Array, frequency: float) -> int:
+def _harmonic_count(t: Array, frequency: float, part: _Part) -> int:
     """The sine itself and its harmonics, as many as sampling and number of samples allow; 0 where not even it."""
     if t.size < 2:
         return 0
-    highest = 0.49 * (t.size - 1) / float(t[-1] - t[0])
+    highest = 0.49 / part.step if part.holes else 0.49 * (t.size - 1) / float(t[-1] - t[0])
     return max(min(int(highest / frequency), 1 + _HARMONICS, (t.size - 12) // 2), 0)
 
 
-def _waves(angle: Array, count: int) -> Array:
-    """sin and cos of 1 .. count times the angle, and a constant: (n, 2 count + 1)."""
-    waves = [function(k * angle) for k in range(1, count + 1) for function in (np.sin, np.cos)]
-    return np.column_stack([*waves, np.ones_like(angle)])
+def _told_apart(
+    source: str, angle: Array, count: int, frequency: float, holes: tuple[tuple[float, float], ...]
+) -> tuple[int, list[str]]:
+    """How many of the sine and its harmonics are fitted where samples are lost, and what must be said of that.
+
+    What is fitted though the samples do not tell it apart makes the sine itself a matter of chance.
+    """
+    few = told_apart(angle, count)
+    begin, end = max(holes, key=lambda hole: hole[1] - hole[0])
+    lost = f"no samples from {begin:.4g} to {end:.4g} s"
+    if few < 1:
+        raise BadInput(
+            f"{source}: {lost}, and the others do not show {frequency:g} Hz; record it again, or more periods of it"
+        )
+    if few == count:
+        return few, []
+    kept = f"only {few - 1} of {count - 1} harmonics are fitted" if few > 1 else "no harmonics are fitted"
+    return few, [f"{lost}: {kept}, and others, where there are any, disturb the sine"]
 
 
-def _covariance(command: LoggedWave, gain: float, noise: ResidualNoise, samples: int) -> Array:
+def _power(fit: HarmonicFit, part: slice, deviation: float) -> float:
+    """Sum of squares of some coefficients, in variances that noise of that standard deviation gives them."""
+    chosen = fit.coefficients[part]
+    square = float(chosen @ np.linalg.solve(fit.inverse[part, part], chosen))
+    return square / deviation**2 if deviation > 0 else math.inf * float(square > 0)
+
+
+def _covariance(command: LoggedWave, fit: HarmonicFit, noise: ResidualNoise) -> Array:
     """Of gain, phase and mean, to first order; noise of output and logged command."""
-    sine = 2 * noise.at_frequency**2 / samples
-    amplitude, phase = command.amplitude, command.covariance
-    return np.diag(
-        [
-            sine / amplitude**2 + gain**2 * phase[0, 0] / amplitude**2,
-            sine / (gain * amplitude) ** 2 + phase[1, 1],
-            noise.at_zero**2 / samples,
-        ]
-    )
+    sine, cosine = fit.coefficients[:2]
+    amplitude = float(np.hypot(sine, cosine))
+    scale = np.array([noise.at_frequency, noise.at_frequency, noise.at_zero])
+    linear = scale[:, None] * fit.inverse[np.ix_([0, 1, -1], [0, 1, -1])] * scale
+    polar = to_polar(linear, amplitude, float(np.arctan2(cosine, sine)))
+    by = np.array([1 / command.amplitude, 1.0, 1.0])
+    relative = amplitude / command.amplitude**2
+    of_command = np.diag([relative**2 * command.covariance[0, 0], command.covariance[1, 1], 0.0])
+    return np.asarray(by[:, None] * polar * by + of_command)
 
 
-def _unsteady(angle: Array, y: Array, count: int, interval: float, declared: float | None) -> list[str]:
+def _unsteady(drifting: HarmonicFit, y: Array, frequency: float, interval: float, declared: float | None) -> list[str]:
     """Whether amplitude or phase drift through the fitted part by more than noise."""
-    through = np.linspace(-1.0, 1.0, angle.size)
-    drifting = np.column_stack([_waves(angle, count), through * np.sin(angle), through * np.cos(angle)])
-    coefficients = near_orthogonal_fit(drifting, y)
-    frequency = float(angle[-1] - angle[0]) / (2 * np.pi * interval * (angle.size - 1))
-    left_over = y - drifting @ coefficients
-    noise = residual_noise(left_over, drifting, frequency, interval, declared=declared).at_frequency
-    change = 2 * float(np.hypot(*coefficients[-2:]))
-    variance = 4 * noise**2 * 2 / float(through @ through)
-    if change <= 1e-9 * np.max(np.abs(y)) or (variance > 0 and chi2.sf(change**2 / variance, 2) > _UNLIKELY):
+    noise = residual_noise(drifting.left_over, drifting.columns, frequency, interval, declared=declared).at_frequency
+    change = 2 * float(np.hypot(*drifting.coefficients[-2:]))
+    by_chance = noise > 0 and chi2.sf(_power(drifting, slice(-2, None), noise), 2) > _UNLIKELY
+    if change <= 1e-9 * np.max(np.abs(y)) or by_chance:
         return []
-    share = change / float(np.hypot(*coefficients[:2]))
+    share = change / float(np.hypot(*drifting.coefficients[:2]))
     return [f"the sine changes by {100 * share:.2g} percent within the fitted part; not settled, or not steady"]

@@ -41,6 +41,59 @@ def test_intervals_cover_the_truth(make, declared: float | None) -> None:
     assert (np.abs(hits / runs - 0.95) < 0.06).all()  # three standard deviations of a binomial
 
 
+def without(record: MeasuredRecord, begin: float, end: float) -> MeasuredRecord:
+    """The same log with the samples between two times lost."""
+    data = record.data
+    assert isinstance(data, Record)
+    kept = (data.time < begin) | (data.time > end)
+    return replace(record, data=replace(data, time=data.time[kept], values=data.values[kept]))
+
+
+@pytest.mark.parametrize("hole", [0.05, 0.2, 0.3, 0.35])
+def test_intervals_cover_the_truth_where_samples_are_lost(hole: float) -> None:
+    hits, runs, widest = np.zeros(3), 120, 0.0
+    for seed in range(runs):
+        record = without(log(1.0, periods=2.4, noise=white(1000, 0.05, seed)), 3.6, 3.6 + hole)
+        point = sine_point(record, "cmd", "y")
+        assert point.periods == 1
+        hits += np.abs([*error(point, 1.0), point.mean - 45.0]) < 1.96 * np.sqrt(np.diag(point.covariance))
+        widest = max(widest, float(np.sqrt(point.covariance[0, 0])))
+    assert (np.abs(hits / runs - 0.95) < 0.06).all()  # three standard deviations of a binomial
+    assert widest < 0.002  # of a gain of 0.9; without a hole it is 0.0005
+
+
+def test_says_which_harmonics_lost_samples_hide() -> None:
+    whole = log(1.0, periods=2.4, noise=white(1000, 0.05, 1))
+    small, large = without(whole, 3.6, 3.62), without(whole, 3.6, 3.8)
+    assert sine_point(small, "cmd", "y").harmonics.size == 10
+    assert not any("no samples" in remark for remark in sine_point(small, "cmd", "y").remarks)
+    point = sine_point(large, "cmd", "y")
+    assert point.harmonics.size == 1
+    assert any(
+        "no samples from 3.596 to 3.804 s: only 1 of 10 harmonics are fitted" in remark for remark in point.remarks
+    )
+    assert any("no harmonics are fitted" in r for r in sine_point(without(whole, 3.6, 3.9), "cmd", "y").remarks)
+
+
+def test_samples_lost_before_the_fitted_part_do_no_harm() -> None:
+    whole = log(1.0, periods=2.4, noise=white(1000, 0.05, 1))
+    one, other = (sine_point(record, "cmd", "y").covariance for record in (without(whole, 2.5, 2.8), whole))
+    np.testing.assert_allclose(one, other, rtol=1e-4, atol=1e-20)
+
+
+def test_a_hole_at_the_edge_of_the_fitted_part_counts() -> None:
+    point = sine_point(without(log(1.0, periods=2.4, noise=white(1000, 0.05, 1)), 3.2, 3.6), "cmd", "y")
+    assert any("no samples from 3.4 to 3.604 s" in remark for remark in point.remarks)  # the part begins at 3.4 s
+
+
+def test_lost_samples_do_not_pass_for_a_drift() -> None:
+    told = 0
+    for seed in range(200):
+        record = without(log(1.0, periods=4.0, noise=white(1100, 0.05, seed)), 5.0, 5.45)
+        told += any("changes by" in remark for remark in sine_point(record, "cmd", "y").remarks)
+    assert told <= 2  # one in a thousand expected
+
+
 def test_harmonics_are_found_and_do_not_spoil_the_sine() -> None:
     point = sine_point(log(4.0, add=0.05, noise=white(2000, 0.05, 3)), "cmd", "y")
     assert point.distorted
@@ -93,6 +146,9 @@ def test_refuses_what_gives_no_response() -> None:
     values = np.array(record.data.values)
     values[:, 1] = 3.0
     refused(replace(record, data=replace(record.data, values=values)), "does not move at 4 Hz")
+    refused(
+        without(log(1.0, periods=2.4), 3.5, 4.0), r"1Hz.txt: no samples from 3.496 to 4.004 s, and .* record it again"
+    )
     for wrong in (-1.0, math.inf, math.nan):
         with pytest.raises(BadInput, match=f"settle_periods is {wrong:g}; it must be finite and not negative"):
             Window(wrong)
