@@ -32,6 +32,11 @@ class HarmonicFit:
     inverse: Array
     left_over: Array
 
+    @property
+    def freedom(self) -> int:
+        """Samples less coefficients."""
+        return self.columns.shape[0] - self.columns.shape[1]
+
 
 def waves(angle: Array, count: int) -> Array:
     """sin and cos of 1 .. count times the angle, and a constant: (n, 2 count + 1)."""

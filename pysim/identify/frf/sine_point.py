@@ -8,9 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 from scipy.stats import chi2
+from scipy.stats import f as f_distribution
 
 from pysim.identify.frf.harmonic_fit import HarmonicFit, harmonic_fit, told_apart
-from pysim.identify.frf.noise import COLOURED, ResidualNoise, residual_noise
+from pysim.identify.frf.noise import COLOURED, DECLARED, ResidualNoise, residual_noise
 from pysim.identify.logged import LoggedWave, logged_wave
 from pysim.identify.sampling import sampling
 from pysim.identify.sine_fit import to_polar
@@ -127,8 +128,9 @@ def sine_point(
         raise BadInput(f"{record.source}: {output} does not move at {frequency:g} Hz; there is no response")
     gain = amplitude / command.amplitude
     sizes = np.hypot(coefficients[0:-1:2], coefficients[1::2])
-    spread = judged.deviation * math.sqrt(float(np.mean(np.diag(fit.inverse)[2 if count > 1 else 0 : -1])))
-    distorted = bool(count > 1 and chi2.sf(_power(fit, slice(2, -1), judged.deviation), 2 * (count - 1)) < _UNLIKELY)
+    deviation = judged.at_frequency if judged.basis == DECLARED else judged.deviation
+    spread = deviation * math.sqrt(float(np.mean(np.diag(fit.inverse)[2 if count > 1 else 0 : -1])))
+    distorted = count > 1 and _by_chance(fit, slice(2, -1), deviation, judged.basis) < _UNLIKELY
     if part.periods > 1:
         remarks += _unsteady(harmonic_fit(angle, y, count, lost=lost, drifting=True), y, frequency, interval, noise)
     if judged.basis == COLOURED:
@@ -221,11 +223,21 @@ def _told_apart(
     return few, [f"{lost}: {kept}, and others, where there are any, disturb the sine"]
 
 
-def _power(fit: HarmonicFit, part: slice, deviation: float) -> float:
-    """Sum of squares of some coefficients, in variances that noise of that standard deviation gives them."""
+def _by_chance(fit: HarmonicFit, part: slice, deviation: float, basis: str) -> float:
+    """Probability of coefficients as large as these, or larger, by noise of that standard deviation alone.
+
+    Args:
+        part: which coefficients.
+        basis: of the noise; unless it was declared it is an estimate, from what the fit leaves over.
+    """
     chosen = fit.coefficients[part]
     square = float(chosen @ np.linalg.solve(fit.inverse[part, part], chosen))
-    return square / deviation**2 if deviation > 0 else math.inf * float(square > 0)
+    if deviation == 0:
+        return float(square == 0)
+    power = square / deviation**2
+    if basis == DECLARED:
+        return float(chi2.sf(power, chosen.size))
+    return float(f_distribution.sf(power / chosen.size, chosen.size, fit.freedom))
 
 
 def _covariance(command: LoggedWave, fit: HarmonicFit, noise: ResidualNoise) -> Array:
@@ -243,10 +255,10 @@ def _covariance(command: LoggedWave, fit: HarmonicFit, noise: ResidualNoise) -> 
 
 def _unsteady(drifting: HarmonicFit, y: Array, frequency: float, interval: float, declared: float | None) -> list[str]:
     """Whether amplitude or phase drift through the fitted part by more than noise."""
-    noise = residual_noise(drifting.left_over, drifting.columns, frequency, interval, declared=declared).at_frequency
+    noise = residual_noise(drifting.left_over, drifting.columns, frequency, interval, declared=declared)
     change = 2 * float(np.hypot(*drifting.coefficients[-2:]))
-    by_chance = noise > 0 and chi2.sf(_power(drifting, slice(-2, None), noise), 2) > _UNLIKELY
-    if change <= 1e-9 * np.max(np.abs(y)) or by_chance:
+    chance = _by_chance(drifting, slice(-2, None), noise.at_frequency, noise.basis)
+    if change <= 1e-9 * np.max(np.abs(y)) or chance > _UNLIKELY:
         return []
     share = change / float(np.hypot(*drifting.coefficients[:2]))
     return [f"the sine changes by {100 * share:.2g} percent within the fitted part; not settled, or not steady"]

@@ -108,6 +108,26 @@ def test_noise_is_seldom_called_a_harmonic() -> None:
     assert wrong <= 1  # one in a thousand expected
 
 
+def coarse(frequency: float, rate: float, periods: float, seed: int) -> MeasuredRecord:
+    """A noisy sine of few samples."""
+    time = np.arange(round(periods * rate / frequency) + 1) / rate
+    sine = np.sin(2 * np.pi * frequency * time)
+    values = np.column_stack([50 + 10 * sine, 40 + 9 * sine + white(time.size, 0.5, seed)])
+    return MeasuredRecord(
+        "few", "frequency-response", "fit", Record(time, values, ("cmd", "y"), ("%", "deg")), 50, 10, frequency
+    )
+
+
+@pytest.mark.parametrize("declared", [None, 0.5])
+def test_noise_of_few_samples_is_seldom_called_a_harmonic_or_a_drift(declared: float | None) -> None:
+    one = [sine_point(coarse(0.5, 20.0, 1.9, seed), "cmd", "y", noise=declared) for seed in range(400)]
+    assert all(point.periods == 1 and point.harmonics.size == 10 for point in one)
+    assert sum(point.distorted for point in one) <= 3  # one in a thousand expected
+    two = [sine_point(coarse(1.0, 13.0, 3.2, seed), "cmd", "y", noise=declared) for seed in range(400)]
+    assert all(point.periods == 2 for point in two)
+    assert sum(any("changes by" in remark for remark in point.remarks) for point in two) <= 3
+
+
 def test_whole_periods_behind_the_transients_are_fitted() -> None:
     assert sine_point(log(4.0, periods=10.6), "cmd", "y").periods == 8  # half a second is two periods
     assert sine_point(log(0.5, periods=3.0), "cmd", "y").periods == 2
