@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 from pysim.io.named_columns import Numbers
 from pysim.io.parquet_table import read_parquet
 from pysim.io.tdms_table import read_tdms
-from pysim.io.text_table import LEFT_OUT, read_table
+from pysim.io.text_fields import LEFT_OUT
+from pysim.io.text_table import read_table
 from pysim.types import BadInput
 
 Array = NDArray[np.float64]

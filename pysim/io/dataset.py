@@ -7,7 +7,7 @@ from pathlib import Path, PurePosixPath
 
 from pysim.io.measured_log import LOGS, TIME, read_log
 from pysim.io.measured_table import TABLE, read_measured_table
-from pysim.io.text_table import LEFT_OUT
+from pysim.io.text_fields import LEFT_OUT
 from pysim.io.toml_section import Section, read_toml
 from pysim.io.units import Scale, signal_in_si, unit_cure
 from pysim.types import SI, UNITS, BadInput, Dataset, MeasuredSignal

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from pysim.io.columns import Columns, read_columns, refuse_standing_time
-from pysim.io.text_table import LEFT_OUT
+from pysim.io.text_fields import LEFT_OUT
 from pysim.io.toml_section import Section
 from pysim.io.units import Scale
 from pysim.types import BadInput, MeasuredRecord, MeasuredSignal, Record

@@ -9,6 +9,9 @@ from functools import partial
 _BESIDE = re.compile(r',\s*"|"\s*,')
 _QUOTED = re.compile(r'(?:(?<=,)|^)\s*"([^"]*)"(?=\s*(?:,|$))')
 _DECIMAL = re.compile(r"\s*[+-]?\d*,\d+(?:[eE][+-]?\d+)?\s*")
+_AMOUNT = re.compile(r"\s*[+-]?[\d.,]+(?:[eE][+-]?\d+)?\s*")  # a number, its commas decimal or not
+# The same between semicolons or tabs: there only these separate.
+_BETWEEN = re.compile(r'((?:^|(?<=[;\t])) *)"([^"]*[;\t][^"]*)"(?= *(?:[;\t]|$))')
 _THOUSANDS = re.compile(r"\s*[+-]?[1-9]\d{0,2},\d{3}\s*")
 
 
@@ -28,11 +31,19 @@ def unquoted(text: str, gap: str = "_") -> str:
     decimal = any(not _THOUSANDS.fullmatch(number) for number in numbers)
     for i in beside:
         lines[i] = _QUOTED.sub(partial(_protected, decimal=decimal and "." not in lines[i], gap=gap), lines[i])
-    return "\n".join(lines).replace('"', "")
+    return "\n".join(line if '"' not in line else _without_marks(line, gap) for line in lines)
+
+
+def _without_marks(line: str, gap: str) -> str:
+    """Of a line in which commas between marks mean nothing any more."""
+    if _BETWEEN.fullmatch(line) is None:  # all of it may stand in marks
+        line = _BETWEEN.sub(lambda field: field[1] + re.sub(r"[;\t]+", gap, field[2]), line)
+    return line.replace('"', "")
 
 
 def _protected(field: re.Match[str], *, decimal: bool, gap: str) -> str:
     """What stands between quotation marks, without anything that separates."""
     if decimal and _DECIMAL.fullmatch(field[1]):
         return field[1].replace(",", ".")
-    return re.sub(r"[,;\s]+", gap, field[1]) if any(letter.isalpha() for letter in field[1]) else field[1]
+    word = any(letter.isalpha() for letter in field[1]) or not _AMOUNT.fullmatch(field[1])
+    return re.sub(r"[,;\s]+", gap, field[1]) if word else field[1]

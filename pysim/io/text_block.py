@@ -5,38 +5,35 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from pysim.io.text_fields import LEFT_OUT, Dialect, row_fields
+
 Array = NDArray[np.float64]
 
 _NUMBER = b"0123456789+-.eE\n"
 _EDGES = (", ", " ,", ",\n", "\n,")  # a comma that separates where others are decimal
 
 
-def dialect(line: str) -> tuple[str | None, bool]:
-    """What separates the columns of a line (None: blanks), and whether its commas are decimal.
+def read_block(lines: list[str], columns: tuple[str, ...]) -> Array | None:
+    """Numbers (n_r, n_c) of lines that all follow the dialect of the first, or None where one does not.
 
-    A comma at the edge of a word separates, and so does one in a line without blanks.
-    """
-    for separator in ("\t", ";"):
-        if separator in line:
-            return separator, True
-    words = line.split()
-    if "," in line and (len(words) == 1 or any(word.startswith(",") or word.endswith(",") for word in words)):
-        return ",", False
-    return None, True
-
-
-def read_block(lines: list[str], width: int) -> Array | None:
-    """Numbers (n_r, width) of lines that all follow the dialect of the first, or None where one does not.
-
-    Only what means the same to a reader that goes line by line is taken: no comments, no words, no infinity, no
-    mixture of separators. Empty lines are skipped.
+    Only what means the same to a reader that goes line by line is taken: no comments, no words but in columns that are
+    left out, no infinity, no mixture of separators. Empty lines are skipped.
 
     Args:
         lines: without their ends; the first one is a row.
+        columns: (n_c) names; those called LEFT_OUT may be 0 whatever they hold.
     """
-    separator, decimal = dialect(lines[0].strip())
-    text = "\n".join(lines)
-    decimal = decimal and "," in text
+    _, how = row_fields(lines[0], columns)
+    values = _of_numbers(lines, len(columns), how)
+    if values is None and LEFT_OUT in columns and how.separator is not None:
+        values = _of_wanted(lines, columns, how, how.separator)
+    return values if values is not None and np.isfinite(values).all() else None
+
+
+def _of_numbers(lines: list[str], width: int, how: Dialect) -> Array | None:
+    """Where nothing else stands in any column."""
+    separator, text = how.separator, "\n".join(lines)
+    decimal = how.decimal and "," in text
     allowed = _NUMBER + b" " + (separator or "").encode() + (b"," if decimal else b"")
     if not text.isascii() or text.encode().translate(None, allowed):
         return None
@@ -47,4 +44,18 @@ def read_block(lines: list[str], width: int) -> Array | None:
         values = np.loadtxt(rows, delimiter=separator, comments=None, ndmin=2)
     except ValueError:
         return None
-    return values if values.shape[1] == width and np.isfinite(values).all() else None
+    return values if values.shape[1] == width else None
+
+
+def _of_wanted(lines: list[str], columns: tuple[str, ...], how: Dialect, separator: str) -> Array | None:
+    """Where every line has as many separators as it should, and numbers in the columns that are wanted."""
+    if any(line.count(separator) != len(columns) - 1 for line in lines):
+        return None
+    wanted = [k for k, name in enumerate(columns) if name != LEFT_OUT]
+    values = np.zeros((len(lines), len(columns)))
+    try:
+        rows = "\n".join(lines).replace(",", ".").split("\n") if how.decimal else lines
+        values[:, wanted] = np.loadtxt(rows, delimiter=separator, comments=None, ndmin=2, usecols=wanted)
+    except ValueError:
+        return None
+    return values

@@ -10,12 +10,22 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pysim.io.quotation_marks import unquoted
-from pysim.io.text_block import dialect, read_block
+from pysim.io.text_block import read_block
+from pysim.io.text_fields import (
+    COMMAS,
+    LEFT_OUT,
+    SEMICOLONS,
+    TABS,
+    Dialect,
+    dialect,
+    fits,
+    number,
+    row_fields,
+    without_end_mark,
+)
 from pysim.types import BadInput
 
 Array = NDArray[np.float64]
-
-LEFT_OUT = "-"  # name of a column that nobody wants; it may hold anything
 
 _LABVIEW_END, _LABVIEW_LINES = "***End_of_Header***", 200
 _SHOWN = 60  # characters of a line in a message
@@ -64,51 +74,61 @@ def read_table(path: Path, columns: tuple[str, ...], wanted_by: str) -> tuple[Ar
         BadInput: no rows, a row of another width, text where a number belongs, a number that is not finite, or a
             header that names the columns in another order.
     """
-    lines = unquoted(read_text(path, wanted_by)).rstrip().split("\n")
+    lines = unquoted(read_text(path, wanted_by)).split("\n")
+    while len(lines) > 1 and not lines[-1].strip():
+        lines.pop()
     begin = _behind_labview_header(lines)
-    first = next((i for i in range(begin, len(lines)) if _is_row(lines[i], len(columns))), None)
+    first = next((i for i in range(begin, len(lines)) if _is_row(lines[i], columns)), None)
     if first is None:
         last = f", and ends with {lines[-1].strip()[:_SHOWN]!r}" if lines[-1].strip() else ""
         raise BadInput(f"{path} holds no numbers; it needs rows of {', '.join(columns)}{last}")
-    _refuse_other_order(list(enumerate(lines[:first], 1))[begin:], path, columns, wanted_by)
     body = lines[first:]
     numbers = np.arange(first + 1, len(lines) + 1)
     if any("#" in line or not line or line.isspace() for line in body):  # the usual log has no such lines
         numbers = numbers[[not _is_skipped(line) for line in body]]
-        body = [lines[number - 1] for number in numbers]
-    body = _without_end_marks(body)
-    values = read_block(body, len(columns))
+        body = [lines[at - 1] for at in numbers]
+    body = _without_end_marks(body, columns)
+    _, usual = row_fields(body[0], columns)
+    _refuse_other_order(list(enumerate(lines[:first], 1))[begin:], path, columns, wanted_by, usual)
+    values = read_block(body, columns)
     if values is None or len(values) != len(body):
         rows = zip(numbers.tolist(), body, strict=True)
-        values = np.array([_row(line.strip(), columns, f"{path}, line {number}") for number, line in rows])
+        values = np.array([_row(line, columns, f"{path}, line {at}", usual) for at, line in rows])
     return values, numbers
 
 
-def _refuse_other_order(header: list[tuple[int, str]], path: Path, columns: tuple[str, ...], wanted_by: str) -> None:
+def _refuse_other_order(
+    header: list[tuple[int, str]], path: Path, columns: tuple[str, ...], wanted_by: str, usual: Dialect
+) -> None:
     """A column that is headed by the name of another one would be taken for it.
 
     Args:
         header: line numbers and lines above the first row.
+        usual: dialect of the rows.
     """
     wanted = [name.casefold() for name in columns]
-    for number, line in header:
+    for at, line in header:
         names = line.strip().lstrip("#").strip().rstrip("\t;,")
-        heads = [_UNIT.sub("", field.strip()) for field in names.split(dialect(names)[0])]
-        small = [head.casefold() for head in heads]
-        if len(small) == len(wanted) and any(
-            head != name != LEFT_OUT and head in wanted and small.count(head) == 1
-            for head, name in zip(small, wanted, strict=True)
-        ):
-            raise BadInput(
-                f"{path}, line {number}: the header has the columns in the order {', '.join(heads)}, and {wanted_by} "
-                f"in the order {', '.join(columns)}; correct the one that is wrong"
-            )
+        for separator in {dialect(names).separator, usual.separator}:
+            heads = [_UNIT.sub("", field.strip()) for field in names.split(separator)]
+            small = [head.casefold() for head in heads]
+            if len(small) == len(wanted) and any(
+                head != name != LEFT_OUT and head in wanted and small.count(head) == 1
+                for head, name in zip(small, wanted, strict=True)
+            ):
+                raise BadInput(
+                    f"{path}, line {at}: the header has the columns in the order {', '.join(heads)}, and {wanted_by} "
+                    f"in the order {', '.join(columns)}; correct the one that is wrong"
+                )
 
 
-def _without_end_marks(rows: list[str]) -> list[str]:
-    """Rows whose first one ends with a separator, without it: nothing stands behind."""
+def _without_end_marks(rows: list[str], columns: tuple[str, ...]) -> list[str]:
+    """Rows whose first one ends with a separator, without it: nothing stands behind, unless a column is left out there.
+
+    Such a column may be empty; then there are as many separators as columns, less one.
+    """
     first = rows[0].rstrip(" ")
-    if not first.endswith(("\t", ";", ",")):
+    if not first.endswith(("\t", ";", ",")) or (columns[-1] == LEFT_OUT and first.count(first[-1]) < len(columns)):
         return rows
     return [row.rstrip(" ").removesuffix(first[-1]) for row in rows]
 
@@ -125,43 +145,41 @@ def _is_skipped(line: str) -> bool:
     return not line or line.startswith("#")
 
 
-def _is_row(line: str, width: int) -> bool:
+def _is_row(line: str, columns: tuple[str, ...]) -> bool:
     """Whether a line is the first row of numbers: neither skipped nor a header."""
-    return not _is_skipped(line) and not _is_header(_split(line.strip()), width)
+    if _is_skipped(line):
+        return False
+    if not _is_header(dialect(line.strip()).fields(line.strip()), len(columns)):
+        return True
+    return LEFT_OUT in columns and _looks_like_row(line, columns)
 
 
-def _split(text: str) -> list[str]:
-    """Fields of one line, decimal commas turned into points."""
-    separator, decimal = dialect(text)
-    fields = [field.strip() for field in text.split(separator)]
-    return [field.replace(",", ".") for field in fields] if decimal else fields
+def _looks_like_row(line: str, columns: tuple[str, ...]) -> bool:
+    """Whether numbers stand where they are wanted once another separator is tried, but for a misprint."""
+    if any(fits(row_fields(text, columns)[0], columns) for text in (line, without_end_mark(line))):
+        return True
+    wanted = [k for k, name in enumerate(columns) if name != LEFT_OUT]
+    tried = (one.fields(line) for one in (TABS, SEMICOLONS, COMMAS))
+    return any(len(f) == len(columns) and any(number(f[k]) is not None for k in wanted) for f in tried)
 
 
 def _is_header(fields: list[str], width: int) -> bool:
     """Whether a line above the first row names columns or tells a story, and is not a row with a misprint."""
-    numbers = [_number(field) is not None for field in fields]
+    numbers = [number(field) is not None for field in fields]
     return not any(numbers) or (not numbers[0] and len(fields) != width)
 
 
-def _number(field: str) -> float | None:
-    """The number a field holds; Python would also read 1_000."""
-    try:
-        return None if "_" in field else float(field)
-    except ValueError:
-        return None
-
-
-def _row(line: str, columns: tuple[str, ...], where: str) -> list[float]:
+def _row(line: str, columns: tuple[str, ...], where: str, usual: Dialect | None = None) -> list[float]:
     """One row of finite numbers, a value per column."""
-    fields = _split(line)
+    fields, how = row_fields(line, columns, usual)
     if len(fields) != len(columns):
         cure = f'complete the row; in a data set, dataset.toml names every column, "{LEFT_OUT}" those to leave out'
-        if dialect(line)[0] == "," and "." not in line and len(columns) < len(fields) <= 2 * len(columns):
+        if how == COMMAS and "." not in line and len(columns) < len(fields) <= 2 * len(columns):
             cure = "if its commas are decimal, separate the columns by semicolons or tabs"
         raise BadInput(f"{where}: {len(fields)} columns where {len(columns)} belong ({', '.join(columns)}); {cure}")
     row = []
     for name, field in zip(columns, fields, strict=True):
-        value = 0.0 if name == LEFT_OUT else _number(field)
+        value = 0.0 if name == LEFT_OUT else number(field)
         if value is None:
             cure = "write it as a number of seconds" if ":" in field else "correct it or remove the row"
             raise BadInput(f"{where}: {field!r} is no number for {name}; {cure}")

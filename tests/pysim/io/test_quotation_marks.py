@@ -15,6 +15,9 @@ from pysim.io.quotation_marks import unquoted
         ('"1,5";"2"', "1,5;2"),  # other separators need no care
         ('"0;1,5;2"', "0;1,5;2"),  # a whole line between two marks
         ('1,"stop, or go; on",2', "1,stop_or_go_on,2"),
+        ('"01.02.2024, 12:00:00",0.5,2', "01.02.2024_12:00:00,0.5,2"),
+        ('"on; ok";1,5;2', "on_ ok;1,5;2"),
+        ('1\t"on\toff"\t2', "1\ton_off\t2"),
         ('5" pipe, 3" hose', "5 pipe, 3 hose"),
         ("1,5", "1,5"),
     ],

@@ -6,7 +6,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from pysim.io import text_table
-from pysim.io.text_block import dialect, read_block
+from pysim.io.text_block import read_block
+from pysim.io.text_fields import LEFT_OUT, row_fields
 from pysim.io.text_table import read_table
 from pysim.types import BadInput
 
@@ -59,10 +60,10 @@ CHARACTERS = st.text("0123456789.,;\t eE+-_#ab\n", max_size=60)
 @given(CHARACTERS, st.integers(1, 3))
 def test_in_one_go_and_line_by_line_agree_on_anything(text: str, width: int) -> None:
     lines = [line for line in ("1 2 3"[: 2 * width - 1] + "\n" + text).split("\n") if line.strip()]
-    values = read_block(lines, width)
+    names = ("a", "b", "c")[:width]
+    values = read_block(lines, names)
     if values is None:
         return
-    names = ("a", "b", "c")[:width]
     slow = [text_table._row(line.strip(), names, "x") for line in lines]
     np.testing.assert_array_equal(values, slow)
 
@@ -70,11 +71,11 @@ def test_in_one_go_and_line_by_line_agree_on_anything(text: str, width: int) -> 
 @pytest.mark.parametrize("separator", ["\t", ";", ", ", " "])
 def test_ordinary_logs_take_the_fast_way(separator: str) -> None:
     lines = [separator.join(("2.0", "-1.5e3", "+.5")), "", separator.join(("2.004", "7", "8"))]
-    values = read_block(lines, 3)
+    values = read_block(lines, ("a", "b", "c"))
     assert values is not None
     np.testing.assert_array_equal(values, [[2, -1500, 0.5], [2.004, 7, 8]])
     if "," not in separator:
-        values = read_block([line.replace(".", ",") for line in lines], 3)
+        values = read_block([line.replace(".", ",") for line in lines], ("a", "b", "c"))
         assert values is not None
         np.testing.assert_array_equal(values, [[2, -1500, 0.5], [2.004, 7, 8]])
 
@@ -84,23 +85,38 @@ def test_ordinary_logs_take_the_fast_way(separator: str) -> None:
     ["1 nan", "1 inf", "1 1e999", "1 2 3", "1", "1 x", "1 1_0", "1\t2", "1;2", "1, 2", "1 2,", "# 1 2", "1 ٣", "1 2 #"],
 )
 def test_anything_unusual_is_left_to_the_careful_reader(second: str) -> None:
-    assert read_block(["1 2,5", second], 2) is None
+    assert read_block(["1 2,5", second], ("a", "b")) is None
 
 
-@pytest.mark.parametrize(
-    ("line", "expected"),
-    [
-        ("1\t2,5;3", ("\t", True)),
-        ("1;2,5", (";", True)),
-        ("1,2", (",", False)),
-        ("1, 2", (",", False)),
-        ("1 ,2", (",", False)),
-        ("1,5 2", (None, True)),
-        ("1 2", (None, True)),
-    ],
+MIXED = st.text("0123456789.,; \teE+-_:ab", max_size=12)
+FIELDS = st.sampled_from(["1", "2.5", "3,5", "1e999", "x", "", "1_0", "0x10", "nan", "1d5"])
+
+
+@settings(max_examples=500)
+@given(
+    st.lists(st.tuples(MIXED, st.sampled_from(["1", "2.5", "3,5", "1e999", "x", "", "1_0"])), max_size=4), SEPARATORS
 )
-def test_the_dialect_of_a_line(line: str, expected: tuple[str | None, bool]) -> None:
-    assert dialect(line) == expected
+def test_in_one_go_and_line_by_line_agree_where_columns_are_left_out(rows: list[tuple[str, str]], by: str) -> None:
+    names = (LEFT_OUT, "a", LEFT_OUT, "b")
+    lines = [by.join(("", "1", "word", "2")), *(by.join((word, field, word, "2")) for word, field in rows)]
+    values = read_block(lines, names)
+    if values is None:
+        return
+    _, usual = row_fields(lines[0], names)
+    slow = np.array([text_table._row(line, names, "x", usual) for line in lines])
+    np.testing.assert_array_equal(values[:, [1, 3]], slow[:, [1, 3]])
+
+
+@pytest.mark.parametrize("separator", ["\t", ";", ",", ", "])
+def test_words_in_columns_that_are_left_out_are_no_obstacle(separator: str) -> None:
+    lines = [
+        separator.join(("2024-01-01 12:00:00", "0.5", "", "2")),
+        separator.join(("noon; or later", "1", "on", "-3e1")),
+    ]
+    lines = [line.replace("; ", " ") if ";" in separator else line for line in lines]
+    values = read_block(lines, ("-", "t", "-", "u"))
+    assert values is not None
+    np.testing.assert_array_equal(values[:, [1, 3]], [[0.5, 2], [1, -30]])
 
 
 @settings(max_examples=200)

@@ -129,3 +129,40 @@ def test_columns_that_nobody_wants_may_hold_anything(tmp_path: Path) -> None:
     path.write_text('day,t,ok,u\n1,0.5,"yes",2\n')
     with pytest.raises(BadInput, match="line 2: 'yes' is no number for ok"):
         read_table(path, ("-", "t", "ok", "u"), "test")
+
+
+@pytest.mark.parametrize(
+    ("text", "columns"),
+    [
+        ("stamp,t,u\n2024-01-01 12:00:00,0.1,1.5\n2024-01-01 12:00:01,0.2,2.5\n", ("-", "t", "u")),
+        ('"stamp","t","u"\n"2024-01-01 12:00:00",0.1,1.5\n"2024-01-01 12:00:01",0.2,2.5\n', ("-", "t", "u")),
+        ('"01.02.2024, 12:00:00",0.1,1.5\n"01.02.2024, 12:00:01",0.2,2.5\n', ("-", "t", "u")),
+        ("01.02.2024 12:00:00;0,1;1,5;\n01.02.2024 12:00:01;0,2;2,5;\n", ("-", "t", "u")),
+        ("2024-01-01 12:00:00,0.1,1.5,\n2024-01-01 12:00:01,0.2,2.5,\n", ("-", "t", "u")),
+        ("t,u,state\n0.1,1.5,pump on\n0.2,2.5,off\n", ("t", "u", "-")),
+        ("t,u,state\n0.1,1.5,on; ok\n0.2,2.5,\n", ("t", "u", "-")),
+        ('"on; ok";0,1;1,5\n"off";0,2;2,5\n', ("-", "t", "u")),
+        ("t\tu\tremark\n0.1\t1.5\t\n0.2\t2.5\t\n", ("t", "u", "-")),
+        ("t\tu\tremark\n0.1\t1.5\t\n0.2\t2.5\tstop now\n", ("t", "u", "-")),
+        ("t\tu\tremark\t\n0.1\t1.5\t\t\n0.2\t2.5\t\t\n", ("t", "u", "-")),
+        ("2024-01-01 12:00:00 0,1 1,5\n2024-01-01 12:00:01 0,2 2,5\n", ("-", "-", "t", "u")),
+    ],
+)
+def test_a_column_left_out_may_look_like_separators(tmp_path: Path, text: str, columns: tuple[str, ...]) -> None:
+    values, _ = read_table(table(tmp_path, text), columns, "test")
+    np.testing.assert_array_equal(values[:, [columns.index("t"), columns.index("u")]], [[0.1, 1.5], [0.2, 2.5]])
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("2024-01-01 12:00:00,x,1.5\n2024-01-01 12:00:01,0.2,2.5\n", "line 1: 'x' is no number for t"),
+        ("2024-01-01 12:00:00,0.1,1.5\n2024-01-01 12:00:01,x,2.5\n", "line 2: 'x' is no number for t"),
+        ("2024-01-01 12:00:00,0.1,1.5\n2024-01-01 12:00:01,0.2\n", "line 2: 2 columns where 3 belong"),
+        ("2024-01-01 12:00:00,0.1,1.5\n2024-01-01 12:00:01,0.2,inf\n", "line 2: u is inf, which is not finite"),
+        ("stamp x,u,t\n2024-01-01 12:00:00,0.1,1.5\n", "line 1: the header has the columns in the order stamp x, u, t"),
+    ],
+)
+def test_faults_beside_a_column_left_out_are_named(tmp_path: Path, text: str, words: str) -> None:
+    with pytest.raises(BadInput, match=words):
+        read_table(table(tmp_path, text), ("-", "t", "u"), "test")
