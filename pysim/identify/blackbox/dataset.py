@@ -65,6 +65,11 @@ class _Found:
         """Whether it is of that offset and amplitude."""
         return bool(np.allclose(self.test, test, rtol=1e-6, atol=1e-9))
 
+    def repeats(self, other: _Found) -> bool:
+        """Whether it is of the same test, between the same signals."""
+        one, two = self.response.test, other.response.test
+        return (one.input, one.output) == (two.input, two.output) and self.matches(other.test)
+
 
 def fit_dataset(
     dataset: Dataset,
@@ -84,7 +89,7 @@ def fit_dataset(
         structure: poles, zeros, dead time, stability; where structures are compared, the most poles to try.
         weights: as for `fit_transfer_function`.
         suggest: compare all structures up to that number of poles and take the suggested one.
-        output: the responding signal of the logs; may be left out where they hold a single one.
+        output: the responding signal of logs and tables; without it those of all tables, and of logs that hold one.
         tests: (offset, amplitude) of those to fit, in the unit that people read (%, bar, deg); all where empty.
         progress: called with how many are done, and of how many.
     Raises:
@@ -106,7 +111,7 @@ def fit_dataset(
                 weights=weights,
             )
         fit = suggestion.suggested.fit if suggestion else fit_transfer_function(measured, structure, weights=weights)
-        others = [other.response for other in held_out if other.matches(one.test)]
+        others = [other.response for other in held_out if other.repeats(one)]
         fitted.append(_fitted(one, fit, suggestion, others))
         if progress:
             progress(i + 1, len(to_fit))
@@ -118,13 +123,18 @@ def _chosen(dataset: Dataset, output: str | None, tests: Sequence[tuple[float, f
         return _Found(response, use, shown_unit(dataset.signal(response.test.input).unit)[1], remarks)
 
     tables = [(record.data, record.use) for record in dataset.records]
-    there = [found(data, use) for data, use in tables if isinstance(data, FrequencyResponse)]
+    there = [
+        found(data, use)
+        for data, use in tables
+        if isinstance(data, FrequencyResponse) and output in (None, data.test.output)
+    ]
     if any(record.kind == LOGS for record in dataset.records):
         there += [found(one.response, one.use, one.remarks) for one in measured_responses(dataset, output=output)]
     if not there:
+        of = f" of {output}" if output else ""
         raise BadInput(
-            f"data set {dataset.name!r} holds no frequency response; test stepped sines, or give a table of frequency, "
-            "magnitude and phase"
+            f"data set {dataset.name!r} holds no frequency response{of}; test stepped sines, or give a table of "
+            "frequency, magnitude and phase"
         )
     for test in tests:
         if not any(one.matches(test) for one in there):

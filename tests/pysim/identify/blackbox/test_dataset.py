@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from pysim.identify.blackbox import Structure, fit_dataset
-from pysim.types import BadInput
+from pysim.types import BadInput, FrequencyResponse, MeasuredRecord
 from tests.pysim.identify.blackbox.logs import SIGNALS, SYSTEM, F, dataset, log, table
 
 
@@ -56,6 +56,26 @@ def test_what_is_held_out_is_not_fitted_but_compared() -> None:
     assert [len(one.held_out) for one in exact] == [1]
     with pytest.raises(BadInput, match="leave some to be fitted"):
         fit_dataset(dataset(table(0, 1, "validate")), Structure(2))
+
+
+def test_outputs_are_kept_apart() -> None:
+    def of_pressure(record: MeasuredRecord) -> MeasuredRecord:
+        assert isinstance(record.data, FrequencyResponse)
+        test = replace(record.data.test, output="p")
+        return replace(record, data=replace(record.data, gain=7 * record.data.gain, test=test))
+
+    tables = table(0, 1), table(0, 1, "validate"), of_pressure(table(0, 1)), of_pressure(table(0, 1, "validate"))
+    data = dataset(*tables)
+    data = replace(data, signals=(*data.signals, replace(data.signals[1], name="p")))
+    both = fit_dataset(data, Structure(2))
+    assert [one.measured.test.output for one in both] == [tables[0].data.test.output, "p"]
+    for one in both:
+        (deviations,) = one.held_out
+        assert max(d.value for d in deviations) < 1e-6
+    (alone,) = fit_dataset(data, Structure(2), output="p")
+    assert alone.measured.test.output == "p"
+    with pytest.raises(BadInput, match="holds no frequency response of q"):
+        fit_dataset(data, Structure(2), output="q")
 
 
 def test_tests_are_named_in_the_unit_that_people_read() -> None:
