@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import signal
 
-from pysim.identify.sampling import sampling
+from pysim.types import sampling
 
 Array = NDArray[np.float64]
 

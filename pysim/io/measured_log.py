@@ -11,7 +11,7 @@ from pysim.io.columns import Columns, read_columns, refuse_standing_time
 from pysim.io.text_fields import LEFT_OUT
 from pysim.io.toml_section import Section
 from pysim.io.units import Scale
-from pysim.types import BadInput, MeasuredRecord, MeasuredSignal, Record
+from pysim.types import BadInput, MeasuredRecord, MeasuredSignal, Record, sampling
 
 TIME = "time"
 
@@ -24,7 +24,7 @@ LOGS: Mapping[str, tuple[str, ...]] = {
     "multisine": (),
     "other": (),
 }
-_ROUNDING = 1e-6  # of a sampling rate that was computed from printed times
+_ROUNDING = 1e-6  # of a sampling rate, even where its times are printed with all digits
 
 
 def read_log(
@@ -92,8 +92,9 @@ def refuse_fast_sine(place: str, columns: Columns, frequency: float) -> None:
     """
     if columns.values.shape[0] < 2:
         return
-    rate = 1 / float(np.median(np.diff(columns[TIME])))
-    if frequency > 0.5 * rate * (1 - _ROUNDING):
+    found = sampling(columns[TIME])
+    rate = 1 / found.step
+    if frequency > 0.5 * rate * (1 - max(_ROUNDING, found.digit / float(np.ptp(columns[TIME])))):
         ms = ', or tell that time is in ms: [dataset] time_unit = "ms"' if frequency <= 500 * rate < 500 else ""
         raise BadInput(
             f"{place}: frequency = {frequency:g} Hz is not below half the sampling rate of {columns.path}, "

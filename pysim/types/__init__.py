@@ -1,5 +1,6 @@
 """The only things that cross folders: frozen, checked once, numpy and the standard library only."""
 
+from pysim.types._sampling import Sampling, sampling
 from pysim.types.best_linear_approximation import BestLinearApproximation, Distortion, Level, MultisineTest
 from pysim.types.comparison import Comparison, ResponseComparison
 from pysim.types.criterion import Criterion, Deviation
@@ -79,6 +80,7 @@ __all__ = [
     "RecordFit",
     "ResponseComparison",
     "ResponseFit",
+    "Sampling",
     "Shape",
     "Signal",
     "SimulationError",
@@ -89,4 +91,5 @@ __all__ = [
     "Variable",
     "conversion",
     "in_si",
+    "sampling",
 ]

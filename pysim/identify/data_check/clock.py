@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from pysim.identify.sampling import sampling
+from pysim.types import sampling
 
 Array = NDArray[np.float64]
 

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pysim.identify.sine_fit import sine_fit
+from pysim.types import sampling
 
 Array = NDArray[np.float64]
 
@@ -48,7 +49,7 @@ def swing(time: Array, values: Array, frequency: float) -> Swing:
 
 def _strongest(time: Array, values: Array) -> float:
     """Frequency of the strongest line, Hz; times need not be equidistant by more than jitter."""
-    step = float(np.median(np.diff(time)))
+    step = sampling(time).step
     even = np.interp(np.arange(time[0], time[-1], step), time, values)
     spectrum = np.abs(np.fft.rfft((even - even.mean()) * np.hanning(even.size), _PAD * even.size))
     return max(float(np.argmax(spectrum)), 1.0) / (_PAD * even.size * step)

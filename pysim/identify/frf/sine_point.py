@@ -13,9 +13,8 @@ from scipy.stats import f as f_distribution
 from pysim.identify.frf.harmonic_fit import HarmonicFit, harmonic_fit, told_apart
 from pysim.identify.frf.noise import COLOURED, DECLARED, ResidualNoise, residual_noise
 from pysim.identify.logged import LoggedWave, logged_wave
-from pysim.identify.sampling import sampling
 from pysim.identify.sine_fit import to_polar
-from pysim.types import BadInput, MeasuredRecord, Record
+from pysim.types import BadInput, MeasuredRecord, Record, sampling
 
 Array = NDArray[np.float64]
 

@@ -8,8 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import signal
 
-from pysim.identify.sampling import sampling
-from pysim.types import BadInput
+from pysim.types import BadInput, sampling
 
 Array = NDArray[np.float64]
 

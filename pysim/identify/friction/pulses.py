@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from pysim.types import BadInput
+from pysim.types import BadInput, sampling
 
 Array = NDArray[np.float64]
 
@@ -106,7 +106,7 @@ def pulse_intervals(time: Array, logged: Array, *, pulses: int = 10, noise: floa
         )
     counts = np.diff(np.append(changes, size.size))
     level = np.add.reduceat(size, changes) / counts
-    step = np.median(np.diff(time))
+    step = sampling(time).step
     end = time[changes] - np.minimum(step, time[changes] - time[changes - 1]) / 2
     start = end - 2 * np.pi / (pulses * level)
     turned = np.flatnonzero(np.diff(np.sign(logged)) != 0) + 1

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pysim.identify.logged.wave_fit import Wave
-from pysim.types import BadInput, Record
+from pysim.types import BadInput, Record, sampling
 
 Array = NDArray[np.float64]
 Fit = Callable[[Array, Array, Wave], Wave]
@@ -29,6 +29,7 @@ class Log:
 
     Args:
         time, values: (n,).
+        interval: s between samples.
         step: of the values: the rounding of the file or the step of a converter; 0 where there is none to be seen.
         jitter: standard deviation of the times about an even spacing, s: their rounding; 0 where they are not meant to
             be evenly spaced.
@@ -36,6 +37,7 @@ class Log:
 
     time: Array
     values: Array
+    interval: float
     step: float
     jitter: float
 
@@ -53,7 +55,7 @@ class Log:
         k = np.arange(t.size)
         uneven = t - np.polyval(np.polyfit(k, t, 1), k)
         jitter = float(np.std(uneven))
-        return cls(t, y, _step(y), jitter if jitter < 0.1 * (t[-1] - t[0]) / t.size else 0.0)
+        return cls(t, y, sampling(t).step, _step(y), jitter if jitter < 0.1 * (t[-1] - t[0]) / t.size else 0.0)
 
 
 def _step(values: Array) -> float:
@@ -126,7 +128,7 @@ def _without_bend(log: Log, wave: Wave, inside: slice) -> slice:
     """
     error = (log.values - wave.value(log.time))[inside]
     last = float(log.time[inside.stop - 1])
-    quarter = 0.5 * np.pi / max(float(wave.omega_at(last)), 1e-9) / float(np.median(np.diff(log.time)))
+    quarter = 0.5 * np.pi / max(float(wave.omega_at(last)), 1e-9) / log.interval
     behind = np.arange(1, int(min(_BEND, quarter, error.size // 2)) + 1)
     if behind.size == 0:
         return inside
@@ -144,7 +146,7 @@ def _onset(log: Log, wave: Wave, inside: slice, tolerance: float) -> float:
     t = log.time[inside]
     still = np.abs(log.values[inside] - wave.offset) <= tolerance
     held = t.size if still.all() else int(np.argmin(still))
-    dt = float(np.median(np.diff(log.time)))
+    dt = log.interval
     fine = np.arange(t[0] - 1.01 * dt, t[min(held, t.size - 1)] + 0.5 * dt, 0.1 * dt)
     half_turns = np.floor(wave.angle(fine) / np.pi)
     passages = np.flatnonzero(half_turns[1:] > half_turns[:-1])

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from scipy.optimize import least_squares
 
 from pysim.identify._near_orthogonal import near_orthogonal_fit
+from pysim.types import sampling
 
 Array = NDArray[np.float64]
 
@@ -65,8 +66,7 @@ def sine_start(t: Array, y: Array, omega: float, step: float) -> tuple[Wave, sli
         omega: rad/s.
         step: rounding of y.
     """
-    dt = float(np.median(np.diff(t)))
-    count = max(round(2 * np.pi / omega / dt), min(_FEWEST, t.size // 2), 8)
+    count = max(round(2 * np.pi / omega / sampling(t).step), min(_FEWEST, t.size // 2), 8)
     rounding = _ROUNDING * float(np.ptp(y)) or 1.0
     best, inside, record = fit_sine(t, y, omega), slice(0, t.size), -1.0
     if np.max(np.abs(y - best.value(t))) <= max(2 * step, _WHOLE * best.amplitude):

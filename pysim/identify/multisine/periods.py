@@ -9,8 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pysim.identify.multisine.stretch import periodic_stretch
-from pysim.identify.sampling import sampling
-from pysim.types import BadInput, Record
+from pysim.types import BadInput, Record, sampling
 
 Array = NDArray[np.float64]
 

@@ -270,3 +270,19 @@ def _fastest(folder: Path) -> tuple[Dataset, float]:
         data = read_dataset(folder)
         seconds.append(time.process_time() - start)
     return data, min(seconds)
+
+
+@pytest.mark.parametrize(
+    ("rate", "digits", "frequency", "readable"),
+    [(60, 2, 28, True), (60, 2, 31, False), (70, 2, 34, True), (70, 2, 36, False), (240, 4, 120, False)],
+)
+def test_the_sampling_rate_is_known_from_printed_times(
+    tmp_path: Path, rate: int, digits: int, frequency: int, readable: bool
+) -> None:
+    rows = "".join(f"{k / rate:.{digits}f} {k % 7} {k % 5}\n" for k in range(200))
+    folder = files(tmp_path, TOML.replace("frequency = 2.0", f"frequency = {frequency}"), rows)
+    if readable:
+        assert read_dataset(folder).logs()[0].frequency == frequency
+        return
+    with pytest.raises(BadInput, match=f"frequency = {frequency} Hz is not below half the sampling rate of "):
+        read_dataset(folder)
