@@ -18,6 +18,7 @@ _SECONDS = {"s": 1.0, "ms": 1e-3}
 SIGNAL_KEYS = ("role", "unit", "quantity", "variable", "noise", "resolution")
 _SCALE_KEYS = ("factor", "offset")
 _RECORD_KEYS = ("file", "columns", "kind", "use", "offset", "amplitude", "frequency", "input", "output", "origin")
+_TABLE_ONLY, _LOG_ONLY = "output", "frequency"  # a log has all its outputs, and a table its frequencies
 
 
 def read_dataset(folder: Path | str) -> Dataset:
@@ -132,9 +133,13 @@ def _scale(unit: str, section: Section) -> Scale:
 
 
 def _kind(section: Section) -> str:
-    """What a record holds, once its keys are known to be."""
+    """What a record holds, once its keys are known to be, and to mean something there."""
     section.refuse_unknown(_RECORD_KEYS)
-    return section.text("kind", among=(TABLE, *LOGS))
+    kind = section.text("kind", among=(TABLE, *LOGS))
+    idle = _LOG_ONLY if kind == TABLE else _TABLE_ONLY
+    if idle in section.values:
+        raise BadInput(f'{section.place}: {idle} means nothing where kind = "{kind}"; remove it, or correct the kind')
+    return kind
 
 
 def _refuse_repeated(sections: tuple[Section, ...]) -> None:

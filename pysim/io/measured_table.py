@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from pysim.io.response_table import TABLE_COLUMNS, read_response
+from pysim.io.text_fields import LEFT_OUT
 from pysim.io.toml_section import Section
 from pysim.io.units import Scale
 from pysim.types import BadInput, MeasuredRecord, MeasuredSignal, SineTest
@@ -26,10 +27,11 @@ def read_measured_table(folder: Path, section: Section, signals: Mapping[str, Me
     source = section.source()
     command, output = (_signal_of_role(section, role, tuple(signals.values())) for role in ("input", "output"))
     driven = Scale.of(signals[command].unit)
-    offset, amplitude = driven.number(section.number("offset")), driven.gain * section.number("amplitude")
+    swing = section.positive("amplitude") or section.number("amplitude")
+    offset, amplitude = driven.number(section.number("offset")), driven.gain * swing
     test = SineTest(offset, amplitude, input=command, output=output)
     use = section.text("use", "fit", among=("fit", "validate"))
-    names = section.texts("columns")
+    names = section.texts("columns", repeatable=LEFT_OUT)
     if any(name not in names for name in TABLE_COLUMNS):
         raise BadInput(f"{section.place}: columns must name {', '.join(TABLE_COLUMNS)}, in the order of the file")
     origin = section.text("origin", f"measured, {source}")

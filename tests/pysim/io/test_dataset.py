@@ -98,7 +98,13 @@ def test_reading_changes_nothing(folder: Path) -> None:
         ("offset = 25.0\n", "", "line 18: offset is missing"),
         ("offset = 25.0", "ofset = 25.0", "line 18: the key 'ofset' is not known"),
         ("amplitude = 10\n", "amplitude = true\n", "line 26: amplitude = True is no finite number"),
-        ("amplitude = 5.0", "amplitude = -5.0", "amplitude must be positive"),
+        ("amplitude = 5.0", "amplitude = -5.0", "line 18: amplitude must be positive, got -5; correct it"),
+        ("amplitude = 5.0\n", "", "line 18: amplitude is missing"),
+        (
+            "amplitude = 5.0",
+            "amplitude = 5.0\nfrequency = 1.0",
+            'line 18: frequency means nothing where kind = "frequency-response-table"; remove it, or correct the kind',
+        ),
         ('use = "validate"', 'use = "test"', "line 26: use = 'test' is not known; use one of fit, validate"),
         (
             'kind = "frequency-response-table"',
@@ -151,6 +157,14 @@ def test_refuses_a_folder_without_description(tmp_path: Path) -> None:
         read_dataset(tmp_path / "log.txt")
     with pytest.raises(BadInput, match=r"data set: cannot read .*other\.toml"):
         read_dataset(tmp_path / "other.toml")
+
+
+def test_a_table_may_have_several_columns_that_are_left_out(folder: Path) -> None:
+    columns = '["-", "phase_deg", "-", "frequency_hz", "magnitude_db"]'
+    text = TOML.replace('["phase_deg", "comment", "frequency_hz", "magnitude_db"]', columns)
+    (folder / "dataset.toml").write_text(text, encoding="utf-8")
+    (folder / "sub" / "reordered.txt").write_text("a -10 b 0,5 20\n")
+    np.testing.assert_allclose(read_dataset(folder).responses()[1].gain, [10.0])
 
 
 def test_a_record_may_choose_among_outputs(folder: Path) -> None:

@@ -133,6 +133,11 @@ def test_the_description_itself_may_be_named(tmp_path: Path) -> None:
         ("frequency = 2.0", "frequency = 5", r"line 18: frequency = 5 Hz is not below half .*sine\.txt, 10 Hz"),
         ('kind = "stochastic"', 'kind = "chirp"', 'line 27: offset is missing, and kind = "chirp" needs it'),
         ('kind = "stochastic"', 'kind = "step"\nfrequency = 1', "line 27: frequency belongs to kind"),
+        (
+            'kind = "stochastic"',
+            'kind = "step"\noutput = "u"',
+            'line 27: output means nothing where kind = "step"; remove it',
+        ),
         ('kind = "stochastic"\n', "", "line 27: kind is missing"),
         ("[signals.u]", "[signals.speed]", r"dataset\.toml: .*line 14"),
         ('"wave.txt"', '"waves.txt"', r"line 27: cannot read .*waves\.txt \(No such file"),
