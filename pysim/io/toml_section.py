@@ -15,6 +15,7 @@ from pysim.types import BadInput
 # Of the parser's messages: where it stopped, and how those about a value begin.
 _LINE = re.compile(r"\(at line (\d+), column \d+\)$")
 _NO_VALUE = ("Invalid value", "Expected newline")
+_SHOWN = 60  # characters of a value in a message
 _BARE = re.compile(r"""\s*([\w.-]+)\s*=\s*([^"'\[\]{}#]*[^"'\[\]{}#\s])\s*(?:#.*)?""")  # a value without quotes
 
 
@@ -64,7 +65,7 @@ class Section:
         if value is None:
             return None
         if not _is_number(value):
-            raise BadInput(f"{self.place}: {key} = {value!r} is no finite number; write {key} = and a number")
+            raise BadInput(f"{self.place}: {key} = {_short(value)} is no finite number; write {key} = and a number")
         return float(value)
 
     def positive(self, key: str) -> float | None:
@@ -137,7 +138,16 @@ class Section:
 
 
 def _is_number(value: object) -> bool:
-    return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
+    """Whether it is a number that a float holds; TOML has whole numbers of any length."""
+    try:
+        return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
+    except OverflowError:
+        return False
+
+
+def _short(value: object) -> str:
+    text = repr(value)
+    return text if len(text) <= _SHOWN else f"{text[:_SHOWN]}..."
 
 
 @dataclass(frozen=True)
@@ -205,14 +215,14 @@ def read_toml(path: Path, wanted_by: str) -> TomlFile:
     text = read_text(path, wanted_by)
     try:
         content = tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
+    except ValueError as error:  # beside faults of the TOML, numbers of thousands of digits
         raise BadInput(f"{path}: {error}; {_cure(error, text)}") from error
     lines = ((number, line.replace('"', "").strip()) for number, line in enumerate(text.split("\n"), 1))
     headers = tuple((number, line) for number, line in lines if line.startswith("["))
     return TomlFile(path, Section(str(path), content), headers)
 
 
-def _cure(error: tomllib.TOMLDecodeError, text: str) -> str:
+def _cure(error: ValueError, text: str) -> str:
     """What to do about a text that is no TOML, by the line at which the parser stopped."""
     place = _LINE.search(str(error))
     line = text.split("\n")[int(place[1]) - 1] if place else ""

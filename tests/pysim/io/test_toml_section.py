@@ -18,6 +18,8 @@ row = [1, 2.5]
 pairs = [[1, 2], [3, 4]]
 words = ["a", "b"]
 inside = { x = 1.5 }
+long = LONG
+longs = [1, LONG]
 
 [part . "two words"]
 n = -1.5
@@ -26,7 +28,7 @@ n = -1.5
 n = 0
 [[list]]
 n = 1
-"""
+""".replace("LONG", "9" * 400)
 
 
 @pytest.fixture
@@ -48,7 +50,7 @@ def test_values(toml: TomlFile) -> None:
 
 def test_places(toml: TomlFile) -> None:
     places = [section.place.rpartition(", ")[2] for section in (*toml.tables("part").values(), *toml.rows("list", ""))]
-    assert places == ["line 5", "[part.two words]", "line 16", "line 18"]
+    assert places == ["line 5", "[part.two words]", "line 18", "line 20"]
     assert toml.table("head").place.endswith("x.toml, line 2")
 
 
@@ -57,6 +59,8 @@ def test_places(toml: TomlFile) -> None:
     [
         (lambda s: s.text("n"), "n is missing or no text"),
         (lambda s: s.number("none"), "none is missing; write none = and a number"),
+        (lambda s: s.number("long"), f"long = {'9' * 60}... is no finite number; write long = and a number"),
+        (lambda s: s.numbers("longs"), "longs is missing or no row of numbers"),
         (lambda s: s.number("flag"), "flag = True is no finite number"),
         (lambda s: s.integer("words"), "words is missing or no whole number"),
         (lambda s: s.integer("n", least=4), "n cannot be below 4, got 3"),
@@ -117,3 +121,9 @@ def test_missing_parts(toml: TomlFile, tmp_path: Path) -> None:
         read_toml(tmp_path / "bad.toml", "test")
     with pytest.raises(BadInput, match=r"plan: cannot read .*none\.toml"):
         read_toml(tmp_path / "none.toml", "plan")
+
+
+def test_a_number_of_thousands_of_digits_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "x.toml").write_text("n = " + "9" * 5000 + "\n")
+    with pytest.raises(BadInput, match=r"x\.toml: .*digits.*; correct the TOML"):
+        read_toml(tmp_path / "x.toml", "test")
