@@ -19,6 +19,9 @@ from pysim.types import BadInput, Outcome, Record
 _TIME = "time [s]"  # heading of the first column
 _HEADING = re.compile(r"(?P<name>.*) \[(?P<unit>[^\[\]]*)\]")
 
+_OUTCOMES = "|".join(re.escape(outcome.value) for outcome in Outcome)
+_NOTE = re.compile(rf"(?P<origin>.*?): (?P<outcome>{_OUTCOMES})\.(?: (?P<message>.*))?")  # first line of a .csv
+
 
 def write_record(record: Record, path: Path | str) -> None:
     """Write a record; the suffix chooses the form. The file is complete or not there.
@@ -129,14 +132,25 @@ def _from_csv(path: Path) -> Record:
     numbers = np.array([_numbers(path, skipped + i, row, len(headings)) for i, row in enumerate(rows[1:], start=2)])
     numbers = numbers.reshape(-1, len(headings))
     columns = [heading for heading in headings[1:] if heading is not None]
-    origin = lines[0].removeprefix("#").strip() if skipped else ""
+    outcome, message, origin = _noted(lines[0] if skipped else "")
     return Record(
         numbers[:, 0],
         numbers[:, 1:],
         tuple(c["name"] for c in columns),
         tuple(c["unit"] for c in columns),
-        origin=origin,
+        outcome,
+        message,
+        origin,
     )
+
+
+def _noted(line: str) -> tuple[Outcome, str, str]:
+    """Outcome, message and origin from the first line; a line of another hand is the origin."""
+    note = line.removeprefix("#").strip()
+    found = _NOTE.fullmatch(note)
+    if found is None:
+        return Outcome.DONE, "", note
+    return Outcome(found["outcome"]), found["message"] or "", found["origin"]
 
 
 def _numbers(path: Path, line: int, row: list[str], width: int) -> list[float]:

@@ -56,7 +56,22 @@ def test_csv_opens_in_a_spreadsheet(tmp_path):
         "0.0,1.0,2.0",
         "0.3333333333333333,3.0,4.0",
     ]
-    assert "simulated pump" in read_record(tmp_path / "r.csv").origin
+
+
+@pytest.mark.parametrize("outcome", Outcome)
+@pytest.mark.parametrize(("origin", "message"), [("simulated pump", "it said: no"), ("", ""), ("a: b", "")])
+def test_csv_keeps_how_a_run_ended(tmp_path, outcome, origin, message):
+    write_record(record(np.ones((2, 1)), outcome=outcome, origin=origin, message=message), tmp_path / "r.csv")
+    back = read_record(tmp_path / "r.csv")
+    assert (back.outcome, back.origin, back.message) == (outcome, origin, message)
+    assert record_text(back) == (tmp_path / "r.csv").read_text()
+
+
+@pytest.mark.parametrize("note", ["by hand", "the test is done. it was cold", ""])
+def test_a_first_line_of_another_hand_is_the_origin(tmp_path, note):
+    (tmp_path / "r.csv").write_text(f"# {note}\ntime [s],x [m]\n0,1\n")
+    back = read_record(tmp_path / "r.csv")
+    assert (back.outcome, back.message, back.origin) == (Outcome.DONE, "", note)
 
 
 def test_empty_record_survives(tmp_path):
