@@ -23,11 +23,13 @@ def residual_spectrum(time: Array, values: Array) -> tuple[Array, Array, float]:
         time: (n_t,) in s, even.
         values: (n_t,), in standard deviations of the noise; at least FEWEST.
     Returns:
-        frequency (n_f,) in Hz, without zero; power (n_f,); and the degrees of freedom of each value.
+        frequency (n_f,) in Hz, without zero and half the sampling rate, where a line has half the degrees of freedom;
+        power (n_f,); and the degrees of freedom of each value.
     Source: Welch 1967, IEEE Transactions on Audio and Electroacoustics 15:70; Hann windows, halves overlapping.
     """
     step = sampling(time).step
     length = min(values.size, max(FEWEST // 2, values.size // _SEGMENTS))
     frequency, density = signal.welch(values, 1 / step, nperseg=length, detrend=False)
     count = 2 * (values.size // length) - 1
-    return frequency[1:], density[1:] / (2 * step), 2 * count * _CORRELATED if count > 1 else 2.0
+    lines = slice(1, (length + 1) // 2)
+    return frequency[lines], density[lines] / (2 * step), 2 * count * _CORRELATED if count > 1 else 2.0

@@ -19,3 +19,16 @@ def test_the_power_of_a_sine_is_found_at_its_frequency() -> None:
     assert frequency[np.argmax(power)] == pytest.approx(24.0, abs=0.2)
     step = frequency[1] - frequency[0]
     assert np.sum(power) * step / 100 == pytest.approx(3**2 / 2, rel=0.01)  # power 1 up to 100 Hz is a variance of 1
+
+
+@pytest.mark.parametrize("samples", [8 * 128, 8 * 129])  # segments of even and of odd length
+def test_every_line_of_noise_has_power_one(samples: int) -> None:
+    time, runs = np.arange(samples) / 200, 300
+    powers = []
+    for seed in range(runs):
+        frequency, power, freedom = residual_spectrum(time, np.random.default_rng(seed).standard_normal(samples))
+        powers.append(power)
+    np.testing.assert_allclose(np.mean(powers, axis=0), 1.0, atol=5 * np.sqrt(2 / freedom / runs))
+    np.testing.assert_allclose(np.var(powers, axis=0), 2 / freedom, rtol=0.5)
+    assert frequency[0] > 0
+    assert frequency[-1] < 100
