@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from pysim.identify.friction.filtering import local_slope, sampling_rate, settling_time, zero_phase
 from pysim.identify.friction.pulses import PulseIntervals, pulse_intervals
 from pysim.identify.friction.shaft import ShaftTest
-from pysim.types import BadInput
+from pysim.types import BadInput, sampling
 
 Array = NDArray[np.float64]
 
@@ -154,7 +154,7 @@ def _mean_torque(test: ShaftTest, start: Array, end: Array) -> tuple[Array, Arra
         return integral[k] + s * (test.torque[k] + s / (2 * step[k]) * (test.torque[k + 1] - test.torque[k]))
 
     noise = test.torque_noise
-    if noise is None:  # what is left of second differences of white noise
-        noise = float(np.median(np.abs(np.diff(test.torque, 2)))) * 1.4826 / np.sqrt(6)
-    count = np.maximum((end - start) / np.median(step), 1.0)
+    if noise is None:  # what is left of second differences of white noise, which coarse rounding may hide
+        noise = max(float(np.median(np.abs(np.diff(test.torque, 2)))) * 1.4826 / np.sqrt(6), test.torque_rounding)
+    count = np.maximum((end - start) / sampling(test.time).step, 1.0)
     return (up_to(end) - up_to(start)) / (end - start), noise / np.sqrt(count)

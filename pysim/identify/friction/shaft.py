@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
+from pysim.identify._columns import declared_noise
 from pysim.types import BadInput, Dataset, MeasuredRecord, MeasuredSignal, Record
 
 Array = NDArray[np.float64]
@@ -28,7 +30,8 @@ class ShaftColumns:
 class ShaftTest:
     """One log. The noises are standard deviations, or None where not stated.
 
-    time (n_t,) s; speed (n_t,) rad/s as logged; torque (n_t,) N.m, supply minus load; name for messages.
+    time (n_t,) s; speed (n_t,) rad/s as logged; torque (n_t,) N.m, supply minus load; name for messages;
+    torque_rounding N.m, standard deviation by the resolutions alone: the noise is no smaller.
     """
 
     name: str
@@ -37,21 +40,26 @@ class ShaftTest:
     torque: Array
     torque_noise: float | None = None
     speed_noise: float | None = None
+    torque_rounding: float = 0.0
 
 
 def shaft_tests(dataset: Dataset, columns: ShaftColumns, *, use: str = "fit") -> tuple[ShaftTest, ...]:
     """Every log of a data set for that use.
 
     Raises:
-        BadInput: a column that is not there, in another unit than it must have, or no log for that use.
+        BadInput: a column that is not there, in another unit than it must have or with a noise of zero, or no log for
+            that use.
     """
     speed = _signal(dataset, columns.speed, ("rad/s",), 1.0)
     supply = _signal(dataset, columns.supply, ("Pa", "N.m"), columns.supply_gain)
     load = None if columns.load is None else _signal(dataset, columns.load, ("Pa", "N.m"), columns.load_gain)
-    stated = [_noise(supply, columns.supply_gain), 0.0 if load is None else _noise(load, columns.load_gain)]
-    noise = None if None in stated else float(np.hypot(*stated))  # type: ignore[arg-type]
+    torques = [(supply, columns.supply_gain), *([] if load is None else [(load, columns.load_gain)])]
+    stated = [_times(gain, declared_noise(dataset, signal.name)) for signal, gain in torques]
+    noise = None if None in stated else float(np.linalg.norm(stated))  # type: ignore[arg-type]
+    rounding = float(np.linalg.norm([gain * (signal.resolution or 0.0) / math.sqrt(12) for signal, gain in torques]))
+    known = speed.noise is not None or speed.resolution is not None
     tests = tuple(
-        ShaftTest(record.source, *_series(record, columns), noise, _noise(speed, 1.0))
+        ShaftTest(record.source, *_series(record, columns), noise, speed.deviation if known else None, rounding)
         for record in dataset.records
         if record.use == use and isinstance(record.data, Record)
     )
@@ -71,11 +79,9 @@ def _signal(dataset: Dataset, name: str, units: tuple[str, ...], gain: float) ->
     return signal
 
 
-def _noise(signal: MeasuredSignal, gain: float) -> float | None:
-    """Of noise and resolution, in N.m or rad/s; None where the data set says nothing."""
-    if signal.noise is None and signal.resolution is None:
-        return None
-    return abs(gain) * signal.deviation
+def _times(gain: float, noise: float | None) -> float | None:
+    """In N.m; None where the data set does not tell."""
+    return None if noise is None else abs(gain) * noise
 
 
 def _series(record: MeasuredRecord, columns: ShaftColumns) -> tuple[Array, Array, Array]:

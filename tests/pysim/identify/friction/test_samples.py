@@ -65,3 +65,18 @@ def test_refuses_logs_that_hold_nothing() -> None:
         pulse_samples(ShaftTest("t", time, np.zeros(time.size), time), INERTIA)
     with pytest.raises(BadInput, match="too short for a cutoff"):
         filtered_samples(ShaftTest("t", time[:100], time[:100], time[:100]), INERTIA)
+
+
+def test_rounding_bounds_a_noise_that_nobody_told() -> None:
+    """A torque that rounding holds still has no second differences; noise above the rounding shows in them."""
+    time = np.arange(0, 20, 0.004)
+    speed = pulse_speed(np.arange(160) * 2 * np.pi / 10 / 5, time, np.ones(time.size))
+
+    def weight(torque: np.ndarray, rounding: float) -> float:
+        test = ShaftTest("t", time, speed, torque, torque_rounding=rounding)
+        return float(np.median(pulse_samples(test, 0.0).sigma))
+
+    held, noisy = np.full(time.size, 20.0), 20 + np.random.default_rng(1).normal(0.0, 0.5, time.size)
+    assert weight(held, 0.0) == 0.0
+    assert weight(held, 0.3) == pytest.approx(0.3 / np.sqrt(2 * np.pi / 10 / 5 / 0.004), rel=1e-3)
+    assert weight(noisy, 0.1) == weight(noisy, 0.0)

@@ -1,5 +1,7 @@
 """From a data set's columns to torque: gains, noises, and what is refused."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -32,6 +34,23 @@ def test_pressures_become_torque() -> None:
 def test_a_load_that_is_not_logged_is_none() -> None:
     (test,) = shaft_tests(dataset("N.m"), ShaftColumns("omega_s", "p_s"))
     np.testing.assert_allclose(test.torque, 40e5)
+
+
+def told(**of_supply: float | None) -> Dataset:
+    data = dataset()
+    speed, supply, load = data.signals
+    return replace(data, signals=(speed, replace(supply, **of_supply), load))
+
+
+def test_a_resolution_alone_tells_no_noise() -> None:
+    columns = ShaftColumns("omega_s", "p_s", None, GAIN)
+    (test,) = shaft_tests(told(noise=None, resolution=1e3), columns)
+    assert test.torque_noise is None
+    assert test.torque_rounding == pytest.approx(GAIN * 1e3 / np.sqrt(12))
+    (test,) = shaft_tests(told(noise=None), ShaftColumns("omega_s", "p_s", "p_L", GAIN, GAIN))
+    assert test.torque_noise is None
+    with pytest.raises(BadInput, match="'p_s': a noise of 0 gives no weight"):
+        shaft_tests(told(noise=0.0, resolution=None), columns)
 
 
 @pytest.mark.parametrize(
