@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from pysim.io.named_columns import optional_package
 from pysim.io.quotation_marks import unquoted
+from pysim.io.tdms_table import channel_names
 from pysim.io.text_fields import DIALECTS, LEFT_OUT, Dialect, dialect, number
 from pysim.io.text_table import read_text
 from pysim.types import BadInput
@@ -96,13 +97,8 @@ def _named(path: Path, suffix: str) -> tuple[str, ...]:
             return tuple(parquet.read_schema(path).names)
         except (OSError, ValueError) as error:
             raise BadInput(f"cannot read {path.name} as Parquet ({error}); export it again") from error
-    tdms = optional_package("nptdms", f"{path.name} is a TDMS file", "npTDMS")
-    try:
-        groups = tdms.TdmsFile.read_metadata(path).groups()
-    except (OSError, ValueError, KeyError, EOFError) as error:
-        raise BadInput(f"cannot read {path.name} as TDMS ({error}); export it again") from error
-    names = [channel.name for group in groups for channel in group.channels()]
-    return tuple(names if "time" in names else ["time", *names])
+    names = channel_names(path)
+    return names if "time" in names else ("time", *names)
 
 
 def _split(heading: str, how: Dialect) -> list[str]:

@@ -48,9 +48,13 @@ def optional_package(module: str, wanted_by: str, package: str) -> ModuleType:
         raise BadInput(f"{wanted_by}, and the package to read it is missing; run: pip install {package}") from error
 
 
-def refuse_missing(path: Path, names: Sequence[str], present: Sequence[str], wanted_by: str) -> None:
+def refuse_missing(
+    path: Path, names: Sequence[str], present: Sequence[str], wanted_by: str, *, shown: Sequence[str] | None = None
+) -> None:
     """Every name must stand in the file, once.
 
+    Args:
+        shown: names to choose from, where they are not those that are present.
     Raises:
         BadInput: the first one that does not, and what is there.
     """
@@ -58,7 +62,7 @@ def refuse_missing(path: Path, names: Sequence[str], present: Sequence[str], wan
         count = list(present).count(name)
         if count != 1:
             found = f"{count} columns named {name!r}" if count else f"no column {name!r}"
-            raise BadInput(f"{wanted_by}: {path} has {found}; name one of {', '.join(present)}")
+            raise BadInput(f"{wanted_by}: {path} has {found}; name one of {', '.join(shown or present)}")
 
 
 def as_numbers(path: Path, name: str, cells: NDArray[Any]) -> Numbers:

@@ -14,6 +14,30 @@ from pysim.types import BadInput
 
 Array = NDArray[np.float64]
 _TIME = "time"
+# What the package raises over a file that is no TDMS, or a damaged one.
+_DAMAGED = (OSError, ValueError, KeyError, EOFError, NotImplementedError, struct.error)
+
+
+def channel_names(path: Path) -> tuple[str, ...]:
+    """Names of all channels, "group/channel" where two groups have the same.
+
+    Raises:
+        BadInput: the package is missing, or no TDMS file.
+    """
+    tdms = optional_package("nptdms", f"{path.name} is a TDMS file", "npTDMS")
+    try:
+        channels = [channel for group in tdms.TdmsFile.read_metadata(path).groups() for channel in group.channels()]
+    except _DAMAGED as error:
+        raise BadInput(f"cannot read {path.name} as TDMS ({error}); export it again") from error
+    if not channels:
+        raise BadInput(f"cannot read {path.name} as TDMS (it has no channels); export it again")
+    return _told_apart(channels)
+
+
+def _told_apart(channels: list[Any]) -> tuple[str, ...]:
+    """Their names, with the group where one stands twice."""
+    names = [channel.name for channel in channels]
+    return tuple(c.name if names.count(c.name) == 1 else f"{c.group_name}/{c.name}" for c in channels)
 
 
 def read_tdms(path: Path, names: tuple[str, ...], wanted_by: str) -> list[Numbers]:
@@ -30,7 +54,7 @@ def read_tdms(path: Path, names: tuple[str, ...], wanted_by: str) -> list[Number
     tdms = optional_package("nptdms", f"{wanted_by}: {path} is a TDMS file", "npTDMS")
     try:
         file = tdms.TdmsFile.read(path)
-    except (OSError, ValueError, KeyError, EOFError, struct.error) as error:
+    except _DAMAGED as error:
         raise BadInput(f"{wanted_by}: cannot read {path} as TDMS ({error}); correct the name or the file") from error
     channels = [channel for group in file.groups() for channel in group.channels()]
     if not channels:
@@ -39,7 +63,8 @@ def read_tdms(path: Path, names: tuple[str, ...], wanted_by: str) -> list[Number
     full = [f"{channel.group_name}/{channel.name}" for channel in channels]
     clock = _TIME not in present and _TIME in names
     wanted = tuple(name for name in names if not (clock and name == _TIME))
-    refuse_missing(path, wanted, [*present, *(name for name in full if name in wanted)], wanted_by)
+    there = [*present, *(name for name in full if name in wanted)]
+    refuse_missing(path, wanted, there, wanted_by, shown=_told_apart(channels))
     chosen = {name: channels[full.index(name) if name in full else present.index(name)] for name in wanted}
     columns = {name: as_numbers(path, name, np.asarray(channel[:])) for name, channel in chosen.items()}
     if clock:

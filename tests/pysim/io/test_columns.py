@@ -117,7 +117,7 @@ def test_waveforms_carry_their_clock(tmp_path: Path) -> None:
 
 def test_a_channel_of_two_groups_needs_its_group(tmp_path: Path) -> None:
     path = write_channels(tmp_path / "log.tdms", [waveform("a", "speed", SPEED), waveform("b", "speed", TIME)])
-    with pytest.raises(BadInput, match="has 2 columns named 'speed'"):
+    with pytest.raises(BadInput, match=r"has 2 columns named 'speed'; name one of a/speed, b/speed$"):
         read_columns(path, NAMES, "test")
     np.testing.assert_array_equal(read_columns(path, ("time", "b/speed"), "test").values[:, 1], TIME)
 

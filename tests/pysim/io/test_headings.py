@@ -2,9 +2,11 @@
 
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from pysim.io import column_names
+from pysim.io.columns import read_columns
 from pysim.types import BadInput
 
 
@@ -46,6 +48,31 @@ def test_named_columns_of_parquet_are_read(tmp_path: Path) -> None:
     arrow, parquet = pytest.importorskip("pyarrow"), pytest.importorskip("pyarrow.parquet")
     parquet.write_table(arrow.table({"time": [0.0], "p": [1.0]}), tmp_path / "a.parquet")
     assert column_names(tmp_path / "a.parquet") == ("time", "p")
+
+
+def test_channels_of_tdms_have_their_group_where_two_groups_have_the_same(tmp_path: Path) -> None:
+    nptdms = pytest.importorskip("nptdms")
+    channels = [("a", "time"), ("a", "x"), ("b", "x"), ("b", "y")]
+    with nptdms.TdmsWriter(tmp_path / "a.tdms") as writer:
+        writer.write_segment([nptdms.ChannelObject(group, name, np.array([0.0, 1.0])) for group, name in channels])
+    names = column_names(tmp_path / "a.tdms")
+    assert names == ("time", "a/x", "b/x", "y")
+    assert read_columns(tmp_path / "a.tdms", names, "test").values.shape == (2, 4)
+
+
+@pytest.mark.parametrize("wrong", [0, 32, 41, None])
+def test_a_damaged_tdms_file_is_refused(tmp_path: Path, wrong: int | None) -> None:
+    nptdms = pytest.importorskip("nptdms")
+    with nptdms.TdmsWriter(tmp_path / "a.tdms") as writer:
+        writer.write_segment([nptdms.ChannelObject("a", "x", np.array([0.0, 1.0]))])
+    content = bytearray((tmp_path / "a.tdms").read_bytes())
+    if wrong is None:
+        del content[29:]
+    else:
+        content[wrong] = 255
+    (tmp_path / "a.tdms").write_bytes(content)
+    with pytest.raises(BadInput, match=r"cannot read a.tdms as TDMS \(.*\); export it again"):
+        column_names(tmp_path / "a.tdms")
 
 
 def test_a_file_without_numbers_is_refused(tmp_path: Path) -> None:
