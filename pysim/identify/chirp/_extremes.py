@@ -8,7 +8,7 @@ import numpy as np
 
 from pysim.identify.chirp.cycle_fit import CycleFit, Extreme, Samples, fit_cycle
 from pysim.identify.logged import LoggedWave
-from pysim.types import Record
+from pysim.types import Record, sampling
 
 # An extreme that sticks out of the level by less than this many of its standard deviations is lost in noise.
 _SEEN = 4.0
@@ -20,10 +20,9 @@ def samples_of(data: Record, command: LoggedWave, output: str) -> Samples:
     """The output within the sweep, over the command's angle."""
     inside = (data.time >= command.start - 1e-9) & (data.time <= command.end + 1e-9)
     time = data.time[inside]
-    angle = command.angle(time)
-    per_turn = 2 * np.pi / np.maximum(np.gradient(angle), 1e-9)
     frequency = np.maximum(command.frequency_at(time), 1e-9)
-    return Samples(angle, data[output][inside], per_turn, abs(command.rate) / frequency**2)
+    per_turn = 1 / (sampling(data.time).step * frequency)
+    return Samples(command.angle(time), data[output][inside], per_turn, abs(command.rate) / frequency**2)
 
 
 def extremes(samples: Samples, command: LoggedWave) -> Iterator[tuple[int, Extreme, CycleFit]]:

@@ -18,6 +18,8 @@ _FEW = ((10.0, 2), (5.0, 1))
 _SURPLUS = 2.0
 # A fit spans a turn at least, and more where the frequency changes by no more than this share within it.
 _CHANGE, _MOST_TURNS = 0.1, 4.0
+# Condition number of the normal matrix, at most; some thousands where no samples are lost.
+_TOLD_APART = 1e5
 _GRID = np.linspace(-0.5 * np.pi, 0.5 * np.pi, 91)
 
 
@@ -111,7 +113,7 @@ class Extreme:
 
 
 def fit_cycle(samples: Samples, centre: float) -> CycleFit | None:
-    """Fit a whole turn or more around an angle; None where the log does not reach so far."""
+    """Fit a whole turn or more around an angle; None where the log does not reach so far, or lacks samples."""
     place = min(int(np.searchsorted(samples.angle, centre)), samples.angle.size - 1)
     per_turn = float(samples.per_turn[place])
     harmonics = int(np.clip(per_turn / _SAMPLES_EACH, _LEAST, _MOST))
@@ -128,9 +130,12 @@ def fit_cycle(samples: Samples, centre: float) -> CycleFit | None:
     if angle.size <= count:
         return None
     matrix = regressors(angle, centre, half, harmonics, 0)
+    square = matrix.T @ matrix
+    if np.linalg.cond(square) > _TOLD_APART:
+        return None
     coefficients = near_orthogonal_fit(matrix, values)
     left_over = values - matrix @ coefficients
-    inverse = np.linalg.inv(matrix.T @ matrix)
+    inverse = np.linalg.inv(square)
     return CycleFit(
         centre,
         half,

@@ -33,6 +33,7 @@ class Log:
         step: of the values: the rounding of the file or the step of a converter; 0 where there is none to be seen.
         jitter: standard deviation of the times about an even spacing, s: their rounding; 0 where they are not meant to
             be evenly spaced.
+        gap: (from, to) in s, the longest interval that lacks samples; None where none does.
     """
 
     time: Array
@@ -40,6 +41,7 @@ class Log:
     interval: float
     step: float
     jitter: float
+    gap: tuple[float, float] | None = None
 
     @classmethod
     def of(cls, record: Record, column: str) -> Log:
@@ -55,7 +57,10 @@ class Log:
         k = np.arange(t.size)
         uneven = t - np.polyval(np.polyfit(k, t, 1), k)
         jitter = float(np.std(uneven))
-        return cls(t, y, sampling(t).step, _step(y), jitter if jitter < 0.1 * (t[-1] - t[0]) / t.size else 0.0)
+        found = sampling(t)
+        longest = max(found.gaps.tolist(), key=lambda k: t[k + 1] - t[k], default=None)
+        gap = None if longest is None else (float(t[longest]), float(t[longest + 1]))
+        return cls(t, y, found.step, _step(y), jitter if jitter < 0.1 * (t[-1] - t[0]) / t.size else 0.0, gap)
 
 
 def _step(values: Array) -> float:

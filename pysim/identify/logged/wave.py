@@ -81,7 +81,7 @@ def logged_wave(record: MeasuredRecord, column: str) -> LoggedWave:
             over more than rounding and noise.
     """
     log = Log.of(_data(record), column)
-    where = f"{record.source}, {column}"
+    where, lost = f"{record.source}, {column}", ""
     if record.kind == STEPPED_SINE:
         if record.frequency is None:
             raise BadInput(f"{record.source}: a stepped sine needs its frequency; give it in the record")
@@ -89,14 +89,16 @@ def logged_wave(record: MeasuredRecord, column: str) -> LoggedWave:
         what = f"a sine of {record.frequency:g} Hz"
         stretch = grow(log, sine_start(log.time, log.values, omega, log.step), lambda t, y, w: fit_sine(t, y, omega))
     elif record.kind == CHIRP:
-        what = "a chirp"
+        what, lost = "a chirp", _lost(log)
         start = chirp_start(log.time, log.values)
         if start is None:
-            raise BadInput(f"{where}: this is no chirp: it swings less than three times; correct the record's kind")
+            raise BadInput(
+                f"{where}: this is no chirp: it swings less than three times; correct the record's kind{lost}"
+            )
         stretch = grow(log, start, fit_chirp)
     else:
         raise BadInput(f"{record.source}: a {record.kind} record has no closed form; only stepped sines and chirps do")
-    _check(log, stretch, where, what)
+    _check(log, stretch, where, what, lost)
     return _logged(stretch, log)
 
 
@@ -106,8 +108,12 @@ def _data(record: MeasuredRecord) -> Record:
     return record.data
 
 
-def _check(log: Log, stretch: Stretch, where: str, what: str) -> None:
-    """The wave leaves over rounding or noise, and nothing swings before or behind it."""
+def _check(log: Log, stretch: Stretch, where: str, what: str, lost: str) -> None:
+    """The wave leaves over rounding or noise, and nothing swings before or behind it.
+
+    Args:
+        lost: end of the messages, on samples that are missing.
+    """
     wave, rms = stretch.wave, stretch.residual
     allowed = log.step + 3 * wave.amplitude * wave.fastest(log.time[stretch.inside]) * log.jitter
     harmless = rms <= max(allowed, _HARMLESS * wave.amplitude)
@@ -115,15 +121,22 @@ def _check(log: Log, stretch: Stretch, where: str, what: str) -> None:
         raise BadInput(
             f"{where}: this is not {what}: its best fit leaves over {rms:.3g} rms of an amplitude of "
             f"{wave.amplitude:.3g}, more than rounding and noise; correct the record's kind or frequency, or call it "
-            '"other"'
+            f'"other"{lost}'
         )
     first, last = stretch.inside.start, stretch.inside.stop
     for part, name, at in ((log.values[:first], "before", first), (log.values[last:], "behind", last - 1)):
         if part.size > 1 and wander(part, 5 * rms + log.step) > _WANDER * wave.amplitude:
             raise BadInput(
                 f"{where}: {name} {log.time[at]:g} s this is not {what} any more, but it still swings; correct the "
-                "record's frequency or kind, or cut the log"
+                f"record's frequency or kind, or cut the log{lost}"
             )
+
+
+def _lost(log: Log) -> str:
+    """What else may be the matter with a chirp: its turns are counted, and none must be lost."""
+    if log.gap is None:
+        return ""
+    return f"; or cut it where samples are lost, from {log.gap[0]:g} to {log.gap[1]:g} s"
 
 
 def _logged(stretch: Stretch, log: Log) -> LoggedWave:

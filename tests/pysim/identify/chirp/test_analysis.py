@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from pysim.identify.chirp import Branch, analyse_chirp, chirp_responses, sweep_error
-from pysim.types import BadInput, Dataset, MeasuredSignal, Record
+from pysim.types import BadInput, Dataset, MeasuredRecord, MeasuredSignal, Record
 from tests.pysim.identify.chirp.chirps import log, response
 
 SIGNALS = (MeasuredSignal("u", "input", "%", "", "u"), MeasuredSignal("y", "output", "%", "", "y", 0.3))
@@ -153,3 +153,26 @@ def test_refuses_what_is_no_chirp() -> None:
     noise = np.column_stack([record.data["u"], np.random.default_rng(0).standard_normal(record.data.time.size)])
     with pytest.raises(BadInput, match="rises above the noise"):
         analyse_chirp(replace(record, data=replace(record.data, values=noise)), "u", "y")
+
+
+def without(record: MeasuredRecord, begin: float, end: float) -> MeasuredRecord:
+    """The same log with the samples between two times lost."""
+    data = record.data
+    assert isinstance(data, Record)
+    kept = (data.time < begin) | (data.time > end)
+    return replace(record, data=replace(data, time=data.time[kept], values=data.values[kept]))
+
+
+def test_lost_samples_are_no_slow_sampling_and_leave_out_what_they_hide() -> None:
+    whole = log(0.5, noise=0.1)
+    found, full = (analyse_chirp(record, "u", "y") for record in (without(whole, 5.0, 6.0), whole))
+    assert found.remarks == full.remarks
+    assert not any("samples per period" in remark for remark in found.remarks)
+    assert full.mean.frequency.size - 4 <= found.mean.frequency.size < full.mean.frequency.size
+    off = np.abs(errors(found.mean, low=1.5))
+    assert np.max(off[0] / found.mean.magnitude_deviation_db[found.mean.frequency >= 1.5][: off.shape[1]]) < 6
+
+
+def test_a_refusal_names_samples_that_are_lost() -> None:
+    with pytest.raises(BadInput, match=r"not a chirp: .*; or cut it where samples are lost, from 29.996 to 30.404 s$"):
+        analyse_chirp(without(log(0.5), 30.0, 30.4), "u", "y")
