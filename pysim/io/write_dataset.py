@@ -21,6 +21,7 @@ Array = NDArray[np.float64]
 _DIGITS = 7  # of the largest value, where neither noise nor resolution says how many mean anything
 _FINER = 100.0  # how far rounding stays below noise and resolution
 _FORBIDDEN = frozenset('<>:"|?*')
+_RESERVED = frozenset(["con", "prn", "aux", "nul", *(f"{port}{k}" for port in ("com", "lpt") for k in range(1, 10))])
 _TIME_SHARE = 1e-4  # of a sampling interval: how far a printed time may be from the true one
 
 
@@ -36,7 +37,7 @@ def write_dataset(folder: Path | str, dataset: Dataset, *, units: Mapping[str, s
     Returns:
         the path of dataset.toml.
     Raises:
-        BadInput: a folder that holds something, a source outside of it or twice, a unit of another kind, a test that
+        BadInput: a folder that holds something, a source outside of it, twice or that some system cannot hold, a unit of another kind, a test that
             does not say what its kind needs, or a place that cannot be written.
     """
     folder, units = Path(folder), dict(units or {})
@@ -79,7 +80,8 @@ def _check_tests(dataset: Dataset) -> None:
 
 
 def _check_sources(dataset: Dataset) -> None:
-    seen = set()
+    """Every record in a file of its own on any system: some tell no capital letters from small ones."""
+    seen = {"dataset.toml"}
     for record in dataset.records:
         path = PurePosixPath(record.source)
         if path.is_absolute() or ".." in path.parts or PureWindowsPath(record.source).drive or not path.name:
@@ -88,9 +90,15 @@ def _check_sources(dataset: Dataset) -> None:
             raise BadInput(
                 f"record {record.source!r}: Windows has no such file names; leave out {' '.join(sorted(_FORBIDDEN))}"
             )
-        if path in seen or path == PurePosixPath("dataset.toml"):
-            raise BadInput(f"record {record.source!r} has the name of another file; give each its own")
-        seen.add(path)
+        for part in path.parts:
+            if part.endswith((".", " ")) or part.split(".")[0].rstrip(" ").casefold() in _RESERVED:
+                raise BadInput(f"record {record.source!r}: Windows has no files or folders called {part!r}; rename it")
+        if str(path).casefold() in seen:
+            raise BadInput(
+                f"record {record.source!r} has the name of another file, but for capital letters at most; "
+                "give each its own"
+            )
+        seen.add(str(path).casefold())
 
 
 def _digits(signal: MeasuredSignal, dataset: Dataset, to_si: float) -> int:

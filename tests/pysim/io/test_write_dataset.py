@@ -171,3 +171,20 @@ def test_refuses_twice_the_same_file_other_units_and_old_files(tmp_path: Path) -
         write_dataset(tmp_path, data)
     with pytest.raises(BadInput, match="cannot write there"):
         write_dataset(tmp_path / "old.txt", data)
+
+
+@pytest.mark.parametrize("source", ["con.txt", "step/Aux", "LPT1.a.csv", "step./a.txt", "step /a.txt", "a.txt."])
+def test_names_that_windows_cannot_hold_are_refused(tmp_path: Path, source: str) -> None:
+    data = dataset(VALUES, TIME)
+    with pytest.raises(BadInput, match=r"Windows has no files or folders called '.*'; rename it"):
+        write_dataset(tmp_path / "new", replace(data, records=(replace(data.records[0], source=source),)))
+
+
+@pytest.mark.parametrize(
+    ("one", "other"), [("step/A.txt", "step/a.txt"), ("step/a.txt", "Step/a.txt"), ("x", "Dataset.toml")]
+)
+def test_names_that_differ_in_capital_letters_alone_are_refused(tmp_path: Path, one: str, other: str) -> None:
+    data = dataset(VALUES, TIME)
+    records = tuple(replace(data.records[0], source=source) for source in (one, other))
+    with pytest.raises(BadInput, match=f"record '{other}' has the name of another file, but for capital letters"):
+        write_dataset(tmp_path / "new", replace(data, records=records))
