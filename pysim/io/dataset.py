@@ -14,7 +14,7 @@ from pysim.types import SI, UNITS, BadInput, Dataset, MeasuredSignal
 
 _KEYS = ("dataset", "signals", "records")
 _DATASET_KEYS = ("name", "description", "system", "time_unit")
-_SECONDS = {"s": 1.0, "ms": 1e-3}
+_SECONDS = {unit: seconds for unit, (si, seconds) in SI.items() if si == "s"}
 SIGNAL_KEYS = ("role", "unit", "quantity", "variable", "noise", "resolution")
 _SCALE_KEYS = ("factor", "offset")
 _RECORD_KEYS = ("file", "columns", "kind", "use", "offset", "amplitude", "frequency", "input", "output", "origin")
@@ -102,8 +102,8 @@ def described_signal(name: str, section: Section, units: Sequence[str] = tuple(S
     """
     if name == TIME:
         raise BadInput(
-            f"{section.place}: {TIME} is the clock of every log and no signal; remove the section, and where it is in "
-            'ms write time_unit = "ms" below [dataset]'
+            f"{section.place}: {TIME} is the clock of every log and no signal; remove the section, and where it is not "
+            'in s write time_unit = "ms" or another below [dataset]'
         )
     unit = section.text("unit")
     if unit not in units:

@@ -37,8 +37,8 @@ def write_dataset(folder: Path | str, dataset: Dataset, *, units: Mapping[str, s
     Returns:
         the path of dataset.toml.
     Raises:
-        BadInput: a folder that holds something, a source outside of it, twice or that some system cannot hold, a unit of another kind, a test that
-            does not say what its kind needs, or a place that cannot be written.
+        BadInput: a folder that holds something, a source outside of it, twice, or that some system cannot hold, a unit
+            of another kind, a test that does not say what its kind needs, or a place that cannot be written.
     """
     folder, units = Path(folder), dict(units or {})
     scales = {signal.name: _scale(signal, units.setdefault(signal.name, signal.unit)) for signal in dataset.signals}

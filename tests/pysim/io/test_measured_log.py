@@ -160,8 +160,17 @@ def test_times_in_ms(tmp_path: Path) -> None:
         read_dataset(files(tmp_path, sine=in_ms))
     toml = TOML.replace("[dataset]", '[dataset]\ntime_unit = "ms"')
     np.testing.assert_allclose(read_dataset(files(tmp_path, toml, in_ms)).logs()[0].data.time, [0.0, 0.1, 0.2])
-    with pytest.raises(BadInput, match="time_unit = 'min' is not known; use one of s, ms"):
-        read_dataset(files(tmp_path, TOML.replace("[dataset]", '[dataset]\ntime_unit = "min"')))
+    with pytest.raises(BadInput, match="time_unit = 'sec' is not known; use one of s, ms, us, min, h"):
+        read_dataset(files(tmp_path, TOML.replace("[dataset]", '[dataset]\ntime_unit = "sec"')))
+
+
+@pytest.mark.parametrize(("unit", "of_a_second"), [("us", 1e6), ("µs", 1e6), ("min", 1 / 60), ("h", 1 / 3600)])
+def test_times_in_other_units(tmp_path: Path, unit: str, of_a_second: float) -> None:
+    rows = "".join(f"{0.1 * k * of_a_second:.12g} {60 - k} {20 + k}\n" for k in range(3))
+    toml = TOML.replace("[dataset]", f'[dataset]\ntime_unit = "{unit}"')
+    wave = WAVE.replace("2;", "9;", 1)
+    data = read_dataset(files(tmp_path, toml, rows, wave))
+    np.testing.assert_allclose(data.logs()[0].data.time, [0.0, 0.1, 0.2], atol=1e-9)
 
 
 def test_a_single_repeated_row_is_a_slip(tmp_path: Path) -> None:
