@@ -11,13 +11,10 @@ from secrets import token_urlsafe
 
 from pysim.app.description import refuse_outside
 from pysim.app.project import Project
-from pysim.io import DAMAGED, LOG_SUFFIXES
+from pysim.io import DAMAGED, LOG_SUFFIXES, unusable_name
 from pysim.types import BadInput
 
 _PIECE = 2**20
-_SIGNS = frozenset('<>:"|?*')
-_PORTS = (f"{name}{digit}" for name in ("COM", "LPT") for digit in "123456789\u00b9\u00b2\u00b3")
-_DEVICES = frozenset(("CON", "PRN", "AUX", "NUL", "CONIN$", "CONOUT$", *_PORTS))
 
 
 @dataclass(frozen=True)
@@ -70,9 +67,8 @@ class Batch:
         bad = not parts or ".." in parts or parts[0] == "/" or PureWindowsPath(name).drive or "\0" in name
         if bad or not name.isprintable() or any(len(part) > 200 for part in parts) or len(parts) > 20:
             raise BadInput(f"{name[:80]!r} is no name of a file below the dropped folder; rename it")
-        for part in parts:
-            if why := _unfit(part):
-                raise BadInput(f"{name[:80]!r}: {part!r} {why}, which Windows does not take; rename it")
+        if why := unusable_name("/".join(parts)):  # behind a colon Windows would lose the log in another file's stream
+            raise BadInput(f"{name[:80]!r}: {why}; rename it")
         self.files += 1
         if self.files > self.limits.files:
             raise BadInput(f"more than {self.limits.files} files; drop at most {self.limits.words}")
@@ -180,18 +176,6 @@ def _sweep(root: Path) -> None:
 def _hidden(parts: Sequence[str]) -> bool:
     """What systems leave beside a user's files."""
     return any((part.startswith(".") and part != "..") or part == "__MACOSX" for part in parts)
-
-
-def _unfit(part: str) -> str:
-    """Why not every system keeps a file or folder of that name; "" where each does.
-
-    On Windows a colon even opens a stream behind another file, in which the log would be lost.
-    """
-    if signs := sorted(set(part) & _SIGNS):
-        return f"has {' '.join(signs)} in it"
-    if part.endswith((".", " ")):
-        return f"ends with a {'dot' if part.endswith('.') else 'space'}"
-    return "is the name of a device" if part.partition(".")[0].rstrip().upper() in _DEVICES else ""
 
 
 def _parts(name: str) -> list[str]:

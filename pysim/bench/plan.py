@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from pysim.bench.bench_tests import BenchTest, Run
 from pysim.bench.logger import Logger
 from pysim.bench.sensor import Sensor
-from pysim.io.file_names import same_file, unusable_name
+from pysim.io import same_file, unusable_name
 from pysim.types import BadInput
 
 

@@ -4,6 +4,7 @@ from pysim.io.archive import DAMAGED, extracted
 from pysim.io.binary import check_binary, load_library
 from pysim.io.cache import cache_folder
 from pysim.io.dataset import SIGNAL_KEYS, described_signal, read_dataset, read_dataset_partly
+from pysim.io.file_names import same_file, unusable_name
 from pysim.io.files import write_file
 from pysim.io.fmu import read_model
 from pysim.io.headings import column_names
@@ -48,9 +49,11 @@ __all__ = [
     "read_toml",
     "record_data",
     "record_text",
+    "same_file",
     "shown_unit",
     "shown_value",
     "signal_in_si",
+    "unusable_name",
     "write_dataset",
     "write_file",
     "write_record",

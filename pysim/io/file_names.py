@@ -7,7 +7,8 @@ from pathlib import PurePosixPath
 
 _FORBIDDEN = frozenset('<>:"|?*\\')
 _NUMBERED = "123456789¹²³"
-_DEVICES = frozenset({"con", "prn", "aux", "nul", *(f"{port}{n}" for port in ("com", "lpt") for n in _NUMBERED)})
+_PORTS = (f"{port}{n}" for port in ("com", "lpt") for n in _NUMBERED)
+_DEVICES = frozenset({"con", "prn", "aux", "nul", "conin$", "conout$", *_PORTS})
 
 
 def same_file(source: str) -> str:

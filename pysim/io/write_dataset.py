@@ -10,6 +10,7 @@ from pathlib import Path, PurePosixPath, PureWindowsPath
 import numpy as np
 from numpy.typing import NDArray
 
+from pysim.io.file_names import same_file, unusable_name
 from pysim.io.files import write_file
 from pysim.io.measured_log import LOGS
 from pysim.io.response_table import TABLE_COLUMNS
@@ -20,8 +21,6 @@ Array = NDArray[np.float64]
 
 _DIGITS = 7  # of the largest value, where neither noise nor resolution says how many mean anything
 _FINER = 100.0  # how far rounding stays below noise and resolution
-_FORBIDDEN = frozenset('<>:"|?*')
-_RESERVED = frozenset(["con", "prn", "aux", "nul", *(f"{port}{k}" for port in ("com", "lpt") for k in range(1, 10))])
 _TIME_SHARE = 1e-4  # of a sampling interval: how far a printed time may be from the true one
 
 
@@ -86,19 +85,14 @@ def _check_sources(dataset: Dataset) -> None:
         path = PurePosixPath(record.source)
         if path.is_absolute() or ".." in path.parts or PureWindowsPath(record.source).drive or not path.name:
             raise BadInput(f"record {record.source!r} would be written outside the data set; give it a relative name")
-        if set(record.source) & _FORBIDDEN:
-            raise BadInput(
-                f"record {record.source!r}: Windows has no such file names; leave out {' '.join(sorted(_FORBIDDEN))}"
-            )
-        for part in path.parts:
-            if part.endswith((".", " ")) or part.split(".")[0].rstrip(" ").casefold() in _RESERVED:
-                raise BadInput(f"record {record.source!r}: Windows has no files or folders called {part!r}; rename it")
-        if str(path).casefold() in seen:
+        if why := unusable_name(record.source):
+            raise BadInput(f"record {record.source!r}: {why}; rename it")
+        if same_file(record.source) in seen:
             raise BadInput(
                 f"record {record.source!r} has the name of another file, but for capital letters at most; "
                 "give each its own"
             )
-        seen.add(str(path).casefold())
+        seen.add(same_file(record.source))
 
 
 def _digits(signal: MeasuredSignal, dataset: Dataset, to_si: float) -> int:
