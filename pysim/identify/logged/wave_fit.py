@@ -121,14 +121,17 @@ def fit_chirp(t: Array, y: Array, start: Wave) -> Wave:
 def chirp_start(t: Array, y: Array) -> tuple[Wave, slice] | None:
     """A chirp through the times at which the values pass their median; None where they do so less than six times.
 
-    A lead-in from zero and a ramp back may add a passage each, which the quadratic through the others shows.
+    A lead-in from zero and a ramp back may add a passage each, which the quadratic through the others shows. Those that
+    lost samples hide are counted by how fast the wave is beside them.
     """
     offset = float(np.median(y))
     amplitude = float(np.median(np.abs(y - offset))) * np.sqrt(2)  # of a sine, half the samples are within sin 45 deg
     times, upwards = _passages(t, y - offset, 0.3 * amplitude)
     if times.size < 6:
         return None
-    half_turns = np.arange(times.size) * np.pi
+    times, upwards, half_turns = _counted(t, times, upwards)
+    if times.size < 6:
+        return None
     origin = float(times[times.size // 2])
     good = np.ones(times.size, dtype=bool)
     for _ in range(5):
@@ -140,6 +143,25 @@ def chirp_start(t: Array, y: Array) -> tuple[Wave, slice] | None:
     phase = float(c[2]) + (0.0 if upwards[0] else np.pi)
     wave = Wave(offset, amplitude, phase, float(c[1]), float(2 * c[0]), origin)
     return wave, slice(int(np.searchsorted(t, times[first])), int(np.searchsorted(t, times[last])) + 1)
+
+
+def _counted(t: Array, times: Array, upwards: NDArray[np.bool_]) -> tuple[Array, NDArray[np.bool_], Array]:
+    """Passages (n,) outside of the gaps of a log, and the half turns (n,) of the wave up to each, rad."""
+    gaps = [(t[k], t[k + 1]) for k in sampling(t).gaps]
+    seen = np.ones(times.size, dtype=bool)
+    for begin, end in gaps:
+        seen &= (times <= begin) | (times >= end)
+    times, upwards = times[seen], upwards[seen]
+    turns: Array = np.arange(times.size, dtype=np.float64)
+    for begin, end in gaps:
+        j = int(np.searchsorted(times, end))
+        if not 1 < j < times.size - 1 or times[j - 1] > begin:
+            continue
+        half = 0.5 * (times[j - 1] - times[j - 2] + times[j + 1] - times[j])
+        odd = int(upwards[j] != upwards[j - 1])  # an even number of half turns passes the median the same way
+        whole = round(0.5 * (float((times[j] - times[j - 1]) / half) - odd))
+        turns[j:] += max(2 * whole + odd, 1) - 1
+    return times, upwards, np.asarray(np.pi * turns)
 
 
 def _passages(t: Array, y: Array, threshold: float) -> tuple[Array, NDArray[np.bool_]]:

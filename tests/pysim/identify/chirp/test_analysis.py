@@ -173,6 +173,19 @@ def test_lost_samples_are_no_slow_sampling_and_leave_out_what_they_hide() -> Non
     assert np.max(off[0] / found.mean.magnitude_deviation_db[found.mean.frequency >= 1.5][: off.shape[1]]) < 6
 
 
+@pytest.mark.parametrize("down", [False, True], ids=["up", "down"])
+@pytest.mark.parametrize(("begin", "lost"), [(15.0, 1.0), (30.0, 0.05), (30.0, 0.4), (40.0, 1.0)])
+def test_turns_that_lost_samples_hide_are_counted(down: bool, begin: float, lost: float) -> None:
+    found = analyse_chirp(without(log(0.5, down=down), begin, begin + lost), "u", "y")
+    assert found.command.rate == pytest.approx(-0.5 if down else 0.5, rel=1e-6)
+    assert np.max(np.abs(errors(found.mean)[0])) < 0.05
+    assert np.max(np.abs(errors(found.mean)[1])) < 0.5
+
+
 def test_a_refusal_names_samples_that_are_lost() -> None:
+    whole = log(0.5)
+    assert isinstance(whole.data, Record)
+    values = np.array(whole.data.values)
+    values[:, 0] += np.cumsum(np.random.default_rng(0).standard_normal(values.shape[0]))
     with pytest.raises(BadInput, match=r"not a chirp: .*; or cut it where samples are lost, from 29.996 to 30.404 s$"):
-        analyse_chirp(without(log(0.5), 30.0, 30.4), "u", "y")
+        analyse_chirp(without(replace(whole, data=replace(whole.data, values=values)), 30.0, 30.4), "u", "y")
