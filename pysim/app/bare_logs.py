@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
+from itertools import chain, repeat
 from pathlib import Path
 from typing import Any
 
@@ -17,19 +18,22 @@ KINDS = ("other", "step", "stochastic", "chirp", "multisine", SINE)
 _HEADING = re.compile(r"(?P<name>[^\[(]+?)\s*[\[(](?P<unit>[^\])]*)[\])]")
 
 
-def guess(number: int, heading: str, *, fixed: bool = False) -> dict[str, Any]:
+def guesses(headings: Sequence[str], *, fixed: bool = False) -> list[dict[str, Any]]:
     """Time first, then the command, then what answers; a unit in the heading's brackets is taken.
 
     Args:
-        number: of the column, from 0.
-        heading: as the log has it.
-        fixed: whether the column is found by its heading, which then stays as it is.
+        headings: as the log has them, a dash for a column that holds no numbers.
+        fixed: whether columns are found by their headings, which then stay as they are.
     """
+    roles = chain(("time", "input"), repeat("output"))
+    return [_guess(k + 1, one, "-" if one == "-" else next(roles), fixed) for k, one in enumerate(headings)]
+
+
+def _guess(number: int, heading: str, role: str, fixed: bool) -> dict[str, Any]:
     found = _HEADING.fullmatch(heading)
     name = heading if found is None or fixed else found["name"]
     unit = "" if found is None else found["unit"]
-    role = "time" if number == 0 else "input" if number == 1 else "output"
-    own = {"number": number + 1, "name": name, "role": role, "unit": unit if unit in UNITS else "", "variable": ""}
+    own = {"number": number, "name": name, "role": role, "unit": unit if unit in UNITS else "", "variable": ""}
     return {**own, "noise": None}
 
 

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from pysim.types import MeasuredRecord
 
+LEFT_OUT = "-"  # in place of the name of a column that nobody needs, or that holds no numbers
 OPEN = "?"  # in place of a unit that nobody told; refused until it is filled in
 _NAMED = (".parquet", ".tdms")  # whose columns are found by name
 _TABLE = "frequency_hz"  # first column of a table of responses, which is no log
@@ -128,7 +129,7 @@ def _take(found: Draft, path: Path, columns: Sequence[Column], *, named: bool) -
     for name, column in zip(names, columns, strict=True):
         if name == "time":
             _take_clock(found, path, column.heading)
-    found.columns[_source(found, path)] = [name for name in names if name != "-"] if by_name else names
+    found.columns[_source(found, path)] = [name for name in names if name != LEFT_OUT] if by_name else names
 
 
 def _names(found: Draft, path: Path, columns: Sequence[Column], by_name: bool) -> list[str]:
@@ -136,25 +137,27 @@ def _names(found: Draft, path: Path, columns: Sequence[Column], by_name: bool) -
     from pysim.types import BadInput
 
     own = [column.heading if by_name else column.name for column in columns]
-    time = _time(own)
+    time, kept = _time(own), sum(name != LEFT_OUT for name in own)
     if all(name in own for name in found.roles):
-        return ["time" if k == time else name if name in found.roles else "-" for k, name in enumerate(own)]
-    if len(own) != 1 + len(found.roles) or by_name:
+        return ["time" if k == time else name if name in found.roles else LEFT_OUT for k, name in enumerate(own)]
+    if kept != 1 + len(found.roles) or by_name:
         raise BadInput(
             f"{path}: its columns are {', '.join(own)}; name signals as they are called there, or as many as there are "
             "columns behind the time"
         )
-    return ["time", *found.roles]
+    names = iter(["time", *found.roles])
+    return [name if name == LEFT_OUT else next(names) for name in own]
 
 
 def _guessed(found: Draft, columns: Sequence[Column], by_name: bool) -> list[str]:
     """Of a log of which nothing was said: time, then the command, then what answers."""
     short = [column.name for column in columns]
-    own = [column.heading for column in columns] if by_name or len(set(short)) < len(short) else short
+    told = [name for name in short if name != LEFT_OUT]
+    own = [column.heading for column in columns] if by_name or len(set(told)) < len(told) else short
     time = _time(own)
     names = ["time" if k == time else name for k, name in enumerate(own)]
     for name, column in zip(names, columns, strict=True):
-        if name != "time" and name not in found.roles:
+        if name not in ("time", LEFT_OUT, *found.roles):
             found.roles[name] = "output" if found.roles else "input"
             found.units[name] = column.unit or OPEN
     return names
@@ -162,7 +165,8 @@ def _guessed(found: Draft, columns: Sequence[Column], by_name: bool) -> list[str
 
 def _time(names: Sequence[str]) -> int:
     """Which column is the clock."""
-    return next((k for k, name in enumerate(names) if name.lower() in _TIMES), 0)
+    told = next((k for k, name in enumerate(names) if name.lower() in _TIMES), None)
+    return next(k for k, name in enumerate(names) if name != LEFT_OUT) if told is None else told
 
 
 def _find_sines(found: Draft) -> None:

@@ -8,7 +8,7 @@ from typing import Any
 
 from nicegui import background_tasks, ui
 
-from pysim.app.bare_logs import KINDS, ROLES, SINE, bare_description, guess, matched
+from pysim.app.bare_logs import KINDS, ROLES, SINE, bare_description, guesses, matched
 from pysim.app.description import change_description
 from pysim.app.desk import Desk
 from pysim.app.pages.common import amount, attempt, counted
@@ -55,8 +55,7 @@ def _draft(desk: Desk, logs: list[Path]) -> dict[str, Any]:
     key = tuple((path, path.stat().st_mtime_ns) for path in logs)
     if desk.draft.get("key") != key:
         sines = all("hz" in path.stem.lower() for path in logs)
-        read = column_names(logs[0])
-        columns = [guess(k, name, fixed=logs[0].suffix.lower() in _NAMED) for k, name in enumerate(read)]
+        columns = guesses(column_names(logs[0]), fixed=logs[0].suffix.lower() in _NAMED)
         desk.draft = {"key": key, "kind": SINE if sines else "other", "columns": columns}
     for column in desk.draft["columns"]:
         matched(column, (desk.model or {}).get("variables", []))

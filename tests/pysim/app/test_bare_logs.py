@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from pysim.app.bare_logs import bare_description, guess, matched
+from pysim.app.bare_logs import bare_description, guesses, matched
 from pysim.app.description import change_description
 from pysim.types import BadInput, Dataset
 
@@ -26,19 +26,15 @@ def taken(folder: Path, columns: list[dict[str, Any]], kind: str) -> Dataset:
 
 
 def test_headings_and_the_model_fill_in_what_they_can() -> None:
-    assert [guess(k, name)["role"] for k, name in enumerate(("t", "u", "a", "b"))] == [
-        "time",
-        "input",
-        "output",
-        "output",
-    ]
-    column = guess(2, "x [mm]")
+    assert [one["role"] for one in guesses(("t", "u", "a", "b"))] == ["time", "input", "output", "output"]
+    assert [one["role"] for one in guesses(("-", "t", "-", "u", "a"))] == ["-", "time", "-", "input", "output"]
+    column = guesses(("t", "u", "x [mm]"))[2]
     assert (column["name"], column["unit"]) == ("x", "mm")
-    assert guess(2, "x [furlong]")["unit"] == ""
-    assert guess(2, "x [mm]", fixed=True)["name"] == "x [mm]"
+    assert guesses(["x [furlong]"])[0]["unit"] == ""
+    assert guesses(["x [mm]"], fixed=True)[0]["name"] == "x [mm]"
     matched(column, [["F", "input", "N", ""], ["X", "output", "m", ""]])
     assert (column["variable"], column["unit"], column["role"]) == ("X", "mm", "output")  # the heading's unit stays
-    bare = guess(2, "F")
+    bare = guesses(("t", "u", "F"))[2]
     matched(bare, [["F", "input", "N", ""]])
     assert (bare["variable"], bare["unit"], bare["role"]) == ("F", "N", "input")
     bare["variable"] = ""

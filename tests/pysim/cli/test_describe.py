@@ -61,6 +61,23 @@ def test_signals_are_named_by_their_headings_others_left_out(tmp_path: Path) -> 
     assert content["signals"]["y"]["unit"] == "bar"
 
 
+def test_a_column_of_words_is_left_out(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    rows = [f"2024-01-01 12:00:00,{t:.3f},{np.sin(t):.6f},{np.cos(t):.6f},pump on" for t in TIME]
+    for head, words in (
+        ("date,t [s],cmd [%],p [bar],state", []),
+        ("date,t,cmd,p,state", ["--input", "cmd:%", "--response", "p:bar"]),
+        ("date,t,a,b,state", ["--input", "cmd:%", "--response", "p:bar"]),
+    ):
+        (tmp_path / "log.csv").write_text("\n".join([head, *rows]) + "\n")
+        (tmp_path / "dataset.toml").unlink(missing_ok=True)
+        assert main(["data", "describe", str(tmp_path), *words]) == 0
+        content = tomllib.loads((tmp_path / "dataset.toml").read_text(encoding="utf-8"))
+        assert content["records"][0]["columns"] == ["-", "time", "cmd", "p", "-"]
+        assert list(content["signals"]) == ["cmd", "p"]
+        assert read_dataset(tmp_path).logs()[0].data["p"][0] == pytest.approx(1e5)
+        capsys.readouterr()
+
+
 def test_a_clock_of_another_pace_is_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     log = write(tmp_path / "log.csv", "t [min],cmd [%],y [bar]")
     assert main(["data", "describe", str(tmp_path)]) == 0
