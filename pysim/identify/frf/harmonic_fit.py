@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.stats import norm, t
 
 from pysim.identify._near_orthogonal import near_orthogonal_fit
 
@@ -14,6 +16,7 @@ Array = NDArray[np.float64]
 # Condition number up to which columns count as told apart; 1.4 where no sample is lost. At four, lost samples make the
 # variance of the sine up to four times that of as many even ones.
 _TOLD_APART = 4.0
+_NEXT = 5  # harmonics next to the sine, by which noise is judged where nothing else lies between them
 
 
 @dataclass(frozen=True)
@@ -31,6 +34,19 @@ class HarmonicFit:
     coefficients: Array
     inverse: Array
     left_over: Array
+
+    def level_of_harmonics(self) -> float:
+        """Standard deviation of white noise that would be as large as most of the harmonics next to the sine are.
+
+        Noise with a memory has its slow part there, and none in what a single period leaves over. The median hardly
+        minds one or two that the system itself makes. Widened for how few they are. 0 for a sine without harmonics.
+        """
+        sines = np.arange(2, self.columns.shape[1] - 1, 2)[:_NEXT]
+        if sines.size == 0:
+            return 0.0
+        sizes = self.coefficients[sines] ** 2 + self.coefficients[sines + 1] ** 2
+        squares = sizes / (self.inverse[sines, sines] + self.inverse[sines + 1, sines + 1])
+        return float(np.sqrt(np.median(squares) / math.log(2)) * t.ppf(0.975, sines.size) / norm.ppf(0.975))
 
     @property
     def freedom(self) -> int:

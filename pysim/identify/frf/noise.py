@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -35,6 +35,10 @@ class ResidualNoise:
     deviation: float
     basis: str
     whiteness: float
+
+    def at_least(self, level: float) -> ResidualNoise:
+        """The same, but no smaller for sine and mean than white noise of that standard deviation."""
+        return replace(self, at_frequency=max(self.at_frequency, level), at_zero=max(self.at_zero, level))
 
 
 def residual_noise(

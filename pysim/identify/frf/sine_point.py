@@ -122,18 +122,22 @@ def sine_point(
     fit = harmonic_fit(angle, y, count, lost=lost)
     coefficients = fit.coefficients
     judged = residual_noise(fit.left_over, fit.columns, frequency, interval, declared=noise)
+    hidden = judged.basis == COLOURED and part.periods == 1
+    if hidden:
+        judged = judged.at_least(fit.level_of_harmonics())
     amplitude = float(np.hypot(*coefficients[:2]))
     if amplitude <= 1e-12 * float(np.max(np.abs(y))):
         raise BadInput(f"{record.source}: {output} does not move at {frequency:g} Hz; there is no response")
     gain = amplitude / command.amplitude
     sizes = np.hypot(coefficients[0:-1:2], coefficients[1::2])
-    deviation = judged.at_frequency if judged.basis == DECLARED else judged.deviation
+    deviation = judged.at_frequency if hidden or judged.basis == DECLARED else judged.deviation
     spread = deviation * math.sqrt(float(np.mean(np.diag(fit.inverse)[2 if count > 1 else 0 : -1])))
     distorted = count > 1 and _by_chance(fit, slice(2, -1), deviation, judged.basis) < _UNLIKELY
     if part.periods > 1:
         remarks += _unsteady(harmonic_fit(angle, y, count, lost=lost, drifting=True), y, frequency, interval, noise)
     if judged.basis == COLOURED:
-        remarks.append("residuals have a memory; intervals follow their spectrum")
+        followed = "the harmonics, which a single period does not tell from noise" if hidden else "their spectrum"
+        remarks.append(f"residuals have a memory; intervals follow {followed}")
     return SinePoint(
         source=record.source,
         frequency=frequency,

@@ -154,6 +154,17 @@ def test_says_when_residuals_have_a_memory() -> None:
     assert point.covariance[0, 0] > 2 * naive
 
 
+def test_slow_noise_is_seen_in_a_single_period() -> None:
+    """The harmonics take it out of what is left over, and then are what shows it; one in six was held before."""
+    held, runs = np.zeros(2), 100
+    for seed in range(runs):
+        point = sine_point(log(1.0, periods=2.4, noise=coloured(601, 0.5, seed)), "cmd", "y")
+        assert point.periods == 1
+        held += np.abs(error(point, 1.0)) < 1.96 * np.sqrt(np.diag(point.covariance)[:2])
+    assert (held / runs > 0.85).all()
+    assert any("which a single period does not tell from noise" in remark for remark in point.remarks)
+
+
 def refused(record: MeasuredRecord, words: str) -> None:
     with pytest.raises(BadInput, match=words):
         sine_point(record, "cmd", "y")
