@@ -93,6 +93,8 @@ def _run(args: argparse.Namespace) -> int:
     work = _work(args.command, args)
     from pysim.types import BadInput
     from validation.blind.benchmark.carry import standing
+    from validation.blind.benchmark.follow import ties
+    from validation.blind.benchmark.kept import read_kept
     from validation.blind.benchmark.runs import Choice, run
     from validation.blind.plant import cases
 
@@ -104,6 +106,8 @@ def _run(args: argparse.Namespace) -> int:
         return 2
     every = args.command in ("run", "clock")
     chosen = choice.of([case for case in cases(TABLE_SEED) if every or case.kind == "named"])
+    if args.command == "follow":
+        chosen = ties(chosen, read_kept().answers)
     counts = standing(work.store, work.code).counts
     run(chosen, work.store, work.task, work.code, counts=counts, workers=work.workers, limit=args.limit, say=_say)
     return 0

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import tempfile
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -15,6 +16,15 @@ from validation.blind.benchmark.examine import SEED, code, warm
 from validation.blind.benchmark.stopwatch import timed, today
 from validation.blind.benchmark.truth import Truth
 from validation.blind.plant import Case, measure
+
+
+def ties(cases: Sequence[Case], answers: Mapping[str, Answer]) -> list[Case]:
+    """Those that were answered by effects that their measurements do not tell apart; not those without an answer.
+
+    Args:
+        answers: case -> what the diagnosis made of it.
+    """
+    return [case for case in cases if case.name in answers and answers[case.name].confusable]
 
 
 def follow_case(case: Case) -> Answer:

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from pysim.types import MeasuredRecord, NextTest, Record
-from validation.blind.benchmark.follow import carried_out, follow_case, joined
+from validation.blind.benchmark.answer import Answer
+from validation.blind.benchmark.follow import carried_out, follow_case, joined, ties
 from validation.blind.benchmark.truth import Truth
 from validation.blind.benchmark.workshop import workshop
 from validation.blind.plant import Case, measure
@@ -62,6 +63,15 @@ def test_the_bench_has_the_effect() -> None:
 
 
 @pytest.mark.slow
+def test_ties_are_what_was_answered_by_several_effects() -> None:
+    tied, named, open_ = (Case(name, "named", (("valve.deadband", "middle"),)) for name in "abc")
+    answers = {
+        "a": Answer("a", "0", "2026-01-01", verdict="x", confusable=(("x", "y"),)),
+        "b": Answer("b", "0", "2026-01-01", verdict="x"),
+    }
+    assert ties([tied, named, open_], answers) == [tied]
+
+
 def test_a_case_is_followed() -> None:
     answer = follow_case(Case("a", "named", (("valve.deadband", "middle"),), noise=0.5, spool=False, seed=5))
     assert answer.rivals == () or answer.settled is not None
