@@ -68,6 +68,7 @@ class Desk:
     draft: dict[str, Any] = field(default_factory=dict)
     _answers: tuple[int, Answers] | None = None
     _build: int = 0  # number of the newest one
+    _reading: int = 0  # the same
 
     def changed(self) -> None:
         """Something that pages show is other than before."""
@@ -148,9 +149,13 @@ class Desk:
         return max(open_, key=lambda job: job.begun, default=None)
 
     async def read_data(self) -> None:
-        """Read the data set again, beside the page."""
-        self.loaded = await run.io_bound(load, self.project)
-        self.changed()
+        """Read the data set again, beside the page; an earlier reading that ends later is not what it is now."""
+        self._reading += 1
+        reading = self._reading
+        loaded = await run.io_bound(load, self.project)
+        if self._reading == reading:
+            self.loaded = loaded
+            self.changed()
 
     async def read_model(self) -> None:
         """Build or open the model, and keep what it says of itself; an earlier build that still goes on is ended."""

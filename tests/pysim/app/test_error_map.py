@@ -14,7 +14,7 @@ def test_sines_go_by_working_point_and_frequency_and_logs_by_signal(tmp_path: Pa
     write_stages(tmp_path / "a.npz", story().stages)
     stage = read_stages(tmp_path / "a.npz").about[1]
     sines, logs = error_maps(stage, dataset())
-    assert (sines.rows, sines.columns, sines.title) == (("50 ± 10",), ("1", "5"), "Frequency (Hz)")
+    assert (sines.rows, sines.columns, sines.title) == (("50 ± 10 N",), ("1", "5"), "Frequency (Hz)")
     assert sines.sources == (("sines/1Hz.txt", "sines/5Hz.txt"),)
     assert (logs.rows, logs.columns) == (("wave.txt (fitted)", "held.txt (held out)"), ("x",))
     told = {record["source"]: record["rms"][0] for record in stage["records"]}
