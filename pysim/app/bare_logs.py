@@ -2,20 +2,18 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping, Sequence
 from itertools import chain, repeat
 from pathlib import Path
 from typing import Any
 
 from pysim.app.description import described
-from pysim.io import read_thesis_folder
-from pysim.types import SI, UNITS, BadInput, MeasuredSignal
+from pysim.io import name_and_unit, read_thesis_folder
+from pysim.types import SECONDS, UNITS, BadInput, MeasuredSignal
 
 SINE = "frequency-response"
 ROLES = ("time", "input", "output", "-")
 KINDS = ("other", "step", "stochastic", "chirp", "multisine", SINE)
-_HEADING = re.compile(r"(?P<name>[^\[(]+?)\s*[\[(](?P<unit>[^\])]*)[\])]")
 
 
 def guesses(headings: Sequence[str], *, fixed: bool = False) -> list[dict[str, Any]]:
@@ -30,11 +28,9 @@ def guesses(headings: Sequence[str], *, fixed: bool = False) -> list[dict[str, A
 
 
 def _guess(number: int, heading: str, role: str, fixed: bool) -> dict[str, Any]:
-    found = _HEADING.fullmatch(heading)
-    name = heading if found is None or fixed else found["name"]
-    unit = "" if found is None else found["unit"]
-    own = {"number": number, "name": name, "role": role, "unit": unit if unit in UNITS else "", "variable": ""}
-    return {**own, "noise": None}
+    name, unit = name_and_unit(heading)
+    own = {"number": number, "name": heading if fixed else name, "role": role}
+    return {**own, "unit": unit if unit in UNITS else "", "variable": "", "noise": None}
 
 
 def matched(column: dict[str, Any], variables: Sequence[Sequence[str]]) -> None:
@@ -80,8 +76,8 @@ def bare_description(
 def _time_unit(columns: Sequence[Mapping[str, Any]]) -> str:
     """Of the clock, s where nothing was chosen."""
     unit = next((c["unit"] for c in columns if c["role"] == "time" and c["unit"]), "s")
-    if unit not in SI or SI[unit][0] != "s":
-        raise BadInput(f"time is not told in {unit}; choose {', '.join(u for u in SI if SI[u][0] == 's')}")
+    if unit not in SECONDS:
+        raise BadInput(f"time is not told in {unit}; choose {', '.join(SECONDS)}")
     return str(unit)
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import re
 import textwrap
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -15,11 +14,9 @@ if TYPE_CHECKING:
 
 LEFT_OUT = "-"  # in place of the name of a column that nobody needs, or that holds no numbers
 OPEN = "?"  # in place of a unit that nobody told; refused until it is filled in
-_NAMED = (".parquet", ".tdms")  # whose columns are found by name
 _TABLE = "frequency_hz"  # first column of a table of responses, which is no log
 _TIMES = ("time", "t")
 _NEEDED = "one input and one response are needed at least; name them, --input NAME:UNIT --response NAME:UNIT"
-_HEADING = re.compile(r"(?P<name>[^\[(]+?)\s*[\[(](?P<unit>[^\])]*)[\])]")
 
 
 @dataclass(frozen=True)
@@ -29,7 +26,7 @@ class Column:
     Args:
         heading: as the log has it.
         name: without its unit.
-        unit: as the heading tells it, where it does so in a form that is known; "" elsewhere.
+        unit: as the heading tells it, known or not; "" where it tells none.
     """
 
     heading: str
@@ -98,25 +95,22 @@ def draft(folder: Path, inputs: Mapping[str, str], responses: Mapping[str, str])
 
 
 def _column(heading: str) -> Column:
-    from pysim.types import UNITS
+    from pysim.io import name_and_unit
 
-    match = _HEADING.fullmatch(heading)
-    unit = match["unit"].strip() if match else ""
-    return Column(heading, match["name"] if match else heading, unit if unit in UNITS else "")
+    return Column(heading, *name_and_unit(heading))
 
 
-def _take_clock(found: Draft, path: Path, heading: str) -> None:
+def _take_clock(found: Draft, path: Path, clock: Column) -> None:
     """The unit of a log's times, where its heading tells one."""
-    from pysim.types import SI, BadInput
+    from pysim.types import SECONDS, BadInput
 
-    match = _HEADING.fullmatch(heading)
-    if match is None:
+    if not clock.unit:
         return
-    unit = match["unit"].strip()
-    if unit not in SI or SI[unit][0] != "s":
-        found.remarks.append(f"time: taken for s, though {_source(found, path)} heads it {heading!r}; say time_unit")
+    if clock.unit not in SECONDS:
+        told = f"{_source(found, path)} heads it {clock.heading!r}"
+        found.remarks.append(f"time: taken for s, though {told}; say time_unit")
         return
-    found.clocks.setdefault(unit, _source(found, path))
+    found.clocks.setdefault(clock.unit, _source(found, path))
     if len(found.clocks) > 1:
         told = ", ".join(f"{one} in {where}" for one, where in found.clocks.items())
         raise BadInput(f"{found.folder}: times are in {told}; put logs of one unit of time into a folder of their own")
@@ -124,11 +118,13 @@ def _take_clock(found: Draft, path: Path, heading: str) -> None:
 
 def _take(found: Draft, path: Path, columns: Sequence[Column], *, named: bool) -> None:
     """One log: its columns, and the signals that nobody named before."""
-    by_name = path.suffix.lower() in _NAMED
+    from pysim.io import names_its_columns
+
+    by_name = names_its_columns(path)
     names = _names(found, path, columns, by_name) if named else _guessed(found, columns, by_name)
     for name, column in zip(names, columns, strict=True):
         if name == "time":
-            _take_clock(found, path, column.heading)
+            _take_clock(found, path, column)
     found.columns[_source(found, path)] = [name for name in names if name != LEFT_OUT] if by_name else names
 
 
@@ -151,6 +147,8 @@ def _names(found: Draft, path: Path, columns: Sequence[Column], by_name: bool) -
 
 def _guessed(found: Draft, columns: Sequence[Column], by_name: bool) -> list[str]:
     """Of a log of which nothing was said: time, then the command, then what answers."""
+    from pysim.types import UNITS
+
     short = [column.name for column in columns]
     told = [name for name in short if name != LEFT_OUT]
     own = [column.heading for column in columns] if by_name or len(set(told)) < len(told) else short
@@ -159,7 +157,7 @@ def _guessed(found: Draft, columns: Sequence[Column], by_name: bool) -> list[str
     for name, column in zip(names, columns, strict=True):
         if name not in ("time", LEFT_OUT, *found.roles):
             found.roles[name] = "output" if found.roles else "input"
-            found.units[name] = column.unit or OPEN
+            found.units[name] = column.unit if column.unit in UNITS else OPEN
     return names
 
 

@@ -3,11 +3,12 @@
 from pysim.io.archive import DAMAGED, extracted
 from pysim.io.binary import check_binary, load_library
 from pysim.io.cache import cache_folder
+from pysim.io.columns import names_its_columns
 from pysim.io.dataset import SIGNAL_KEYS, described_signal, read_dataset, read_dataset_partly
 from pysim.io.file_names import same_file, unusable_name
 from pysim.io.files import write_file
 from pysim.io.fmu import read_model
-from pysim.io.headings import column_names
+from pysim.io.headings import column_names, name_and_unit
 from pysim.io.json_number import json_number
 from pysim.io.model_units import in_model_units
 from pysim.io.records import read_record, record_data, record_text, write_record
@@ -37,6 +38,8 @@ __all__ = [
     "json_number",
     "load_library",
     "log_source",
+    "name_and_unit",
+    "names_its_columns",
     "read_dataset",
     "read_dataset_partly",
     "read_model",

@@ -65,6 +65,11 @@ class Columns:
         return self.values[:, self.names.index(name)]
 
 
+def names_its_columns(path: Path) -> bool:
+    """Whether columns of a file are found by their names; in all others it is their order that counts."""
+    return path.suffix.lower() in _BY_NAME
+
+
 def read_columns(path: Path, names: tuple[str, ...], wanted_by: str) -> Columns:
     """The named columns of a file.
 

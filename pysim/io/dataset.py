@@ -10,11 +10,10 @@ from pysim.io.measured_table import TABLE, read_measured_table
 from pysim.io.text_fields import LEFT_OUT
 from pysim.io.toml_section import Section, read_toml
 from pysim.io.units import Scale, signal_in_si, unit_cure
-from pysim.types import SI, UNITS, BadInput, Dataset, MeasuredSignal
+from pysim.types import SECONDS, SI, UNITS, BadInput, Dataset, MeasuredSignal
 
 _KEYS = ("dataset", "signals", "records")
 _DATASET_KEYS = ("name", "description", "system", "time_unit")
-_SECONDS = {unit: seconds for unit, (si, seconds) in SI.items() if si == "s"}
 SIGNAL_KEYS = ("role", "unit", "quantity", "variable", "noise", "resolution")
 _SCALE_KEYS = ("factor", "offset")
 _RECORD_KEYS = ("file", "columns", "kind", "use", "offset", "amplitude", "frequency", "input", "output", "origin")
@@ -60,7 +59,7 @@ def _read(folder: Path, *, keep_going: bool) -> tuple[Dataset, tuple[tuple[str, 
     sections = toml.rows("records", "log or table")
     kinds = [_kind(section) for section in sections]
     _refuse_repeated(sections)
-    second = _SECONDS[head.text("time_unit", "s", among=tuple(_SECONDS))]
+    second = SECONDS[head.text("time_unit", "s", among=tuple(SECONDS))]
     records, refused = [], []
     for section, kind in zip(sections, kinds, strict=True):
         try:

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import re
 from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
+from pysim.io.columns import names_its_columns
 from pysim.io.named_columns import optional_package
 from pysim.io.quotation_marks import unquoted
 from pysim.io.tdms_table import channel_names
@@ -17,6 +19,7 @@ from pysim.types import BadInput
 
 _WORDS = 0.5  # share of a column's rows: more numbers than that, and the others are a header
 _LINES = 400  # within which the first row of numbers must stand
+_WITH_UNIT = re.compile(r"(?P<name>[^\[(]+?)\s*[\[(](?P<unit>[^\])]*)[\])]")
 
 
 def column_names(path: Path) -> tuple[str, ...]:
@@ -29,15 +32,20 @@ def column_names(path: Path) -> tuple[str, ...]:
     Raises:
         BadInput: the file cannot be read, or holds no rows of at least two numbers.
     """
-    suffix = path.suffix.lower()
-    if suffix in (".parquet", ".tdms"):
-        return _named(path, suffix)
+    if names_its_columns(path):
+        return _named(path)
     lines = unquoted(read_text(path, path.name), " ").split("\n")[:_LINES]
     rows = [line for line in lines if line.strip() and not line.lstrip().startswith("#")]
     found = [one for one in (_of_numbers(rows), _beside_words(rows)) if one is not None]
     if not found:
         raise BadInput(f"{path.name} holds no rows of numbers; it needs a column of times and those of the signals")
     return min(found, key=lambda one: one[0])[1]
+
+
+def name_and_unit(heading: str) -> tuple[str, str]:
+    """What a heading calls its column, and the unit it has behind that in brackets, of any spelling; "" for none."""
+    found = _WITH_UNIT.fullmatch(heading)
+    return (heading, "") if found is None else (found["name"], found["unit"].strip())
 
 
 def _of_numbers(rows: list[str]) -> tuple[int, tuple[str, ...]] | None:
@@ -89,9 +97,9 @@ def _names(above: list[str], numeric: list[bool]) -> tuple[str, ...]:
     return tuple(name if holds else LEFT_OUT for name, holds in zip(above if named else counted, numeric, strict=True))
 
 
-def _named(path: Path, suffix: str) -> tuple[str, ...]:
+def _named(path: Path) -> tuple[str, ...]:
     """Of a file that knows its columns."""
-    if suffix == ".parquet":
+    if path.suffix.lower() == ".parquet":
         parquet = optional_package("pyarrow.parquet", f"{path.name} is a Parquet file", "pyarrow")
         try:
             return tuple(parquet.read_schema(path).names)

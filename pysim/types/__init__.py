@@ -37,9 +37,10 @@ from pysim.types.port import Port
 from pysim.types.record import Outcome, Record, SimulationError
 from pysim.types.signal import Signal
 from pysim.types.sine_test import SineTest
-from pysim.types.units import SI, SYNONYMS, UNITS, conversion, in_si
+from pysim.types.units import SECONDS, SI, SYNONYMS, UNITS, conversion, in_si
 
 __all__ = [
+    "SECONDS",
     "SI",
     "SYNONYMS",
     "UNITS",

@@ -74,6 +74,9 @@ SI: Mapping[str, tuple[str, float]] = MappingProxyType(
     _PLAIN | {word: _PLAIN[unit] for word, unit in SYNONYMS.items() if unit in _PLAIN}
 )
 
+# unit of time -> how many s it is
+SECONDS: Mapping[str, float] = MappingProxyType({unit: many for unit, (si, many) in SI.items() if si == "s"})
+
 # every unit that is known
 UNITS = (*SI, *_ZEROS, *(word for word, unit in SYNONYMS.items() if unit in _ZEROS))
 

@@ -13,10 +13,8 @@ from pysim.app.description import change_description
 from pysim.app.desk import Desk
 from pysim.app.pages.common import amount, attempt, counted
 from pysim.app.parts import Choice, box, button, card, note, text
-from pysim.io import LOG_SUFFIXES, column_names
+from pysim.io import LOG_SUFFIXES, column_names, names_its_columns
 from pysim.types import UNITS, BadInput
-
-_NAMED = (".parquet", ".tdms")  # whose columns are found by name
 
 
 def describe_form(desk: Desk) -> None:
@@ -42,7 +40,7 @@ def describe_form(desk: Desk) -> None:
             for words in ("column", "is", "unit", "variable of the model", "noise"):
                 text("span", words, "head")
             for column in columns:
-                _row(desk, column, fixed=logs[0].suffix.lower() in _NAMED)
+                _row(desk, column, fixed=names_its_columns(logs[0]))
         with box("row"):
             text("span", "They are")
             with box("form").style("width: 220px"):
@@ -55,7 +53,7 @@ def _draft(desk: Desk, logs: list[Path]) -> dict[str, Any]:
     key = tuple((path, path.stat().st_mtime_ns) for path in logs)
     if desk.draft.get("key") != key:
         sines = all("hz" in path.stem.lower() for path in logs)
-        columns = guesses(column_names(logs[0]), fixed=logs[0].suffix.lower() in _NAMED)
+        columns = guesses(column_names(logs[0]), fixed=names_its_columns(logs[0]))
         desk.draft = {"key": key, "kind": SINE if sines else "other", "columns": columns}
     for column in desk.draft["columns"]:
         matched(column, (desk.model or {}).get("variables", []))

@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from pysim.io import column_names
+from pysim.io import column_names, name_and_unit
 from pysim.io.columns import read_columns
 from pysim.types import BadInput
 
@@ -42,6 +42,22 @@ def test_names_come_from_the_line_above_the_numbers(
             column_names(tmp_path / "a.txt")
         return
     assert column_names(tmp_path / "a.txt") == names
+
+
+@pytest.mark.parametrize(
+    ("heading", "name", "unit"),
+    [
+        ("p_A [bar]", "p_A", "bar"),
+        ("swash plate( deg )", "swash plate", "deg"),
+        ("q (furlongs)", "q", "furlongs"),  # known or not is the reader's business
+        ("x []", "x", ""),
+        ("plain", "plain", ""),
+        ("[bar]", "[bar]", ""),
+        ("p [bar] mean", "p [bar] mean", ""),
+    ],
+)
+def test_a_heading_tells_a_name_and_a_unit(heading: str, name: str, unit: str) -> None:
+    assert name_and_unit(heading) == (name, unit)
 
 
 def test_named_columns_of_parquet_are_read(tmp_path: Path) -> None:
