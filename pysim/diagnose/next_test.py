@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from pysim.diagnose.candidate_tests import CandidateTest, candidate_tests
 from pysim.diagnose.fitted import Fitted
+from pysim.diagnose.loggable import loggable
 from pysim.diagnose.noise import estimated_noise
 from pysim.diagnose.residuals import Ruler
 from pysim.diagnose.separation import Evidence, Table, cheapest, evidence
@@ -26,8 +27,6 @@ Array = NDArray[np.float64]
 
 # Expected difference of the sums of squares that settles a tie with room to spare: five times what names a winner.
 ENOUGH = 50.0
-# Noise taken for a signal that was never logged, in shares of what it goes through.
-_UNLOGGED = 1e-3
 
 
 def next_test(subject: Subject, one: Fitted, other: Fitted, *, workers: int | None = None) -> NextTest | None:
@@ -35,7 +34,7 @@ def next_test(subject: Subject, one: Fitted, other: Fitted, *, workers: int | No
 
     Each model in turn is taken for the truth, and the other is refitted, to first order, to the data at hand and to
     the new test together; the smaller of the two misfits that remain is the gain. Signals that are logged already are
-    preferred; one more output or state of the model is asked for where they are not enough.
+    preferred; one more is asked for where they are not enough, an output of the model rather than a state.
 
     Args:
         one, other: with slopes that are exact at their points.
@@ -50,24 +49,27 @@ def next_test(subject: Subject, one: Fitted, other: Fitted, *, workers: int | No
         return None
     at_hand = _logged(subject, dataset)
     tests = candidate_tests(dataset, partial(_settled, subject, one, at_hand), subject.model)
-    signals = (*at_hand, *_unlogged(subject, dataset, one, tests, workers))
+    more = loggable(subject, dataset, (one, other), tests, workers)
+    signals = (*at_hand, *more.outputs, *more.states)
     table = _table(subject, one, other, tests, signals, workers)
     known = (_information(other), _information(one))
     logged = tuple(s.name for s in at_hand)
-    extra = tuple(s.name for s in signals if s.name not in logged)
     best: tuple[float, list[tuple[int, int]], tuple[str, ...]] = (0.0, [], ())
-    for names in (logged, *((*logged, name) for name in extra)):
-        gain, chosen = cheapest([t.seconds for t in tests], table, names, known, ENOUGH)
-        if gain > best[0] * (1 if best[0] < ENOUGH else 4):
-            best = (gain, chosen, names)
-        if names == logged and gain >= ENOUGH:
+    tiers = [logged], *([(*logged, signal.name) for signal in new] for new in (more.outputs, more.states))
+    for tier in tiers:
+        for names in tier:
+            gain, chosen = cheapest([t.seconds for t in tests], table, names, known, ENOUGH)
+            if gain > best[0] * (1 if best[0] < ENOUGH else 4):
+                best = (gain, chosen, names)
+        if best[0] >= ENOUGH:
             break
     gain, chosen, names = best
     if gain < ENOUGH:
         return None
     plan = [test for k, count in chosen for test in tests[k].longer(count)]
     rivals = (_name(one), _name(other))
-    return NextTest(rivals, gain, _about(plan, names, logged), _plan_text(dataset, plan, names, signals, rivals))
+    asked = [signal for signal in signals if signal.name in names]
+    return NextTest(rivals, gain, _about(plan, asked, logged), _plan_text(dataset, plan, asked, rivals))
 
 
 def _logged(subject: Subject, dataset: Dataset) -> tuple[MeasuredSignal, ...]:
@@ -105,32 +107,6 @@ def _name(fitted: Fitted) -> str:
 
 def _information(fitted: Fitted) -> Array:
     return np.asarray(fitted.point.jacobian.T @ fitted.point.jacobian)
-
-
-def _unlogged(
-    subject: Subject, dataset: Dataset, one: Fitted, tests: Sequence[CandidateTest], workers: int | None
-) -> tuple[MeasuredSignal, ...]:
-    """What may be logged beside the data set's signals: outputs and states of the model, with noise assumed."""
-    known = {s.variable for s in dataset.signals}
-    names = [v.name for v in subject.model.variables if v.causality == "output"] + list(subject.model.abilities.states)
-    new = [name for name in dict.fromkeys(names) if name not in known and name in _names(subject) & _named(one)]
-    if not new:
-        return ()
-    unit = [MeasuredSignal(name, "output", subject.model[name].unit, name, name, noise=1.0) for name in new]
-    ruler = _ruler(subject, one, tests, unit, workers)
-    values = ruler.at(one.what, one.point.x)
-    if values is None:
-        return ()
-    spans = np.ptp(values.reshape(-1, len(new)), axis=0)
-    return tuple(replace(s, noise=_UNLOGGED * span) for s, span in zip(unit, spans, strict=True) if span > 0)
-
-
-def _names(subject: Subject) -> set[str]:
-    return {v.name for v in subject.model.variables}
-
-
-def _named(fitted: Fitted) -> set[str]:
-    return {v.name for v in fitted.what.model.variables}
 
 
 def _noise(signal: MeasuredSignal) -> float:
@@ -176,25 +152,23 @@ def _table(
     return table
 
 
-def _about(plan: Sequence[CandidateTest], names: Sequence[str], logged: Sequence[str]) -> str:
-    new = [name for name in names if name not in logged]
-    also = f" (new: {', '.join(new)}, noise of a thousandth of its span assumed)" if new else ""
-    return f"Run {'; '.join(str(test) for test in plan)}. Log {', '.join(names)}{also}."
+def _about(plan: Sequence[CandidateTest], asked: Sequence[MeasuredSignal], logged: Sequence[str]) -> str:
+    new = [f"{s.name}, {s.noise:.2g}{'' if s.unit == '1' else ' ' + s.unit}" for s in asked if s.name not in logged]
+    also = f" (new: {new[0]} of noise assumed)" if new else ""
+    return f"Run {'; '.join(str(test) for test in plan)}. Log {', '.join(s.name for s in asked)}{also}."
 
 
 def _plan_text(
-    dataset: Dataset, plan: Sequence[CandidateTest], names: Sequence[str], signals: Sequence[MeasuredSignal],
-    rivals: tuple[str, str],
-) -> str:  # fmt: skip
+    dataset: Dataset, plan: Sequence[CandidateTest], asked: Sequence[MeasuredSignal], rivals: tuple[str, str]
+) -> str:
     """A test plan for `pysim bench` or a real one."""
     rows = [f"# Separates {rivals[0]} from {rivals[1]}.", "", "[plan]", 'name = "next-test"']
     rows += [f'description = "to tell {rivals[0]} from {rivals[1]}"', f'system = "{dataset.system}"', ""]
-    by_name = {signal.name: signal for signal in signals}
-    for signal in (plan[0].input, *(by_name[name] for name in names)):
+    for signal in (plan[0].input, *asked):
         rows += [f'[signals."{signal.name}"]', f'role = "{signal.role}"', f'unit = "{signal.unit}"']
         rows += [f'quantity = "{signal.quantity}"', f'variable = "{signal.variable}"']
         rows += [f"{key} = {value:.6g}" for key in ("noise", "resolution") if (value := getattr(signal, key))] + [""]
     rows += ["[logging]", f"rate = {1 / plan[0].interval:.6g}", ""]
     for number, test in enumerate(plan, 1):
-        rows += [*test.plan_rows(tuple(names), f"test-{number}"), ""]
+        rows += [*test.plan_rows(tuple(signal.name for signal in asked), f"test-{number}"), ""]
     return "\n".join(rows)

@@ -1,3 +1,4 @@
+import re
 from collections.abc import Sequence
 from dataclasses import replace
 from importlib import import_module
@@ -95,6 +96,14 @@ def test_a_told_noise_counts_whatever_the_logs_show() -> None:
     found = next_test(own, one, other)
     assert found is not None
     assert "noise = 0.003\nresolution = 0.001\n" in found.plan
+
+
+def test_where_the_logged_are_not_enough_an_output_is_asked_for() -> None:
+    own, (one, other) = rivals(retold(tied(), noise=0.05), *NAMES)
+    found = next_test(own, one, other)
+    assert found is not None
+    assert re.search(r"Log x, v \(new: v, 0\.0\d+ m/s of noise assumed\)\.$", found.about)
+    assert '[signals."v"]' in found.plan
 
 
 def test_without_any_noise_to_go_by_the_reason_is_told() -> None:
