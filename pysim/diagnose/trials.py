@@ -24,7 +24,8 @@ from pysim.diagnose.set_aside import set_aside
 from pysim.diagnose.start import start_at, start_off
 from pysim.diagnose.steps import run_again
 from pysim.diagnose.story import Story
-from pysim.diagnose.strengths import amounted, limits, setting
+from pysim.diagnose.strengths import limits
+from pysim.diagnose.unbent import best_of, unbent
 from pysim.identify.greybox.evaluation import Evaluation
 from pysim.simulate import Rodas
 from pysim.types import Effect
@@ -39,8 +40,6 @@ _FINAL, _NEAR = 3, 0.8
 _KEPT = 0.5
 # Points tried on probation, and from parameters far off.
 _STEPS, _FAR_STEPS = 6, 9
-# Strengths looked through beside the model's own parameters, times that found beside bent ones.
-_LOOKS = tuple(2.0**k for k in range(-3, 4))
 # Integration of ties.
 _FINE = Rodas(rtol=1e-7, atol=1e-7)
 
@@ -142,17 +141,7 @@ def _limited(one: Contender, nominal: Fitted) -> Evaluation | None:
     Parameters that have been bent to hide a limit say little of where it lies.
     """
     largest = largest_value(nominal, one)
-    return None if not largest else _looked(one, nominal, list(limits(one.effect, largest)))
-
-
-def _looked(one: Contender, nominal: Fitted, grid: Sequence[dict[str, float]]) -> Evaluation | None:
-    """A refit from the model's own parameters, with the strength of a grid that fits best beside them."""
-    settings = [setting(nominal.what, one.what, one.effect, nominal.point.x, values) for values in grid]
-    costs = [np.inf if r is None else float(r @ r) for r in one.ruler.residuals(one.what.model, settings)]
-    best, space = settings[int(np.argmin(costs))], one.what.space
-    x = space.to_search(np.clip(np.array([best[key] for key in space.keys]), space.lower, space.upper))
-    first = one.ruler.evaluation(one.what, x)
-    return refit_from(one.ruler, one.what, first, rounds=2, slow_first=False)[0] if first.good else None
+    return None if not largest else best_of(one, nominal, list(limits(one.effect, largest)))
 
 
 def _cost(end: Evaluation) -> float:
@@ -179,7 +168,7 @@ def _with_slopes(
         first = one.ruler.evaluation(one.what, at.point.x)
         end = refit_from(one.ruler, one.what, first, rounds=3 if tried.bent else 2) if first.good else None
         if leads and nominal is not None and not _does(one, end):
-            end = _lower(end, _beside(one, at, recounted(tried.ruler, one.ruler, nominal)))
+            end = _lower(end, unbent(one, at, recounted(tried.ruler, one.ruler, nominal)))
         if leads and end is not None and not _does(one, end):
             end = _lower(end, set_aside(one.ruler, one.what, end[0]))
         return end
@@ -194,14 +183,6 @@ def _does(one: Contender, end: tuple[Evaluation, Array] | None) -> bool:
 
 def _lower(*ends: tuple[Evaluation, Array] | None) -> tuple[Evaluation, Array] | None:
     return min((end for end in ends if end is not None), key=lambda end: end[0].cost, default=None)
-
-
-def _beside(one: Contender, at: Fitted, nominal: Fitted) -> tuple[Evaluation, Array] | None:
-    """A refit from the model's own parameters, with the effect about as strong as it was found beside others."""
-    found = one.what.space.values(at.point.x)
-    own = {p.name: found[f"{one.what.places[one.effect.name]}.{p.name}"] for p in one.effect.parameters}
-    first = _looked(one, nominal, [amounted(one.effect, own, amount) for amount in _LOOKS])
-    return None if first is None else refit_from(one.ruler, one.what, first, rounds=2, slow_first=False)
 
 
 def finer(story: Story, one: Fitted, other: Fitted) -> float:

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pysim.diagnose.contenders import Contender, suited
+from pysim.diagnose.corrections import as_noise
 from pysim.diagnose.decide import price
 from pysim.diagnose.fitted import Fitted
 from pysim.diagnose.refit import chord_refit, refit_from
@@ -23,6 +24,7 @@ from pysim.diagnose.start import start_at, start_off
 from pysim.diagnose.strengths import declared, setting, within
 from pysim.diagnose.subject import Subject, extended
 from pysim.diagnose.trials import start_amount
+from pysim.diagnose.unbent import unbent
 from pysim.identify import HALF_95
 from pysim.identify.greybox.evaluation import Evaluation
 from pysim.types import BadInput, Effect
@@ -98,10 +100,11 @@ def known(subject: Subject, ruler: Ruler, at: Fitted, say: Say) -> list[Known]:
         *screen(at, list(contenders.values())),
         *(f for one in contenders.values() for f in _stronger(at, one)),
     ]
-    found = _refitted(_Start(at, ruler), sorted(footprints, key=lambda f: -_fall(f)), contenders)
+    start = _Start(at, ruler)
+    found = _refitted(start, sorted(footprints, key=lambda f: -_fall(f)), contenders)
     if found:
         best = max(one.worth for one in found)
-        found = [_led(one) if k < _LEADERS and one.worth > _NEAR * best else one for k, one in enumerate(found)]
+        found = [_led(one, start) if k < _LEADERS and one.worth > _NEAR * best else one for k, one in enumerate(found)]
     return sorted(found, key=lambda one: -one.worth)
 
 
@@ -203,10 +206,12 @@ def _end(one: Contender, at: Fitted | None, found: Footprint, steps: int) -> Eva
     return None if first is None else chord_refit(one.ruler, one.what, first, steps=steps)
 
 
-def _led(one: Known) -> Known:
-    """With slopes of its own."""
+def _led(one: Known, start: _Start) -> Known:
+    """With slopes of its own; where it leaves more than noise does, from the model's own parameters too."""
     first = one.ruler.evaluation(one.at.what, one.at.point.x)
-    if not first.good:
-        return one
-    end = refit_from(one.ruler, one.at.what, first, rounds=2)[0]
+    ends = [refit_from(one.ruler, one.at.what, first, rounds=2)[0]] if first.good else []
+    if start.own is not None and not any(as_noise(one.ruler, end) for end in ends):
+        again = unbent(Contender(one.effect, one.at.what, one.ruler), one.at, start.own)
+        ends += [] if again is None else [again[0]]
+    end = min([one.at.point, *ends], key=lambda end: end.cost)
     return replace(one, at=Fitted(one.at.what, end), worth=one.worth + one.at.point.cost - end.cost)
