@@ -23,6 +23,8 @@ Array = NDArray[np.float64]
 _SHAPES, _PROMISING, _LEAST = (0.25, 4.0), 0.2, 5.0
 # A strength is tried again where the best amount is further from it than this.
 _FAR = 2.5
+# Strengths of an effect that cannot be switched off, over its usual size, beside that which is tried first.
+_OTHER = (0.2, 1.0, 2.0)
 # Directions of the base model's slopes smaller than this share of the largest count as none.
 _NOTHING = 1e-4
 
@@ -81,6 +83,15 @@ def screen(current: Fitted, tried: Sequence[Contender]) -> tuple[Footprint, ...]
             grid = list(_second(max(own, key=lambda f: f.gain)))
             own += _footprints(current, one, grid, span, left_over)
     return tuple(sorted((f for own in found.values() for f in own), key=lambda f: -f.gain))
+
+
+def elsewhere(current: Fitted, one: Contender) -> Iterator[Footprint]:
+    """An effect that cannot be switched off at other strengths: what a lag or a clock does is no multiple of it."""
+    sized = one.effect.strengths if one.effect.bypass else ()
+    grid = [{**declared(one.effect), **{p.name: within(p, s * p.nominal) for p in sized}} for s in _OTHER]
+    if sized:
+        span = column_space(current.point.jacobian)
+        yield from _footprints(current, one, grid, span, across(span, current.point.residual))
 
 
 def per_effect(footprints: Sequence[Footprint]) -> list[Footprint]:

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Mapping, Sequence
 from functools import partial
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from pysim.diagnose import decide
-from pysim.diagnose.corrections import Settled, is_off
+from pysim.diagnose.corrections import Settled, as_noise, is_off
 from pysim.diagnose.fitted import Fitted
 from pysim.diagnose.null import ALARM, leftover
 from pysim.diagnose.pairs import Pair, joint
@@ -24,7 +25,7 @@ from pysim.diagnose.start import start_at
 from pysim.diagnose.story import Story
 from pysim.diagnose.strengths import translated
 from pysim.diagnose.subject import Extended, extended
-from pysim.diagnose.trials import finer, refitted, start_amount
+from pysim.diagnose.trials import finer, part_of, refitted, refitted_elsewhere, start_amount
 from pysim.identify.greybox.evaluation import Evaluation
 from pysim.types import BadInput, Candidate
 
@@ -35,6 +36,11 @@ _PAIRS, _TOGETHER = 3, 1.5
 # Another round is in vain where noise alone leaves as much with more than this chance, and no footprint promises this
 # share of what chance does.
 _QUIET, _HOPE = 0.05, 0.5
+# What a round comes to where nothing is found: rows of the ranking, groups that tie, effects that are added, parts of
+# the journal that hold the refit with them and with each of those tied, what is said, whether another round is in vain.
+_NOTHING: Mapping[str, Any] = MappingProxyType(
+    {"rows": [], "ties": [], "chosen": [], "part": "", "rivals": {}, "said": "", "done": False}
+)
 
 
 def search(story: Story, nominal: Fitted, base: Settled, most: int) -> tuple[Settled, Settled]:
@@ -103,7 +109,7 @@ def _round(story: Story, current: Fitted, nominal: Fitted | None, number: int, m
     found = story.fitted(what, told["part"], lambda: None)
     for group in told["ties"]:  # the leader stands first
         rival = extended(story.subject, [*current.what.effects, named[group[1]]])
-        other = story.fitted(rival, f"{current.name} + {group[1]}", lambda: None)
+        other = story.fitted(rival, told["rivals"][group[1]], lambda: None)
         if found is not None and other is not None:
             story.tied = found, other
     return found
@@ -111,31 +117,46 @@ def _round(story: Story, current: Fitted, nominal: Fitted | None, number: int, m
 
 def _played(story: Story, current: Fitted, nominal: Fitted | None, number: int, most: int) -> dict[str, Any]:
     tried = screened(story, current)
-    answer: dict[str, Any] = {"rows": [], "ties": [], "chosen": [], "part": "", "said": "", "done": False}
     if not tried.promises:
-        return {**answer, "rows": as_data(rows(story, tried, {}, number))}
+        return {**_NOTHING, "rows": as_data(rows(story, tried, {}, number))}
     found = refitted(story, tried, nominal)
-    listed = rows(story, tried, found, number)
-    answer["rows"] = as_data(listed)
-    order = by_score(story, current, {name: one for name, one in found.items() if one.point.residual.size})
-    if order:
-        leader, ties = _first(story, current, found, order)
-        answer["ties"] = [ties] if len(ties) > 1 else []
-        trouble = _objection(story, current, found[leader])
-        if not trouble:
-            taken = next(row.explained for row in listed if row.effect == leader)
-            part = f"{current.name} + {leader}"
-            said = f"added {leader}: {100 * taken:.1f} % of the misfit explained"
-            done = _nothing_left(story, tried, found[leader])
-            return {**answer, "chosen": [leader], "part": part, "said": said, "done": done}
-        answer["said"] = trouble
-    if len(current.what.effects) + 2 <= most:
+    answer = _alone(story, tried, found, number)
+    if not answer["chosen"] and not as_noise(tried.ruler, tried.current.point):
+        better = refitted_elsewhere(story, tried, found)
+        again = _alone(story, tried, {**found, **better}, number, better) if better else answer
+        answer = again if again["chosen"] else answer
+    if not answer["chosen"] and len(current.what.effects) + 2 <= most:
         names = _together(story, tried, found)
         if names:
             part = f"{current.name} + {' + '.join(names)}"
             said = f"added {' and '.join(names)}, which work together"
             return {**answer, "ties": [], "chosen": names, "part": part, "said": said}
     return answer
+
+
+def _alone(
+    story: Story, tried: Tried, found: dict[str, Fitted], number: int, again: Collection[str] = ()
+) -> dict[str, Any]:
+    """The best single effect, if nothing speaks against it.
+
+    Args:
+        again: effects of those found that were refitted from other strengths.
+    """
+    listed = rows(story, tried, found, number)
+    answer = {**_NOTHING, "rows": as_data(listed)}
+    order = by_score(story, tried.current, {name: one for name, one in found.items() if one.point.residual.size})
+    if not order:
+        return answer
+    leader, ties = _first(story, tried.current, found, order)
+    answer["ties"] = [ties] if len(ties) > 1 else []
+    trouble = _objection(story, tried.current, found[leader])
+    if trouble:
+        return {**answer, "said": trouble}
+    taken = next(row.explained for row in listed if row.effect == leader)
+    said = f"added {leader}: {100 * taken:.1f} % of the misfit explained"
+    done = _nothing_left(story, tried, found[leader])
+    parts = {name: part_of(tried, name, again=name in again) for name in ties}
+    return {**answer, "chosen": [leader], "part": parts[leader], "rivals": parts, "said": said, "done": done}
 
 
 def _together(story: Story, tried: Tried, found: dict[str, Fitted]) -> list[str]:

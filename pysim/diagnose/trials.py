@@ -19,7 +19,7 @@ from pysim.diagnose.nuisance import Suspect
 from pysim.diagnose.refit import chord_refit, refit_from
 from pysim.diagnose.rounds import Tried
 from pysim.diagnose.scores import by_score, score, share
-from pysim.diagnose.screen import Footprint, largest_value
+from pysim.diagnose.screen import Footprint, elsewhere, largest_value
 from pysim.diagnose.set_aside import set_aside
 from pysim.diagnose.start import start_at, start_off
 from pysim.diagnose.steps import run_again
@@ -80,6 +80,46 @@ def refitted(
             )
     story.stage("refit leaders")
     return found
+
+
+def refitted_elsewhere(story: Story, tried: Tried, found: dict[str, Fitted]) -> dict[str, Fitted]:
+    """Effects that cannot be switched off, refitted from other strengths, where they are worth more than was found.
+
+    Beside parameters that were bent to hide a lag or a clock, one strength tells little of what another promises.
+
+    Args:
+        found: what the other candidates have come to, and these.
+    """
+    story.now("refitting effects that cannot be switched off from other strengths")
+    better: dict[str, Fitted] = {}
+    for name, one in tried.contenders.items():
+        if not one.effect.bypass:
+            continue
+        part = f"{part_of(tried, name, again=True)} on probation"
+        kept = story.journal.once(part, lambda one=one: _lowest(tried, one))  # type: ignore[misc]
+        if kept is None:
+            continue
+        x = np.array(kept["x"])
+        at = Fitted(one.what, Evaluation(x, float(kept["cost"]), np.zeros(0), np.zeros((0, x.size))))
+        end = _with_slopes(story, tried, one, at, None, leads=True, again=True)
+        before = score(story, tried.current, found[name]) if name in found else 0.0
+        if end is not None and score(story, tried.current, end) > before:
+            better[name] = end
+            story.say(f"refitted with {name}: sum of squares {tried.current.point.cost:.6g} -> {end.point.cost:.6g}")
+    story.stage("refit leaders")
+    return better
+
+
+def part_of(tried: Tried, name: str, *, again: bool = False) -> str:
+    """What the journal calls the refit with an effect more; that from other strengths where `again`."""
+    return f"{tried.current.name} + {name}{' from other strengths' if again else ''}"
+
+
+def _lowest(tried: Tried, one: Contender) -> dict[str, Any] | None:
+    current, _ = tried.beside(one)
+    ends = [_end(one, current, footprint, _STEPS) for footprint in elsewhere(current, one)]
+    best = min(_better(ends, current.point.cost), key=_cost, default=None)
+    return None if best is None else {"x": best.x.tolist(), "cost": best.cost}
 
 
 def promising(tried: Tried) -> list[Footprint]:
@@ -160,7 +200,7 @@ def start_amount(effect: Effect, amount: float) -> float:
 
 
 def _with_slopes(
-    story: Story, tried: Tried, one: Contender, at: Fitted, nominal: Fitted | None, *, leads: bool
+    story: Story, tried: Tried, one: Contender, at: Fitted, nominal: Fitted | None, *, leads: bool, again: bool = False
 ) -> Fitted | None:
     """With slopes of its own; where the leader leaves more than noise does, from other starts too."""
 
@@ -173,7 +213,7 @@ def _with_slopes(
             end = _lower(end, set_aside(one.ruler, one.what, end[0]))
         return end
 
-    return story.fitted(one.what, f"{tried.current.name} + {one.effect.name}", find, one.ruler)
+    return story.fitted(one.what, part_of(tried, one.effect.name, again=again), find, one.ruler)
 
 
 def _does(one: Contender, end: tuple[Evaluation, Array] | None) -> bool:

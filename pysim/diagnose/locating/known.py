@@ -19,9 +19,8 @@ from pysim.diagnose.decide import price
 from pysim.diagnose.fitted import Fitted
 from pysim.diagnose.refit import chord_refit, refit_from
 from pysim.diagnose.residuals import Ruler
-from pysim.diagnose.screen import Footprint, across, column_space, footprint, per_effect, screen
+from pysim.diagnose.screen import Footprint, elsewhere, per_effect, screen
 from pysim.diagnose.start import start_at, start_off
-from pysim.diagnose.strengths import declared, setting, within
 from pysim.diagnose.subject import Subject, extended
 from pysim.diagnose.trials import start_amount
 from pysim.diagnose.unbent import unbent
@@ -36,8 +35,6 @@ Say = Callable[[str], None]
 _REFITTED, _PROMISE, _ALWAYS = 7, 0.03, 3
 # Of these, effects that get slopes of their own, and how near the best they have to be, as a share of its fall.
 _LEADERS, _NEAR = 3, 0.8
-# Strengths of an effect that cannot be switched off, over its usual size, beside that of the screening.
-_OTHER = (0.2, 1.0, 2.0)
 # Points tried with one set of slopes, and from parameters far off.
 _STEPS, _FAR_STEPS = 6, 9
 # Where a refit reaches less than this share of what was promised, it starts from the model's own parameters too.
@@ -98,7 +95,7 @@ def known(subject: Subject, ruler: Ruler, at: Fitted, say: Say) -> list[Known]:
     contenders = _contenders(subject, ruler, at, say)
     footprints = [
         *screen(at, list(contenders.values())),
-        *(f for one in contenders.values() for f in _stronger(at, one)),
+        *(footprint for one in contenders.values() for footprint in elsewhere(at, one)),
     ]
     start = _Start(at, ruler)
     found = _refitted(start, sorted(footprints, key=lambda f: -_fall(f)), contenders)
@@ -121,21 +118,6 @@ def _contenders(subject: Subject, ruler: Ruler, at: Fitted, say: Say) -> dict[st
             continue
         found[effect.name] = Contender(effect, what, suited(ruler, at, what, [effect]))
     return found
-
-
-def _stronger(at: Fitted, one: Contender) -> Iterator[Footprint]:
-    """An effect that cannot be switched off at other strengths: what a lag or a clock does is no multiple of it."""
-    strengths = one.effect.strengths if one.effect.bypass else ()
-    grid = [{**declared(one.effect), **{p.name: within(p, s * p.nominal) for p in strengths}} for s in _OTHER]
-    if not strengths:
-        return
-    span, before = column_space(at.point.jacobian), one.ruler.whole(at.point)[:, 0]
-    left_over = across(span, at.point.residual)
-    settings = [setting(at.what, one.what, one.effect, at.point.x, values) for values in grid]
-    for values, residual in zip(grid, one.ruler.bare.residuals(one.what.model, settings), strict=True):
-        if residual is not None:
-            change = one.ruler.span.across((residual - before)[:, None])[:, 0]
-            yield from footprint(one.effect, values, change, span, left_over)
 
 
 def _fall(found: Footprint) -> float:
