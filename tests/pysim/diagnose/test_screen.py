@@ -6,7 +6,7 @@ import pytest
 from pysim.diagnose.contenders import Contender
 from pysim.diagnose.fitted import Fitted
 from pysim.diagnose.residuals import rulers
-from pysim.diagnose.screen import across, column_space, per_effect, screen
+from pysim.diagnose.screen import across, column_space, elsewhere, per_effect, screen
 from pysim.diagnose.subject import extended
 from tests.pysim.diagnose.toy import measured, toy_subject
 
@@ -67,3 +67,19 @@ def test_a_strength_of_one_sign_gains_nothing_against_it() -> None:
     found = screen(Fitted(base, blind), [Contender(effect, extended(subject, [effect]), ruler)])
     assert found
     assert all(f.gain == 0 and f.amount == 0 for f in found)
+
+
+def test_what_cannot_be_switched_off_is_tried_from_a_fifth_to_twice_its_usual_size() -> None:
+    subject = toy_subject(measured(7, "toy.relaxing", T_r=0.4), ("toy.relaxing", "toy.friction"))
+    ruler, _ = rulers(subject.targets)
+    base = extended(subject, ())
+    current = Fitted(base, ruler.evaluation(base, base.space.to_search(np.array([1.05, 0.75, 21.0]))))
+    relaxing, rubbing = (Contender(effect, extended(subject, [effect]), ruler) for effect in subject.catalogue)
+    found = list(elsewhere(current, relaxing))
+    assert [f.values["T_r"] for f in found] == pytest.approx([0.04, 0.2, 0.4])
+    # the last is the truth: as it was tried it takes all but noise, and of the others no multiple does
+    left = current.point.cost - np.sum((column_space(current.point.jacobian).T @ current.point.residual) ** 2)
+    assert found[2].amount == pytest.approx(1.0, abs=0.005)
+    assert left - found[2].gain == pytest.approx(current.point.residual.size, rel=0.2)
+    assert left - found[0].gain > 10 * current.point.residual.size
+    assert not list(elsewhere(current, rubbing))

@@ -52,6 +52,15 @@ package Toy
     f = F_b;
     annotation(__HydraulicTestBench(effect="toy.bias", slot="force"));
   end Bias;
+  model Relaxing "A spring in series with a damper"
+    extends PartialForce;
+    parameter Real T_r(unit="s", min=0, max=5, nominal=0.2) = 0 "0 = off";
+    Real z(unit="m", start=0, fixed=true);
+  equation
+    T_r*der(z) = x - z;
+    f = -10*(x - z);
+    annotation(__HydraulicTestBench(effect="toy.relaxing", slot="force", bypass=true));
+  end Relaxing;
   model Stop "End stops"
     extends PartialForce;
     parameter Real inverse_x_m(unit="1/m", min=0, max=50, nominal=5) = 0 "0 = off"
