@@ -45,42 +45,45 @@ def loop_response(
 ) -> LoopResponse:
     """Plant, exactly discretised, under the difference equation of the PI controller.
 
+    A plant that answers at once, in part or whole, is looked at just before its input changes, as a card reads before
+    it writes.
+
     Args:
         dt: s between the controller's steps.
         stop: s; a loop that has gone off to beyond 1e100 ends there.
         reference, disturbance: steps at time 0, the latter added to the command, and so ahead of the dead time.
         parts: of dt, at whose ends the plant is looked at, and to which its dead time is rounded.
     Raises:
-        BadInput: times or parts that are not positive, or a plant that answers at once.
+        BadInput: times or parts that are not positive.
     Source: thesis Eq. 5.33.
     """
     if not 0 < dt < stop < np.inf:
         raise BadInput(f"loop response: dt = {dt:g} s and stop = {stop:g} s; give 0 < dt < stop")
     if parts < 1:
         raise BadInput(f"loop response: {parts} parts of a step of {dt:g} s; give 1 or more")
-    if len(plant.numerator) == len(plant.denominator):
-        raise BadInput(f"loop response: the {plant.name} answers at once; give it a lag")
     fine = dt / parts
-    A, B, C = _sampled(plant, fine)
+    A, B, C, D = _sampled(plant, fine)
     controller = PI(K_p, T_i, dt)
     # the error before the step is zero, so that the step itself passes the gain as well
     controller.step(0.0, (0.0, 0.0, 0.0, 1.0))
     count, lag = round(stop / dt) * parts + 1, round(plant.delay / fine)
     x, output, command, u = np.zeros(A.shape[0]), np.zeros(count), np.zeros(count + lag), 0.0
+    driven = 0.0
     for k in range(count):
-        output[k] = C @ x
+        output[k] = C @ x + D * driven
         if not abs(output[k]) < _OFF:
             count = k
             break
         if k % parts == 0:
             (u,) = controller.step(k * fine, (reference, output[k], 0.0, 1.0))
         command[k + lag] = u
-        x = A @ x + B * (command[k] + disturbance * (k >= lag))
+        driven = command[k] + disturbance * (k >= lag)
+        x = A @ x + B * driven
     return LoopResponse(np.arange(count, dtype=np.float64) * fine, output[:count], command[lag : lag + count])
 
 
-def _sampled(plant: Plant, dt: float) -> tuple[Array, Array, Array]:
-    """x(k+1) = A x(k) + B u(k), y = C x of the rational part, its input held; in a time scaled to its poles."""
+def _sampled(plant: Plant, dt: float) -> tuple[Array, Array, Array, float]:
+    """x(k+1) = A x(k) + B u(k), y = C x + D u of the rational part, its input held; in a time scaled to its poles."""
     order = len(plant.denominator) - 1
     scale = max(float(np.abs(plant.poles()).max(initial=0.0)), 1e-12 / dt)
     powers = scale ** np.arange(order + 1)
@@ -89,8 +92,9 @@ def _sampled(plant: Plant, dt: float) -> tuple[Array, Array, Array]:
     padded[order + 1 - len(plant.numerator) :] = plant.numerator
     numerator = padded / plant.denominator[0] / powers
     system = np.zeros((order + 1, order + 1))
-    system[0, :order] = -denominator[1:]
-    system[1:order, : order - 1] += np.eye(order - 1)
+    system[:order, :order] = np.eye(order, k=-1)
+    system[:1, :order] = -denominator[1:]
     system[0, order] = 1.0
     held = expm(system * (scale * dt))
-    return held[:order, :order], held[:order, order], numerator[1:]
+    C, D = numerator[1:] - numerator[0] * denominator[1:], float(numerator[0])
+    return held[:order, :order], held[:order, order], C, D

@@ -64,6 +64,24 @@ def test_dead_time_is_rounded_to_the_parts() -> None:
     assert found.output[:3] == pytest.approx([0.0, 0.0, 0.005])
 
 
+def test_a_plant_that_answers_at_once_is_read_before_the_command_is_written() -> None:
+    """A gain under a gain alone: each step answers to the error that the last one left."""
+    g, K_p = 2.0, 0.3
+    found = loop_response(Plant((g,), (1.0,)), K_p, 1e9, dt=0.1, stop=2.0)
+    k = np.arange(found.time.size)
+    assert found.output == pytest.approx(g * K_p / (1 + g * K_p) * (1 - (-g * K_p) ** k), rel=1e-6)
+
+
+def test_what_answers_at_once_in_part_in_closed_form() -> None:
+    """A disturbance passes (2 s + 1)/(0.5 s + 1) hardly controlled: a jump to 4, and down to 1; dead time ahead."""
+    lead = Plant((2.0, 1.0), (0.5, 1.0))
+    found = loop_response(lead, 1e-12, 1.0, dt=0.01, stop=2.0, reference=0.0, disturbance=1.0)
+    assert found.output[0] == 0
+    assert found.output[1:] == pytest.approx(1 + 3 * np.exp(-found.time[1:] / 0.5))
+    late = loop_response(lead.delayed(0.03), 1e-12, 1.0, dt=0.01, stop=2.0, reference=0.0, disturbance=1.0)
+    assert late.output[3:] == pytest.approx(found.output[:-3])
+
+
 def test_a_loop_that_goes_off_ends_as_numbers() -> None:
     found = loop_response(INTEGRATOR, 50.0, 1.0, dt=0.1, stop=1e3)
     assert np.isfinite(found.output).all()
@@ -76,5 +94,3 @@ def test_what_cannot_be_stepped_is_refused() -> None:
         loop_response(INTEGRATOR, 1.0, 1.0, dt=1.0, stop=0.5)
     with pytest.raises(BadInput, match="give 1 or more"):
         loop_response(INTEGRATOR, 1.0, 1.0, dt=0.1, stop=0.5, parts=0)
-    with pytest.raises(BadInput, match="give it a lag"):
-        loop_response(Plant((1.0, 1.0), (1.0, 2.0)), 1.0, 1.0, dt=0.1, stop=1.0)
