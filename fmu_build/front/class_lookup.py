@@ -48,6 +48,18 @@ class ClassLookup:
             self._resolved[key] = found
         return found
 
+    def elements(self, name: str, owner: FoundClass) -> Iterator[tuple[FoundClass, Declaration]]:
+        """The declarations of `name` in `owner` and then in its bases, each with the class that it stands in."""
+        seen = set()
+        waiting = [owner]
+        while waiting:
+            here = waiting.pop(0)
+            if here.full_name not in seen:
+                seen.add(here.full_name)
+                yield from ((here, element) for element in here.text.declarations if name in element.declared)
+                bases = (self.resolve(base.class_name, here) for base in here.of_kind(Kind.EXTENDS))
+                waiting += [base for base in bases if base is not None]
+
     def _follow(self, name: str, scope: FoundClass) -> FoundClass | None:
         first, *rest = split_name(name.removeprefix("."))
         found = self.full(first) if name.startswith(".") else self._first(first, scope)

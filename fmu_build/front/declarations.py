@@ -9,9 +9,7 @@ from enum import Enum
 from functools import lru_cache
 from pathlib import Path
 
-from fmu_build.front.tokens import tokenise
-
-Token = tuple[str, int]  # text and offset
+from fmu_build.front.tokens import Token, tokenise
 
 CLASS_KINDS = frozenset(
     ("model", "block", "class", "package", "connector", "record", "function", "type", "operator", "optimization")
@@ -52,7 +50,7 @@ class Declaration:
 class ClassText:
     """A class as written; `is_extension` for `model extends M ... end M`.
 
-    `words` are its tokens from behind its name to the end of the class, without `end M`.
+    `tokens` go from behind its name to the end of the class, without `end M`.
     """
 
     name: str
@@ -60,9 +58,19 @@ class ClassText:
     prefixes: frozenset[str]
     offset: int
     is_extension: bool = False
-    words: tuple[str, ...] = ()
+    tokens: tuple[Token, ...] = ()
     declarations: list[Declaration] = field(default_factory=list)
     classes: dict[str, "ClassText"] = field(default_factory=dict)
+
+    @property
+    def words(self) -> tuple[str, ...]:
+        return tuple(word for word, _ in self.tokens)
+
+    @property
+    def own_tokens(self) -> tuple[Token, ...]:
+        """Without those of the classes declared inside."""
+        inner = [(one.tokens[0][1], one.tokens[-1][1]) for one in self.classes.values() if one.tokens]
+        return tuple(t for t in self.tokens if not any(begin <= t[1] <= end for begin, end in inner))
 
 
 @dataclass(frozen=True)
@@ -192,7 +200,7 @@ class _Reader:
             self._at = behind_brackets(self._tokens, self._at)
             end = self.body(new)
             self._statement()
-        new.words = tuple(word for word, _ in self._tokens[begin:end])
+        new.tokens = self._tokens[begin:end]
         owner.classes.setdefault(new.name, new)
         owner.declarations.append(Declaration(Kind.CLASS, prefixes, new.name, (new.name,), (), (), offset))
 

@@ -12,8 +12,9 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 from fmu_build.front.class_lookup import ClassLookup, FoundClass, split_name
-from fmu_build.front.declarations import PREFIXES, Declaration, Kind, Token, is_name
-from fmu_build.front.redeclaration import redeclarations
+from fmu_build.front.declarations import PREFIXES, Declaration, Kind, is_name
+from fmu_build.front.tokens import Token
+from fmu_build.front.used_classes import redeclarations
 
 _Constant = tuple[str, str]  # the package that declares it, and its name
 

@@ -9,30 +9,9 @@ rumoca's process.
 Of `part(attribute = a) = value` nothing is left in an extends clause, nor inside another modification.
 """
 
-from collections.abc import Iterator
-from dataclasses import dataclass
-
 from fmu_build.front.class_lookup import ClassLookup, FoundClass
-from fmu_build.front.declarations import (
-    CLASS_KINDS,
-    PREFIXES,
-    Declaration,
-    Kind,
-    Token,
-    behind_brackets,
-    dotted_name,
-)
-
-
-@dataclass(frozen=True)
-class Redeclaration:
-    """`redeclare class_name part` or `redeclare model part = class_name` in a modification."""
-
-    part: str
-    class_name: str
-    kind: str  # of the class, as "package"; empty for a part
-    is_nested: bool  # inside the modification of a part
-    offset: int
+from fmu_build.front.declarations import Declaration, Kind
+from fmu_build.front.used_classes import Redeclaration, is_use, redeclarations, used_classes
 
 
 def refuse_lost_redeclarations(source: FoundClass, classes: ClassLookup) -> None:
@@ -41,31 +20,14 @@ def refuse_lost_redeclarations(source: FoundClass, classes: ClassLookup) -> None
     Raises:
         BuildError: a redeclaration would be lost; says what to write instead.
     """
-    seen = {source.full_name}
-    waiting = [source]
-    while waiting:
-        here = waiting.pop()
-        for used in _checked(here, classes):
-            if used.full_name not in seen:
-                seen.add(used.full_name)
-                waiting.append(used)
-
-
-def _checked(here: FoundClass, classes: ClassLookup) -> Iterator[FoundClass]:
-    """Check each declaration of a class; yields the classes it uses."""
-    for declaration in here.text.declarations:
-        _check_element(declaration, here)
-        if declaration.kind not in (Kind.EXTENDS, Kind.COMPONENT) and "redeclare" not in declaration.prefixes:
-            continue
-        used = classes.resolve(declaration.class_name, here)
-        if used is not None:
-            yield used
-        _check_values(declaration, here)
-        for found in redeclarations(declaration.modification):
-            _check(found, declaration, used, here, classes)
-            replacement = classes.resolve(found.class_name, here) if found.class_name else None
-            if replacement is not None:
-                yield replacement
+    for here in used_classes(source, classes):
+        for declaration in here.text.declarations:
+            _check_element(declaration, here)
+            if is_use(declaration):
+                _check_values(declaration, here)
+                used = classes.resolve(declaration.class_name, here)
+                for found in redeclarations(declaration.modification):
+                    _check(found, declaration, used, here, classes)
 
 
 def _check_element(declaration: Declaration, here: FoundClass) -> None:
@@ -118,7 +80,8 @@ def _check(
             "give the class its full name",
             found.offset,
         )
-    owner = _owner(found.part, used, classes, set())
+    declared = classes.elements(found.part, used)
+    owner = next((here for here, element in declared if "replaceable" in element.prefixes), None)
     if owner is None:
         raise here.error(f"{used.full_name} has no replaceable part {found.part} to redeclare", found.offset)
     if owner.full_name != used.full_name and declaration.kind is Kind.EXTENDS and not found.kind:
@@ -127,38 +90,3 @@ def _check(
             f"{owner.full_name} instead, with the modifications that {used.full_name} makes",
             found.offset,
         )
-
-
-def _owner(part: str, used: FoundClass, classes: ClassLookup, seen: set[str]) -> FoundClass | None:
-    """The class that declares `part` replaceable: `used` or one of its bases."""
-    if used.full_name in seen:
-        return None
-    seen.add(used.full_name)
-    if any(part in element.declared and "replaceable" in element.prefixes for element in used.text.declarations):
-        return used
-    for element in used.of_kind(Kind.EXTENDS):
-        base = classes.resolve(element.class_name, used)
-        owner = _owner(part, base, classes, seen) if base is not None else None
-        if owner is not None:
-            return owner
-    return None
-
-
-def redeclarations(tokens: tuple[Token, ...]) -> Iterator[Redeclaration]:
-    """Those in a modification, in the modifications of its parts too."""
-    depth = 0
-    for at, (token, offset) in enumerate(tokens):
-        depth += (token in "([{") - (token in ")]}")
-        if token == "redeclare":
-            yield _redeclaration(tokens, at + 1, depth > 1, offset)
-
-
-def _redeclaration(tokens: tuple[Token, ...], at: int, is_nested: bool, offset: int) -> Redeclaration:
-    while at < len(tokens) and tokens[at][0] in PREFIXES:
-        at += 1
-    if at < len(tokens) and tokens[at][0] in CLASS_KINDS:
-        part, behind = dotted_name(tokens, at + 1)
-        return Redeclaration(part, dotted_name(tokens, behind + 1)[0], tokens[at][0], is_nested, offset)
-    class_name, behind = dotted_name(tokens, at)
-    part = dotted_name(tokens, behind_brackets(tokens, behind))[0]
-    return Redeclaration(part, class_name, "", is_nested, offset)

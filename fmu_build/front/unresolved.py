@@ -6,10 +6,9 @@ from pathlib import Path
 
 from fmu_build.errors import BuildError, WrongCall
 from fmu_build.front.class_lookup import ClassLookup, FoundClass, split_name
-from fmu_build.front.declarations import Kind, Token, is_name
+from fmu_build.front.declarations import Kind, is_name
 from fmu_build.front.package_constants import names_used
 from fmu_build.front.source import ClassSource
-from fmu_build.front.tokens import tokenise
 
 _QUOTED = re.compile(r"unresolved [\w ]+: '(.+)'$|base class not found: `(.+)` does not exist$")
 _STANDARD = "Modelica"
@@ -61,20 +60,10 @@ def _used(source: ClassSource, classes: ClassLookup) -> Iterator[FoundClass]:
 def _place(name: str, used: Sequence[FoundClass]) -> tuple[Path, int] | None:
     wanted = [token for part in split_name(name) for token in (part, ".")][:-1]
     for here in used:
-        tokens = _tokens(here)
-        words = [word for word, _ in tokens]
+        words = list(here.text.words)
         for at in range(len(words) - len(wanted) + 1):
             is_part = at > 1 and words[at - 1] == "." and (is_name(words[at - 2]) or words[at - 2] in "])")
             is_modified = at > 0 and words[at - 1] in "(," and words[at + len(wanted) : at + len(wanted) + 1] == ["="]
             if words[at : at + len(wanted)] == wanted and not is_part and not is_modified:
-                return here.source.file, here.source.line(tokens[at][1])
+                return here.source.file, here.source.line(here.text.tokens[at][1])
     return None
-
-
-def _tokens(here: FoundClass) -> tuple[Token, ...]:
-    """Those of `here.text.words`, with their offsets."""
-    tokens = tokenise(here.source.text)
-    begin = next(at for at, (_, offset) in enumerate(tokens) if offset >= here.text.offset)
-    while tokens[begin][0] != here.text.name:
-        begin += 1
-    return tokens[begin + 1 : begin + 1 + len(here.text.words)]

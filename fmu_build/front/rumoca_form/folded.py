@@ -5,16 +5,14 @@ so nowhere. Setting the parameter later would have no effect, so such a model is
 condition in the compiled model tells: nothing.
 """
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
 from fmu_build.errors import BuildError
 from fmu_build.front.rumoca_form.places import Places
+from fmu_build.front.statements import statements
 from fmu_build.front.tokens import tokenise
-
-Token = tuple[str, int]
-OPENERS = ("when", "if", "for", "while")
 
 
 @dataclass(frozen=True)
@@ -63,38 +61,9 @@ def _starts(items: list[Mapping[str, Any]]) -> dict[int, list[int]]:
 def conditions_in_clauses(text: str) -> Iterator[Condition]:
     """Conditions of `if` and `elseif` statements (not expressions) inside when-clauses."""
     words = tokenise(text.encode().decode("latin-1"))  # one character per byte, as rumoca counts
-    opened: list[tuple[str, int]] = []  # statements around the present token
-    found: list[tuple[int, int]] = []
-    expression_ifs = 0  # whose `then` is still to come
-    at_start = False
-    for k, (word, offset) in enumerate(words):
-        is_statement = at_start
-        at_start = word in (";", "loop", "equation", "algorithm")
-        if word in OPENERS and k > 0 and words[k - 1][0] == "end":
-            kind, begin = opened.pop() if opened else ("", 0)
-            if kind == "when":
-                yield from (Condition((begin, offset), *condition) for condition in found)
-                found = []
-        elif word in OPENERS and is_statement:
-            opened.append((word, offset))
-        elif word in ("if", "elseif") and not (word == "elseif" and is_statement):
-            expression_ifs += 1
-        elif word == "then" and expression_ifs:
-            expression_ifs -= 1
-        elif word in ("then", "else"):
-            at_start = word == "then" or is_statement
-        if word in ("if", "elseif") and is_statement and any(kind == "when" for kind, _ in opened):
-            found.append((offset + len(word), _end_of_condition(words, k)))
-
-
-def _end_of_condition(words: Sequence[Token], k: int) -> int:
-    """Offset of the `then` that closes the condition beginning after token k."""
-    inner = 0
-    for word, offset in words[k + 1 :]:
-        if word == "if":
-            inner += 1
-        if word == "then":
-            if inner == 0:
-                return offset
-            inner -= 1
-    return words[-1][1]
+    for outer in statements(words):
+        for clause in (outer, *outer.inside()):
+            for inner in clause.inside() if clause.word == "when" else ():
+                for condition in inner.conditions if inner.word == "if" else ():
+                    last, offset = condition[-1]
+                    yield Condition((clause.start, clause.end), condition[0][1], offset + len(last))
