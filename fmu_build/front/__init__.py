@@ -7,6 +7,7 @@ from pathlib import Path
 from fmu_build.errors import BuildError, WrongCall
 from fmu_build.front.class_lookup import ClassLookup, FoundClass
 from fmu_build.front.flat_model import FlatModel, Role, Scalar
+from fmu_build.front.lost_actions import refuse_lost_actions
 from fmu_build.front.package_constants import refuse_mixed_constants
 from fmu_build.front.redeclaration import refuse_lost_redeclarations
 from fmu_build.front.session import compile_class
@@ -48,6 +49,8 @@ def load(class_name: str, libraries: Sequence[Path], overrides: Mapping[str, flo
         description=source.description,
     )
     _check_overrides(model, overrides)
+    if written is not None:
+        refuse_lost_actions(written, classes, model)
     _check_no_texts(model)
     return model
 
