@@ -120,6 +120,32 @@ def behind_brackets(tokens: tuple[Token, ...], at: int) -> int:
     return len(tokens)
 
 
+def behind_indices(tokens: tuple[Token, ...], at: int) -> int:
+    return behind_brackets(tokens, at) if at < len(tokens) and tokens[at][0] == "[" else at
+
+
+def bracket(tokens: tuple[Token, ...], at: int) -> tuple[Token, ...]:
+    """The modification in round brackets that begins at a place, with them; empty where there is none."""
+    is_there = at < len(tokens) and tokens[at][0] == "("
+    return tokens[at : behind_brackets(tokens, at)] if is_there else ()
+
+
+def modifiers(modification: tuple[Token, ...]) -> dict[str, str]:
+    """`(each a = 1, final b(min = 0) = 2)` -> {a: "a = 1", b: "b ( min = 0 ) = 2"}."""
+    found: dict[str, str] = {}
+    depth, words = 0, list[str]()
+    for token, _ in modification:
+        depth -= token in ")]}"
+        if depth == 0 or (depth == 1 and token == ","):
+            if words:
+                found[words[0]] = " ".join(words)
+            words = []
+        elif words or token not in PREFIXES:
+            words.append(token)
+        depth += token in "([{"
+    return found
+
+
 class _Reader:
     def __init__(self, tokens: tuple[Token, ...]) -> None:
         self._tokens = tokens

@@ -201,6 +201,8 @@ def _in_plain_words(message: str) -> str:
         return (
             "der() of an input, or of another variable that is no state, is not supported; write its equation instead"
         )
+    if "violates constrainedby" in message:
+        return f"{message}; name a class that both extend behind constrainedby"
     return message
 
 

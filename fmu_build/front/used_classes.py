@@ -9,7 +9,8 @@ from fmu_build.front.declarations import (
     PREFIXES,
     Declaration,
     Kind,
-    behind_brackets,
+    behind_indices,
+    bracket,
     dotted_name,
 )
 from fmu_build.front.tokens import Token
@@ -21,6 +22,7 @@ class Redeclaration:
 
     part: str
     class_name: str
+    modification: tuple[Token, ...]  # of the new class or part, with its brackets
     kind: str  # of the class, as "package"; empty for a part
     is_nested: bool  # inside the modification of a part
     offset: int
@@ -66,7 +68,9 @@ def _redeclaration(tokens: tuple[Token, ...], at: int, is_nested: bool, offset: 
         at += 1
     if at < len(tokens) and tokens[at][0] in CLASS_KINDS:
         part, behind = dotted_name(tokens, at + 1)
-        return Redeclaration(part, dotted_name(tokens, behind + 1)[0], tokens[at][0], is_nested, offset)
+        class_name, behind = dotted_name(tokens, behind + 1)
+        return Redeclaration(part, class_name, bracket(tokens, behind), tokens[at][0], is_nested, offset)
     class_name, behind = dotted_name(tokens, at)
-    part = dotted_name(tokens, behind_brackets(tokens, behind))[0]
-    return Redeclaration(part, class_name, "", is_nested, offset)
+    part, behind = dotted_name(tokens, behind_indices(tokens, behind))
+    modification = bracket(tokens, behind_indices(tokens, behind))
+    return Redeclaration(part, class_name, modification, "", is_nested, offset)

@@ -145,3 +145,64 @@ def test_a_value_behind_attributes_is_refused_where_it_would_be_lost(model: str,
 )
 def test_a_value_behind_attributes_stands_where_it_is_kept(model: str, tmp_path: Path) -> None:
     assert list(stiffnesses(model, tmp_path).values()) == [3]
+
+
+SLOTS = """
+  model K extends Slot; parameter Real k = 1; parameter Real o = 2; equation f = k*o*x; end K;
+  partial model Bare extends Slot; parameter Real k = 1; end Bare;
+  model Bent extends Bare; equation f = -k*x; end Bent;
+  model ByPart replaceable Bent s constrainedby Bare(k = 3); equation s.x = 1; end ByPart;
+  model Open replaceable Bare s constrainedby Bare(k = 3); equation s.x = 1; end Open;
+  model Twice replaceable Bent s(final k = 3) constrainedby Bare(k = 3); equation s.x = 1; end Twice;
+  model Alone replaceable Bent s(k = 3); equation s.x = 1; end Alone;
+  model Dropped replaceable Bent s(k = 3) constrainedby Bare; equation s.x = 1; end Dropped;
+  model ByClass replaceable model T = Bent constrainedby Bare(k = 3); T s; equation s.x = 1; end ByClass;
+  model Short replaceable model T = Bent(k = 3); T s; equation s.x = 1; end Short;
+  model Long replaceable model T extends Bent(k = 3); end T; T s; equation s.x = 1; end Long;
+  model Free replaceable model T = Bent(k = 3) constrainedby Slot; T s; equation s.x = 1; end Free;
+""".replace("\n", " ")
+
+
+@pytest.mark.parametrize(
+    ("model", "message"),
+    [
+        ("model M Heavy a(redeclare model Part = Spring(k = 6)); end M;", "lose the modification of Spring here"),
+        ("model M extends Cart(redeclare model Part = Spring(k = 6)); end M;", "redeclare model Part = Spring"),
+        ("model M ByPart a; end M;", "lose k = 3 behind constrainedby; write it before"),
+        ("model M ByClass a; end M;", "lose k = 3 behind constrainedby; write it at each part of class T"),
+        ("model M Dropped a(redeclare K s(o = 4)); end M;", "keep k of the part s"),
+        ("model M extends Dropped(redeclare K s(o = 4)); end M;", "keep k of the part s"),
+        ("model M Short a(redeclare model T = Bent); end M;", "lose k of the class T"),
+    ],
+)
+def test_a_modification_that_would_be_lost_or_kept_is_refused(model: str, message: str, tmp_path: Path) -> None:
+    with pytest.raises(BuildError, match=message) as caught:
+        stiffnesses(SLOTS + model, tmp_path)
+    assert (caught.value.file, caught.value.line) == (tmp_path / "L.mo", OWN_LINE)
+
+
+@pytest.mark.parametrize(
+    ("model", "k"),
+    [
+        ("model M Open a(redeclare K s); end M;", 3),
+        ("model M Twice a; end M;", 3),
+        ("model M Twice a(redeclare K s(o = 4)); end M;", 3),
+        ("model M Alone a(redeclare K s); end M;", 3),
+        ("model M Dropped a; end M;", 3),
+        ("model M Dropped a(redeclare K s(k = 5)); end M;", 5),
+        ("model M Free a(redeclare model T = Bent); end M;", 1),
+        ("model M Short a; end M;", 3),
+        ("model M Long a(redeclare model T = Bent); end M;", 1),
+    ],
+)
+def test_modifications_of_what_is_replaceable_hold_as_modelica_says(model: str, k: float, tmp_path: Path) -> None:
+    assert list(stiffnesses(SLOTS + model, tmp_path).values()) == [k]
+
+
+def test_a_class_that_cannot_replace_another_is_refused_with_the_cure(tmp_path: Path) -> None:
+    model = "model P extends Bare(k = 7); parameter Real o = 1; equation f = k*x + o; end P; model Q = P(o = 5); "
+    model += (
+        "model S replaceable model T = Bent; T s; equation s.x = 1; end S; model M S a(redeclare model T = Q); end M;"
+    )
+    with pytest.raises(BuildError, match=r"is not a subtype of .*; name a class that both extend behind constrainedby"):
+        stiffnesses(SLOTS + model, tmp_path)
