@@ -26,7 +26,7 @@ class ClassLookup:
     """Each file is read once, each name looked up once."""
 
     def __init__(self, libraries: Sequence[Path]) -> None:
-        self._libraries = libraries
+        self.libraries = libraries
         self._files: dict[Path, SourceFile] = {}
         self._by_full_name: dict[str, FoundClass | None] = {}
         self._resolved: dict[tuple[str, str], FoundClass | None] = {}
@@ -107,7 +107,7 @@ class ClassLookup:
 
     def _read(self, name: str) -> FoundClass | None:
         parts = split_name(name)
-        for library in self._libraries:
+        for library in self.libraries:
             if library.is_dir() and library.name == parts[0]:
                 file, inside = file_in_library(library, parts[1:])
             elif library.is_file():

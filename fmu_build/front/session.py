@@ -13,7 +13,10 @@ from pathlib import Path
 from typing import Any
 
 from fmu_build.errors import BuildError, WrongCall
+from fmu_build.front.class_lookup import ClassLookup
 from fmu_build.front.joined import JoinedText, join
+from fmu_build.front.misread import misread
+from fmu_build.front.plain_words import in_plain_words
 from fmu_build.front.source import ClassSource, read_text
 from fmu_build.front.tokens import tokenise
 from fmu_build.front.unresolved import unresolved
@@ -162,7 +165,7 @@ def _explain(
     if answer["panic"]:
         detail = re.search(r'detail: "([^"]*)"', text)
         message = detail.group(1) if detail else f"the Modelica compiler failed: {message}"
-    message = _in_plain_words(message)
+    message = in_plain_words(message)
     place = PLACE.search(text)
     message = PLACE.sub("", message).strip()
     if place and WRAPPER not in place.group(1):
@@ -171,7 +174,8 @@ def _explain(
             file, line = joined.place(line)
         return BuildError(message, file, line)
     nameless = BuildError(message, *(_place_of_bytes(text, joined, libraries) or (source.file, source.line)))
-    return unresolved(message, source, libraries) or nameless
+    classes = ClassLookup(libraries)
+    return unresolved(message, source, classes) or misread(message, source, classes) or nameless
 
 
 def _place_of_bytes(text: str, joined: JoinedText, libraries: Sequence[Path]) -> tuple[Path, int] | None:
@@ -186,24 +190,6 @@ def _place_of_bytes(text: str, joined: JoinedText, libraries: Sequence[Path]) ->
             line = written.count(b"\n", 0, begin) + 1
             return joined.place(line) if file is None else (file, line)
     return None
-
-
-def _in_plain_words(message: str) -> str:
-    count = re.search(r"unbalanced model: (\d+) equations?, (\d+) unknowns?", message)
-    if count:
-        equations, unknowns = int(count.group(1)), int(count.group(2))
-        cure = "add" if equations < unknowns else "remove"
-        return (
-            f"unbalanced model: {equations} equations for {unknowns} unknowns; "
-            f"{cure} {abs(equations - unknowns)}, or make a variable an input or a parameter"
-        )
-    if "der(...) must name a coordinate" in message:
-        return (
-            "der() of an input, or of another variable that is no state, is not supported; write its equation instead"
-        )
-    if "violates constrainedby" in message:
-        return f"{message}; name a class that both extend behind constrainedby"
-    return message
 
 
 def _syntax_error(file: str, line: int, message: str) -> BuildError:

@@ -18,7 +18,7 @@ class UnresolvedName(WrongCall):
     """A name in the Modelica text that no compiler could find."""
 
 
-def unresolved(message: str, source: ClassSource, libraries: Sequence[Path]) -> BuildError | None:
+def unresolved(message: str, source: ClassSource, classes: ClassLookup) -> BuildError | None:
     """The error with the line where the name is written; None where the message is of another kind.
 
     It is an UnresolvedName only if nothing is known under the name's first part: what is missing inside of something
@@ -28,11 +28,10 @@ def unresolved(message: str, source: ClassSource, libraries: Sequence[Path]) -> 
     if not quoted:
         return None
     name = (quoted.group(1) or quoted.group(2)).removeprefix(".")
-    classes = ClassLookup(libraries)
     used = list(_used(source, classes))
     file, line = _place(name, used) or (source.file, source.line)
     first = split_name(name)[0]
-    if first == _STANDARD and not any(library.stem == _STANDARD for library in libraries):
+    if first == _STANDARD and not any(library.stem == _STANDARD for library in classes.libraries):
         message += f"; name the Modelica Standard Library too: --library path/to/{_STANDARD}"
     is_begun = first != name and any(_is_declared(first, here, classes) for here in used)
     return (BuildError if is_begun else UnresolvedName)(message, file, line)

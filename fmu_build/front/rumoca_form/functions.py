@@ -39,4 +39,11 @@ def _statement(form: Mapping[str, Any], arena: Arena, places: Places) -> Assignm
             raise BuildError("a variable local to one loop iteration is not supported", span.file, span.line)
         statements = tuple(_statement(item, arena, places) for item in what["statements"])
         return ForStatement(what["domain"], tuple(what["targets"]), statements, span)
-    raise BuildError(f"statement of kind '{kind}' in a function is not supported")
+    provenance = what.get("provenance") if isinstance(what, Mapping) else None
+    span = places.span(provenance)
+    message = f"statement of kind '{kind}' in a function is not supported"
+    if kind == "assertion" and provenance and provenance["origin"] == "source":
+        message = "assert in a function is not supported; take it out, or assert in the model that calls the function"
+    elif kind == "assertion":  # made up by rumoca
+        message = "this function may end without a value of a result; give it one on every path, as before the if"
+    raise BuildError(message, span.file, span.line)

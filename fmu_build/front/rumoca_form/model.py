@@ -39,6 +39,11 @@ IGNORED = {
     "time_events", "clock_ownerships",
 }  # fmt: skip
 
+MEANT = {
+    "model_event_transactions": "a when-clause of an algorithm in which an if sets some variables only in some of its "
+    "branches, or twice, which is not supported; write equations: variable = if ... then ... else pre(variable)"
+}
+
 
 def to_flat_model(
     dae: Mapping[str, Any],
@@ -60,9 +65,8 @@ def to_flat_model(
     storage = dae["storage"]
     unknown = sorted(key for key in storage if key not in READ | IGNORED and storage[key])
     if unknown:
-        raise BuildError(
-            f"{name} uses what the compiler calls '{unknown[0]}', which is not supported", span.file, span.line
-        )
+        what = MEANT.get(unknown[0], f"what the compiler calls '{unknown[0]}', which is not supported")
+        raise BuildError(f"{name} uses {what}", span.file, span.line)
     places = Places(dae["source_map"])
     refuse_folded_conditions(dae, places)
     try:
