@@ -128,12 +128,22 @@ def modification(overrides: Mapping[str, Override]) -> str:
     """`{"a.b": 1}` -> `(a(b = 1))`; nothing where there are none. Raises WrongCall for what is no value."""
     parts = []
     for name, value in overrides.items():
+        _refuse_element(name)
         *outer, last = name.split(".")
         inner = f"{last} = {_value_text(name, value)}"
         for part in reversed(outer):
             inner = f"{part}({inner})"
         parts.append(inner)
     return f"({', '.join(parts)})" if parts else ""
+
+
+def _refuse_element(name: str) -> None:
+    array, is_element, behind = name.partition("[")
+    if is_element and "'" not in name:
+        cure = f"give all of {array}, as in {array}={{1, 5}}"
+        if "." in behind:
+            cure = "give it in a class that extends this one, in the modification of the whole array"
+        raise WrongCall(f"{name} is a single element of an array, which cannot be set; {cure}")
 
 
 def _value_text(name: str, value: Override) -> str:

@@ -220,6 +220,22 @@ def test_a_wrong_value_is_blamed_on_the_value(write, value, message):
     assert caught.value.file is None
 
 
+def test_an_element_of_an_array_cannot_be_set_by_itself(write):
+    file = write("""
+        model M
+          parameter Real a[2] = {1, 2};
+          model Part parameter Real k = 1; end Part;
+          Part part[2];
+          Real x = a[1]*time;
+        end M;
+        """)
+    with pytest.raises(BuildError, match=r"a\[2\] is a single element .*; give all of a, as in a=\{1, 5\}"):
+        load("M", [file], {"a[2]": 5})
+    with pytest.raises(BuildError, match=r"part\[2\]\.k is a single element .* a class that extends this one"):
+        load("M", [file], {"part[2].k": 5})
+    assert load("M", [file], {"a": "{1, 5}"}).name == "M"
+
+
 def test_single_files_see_each_other(write) -> None:
     """A package in one file, a model that uses it in another; and a place in either is named."""
     parts = write(
