@@ -5,7 +5,7 @@ from itertools import pairwise
 
 from fmu_build.errors import BuildError
 from fmu_build.front.class_lookup import ClassLookup, FoundClass
-from fmu_build.front.declarations import Declaration, Kind, behind_brackets
+from fmu_build.front.declarations import Declaration, Kind, bracket
 from fmu_build.front.source import ClassSource
 from fmu_build.front.used_classes import used_classes
 
@@ -26,7 +26,7 @@ def misread(message: str, source: ClassSource, classes: ClassLookup) -> BuildErr
                     "supported with inner and outer; put it into a model or a connector, and make that inner and outer",
                     declaration.offset,
                 )
-            for offset in _each_before_an_array(declaration):
+            for offset in _each_before_arrays(declaration, here, classes):
                 return here.error(
                     "each in front of a modification with arrays inside is not supported; leave each out, and write "
                     "the arrays for every element",
@@ -42,11 +42,20 @@ def _is_outer_variable(declaration: Declaration, here: FoundClass, classes: Clas
     return declaration.class_name in _PREDEFINED if meant is None else meant.text.kind == "type"
 
 
-def _each_before_an_array(declaration: Declaration) -> Iterator[int]:
-    """Offsets of `each` in `each b(k = {1, 2})`."""
+def _each_before_arrays(declaration: Declaration, here: FoundClass, classes: ClassLookup) -> Iterator[int]:
+    """Offsets of `each` in `each b(k = {1, 2})`, where b is an array of parts."""
     tokens = declaration.modification
+    meant = classes.resolve(declaration.class_name, here)
     for at, (word, offset) in enumerate(tokens):
-        if word == "each" and at + 2 < len(tokens) and tokens[at + 2][0] == "(":
-            inside = tokens[at + 2 : behind_brackets(tokens, at + 2)]
-            if any(token == "=" and value == "{" for (token, _), (value, _) in pairwise(inside)):
-                yield offset
+        inside = bracket(tokens, at + 2) if word == "each" else ()
+        has_arrays = any(token == "=" and value == "{" for (token, _), (value, _) in pairwise(inside))
+        if has_arrays and meant is not None and _is_array(tokens[at + 1][0], meant, classes):
+            yield offset
+
+
+def _is_array(part: str, owner: FoundClass, classes: ClassLookup) -> bool:
+    for _, declaration in classes.elements(part, owner):
+        words = [word for word, _ in declaration.modification]
+        if declaration.kind is Kind.COMPONENT:
+            return words[0] == "[" or words[words.index(part) + 1 :][:1] == ["["]
+    return False

@@ -52,3 +52,8 @@ def test_the_declaration_to_blame_is_named(inside: str, outside: str, said: str,
 )
 def test_what_is_counted_right_is_taken(inside: str, outside: str, tmp_path: Path) -> None:
     load_with(tmp_path, inside, outside)
+
+
+def test_an_each_that_is_followed_is_not_to_blame(tmp_path: Path) -> None:
+    with pytest.raises(BuildError, match="types or sizes do not agree"):
+        load_with(tmp_path, "One v[2](each b(w = {8, 9})); Integer i; equation i = time;")
