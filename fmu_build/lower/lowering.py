@@ -11,6 +11,7 @@ from fmu_build.lower.continuous import Solved, scalar_equations, solve_continuou
 from fmu_build.lower.discrete import DiscretePart
 from fmu_build.lower.evaluate import Evaluator
 from fmu_build.lower.events import Events
+from fmu_build.lower.inputs import check_inputs
 from fmu_build.lower.ode_model import DefaultExperiment, Delay, OdeModel, Relation, Sample, Symbols
 from fmu_build.lower.parameters import Parameters, explicit
 from fmu_build.lower.places import place_variables
@@ -64,6 +65,7 @@ def lower(flat: FlatModel, probes: Sequence[str] = ()) -> OdeModel:
         e=column([events.initial, events.terminal, *(sample.flag for sample in events.samples)]),
     )
     rows = make_rows(places.entries, evaluator, numbers)
+    check_inputs(rows, places.entries)
     check_bounds(flat.name, rows, places.entries)
     return OdeModel(
         name=flat.name,

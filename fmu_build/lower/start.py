@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import casadi as ca
 
 from fmu_build.errors import BuildError
-from fmu_build.front.flat_model import FlatModel
+from fmu_build.front.flat_model import FlatModel, Role
 from fmu_build.front.flat_model import Scalar as ScalarKind
 from fmu_build.lower.continuous import Solved, square_blocks
 from fmu_build.lower.equations import Definition, ScalarEquation, incidence
@@ -48,11 +48,12 @@ class _Unknown:
 def start_values(variables: Sequence[ScalarVariable], evaluator: Evaluator) -> list[Scalar]:
     """The attribute `start`, or what Modelica takes without it: the number nearest to zero between min and max.
 
-    Of an enumeration, whose first literal is 1, it is the lowest.
+    Of an enumeration, whose first literal is 1, it is the lowest. An input that is declared with a value starts there.
     """
     values = []
     for variable in variables:
-        given, low, high = (attribute(variable, name, evaluator) for name in ("start", "min", "max"))
+        name = "start" if variable.flat.role is not Role.INPUT or variable.flat.binding is None else "binding"
+        given, low, high = (attribute(variable, key, evaluator) for key in (name, "min", "max"))
         if given is None:
             given = ca.SX(int(variable.flat.scalar is ScalarKind.ENUMERATION))
             if variable.flat.scalar is not ScalarKind.BOOLEAN:
@@ -63,7 +64,7 @@ def start_values(variables: Sequence[ScalarVariable], evaluator: Evaluator) -> l
 
 
 def attribute(variable: ScalarVariable, name: str, evaluator: Evaluator) -> Scalar | None:
-    """start, min, max or nominal of one scalar, in parameters; None where the model is silent."""
+    """start, binding, min, max or nominal of one scalar, in parameters; None where the model is silent."""
     size = 1
     for dimension in variable.flat.dimensions:
         size *= dimension

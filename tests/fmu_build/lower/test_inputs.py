@@ -1,0 +1,31 @@
+"""Inputs that are declared with a value."""
+
+import pytest
+
+from fmu_build.errors import BuildError
+from fmu_build.lower import OdeModel
+from tests.fmu_build.lower.compiling import body
+
+
+def starts(model: OdeModel) -> dict[str, float | None]:
+    return {v.name: v.start for v in model.variables if v.causality == "input"}
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("input Real u = 3; Real y = u;", {"u": 3}),
+        ("parameter Real k = 2; input Real u(start = 5) = k + 1; Real y = u;", {"u": 3}),
+        ("input Real u[2] = {1, 2}; Real y = sum(u);", {"u[1]": 1, "u[2]": 2}),
+        ("input Integer n = 3; input Boolean b = true; Integer y = if b then n else 0;", {"n": 3, "b": 1}),
+    ],
+)
+def test_the_value_of_a_declaration_is_the_start_value(text: str, expected: dict[str, float]) -> None:
+    assert starts(body(text)) == expected
+
+
+@pytest.mark.parametrize("value", ["3*time", "if time > 1 then 2 else 1", "v", "x"])
+def test_a_value_that_changes_is_refused(value: str) -> None:
+    with pytest.raises(BuildError, match=r'the input u is declared with a value.*take "input" away') as caught:
+        body(f"input Real v;\ninput Real u = {value};\nReal x(start = 1, fixed = true);\nequation\nder(x) = u + v;")
+    assert caught.value.line == 3
