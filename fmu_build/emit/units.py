@@ -60,7 +60,6 @@ _PREFIXES = {
 _PREFIXED = {
     **{base: _unit(**{base: 1}) for base in BASE_UNITS if base != "kg"},
     "g": _unit(1e-3, kg=1),
-    "t": _unit(1e3, kg=1),
     "sr": _unit(rad=2),
     "Hz": _unit(s=-1, cycles=1),
     "Bq": _unit(s=-1),
@@ -93,6 +92,10 @@ _PREFIXED = {
 _UNPREFIXED = {
     "1": ONE,
     "%": _unit(1e-2),
+    "t": _unit(1e3, kg=1),  # with the prefixes in use alone: "ft" and "at" are no tonnes
+    "kt": _unit(1e6, kg=1),
+    "Mt": _unit(1e9, kg=1),
+    "Gt": _unit(1e12, kg=1),
     "min": _unit(60.0, s=1),
     "h": _unit(3600.0, s=1),
     "d": _unit(86400.0, s=1),
@@ -103,6 +106,8 @@ _UNPREFIXED = {
     "degC": Unit(_unit(K=1).exponents, 1.0, 273.15),
     "degF": Unit(_unit(K=1).exponents, 5 / 9, 459.67 * 5 / 9),
     "atm": _unit(101325.0, kg=1, m=-1, s=-2),
+    "in": _unit(0.0254, m=1),
+    "ft": _unit(0.3048, m=1),
     "psi": _unit(6894.757293168361, kg=1, m=-1, s=-2),
 }
 
@@ -112,27 +117,33 @@ _FACTOR = re.compile(r"(?P<symbol>1|%|[A-Za-z]+?)\^?(?P<exponent>[+-]?\d+)?")
 def parse_unit(text: str) -> Unit | None:
     """What the unit string says, or None where it is not one we know.
 
-    Grammar (Modelica specification, unit expressions): factors joined by ".", one "/" before one factor or a group in
-    brackets; a factor is a symbol with an SI prefix and an integer exponent.
+    Grammar (Modelica specification, unit expressions): factors joined by ".", one "/" before one factor or a whole
+    expression in brackets, which may stand above too; a factor is a symbol with an SI prefix and an integer exponent.
     """
     plain = _UNPREFIXED.get(text)
     if plain is not None:
         return plain
-    above, slash, below = text.partition("/")
-    numerator = _product(above)
-    if numerator is None or not slash:
+    above, below = _divided(text)
+    numerator = _group(above)
+    if numerator is None or below is None:
         return numerator
-    if below.startswith("(") and below.endswith(")"):
-        below = below[1:-1]
-    elif "." in below:
-        return None
-    denominator = _product(below)
+    denominator = None if "." in below and not below.startswith("(") else _group(below)
     return None if denominator is None else numerator.times(denominator.to_power(-1))
 
 
-def _product(text: str) -> Unit | None:
+def _divided(text: str) -> tuple[str, str | None]:
+    """What stands above and below the "/" outside of brackets; None where there is none."""
+    depth = 0
+    for k, sign in enumerate(text):
+        depth += (sign == "(") - (sign == ")")
+        if sign == "/" and depth == 0:
+            return text[:k], text[k + 1 :]
+    return text, None
+
+
+def _group(text: str) -> Unit | None:
     if text.startswith("(") and text.endswith(")"):
-        text = text[1:-1]
+        return parse_unit(text[1:-1])
     result = ONE
     for part in text.split("."):
         factor = _factor(part)

@@ -101,6 +101,8 @@ def derivative_unit(unit: str | None) -> str | None:
     numerator, _, denominator = unit.partition("/")
     if not denominator:
         return f"{unit}/s"
+    if "/" in denominator or unit.startswith("("):
+        return f"({unit})/s"
     inner = denominator.removeprefix("(").removesuffix(")")
     factors = _times_second(inner)
     return f"{numerator}/({factors})" if "." in factors else f"{numerator}/{factors}"

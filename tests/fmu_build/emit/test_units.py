@@ -47,6 +47,13 @@ def described(text):
         ("kvar", {"kg": 1, "m": 2, "s": -3}, 1e3),
         ("mSv", {"m": 2, "s": -2}, 1e-3),
         ("Hz", {"s": -1}, 1),
+        ("t", {"kg": 1}, 1e3),
+        ("kt/s", {"kg": 1, "s": -1}, 1e6),
+        ("ft", {"m": 1}, 0.3048),
+        ("in2", {"m": 2}, 0.0254**2),
+        ("Pa/(m3/s)", {"kg": 1, "m": -4, "s": -1}, 1),
+        ("(Pa/(l/min))/s", {"kg": 1, "m": -4, "s": -2}, 6e4),
+        ("(m/s)/(rad/s)", {"m": 1, "rad": -1}, 1),
     ],
 )
 def test_units_in_si_base_units(text, exponents, factor):
@@ -55,7 +62,27 @@ def test_units_in_si_base_units(text, exponents, factor):
     assert found[1] == pytest.approx(factor, rel=1e-14)
 
 
-@pytest.mark.parametrize("text", ["", "furlong", "m3/ss", "m/", "/s", "m/s.kg", "m2.5", "mmin", "kg m"])
+@pytest.mark.parametrize(
+    "text",
+    [
+        "",
+        "furlong",
+        "m3/ss",
+        "m/",
+        "/s",
+        "m/s.kg",
+        "m2.5",
+        "mmin",
+        "kg m",
+        "at",
+        "mt",
+        "N/m/s",
+        "Pa/(m3/s",
+        "m(s)",
+        "()",
+        "Pa/(m)(s)",
+    ],
+)
 def test_what_is_not_a_unit_is_not_understood(text):
     assert parse_unit(text) is None
 
