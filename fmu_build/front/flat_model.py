@@ -49,6 +49,7 @@ class FlatVariable:
     is_input: bool = False
     is_output: bool = False
     is_tunable: bool = False
+    is_discrete: bool = False  # by prefix or by type
     is_protected: bool = False
     binding: Expression | None = None
     start: Expression | None = None

@@ -110,7 +110,7 @@ def _state_entries(scope: Scope, start: Start, evaluator: Evaluator) -> list[Ent
 def _input_entries(scope: Scope, evaluator: Evaluator) -> list[Entry]:
     entries = []
     for k, (variable, value) in enumerate(zip(scope.inputs, start_values(scope.inputs, evaluator), strict=True)):
-        variability: Variability = "continuous" if variable.flat.scalar is ScalarKind.REAL else "discrete"
+        variability: Variability = "discrete" if variable.flat.is_discrete else "continuous"
         entries.append(Entry(variable, "input", variability, None, "u", k, value))
     return entries
 

@@ -49,6 +49,7 @@ def convert_variable(
         is_input=attributes["causality"] == "input",
         is_output=attributes["causality"] == "output",
         is_tunable=attributes["is_tunable"],
+        is_discrete=form["variability"] == "discrete",
         is_protected=bool(flat.attribute(name, "is_protected")),
         binding=expression("binding"),
         # rumoca invents a start of zero where the model is silent.

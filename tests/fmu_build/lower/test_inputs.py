@@ -1,4 +1,4 @@
-"""Inputs that are declared with a value."""
+"""Inputs that are declared with a value, or as discrete."""
 
 import pytest
 
@@ -29,3 +29,9 @@ def test_a_value_that_changes_is_refused(value: str) -> None:
     with pytest.raises(BuildError, match=r'the input u is declared with a value.*take "input" away') as caught:
         body(f"input Real v;\ninput Real u = {value};\nReal x(start = 1, fixed = true);\nequation\nder(x) = u + v;")
     assert caught.value.line == 3
+
+
+def test_an_input_is_discrete_by_prefix_or_by_type() -> None:
+    model = body("input Real u; discrete input Real d; input Integer n; Real y = u + d + n;")
+    found = {v.name: v.variability for v in model.variables if v.causality == "input"}
+    assert found == {"u": "continuous", "d": "discrete", "n": "discrete"}
