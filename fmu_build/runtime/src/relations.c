@@ -29,11 +29,12 @@ static Status set_relation(Instance *s, size_t k, double z, bool *changed) {
     return STATUS_OK;
 }
 
-/* `time > 1` is set at its event, at time 1: what counts is the interval that begins there. */
+/* `time > 1` is set at its event, at time 1: what counts is the interval that begins there. Before the first event,
+   while the model is initialised, it is the start itself: `when time > 0` has its event there. */
 static Status update_relations_of_time(Instance *s, bool *changed) {
     if (s->n_state_relations == s->model->n_r) return STATUS_OK;
     const double now = *s->t;
-    *s->t = now + 2.0 * time_slack(s);
+    if (s->memory->phase != PHASE_INITIALIZATION) *s->t = now + 2.0 * time_slack(s);
     double *res[] = {s->z};
     Status status = call_model(s, s->model->indicators, res);
     *s->t = now;

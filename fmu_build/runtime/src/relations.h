@@ -4,7 +4,7 @@
 
 #include "instance.h"
 
-/* Sets every relation to what holds now (those of time: to what holds just after now). */
+/* Sets every relation to what holds now (those of time: to what holds just after now, once initialised). */
 Status relations_update(Instance *s, bool *changed);
 
 /* Event indicators (n_state_relations), shifted away from zero by a hysteresis on the relation's present side. */

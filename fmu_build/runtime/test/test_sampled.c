@@ -79,6 +79,18 @@ static void the_start_may_lie_anywhere(void) {
     fmi2FreeInstance(c);
 }
 
+/* t_step is the start itself: not yet passed while the model is initialised, but at the first event. */
+static void a_relation_of_time_may_turn_at_the_start(void) {
+    fmi2Component c = instantiate(fmi2ModelExchange);
+    double rates[3] = {NAN, NAN, NAN};
+    CHECK(set(c, "t_step", 2.0) == fmi2OK);
+    initialise_from(c, 2.0, 0.0);
+    CHECK(fmi2GetDerivatives(c, rates, 3) == fmi2OK && rates[1] == 0.0);
+    handle_event(c);
+    CHECK(fmi2GetDerivatives(c, rates, 3) == fmi2OK && rates[1] == 1.0);
+    fmi2FreeInstance(c);
+}
+
 int main(void) {
     ticks_at_exact_times();
     a_tick_within_rounding_of_a_steps_end_belongs_to_the_step();
@@ -86,5 +98,6 @@ int main(void) {
     a_tick_happens_once();
     a_discrete_input_acts_between_steps();
     the_start_may_lie_anywhere();
+    a_relation_of_time_may_turn_at_the_start();
     return 0;
 }

@@ -78,7 +78,7 @@ class Runner:
 
     def run(self, stop: float) -> "Runner":
         """Integrate to `stop` with every event on the way."""
-        if self.time == 0.0 and self.model.samples:
+        if self.time == 0.0:
             self._event()
         while self.time < stop - 1e-12 and not self.terminated:
             next_time = min([stop, *self._time_events()])
@@ -99,7 +99,7 @@ class Runner:
             self.values |= {"x": x, "d": d, "q": q, "pre_d": d.copy()}
             self._solve()
             self.values["v"] = self.get("sources")
-            self._relations()
+            self._relations(at_start=True)
         self.values["pre_b"] = self.get("updates_b")
         self._iterate(0)
 
@@ -122,11 +122,11 @@ class Runner:
         if self.values["i"].size == 0:
             self.values["c"] = self.get("calculated")
 
-    def _relations(self) -> None:
+    def _relations(self, at_start: bool = False) -> None:
         strict = np.array([relation.strict for relation in self.model.relations], dtype=bool)
         of_time = np.array([relation.instant is not None for relation in self.model.relations], dtype=bool)
         z, now = self.get("indicators"), self.time
-        self.time = now + 1e-11  # what counts of a time event is the interval that begins there
+        self.time = now + (0.0 if at_start else 1e-11)  # after a time event the interval counts that begins there
         z, self.time = np.where(of_time, self.get("indicators"), z), now
         self.values["r"] = np.where(strict, z > 0, z >= 0).astype(float)
 
@@ -136,7 +136,7 @@ class Runner:
             self.values["e"][k] = 1.0
         for _ in range(50):
             self._solve()
-            self._relations()
+            self._relations(at_start=flag == 0)
             self.values["pre_d"] = self.values["d"].copy()
             new = {key: self.get(f"updates_{key}") for key in ("d", "b", "x")}
             self.terminated = self.terminated or bool(np.any(self.get("terminations")))
