@@ -2,6 +2,8 @@
 
 from collections.abc import Iterable, Sequence
 
+import casadi as ca
+
 from fmu_build.emit.c_function import c_function, c_number
 from fmu_build.emit.description import reinitialised
 from fmu_build.emit.functions import model_functions
@@ -77,6 +79,8 @@ def _tables(model: OdeModel) -> list[str]:
         _array("ModelRelation", "relations", relations),
         _array("ModelCheck", "checks", [_check(check) for check in model.checks]),
         _array("char *const", "terminations", [c_string(check.message) for check in model.terminations]),
+        _array("char *const", "unknowns", _names(s.q)),
+        _array("char *const", "initial_unknowns", _names(s.i)),
     ]
 
 
@@ -99,6 +103,10 @@ def _variable(variable: Variable) -> str:
     return f"{{{c_string(variable.name)}, {variable.index}, {', '.join(kinds)}}}"
 
 
+def _names(symbols: ca.SX) -> list[str]:
+    return [c_string(symbols[k].name()) for k in range(symbols.numel())]
+
+
 def _check(check: Check) -> str:
     return f"{{{c_string(check.message)}, {int(check.is_warning)}}}"
 
@@ -116,6 +124,8 @@ def _model(model: OdeModel, token: str, empty: dict[str, bool]) -> str:
         "relations": model.relations,
         "checks": model.checks,
         "terminations": model.terminations,
+        "unknowns": range(s.q.numel()),
+        "initial_unknowns": range(s.i.numel()),
     }
     members = {"name": c_string(model.name), "token": c_string(token)}
     members |= {f"n_{v}": str(getattr(s, v).numel()) for v in ("x", "u", "p", "c", "d", "r", "v", "q", "i")}

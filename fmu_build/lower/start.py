@@ -235,8 +235,8 @@ class _InitialSystem:
         self._name_unknowns(iterated, residuals)
 
     def _name_unknowns(self, iterated: list[Scalar], residuals: list[Scalar]) -> None:
-        """Each iterated quantity becomes an element of i."""
-        self.unknowns = [ca.SX.sym(f"i{k}") for k in range(len(iterated))]
+        """Each iterated quantity becomes an element of i, under its own name."""
+        self.unknowns = [ca.SX.sym(symbol.name().removeprefix("initial ")) for symbol in iterated]
         guess_of = {c.symbol.element_hash(): c.guess for c in self._chosen}
         self.guesses = [guess_of[symbol.element_hash()] for symbol in iterated]
         keys = list(self._values)

@@ -73,6 +73,8 @@ typedef struct {
     const ModelRelation *relations;     /* n_r */
     const ModelCheck *checks;           /* n_checks */
     const char *const *terminations;    /* n_terminations: messages */
+    const char *const *unknowns;        /* n_q: names for messages, or null ... */
+    const char *const *initial_unknowns; /* ... and n_i */
     double tolerance;                   /* of the co-simulation's integrator, unless told otherwise */
 
     /* Functions; the comment names the results in order. A null function has no results (its n is 0). */

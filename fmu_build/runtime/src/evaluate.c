@@ -51,7 +51,8 @@ static Status solve_blocks(Instance *s) {
     if (call_model(s, s->model->start, res) == STATUS_OK &&
         newton_solve(s, residual, s->q, s->model->n_q) == STATUS_OK)
         return STATUS_OK;
-    return report_failure(s, "No solution found: the non-linear equations");
+    newton_report(s, LOG_DISCARD, "the non-linear equations", s->model->unknowns);
+    return STATUS_DISCARD;
 }
 
 Status evaluate_unknowns(Instance *s) {

@@ -50,7 +50,7 @@ static Status residual(Instance *s, double *g, double *jacobian) {
 
 static Status solve_initial_equations(Instance *s) {
     if (s->model->n_i > 0 && newton_solve(s, residual, s->i, s->model->n_i) != STATUS_OK) {
-        log_message(s, LOG_ERROR, "No solution found: the initial equations at time %.16g s.", *s->t);
+        newton_report(s, LOG_ERROR, "the initial equations", s->model->initial_unknowns);
         return STATUS_ERROR;
     }
     changed_parameters(s);

@@ -66,6 +66,10 @@ typedef struct {
 typedef struct {
     double *residual, *jacobian, *step, *previous, *start;
     int *pivot;
+    /* After a failure: what the equations do at which unknown, and its value there. */
+    const char *objection;
+    size_t culprit;
+    double value;
 } NewtonWork;
 
 /* Work space of the co-simulation's integrator. */

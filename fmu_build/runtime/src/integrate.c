@@ -66,6 +66,7 @@ static double next_step_size(Memory *memory, double step, double error, bool aft
 }
 
 static Status give_up(Instance *s, double step, bool evaluated) {
+    if (!evaluated) (void)evaluate_derivatives(s); /* where the trial failed: now it may say why */
     if (evaluated)
         log_message(s, LOG_DISCARD, "At time %.16g s even a step of %.3g s misses the tolerance of %.3g.",
                     s->integrator.begin, step, s->memory->tolerance);

@@ -15,12 +15,12 @@ static size_t largest_below(size_t n, const double *column, size_t k) {
     return row;
 }
 
-bool lu_factor(size_t n, double *matrix, int *pivot) {
+size_t lu_factor(size_t n, double *matrix, int *pivot) {
     for (size_t k = 0; k < n; k++) {
         double *column = matrix + k * n;
         size_t row = largest_below(n, column, k);
         pivot[k] = (int)row;
-        if (!(fabs(column[row]) > 0.0) || !isfinite(column[row])) return false;
+        if (!(fabs(column[row]) > 0.0) || !isfinite(column[row])) return k;
         for (size_t j = 0; row != k && j < n; j++) swap(matrix + j * n + k, matrix + j * n + row);
         const double inverse = 1.0 / column[k];
         for (size_t i = k + 1; i < n; i++) column[i] *= inverse;
@@ -31,7 +31,7 @@ bool lu_factor(size_t n, double *matrix, int *pivot) {
             for (size_t i = k + 1; i < n; i++) other[i] -= factor * column[i];
         }
     }
-    return true;
+    return n;
 }
 
 void lu_solve(size_t n, const double *lu, const int *pivot, double *b) {

@@ -7,7 +7,8 @@ Status factor_blocks(Instance *s) {
     JacobianWork *w = &s->jacobian;
     double *res[] = {NULL, w->qq};
     if (s->model->n_q == 0) return STATUS_OK;
-    if (call_model(s, s->model->residual, res) == STATUS_OK && lu_factor(s->model->n_q, w->qq, w->pivot))
+    if (call_model(s, s->model->residual, res) == STATUS_OK &&
+        lu_factor(s->model->n_q, w->qq, w->pivot) == s->model->n_q)
         return STATUS_OK;
     log_message(s, LOG_DISCARD, "The non-linear equations are singular at time %.16g s.", *s->t);
     return STATUS_DISCARD;

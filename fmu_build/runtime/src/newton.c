@@ -69,23 +69,50 @@ static Progress damped_step(Instance *s, NewtonSystem *system, double *unknowns,
     return FAILED;
 }
 
+static Status fail(Instance *s, const char *objection, size_t culprit, double value) {
+    s->newton.objection = objection;
+    s->newton.culprit = culprit;
+    s->newton.value = value;
+    return STATUS_DISCARD;
+}
+
+/* No step: the residuals come block by block as the unknowns do, so one without a value tells whose it is. */
+static Status fail_at_point(Instance *s, const double *unknowns, size_t n, size_t column) {
+    for (size_t k = 0; k < n; k++)
+        if (!isfinite(s->newton.residual[k])) return fail(s, "have no value", k, unknowns[k]);
+    return fail(s, "are singular", column, unknowns[column]);
+}
+
+/* No good step: the unknown that is farthest from a solution. */
+static Status fail_to_converge(Instance *s, const double *unknowns, size_t n) {
+    size_t worst = 0;
+    double most = 0.0;
+    for (size_t k = 0; k < n; k++) {
+        const double size = scaled_norm(1, s->newton.step + k, unknowns + k, &CONVERGED);
+        if (size > most) most = size, worst = k;
+    }
+    return fail(s, "lead nowhere", worst, unknowns[worst]);
+}
+
 static Status attempt(Instance *s, NewtonSystem *system, double *unknowns, size_t n, double damping) {
     NewtonWork *work = &s->newton;
     for (int iteration = 0; iteration < MAX_ITERATIONS; iteration++) {
-        if (system(s, work->residual, work->jacobian) != STATUS_OK) return STATUS_DISCARD;
-        if (!lu_factor(n, work->jacobian, work->pivot)) return STATUS_DISCARD;
+        if (system(s, work->residual, work->jacobian) != STATUS_OK) return fail(s, "have no value", 0, unknowns[0]);
+        const size_t factored = lu_factor(n, work->jacobian, work->pivot);
+        if (factored < n) return fail_at_point(s, unknowns, n, factored);
         memcpy(work->step, work->residual, n * sizeof *work->step);
         lu_solve(n, work->jacobian, work->pivot, work->step);
         const double size = scaled_norm(n, work->step, unknowns, &CONVERGED);
-        if (!isfinite(size)) return STATUS_DISCARD;
+        if (!isfinite(size)) return fail_at_point(s, unknowns, n, 0);
         if (size <= 1.0) {
             move(unknowns, unknowns, work->step, 1.0, n);
             return STATUS_OK;
         }
         const Progress progress = damped_step(s, system, unknowns, n, size, &damping);
-        if (progress != STEPPED) return progress == SOLVED ? STATUS_OK : STATUS_DISCARD;
+        if (progress == SOLVED) return STATUS_OK;
+        if (progress == FAILED) return fail_to_converge(s, work->previous, n);
     }
-    return STATUS_DISCARD;
+    return fail_to_converge(s, unknowns, n);
 }
 
 Status newton_solve(Instance *s, NewtonSystem *system, double *unknowns, size_t n) {
@@ -97,4 +124,12 @@ Status newton_solve(Instance *s, NewtonSystem *system, double *unknowns, size_t 
     if (attempt(s, system, unknowns, n, CAREFUL_DAMPING) == STATUS_OK) return STATUS_OK;
     memcpy(unknowns, start, n * sizeof *unknowns);
     return STATUS_DISCARD;
+}
+
+void newton_report(Instance *s, LogCategory category, const char *equations, const char *const *names) {
+    const NewtonWork *work = &s->newton;
+    const char *name = names ? names[work->culprit] : "(unnamed)";
+    log_message(s, category,
+                "No solution found at time %.16g s: %s %s at %s = %.16g; if there is one, give %s another start value.",
+                *s->t, equations, work->objection, name, work->value, name);
 }

@@ -10,4 +10,7 @@ typedef Status NewtonSystem(Instance *s, double *residual, double *jacobian);
 /* Solves for the n `unknowns` from their present values. Discard if there is no convergence; the caller logs. */
 Status newton_solve(Instance *s, NewtonSystem *system, double *unknowns, size_t n);
 
+/* Logs where the last newton_solve failed; `names` of the unknowns may be null. */
+void newton_report(Instance *s, LogCategory category, const char *equations, const char *const *names);
+
 #endif

@@ -82,7 +82,7 @@ static bool factor_iteration_matrix(Instance *s, double h) {
     IntegratorWork *w = &s->integrator;
     for (size_t k = 0; k < n * n; k++) w->iteration[k] = -s->jacobian.xx[k];
     for (size_t k = 0; k < n; k++) w->iteration[k * n + k] += 1.0 / (GAMMA * h);
-    return lu_factor(n, w->iteration, w->pivot_x);
+    return lu_factor(n, w->iteration, w->pivot_x) == n;
 }
 
 static void set_point(Instance *s, double time, const double *x) {

@@ -53,6 +53,7 @@ static const ModelVariable variables[] = {
     {"share", 0, VECTOR_C, TYPE_REAL, CALCULATED_PARAMETER, FIXED, INITIAL_CALCULATED},
     {"der(x)", 0, VECTOR_DX, TYPE_REAL, LOCAL, CONTINUOUS, INITIAL_CALCULATED},
 };
+static const char *const unknowns[] = {"q"};
 static const double start_x[] = {1.0}, start_p[] = {0.0}, start_d[] = {0.0}, nominal_x[] = {1.0};
 
 const Model model = {
@@ -67,6 +68,7 @@ const Model model = {
     BASICS,
     .start_p = start_p,
     .start_d = start_d,
+    .unknowns = unknowns,
     .tolerance = 1e-6,
     .calculated = calculated,
     .residual = residual,
