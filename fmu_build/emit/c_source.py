@@ -81,6 +81,7 @@ def _tables(model: OdeModel) -> list[str]:
         _array("char *const", "terminations", [c_string(check.message) for check in model.terminations]),
         _array("char *const", "unknowns", _names(s.q)),
         _array("char *const", "initial_unknowns", _names(s.i)),
+        _array("uint8_t", "constrained", [str(int(is_bound)) for is_bound in model.constrained]),
     ]
 
 
@@ -126,6 +127,7 @@ def _model(model: OdeModel, token: str, empty: dict[str, bool]) -> str:
         "terminations": model.terminations,
         "unknowns": range(s.q.numel()),
         "initial_unknowns": range(s.i.numel()),
+        "constrained": model.constrained,
     }
     members = {"name": c_string(model.name), "token": c_string(token)}
     members |= {f"n_{v}": str(getattr(s, v).numel()) for v in ("x", "u", "p", "c", "d", "r", "v", "q", "i")}

@@ -245,5 +245,5 @@ def reinitialised(model: OdeModel) -> set[int]:
 
 
 def needs_completed_steps(model: OdeModel) -> bool:
-    """Whether the host must report its steps: delay() remembers them, and `assert` is looked at after each."""
-    return bool(model.delays or model.checks)
+    """Whether the host must report its steps: delay() remembers them, `assert` and constraints are looked at after."""
+    return bool(model.delays or model.checks or model.constrained)

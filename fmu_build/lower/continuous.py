@@ -22,13 +22,15 @@ from fmu_build.lower.values import Scalar, column, scalars
 class Solved:
     """Derivatives and algebraic variables in terms of what is known and of the iteration variables.
 
-    `symbols[k]` may be replaced by `values[k]`, which is explicit; `residuals = 0` gives `unknowns`.
+    `symbols[k]` may be replaced by `values[k]`, which is explicit; `residuals = 0` gives `unknowns`. Those that are
+    `constrained` belong to a block that gives former states from states.
     """
 
     symbols: list[Scalar]
     values: list[Scalar]
     unknowns: list[Scalar]
     residuals: list[Scalar]
+    constrained: list[bool]
 
     def replace(self, expressions: Sequence[Scalar]) -> list[Scalar]:
         """The same expressions without derivatives and algebraic variables."""
@@ -67,19 +69,23 @@ def solve_continuous(
         )
     has_start = {v.symbol.element_hash(): v.flat.start is not None for v in (*scope.algebraics, *scope.states)}
     equations, unknowns, aliases = _index_one(equations, algebraics, scope, has_start)
+    given_up = {variable.symbol.element_hash() for variable in scope.given_up}
     definitions: list[Definition] = []
     iterated: list[Scalar] = []
     residuals: list[Scalar] = []
+    constrained: list[bool] = []
     for block_equations, block_unknowns in square_blocks(equations, unknowns):
         keep = [has_start.get(symbol.element_hash(), False) for symbol in block_unknowns]
         solution = solve_block(block_equations, block_unknowns, keep, typical)
         definitions += solution.definitions
         iterated += solution.unknowns
         residuals += solution.residuals
+        is_constrained = any(symbol.element_hash() in given_up for symbol in block_unknowns)
+        constrained += [is_constrained] * len(solution.unknowns)
     definitions += aliases
     symbols = [definition.symbol for definition in definitions]
     values, residuals = explicit(symbols, [definition.value for definition in definitions], residuals)
-    return Solved(symbols, values, iterated, residuals)
+    return Solved(symbols, values, iterated, residuals, constrained)
 
 
 def _index_one(

@@ -93,6 +93,7 @@ def lower(flat: FlatModel, probes: Sequence[str] = ()) -> OdeModel:
         default_experiment=DefaultExperiment(
             flat.experiment.start, flat.experiment.stop, flat.experiment.tolerance, flat.experiment.interval
         ),
+        constrained=tuple(solved.constrained) if any(solved.constrained) else (),
         documentation=flat.documentation,
     )
 

@@ -152,4 +152,5 @@ class OdeModel:
 
     nominal_x: tuple[float, ...]  # (n_x)
     default_experiment: DefaultExperiment
+    constrained: tuple[bool, ...] = ()  # (n_q) where q is given by states that a constraint binds, or empty
     documentation: str = ""  # HTML of the class' Documentation annotation

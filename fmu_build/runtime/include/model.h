@@ -75,6 +75,7 @@ typedef struct {
     const char *const *terminations;    /* n_terminations: messages */
     const char *const *unknowns;        /* n_q: names for messages, or null ... */
     const char *const *initial_unknowns; /* ... and n_i */
+    const uint8_t *constrained;         /* n_q: 1 where a differentiated constraint gives it from states, or null */
     double tolerance;                   /* of the co-simulation's integrator, unless told otherwise */
 
     /* Functions; the comment names the results in order. A null function has no results (its n is 0). */

@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "constraints.h"
 #include "delay.h"
 #include "evaluate.h"
 #include "initialise.h"
@@ -61,6 +62,7 @@ Status enter_event_mode(Instance *s) {
 Status completed_step(Instance *s, bool *enter_event_mode) {
     Status status = relations_are_crossed(s, enter_event_mode);
     if (status == STATUS_OK) status = delay_record(s, false);
+    if (status == STATUS_OK) status = constraints_check(s);
     if (status == STATUS_OK) status = events_check(s);
     return failed_if_error(s, status);
 }

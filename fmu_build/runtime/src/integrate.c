@@ -3,6 +3,7 @@
 #include <float.h>
 #include <math.h>
 
+#include "constraints.h"
 #include "crossing.h"
 #include "delay.h"
 #include "evaluate.h"
@@ -126,5 +127,6 @@ Status integrate_step(Instance *s, double limit, bool *event) {
     Status status = rodas_begin(s);
     if (status == STATUS_OK) status = accepted_step(s, limit, event);
     if (status == STATUS_OK) status = record_history(s);
+    if (status == STATUS_OK) status = constraints_check(s);
     return status == STATUS_OK ? events_check(s) : status;
 }

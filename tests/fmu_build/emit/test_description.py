@@ -152,13 +152,15 @@ def test_model_identifiers_are_c_identifiers(name, identifier):
 
 
 @pytest.mark.parametrize("fmi", [2, 3])
-def test_steps_are_asked_for_by_delays_and_assertions(fmi):
+def test_steps_are_asked_for_by_delays_assertions_and_constraints(fmi):
     s = symbols(p=1)
     checked = replace(small(), checks=(Check(s.p[0] > 0, "a must be positive"),), symbols=s)
+    bound = replace(ode_models.implicit_decay(), constrained=(True,))
     name, wanted = {
         2: ("completedIntegratorStepNotNeeded", "false"),
         3: ("needsCompletedIntegratorStep", "true"),
     }[fmi]
-    for model, needs in ((small(), False), (checked, True), (ode_models.sampled_delay(), True)):
+    models = (small(), False), (checked, True), (ode_models.sampled_delay(), True), (bound, True)
+    for model, needs in models:
         shown = ElementTree.fromstring(describe(model, fmi)).find("ModelExchange").get(name)
         assert (shown == wanted) == needs

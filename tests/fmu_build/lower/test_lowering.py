@@ -98,6 +98,18 @@ def test_pendulum_keeps_its_length_and_energy():
     assert energy == pytest.approx(-0.8 * 9.81, rel=1e-8)
 
 
+@pytest.mark.parametrize("height", ["y", "z"])
+def test_only_unknowns_bound_to_states_are_constrained(height):
+    """y is a state no more, and z another name of it; f is a flow as of an orifice."""
+    model = body(
+        "Real x(start = 0.6, fixed = true); Real y; Real z(start = -0.8); Real vx(start = 0, fixed = true); Real vy;"
+        "Real T; Real f(start = 1); equation der(x) = vx; der(y) = vy; der(vx) = -T*x; der(vy) = -T*y - 9.81;"
+        f"z = y; x^2 + {height}^2 = 1; f + f^3 = x;"
+    )
+    names = [model.symbols.q[k].name() for k in range(model.symbols.q.numel())]
+    assert dict(zip(names, model.constrained, strict=True)) == {"y": True, "f": False}
+
+
 def test_parameters_follow_each_other():
     model = body(
         "parameter Real b = 2*a; parameter Real a = 3; final parameter Real f = a + b;"
