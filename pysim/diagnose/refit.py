@@ -69,17 +69,20 @@ def _rounds(ruler: Ruler, what: Extended, first: Evaluation, rounds: int, steps:
     return best, best.x
 
 
-def chord_refit(ruler: Ruler, what: Extended, first: Evaluation, *, steps: int = 6) -> Evaluation:
+def chord_refit(
+    ruler: Ruler, what: Extended, first: Evaluation, *, steps: int = 6, slow_first: bool = True
+) -> Evaluation:
     """The same with slopes that are not run again: a step costs one run of the tests instead of one per parameter.
 
     Args:
         first: a point with slopes, which may be those of a neighbour.
         steps: points to try at most.
+        slow_first: whether what is slow is fitted first where the end is far off.
     Returns:
         the best point; its slopes are good enough to step by, not to give intervals.
     """
     end = _chord(ruler, what, first, steps)
-    if not is_far(ruler, end):
+    if not slow_first or not is_far(ruler, end):
         return end
     other = graduated(ruler, what, first, widths=WIDTHS[:1], rounds=2)
     return end if other is None or other.cost > end.cost else other

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from pysim.diagnose import decide
 from pysim.diagnose.corrections import Settled, as_noise, is_off
 from pysim.diagnose.fitted import Fitted
+from pysim.diagnose.graduated import is_far
 from pysim.diagnose.null import ALARM, leftover
 from pysim.diagnose.pairs import Pair, joint
 from pysim.diagnose.ranking import as_data, rows
@@ -121,7 +122,8 @@ def _played(story: Story, current: Fitted, nominal: Fitted | None, number: int, 
         return {**_NOTHING, "rows": as_data(rows(story, tried, {}, number))}
     found = refitted(story, tried, nominal)
     answer = _alone(story, tried, found, number)
-    if not answer["chosen"] and not as_noise(tried.ruler, tried.current.point):
+    point = tried.current.point
+    if not answer["chosen"] and not as_noise(tried.ruler, point) and not is_far(tried.ruler, point):
         better = refitted_elsewhere(story, tried, found)
         again = _alone(story, tried, {**found, **better}, number, better) if better else answer
         answer = again if again["chosen"] else answer

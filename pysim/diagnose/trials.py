@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import astuple, replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -38,8 +39,8 @@ _PROBATION, _PROMISE = 7, 0.05
 _FINAL, _NEAR = 3, 0.8
 # Where a refit reaches less than this share of what was promised, straight lines were no guide, and another start is.
 _KEPT = 0.5
-# Points tried on probation, and from parameters far off.
-_STEPS, _FAR_STEPS = 6, 9
+# Points tried on probation, from parameters far off, and to see which of several strengths to begin at.
+_STEPS, _FAR_STEPS, _LOOK = 6, 9, 2
 # Integration of ties.
 _FINE = Rodas(rtol=1e-7, atol=1e-7)
 
@@ -59,15 +60,10 @@ def refitted(
     found: dict[str, Fitted] = {}
     for head in promising(tried):
         one = tried.contenders[head.effect.name]
-        part = f"{tried.current.name} + {head.effect.name} on probation"
-        kept = story.journal.once(part, lambda one=one: _kept(tried, one, _probation(tried, one, nominal)))  # type: ignore[misc]
-        if kept is not None:
-            x, cost = np.array(kept["x"]), float(kept["cost"])
-            found[head.effect.name] = Fitted(one.what, Evaluation(x, cost, np.zeros(0), np.zeros((0, x.size))))
-            story.know(found[head.effect.name], Blame(frozenset(Suspect(*s) for s in kept["blame"]), *kept["evidence"]))
+        end = _on_probation(story, tried, one, partial(_probation, tried, one, nominal))
+        found |= {} if end is None else {head.effect.name: end}
     story.stage("refit candidates")
-    worth = not tried.bent or any(share(story, tried.current, one) > least for one in found.values())
-    order = by_score(story, tried.current, found) if worth else []
+    order = _worth_slopes(story, tried, found, least)
     best = score(story, tried.current, found[order[0]]) if order else 0.0
     for name in order[:_FINAL]:
         if score(story, tried.current, found[name]) < _NEAR * best and name != order[0]:
@@ -91,17 +87,14 @@ def refitted_elsewhere(story: Story, tried: Tried, found: dict[str, Fitted]) -> 
         found: what the other candidates have come to, and these.
     """
     story.now("refitting effects that cannot be switched off from other strengths")
-    better: dict[str, Fitted] = {}
+    ends: dict[str, Fitted] = {}
     for name, one in tried.contenders.items():
-        if not one.effect.bypass:
-            continue
-        part = f"{part_of(tried, name, again=True)} on probation"
-        kept = story.journal.once(part, lambda one=one: _lowest(tried, one))  # type: ignore[misc]
-        if kept is None:
-            continue
-        x = np.array(kept["x"])
-        at = Fitted(one.what, Evaluation(x, float(kept["cost"]), np.zeros(0), np.zeros((0, x.size))))
-        end = _with_slopes(story, tried, one, at, None, leads=True, again=True)
+        if one.effect.bypass:
+            end = _on_probation(story, tried, one, partial(_lowest, tried, one), again=True)
+            ends |= {} if end is None else {name: end}
+    better: dict[str, Fitted] = {}
+    for name in _worth_slopes(story, tried, ends, 0.5 * decide.FAIR)[:1]:
+        end = _with_slopes(story, tried, tried.contenders[name], ends[name], None, leads=True, again=True)
         before = score(story, tried.current, found[name]) if name in found else 0.0
         if end is not None and score(story, tried.current, end) > before:
             better[name] = end
@@ -115,11 +108,33 @@ def part_of(tried: Tried, name: str, *, again: bool = False) -> str:
     return f"{tried.current.name} + {name}{' from other strengths' if again else ''}"
 
 
-def _lowest(tried: Tried, one: Contender) -> dict[str, Any] | None:
+def _on_probation(
+    story: Story, tried: Tried, one: Contender, find: Callable[[], Evaluation | None], *, again: bool = False
+) -> Fitted | None:
+    """A cheap refit, and the nuisances that it leaves to blame."""
+    part = f"{part_of(tried, one.effect.name, again=again)} on probation"
+    kept = story.journal.once(part, lambda: _kept(tried, one, find()))
+    if kept is None:
+        return None
+    x, cost = np.array(kept["x"]), float(kept["cost"])
+    found = Fitted(one.what, Evaluation(x, cost, np.zeros(0), np.zeros((0, x.size))))
+    story.know(found, Blame(frozenset(Suspect(*s) for s in kept["blame"]), *kept["evidence"]))
+    return found
+
+
+def _worth_slopes(story: Story, tried: Tried, found: dict[str, Fitted], least: float) -> list[str]:
+    """Names, the best first; none where parameters are bent and no refit takes this share of the misfit."""
+    worth = not tried.bent or any(share(story, tried.current, one) > least for one in found.values())
+    return by_score(story, tried.current, found) if worth else []
+
+
+def _lowest(tried: Tried, one: Contender) -> Evaluation | None:
+    """A cheap refit from the strength that is best after a few steps; None where the model so far is as good."""
     current, _ = tried.beside(one)
-    ends = [_end(one, current, footprint, _STEPS) for footprint in elsewhere(current, one)]
-    best = min(_better(ends, current.point.cost), key=_cost, default=None)
-    return None if best is None else {"x": best.x.tolist(), "cost": best.cost}
+    ends = [_end(one, current, footprint, _LOOK, slow_first=False) for footprint in elsewhere(current, one)]
+    best = min((end for end in ends if end is not None), key=_cost, default=None)
+    end = None if best is None else chord_refit(one.ruler, one.what, best, steps=_STEPS)
+    return end if end is not None and end.cost < current.point.cost else None
 
 
 def promising(tried: Tried) -> list[Footprint]:
@@ -166,13 +181,15 @@ def _better(ends: Sequence[Evaluation | None], before: float) -> list[Evaluation
     return [end for end in ends if end is not None and end.cost < before]
 
 
-def _end(one: Contender, current: Fitted, found: Footprint, steps: int) -> Evaluation | None:
+def _end(
+    one: Contender, current: Fitted, found: Footprint, steps: int, *, slow_first: bool = True
+) -> Evaluation | None:
     """A refit from the model so far, with the effect off where it can be."""
     start = start_off(current, one.what, found) if len(one.effect.parameters) == 1 else None
     if start is None:
         size = start_amount(found.effect, found.amount)
         start = start_at(one.ruler, current, one.what, [(found, size)])
-    return None if start is None else chord_refit(one.ruler, one.what, start, steps=steps)
+    return None if start is None else chord_refit(one.ruler, one.what, start, steps=steps, slow_first=slow_first)
 
 
 def _limited(one: Contender, nominal: Fitted) -> Evaluation | None:
