@@ -154,8 +154,9 @@ def _alone(
     trouble = _objection(story, tried.current, found[leader])
     if trouble:
         return {**answer, "said": trouble}
-    taken = next(row.explained for row in listed if row.effect == leader)
-    said = f"added {leader}: {100 * taken:.1f} % of the misfit explained"
+    row = next(row for row in listed if row.effect == leader)
+    taken = f", {100 * row.explained:.1f} % of the misfit explained" if row.explained else ""
+    said = f"added {leader}: score {row.score:.4g}{taken}"
     done = _nothing_left(story, tried, found[leader])
     parts = {name: part_of(tried, name, again=name in again) for name in ties}
     return {**answer, "chosen": [leader], "part": parts[leader], "rivals": parts, "said": said, "done": done}
