@@ -39,10 +39,8 @@ _PROBATION, _PROMISE = 7, 0.05
 _FINAL, _NEAR = 3, 0.8
 # Where a refit reaches less than this share of what was promised, straight lines were no guide, and another start is.
 _KEPT = 0.5
-# Points tried on probation, from parameters far off, and to see which of several strengths to begin at; of those, so
-# many go on, for the strength nearest to none looks best at first where it is not.
+# Points tried on probation, from parameters far off, and to see which of several strengths to begin at.
 _STEPS, _FAR_STEPS, _LOOK = 6, 9, 2
-_GO_ON = 2
 # Integration of ties.
 _FINE = Rodas(rtol=1e-7, atol=1e-7)
 
@@ -131,12 +129,12 @@ def _worth_slopes(story: Story, tried: Tried, found: dict[str, Fitted], least: f
 
 
 def _lowest(tried: Tried, one: Contender) -> Evaluation | None:
-    """The best cheap refit from strengths that are best after a few steps; None where the model so far is as good."""
+    """A cheap refit from the strength that is best after a few steps; None where the model so far is as good."""
     current, _ = tried.beside(one)
-    looks = [_end(one, current, footprint, _LOOK, slow_first=False) for footprint in elsewhere(current, one)]
-    first = sorted((look for look in looks if look is not None), key=_cost)[:_GO_ON]
-    ends = [chord_refit(one.ruler, one.what, look, steps=_STEPS) for look in first]
-    return min(_better(ends, current.point.cost), key=_cost, default=None)
+    ends = [_end(one, current, footprint, _LOOK, slow_first=False) for footprint in elsewhere(current, one)]
+    best = min((end for end in ends if end is not None), key=_cost, default=None)
+    end = None if best is None else chord_refit(one.ruler, one.what, best, steps=_STEPS)
+    return end if end is not None and end.cost < current.point.cost else None
 
 
 def promising(tried: Tried) -> list[Footprint]:
