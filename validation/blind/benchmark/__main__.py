@@ -50,6 +50,7 @@ def _add_carry(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--but", metavar="PATTERN", action="append", default=[], help="cases that may change; repeat")
     parser.add_argument("--sample", metavar="N", type=int, default=30, help="cases to answer again (30)")
     parser.add_argument("--seed", metavar="S", type=int, required=True, help="by which they are drawn")
+    parser.add_argument("--anew", metavar="DIR", type=Path, help="what the older code answers on this computer")
     _add_processes(parser)
 
 
@@ -117,11 +118,15 @@ def _carry(args: argparse.Namespace) -> int:
     work = _work(args.of, args)
     from pysim.types import BadInput
     from validation.blind.benchmark.carry import Draw, carry
+    from validation.blind.benchmark.store import Store
     from validation.blind.plant import cases
 
     table, draw = cases(TABLE_SEED), Draw(args.older, args.sample, args.seed, tuple(args.but))
+    anew = Store(args.anew) if args.anew else None
     try:
-        alike = carry(table, work.store, work.task, draw, work.code, workers=work.workers, limit=args.limit, say=_say)
+        alike = carry(
+            table, work.store, work.task, draw, work.code, anew=anew, workers=work.workers, limit=args.limit, say=_say
+        )
     except BadInput as error:
         print(f"benchmark: {error}", file=sys.stderr)
         return 2

@@ -3,6 +3,9 @@
 A change of words or of structure alone changes the fingerprint, but not one bit of what is computed; another changes
 the answers to some cases only. Neither is taken on trust: cases drawn at random are answered again, and the older
 answers count for the newer code only where all agree. Those expected to change are named before, and do not count.
+
+Another computer gives other last bits, and a search makes them visible. There the sample is answered by the older code
+too, in a checkout of its own, and those answers are compared.
 """
 
 from __future__ import annotations
@@ -35,6 +38,7 @@ class Carried:
         seed: by which the cases were drawn.
         cases: that were answered again, all alike.
         but: patterns of the names of cases for which nothing was shown.
+        anew: whether the older code answered them again as well, on the same computer.
     """
 
     older: str
@@ -43,6 +47,7 @@ class Carried:
     seed: int
     cases: tuple[str, ...]
     but: tuple[str, ...] = ()
+    anew: bool = False
 
 
 @dataclass(frozen=True)
@@ -123,6 +128,7 @@ def carry(
     draw: Draw,
     code: str,
     *,
+    anew: Store | None = None,
     workers: int = 2,
     limit: float = 900.0,
     say: Callable[[str], None] = print,
@@ -131,13 +137,14 @@ def carry(
 
     Args:
         code: the fingerprint that answers again.
+        anew: answers that the older code gave on this computer; those of `store` where None.
         workers, limit: processes, and s for one case.
     Returns:
         whether all are. Where they are not, nothing is noted or kept, and each difference was said.
     Raises:
         BadInput: nothing was answered by the older code.
     """
-    known = dict(draw.of(table, store))
+    known = dict(draw.of(table, anew or store))
     say(f"{len(known)} cases of code {draw.older} again, by code {code}")
     given: dict[Case, Answer] = {}
     different = 0
@@ -153,7 +160,7 @@ def carry(
         store.add(case, answer)
     rows = (
         *read_carried(store),
-        Carried(draw.older, code, today(), draw.seed, tuple(case.name for case in known), draw.but),
+        Carried(draw.older, code, today(), draw.seed, tuple(case.name for case in known), draw.but, anew is not None),
     )
     write_file(_path(store), json.dumps([asdict(row) for row in rows], indent=1) + "\n")
     return True

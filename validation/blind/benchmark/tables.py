@@ -40,9 +40,10 @@ def provenance(answered: Sequence[Pair], asked: int, kept: Kept) -> Iterator[str
         yield f"Code `{code}`: {len(days)} cases, {span}."
     for step in kept.carried:
         but = f", but for {' and '.join(f'`{name}`' for name in step.but)}" if step.but else ""
+        both = " by both codes on one computer" if step.anew else ""
         yield (
             f"Code `{step.newer}` answers as `{step.older}` did{but}: {len(step.cases)} cases, drawn with seed "
-            f"{step.seed}, were answered again on {step.day}, and no field differed; at most "
+            f"{step.seed}, were answered again{both} on {step.day}, and no field differed; at most "
             f"{100 * (1 - 0.05 ** (1 / len(step.cases))):.0f} % of all could, with 95 % confidence."
         )
     if kept.stale:

@@ -72,6 +72,21 @@ def test_where_one_differs_none_stands_and_nothing_is_kept(store: Store, fake: M
     assert said[-1] == "1 of 12 differ: the older answers do not stand for this code"
 
 
+def test_on_another_computer_the_older_code_answers_again_too(store: Store, fake: ModuleType, tmp_path: Path) -> None:
+    task: Task = fake.same
+    for case in TABLE:
+        store.add(case, replace(old(case), held=1.002))  # the last bits of the computer of then
+    assert not carry(TABLE, store, task, Draw("old", 4, 3), "new", workers=1, say=str)
+    here = Store(tmp_path / "here")
+    for case in TABLE[:5]:
+        here.add(case, old(case))
+    assert carry(TABLE, store, task, Draw("old", 4, 3), "new", anew=here, workers=1, say=str)
+    assert all(map(standing(store, "new").counts, store.read().values()))
+    (step,) = read_carried(store)
+    assert step.anew
+    assert set(step.cases) <= {case.name for case in TABLE[:5]}
+
+
 def test_a_code_that_answered_nothing_is_refused(store: Store, fake: ModuleType) -> None:
     task: Task = fake.same
     with pytest.raises(BadInput, match="--from older: the store holds no answers of that code; it holds those of old"):
