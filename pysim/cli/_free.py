@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -15,23 +16,18 @@ Bounds = Mapping[str, tuple[float, float]]
 def free_parameters(
     model: Model, named: Sequence[str], bounds: Bounds, overrides: Mapping[str, float]
 ) -> tuple[str, ...]:
-    """Those named; else those that the model gives min, max and nominal, or that have bounds, and that were not set.
+    """Those named; else those that the model gives min, max and nominal and that were not set, and those with bounds.
 
     Args:
         named: by `--free`.
         bounds: by `--bounds`.
         overrides: parameters that were set.
     Raises:
-        BadInput: one that is both set and free, or none.
+        BadInput: there is none.
     """
     from pysim.diagnose import identifiable
     from pysim.types import BadInput
 
-    for name in overrides:
-        if name in named:
-            raise BadInput(f"{name} is set and free; leave it out of --free")
-        if name in bounds:
-            raise BadInput(f"{name} is set and has bounds to refit it between; leave out one of the two")
     if named:
         return tuple(named)
     try:
@@ -40,13 +36,31 @@ def free_parameters(
         if not bounds:
             raise BadInput(f"{error}, as {_example(model)}") from error
         own = ()
-    free = tuple(name for name in dict.fromkeys([*own, *bounds]) if name not in overrides)
+    free = tuple(name for name in dict.fromkeys([*own, *bounds]) if name not in overrides or name in bounds)
     if not free:
         raise BadInput(
-            f"every parameter that {model.label} gives bounds is set, so none is left to refit; set fewer, or name "
-            "others with --free"
+            f"every parameter that {model.label} gives bounds is set, so none is left to refit; name with --free those "
+            "to refit from there"
         )
     return free
+
+
+def begun_at(model: Model, values: Mapping[str, float]) -> Model:
+    """The same model, of which these parameters are refitted from other values than its own."""
+    own = (replace(v, start=values[v.name]) if v.name in values else v for v in model.variables)
+    return replace(model, variables=tuple(own)) if values else model
+
+
+def held_as_set(model: Model, overrides: Mapping[str, float]) -> list[str]:
+    """A note on parameters that are not refitted because they were set, though the model says that they may differ."""
+    from pysim.diagnose import identifiable
+    from pysim.types import BadInput
+
+    try:
+        held = [name for name in identifiable(model) if name in overrides]
+    except BadInput:
+        return []
+    return [f"held as set, not refitted: {', '.join(held)}; --free refits them from there"] if held else []
 
 
 def _example(model: Model) -> str:

@@ -100,7 +100,9 @@ def read_subject(args: argparse.Namespace, *, refits: bool = True) -> Given:
     Raises:
         BadInput: what cannot be read, or does not go together. BuildError: a model that does not compile.
     """
-    from pysim.cli._free import free_parameters
+    from pysim.cli._any_model import is_fmu
+    from pysim.cli._built_in import built_in
+    from pysim.cli._free import begun_at, free_parameters, held_as_set
     from pysim.cli._measurements import read_measurements
     from pysim.cli._options import bounded, chosen_reference, names_of, read_parameters
     from pysim.cli._variants import Variants
@@ -120,6 +122,14 @@ def read_subject(args: argparse.Namespace, *, refits: bool = True) -> Given:
     args.reference_hz = chosen_reference(args.reference_hz, dataset.responses())
     overrides, bounds = read_parameters(args, model), bounded(args.bounds)
     free = free_parameters(model, names_of(args.free), bounds, overrides) if refits else ()
+    if refits:
+        model = begun_at(model, {name: overrides.pop(name) for name in free if name in overrides})
+        notes += held_as_set(model, overrides)
+    if refits and class_name and is_fmu(args.model):
+        own = {name: value for name, value in built_in(model, class_name, libraries).items() if name not in free}
+        if own:
+            notes.append(f"built with values of its own, which every candidate has too: {', '.join(own)}")
+        overrides = own | overrides
     given = subject(
         model,
         dataset,

@@ -30,8 +30,8 @@ def foreign(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return made_foreign(build("Toy.Mass", libraries=[library()]), tmp_path_factory.mktemp("fmu") / "foreign.fmu")
 
 
-def compared(words: list[str], tmp_path: Path) -> dict:
-    assert main(["compare", *words, "--json", str(tmp_path / "a.json")]) == 0
+def compared(words: list[str], tmp_path: Path, end: int = 0) -> dict:
+    assert main(["compare", *words, "--json", str(tmp_path / "a.json")]) == end
     return json.loads((tmp_path / "a.json").read_text())
 
 
@@ -75,14 +75,26 @@ def test_where_nothing_can_be_refitted_the_options_are_named(
         assert "name those to refit, and their bounds, as --free m --bounds m=0.1:10" in capsys.readouterr().err
 
 
-def test_set_and_free_is_one_sentence() -> None:
-    model = base()
-    with pytest.raises(BadInput, match=r"^m is set and free; leave it out of --free$"):
-        free_parameters(model, ["d", "m"], {}, {"m": 1.0})
-    with pytest.raises(BadInput, match=r"^m is set and has bounds to refit it between"):
-        free_parameters(model, [], {"m": (1.0, 2.0)}, {"m": 1.0})
-    with pytest.raises(BadInput, match="none is left to refit"):
-        free_parameters(model, [], {}, {"m": 1.0, "d": 1.0, "k": 1.0})
+def test_what_a_fit_found_is_where_the_refit_begins(data: Path, tmp_path: Path) -> None:
+    """Named with `--free`, values of `--parameters` are no longer held; as they were found they come out again."""
+    values = tmp_path / "parameters.toml"
+    values.write_text("m = 1.3\nd = 0.4\n")
+    words = [*MODEL, "--data", str(data), "--parameters", str(values)]
+    as_is = compared(words, tmp_path, 1)["error"][0]["fit"]
+    held = compared([*words, "--refit"], tmp_path, 1)
+    assert set(held["parameters"]) == {"k"}
+    assert any("held as set, not refitted: m, d; --free refits them from there" in note for note in held["notes"])
+    begun = compared([*words, "--free", "m,d,k", "--refit"], tmp_path)
+    assert set(begun["parameters"]) == {"m", "d", "k"}
+    assert begun["error"][0]["fit"] == pytest.approx(as_is, rel=1e-6)
+    assert held["error"][-1]["fit"] > 1.5 > begun["error"][-1]["fit"]
+
+
+def test_what_is_set_is_refitted_where_it_is_named_or_has_bounds() -> None:
+    assert free_parameters(base(), ["d", "m"], {}, {"m": 1.0}) == ("d", "m")
+    assert free_parameters(base(), [], {"m": (1.0, 2.0)}, {"m": 1.0, "d": 1.0}) == ("m", "k")
+    with pytest.raises(BadInput, match="none is left to refit; name with --free those to refit from there"):
+        free_parameters(base(), [], {}, {"m": 1.0, "d": 1.0, "k": 1.0})
 
 
 def test_free_are_those_of_the_model_and_those_with_bounds() -> None:

@@ -1,0 +1,61 @@
+"""An FMU whose class is at hand: its values, so that candidates built from the class differ in their effect alone."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from pysim.types import Model, Variable
+
+_CURE = "effects are added to the class, so name a class that extends it as it was built in place of the FMU"
+_SAME = 1e-9  # numbers that differ by less have been through a text
+
+
+def built_in(model: Model, class_name: str, libraries: Sequence[Path]) -> dict[str, float]:
+    """Parameters of an FMU whose values are not those of its class, in the variables' units.
+
+    Args:
+        model: of the FMU.
+        class_name: at hand in the libraries; compiled here, or taken from the cache.
+    Raises:
+        BadInput: one that nothing can set once the model is built, or another number of states. BuildError: a class
+            that does not compile.
+    """
+    import fmu_build
+    from pysim.io import read_model
+    from pysim.types import BadInput
+
+    plain = read_model(fmu_build.build(class_name, libraries=list(libraries)))
+    states = [len(one.abilities.states) for one in (model, plain)]
+    if states[0] != states[1]:
+        raise BadInput(f"{model.path.name}: has {states[0]} states, where {class_name} has {states[1]}; {_CURE}")
+    declared = {v.name: v for v in plain.variables}
+    values: dict[str, float] = {}
+    for own in model.variables:
+        other = declared.get(own.name)
+        if other is None or own.start is None or not _is_told(own) or not _differ(own, other):
+            continue
+        if {own.causality, other.causality} != {"parameter"} or own.unit != other.unit:
+            raise BadInput(
+                f"{model.path.name}: built with {own.name} = {_value(own)}, where {class_name} has {_value(other)}; "
+                f"{_CURE}"
+            )
+        values[own.name] = own.start
+    return values
+
+
+def _is_told(v: Variable) -> bool:
+    """Whether its start is a number that somebody wrote."""
+    return v.causality in ("parameter", "structuralParameter") or v.variability == "constant"
+
+
+def _differ(one: Variable, other: Variable) -> bool:
+    if one.start is None or other.start is None:
+        return one.start is not other.start
+    return one.unit != other.unit or abs(one.start - other.start) > _SAME * max(abs(one.start), abs(other.start))
+
+
+def _value(v: Variable) -> str:
+    return "nothing" if v.start is None else f"{v.start:g} {v.unit}".removesuffix(" 1")
