@@ -269,3 +269,21 @@ def test_the_line_to_redo_is_quoted_as_windows_wants_it(monkeypatch: pytest.Monk
     monkeypatch.setattr(sys, "prefix", str(root / ".venv"))
     monkeypatch.chdir(root)
     assert command_line(["demo"]) == "py run.py pysim demo"
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "seed of the random draws; the same seed gives the same answer (0)",
+        "all with min, max and nominal that are not set",
+        "bounds in the parameter's own unit, in place of the model's; without --free they make it free too",
+        "with the model or your effects: folder with package.mo, or .mo file; repeat",
+        "where both set a parameter, --set wins",
+        "frequency in Hz whose gain counts as 0 dB, or none for absolute gains (0.1 where every test",
+    ],
+)
+@pytest.mark.parametrize("command", ["diagnose", "rank"])
+def test_the_help_says_what_an_option_does(command: str, said: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main([command, "--help"]) == 0
+    words = " ".join(capsys.readouterr().out.split())
+    assert said in words
