@@ -188,7 +188,7 @@ def test_locate_tells_the_place_and_the_shape_of_what_is_missing(
 
 
 def test_locate_beside_the_effect_that_was_missing_finds_little(data: Path, tmp_path: Path) -> None:
-    words = ["locate", str(data), *MODEL, "--effect", "toy.friction", "--json", str(tmp_path / "a.json")]
+    words = ["locate", str(data), *MODEL, "--with", "toy.friction", "--json", str(tmp_path / "a.json")]
     assert main(words) == 0
     found = json.loads((tmp_path / "a.json").read_text())
     assert [row["step"] for row in found["error"]] == ["prior", "refit", "toy.friction"]
