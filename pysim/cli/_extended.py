@@ -30,7 +30,7 @@ def write_extended(found: Diagnosis, given: Given, folder: Path) -> dict[str, Pa
     fitted = {e.name: e.value for e in found.parameters if "@" not in e.name}
     values = {**given.overrides, **fitted}
     effects, fmu = [one.effect for one in found.added], folder / f"{name}.fmu"
-    given.variants.write(effects, folder, fmu, name, values, _comment(found, given, name))
+    given.variants.write(effects, folder, fmu, name, values, _comment(found, given, folder, name))
     lines = [f'"{key}" = {value!r}' for key, value in fitted.items()]
     write_file(folder / "parameters.toml", "\n".join([*lines, ""]))
     return {"modelica": folder / f"{name}.mo", "fmu": fmu, "parameters": folder / "parameters.toml"}
@@ -45,13 +45,13 @@ def _last(name: str) -> str:
     return name.rpartition(".")[2]
 
 
-def _comment(found: Diagnosis, given: Given, name: str) -> str:
+def _comment(found: Diagnosis, given: Given, folder: Path, name: str) -> str:
     """What it is, from which data, and when not to trust it."""
-    from pysim.cli._outputs import quoted
+    from pysim.cli._outputs import command_line
 
-    own = given.libraries
-    more = (word for library in own for word in ("--library", str(library)))
-    build = quoted(["fmu-build", name, "--library", f"{name}.mo", *more])
+    libraries = [folder / f"{name}.mo", *given.libraries]
+    own = [word for library in libraries for word in ("--library", str(library.resolve()))]
+    build = command_line([name, *own], folder, program="fmu-build")  # whole paths, as it may be pasted anywhere
     parts = [
         f"{name}: {given.model_name} with {', '.join(one.effect.name for one in found.added)}.",
         f"Every number below was fitted to the records of data set {given.dataset.name} that are marked fit; intervals "

@@ -251,9 +251,11 @@ def test_the_line_to_redo_is_quoted_and_starts_where_it_works(monkeypatch: pytes
     root = Path(pysim.cli.__file__).parents[2]
     monkeypatch.setattr(sys, "prefix", "/usr")
     assert command_line(["demo", "--output", "my results"]) == "pysim demo --output 'my results'"
+    assert command_line(["A.B"], program="fmu-build") == "fmu-build A.B"
     monkeypatch.setattr(sys, "prefix", str(root / ".venv"))
     monkeypatch.chdir(root)
     assert command_line(["demo"]) == "python3 run.py pysim demo"
+    assert command_line(["A.B"], program="fmu-build") == "python3 run.py fmu-build A.B"
     monkeypatch.chdir(root / "tests")
     assert shlex.split(command_line(["demo"])) == ["python3", str(root / "run.py"), "pysim", "demo"]
     assert command_line(["demo"], root) == "python3 run.py pysim demo"  # typed there, wherever this process is

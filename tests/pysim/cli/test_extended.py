@@ -1,12 +1,16 @@
 """The class that is written for the user: named after theirs, its limits told, compiled again from its folder."""
 
+import shlex
 import shutil
+import sys
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
+import pysim.cli
 from fmu_build import build
+from fmu_build.cli import main as fmu_build_main
 from pysim.cli._extended import extended_name, relative_files, write_extended
 from pysim.cli._outputs import quoted
 from pysim.cli._subject import Given
@@ -47,7 +51,6 @@ def test_the_header_tells_what_it_is_and_when_not_to_trust_it(found: Diagnosis, 
     head = write_extended(found, given(), tmp_path)["modelica"].read_text().partition("model ")[0]
     words = " ".join(head.replace("//", " ").split())
     assert "MassWithRubbing: Toy.Mass with toy.friction." in words
-    assert "fmu-build MassWithRubbing --library MassWithRubbing.mo --library" in words
     assert "beyond what was excited: F from -" in words
     assert "apart" not in words
     weak = replace(found, verdict="unknown", confusable=(("toy.friction", "toy.twin"),))
@@ -59,15 +62,34 @@ def test_the_header_tells_what_it_is_and_when_not_to_trust_it(found: Diagnosis, 
     assert "no record was held out" in words
 
 
-def test_the_command_in_the_header_can_be_pasted(found: Diagnosis, tmp_path: Path) -> None:
-    """A path with blanks, and longer than a line of the comment."""
-    folder = tmp_path / "my libraries" / ("long " * 20).strip()
-    folder.mkdir(parents=True)
-    copied = Path(shutil.copy(library(), folder))
-    head = write_extended(found, replace(given(), libraries=(copied,)), tmp_path)["modelica"].read_text()
+@pytest.mark.skipif(sys.platform == "win32", reason="a shell of POSIX takes the line apart")
+def test_the_command_in_the_header_works_wherever_it_is_pasted(
+    found: Diagnosis, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Folders as they were typed, one with blanks in its name and longer than a line of the comment."""
+    typed = Path("my libraries") / ("long " * 20).strip()
+    monkeypatch.chdir(tmp_path)
+    typed.mkdir(parents=True)
+    copied = Path(shutil.copy(library(), typed))
+    Path("results").mkdir()
+    head = write_extended(found, replace(given(), libraries=(copied,)), Path("results"))["modelica"].read_text()
     (line,) = (line for line in head.splitlines() if "Compiles by:" in line)
-    words = ["fmu-build", "MassWithRubbing", "--library", "MassWithRubbing.mo", "--library", str(copied)]
-    assert line.partition("Compiles by: ")[2] == quoted(words)
+    program, *words = shlex.split(line.partition("Compiles by: ")[2])
+    assert program == "fmu-build"
+    Path("elsewhere").mkdir()
+    monkeypatch.chdir("elsewhere")
+    assert fmu_build_main(words) == 0
+    assert read_model(Path("MassWithRubbing.fmu"))["force.F_c"].start == pytest.approx(0.4, abs=0.01)
+
+
+def test_the_command_in_the_header_starts_where_fmu_build_is_at_hand(
+    found: Diagnosis, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    root = Path(pysim.cli.__file__).parents[2]
+    monkeypatch.setattr(sys, "prefix", str(root / ".venv"))
+    head = write_extended(found, given(), tmp_path)["modelica"].read_text()
+    words = ["fmu-build", "MassWithRubbing", "--library", str(tmp_path.resolve() / "MassWithRubbing.mo")]
+    assert quoted([str(root / "run.py"), *words]) in head
 
 
 def test_where_nothing_was_added_nothing_is_written(found: Diagnosis, tmp_path: Path) -> None:
