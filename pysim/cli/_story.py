@@ -167,10 +167,13 @@ def unfold(
     Args:
         work: the steps, handed what tells and the journal's place.
     Raises:
+        BadInput: the results would take the place of parameters that are read.
         KeyboardInterrupt: stopped by the user; says how to go on.
     """
     from pysim.types import Told
 
+    if given.subject.free:
+        _keep_what_is_read(args)
     journal = args.output / JOURNAL if args.output else None
     try:
         with Story(f"{given.dataset.name}: {given.model_name}") as story:
@@ -187,6 +190,17 @@ def unfold(
     except KeyboardInterrupt:
         cure = "the same command goes on where it was" if journal else "with --output DIR a run can be gone on with"
         raise KeyboardInterrupt(cure) from None
+
+
+def _keep_what_is_read(args: argparse.Namespace) -> None:
+    from pysim.cli._extended import PARAMETERS
+    from pysim.types import BadInput
+
+    if args.output and args.parameters and (args.output / PARAMETERS).resolve() == args.parameters.resolve():
+        raise BadInput(
+            f"--output {args.output}: --parameters reads {args.parameters}, which the refitted values would take the "
+            "place of; choose another folder"
+        )
 
 
 def finish(

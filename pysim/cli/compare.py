@@ -23,7 +23,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_fitted(parser)
     add_parameters(parser)
     add_reference(parser)
-    add_results(parser, "")
+    add_results(parser, ", with --refit parameters.toml")
 
 
 def run(args: argparse.Namespace) -> int:

@@ -14,7 +14,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_effects(parser)
     parser.add_argument("--most", metavar="N", type=int, default=3, help="effects to add at most (3)")
     parser.add_argument("--seed", metavar="S", type=int, default=0, help=SEED)
-    add_results(parser, ", the extended class and its FMU")
+    add_results(parser, ", parameters.toml, the extended class and its FMU")
 
 
 def run(args: argparse.Namespace) -> int:

@@ -12,7 +12,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
     add_subject(parser)
     add_names(parser, "--with", "--effect", what="effects that the model is to have already", dest="effect")
-    add_results(parser, "")
+    add_results(parser, ", parameters.toml")
 
 
 def run(args: argparse.Namespace) -> int:

@@ -13,7 +13,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_subject(parser)
     add_effects(parser)
     parser.add_argument("--seed", metavar="S", type=int, default=0, help=SEED)
-    add_results(parser, "")
+    add_results(parser, ", parameters.toml")
 
 
 def run(args: argparse.Namespace) -> int:

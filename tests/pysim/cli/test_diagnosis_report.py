@@ -34,13 +34,14 @@ def test_every_part_of_the_story_has_its_file(tmp_path: Path) -> None:
     assert "<h1>Why?</h1>" in page
     assert "Because." in page
     assert "next_test.toml" in page
-    assert set(files) == {"report", "plan", *(f"picture {name}" for name in drawn)}
+    assert set(files) == {"report", "parameters", "plan", *(f"picture {name}" for name in drawn)}
 
 
 def test_a_comparison_alone_draws_what_it_has(tmp_path: Path) -> None:
     full = nothing()
-    found = replace(full, error=full.error[:1], stages=full.stages[:1], ranking=(), verdict="unknown")
+    found = replace(full, error=full.error[:1], stages=full.stages[:1], ranking=(), verdict="unknown", parameters=())
     files = write_diagnosis(found, given(), tmp_path, "x", question="?", answer="!")
     drawn = {name.removeprefix("picture ") for name in files if name.startswith("picture ")}
     assert drawn == {"ledger", "record_1", "record_2", "record_3", "where", "map", "spectrum"}
+    assert "parameters" not in files
     assert "where the model as it is fails most" in files["report"].read_text()

@@ -119,6 +119,20 @@ def test_compare_tells_how_far_the_model_is_and_where(
     assert (found["verdict"], found["reason"].partition("; ")[2]) == ("unknown", "no effect was tried")
     assert found["where"][0]["error"] > refit["fit"]
     assert "pysim compare Toy.Mass --data" in (output / "report.html").read_text()
+    told = ["--parameters", str(output / "parameters.toml"), "--story", str(tmp_path / "s.jsonl")]
+    main([*words, *told])  # its values are those of the model that was compared
+    (again,) = json.loads((tmp_path / "a.json").read_text())["error"]
+    assert again["fit"] == pytest.approx(refit["fit"], rel=0.05)
+
+
+def test_parameters_that_are_read_are_not_written_over(
+    data: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    own = tmp_path / "parameters.toml"
+    own.write_text("m = 1.1\n")
+    assert main(["diagnose", str(data), *MODEL, "--parameters", str(own), "--output", str(tmp_path)]) == 2
+    assert "which the refitted values would take the place of; choose another folder" in capsys.readouterr().err
+    assert own.read_text() == "m = 1.1\n"
 
 
 def test_tables_beside_logs_are_left_out_and_said_to_be(

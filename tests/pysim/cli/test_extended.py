@@ -12,6 +12,7 @@ import pysim.cli
 from fmu_build import build
 from fmu_build.cli import main as fmu_build_main
 from pysim.cli._extended import extended_name, relative_files, write_extended
+from pysim.cli._options import parameters_of
 from pysim.cli._outputs import quoted
 from pysim.cli._subject import Given
 from pysim.cli._variants import Variants
@@ -92,8 +93,25 @@ def test_the_command_in_the_header_starts_where_fmu_build_is_at_hand(
     assert quoted([str(root / "run.py"), *words]) in head
 
 
-def test_where_nothing_was_added_nothing_is_written(found: Diagnosis, tmp_path: Path) -> None:
-    nothing = replace(found, verdict="none", added=())
+def test_where_nothing_was_added_the_base_model_has_its_values(found: Diagnosis, tmp_path: Path) -> None:
+    values = tuple(e for e in found.parameters if e.name in "mk")
+    nothing = replace(found, verdict="none", added=(), parameters=values)
+    data = replace(measured(1, "toy.friction", F_c=0.4), name="of\nMay = 5")
+    files = write_extended(nothing, replace(given(), dataset=data, overrides={"d": 0.8}), tmp_path)
+    assert files == {"parameters": tmp_path / "parameters.toml"}
+    assert list(tmp_path.iterdir()) == [tmp_path / "parameters.toml"]
+    assert parameters_of(files["parameters"]) == {e.name: e.value for e in values}
+    head = files["parameters"].read_text().splitlines()[0]
+    assert head == "# Of Toy.Mass, refitted to data set of May = 5. They hold with what was set: d = 0.8."
+
+
+def test_the_values_of_the_extended_class_say_whose_they_are(found: Diagnosis, tmp_path: Path) -> None:
+    head = write_extended(found, given(), tmp_path)["parameters"].read_text().splitlines()[0]
+    assert head.startswith("# Of MassWithRubbing, the class in MassWithRubbing.mo, fitted to data set ")
+
+
+def test_where_nothing_was_refitted_nothing_is_written(found: Diagnosis, tmp_path: Path) -> None:
+    nothing = replace(found, verdict="unknown", added=(), parameters=())
     assert write_extended(nothing, given(), tmp_path) == {}
     assert list(tmp_path.iterdir()) == []
 
