@@ -13,10 +13,15 @@ if TYPE_CHECKING:
 WHAT = "an .fmu, or a Modelica class"
 
 
-def add_library(parser: argparse.ArgumentParser, of: str = "the class") -> None:
+def add_library(parser: argparse.ArgumentParser, of: str = "the model") -> None:
     """`--library`."""
     parser.add_argument(
-        "--library", metavar="PATH", type=Path, action="append", default=[], help=f"of {of}: a folder or .mo; repeat"
+        "--library",
+        metavar="PATH",
+        type=Path,
+        action="append",
+        default=[],
+        help=f"Modelica library with {of}: folder with package.mo, or .mo file; repeat",
     )
 
 

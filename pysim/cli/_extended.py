@@ -1,4 +1,4 @@
-"""The model a diagnosis ends with, for the user to take away: a readable class with fitted values, and its FMU."""
+"""The model a step ends with, for the user to take away: its fitted values, and with effects also class and FMU."""
 
 from __future__ import annotations
 
@@ -11,11 +11,12 @@ if TYPE_CHECKING:
     from pysim.cli._subject import Given
     from pysim.types import Dataset, Diagnosis
 
+PARAMETERS = "parameters.toml"
 _WIDTH = 110
 
 
 def write_extended(found: Diagnosis, given: Given, folder: Path) -> dict[str, Path]:
-    """Write class, FMU and parameters; name -> path, none where nothing was added.
+    """Write the fitted values, and the class and its FMU where effects were added; name -> path, none without a refit.
 
     Nothing of the user's files is changed: the class extends theirs.
 
@@ -24,16 +25,34 @@ def write_extended(found: Diagnosis, given: Given, folder: Path) -> dict[str, Pa
     """
     from pysim.io import write_file
 
-    if not found.added or given.variants is None:
-        return {}
-    name = extended_name(given.variants.class_name, [one.effect.class_name for one in found.added])
     fitted = {e.name: e.value for e in found.parameters if "@" not in e.name}
-    values = {**given.overrides, **fitted}
-    effects, fmu = [one.effect for one in found.added], folder / f"{name}.fmu"
-    given.variants.write(effects, folder, fmu, name, values, _comment(found, given, name))
-    lines = [f'"{key}" = {value!r}' for key, value in fitted.items()]
-    write_file(folder / "parameters.toml", "\n".join([*lines, ""]))
-    return {"modelica": folder / f"{name}.mo", "fmu": fmu, "parameters": folder / "parameters.toml"}
+    files: dict[str, Path] = {}
+    if found.added and given.variants is not None:
+        name = extended_name(given.variants.class_name, [one.effect.class_name for one in found.added])
+        values = {**given.overrides, **fitted}
+        effects, fmu = [one.effect for one in found.added], folder / f"{name}.fmu"
+        given.variants.write(effects, folder, fmu, name, values, _comment(found, given, folder, name))
+        files = {"modelica": folder / f"{name}.mo", "fmu": fmu}
+        about = f"{name}, the class in {name}.mo, fitted to data set {given.dataset.name}."
+    else:
+        about = f"{given.model_name}, refitted to data set {given.dataset.name}. {_set_before(given)}"
+    if fitted:
+        files["parameters"] = folder / PARAMETERS
+        write_file(files["parameters"], _parameters(f"Of {about}", fitted))
+    return files
+
+
+def _set_before(given: Given) -> str:
+    """What the values hold with; nothing where nothing was set."""
+    values = ", ".join(f"{name} = {value!r}" for name, value in given.overrides.items())
+    return f"They hold with what was set: {values}." if values else ""
+
+
+def _parameters(about: str, values: Mapping[str, float]) -> str:
+    """Lines NAME = VALUE as `--parameters` takes them, below a comment."""
+    plain = "".join(c if c.isprintable() else " " for c in about)  # a line break would end the comment
+    head = textwrap.wrap(plain, _WIDTH, initial_indent="# ", subsequent_indent="# ")
+    return "\n".join([*head, *(f'"{key}" = {value!r}' for key, value in values.items()), ""])
 
 
 def extended_name(base: str, effects: Sequence[str]) -> str:
@@ -45,13 +64,13 @@ def _last(name: str) -> str:
     return name.rpartition(".")[2]
 
 
-def _comment(found: Diagnosis, given: Given, name: str) -> str:
+def _comment(found: Diagnosis, given: Given, folder: Path, name: str) -> str:
     """What it is, from which data, and when not to trust it."""
-    from pysim.cli._outputs import quoted
+    from pysim.cli._outputs import command_line
 
-    own = given.libraries
-    more = (word for library in own for word in ("--library", str(library)))
-    build = quoted(["fmu-build", name, "--library", f"{name}.mo", *more])
+    libraries = [folder / f"{name}.mo", *given.libraries]
+    own = [word for library in libraries for word in ("--library", str(library.resolve()))]
+    build = command_line([name, *own], folder, program="fmu-build")  # whole paths, as it may be pasted anywhere
     parts = [
         f"{name}: {given.model_name} with {', '.join(one.effect.name for one in found.added)}.",
         f"Every number below was fitted to the records of data set {given.dataset.name} that are marked fit; intervals "

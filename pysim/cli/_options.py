@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from pysim.types import FrequencyResponse, Model, Variable
 
 THESIS_HZ = 0.1
+SEED = "seed of the random draws; the same seed gives the same answer (0)"
 _BY_DATA = -1.0  # of `--reference-hz`, where it was not said
 
 
@@ -26,7 +27,7 @@ def add_parameters(parser: argparse.ArgumentParser) -> None:
     add_parameters_file(parser)
 
 
-def add_parameters_file(parser: argparse.ArgumentParser, more: str = "--set goes before") -> None:
+def add_parameters_file(parser: argparse.ArgumentParser, more: str = "where both set a parameter, --set wins") -> None:
     """`--parameters`.
 
     Args:
@@ -37,10 +38,17 @@ def add_parameters_file(parser: argparse.ArgumentParser, more: str = "--set goes
     )
 
 
-def add_names(parser: argparse.ArgumentParser, *options: str, what: str, required: bool = False) -> None:
-    """An option that lists names, with commas between them or repeated; for `names_of`."""
+def add_names(
+    parser: argparse.ArgumentParser, *options: str, what: str, required: bool = False, dest: str | None = None
+) -> None:
+    """An option that lists names, with commas between them or repeated; for `names_of`.
+
+    Args:
+        dest: where they end up, if not under the name of the first option.
+    """
+    about = f"{what}; commas or repeat"
     parser.add_argument(
-        *options, metavar="NAME,...", action="append", default=[], required=required, help=f"{what}; commas or repeat"
+        *options, metavar="NAME,...", action="append", default=[], required=required, dest=dest, help=about
     )
 
 
@@ -52,7 +60,10 @@ def names_of(texts: Sequence[str]) -> list[str]:
 
 def add_reference(parser: argparse.ArgumentParser) -> None:
     """`--reference-hz`, for `chosen_reference`."""
-    about = f"whose gain is 0 dB; none: absolute ({THESIS_HZ:g} where it was measured everywhere, else none)"
+    about = (
+        "frequency in Hz whose gain counts as 0 dB, or none for absolute gains "
+        f"({THESIS_HZ:g} where every test measured it, else none)"
+    )
     parser.add_argument("--reference-hz", metavar="HZ", type=reference_hz, default=_BY_DATA, help=about)
 
 

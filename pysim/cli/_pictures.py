@@ -12,8 +12,26 @@ if TYPE_CHECKING:
 
 def write_pictures(comparisons: Sequence[Comparison], folder: Path) -> dict[str, bytes]:
     """Write deviations.png and a Bode plot per offset; return caption -> SVG for the report."""
-    from pysim.io import shown_value, write_file
+    from pysim.io import write_file
     from pysim.plot import bode_figure, deviation_figure, render
+
+    pictures = {}
+    for name, (caption, at) in _figures(comparisons).items():
+        figure = deviation_figure(comparisons) if at is None else bode_figure(comparisons, at)
+        write_file(folder / name, render(figure, "png"))
+        figure.set_layout_engine("none")  # what the first drawing found is good for the second, and costs as much
+        pictures[caption] = render(figure, "svg")
+    return pictures
+
+
+def picture_names(comparisons: Sequence[Comparison]) -> list[str]:
+    """Names of the files."""
+    return list(_figures(comparisons))
+
+
+def _figures(comparisons: Sequence[Comparison]) -> dict[str, tuple[str, float | None]]:
+    """File name -> caption, and the offset of a Bode plot."""
+    from pysim.io import shown_value
 
     figures: dict[str, tuple[str, float | None]] = {
         "deviations.png": ("Deviation of every test, criterion by criterion; hollow: beyond the limit.", None)
@@ -23,10 +41,4 @@ def write_pictures(comparisons: Sequence[Comparison], folder: Path) -> dict[str,
         around = shown_value(offset, first.command_unit)
         caption = f"Offset {around}: {first.measured_name}, and simulated; grey: what is allowed."
         figures[f"bode_O{offset:+g}.png"] = (caption, offset)
-    pictures = {}
-    for name, (caption, at) in figures.items():
-        figure = deviation_figure(comparisons) if at is None else bode_figure(comparisons, at)
-        write_file(folder / name, render(figure, "png"))
-        figure.set_layout_engine("none")  # what the first drawing found is good for the second, and costs as much
-        pictures[caption] = render(figure, "svg")
-    return pictures
+    return figures

@@ -9,6 +9,7 @@ import threading
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from pathlib import Path
 from types import TracebackType
 from typing import TYPE_CHECKING
 
@@ -16,8 +17,6 @@ from pysim.cli._terminal import draws_over
 from pysim.types.diagnosis import standing
 
 if TYPE_CHECKING:
-    from pathlib import Path
-
     from pysim.cli._subject import Given
     from pysim.types import Diagnosis, LedgerStep, Told
 
@@ -167,10 +166,13 @@ def unfold(
     Args:
         work: the steps, handed what tells and the journal's place.
     Raises:
+        BadInput: the results would take the place of parameters that are read.
         KeyboardInterrupt: stopped by the user; says how to go on.
     """
     from pysim.types import Told
 
+    if given.subject.free:
+        _keep_what_is_read(args)
     journal = args.output / JOURNAL if args.output else None
     try:
         with Story(f"{given.dataset.name}: {given.model_name}") as story:
@@ -189,6 +191,17 @@ def unfold(
         raise KeyboardInterrupt(cure) from None
 
 
+def _keep_what_is_read(args: argparse.Namespace) -> None:
+    from pysim.cli._extended import PARAMETERS
+    from pysim.types import BadInput
+
+    if args.output and args.parameters and (args.output / PARAMETERS).resolve() == args.parameters.resolve():
+        raise BadInput(
+            f"--output {args.output}: --parameters reads {args.parameters}, which the refitted values would take the "
+            "place of; choose another folder"
+        )
+
+
 def finish(
     found: Diagnosis,
     given: Given,
@@ -198,7 +211,7 @@ def finish(
     question: str = "Which effect is missing?",
     answer: str = "",
 ) -> None:
-    """Write the report, the extended model and the JSON answer, where they were asked for.
+    """Write the report, the fitted model and the JSON answer, where they were asked for, in place of an earlier answer.
 
     Args:
         command: that was run.
@@ -207,6 +220,7 @@ def finish(
     import json
 
     from pysim.cli._diagnosis_report import write_diagnosis
+    from pysim.cli._earlier import remove_earlier
     from pysim.cli._extended import relative_files
     from pysim.cli._outputs import command_line
     from pysim.cli._subject import subject_words
@@ -218,6 +232,7 @@ def finish(
     files: dict[str, Path] = {}
     if args.output:
         print("Drawing the report ...", file=sys.stderr)
+        remove_earlier(args.output, read=files_read(args))
         files = write_diagnosis(found, given, args.output, redo, question=question, answer=answer)
         print(f"Report: {args.output / 'report.html'}")
     if args.records:
@@ -227,6 +242,11 @@ def finish(
         write_file(args.json, json.dumps(diagnosis_data(found, relative), indent=1, allow_nan=False) + "\n")
     if args.output:  # nothing is left to go on with; the next question may use the folder
         (args.output / JOURNAL).unlink(missing_ok=True)
+
+
+def files_read(args: argparse.Namespace) -> list[Path]:
+    """What a step takes, but for its measurements."""
+    return [Path(args.model), *args.library, *([args.parameters] if args.parameters else [])]
 
 
 def _conditions(given: Given, args: argparse.Namespace, redo: str) -> dict[str, str]:

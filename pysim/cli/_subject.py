@@ -55,10 +55,14 @@ def add_fitted(parser: argparse.ArgumentParser) -> None:
     from pysim.cli._any_model import add_library
     from pysim.cli._options import add_names
 
-    add_library(parser, "the class or of effects")
-    add_names(parser, "--free", what="parameters to refit (those with bounds that are not set)")
+    add_library(parser, "the model or your effects")
+    add_names(parser, "--free", what="parameters to refit (all with min, max and nominal that are not set)")
     parser.add_argument(
-        "--bounds", metavar="NAME=LOW:HIGH", action="append", default=[], help="in place of the model's min and max"
+        "--bounds",
+        metavar="NAME=LOW:HIGH",
+        action="append",
+        default=[],
+        help="bounds in the parameter's own unit, in place of the model's; without --free they make it free too",
     )
 
 

@@ -12,7 +12,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
     add_subject(parser)
     add_names(parser, "--effect", "--effects", what="to add, by their standard names, in order", required=True)
-    add_results(parser, ", the extended class and its FMU")
+    add_results(parser, ", parameters.toml, the extended class and its FMU")
 
 
 def run(args: argparse.Namespace) -> int:

@@ -7,13 +7,14 @@ import argparse
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The words behind `pysim diagnose`."""
+    from pysim.cli._options import SEED
     from pysim.cli._subject import add_effects, add_results, add_subject
 
     add_subject(parser)
     add_effects(parser)
     parser.add_argument("--most", metavar="N", type=int, default=3, help="effects to add at most (3)")
-    parser.add_argument("--seed", metavar="S", type=int, default=0, help="of the bootstrap (0)")
-    add_results(parser, ", the extended class and its FMU")
+    parser.add_argument("--seed", metavar="S", type=int, default=0, help=SEED)
+    add_results(parser, ", parameters.toml, the extended class and its FMU")
 
 
 def run(args: argparse.Namespace) -> int:

@@ -27,7 +27,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--fix", "--set", metavar="NAME=VALUE", action="append", default=[], help="set a parameter, its unit"
     )
-    add_parameters_file(parser, "where free ones begin, and what others are set to; --start and --fix go before")
+    add_parameters_file(parser, "where free ones begin, and what others are set to; --start and --fix win")
     parser.add_argument("--tie", metavar="A=[F*]B", action="append", default=[], help="let A follow the free B")
     parser.add_argument("--start", metavar="NAME=VALUE", action="append", default=[], help="where a free one begins")
     parser.add_argument(

@@ -11,8 +11,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     from pysim.cli._subject import add_results, add_subject
 
     add_subject(parser)
-    add_names(parser, "--effect", "--effects", what="in the model already, by their names")
-    add_results(parser, "")
+    add_names(parser, "--with", "--effect", what="effects that the model is to have already", dest="effect")
+    add_results(parser, ", parameters.toml")
 
 
 def run(args: argparse.Namespace) -> int:

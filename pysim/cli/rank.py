@@ -7,12 +7,13 @@ import argparse
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The words behind `pysim rank`."""
+    from pysim.cli._options import SEED
     from pysim.cli._subject import add_effects, add_results, add_subject
 
     add_subject(parser)
     add_effects(parser)
-    parser.add_argument("--seed", metavar="S", type=int, default=0, help="of the bootstrap (0)")
-    add_results(parser, "")
+    parser.add_argument("--seed", metavar="S", type=int, default=0, help=SEED)
+    add_results(parser, ", parameters.toml")
 
 
 def run(args: argparse.Namespace) -> int:

@@ -17,6 +17,7 @@ import pytest
 
 import pysim.cli
 from pysim.cli import main
+from pysim.cli._earlier import LIST, remember
 from pysim.cli._options import read_parameters
 from pysim.cli._outputs import command_line
 from pysim.types import BadInput, Experiment, Record, SimulationError
@@ -64,12 +65,13 @@ def test_compare_passes_and_writes_what_was_asked_for(folder: Path, capsys: pyte
     assert "(4 of 4 rows)" in text
     assert "Take it with care." in text
     assert json.loads(numbers.read_text())["parameter_sets"][0]["passes"] is True
-    assert sorted(path.name for path in out.iterdir()) == [
-        "bode_O+50.png",
-        "bode_O-50.png",
-        "deviations.png",
-        "report.html",
-    ]
+    ours = {"bode_O+50.png", "bode_O-50.png", "deviations.png", "report.html"}
+    assert {path.name for path in out.iterdir()} == {*ours, LIST}
+    assert {line.split()[1] for line in (out / LIST).read_text().splitlines()} == ours
+    (out / "missing_1.png").write_text("of a diagnosis")
+    remember(out, [out / "missing_1.png"])
+    assert main(words) == 0
+    assert {path.name for path in out.iterdir()} == {*ours, LIST}
     assert "pysim compare linear.fmu" in (out / "report.html").read_text(encoding="utf-8")
 
 
@@ -251,9 +253,11 @@ def test_the_line_to_redo_is_quoted_and_starts_where_it_works(monkeypatch: pytes
     root = Path(pysim.cli.__file__).parents[2]
     monkeypatch.setattr(sys, "prefix", "/usr")
     assert command_line(["demo", "--output", "my results"]) == "pysim demo --output 'my results'"
+    assert command_line(["A.B"], program="fmu-build") == "fmu-build A.B"
     monkeypatch.setattr(sys, "prefix", str(root / ".venv"))
     monkeypatch.chdir(root)
     assert command_line(["demo"]) == "python3 run.py pysim demo"
+    assert command_line(["A.B"], program="fmu-build") == "python3 run.py fmu-build A.B"
     monkeypatch.chdir(root / "tests")
     assert shlex.split(command_line(["demo"])) == ["python3", str(root / "run.py"), "pysim", "demo"]
     assert command_line(["demo"], root) == "python3 run.py pysim demo"  # typed there, wherever this process is
@@ -269,3 +273,21 @@ def test_the_line_to_redo_is_quoted_as_windows_wants_it(monkeypatch: pytest.Monk
     monkeypatch.setattr(sys, "prefix", str(root / ".venv"))
     monkeypatch.chdir(root)
     assert command_line(["demo"]) == "py run.py pysim demo"
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "seed of the random draws; the same seed gives the same answer (0)",
+        "all with min, max and nominal that are not set",
+        "bounds in the parameter's own unit, in place of the model's; without --free they make it free too",
+        "with the model or your effects: folder with package.mo, or .mo file; repeat",
+        "where both set a parameter, --set wins",
+        "frequency in Hz whose gain counts as 0 dB, or none for absolute gains (0.1 where every test",
+    ],
+)
+@pytest.mark.parametrize("command", ["diagnose", "rank"])
+def test_the_help_says_what_an_option_does(command: str, said: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main([command, "--help"]) == 0
+    words = " ".join(capsys.readouterr().out.split())
+    assert said in words

@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from pysim.cli._diagnosis_report import write_diagnosis
+from pysim.cli._earlier import LIST
 from pysim.cli._subject import Given
 from pysim.types import Missing, NextTest, Shape
 from tests.pysim.diagnose.toy import measured, toy_subject
@@ -24,6 +25,8 @@ def given() -> Given:
 def test_every_part_of_the_story_has_its_file(tmp_path: Path) -> None:
     found = story(missing=(MISSING, EMPTY), next_test=TEST)
     files = write_diagnosis(found, given(), tmp_path, "pysim diagnose x", question="Why?", answer="Because.")
+    listed = {line.split()[1] for line in (tmp_path / LIST).read_text().splitlines()}
+    assert {*listed, LIST} == {path.name for path in tmp_path.iterdir()}
     drawn = {name.removeprefix("picture ") for name in files if name.startswith("picture ")}
     several = {"ledger", "record_1", "record_2", "record_3", "where", "map", "spectrum", "ranking", "parameters"}
     assert drawn == several | {"missing_1"}  # the other term has no shape
@@ -34,13 +37,14 @@ def test_every_part_of_the_story_has_its_file(tmp_path: Path) -> None:
     assert "<h1>Why?</h1>" in page
     assert "Because." in page
     assert "next_test.toml" in page
-    assert set(files) == {"report", "plan", *(f"picture {name}" for name in drawn)}
+    assert set(files) == {"report", "parameters", "plan", *(f"picture {name}" for name in drawn)}
 
 
 def test_a_comparison_alone_draws_what_it_has(tmp_path: Path) -> None:
     full = nothing()
-    found = replace(full, error=full.error[:1], stages=full.stages[:1], ranking=(), verdict="unknown")
+    found = replace(full, error=full.error[:1], stages=full.stages[:1], ranking=(), verdict="unknown", parameters=())
     files = write_diagnosis(found, given(), tmp_path, "x", question="?", answer="!")
     drawn = {name.removeprefix("picture ") for name in files if name.startswith("picture ")}
     assert drawn == {"ledger", "record_1", "record_2", "record_3", "where", "map", "spectrum"}
+    assert "parameters" not in files
     assert "where the model as it is fails most" in files["report"].read_text()

@@ -1,6 +1,7 @@
 """Each step of the diagnosis as a command of its own, and a command that was stopped."""
 
 import json
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
@@ -119,6 +120,20 @@ def test_compare_tells_how_far_the_model_is_and_where(
     assert (found["verdict"], found["reason"].partition("; ")[2]) == ("unknown", "no effect was tried")
     assert found["where"][0]["error"] > refit["fit"]
     assert "pysim compare Toy.Mass --data" in (output / "report.html").read_text()
+    told = ["--parameters", str(output / "parameters.toml"), "--story", str(tmp_path / "s.jsonl")]
+    main([*words, *told])  # its values are those of the model that was compared
+    (again,) = json.loads((tmp_path / "a.json").read_text())["error"]
+    assert again["fit"] == pytest.approx(refit["fit"], rel=0.05)
+
+
+def test_parameters_that_are_read_are_not_written_over(
+    data: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    own = tmp_path / "parameters.toml"
+    own.write_text("m = 1.1\n")
+    assert main(["diagnose", str(data), *MODEL, "--parameters", str(own), "--output", str(tmp_path)]) == 2
+    assert "which the refitted values would take the place of; choose another folder" in capsys.readouterr().err
+    assert own.read_text() == "m = 1.1\n"
 
 
 def test_tables_beside_logs_are_left_out_and_said_to_be(
@@ -146,19 +161,43 @@ def test_compare_draws_a_model_that_is_not_refitted(data: Path, tmp_path: Path) 
     assert {"ledger.png", "map.png", "where.svg", "record_1.svg"} <= {path.name for path in output.iterdir()}
 
 
-def test_a_command_that_was_stopped_goes_on_with_the_same_answer(
-    undrawn: None, data: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    words = ["diagnose", str(data), *MODEL, "--effects", "toy.friction,toy.bias", "--output", str(tmp_path / "out")]
+def stopped_at(step: str) -> Callable[[Story, Told], None]:
+    """In place of what tells: Ctrl-C once a step of the ledger is known."""
     tell = Story.__call__
 
     def stop(self: Story, told: Told) -> None:
         tell(self, told)
-        if told.step is not None and told.step.step == "refit":
+        if told.step is not None and told.step.step == step:
             raise KeyboardInterrupt
 
+    return stop
+
+
+def test_an_answer_takes_the_place_of_the_one_before(
+    undrawn: None, data: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    output = tmp_path / "out"
+    assert main(["add", str(data), *MODEL, "--effect", "toy.friction", "--output", str(output)]) == 0
+    ours = {"report.html", "parameters.toml", "written.sha256"}
+    first = {path.name for path in output.iterdir()}
+    assert first == ours | {"MassWithRubbing.mo", "MassWithRubbing.fmu"}
+    (output / "record_1.png").write_text("of the user's own")
+    words = ["compare", *MODEL, "--data", str(data), "--refit", "--output", str(output)]
     with monkeypatch.context() as patch:
-        patch.setattr(Story, "__call__", stop)
+        patch.setattr(Story, "__call__", stopped_at("prior"))
+        assert main(words) == 2
+    assert {path.name for path in output.iterdir()} == {*first, JOURNAL, "record_1.png"}
+    assert main(words) == 0
+    assert {path.name for path in output.iterdir()} == {*ours, "record_1.png"}
+    assert (output / "parameters.toml").read_text().startswith("# Of Toy.Mass, refitted to ")
+
+
+def test_a_command_that_was_stopped_goes_on_with_the_same_answer(
+    undrawn: None, data: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    words = ["diagnose", str(data), *MODEL, "--effects", "toy.friction,toy.bias", "--output", str(tmp_path / "out")]
+    with monkeypatch.context() as patch:
+        patch.setattr(Story, "__call__", stopped_at("refit"))
         assert main(words) == 2
     assert capsys.readouterr().err.rstrip().endswith("pysim: stopped; the same command goes on where it was")
     journal = tmp_path / "out" / JOURNAL
@@ -188,7 +227,7 @@ def test_locate_tells_the_place_and_the_shape_of_what_is_missing(
 
 
 def test_locate_beside_the_effect_that_was_missing_finds_little(data: Path, tmp_path: Path) -> None:
-    words = ["locate", str(data), *MODEL, "--effect", "toy.friction", "--json", str(tmp_path / "a.json")]
+    words = ["locate", str(data), *MODEL, "--with", "toy.friction", "--json", str(tmp_path / "a.json")]
     assert main(words) == 0
     found = json.loads((tmp_path / "a.json").read_text())
     assert [row["step"] for row in found["error"]] == ["prior", "refit", "toy.friction"]

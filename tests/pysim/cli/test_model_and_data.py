@@ -46,7 +46,7 @@ def names(args: argparse.Namespace, option: str) -> list[str]:
     ("words", "option"),
     [
         (["add", "d", "--model", "m", "--effect", "a,b", "--effects", "c"], "effect"),
-        (["locate", "d", "--model", "m", "--effects", "a, b", "--effect", "c"], "effect"),
+        (["locate", "d", "--model", "m", "--with", "a, b", "--effect", "c"], "effect"),
         (["diagnose", "d", "--model", "m", "--effect", "a", "--effect", "b,c"], "effects"),
         (["rank", "d", "--model", "m", "--effects", "a,b,c"], "effects"),
         (["fit", "m", "--data", "d", "--free", "a,b", "--free", "c"], "free"),
@@ -57,6 +57,13 @@ def names(args: argparse.Namespace, option: str) -> list[str]:
 )
 def test_names_are_listed_with_commas_or_one_by_one(words: list[str], option: str) -> None:
     assert names(argument_parser().parse_args(words), option) == ["a", "b", "c"]
+
+
+def test_effects_that_a_model_has_already_are_not_those_to_choose_from(capsys: pytest.CaptureFixture[str]) -> None:
+    """`--effects` of `diagnose` and `rank` narrows the catalogue; `locate` does not take it for something else."""
+    with pytest.raises(SystemExit):
+        argument_parser().parse_args(["locate", "d", "--model", "m", "--effects", "a"])
+    assert "unrecognized arguments: --effects a" in capsys.readouterr().err
 
 
 def test_a_comma_within_brackets_belongs_to_the_name() -> None:
