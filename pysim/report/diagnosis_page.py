@@ -5,7 +5,14 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from pysim.identify.accuracy import FREQUENCY_CRITERIA, TIME_CRITERIA
-from pysim.report.diagnosis_words import chance_text, remark, share_text, sizes, verdict_sentence
+from pysim.report.diagnosis_words import (
+    chance_text,
+    next_test_sentence,
+    remark,
+    share_text,
+    sizes,
+    verdict_sentence,
+)
 from pysim.report.page import cell, commands, heading, items, page, paragraph, picture, statement, table
 from pysim.types import AddedEffect, Candidate, Diagnosis, Estimate, LedgerStep, Missing, Stage
 
@@ -46,8 +53,8 @@ def diagnosis_page(
     parts += _section("Parameters before and after", [*_drawn(pictures, "parameters"), *_parameters(diagnosis)])
     if diagnosis.next_test is not None:
         test = diagnosis.next_test
-        told = f"{test.about} It separates {' from '.join(test.separates)}; expected gain {test.gain:.3g}."
-        parts += _section("The next test", [paragraph(told), *([commands(test.plan)] if test.plan else [])])
+        told = paragraph(next_test_sentence(test))
+        parts += _section("The next test", [told, *([commands(test.plan)] if test.plan else [])])
     parts += _section("The error, step by step", [_ledger(diagnosis.error)])
     if diagnosis.notes:
         parts += _section("What to bear in mind", [items(diagnosis.notes)])

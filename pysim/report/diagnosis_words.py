@@ -6,11 +6,12 @@ import math
 from collections.abc import Sequence
 
 from pysim.identify.accuracy import FREQUENCY_CRITERIA, TIME_CRITERIA
-from pysim.types import AddedEffect, Criterion, Diagnosis, Estimate, LedgerStep
+from pysim.types import AddedEffect, Criterion, Diagnosis, Estimate, LedgerStep, NextTest
 from pysim.types.diagnosis import NONE, UNKNOWN
 
 _BY_TABLE = (FREQUENCY_CRITERIA, TIME_CRITERIA)
 _UNITS = {"%": "% of full scale", "deg": "degrees"}
+_SHUT = "in none of the libraries"  # in a note on a model whose Modelica class is not known
 _NOISE = 1.5  # times the noise: a model that leaves more than this fails, though limits that are wider may hold
 
 
@@ -111,7 +112,7 @@ def ranking_sentence(diagnosis: Diagnosis) -> str:
 def missing_sentence(diagnosis: Diagnosis) -> str:
     """Where a term is missing most likely, and what it looks like."""
     if not diagnosis.missing:
-        return "Nothing could be looked at inside the model: its Modelica class is not at hand."
+        return _nowhere(diagnosis)
     first = diagnosis.missing[0]
     shape = f"; {first.formula}" if first.formula else ""
     texts = [f"What is missing fits best at {first.slot}, over {first.depends_on}{shape}."]
@@ -120,6 +121,23 @@ def missing_sentence(diagnosis: Diagnosis) -> str:
         texts.append(f"These data do not tell it from a term at {', '.join(first.alike)}.")
     rest = [f"{one.slot} {share_text(one.share)}" for one in diagnosis.missing[1:4]]
     return " ".join([*texts, *([f"Next: {', '.join(rest)}."] if rest else [])])
+
+
+def _nowhere(diagnosis: Diagnosis) -> str:
+    """What is known where no place gave a term; of causes only the one that a note tells."""
+    shut = any(_SHUT in note for note in diagnosis.notes)
+    of_model = "the model's inputs and outputs, and without its Modelica class nothing else can be looked at"
+    text = f"No term could be estimated at {of_model if shut else 'any place of the model'}."
+    explained = " The model explains the measurements down to their noise without one."
+    return f"{text}{explained if diagnosis.verdict == NONE else ''}"
+
+
+def next_test_sentence(test: NextTest) -> str:
+    """What to run and to log, and what that is worth."""
+    return (
+        f"{test.about} It separates {' from '.join(test.separates)}: expected difference of their sums of squares over "
+        f"noise {test.gain:.3g}."
+    )
 
 
 def added_sentence(diagnosis: Diagnosis) -> str:
