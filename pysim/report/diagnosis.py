@@ -105,6 +105,7 @@ def step_data(step: LedgerStep) -> dict[str, object]:
         "criteria": {name: json_number(value) for name, value in step.criteria.items()},
         "passes": step.passes,
         "cost": json_number(step.cost),
+        "not_simulated": step.not_simulated,
     }
 
 

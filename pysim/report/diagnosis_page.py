@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from pysim.identify.accuracy import FREQUENCY_CRITERIA, TIME_CRITERIA
 from pysim.report.diagnosis_words import (
     chance_text,
+    limits_words,
     next_test_sentence,
     remark,
     share_text,
@@ -190,11 +191,12 @@ def _ledger(steps: Sequence[LedgerStep]) -> str:
             value = step.criteria.get(criterion.symbol)
             kind = "" if value is None or value <= criterion.limit else "beyond"
             numbers.append(cell("" if value is None else f"{value:.3g}", kind))
-        verdict = cell("met", "pass") if step.passes else cell("not met", "fail")
+        kind = "" if not (step.criteria or step.not_simulated) else "pass" if step.passes else "fail"
+        verdict = cell(limits_words(step), kind)
         rows.append([cell(step.step, "words"), *numbers, cell(f"{step.cost:.6g}"), verdict])
     head = ["step", "fitted", "held out", *(f"{c.name} ({c.unit}, limit {c.limit:g})" for c in shown)]
     caption = "Residual over noise; worst value of each criterion of thesis Tables 1.3 and 1.4; sum of squares"
-    return table(caption, [*head, "sum", "Tables 1.3, 1.4"], rows)
+    return table(caption, [*head, "sum", "limits"], rows)
 
 
 def _last(diagnosis: Diagnosis) -> Stage | None:

@@ -54,24 +54,34 @@ def limits_sentence(step: LedgerStep) -> str:
     texts = []
     for criteria in _judging(step):
         values = [f"{_worst(step, c)} {_UNITS.get(c.unit, c.unit)} {_how(c)} (limit {c.limit:g})" for c in criteria]
-        met = "is met" if _holds(step, criteria) else "is not met"
-        texts.append(f"{_capital(criteria[0].source)} {met}: at worst {_and(values)}.")
+        texts.append(f"{_capital(criteria[0].source)} is {_verdict(step, criteria)}: at worst {_and(values)}.")
     largest = max((value for value in (step.fit, step.validate) if value is not None), default=0.0)
     if texts and step.passes and largest > _NOISE:
         texts.append("These limits are wider than the noise: that they are met does not make the model complete.")
-    return " ".join(texts) or "Nothing was compared that thesis Tables 1.3 and 1.4 have limits for."
+    texts = texts or ["Nothing was compared that thesis Tables 1.3 and 1.4 have limits for."]
+    if step.not_simulated:
+        texts.append(f"{_capital(_lost(step))}: how far the model is from what was measured there is not known.")
+    return " ".join(texts)
 
 
 def limits_words(step: LedgerStep) -> str:
     """The same in a few words."""
-    judging = _judging(step)
-    if not judging:
-        return "no limits"
     verdicts = [
-        f"{criteria[0].source.removeprefix('thesis ')} {'met' if _holds(step, criteria) else 'not met'}"
-        for criteria in judging
-    ]
-    return ", ".join(verdicts)
+        f"{criteria[0].source.removeprefix('thesis ')} {_verdict(step, criteria)}" for criteria in _judging(step)
+    ] or ["no limits"]
+    return ", ".join([*verdicts, *([_lost(step)] if step.not_simulated else [])])
+
+
+def _verdict(step: LedgerStep, criteria: Sequence[Criterion]) -> str:
+    """Limits that hold are met only where every record was simulated."""
+    if not _holds(step, criteria):
+        return "not met"
+    return "not judged" if step.not_simulated else "met"
+
+
+def _lost(step: LedgerStep) -> str:
+    count = step.not_simulated
+    return f"{count} record{'' if count == 1 else 's'} not simulated"
 
 
 def _judging(step: LedgerStep) -> list[list[Criterion]]:

@@ -128,6 +128,23 @@ def test_where_nothing_has_a_limit_none_is_said_to_be_met() -> None:
     bare = LedgerStep("prior", 3.0, None, {}, True, 1.0)
     assert "is met" not in comparison_sentence(story(error=(bare,)))
     assert "no limits" in evidence_text(story(error=(bare,)))
+    page = diagnosis_page(story(error=(bare,)), title="toy", pictures={}, redo="x")
+    assert ">no limits<" in page
+    assert ">met<" not in page
+
+
+def test_limits_are_not_judged_where_a_record_could_not_be_simulated() -> None:
+    short = LedgerStep("prior", 1.0, None, {"E_M mean": 0.2, "E_t max": 30.0}, False, 1.0, not_simulated=1)
+    told = "Table 1.3 not judged, Table 1.4 not met, 1 record not simulated"
+    assert told in evidence_text(story(error=(short,)))
+    assert told in diagnosis_page(story(error=(short,)), title="toy", pictures={}, redo="x")
+    assert limits_sentence(short) == (
+        "Thesis Table 1.3 is not judged: at worst 0.2 dB on average (limit 0.5). Thesis Table 1.4 is not met: at worst "
+        "30 % of full scale at most (limit 10). 1 record not simulated: how far the model is from what was measured "
+        "there is not known."
+    )
+    none = LedgerStep("prior", None, None, {}, True, 0.0, not_simulated=2)
+    assert "no limits, 2 records not simulated" in evidence_text(story(error=(none,)))
 
 
 def test_a_size_that_people_turn_over_is_told_both_ways() -> None:
