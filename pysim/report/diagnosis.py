@@ -7,7 +7,7 @@ import textwrap
 from collections.abc import Mapping, Sequence
 
 from pysim.io import json_number
-from pysim.report.diagnosis_words import limits_words, verdict_sentence
+from pysim.report.diagnosis_words import limits_words, next_test_sentence, verdict_sentence
 from pysim.types import Estimate
 from pysim.types.diagnosis import AddedEffect, Candidate, Diagnosis, LedgerStep, Missing, NextTest
 
@@ -105,6 +105,7 @@ def step_data(step: LedgerStep) -> dict[str, object]:
         "criteria": {name: json_number(value) for name, value in step.criteria.items()},
         "passes": step.passes,
         "cost": json_number(step.cost),
+        "not_simulated": step.not_simulated,
     }
 
 
@@ -124,7 +125,7 @@ def _wrapped(text: str) -> list[str]:
 
 
 def evidence_text(diagnosis: Diagnosis) -> str:
-    """Sizes, ledger, ranking, ties and notes for a terminal."""
+    """Sizes, ledger, ranking, ties with the test that would part them, and notes for a terminal."""
     lines = [*_effects(diagnosis.added), *([""] if diagnosis.added else []), "Error over noise"]
     for step in diagnosis.error:
         numbers = "".join(
@@ -144,6 +145,8 @@ def evidence_text(diagnosis: Diagnosis) -> str:
             for one in diagnosis.missing[:6]
         ]
     lines += [f"Not told apart by these data: {', '.join(group)}" for group in diagnosis.confusable]
+    if diagnosis.next_test is not None:
+        lines += textwrap.wrap(f"Next test: {next_test_sentence(diagnosis.next_test)}", _WIDTH, subsequent_indent="  ")
     for note in diagnosis.notes:
         lines += textwrap.wrap(f"Note: {note}", _WIDTH, subsequent_indent="  ")
     return "\n".join(lines)

@@ -5,7 +5,15 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from pysim.identify.accuracy import FREQUENCY_CRITERIA, TIME_CRITERIA
-from pysim.report.diagnosis_words import chance_text, remark, share_text, sizes, verdict_sentence
+from pysim.report.diagnosis_words import (
+    chance_text,
+    limits_words,
+    next_test_sentence,
+    remark,
+    share_text,
+    sizes,
+    verdict_sentence,
+)
 from pysim.report.page import cell, commands, heading, items, page, paragraph, picture, statement, table
 from pysim.types import AddedEffect, Candidate, Diagnosis, Estimate, LedgerStep, Missing, Stage
 
@@ -46,8 +54,8 @@ def diagnosis_page(
     parts += _section("Parameters before and after", [*_drawn(pictures, "parameters"), *_parameters(diagnosis)])
     if diagnosis.next_test is not None:
         test = diagnosis.next_test
-        told = f"{test.about} It separates {' from '.join(test.separates)}; expected gain {test.gain:.3g}."
-        parts += _section("The next test", [paragraph(told), *([commands(test.plan)] if test.plan else [])])
+        told = paragraph(next_test_sentence(test))
+        parts += _section("The next test", [told, *([commands(test.plan)] if test.plan else [])])
     parts += _section("The error, step by step", [_ledger(diagnosis.error)])
     if diagnosis.notes:
         parts += _section("What to bear in mind", [items(diagnosis.notes)])
@@ -183,11 +191,12 @@ def _ledger(steps: Sequence[LedgerStep]) -> str:
             value = step.criteria.get(criterion.symbol)
             kind = "" if value is None or value <= criterion.limit else "beyond"
             numbers.append(cell("" if value is None else f"{value:.3g}", kind))
-        verdict = cell("met", "pass") if step.passes else cell("not met", "fail")
+        kind = "" if not (step.criteria or step.not_simulated) else "pass" if step.passes else "fail"
+        verdict = cell(limits_words(step), kind)
         rows.append([cell(step.step, "words"), *numbers, cell(f"{step.cost:.6g}"), verdict])
     head = ["step", "fitted", "held out", *(f"{c.name} ({c.unit}, limit {c.limit:g})" for c in shown)]
     caption = "Residual over noise; worst value of each criterion of thesis Tables 1.3 and 1.4; sum of squares"
-    return table(caption, [*head, "sum", "Tables 1.3, 1.4"], rows)
+    return table(caption, [*head, "sum", "limits"], rows)
 
 
 def _last(diagnosis: Diagnosis) -> Stage | None:

@@ -6,11 +6,12 @@ import math
 from collections.abc import Sequence
 
 from pysim.identify.accuracy import FREQUENCY_CRITERIA, TIME_CRITERIA
-from pysim.types import AddedEffect, Criterion, Diagnosis, Estimate, LedgerStep
+from pysim.types import AddedEffect, Criterion, Diagnosis, Estimate, LedgerStep, NextTest
 from pysim.types.diagnosis import NONE, UNKNOWN
 
 _BY_TABLE = (FREQUENCY_CRITERIA, TIME_CRITERIA)
 _UNITS = {"%": "% of full scale", "deg": "degrees"}
+_SHUT = "in none of the libraries"  # in a note on a model whose Modelica class is not known
 _NOISE = 1.5  # times the noise: a model that leaves more than this fails, though limits that are wider may hold
 
 
@@ -53,24 +54,34 @@ def limits_sentence(step: LedgerStep) -> str:
     texts = []
     for criteria in _judging(step):
         values = [f"{_worst(step, c)} {_UNITS.get(c.unit, c.unit)} {_how(c)} (limit {c.limit:g})" for c in criteria]
-        met = "is met" if _holds(step, criteria) else "is not met"
-        texts.append(f"{_capital(criteria[0].source)} {met}: at worst {_and(values)}.")
+        texts.append(f"{_capital(criteria[0].source)} is {_verdict(step, criteria)}: at worst {_and(values)}.")
     largest = max((value for value in (step.fit, step.validate) if value is not None), default=0.0)
     if texts and step.passes and largest > _NOISE:
         texts.append("These limits are wider than the noise: that they are met does not make the model complete.")
-    return " ".join(texts) or "Nothing was compared that thesis Tables 1.3 and 1.4 have limits for."
+    texts = texts or ["Nothing was compared that thesis Tables 1.3 and 1.4 have limits for."]
+    if step.not_simulated:
+        texts.append(f"{_capital(_lost(step))}: how far the model is from what was measured there is not known.")
+    return " ".join(texts)
 
 
 def limits_words(step: LedgerStep) -> str:
     """The same in a few words."""
-    judging = _judging(step)
-    if not judging:
-        return "no limits"
     verdicts = [
-        f"{criteria[0].source.removeprefix('thesis ')} {'met' if _holds(step, criteria) else 'not met'}"
-        for criteria in judging
-    ]
-    return ", ".join(verdicts)
+        f"{criteria[0].source.removeprefix('thesis ')} {_verdict(step, criteria)}" for criteria in _judging(step)
+    ] or ["no limits"]
+    return ", ".join([*verdicts, *([_lost(step)] if step.not_simulated else [])])
+
+
+def _verdict(step: LedgerStep, criteria: Sequence[Criterion]) -> str:
+    """Limits that hold are met only where every record was simulated."""
+    if not _holds(step, criteria):
+        return "not met"
+    return "not judged" if step.not_simulated else "met"
+
+
+def _lost(step: LedgerStep) -> str:
+    count = step.not_simulated
+    return f"{count} record{'' if count == 1 else 's'} not simulated"
 
 
 def _judging(step: LedgerStep) -> list[list[Criterion]]:
@@ -111,7 +122,7 @@ def ranking_sentence(diagnosis: Diagnosis) -> str:
 def missing_sentence(diagnosis: Diagnosis) -> str:
     """Where a term is missing most likely, and what it looks like."""
     if not diagnosis.missing:
-        return "Nothing could be looked at inside the model: its Modelica class is not at hand."
+        return _nowhere(diagnosis)
     first = diagnosis.missing[0]
     shape = f"; {first.formula}" if first.formula else ""
     texts = [f"What is missing fits best at {first.slot}, over {first.depends_on}{shape}."]
@@ -120,6 +131,23 @@ def missing_sentence(diagnosis: Diagnosis) -> str:
         texts.append(f"These data do not tell it from a term at {', '.join(first.alike)}.")
     rest = [f"{one.slot} {share_text(one.share)}" for one in diagnosis.missing[1:4]]
     return " ".join([*texts, *([f"Next: {', '.join(rest)}."] if rest else [])])
+
+
+def _nowhere(diagnosis: Diagnosis) -> str:
+    """What is known where no place gave a term; of causes only the one that a note tells."""
+    shut = any(_SHUT in note for note in diagnosis.notes)
+    of_model = "the model's inputs and outputs, and without its Modelica class nothing else can be looked at"
+    text = f"No term could be estimated at {of_model if shut else 'any place of the model'}."
+    explained = " The model explains the measurements down to their noise without one."
+    return f"{text}{explained if diagnosis.verdict == NONE else ''}"
+
+
+def next_test_sentence(test: NextTest) -> str:
+    """What to run and to log, and what that is worth."""
+    return (
+        f"{test.about} It separates {' from '.join(test.separates)}: expected difference of their sums of squares over "
+        f"noise {test.gain:.3g}."
+    )
 
 
 def added_sentence(diagnosis: Diagnosis) -> str:

@@ -73,6 +73,7 @@ class LedgerStep:
         criteria: worst value of each criterion of thesis Tables 1.3 and 1.4 over all records, by symbol.
         passes: whether all of these are within their limits.
         cost: sum of squares over noise of what is fitted.
+        not_simulated: records that the model could not be run through: their part in the criteria is not known.
     """
 
     step: str
@@ -81,6 +82,7 @@ class LedgerStep:
     criteria: Mapping[str, float]
     passes: bool
     cost: float
+    not_simulated: int = 0
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "criteria", FrozenMapping(self.criteria))

@@ -6,6 +6,9 @@ from dataclasses import replace
 
 import numpy as np
 
+from fmu_build import build
+from pysim.cli._subject import _out_of_sight
+from pysim.io import read_model
 from pysim.report.diagnosis import diagnosis_data, diagnosis_text, evidence_text
 from pysim.report.diagnosis_page import diagnosis_page
 from pysim.report.diagnosis_words import (
@@ -18,6 +21,7 @@ from pysim.report.diagnosis_words import (
     verdict_sentence,
 )
 from pysim.types import AddedEffect, LedgerStep, Missing, NextTest, Shape
+from tests.pysim.diagnose.toy import library
 from tests.pysim.diagnosis_story import OFFSET, estimate, nothing, step, story
 
 MISSING = Missing("force", 0.97, "v", Shape(*(np.arange(2.0) for _ in range(4)), "m/s", "N"), "-0.4 sign(v)")
@@ -56,9 +60,32 @@ def test_a_missing_term_is_told_by_place_shape_and_share() -> None:
         "What is missing fits best at force, over v; -0.4 sign(v). It takes 97.0 % of the misfit. Next: supply 12.0 %."
     )
     assert "force" in evidence_text(story(missing=(MISSING,)))
-    assert missing_sentence(story()).startswith("Nothing could be looked at")
     tied = replace(MISSING, alike=("supply",))
     assert "do not tell it from a term at supply." in missing_sentence(story(missing=(tied, other)))
+
+
+def test_where_no_term_was_found_no_cause_is_told_that_is_not_known() -> None:
+    assert missing_sentence(story()) == "No term could be estimated at any place of the model."
+    assert missing_sentence(nothing()) == (
+        "No term could be estimated at any place of the model. The model explains the measurements down to their noise "
+        "without one."
+    )
+    model = read_model(build("Toy.Mass", libraries=[library()]))
+    shut = story(notes=tuple(_out_of_sight(model)))
+    assert missing_sentence(shut) == (
+        "No term could be estimated at the model's inputs and outputs, and without its Modelica class nothing else can "
+        "be looked at."
+    )
+
+
+def test_the_terminal_tells_the_next_test() -> None:
+    text = " ".join(evidence_text(story(next_test=TEST)).split())
+    assert (
+        "Next test: Run a slow ramp and log x. It separates toy.offset from toy.twin: expected difference of their "
+        "sums of squares over noise 42."
+    ) in text
+    assert "Next test" not in evidence_text(story())
+    assert "over noise 42." in diagnosis_page(story(next_test=TEST), title="toy", pictures={}, redo="x")
 
 
 def test_the_steps_alone_have_sentences_of_their_own() -> None:
@@ -101,6 +128,23 @@ def test_where_nothing_has_a_limit_none_is_said_to_be_met() -> None:
     bare = LedgerStep("prior", 3.0, None, {}, True, 1.0)
     assert "is met" not in comparison_sentence(story(error=(bare,)))
     assert "no limits" in evidence_text(story(error=(bare,)))
+    page = diagnosis_page(story(error=(bare,)), title="toy", pictures={}, redo="x")
+    assert ">no limits<" in page
+    assert ">met<" not in page
+
+
+def test_limits_are_not_judged_where_a_record_could_not_be_simulated() -> None:
+    short = LedgerStep("prior", 1.0, None, {"E_M mean": 0.2, "E_t max": 30.0}, False, 1.0, not_simulated=1)
+    told = "Table 1.3 not judged, Table 1.4 not met, 1 record not simulated"
+    assert told in evidence_text(story(error=(short,)))
+    assert told in diagnosis_page(story(error=(short,)), title="toy", pictures={}, redo="x")
+    assert limits_sentence(short) == (
+        "Thesis Table 1.3 is not judged: at worst 0.2 dB on average (limit 0.5). Thesis Table 1.4 is not met: at worst "
+        "30 % of full scale at most (limit 10). 1 record not simulated: how far the model is from what was measured "
+        "there is not known."
+    )
+    none = LedgerStep("prior", None, None, {}, True, 0.0, not_simulated=2)
+    assert "no limits, 2 records not simulated" in evidence_text(story(error=(none,)))
 
 
 def test_a_size_that_people_turn_over_is_told_both_ways() -> None:
