@@ -4,14 +4,11 @@ from __future__ import annotations
 
 import argparse
 import json
-from collections.abc import Sequence
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from pysim.identify.greybox.target import Target
-    from pysim.types import Comparison, Dataset, Diagnosis, Stage
+    from pysim.types import Comparison, Dataset
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -87,32 +84,11 @@ def _story(args: argparse.Namespace) -> int:
             journal=journal,
         ),
     )
-    found = _judged(found, given.subject.targets)
     answer = comparison_sentence(found)
     print(answer, evidence_text(found), sep="\n\n")
     finish(found, given, args, "compare", question="How far is the model from its measurements?", answer=answer)
     last = found.error[-1]
     return 0 if last.passes and last.criteria else 1
-
-
-def _judged(found: Diagnosis, targets: Sequence[Target]) -> Diagnosis:
-    """With the records that each step could not simulate: a step that has some is within no limits."""
-    stages = {stage.step: stage for stage in found.stages}
-    steps = []
-    for step in found.error:
-        lost = sum(_lost(target, stages[step.step]) for target in targets)
-        steps.append(replace(step, passes=step.passes and not lost, not_simulated=lost))
-    return replace(found, error=tuple(steps))
-
-
-def _lost(target: Target, stage: Stage) -> int:
-    """How many records of a target are not beside the model."""
-    from pysim.identify.greybox.table_target import TableTarget
-
-    if isinstance(target, TableTarget):
-        return int(all(fit.comparison.measured is not target.measured for fit in stage.responses))
-    there = {record.source for record in stage.records}
-    return len({run.record for run in target.runs} - there)
 
 
 def _responses(args: argparse.Namespace, dataset: Dataset) -> int:

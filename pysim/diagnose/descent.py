@@ -27,8 +27,6 @@ _SPARE = 0.03
 _WIDE, _CLOSE = 40.0, 0.2
 # Share that matters of a sum of squares, as far as it is above so many times that of the noise.
 _SHARE, _OFF = 0.01, 2.0
-# Residuals beyond are those of a model that ran away, and no guide.
-_RUNAWAY = 1e50
 
 
 @dataclass(frozen=True)
@@ -135,7 +133,7 @@ def descend(
         if not length:
             break
         residual = at(x)
-        if residual is None or not np.all(np.abs(residual) < _RUNAWAY):
+        if residual is None:
             radius = 0.25 * length
             continue
         slopes = _corrected(best, x, residual)

@@ -14,7 +14,7 @@ from pysim.io import write_file
 from pysim.types import BadInput
 
 # Raised whenever the same line would mean something else.
-_FORM = 1
+_FORM = 2
 
 
 class Journal:
@@ -38,8 +38,8 @@ class Journal:
         lines = _whole_lines(path)
         if lines and lines[0] != head:
             raise BadInput(
-                f"{path} is the journal of another diagnosis: other model, data, libraries or options; delete it to "
-                "begin anew, or write to another folder"
+                f"{path} is the journal of another diagnosis: other model, data, libraries or options, or an older "
+                "program; delete it to begin anew, or write to another folder"
             )
         self._known = {line["part"]: line["result"] for line in lines[1:]}
         path.parent.mkdir(parents=True, exist_ok=True)

@@ -43,8 +43,9 @@ def ledger_step(name: str, found: Compared, cost: float, skips: Mapping[str, flo
         root_mean_square(found.records, "fit", skips or {}),
         root_mean_square(found.records, "validate", skips or {}),
         {d.criterion.symbol: d.value for d in _worst(deviations)},
-        all(d.passes for d in deviations),
+        not found.lost and all(d.passes for d in deviations),
         cost,
+        found.lost,
     )
 
 

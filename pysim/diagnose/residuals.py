@@ -27,6 +27,8 @@ Array = NDArray[np.float64]
 STEP = 1e-2
 # Slopes beyond are none: their products would leave the range of numbers.
 _STEEPEST = 1e100
+# Residuals beyond are those of a model that ran away, and no guide: differences by them are no slopes.
+_RUNAWAY = 1e50
 
 
 @dataclass(frozen=True)
@@ -136,7 +138,7 @@ class Ruler:
         if any(r.outcome is not Outcome.DONE or not np.isfinite(r.values).all() for r in records):
             return None
         rows = self.weighed([Simulated(r.values, np.zeros((*r.values.shape, 0))) for r in records])
-        return self.span.across(rows)[:, 0]
+        return self.span.across(rows)[:, 0] if np.all(np.abs(rows) < _RUNAWAY) else None
 
     def weighed(self, simulated: Sequence[Simulated]) -> Array:
         """Residuals and, in the columns behind, their slopes, (n_r, 1 + n_x), nuisances and all."""

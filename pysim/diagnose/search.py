@@ -287,6 +287,8 @@ def _objection(story: Story, current: Fitted, best: Fitted) -> str:
     if story.blame(current).cost > 2 * freedom and part < decide.FAIR:
         return f"{name} takes {100 * part:.1f} % of the misfit: not enough to be named"
     before, after = story.held_out(current), story.held_out(best)
+    if before is not None and after is None:
+        return f"{name} makes a model that cannot be simulated on what is held out: not named"
     if before is None or after is None or decide.disagreement(before, after) <= decide.AGAINST:
         return ""
     if float(after @ after - before @ before) > fall:

@@ -101,7 +101,9 @@ def _parameter(declaration: Declaration, text: ClassText, library: Libraries) ->
     attributes = _attributes(declaration, text, library)
     for attribute in ("min", "max", "unit"):
         if attribute not in attributes:
-            raise BadInput(f"{where} has no {attribute}; write it into its declaration, a fit needs it")
+            raise BadInput(
+                f"{where} has no {attribute}, which a fit needs; write it there, or declare constant what stays"
+            )
     if not declaration.value:
         raise BadInput(f"{where} has no value; declare it with = 0 for off, or with a usual size")
     low, high, default = (number(t, where) for t in (attributes["min"], attributes["max"], declaration.value))

@@ -82,7 +82,9 @@ class Effect:
         if len(set(names)) < len(names):
             raise BadInput(f"effect {self.name}: two parameters have one name among {', '.join(names)}; rename one")
         if not self.strengths:
-            raise BadInput(f"effect {self.name}: no parameter is 0 as declared; declare its strength with = 0, for off")
+            raise BadInput(
+                f"effect {self.name}: no parameter is 0 as declared; declare its strength in it with = 0 for off"
+            )
 
     @property
     def strengths(self) -> tuple[EffectParameter, ...]:

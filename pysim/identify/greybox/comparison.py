@@ -33,12 +33,13 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Compared:
-    """Everything at one point: logs, responses, the runs over time, and why some record is not there."""
+    """Everything at one point: logs, responses, the runs over time; why some records are not there, and how many."""
 
     records: tuple[RecordFit, ...]
     responses: tuple[ResponseFit, ...]
     experiments: tuple[Experiment, ...]
     notes: tuple[str, ...]
+    lost: int = 0
 
 
 def compared(
@@ -53,6 +54,7 @@ def compared(
     responses: list[ResponseFit] = []
     notes: list[str] = []
     experiments = []
+    lost = 0
     for target, simulated, trouble in _simulated(problem, x, simulation, known or {}):
         if isinstance(target, LogTarget):
             run = target.run.experiment
@@ -60,6 +62,7 @@ def compared(
             experiments.append(replace(run, overrides=overrides))
         if trouble:
             notes.append(f"not simulated: {trouble}")
+            lost += len(target.logs) if isinstance(target, SineTarget) else 1
         elif isinstance(target, LogTarget):
             records.append(_log(target, simulated[0]))
         elif isinstance(target, SineTarget):
@@ -67,7 +70,7 @@ def compared(
             responses += [_responses(target, simulated, j) for j in range(len(target.logs[0].measured.names))]
         elif isinstance(target, TableTarget):
             responses.append(_table(target, simulated))
-    return Compared(tuple(records), tuple(responses), tuple(experiments), tuple(notes))
+    return Compared(tuple(records), tuple(responses), tuple(experiments), tuple(notes), lost)
 
 
 def _simulated(

@@ -7,6 +7,8 @@ import numpy as np
 import pytest
 
 from pysim.diagnose import add, against, diagnose, rank
+from pysim.diagnose.fitted import Fitted
+from pysim.diagnose.story import Story
 from pysim.diagnose.subject import Subject, subject
 from pysim.types import BadInput, Diagnosis, Told
 from tests.pysim.diagnose.toy import CATALOGUE, NOISE, base, measured, toy_subject
@@ -32,6 +34,19 @@ def test_names_what_is_missing(effect: str, values: dict[str, float]) -> None:
     assert found.error[1].fit > 1.2 * last.fit
     assert (found.ranking[0].effect, found.ranking[0].round) == (effect, 1)
     assert found.ranking[0].explained > 0.9
+
+
+def test_an_effect_with_which_what_is_held_out_cannot_be_simulated_is_not_named(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def held_out(story: Story, at: Fitted) -> np.ndarray | None:
+        return None if at.what.effects else known(story, at)
+
+    known = Story.held_out
+    monkeypatch.setattr(Story, "held_out", held_out)
+    found = diagnose(toy_subject(measured(1, "toy.friction", F_c=0.4)))
+    assert (found.verdict, found.added) == ("unknown", ())
+    assert "toy.friction makes a model that cannot be simulated on what is held out: not named" in found.reason
 
 
 def test_a_limit_that_bends_the_base_model_is_looked_for_beside_the_models_own_parameters() -> None:

@@ -39,7 +39,8 @@ def test_another_diagnosis_is_refused(tmp_path: Path) -> None:
     path = tmp_path / "journal.jsonl"
     Journal(path, "mine").once("one", lambda: 1)
     with pytest.raises(
-        BadInput, match="journal of another diagnosis: other model, data, libraries or options; delete it"
+        BadInput,
+        match="journal of another diagnosis: other model, data, libraries or options, or an older program; delete it",
     ):
         Journal(path, "yours")
     path.write_text("hello\n")

@@ -1,17 +1,19 @@
 """The ruler counts what the fit counts, and its slopes are the model's."""
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
 
+from pysim.diagnose import residuals
 from pysim.diagnose.refit import refit
 from pysim.diagnose.residuals import Ruler, rulers
 from pysim.diagnose.subject import extended, identifiable
 from pysim.identify.greybox import Simulation, fit, problem
 from pysim.io import read_model
-from pysim.simulate import Esdirk, Rodas
-from pysim.types import BadInput
+from pysim.simulate import Esdirk, Rodas, simulate_many
+from pysim.types import BadInput, Record
 from tests.pysim.diagnose.toy import base, build_variant, measured, toy_subject
 
 
@@ -29,6 +31,20 @@ def test_exact_slopes_and_differences_agree() -> None:
         up, down = tight.at(what, x + h), tight.at(what, x - h)
         central = (up - down) / 2e-4
         assert np.linalg.norm(exact.jacobian[:, j] - central) < 1e-2 * np.linalg.norm(central)
+
+
+def test_a_model_that_ran_away_has_no_residuals(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Differences by such would be slopes whose products leave the range of numbers."""
+    given = toy_subject(measured(1))
+    ruler, what = Ruler(given.targets), extended(given, ())
+    runs = ruler.experiments({})
+
+    def wild(*args: Any, **options: Any) -> list[Record]:
+        return [replace(one, values=1e60 * one.values) for one in simulate_many(*args, **options)]
+
+    assert ruler.count(what.model, runs) is not None
+    monkeypatch.setattr(residuals, "simulate_many", wild)
+    assert ruler.count(what.model, runs) is None
 
 
 def test_the_refit_ends_where_the_fit_does() -> None:
