@@ -38,18 +38,10 @@ def add_parameters_file(parser: argparse.ArgumentParser, more: str = "where both
     )
 
 
-def add_names(
-    parser: argparse.ArgumentParser, *options: str, what: str, required: bool = False, dest: str | None = None
-) -> None:
-    """An option that lists names, with commas between them or repeated; for `names_of`.
-
-    Args:
-        dest: where they end up, if not under the name of the first option.
-    """
+def add_names(parser: argparse.ArgumentParser, *options: str, what: str, required: bool = False) -> None:
+    """An option that lists names, with commas between them or repeated; for `names_of`."""
     about = f"{what}; commas or repeat"
-    parser.add_argument(
-        *options, metavar="NAME,...", action="append", default=[], required=required, dest=dest, help=about
-    )
+    parser.add_argument(*options, metavar="NAME,...", action="append", default=[], required=required, help=about)
 
 
 def names_of(texts: Sequence[str]) -> list[str]:

@@ -188,8 +188,8 @@ def read_inside(args: argparse.Namespace) -> tuple[Model, str, tuple[Slot, ...],
     return model, class_name, slots(class_name, libraries), _catalogue(libraries, [], class_name)
 
 
-def effects_of(names: Sequence[str], given: Given) -> tuple[Effect, ...]:
-    """Effects of `--effect`, in order.
+def effects_of(names: Sequence[str], given: Given, option: str = "--effect") -> tuple[Effect, ...]:
+    """Effects that an option names, in order.
 
     Raises:
         BadInput: one that is not in the catalogue or in no slot, one twice, or a model without its class.
@@ -204,9 +204,9 @@ def effects_of(names: Sequence[str], given: Given) -> tuple[Effect, ...]:
         )
     for name in names:
         if list(names).count(name) > 1:
-            raise BadInput(f"--effect {name}: named twice; name each effect once")
+            raise BadInput(f"{option} {name}: named twice; name each effect once")
     catalogue = read_catalogue(STANDARD_LIBRARY, *given.libraries)
-    return named_effects(names, given.subject.catalogue, catalogue, "--effect", given.model_name)
+    return named_effects(names, given.subject.catalogue, catalogue, option, given.model_name)
 
 
 def subject_words(args: argparse.Namespace, *, model_first: bool = False) -> list[str]:
@@ -218,7 +218,7 @@ def subject_words(args: argparse.Namespace, *, model_first: bool = False) -> lis
     from pysim.cli._options import THESIS_HZ, reference_words
 
     words = [args.model, "--data", str(args.data)] if model_first else [str(args.data), "--model", args.model]
-    for option in ("effect", "effects", "free", "library", "bounds", "set"):
+    for option in ("effect", "effects", "with", "free", "library", "bounds", "set"):
         for value in getattr(args, option, []):
             words += [f"--{option}", str(value)]
     for option in ("parameters", "seed", "most", "json", "output"):

@@ -11,7 +11,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     from pysim.cli._subject import add_results, add_subject
 
     add_subject(parser)
-    add_names(parser, "--with", "--effect", what="effects that the model is to have already", dest="effect")
+    add_names(parser, "--with", "--effect", what="effects that the model is to have already")
     add_results(parser, ", parameters.toml")
 
 
@@ -27,7 +27,8 @@ def run(args: argparse.Namespace) -> int:
 
     prepare_results(args)
     given = read_subject(args)
-    effects = effects_of(names_of(args.effect), given) if args.effect else ()
+    there = names_of(getattr(args, "with"))  # a word of Python
+    effects = effects_of(there, given, "--with") if there else ()
     announce_compilation()
     found = unfold(given, args, lambda story, journal: located(given.subject, effects, progress=story, journal=journal))
     print(missing_sentence(found), evidence_text(found), sep="\n\n")

@@ -53,7 +53,11 @@ def _top(desk: Desk) -> None:
             for step in answer.data["error"]:
                 value = step["fit"] or step["validate"]
                 name = step_name(step["step"])
-                text("span", f"{name}: {value:.2f}" if value else name, f"chip {'good' if step['passes'] else ''}")
+                text(
+                    "span",
+                    f"{name}: {value:.2f}" if value else name,
+                    f"chip {'good' if step['criteria'] and step['passes'] else ''}",
+                )
 
 
 def _maps(desk: Desk, view: _View) -> None:

@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 
 from pysim.cli._main import argument_parser
+from pysim.cli._subject import subject_words
 
 OWN = {"add": ["--effect", "e"], "fit": ["--free", "m"]}
 
@@ -46,7 +47,7 @@ def names(args: argparse.Namespace, option: str) -> list[str]:
     ("words", "option"),
     [
         (["add", "d", "--model", "m", "--effect", "a,b", "--effects", "c"], "effect"),
-        (["locate", "d", "--model", "m", "--with", "a, b", "--effect", "c"], "effect"),
+        (["locate", "d", "--model", "m", "--with", "a, b", "--effect", "c"], "with"),
         (["diagnose", "d", "--model", "m", "--effect", "a", "--effect", "b,c"], "effects"),
         (["rank", "d", "--model", "m", "--effects", "a,b,c"], "effects"),
         (["fit", "m", "--data", "d", "--free", "a,b", "--free", "c"], "free"),
@@ -64,6 +65,11 @@ def test_effects_that_a_model_has_already_are_not_those_to_choose_from(capsys: p
     with pytest.raises(SystemExit):
         argument_parser().parse_args(["locate", "d", "--model", "m", "--effects", "a"])
     assert "unrecognized arguments: --effects a" in capsys.readouterr().err
+
+
+def test_the_line_that_does_it_again_names_what_the_model_had() -> None:
+    args = argument_parser().parse_args(["locate", "d", "--model", "m", "--with", "a,b"])
+    assert subject_words(args)[:5] == ["d", "--model", "m", "--with", "a,b"]
 
 
 def test_a_comma_within_brackets_belongs_to_the_name() -> None:
