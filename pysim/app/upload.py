@@ -11,7 +11,7 @@ from secrets import token_urlsafe
 
 from pysim.app.description import refuse_outside
 from pysim.app.project import Project
-from pysim.io import DAMAGED, LOG_SUFFIXES, unusable_name
+from pysim.io import DAMAGED, LOG_SUFFIXES, counted, unusable_name
 from pysim.types import BadInput
 
 _PIECE = 2**20
@@ -152,8 +152,7 @@ def adopt(batch: Batch, project: Project) -> Adopted:
             taken = ", ".join(LOG_SUFFIXES)
             raise BadInput(f"no data set, no logs and no model in this: {found}; drop logs as {taken}")
         kept = project.replace_data(_single(root))
-        many = "1 log" if len(logs) == 1 else f"{len(logs)} logs"
-        text = f"{many} without a dataset.toml; say below what their columns are{_kept(kept)}"
+        text = f"{counted(len(logs), 'log')} without a dataset.toml; say below what their columns are{_kept(kept)}"
         return Adopted("logs", text)
     finally:
         batch.end()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -23,11 +24,10 @@ def built_in(model: Model, class_name: str, libraries: Sequence[Path]) -> dict[s
         BadInput: one that nothing can set once the model is built, or another number of states. BuildError: a class
             that does not compile.
     """
-    import fmu_build
-    from pysim.io import read_model
+    from pysim.cli._any_model import read_fmu_or_class
     from pysim.types import BadInput
 
-    plain = read_model(fmu_build.build(class_name, libraries=list(libraries)))
+    plain = read_fmu_or_class(class_name, libraries)
     states = [len(one.abilities.states) for one in (model, plain)]
     if states[0] != states[1]:
         raise BadInput(f"{model.path.name}: has {states[0]} states, where {class_name} has {states[1]}; {_CURE}")
@@ -35,7 +35,7 @@ def built_in(model: Model, class_name: str, libraries: Sequence[Path]) -> dict[s
     values: dict[str, float] = {}
     for own in model.variables:
         other = declared.get(own.name)
-        if other is None or own.start is None or not _is_told(own) or not _differ(own, other):
+        if other is None or own.start is None or not _is_told(own) or _is_same(own.start, own.unit, other):
             continue
         if {own.causality, other.causality} != {"parameter"} or own.unit != other.unit:
             raise BadInput(
@@ -51,10 +51,8 @@ def _is_told(v: Variable) -> bool:
     return v.causality in ("parameter", "structuralParameter") or v.variability == "constant"
 
 
-def _differ(one: Variable, other: Variable) -> bool:
-    if one.start is None or other.start is None:
-        return one.start is not other.start
-    return one.unit != other.unit or abs(one.start - other.start) > _SAME * max(abs(one.start), abs(other.start))
+def _is_same(start: float, unit: str, other: Variable) -> bool:
+    return other.start is not None and other.unit == unit and math.isclose(start, other.start, rel_tol=_SAME)
 
 
 def _value(v: Variable) -> str:

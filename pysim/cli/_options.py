@@ -40,8 +40,9 @@ def add_parameters_file(parser: argparse.ArgumentParser, more: str = "where both
 
 def add_names(parser: argparse.ArgumentParser, *options: str, what: str, required: bool = False) -> None:
     """An option that lists names, with commas between them or repeated; for `names_of`."""
-    about = f"{what}; commas or repeat"
-    parser.add_argument(*options, metavar="NAME,...", action="append", default=[], required=required, help=about)
+    parser.add_argument(
+        *options, metavar="NAME,...", action="append", default=[], required=required, help=f"{what}; commas or repeat"
+    )
 
 
 def names_of(texts: Sequence[str]) -> list[str]:

@@ -245,11 +245,13 @@ def _model(text: str, libraries: Sequence[Path]) -> tuple[Model, str, list[str]]
 
 def _out_of_sight(model: Model) -> list[str]:
     """What cannot be looked at in a model without its Modelica class."""
+    from pysim.report.diagnosis_words import SHUT
+
     names = {c: [v.name for v in model.variables if v.causality == c] for c in ("input", "output")}
     states = model.abilities.states
     inside = f"nothing inside it: neither its {len(states)} states nor the terms of their equations"
     return [
-        f"{model.name} is in none of the libraries, so no effect can be added; name its library with --library",
+        f"{model.name} is {SHUT}, so no effect can be added; name its library with --library",
         f"looked at were the inputs {', '.join(names['input']) or '(none)'} and the outputs "
         f"{', '.join(names['output']) or '(none)'} of {model.label}, {inside}",
     ]

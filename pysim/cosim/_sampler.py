@@ -17,6 +17,7 @@ import numpy as np
 from pysim.cosim._fault import Fault, fault
 from pysim.cosim._layout import Layout, Row, Wire
 from pysim.cosim.sampled import Sampled, numbers
+from pysim.io import counted
 from pysim.types import Outcome
 
 
@@ -156,7 +157,7 @@ class Sampler:
         """
         names = [port.name for port in self._ports]
         if len(values) != len(names):
-            why = f"its step returned {_count(values, 'value')} for {_count(names, 'output')}"
+            why = f"its step returned {counted(len(values), 'value')} for {counted(len(names), 'output')}"
             raise Fault(self.name, why, Outcome.MODEL_ERROR)
         for name, value in zip(names, values, strict=True):
             if not isfinite(value):
@@ -180,7 +181,3 @@ def _is_number(value: object) -> bool:
         return isinstance(value, (Real, np.bool_)) and isinstance(float(value), float)
     except OverflowError:
         return False
-
-
-def _count(row: Sequence[object], what: str) -> str:
-    return f"1 {what}" if len(row) == 1 else f"{len(row)} {what}s"

@@ -4,6 +4,7 @@ from pysim.io.archive import DAMAGED, extracted
 from pysim.io.binary import check_binary, load_library
 from pysim.io.cache import cache_folder
 from pysim.io.columns import names_its_columns
+from pysim.io.counted import counted
 from pysim.io.dataset import SIGNAL_KEYS, described_signal, read_dataset, read_dataset_partly
 from pysim.io.file_names import same_file, unusable_name
 from pysim.io.files import write_file
@@ -32,6 +33,7 @@ __all__ = [
     "cache_folder",
     "check_binary",
     "column_names",
+    "counted",
     "described_signal",
     "extracted",
     "in_model_units",

@@ -8,7 +8,7 @@ from itertools import groupby
 from typing import Any
 
 from pysim.identify.data_check import DataCheck, RecordCheck
-from pysim.io import shown_value
+from pysim.io import counted, shown_value
 from pysim.report.page import cell, commands, heading, items, page, paragraph, picture, table
 
 _UNTOLD = "-"  # a description or a system that dataset.toml leaves out
@@ -31,8 +31,7 @@ def data_check_text(check: DataCheck) -> str:
     for kind, records in _by_kind(check).items():
         lines += [f"{kind}: {len(records)}", *(f"  {line}" for line in _points(records))]
     warnings = check.warnings
-    count = "1 warning" if len(warnings) == 1 else f"{len(warnings)} warnings"
-    lines.append(count + (":" if warnings else ", ready to use"))
+    lines.append(counted(len(warnings), "warning") + (":" if warnings else ", ready to use"))
     for source, text in warnings[:_SHOWN]:
         lines += textwrap.wrap(f"{source}: {text}", _WIDTH, initial_indent="  ", subsequent_indent="    ")
     if len(warnings) > _SHOWN:

@@ -6,12 +6,14 @@ import math
 from collections.abc import Sequence
 
 from pysim.identify.accuracy import FREQUENCY_CRITERIA, TIME_CRITERIA
+from pysim.io import counted
 from pysim.types import AddedEffect, Criterion, Diagnosis, Estimate, LedgerStep, NextTest
 from pysim.types.diagnosis import NONE, UNKNOWN
 
 _BY_TABLE = (FREQUENCY_CRITERIA, TIME_CRITERIA)
 _UNITS = {"%": "% of full scale", "deg": "degrees"}
-_SHUT = "in none of the libraries"  # in a note on a model whose Modelica class is not known
+SHUT = "in none of the libraries"
+"""In the note on a model whose Modelica class is not known."""
 _NOISE = 1.5  # times the noise: a model that leaves more than this fails, though limits that are wider may hold
 
 
@@ -80,8 +82,7 @@ def _verdict(step: LedgerStep, criteria: Sequence[Criterion]) -> str:
 
 
 def _lost(step: LedgerStep) -> str:
-    count = step.not_simulated
-    return f"{count} record{'' if count == 1 else 's'} not simulated"
+    return f"{counted(step.not_simulated, 'record')} not simulated"
 
 
 def _judging(step: LedgerStep) -> list[list[Criterion]]:
@@ -135,7 +136,7 @@ def missing_sentence(diagnosis: Diagnosis) -> str:
 
 def _nowhere(diagnosis: Diagnosis) -> str:
     """What is known where no place gave a term; of causes only the one that a note tells."""
-    shut = any(_SHUT in note for note in diagnosis.notes)
+    shut = any(SHUT in note for note in diagnosis.notes)
     of_model = "the model's inputs and outputs, and without its Modelica class nothing else can be looked at"
     text = f"No term could be estimated at {of_model if shut else 'any place of the model'}."
     explained = " The model explains the measurements down to their noise without one."

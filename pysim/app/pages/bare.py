@@ -11,9 +11,9 @@ from nicegui import background_tasks, ui
 from pysim.app.bare_logs import KINDS, ROLES, SINE, bare_description, guesses, matched
 from pysim.app.description import change_description
 from pysim.app.desk import Desk
-from pysim.app.pages.common import amount, attempt, counted
+from pysim.app.pages.common import amount, attempt
 from pysim.app.parts import Choice, box, button, card, note, text
-from pysim.io import LOG_SUFFIXES, column_names, names_its_columns
+from pysim.io import LOG_SUFFIXES, column_names, counted, names_its_columns
 from pysim.types import UNITS, BadInput
 
 

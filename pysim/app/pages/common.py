@@ -62,11 +62,6 @@ def ended(desk: Desk) -> None:
             button("Go on", lambda: attempt(lambda: desk.start(job.work)), "small", off=busy(desk))
 
 
-def counted(number: int, word: str) -> str:
-    """As in "1 record", "2 records"."""
-    return f"{number} {word}{'' if number == 1 else 's'}"
-
-
 def nothing(title: str, words: str) -> None:
     """Where there is nothing to show yet."""
     with box("card empty"):

@@ -11,10 +11,11 @@ from nicegui import background_tasks, ui
 from pysim.app.description import change_description, hold_out, leave_out, read_description
 from pysim.app.desk import Desk, Loaded
 from pysim.app.pages.bare import describe_form
-from pysim.app.pages.common import amount, attempt, busy, counted, ended, start
+from pysim.app.pages.common import amount, attempt, busy, ended, start
 from pysim.app.parts import Chart, Choice, Drop, Table, box, button, card, head, live, note, quantity, say, text
 from pysim.app.records import MOST, measured_overlay
 from pysim.identify.data_check import DataCheck, RecordCheck
+from pysim.io import counted
 from pysim.types import UNITS, BadInput, Record
 
 MODELS = ("HydraulicTestBench.Pump.FreeGreyBox", "HydraulicTestBench.Pump.LockedGreyBox")

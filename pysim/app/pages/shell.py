@@ -11,13 +11,14 @@ from pysim.app.desk import Desk
 from pysim.app.jobs import FAILED, Job
 from pysim.app.pages.add import add_page
 from pysim.app.pages.candidates import candidates_page
-from pysim.app.pages.common import attempt, counted
+from pysim.app.pages.common import attempt
 from pysim.app.pages.compare import compare_page
 from pysim.app.pages.data import data_page
 from pysim.app.pages.locate import locate_page
 from pysim.app.pages.take import take_page
 from pysim.app.parts import box, button, live, text
 from pysim.app.project import LOOKS
+from pysim.io import counted
 
 _PAGES = (
     ("/", "Data", data_page),
