@@ -44,8 +44,13 @@ class Finding:
         """Whether the value keeps the limit."""
         return self.value <= self.limit
 
-    def __str__(self) -> str:
+    @property
+    def outcome(self) -> str:
+        """Claim, value and limit, or why it was skipped."""
         if self.skipped:
-            return f"skipped  {self.claim}: {self.skipped}"
-        word = "holds  " if self.holds else "FAILS  "
-        return f"{word}  {self.claim}: {self.value:.4g} {self.unit}, limit {self.limit:g}"
+            return f"{self.claim}: {self.skipped}"
+        return f"{self.claim}: {f'{self.value:.4g} {self.unit}'.strip()}, limit {self.limit:g}"
+
+    def __str__(self) -> str:
+        word = "skipped" if self.skipped else "holds  " if self.holds else "FAILS  "
+        return f"{word}  {self.outcome}"

@@ -27,6 +27,11 @@ class Case:
     quick: bool = False  # part of the set that continuous integration runs; its verdict is no matter of microseconds
     seconds: float = 60.0  # what it takes on two idle cores, roughly, with nothing compiled before
 
+    @property
+    def readme(self) -> str:
+        """The page that states source and tolerance, from the folder of this module."""
+        return "/".join([*self.module.split(".")[1:-1], "README.md"])
+
     def run(self) -> Iterable[Finding]:
         """Findings, one by one as they come."""
         findings: Iterable[Finding] = import_module(self.module).run()

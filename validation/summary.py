@@ -29,7 +29,8 @@ def full_summary(results: Iterable[CaseResult], *, kept: bool = True) -> str:
     """A table of cases per group, and below each what fails or was skipped, with the numbers.
 
     Args:
-        kept: of all that is kept, where cases without a result are named too; else of one run.
+        kept: of all that is kept, where cases without a result are named too, with links from this folder; else of
+            one run.
     """
     last = newest(results)
     written = "by `pysim validate --record`: each case's last run" if kept else "by `pysim validate`: one run"
@@ -38,7 +39,7 @@ def full_summary(results: Iterable[CaseResult], *, kept: bool = True) -> str:
     for group, title in GROUPS.items():
         names = [name for name, case in CASES.items() if case.group == group and (kept or name in last)]
         if names:
-            rows = [_row(name, last.get(name)) for name in names]
+            rows = [_row(name, _linked(name) if kept else name, last.get(name)) for name in names]
             told = [f"\n- {text}" for name in names if name in last for text in _not_held(last[name])]
             lines += ["", f"## {title}", "", *_table(head, rows), *told]
     costs = cost_rows(last.values())
@@ -49,16 +50,19 @@ def full_summary(results: Iterable[CaseResult], *, kept: bool = True) -> str:
     return "\n".join([*lines, "", "Machines: " + "; ".join(machines) + ".", ""])
 
 
-def _row(name: str, result: CaseResult | None) -> list[str]:
+def _row(name: str, label: str, result: CaseResult | None) -> list[str]:
     if result is None:
-        return [name, CASES[name].about, "", "", "", "", "not recorded"]
+        return [label, CASES[name].about, "", "", "", "", "not recorded"]
     counts = [str(result.count(verdict)) for verdict in (HOLDS, FAILS, SKIPPED)]
-    return [name, CASES[name].about, *counts, f"{result.cpu:.0f}", result.date[:10]]
+    return [label, CASES[name].about, *counts, f"{result.cpu:.0f}", result.date[:10]]
 
 
 def _failing(last: Mapping[str, CaseResult]) -> list[str]:
     texts = [
-        f"- {name}: {text}" for name, result in last.items() for text in _not_held(result) if result.verdict == FAILS
+        f"- {_linked(name, 'validation/')}: {text}"
+        for name, result in last.items()
+        for text in _not_held(result)
+        if result.verdict == FAILS
     ]
     return ["Claims that do not hold:", "", *texts] if texts else ["No claim of a recorded case fails."]
 
@@ -69,9 +73,11 @@ def _not_held(result: CaseResult) -> list[str]:
 
 
 def _sentence(finding: Finding) -> str:
-    if finding.skipped:
-        return f"skipped: {finding.claim}: {finding.skipped}"
-    return f"fails: {finding.claim}: {finding.value:.4g} {finding.unit}, limit {finding.limit:g}"
+    return f"{verdict_of(finding)}: {finding.outcome}"
+
+
+def _linked(name: str, folder: str = "") -> str:
+    return f"[{name}]({folder}{CASES[name].readme})"
 
 
 def _table(head: list[str], rows: list[list[str]]) -> list[str]:

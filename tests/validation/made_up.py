@@ -33,7 +33,7 @@ MODULES = {
     "nan": made_of(Finding("d", float("nan"), 2.0, "deg")),
     "broken": broken(),
 }
-CASES = {name: Case(name, f"about {name}", "methods", quick=name == "good") for name in MODULES}
+CASES = {name: Case(f"validation.{name}.case", f"about {name}", "methods", quick=name == "good") for name in MODULES}
 
 
 def result(name: str, *findings: Finding, date: str = "2026-01-02T03:04:05Z", error: str = "") -> CaseResult:
@@ -49,7 +49,7 @@ def costly(day: int, ours: float, theirs: float | None = None, machine: Machine 
 
 def use(monkeypatch) -> None:
     """Let the suite know these cases and no others."""
-    monkeypatch.setattr("validation.registry.import_module", MODULES.__getitem__)
+    monkeypatch.setattr("validation.registry.import_module", lambda module: MODULES[module.split(".")[1]])
     for module in ("validation.suite", "validation.summary", "validation.page"):
         monkeypatch.setattr(f"{module}.CASES", CASES)
     monkeypatch.setattr("validation.registry.CASES", CASES)

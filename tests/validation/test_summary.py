@@ -15,15 +15,15 @@ def _cases(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_short() -> None:
     text = short_summary([result("good", *GOOD), result("bad", *BAD)])
     assert "| Methods on known answers | 2 of 4 | 2 | 1 | 1 |" in text
-    assert "- bad: fails: c | d: 2.5 deg, limit 2" in text
+    assert "- [bad](validation/bad/README.md): fails: c | d: 2.5 deg, limit 2" in text
     assert "No claim" not in text
     assert short_summary([result("good", *GOOD)]).count("No claim of a recorded case fails.") == 1
 
 
 def test_full() -> None:
     text = full_summary([result("good", *GOOD), result("broken", GOOD[0], error="ValueError: no good")])
-    assert "| good | about good | 1 | 0 | 1 | 2 | 2026-01-02 |" in text
-    assert "| bad | about bad |  |  |  |  | not recorded |" in text
+    assert "| [good](good/README.md) | about good | 1 | 0 | 1 | 2 | 2026-01-02 |" in text
+    assert "| [bad](bad/README.md) | about bad |  |  |  |  | not recorded |" in text
     assert "- skipped: b: no Wine here" in text
     run = full_summary([result("good", *GOOD)], kept=False)
     assert "| good |" in run

@@ -10,8 +10,8 @@ effect of your own takes four steps:</p>
 exactly zero, and give the missing equations. Keep it smooth; use an event only where the physics has one.</li>
 <li>Say in the class's annotation what it is: <code>__HydraulicTestBench(effect=\"my.friction\",
 slot=\"pistonForce\")</code>, with a name of your own. Give each parameter a unit, <code>min</code>, <code>max</code>
-and <code>nominal</code>. Then <code>pysim diagnose --library YourLibrary</code> finds it, and it takes part beside the
-others wherever a model has that slot.</li>
+and <code>nominal</code>. Then <code>pysim diagnose measurements --model YourModel --library YourLibrary</code> finds
+it, and it takes part beside the others wherever a model has that slot.</li>
 <li>To use it by hand, extend <code>Pump.SwashPlateControl</code> and redeclare the slot, all slots in one such
 extension.</li>
 </ol>

@@ -93,7 +93,9 @@ def test_record(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
         assert main(["validate", "good", "--record"]) == 0
     assert len(read_results(tmp_path / "validation" / "recorded.jsonl")) == 2
     assert "| 1 of 4 | 1 | 0 | 1 |" in readme.read_text(encoding="utf-8")
-    assert "| good | about good | 1 | 0 | 1 |" in (tmp_path / "validation" / "RESULTS.md").read_text(encoding="utf-8")
+    assert "| [good](good/README.md) | about good | 1 | 0 | 1 |" in (tmp_path / "validation" / "RESULTS.md").read_text(
+        encoding="utf-8"
+    )
 
 
 def test_fmu(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -31,23 +31,23 @@ def figure_table(figures: Iterable[Figure]) -> Iterator[str]:
 
 def provenance(answered: Sequence[Pair], asked: int, kept: Kept) -> Iterator[str]:
     """How many, when, and by which code; why older ones count, and how many do not."""
-    yield f"{len(answered)} of {asked} cases answered."
+    yield f"- {len(answered)} of {asked} cases answered."
     groups: dict[str, list[str]] = {}
     for _, answer in answered:
         groups.setdefault(answer.code, []).append(answer.day)
     for code, days in sorted(groups.items(), key=lambda item: -len(item[1])):
         span = min(days) if min(days) == max(days) else f"{min(days)} to {max(days)}"
-        yield f"Code `{code}`: {len(days)} cases, {span}."
+        yield f"- Code `{code}`: {len(days)} cases, {span}."
     for step in kept.carried:
         but = f", but for {' and '.join(f'`{name}`' for name in step.but)}" if step.but else ""
         both = " by both codes on one computer" if step.anew else ""
         yield (
-            f"Code `{step.newer}` answers as `{step.older}` did{but}: {len(step.cases)} cases, drawn with seed "
+            f"- Code `{step.newer}` answers as `{step.older}` did{but}: {len(step.cases)} cases, drawn with seed "
             f"{step.seed}, were answered again{both} on {step.day}, and no field differed; at most "
             f"{100 * (1 - 0.05 ** (1 / len(step.cases))):.0f} % of all could, with 95 % confidence."
         )
     if kept.stale:
-        yield f"{kept.stale} stored answers of other code are not counted."
+        yield f"- {kept.stale} stored answers of other code are not counted."
 
 
 def cost(answered: Sequence[Pair]) -> Iterator[str]:

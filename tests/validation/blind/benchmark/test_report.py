@@ -61,8 +61,8 @@ def test_why_older_answers_count_and_how_many_do_not() -> None:
     text = list(tables.provenance(paired(TABLE, ANSWERS), len(TABLE), Kept(ANSWERS, stale=4, carried=(step,))))
     assert "Code `n3w` answers as `0ld` did: 2 cases, drawn with seed 7, were answered again on 2026-02-03" in text[2]
     but = list(tables.provenance([], 2, Kept({}, carried=(replace(step, but=("x-*", "y")),))))
-    assert but[1].startswith("Code `n3w` answers as `0ld` did, but for `x-*` and `y`: 2 cases")
-    assert text[3] == "4 stored answers of other code are not counted."
+    assert but[1].startswith("- Code `n3w` answers as `0ld` did, but for `x-*` and `y`: 2 cases")
+    assert text[3] == "- 4 stored answers of other code are not counted."
 
 
 def test_readme_without_marks_is_refused(tmp_path: Path) -> None:
