@@ -9,7 +9,7 @@ from fmu_build.front.declarations import Declaration, Kind, bracket
 from fmu_build.front.source import ClassSource
 from fmu_build.front.used_classes import used_classes
 
-_PREDEFINED = ("Real", "Integer", "Boolean", "String")
+PREDEFINED = ("Real", "Integer", "Boolean", "String")
 _FAILURES = ("unbalanced model", "types or sizes do not agree")
 
 
@@ -39,7 +39,7 @@ def _is_outer_variable(declaration: Declaration, here: FoundClass, classes: Clas
     if "outer" not in declaration.prefixes:
         return False
     meant = classes.resolve(declaration.class_name, here)
-    return declaration.class_name in _PREDEFINED if meant is None else meant.text.kind == "type"
+    return declaration.class_name in PREDEFINED if meant is None else meant.text.kind == "type"
 
 
 def _each_before_arrays(declaration: Declaration, here: FoundClass, classes: ClassLookup) -> Iterator[int]:

@@ -7,6 +7,7 @@ from pathlib import Path
 from fmu_build.errors import BuildError, WrongCall
 from fmu_build.front.class_lookup import ClassLookup, FoundClass, split_name
 from fmu_build.front.declarations import Kind, is_name
+from fmu_build.front.misread import PREDEFINED
 from fmu_build.front.package_constants import names_used
 from fmu_build.front.source import ClassSource
 
@@ -29,12 +30,37 @@ def unresolved(message: str, source: ClassSource, classes: ClassLookup) -> Build
         return None
     name = (quoted.group(1) or quoted.group(2)).removeprefix(".")
     used = list(_used(source, classes))
+    untyped = next(filter(None, (_untyped(name, here, classes) for here in used)), None)
+    if untyped is not None:
+        return untyped
     file, line = _place(name, used) or (source.file, source.line)
     first = split_name(name)[0]
-    if first == _STANDARD and not any(library.stem == _STANDARD for library in classes.libraries):
-        message += f"; name the Modelica Standard Library too: --library path/to/{_STANDARD}"
+    message += _cure(first, classes)
     is_begun = first != name and any(_is_declared(first, here, classes) for here in used)
     return (BuildError if is_begun else UnresolvedName)(message, file, line)
+
+
+def _untyped(name: str, here: FoundClass, classes: ClassLookup) -> UnresolvedName | None:
+    """Of `part.flange`, where the class of `part` is in none of the libraries: the error at the part's declaration."""
+    owner: FoundClass | None = here
+    for part in split_name(name)[:-1]:
+        found = next(classes.elements(part, owner), None) if owner is not None else None
+        if found is None or found[1].kind is not Kind.COMPONENT:
+            return None
+        where, element = found
+        owner = classes.resolve(element.class_name, where)
+        if owner is None and element.class_name not in PREDEFINED:
+            message = f"{part} is a {element.class_name}, which is in none of the libraries"
+            message += _cure(split_name(element.class_name)[0], classes) or "; name its library with --library"
+            return UnresolvedName(message, where.source.file, where.source.line(element.offset))
+    return None
+
+
+def _cure(first: str, classes: ClassLookup) -> str:
+    """For a name whose first part is that of the standard library, where nobody has named it."""
+    if first != _STANDARD or any(library.stem == _STANDARD for library in classes.libraries):
+        return ""
+    return f"; name the Modelica Standard Library too: --library path/to/{_STANDARD}"
 
 
 def _is_declared(name: str, here: FoundClass, classes: ClassLookup) -> bool:

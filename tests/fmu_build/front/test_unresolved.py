@@ -85,6 +85,31 @@ def test_the_standard_library_has_to_be_named(above: str, below: str, tmp_path: 
     assert error.message.endswith("name the Modelica Standard Library too: --library path/to/Modelica")
 
 
+@pytest.mark.parametrize(
+    ("kind", "cure"),
+    [
+        (
+            "Modelica.Mechanics.Rotational.Components.Fixed",
+            "name the Modelica Standard Library too",
+        ),
+        ("Drives.Motor", "name its library with --library"),
+    ],
+)
+def test_a_part_whose_library_is_not_named(kind: str, cure: str, tmp_path: Path) -> None:
+    error = refused(tmp_path, below=f"{kind} motor;\n  Real w = k*motor.flange.w;")
+    assert error.line == 13
+    assert f"motor is a {kind}, which is in none of the libraries; {cure}" in error.message
+    assert isinstance(error, UnresolvedName)
+
+
+def test_a_part_inside_a_part_whose_library_is_not_named(tmp_path: Path) -> None:
+    (tmp_path / "Q.mo").write_text("model Q\n  Drives.Motor motor;\nend Q;\n", encoding="utf-8")
+    (tmp_path / "P.mo").write_text("model P\n  Q q;\n  Real w = q.motor.w;\nend P;\n", encoding="utf-8")
+    with pytest.raises(UnresolvedName, match="motor is a Drives") as caught:
+        load("P", [tmp_path / "P.mo", tmp_path / "Q.mo"])
+    assert (caught.value.file, caught.value.line) == (tmp_path / "Q.mo", 2)
+
+
 def test_in_a_library_it_is_the_file_of_the_name(tmp_path: Path) -> None:
     library = tmp_path / "L"
     library.mkdir()
