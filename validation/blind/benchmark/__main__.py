@@ -1,4 +1,4 @@
-"""`python -m validation.blind.benchmark run | locate | follow | clock | carry | report`."""
+"""`python -m validation.blind.benchmark run | again | locate | follow | clock | carry | report`."""
 
 from __future__ import annotations
 
@@ -22,6 +22,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     parser = argparse.ArgumentParser(prog="python -m validation.blind.benchmark", description=__doc__)
     commands = parser.add_subparsers(dest="command", required=True)
     _add_run(commands.add_parser("run", help="answer the cases that the store does not hold of this code"))
+    _add_run(commands.add_parser("again", help="answer what an older code has answered, and keep that apart"))
     _add_run(commands.add_parser("locate", help="of cases with one effect, only look where it is, and keep that apart"))
     _add_run(commands.add_parser("follow", help="of cases with one effect: where they end in a tie, run the next test"))
     _add_run(commands.add_parser("clock", help="time cases with two cores each, one after the other"))
@@ -78,10 +79,11 @@ def _work(command: str, args: argparse.Namespace) -> _Work:
     from validation.blind.benchmark.fingerprint import fingerprint
     from validation.blind.benchmark.follow import follow_case
     from validation.blind.benchmark.place import locate_case
-    from validation.blind.benchmark.store import ANSWERS, CLOCKED, FOLLOWED, PLACES, Store
+    from validation.blind.benchmark.store import AGAIN, ANSWERS, CLOCKED, FOLLOWED, PLACES, Store
 
     task, folder = {
         "run": (examine, ANSWERS),
+        "again": (examine, AGAIN),
         "locate": (locate_case, PLACES),
         "follow": (follow_case, FOLLOWED),
         "clock": (clock_case, CLOCKED),
@@ -105,8 +107,13 @@ def _run(args: argparse.Namespace) -> int:
     except BadInput as error:
         print(f"benchmark: {error}", file=sys.stderr)
         return 2
-    every = args.command in ("run", "clock")
-    chosen = choice.of([case for case in cases(TABLE_SEED) if every or case.kind == "named"])
+    table = list(cases(TABLE_SEED))
+    if args.command in ("locate", "follow"):
+        table = [case for case in table if case.kind == "named"]
+    if args.command == "again":
+        older = {name for name, answer in read_kept().answers.items() if answer.code != work.code}
+        table = [case for case in table if case.name in older]
+    chosen = choice.of(table)
     if args.command == "follow":
         chosen = ties(chosen, read_kept().answers)
     counts = standing(work.store, work.code).counts

@@ -80,6 +80,7 @@ def figures(table: Sequence[Case], kept: Kept) -> tuple[Figure, ...]:
         *time_figures(table, kept.answers, kept.clocked),
         *place_figures(table, kept.answers, kept.places),
         *tie_figures(table, kept.followed),
+        again_figure(table, kept),
     )
 
 
@@ -236,8 +237,7 @@ def time_figures(
         return pair[1].wall > 0
 
     def alike(pair: Pair) -> bool:
-        one = answers[pair[0].name]
-        return (one.verdict, one.added) == (pair[1].verdict, pair[1].added)
+        return _same(answers[pair[0].name], pair[1])
 
     def comparable(pair: Pair) -> bool:
         return pair[0].name in answers
@@ -282,3 +282,21 @@ def _tied_place(pair: Pair) -> bool:
 
 def _covered(pair: Pair) -> bool:
     return (pair[1].cover or 0.0) >= _RANGE
+
+
+def again_figure(table: Sequence[Case], kept: Kept) -> Figure:
+    """How far answers of older codes, which count by steps of `carry`, are those that this code gives."""
+
+    def alike(pair: Pair) -> bool:
+        return _same(kept.answers[pair[0].name], pair[1])
+
+    def older(pair: Pair) -> bool:
+        before = kept.answers.get(pair[0].name)
+        return before is not None and before.code != pair[1].code
+
+    label = "the same verdict and effects, where this code answers again what an older one has"
+    return _share(label, paired(table, kept.again), alike, among=older)
+
+
+def _same(one: Answer, other: Answer) -> bool:
+    return (one.verdict, one.added) == (other.verdict, other.added)

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from validation.blind.benchmark.answer import Answer
 from validation.blind.benchmark.carry import Carried, Standing, standing
 from validation.blind.benchmark.fingerprint import fingerprint
-from validation.blind.benchmark.store import CLOCKED, FOLLOWED, PLACES, Store
+from validation.blind.benchmark.store import AGAIN, CLOCKED, FOLLOWED, PLACES, Store
 
 
 @dataclass(frozen=True)
@@ -20,6 +20,7 @@ class Kept:
         places: where effects were located.
         followed: what became of ties once the next test was carried out.
         clocked: how long cases took with two cores.
+        again: what this code answers to some of those that an older one has answered.
         stale: how many verdicts of other code are stored that do not count.
         carried: why those of other code that are among `answers` count.
     """
@@ -28,6 +29,7 @@ class Kept:
     places: Mapping[str, Answer] = field(default_factory=dict)
     followed: Mapping[str, Answer] = field(default_factory=dict)
     clocked: Mapping[str, Answer] = field(default_factory=dict)
+    again: Mapping[str, Answer] = field(default_factory=dict)
     stale: int = 0
     carried: tuple[Carried, ...] = ()
 
@@ -37,15 +39,16 @@ def read_kept(answers: Store | None = None) -> Kept:
     store, code = answers or Store(), fingerprint()
     stored, alike = store.read(), standing(store, code)
     counted = _counted(stored, alike)
-    places, followed, clocked = (
+    places, followed, clocked, again = (
         _counted(one.read(), standing(one, own))
         for one, own in (
             (Store(PLACES), fingerprint(places=True)),
             (Store(FOLLOWED), code),
             (Store(CLOCKED), code),
+            (Store(AGAIN), code),
         )
     )
-    return Kept(counted, places, followed, clocked, stale=len(stored) - len(counted), carried=alike.steps)
+    return Kept(counted, places, followed, clocked, again, stale=len(stored) - len(counted), carried=alike.steps)
 
 
 def _counted(stored: Mapping[str, Answer], alike: Standing) -> dict[str, Answer]:

@@ -19,6 +19,9 @@ FOLLOWED = Path(__file__).parent / "followed"
 CLOCKED = Path(__file__).parent / "clocked"
 """How long a case took with both cores for itself."""
 
+AGAIN = Path(__file__).parent / "again"
+"""What this code answers to cases whose older answers count."""
+
 
 @dataclass(frozen=True)
 class Store:

@@ -8,6 +8,7 @@ from scipy import stats
 from validation.blind.benchmark.answer import Answer
 from validation.blind.benchmark.figures import (
     Figure,
+    again_figure,
     figures,
     place_figures,
     repaired,
@@ -142,6 +143,14 @@ def test_the_time() -> None:
     assert count(rows, "diagnosed within 60 s, one core") == (1, 2)
     assert count(rows, "diagnosed within 60 s, two cores") == (2, 3)
     assert count(rows, "the same answer with two cores") == (2, 3)
+
+
+def test_what_older_code_has_answered_is_answered_again() -> None:
+    table = [replace(NAMED, name=name) for name in "abcd"]
+    answers = {name: replace(RIGHT, case=name, code="old") for name in "abc"} | {"d": replace(RIGHT, case="d")}
+    again = {name: replace(WRONG if name == "b" else RIGHT, case=name, held=1.01) for name in "abd"}
+    figure = again_figure(table, Kept(answers, again=again))
+    assert (figure.hits, figure.of) == (1, 2)
 
 
 def test_all_figures_are_there() -> None:
