@@ -220,7 +220,7 @@ def finish(
     import json
 
     from pysim.cli._diagnosis_report import write_diagnosis
-    from pysim.cli._earlier import remove_earlier
+    from pysim.cli._earlier import in_place_of_earlier
     from pysim.cli._extended import relative_files
     from pysim.cli._outputs import command_line
     from pysim.cli._subject import subject_words
@@ -232,8 +232,8 @@ def finish(
     files: dict[str, Path] = {}
     if args.output:
         print("Drawing the report ...", file=sys.stderr)
-        remove_earlier(args.output, read=files_read(args))
-        files = write_diagnosis(found, given, args.output, redo, question=question, answer=answer)
+        with in_place_of_earlier(args.output, read=files_read(args)):
+            files = write_diagnosis(found, given, args.output, redo, question=question, answer=answer)
         print(f"Report: {args.output / 'report.html'}")
     if args.records:
         write_stages(args.records, found.stages)

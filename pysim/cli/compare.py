@@ -121,7 +121,7 @@ def _responses(args: argparse.Namespace, dataset: Dataset) -> int:
 
 
 def _write_report(args: argparse.Namespace, comparison: Comparison) -> None:
-    from pysim.cli._earlier import remember, remove_earlier
+    from pysim.cli._earlier import in_place_of_earlier, remember
     from pysim.cli._outputs import command_line
     from pysim.cli._pictures import picture_names, write_pictures
     from pysim.cli._story import files_read
@@ -130,9 +130,9 @@ def _write_report(args: argparse.Namespace, comparison: Comparison) -> None:
     from pysim.report import comparison_page
 
     redo = command_line(["compare", *subject_words(args, model_first=True)])
-    remove_earlier(args.output, read=files_read(args))
-    pictures = write_pictures([comparison], args.output)
-    text = comparison_page("A model against its measurements", [comparison], pictures=pictures, redo=redo)
-    write_file(args.output / "report.html", text)
-    remember(args.output, [args.output / name for name in ("report.html", *picture_names([comparison]))])
+    with in_place_of_earlier(args.output, read=files_read(args)):
+        pictures = write_pictures([comparison], args.output)
+        text = comparison_page("A model against its measurements", [comparison], pictures=pictures, redo=redo)
+        write_file(args.output / "report.html", text)
+        remember(args.output, [args.output / name for name in ("report.html", *picture_names([comparison]))])
     print(f"Report: {args.output / 'report.html'}")

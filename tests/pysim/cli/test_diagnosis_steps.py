@@ -198,7 +198,7 @@ def stopped_at(step: str) -> Callable[[Story, Told], None]:
 
 
 def test_an_answer_takes_the_place_of_the_one_before(
-    undrawn: None, data: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    undrawn: None, data: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     output = tmp_path / "out"
     assert main(["add", str(data), *MODEL, "--effect", "toy.friction", "--output", str(output)]) == 0
@@ -214,6 +214,11 @@ def test_an_answer_takes_the_place_of_the_one_before(
     assert main(words) == 0
     assert {path.name for path in output.iterdir()} == {*ours, "record_1.png"}
     assert (output / "parameters.toml").read_text().startswith("# Of Toy.Mass, refitted to ")
+    capsys.readouterr()
+    (output / "parameters.toml").write_text("m = 1.1\n")
+    assert main(words) == 0
+    assert (output / "parameters.toml.yours-1").read_text() == "m = 1.1\n"
+    assert "now parameters.toml.yours-1; the new answer took its name" in capsys.readouterr().out
 
 
 def test_a_command_that_was_stopped_goes_on_with_the_same_answer(
