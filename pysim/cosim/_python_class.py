@@ -26,12 +26,12 @@ def python_class(text: str, folder: Path, place: str) -> Any:
     where, _, last = (file, colon, name) if colon else text.rpartition(".")
     if not where or not last.isidentifier():
         raise BadInput(f'{place}: {text!r} names no class; write "package.module.Class" or "file.py:Class"')
+    if colon and not (folder / where).is_file():
+        raise BadInput(f"{place}: there is no file {folder / where}; correct the name")
     try:
         module = _from_file(folder / where) if colon else importlib.import_module(where)
     except BadInput:
         raise
-    except FileNotFoundError as error:
-        raise BadInput(f"{place}: there is no file {folder / where}; correct the name") from error
     except Exception as error:  # whatever the module does while it is imported
         raise BadInput(f"{place}: {where} cannot be imported ({type(error).__name__}: {error}); mend it") from error
     found = getattr(module, last, None)

@@ -131,6 +131,13 @@ def test_empty_tables_are_none(folder: Path) -> None:
     assert not found.experiment.overrides
 
 
+def test_what_a_controller_misses_is_not_taken_for_its_file(folder: Path) -> None:
+    (folder / "reads.py").write_text('K_p = open("gains.csv")\n')
+    message = r"line 5: reads\.py cannot be imported \(FileNotFoundError: .*gains\.csv'\); mend it"
+    with pytest.raises(BadInput, match=message):
+        read_system_file(written(folder, CONTROLLED.replace("pysim.control.PI", "reads.py:PI")))
+
+
 @pytest.mark.parametrize(
     ("old", "new", "message"),
     [
