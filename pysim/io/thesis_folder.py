@@ -6,7 +6,6 @@ import math
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -101,12 +100,13 @@ def _named(folder: Path, path: Path) -> _Named | None:
 
 def _refuse_repeated(logs: list[_Named]) -> None:
     """Two logs of one frequency in one folder: a copy, or two tests that nothing tells apart."""
-    for one, other in pairwise(logs):
-        same = (one.path.parent, one.frequency, one.offset, one.amplitude)
-        if same == (other.path.parent, other.frequency, other.offset, other.amplitude):
+    seen: dict[tuple[Path, float, float | None, float | None], Path] = {}
+    for log in logs:
+        one = seen.setdefault((log.path.parent, log.frequency, log.offset, log.amplitude), log.path)
+        if one != log.path:
             raise BadInput(
-                f"{other.path}: {one.path.name} beside it is of {one.frequency:g} Hz too; remove one of them, or give "
-                "each test a folder of its own"
+                f"{log.path}: {one.name} beside it is of {log.frequency:g} Hz too; remove one of them, or give each "
+                "test a folder of its own"
             )
 
 

@@ -99,6 +99,13 @@ def test_two_logs_of_one_frequency_are_refused(tmp_path: Path) -> None:
         read_thesis_folder(tmp_path, SIGNALS)
 
 
+def test_two_logs_of_one_point_are_refused_with_another_point_between_them(tmp_path: Path) -> None:
+    for name, offset in (("a_O+25_A10_1Hz", 25), ("b_O+30_A10_1Hz", 30), ("c_O+25_A10_1Hz", 25)):
+        sine(tmp_path / f"{name}.txt", 1.0, offset=offset)
+    with pytest.raises(BadInput, match=r"c_O\+25_A10_1Hz\.txt: a_O\+25_A10_1Hz\.txt beside it is of 1 Hz too"):
+        read_thesis_folder(tmp_path, SIGNALS)
+
+
 def test_refuses_faulty_folders_and_logs(tmp_path: Path) -> None:
     with pytest.raises(BadInput, match="is no folder that can be read"):
         read_thesis_folder(tmp_path / "none", SIGNALS)
