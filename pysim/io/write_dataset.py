@@ -10,6 +10,7 @@ from pathlib import Path, PurePosixPath, PureWindowsPath
 import numpy as np
 from numpy.typing import NDArray
 
+from pysim.io.columns import names_its_columns
 from pysim.io.file_names import same_file, unusable_name
 from pysim.io.files import write_file
 from pysim.io.measured_log import LOGS
@@ -36,8 +37,9 @@ def write_dataset(folder: Path | str, dataset: Dataset, *, units: Mapping[str, s
     Returns:
         the path of dataset.toml.
     Raises:
-        BadInput: a folder that holds something, a source outside of it, twice, or that some system cannot hold, a unit
-            of another kind, a test that does not say what its kind needs, or a place that cannot be written.
+        BadInput: a folder that holds something, a source outside of it, twice, that some system cannot hold, or that is
+            no text by its suffix, a unit of another kind, a test that does not say what its kind needs, or a place that
+            cannot be written.
     """
     folder, units = Path(folder), dict(units or {})
     scales = {signal.name: _scale(signal, units.setdefault(signal.name, signal.unit)) for signal in dataset.signals}
@@ -87,6 +89,11 @@ def _check_sources(dataset: Dataset) -> None:
             raise BadInput(f"record {record.source!r} would be written outside the data set; give it a relative name")
         if why := unusable_name(record.source):
             raise BadInput(f"record {record.source!r}: {why}; rename it")
+        if names_its_columns(Path(record.source)):
+            raise BadInput(
+                f"record {record.source!r}: what is written is text, which {path.suffix} is not; give it a name that "
+                "ends in .txt"
+            )
         if same_file(record.source) in seen:
             raise BadInput(
                 f"record {record.source!r} has the name of another file, but for capital letters at most; "

@@ -150,6 +150,15 @@ def test_every_system_must_be_able_to_hold_the_names(tmp_path: Path) -> None:
     assert not (tmp_path / "new").exists()
 
 
+@pytest.mark.parametrize("source", ["run.parquet", "sub/run.TDMS"])
+def test_no_text_under_the_name_of_another_form(tmp_path: Path, source: str) -> None:
+    data = dataset(VALUES, TIME)
+    cure = r"what is written is text, which \.\w+ is not; give it a name that ends in \.txt"
+    with pytest.raises(BadInput, match=rf"record '{source}': {cure}"):
+        write_dataset(tmp_path / "new", replace(data, records=(replace(data.records[0], source=source),)))
+    assert not (tmp_path / "new").exists()
+
+
 @pytest.mark.parametrize("source", ["../out.txt", "/tmp/out.txt", "C:\\out.txt", "a/../../b.txt", "dataset.toml", "."])
 def test_nothing_is_written_elsewhere(tmp_path: Path, source: str) -> None:
     data = dataset(VALUES, TIME)
