@@ -11,7 +11,6 @@ if TYPE_CHECKING:
     from pysim.cli._subject import Given
     from pysim.types import Dataset, Diagnosis
 
-PARAMETERS = "parameters.toml"
 _WIDTH = 110
 
 
@@ -23,6 +22,7 @@ def write_extended(found: Diagnosis, given: Given, folder: Path) -> dict[str, Pa
     Raises:
         BadInput: the folder cannot be written.
     """
+    from pysim.cli._outputs import PARAMETERS
     from pysim.io import write_file
 
     fitted = {e.name: e.value for e in found.parameters if "@" not in e.name}

@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 JSON = (".json",)
+PARAMETERS = "parameters.toml"  # in a folder of results: the fitted values
 
 
 def prepare_folder(folder: Path, option: str = "--output", *, read: Sequence[Path] = ()) -> Path:
@@ -64,6 +65,24 @@ def refuse_inside(path: Path, option: str, read: Sequence[Path]) -> None:
             raise BadInput(f"{option} {path}: inside the data set, which is never written to; choose a place outside")
         if folder is None and target == one.resolve():
             raise BadInput(f"{option} {path}: this is what is read, and would be lost; choose another name")
+
+
+def refuse_replacing_parameters(output: Path | None, parameters: Path | None) -> None:
+    """Fitted values do not take the place of those that the command reads.
+
+    Args:
+        output: folder of the results.
+        parameters: file of `--parameters`.
+    Raises:
+        BadInput: they would.
+    """
+    from pysim.types import BadInput
+
+    if output and parameters and (output / PARAMETERS).resolve() == parameters.resolve():
+        raise BadInput(
+            f"--output {output}: --parameters reads {parameters}, which the fitted values would take the place of; "
+            "choose another folder"
+        )
 
 
 def _probe(folder: Path, what: str, cure: str) -> None:

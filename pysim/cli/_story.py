@@ -169,10 +169,11 @@ def unfold(
         BadInput: the results would take the place of parameters that are read.
         KeyboardInterrupt: stopped by the user; says how to go on.
     """
+    from pysim.cli._outputs import refuse_replacing_parameters
     from pysim.types import Told
 
     if given.subject.free:
-        _keep_what_is_read(args)
+        refuse_replacing_parameters(args.output, args.parameters)
     journal = args.output / JOURNAL if args.output else None
     try:
         with Story(f"{given.dataset.name}: {given.model_name}") as story:
@@ -189,17 +190,6 @@ def unfold(
     except KeyboardInterrupt:
         cure = "the same command goes on where it was" if journal else "with --output DIR a run can be gone on with"
         raise KeyboardInterrupt(cure) from None
-
-
-def _keep_what_is_read(args: argparse.Namespace) -> None:
-    from pysim.cli._extended import PARAMETERS
-    from pysim.types import BadInput
-
-    if args.output and args.parameters and (args.output / PARAMETERS).resolve() == args.parameters.resolve():
-        raise BadInput(
-            f"--output {args.output}: --parameters reads {args.parameters}, which the refitted values would take the "
-            "place of; choose another folder"
-        )
 
 
 def finish(

@@ -55,7 +55,7 @@ def run(args: argparse.Namespace) -> int:
     from pysim.cli._any_model import read_fmu_or_class
     from pysim.cli._measurements import read_measurements
     from pysim.cli._options import names_of
-    from pysim.cli._outputs import JSON, prepare_file, prepare_folder, refuse_inside
+    from pysim.cli._outputs import JSON, prepare_file, prepare_folder, refuse_inside, refuse_replacing_parameters
     from pysim.cli._progress import announce_compilation
     from pysim.identify.greybox import (
         OBJECTIVES,
@@ -72,6 +72,7 @@ def run(args: argparse.Namespace) -> int:
 
     if args.output:
         prepare_folder(args.output, read=args.data)
+        refuse_replacing_parameters(args.output, args.parameters)
     if args.json:
         prepare_file(args.json, "--json", JSON, read=args.data)
     if args.log:
@@ -215,17 +216,17 @@ def _tie(text: str) -> tuple[str, str, float]:
 
 def _write_report(args: argparse.Namespace, result: Fit, datasets: Sequence[Dataset]) -> None:
     from pysim.cli._fit_pictures import fit_pictures
-    from pysim.cli._outputs import command_line
+    from pysim.cli._outputs import PARAMETERS, command_line
     from pysim.io import write_file
     from pysim.report.fit import fit_page
 
     lines = [f'"{name}" = {value!r}' for name, value in result.values.items() if "@" not in name]
-    write_file(args.output / "parameters.toml", "\n".join([*lines, ""]))
+    write_file(args.output / PARAMETERS, "\n".join([*lines, ""]))
     pictures = fit_pictures(result, datasets, args.output)
     units = {signal.name: signal.unit for one in datasets for signal in one.signals if signal.role == "input"}
     page = fit_page(result, units=units, pictures=pictures, redo=command_line(_words(args)))
     write_file(args.output / "report.html", page)
-    print(f"Report: {args.output / 'report.html'}; for --parameters: {args.output / 'parameters.toml'}")
+    print(f"Report: {args.output / 'report.html'}; for --parameters: {args.output / PARAMETERS}")
 
 
 def _words(args: argparse.Namespace) -> list[str]:

@@ -136,7 +136,7 @@ def test_parameters_that_are_read_are_not_written_over(
     own = tmp_path / "parameters.toml"
     own.write_text("m = 1.1\n")
     assert main(["diagnose", str(data), *MODEL, "--parameters", str(own), "--output", str(tmp_path)]) == 2
-    assert "which the refitted values would take the place of; choose another folder" in capsys.readouterr().err
+    assert "which the fitted values would take the place of; choose another folder" in capsys.readouterr().err
     assert own.read_text() == "m = 1.1\n"
 
 

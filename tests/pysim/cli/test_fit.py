@@ -176,6 +176,17 @@ def test_a_class_is_fitted_as_its_fmu_is(place: Path, tmp_path: Path) -> None:
     assert found[0] == found[1]
 
 
+def test_parameters_that_are_read_are_not_written_over(
+    place: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    own = tmp_path / "parameters.toml"
+    own.write_text("g = 1\n")
+    words = ["fit", str(place / "Lag.fmu"), "--data", str(place / "data"), "--free", "K,T"]
+    assert main([*words, "--parameters", str(own), "--output", str(tmp_path)]) == 2
+    assert "which the fitted values would take the place of; choose another folder" in capsys.readouterr().err
+    assert own.read_text() == "g = 1\n"
+
+
 def test_what_was_fitted_is_built_into_an_fmu(place: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     words = ["fit", str(place / "Lag.fmu"), "--data", str(place / "data"), "--free", "K,T", "--fix", "g=1"]
     assert main([*words, "--output", str(tmp_path / "out")]) == 0
