@@ -63,7 +63,8 @@ def _export(args: argparse.Namespace, file: SystemFile) -> int:
     from pysim.cli._outputs import prepare_file
     from pysim.cosim.ssp import write_ssp
 
-    prepare_file(args.export_ssp, "--export-ssp", (".ssp",))
+    package = [args.system] if args.system.suffix.lower() == ".ssp" else []
+    prepare_file(args.export_ssp, "--export-ssp", (".ssp",), read=package)
     left_out = write_ssp(file, args.export_ssp, fmus_only=args.fmus_only)
     for text in left_out:
         print(f"pysim cosim: left out: {text}", file=sys.stderr)

@@ -45,6 +45,10 @@ def test_an_exported_system_is_run(folder: Path, tmp_path: Path, capsys: pytest.
     assert f"Written: {package}" in capsys.readouterr().out
     assert main(["cosim", str(package), "--stop", "0.1", "--step", "0.002"]) == 0
     assert "spring.x" in capsys.readouterr().out
+    before = package.read_bytes()
+    assert main(["cosim", str(package), "--export-ssp", str(package)]) == 2
+    assert "this is what is read, and would be lost; choose another name" in capsys.readouterr().err
+    assert package.read_bytes() == before
     assert main(["cosim", str(folder / "controlled.toml"), "--export-ssp", str(package)]) == 2
     assert "cannot hold controller, which is Python" in capsys.readouterr().err
     assert main(["cosim", str(folder / "controlled.toml"), "--export-ssp", str(package), "--fmus-only"]) == 0
