@@ -43,8 +43,8 @@ def _text(model: Model, slots: tuple[Slot, ...], effects: tuple[Effect, ...]) ->
     lines = [f"{model.name}, FMI {model.abilities.fmi}, {len(model.abilities.states)} states"]
     for causality in ("input", "output"):
         lines += [f"{causality}s", *(f"  {v.name} [{v.unit}] {v.description}".rstrip() for v in _of(model, causality))]
-    lines.append("parameters with bounds")
-    lines += [f"  {v.name} = {v.start:g}, {v.min:g} to {v.max:g} [{v.unit}] {v.description}" for v in _bounded(model)]
+    lines.append("parameters with bounds; a diagnosis refits by itself those with a nominal value")
+    lines += [f"  {v.name} = {v.start:g}, {_range(v)} [{v.unit}] {v.description}".rstrip() for v in _bounded(model)]
     for slot in slots:
         own = ", ".join(effect.name for effect in effects if effect.slot == slot.name) or "no effect of the libraries"
         lines.append(f"slot {slot.name}: {own}")
@@ -62,7 +62,8 @@ def _data(model: Model, class_name: str, slots: tuple[Slot, ...], effects: tuple
         "states": list(model.abilities.states),
         "variables": [[v.name, v.causality, v.unit, v.description] for v in variables],
         "parameters": [
-            {"name": v.name, "unit": v.unit, "start": v.start, "min": v.min, "max": v.max, "about": v.description}
+            {"name": v.name, "unit": v.unit, "start": v.start, "min": v.min, "max": v.max, "nominal": v.nominal}
+            | {"about": v.description}
             for v in _of(model, "parameter")
         ],
         "slots": [{"name": s.name, "about": s.description, "sees": s.sees, "gives": s.gives} for s in slots],
@@ -109,3 +110,8 @@ def _of(model: Model, causality: str) -> list[Variable]:
 
 def _bounded(model: Model) -> list[Variable]:
     return [v for v in _of(model, "parameter") if None not in (v.start, v.min, v.max)]
+
+
+def _range(v: Variable) -> str:
+    nominal = "" if v.nominal is None else f", nominal {v.nominal:g}"
+    return f"{v.min:g} to {v.max:g}{nominal}"

@@ -15,8 +15,9 @@ def test_a_class_tells_its_slots_and_what_they_take(tmp_path: Path, capsys: pyte
     assert main(["model", "Toy.Mass", "--library", str(library()), "--json", str(answer)]) == 0
     said = capsys.readouterr().out
     assert "slot force: toy.friction, toy.twin, toy.hardening, toy.bias" in said
-    assert "  m = 1, 0.5 to 5 [kg]" in said
+    assert "  m = 1, 0.5 to 5, nominal 1 [kg]\n" in said
     found = json.loads(answer.read_text())
+    assert {p["name"]: p["nominal"] for p in found["parameters"]} == {"m": 1, "d": 1, "k": 10}
     assert ["F", "input", "N", ""] in found["variables"]
     assert found["slots"] == [{"name": "force", "about": "", "sees": ["x", "v"], "gives": ["f"]}]
     friction = found["effects"][0]
