@@ -8,7 +8,7 @@ from collections.abc import Collection, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from pysim.io import log_source, read_dataset_partly, read_toml, write_file
+from pysim.io import log_source, names_its_columns, read_dataset_partly, read_toml, write_file
 from pysim.types import BadInput, Dataset
 
 _SINE = "frequency-response"
@@ -127,6 +127,15 @@ def described(name: str, columns: Sequence[Mapping[str, Any]], logs: Sequence[Ma
     names = [{"time": "time", "-": "-"}.get(column["role"], column["name"]) for column in columns]
     inputs = [column["name"] for column in own if column["role"] == "input"]
     told = {"input": inputs[0]} if len(inputs) > 1 else {}
-    records = [{**log, "columns": names, **(told if log["kind"] == _SINE else {})} for log in logs]
+    clock = next(column["name"] for column in columns if column["role"] == "time")
+    records = [
+        {**log, "columns": names, **_called(log["file"], clock), **(told if log["kind"] == _SINE else {})}
+        for log in logs
+    ]
     signals = {column["name"]: {key: column.get(key) for key in keys} for column in own}
     return {"dataset": {"name": name, "description": "dropped as logs"}, "signals": signals, "records": records}
+
+
+def _called(file: str, clock: str) -> dict[str, str]:
+    """What a log calls its time, where that is another name and counts."""
+    return {"time": clock} if clock != "time" and names_its_columns(Path(file)) else {}

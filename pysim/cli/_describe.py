@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import textwrap
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -42,6 +42,7 @@ class Draft:
         folder: of the logs.
         roles, units: of the signals, by name, in their order.
         columns: log, relative to the folder -> its columns as dataset.toml names them.
+        called: log -> what it calls its time, where that is another name and counts.
         sines: log -> what it is as a stepped sine.
         clocks: units of time that headings tell -> the log that does so first.
         remarks: what the user should know.
@@ -51,6 +52,7 @@ class Draft:
     roles: dict[str, str] = field(default_factory=dict)
     units: dict[str, str] = field(default_factory=dict)
     columns: dict[str, list[str]] = field(default_factory=dict)
+    called: dict[str, str] = field(default_factory=dict)
     sines: dict[str, MeasuredRecord] = field(default_factory=dict)
     clocks: dict[str, str] = field(default_factory=dict)
     remarks: list[str] = field(default_factory=list)
@@ -125,6 +127,8 @@ def _take(found: Draft, path: Path, columns: Sequence[Column], *, named: bool) -
     for name, column in zip(names, columns, strict=True):
         if name == "time":
             _take_clock(found, path, column)
+            if by_name and column.heading != name:
+                found.called[_source(found, path)] = column.heading
     found.columns[_source(found, path)] = [name for name in names if name != LEFT_OUT] if by_name else names
 
 
@@ -133,7 +137,7 @@ def _names(found: Draft, path: Path, columns: Sequence[Column], by_name: bool) -
     from pysim.types import BadInput
 
     own = [column.heading if by_name else column.name for column in columns]
-    time, kept = _time(own), sum(name != LEFT_OUT for name in own)
+    time, kept = _time(columns, own, found.roles), sum(name != LEFT_OUT for name in own)
     if all(name in own for name in found.roles):
         return ["time" if k == time else name if name in found.roles else LEFT_OUT for k, name in enumerate(own)]
     if kept != 1 + len(found.roles) or by_name:
@@ -152,7 +156,7 @@ def _guessed(found: Draft, columns: Sequence[Column], by_name: bool) -> list[str
     short = [column.name for column in columns]
     told = [name for name in short if name != LEFT_OUT]
     own = [column.heading for column in columns] if by_name or len(set(told)) < len(told) else short
-    time = _time(own)
+    time = _time(columns, own, found.roles)
     names = ["time" if k == time else name for k, name in enumerate(own)]
     for name, column in zip(names, columns, strict=True):
         if name not in ("time", LEFT_OUT, *found.roles):
@@ -161,10 +165,11 @@ def _guessed(found: Draft, columns: Sequence[Column], by_name: bool) -> list[str
     return names
 
 
-def _time(names: Sequence[str]) -> int:
-    """Which column is the clock."""
-    told = next((k for k, name in enumerate(names) if name.lower() in _TIMES), None)
-    return next(k for k, name in enumerate(names) if name != LEFT_OUT) if told is None else told
+def _time(columns: Sequence[Column], names: Sequence[str], signals: Collection[str]) -> int:
+    """Which column is the clock: of those that are no signals the one that is called so, else the first."""
+    own = [k for k, name in enumerate(names) if name not in (LEFT_OUT, *signals)]
+    called = {columns[k].name.lower(): k for k in reversed(own)}
+    return next((called[name] for name in _TIMES if name in called), own[0] if own else 0)
 
 
 def _find_sines(found: Draft) -> None:
@@ -176,7 +181,7 @@ def _find_sines(found: Draft) -> None:
     order = ["time", *found.roles]
     if not sines:
         return
-    if found.time_unit != "s" or any(found.columns[source] != order for source in sines):
+    if found.time_unit != "s" or any(found.columns[s] != order or s in found.called for s in sines):
         found.remarks.append("stepped sines: write kind, offset, amplitude and frequency into each of their records")
         return
     signals = [MeasuredSignal(name, role, "1", name, name) for name, role in found.roles.items()]  # in the files' units
@@ -228,6 +233,8 @@ def _signal(found: Draft, name: str) -> str:
 def _record(found: Draft, source: str, *, first: bool) -> str:
     """A log; the first says what else it may be."""
     lines = ["[[records]]", f"file = {_toml(source)}", f"columns = {_toml(found.columns[source])}"]
+    if source in found.called:
+        lines.append(f"time = {_toml(found.called[source])}" + "    # what this log calls it" * first)
     sine = found.sines.get(source)
     if sine is None:
         others = "    # step | stochastic | multisine | chirp | frequency-response; the last two say more"

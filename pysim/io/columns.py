@@ -18,6 +18,7 @@ from pysim.types import BadInput
 
 Array = NDArray[np.float64]
 
+TIME = "time"
 _MANY = 0.05  # of all rows: more of them that stand still are no slip
 
 # Files that name their columns themselves; all others are text.
@@ -70,20 +71,21 @@ def names_its_columns(path: Path) -> bool:
     return path.suffix.lower() in _BY_NAME
 
 
-def read_columns(path: Path, names: tuple[str, ...], wanted_by: str) -> Columns:
+def read_columns(path: Path, names: tuple[str, ...], wanted_by: str, *, clock: str = TIME) -> Columns:
     """The named columns of a file.
 
     Args:
         names: of a text file's columns, in its order, LEFT_OUT for those that are not wanted; of a .parquet or .tdms
             file those that are wanted.
         wanted_by: what named the file, for messages.
+        clock: what a .parquet or .tdms file calls its time.
     Raises:
         BadInput: what is wrong, with file, line (row) and remedy.
     """
     by_name = _BY_NAME.get(path.suffix.lower())
     wanted = tuple(name for name in names if name != LEFT_OUT)
     if by_name is not None:
-        columns = by_name(path, wanted, wanted_by)
+        columns = by_name(path, tuple(clock if name == TIME else name for name in wanted), wanted_by)
         if not columns[0].values.size:
             raise BadInput(f"{path} holds no numbers; it needs rows of {', '.join(wanted)}")
         values = np.column_stack([column.values for column in columns])
@@ -99,10 +101,10 @@ def refuse_standing_time(columns: Columns) -> None:
     Raises:
         BadInput: it stands still or runs backwards, with the line.
     """
-    wrong = np.diff(columns["time"]) <= 0
+    wrong = np.diff(columns[TIME]) <= 0
     if np.any(wrong):
         row = int(np.argmax(wrong)) + 1
-        time, before = columns["time"][row], columns["time"][row - 1]
+        time, before = columns[TIME][row], columns[TIME][row - 1]
         how = "stands still at" if time == before else f"runs backwards from {before:.10g} s to"
         cure = "remove the repeated rows, or give each test a log of its own"
         if np.count_nonzero(wrong) > _MANY * wrong.size:

@@ -16,8 +16,9 @@ _KEYS = ("dataset", "signals", "records")
 _DATASET_KEYS = ("name", "description", "system", "time_unit")
 SIGNAL_KEYS = ("role", "unit", "quantity", "variable", "noise", "resolution")
 _SCALE_KEYS = ("factor", "offset")
-_RECORD_KEYS = ("file", "columns", "kind", "use", "offset", "amplitude", "frequency", "input", "output", "origin")
-_TABLE_ONLY, _LOG_ONLY = "output", "frequency"  # a log has all its outputs, and a table its frequencies
+_TEST_KEYS = ("offset", "amplitude", "frequency", "input", "output")
+_RECORD_KEYS = ("file", "columns", TIME, "kind", "use", *_TEST_KEYS, "origin")
+_TABLE_ONLY, _LOG_ONLY = ("output",), ("frequency", TIME)  # a log has all its outputs, and a table its frequencies
 
 
 def read_dataset(folder: Path | str) -> Dataset:
@@ -135,9 +136,10 @@ def _kind(section: Section) -> str:
     """What a record holds, once its keys are known to be, and to mean something there."""
     section.refuse_unknown(_RECORD_KEYS)
     kind = section.text("kind", among=(TABLE, *LOGS))
-    idle = _LOG_ONLY if kind == TABLE else _TABLE_ONLY
-    if idle in section.values:
-        raise BadInput(f'{section.place}: {idle} means nothing where kind = "{kind}"; remove it, or correct the kind')
+    for idle in _LOG_ONLY if kind == TABLE else _TABLE_ONLY:
+        if idle in section.values:
+            cure = "remove it, or correct the kind"
+            raise BadInput(f'{section.place}: {idle} means nothing where kind = "{kind}"; {cure}')
     return kind
 
 

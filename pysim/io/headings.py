@@ -105,8 +105,7 @@ def _named(path: Path) -> tuple[str, ...]:
             return tuple(parquet.read_schema(path).names)
         except (OSError, ValueError) as error:
             raise BadInput(f"cannot read {path.name} as Parquet ({error}); export it again") from error
-    names = channel_names(path)
-    return names if "time" in names else ("time", *names)
+    return channel_names(path)
 
 
 def _split(heading: str, how: Dialect) -> list[str]:

@@ -7,13 +7,11 @@ from pathlib import Path
 
 import numpy as np
 
-from pysim.io.columns import Columns, read_columns, refuse_standing_time
+from pysim.io.columns import TIME, Columns, names_its_columns, read_columns, refuse_standing_time
 from pysim.io.text_fields import LEFT_OUT
 from pysim.io.toml_section import Section
 from pysim.io.units import Scale
 from pysim.types import BadInput, MeasuredRecord, MeasuredSignal, Record, sampling
-
-TIME = "time"
 
 # What each kind of log must say of its test, so that its command is known between the samples.
 LOGS: Mapping[str, tuple[str, ...]] = {
@@ -49,11 +47,12 @@ def read_log(
     """
     source, all_names = section.source(), section.texts("columns", repeatable=LEFT_OUT)
     names = tuple(name for name in all_names if name != LEFT_OUT)
-    _check_columns(section, names, signals)
+    _check_columns(section, source, names, signals)
     command = _command(section, names, signals)
     use = section.text("use", "fit", among=("fit", "validate"))
     test = _test(section, kind, Scale.of(signals[command].unit if command else "1"))
-    columns = read_columns(folder / source, all_names, section.place).in_seconds(TIME, second)
+    clock = _clock(section, source, names)
+    columns = read_columns(folder / source, all_names, section.place, clock=clock).in_seconds(TIME, second)
     refuse_standing_time(columns)
     if test[2] is not None:
         refuse_fast_sine(section.place, columns, test[2])
@@ -102,10 +101,15 @@ def refuse_fast_sine(place: str, columns: Columns, frequency: float) -> None:
         )
 
 
-def _check_columns(section: Section, names: tuple[str, ...], signals: Mapping[str, MeasuredSignal]) -> None:
+def _check_columns(
+    section: Section, source: str, names: tuple[str, ...], signals: Mapping[str, MeasuredSignal]
+) -> None:
     """Time, at least one input and one output, and nothing that has no signal."""
     if TIME not in names:
-        raise BadInput(f'{section.place}: columns names no "{TIME}"; name the column that holds it in s')
+        cure = "name the column that holds it in s"
+        if names_its_columns(Path(source)):
+            cure = f'write "{TIME}" for the clock there, and {TIME} = "..." for what the file calls it'
+        raise BadInput(f'{section.place}: columns names no "{TIME}"; {cure}')
     for name in names:
         if name != TIME and name not in signals:
             raise BadInput(
@@ -118,6 +122,21 @@ def _check_columns(section: Section, names: tuple[str, ...], signals: Mapping[st
                 f"{section.place}: none of the columns {', '.join(names)} is an {role}; "
                 f'log one too, or give its signal role = "{role}"'
             )
+
+
+def _clock(section: Section, source: str, names: tuple[str, ...]) -> str:
+    """What the file calls its time."""
+    clock = section.text(TIME, TIME)
+    if TIME in section.values and not names_its_columns(Path(source)):
+        raise BadInput(
+            f"{section.place}: {TIME} = {clock!r} means nothing where columns go by their order, as in {source}; "
+            f'remove it, and write "{TIME}" in its place in columns'
+        )
+    if clock != TIME and clock in names:
+        raise BadInput(
+            f'{section.place}: columns names {clock!r} beside "{TIME}", which is the same; remove the one or the other'
+        )
+    return clock
 
 
 def _command(section: Section, names: tuple[str, ...], signals: Mapping[str, MeasuredSignal]) -> str | None:

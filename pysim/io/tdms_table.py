@@ -19,7 +19,7 @@ _DAMAGED = (OSError, ValueError, KeyError, EOFError, NotImplementedError, struct
 
 
 def channel_names(path: Path) -> tuple[str, ...]:
-    """Names of all channels, "group/channel" where two groups have the same.
+    """Names of all channels, "group/channel" where two groups have the same; "time" ahead where waveforms carry it.
 
     Raises:
         BadInput: the package is missing, or no TDMS file.
@@ -31,7 +31,9 @@ def channel_names(path: Path) -> tuple[str, ...]:
         raise BadInput(f"cannot read {path.name} as TDMS ({error}); export it again") from error
     if not channels:
         raise BadInput(f"cannot read {path.name} as TDMS (it has no channels); export it again")
-    return _told_apart(channels)
+    names = _told_apart(channels)
+    carried = _TIME not in names and any("wf_increment" in channel.properties for channel in channels)
+    return (_TIME, *names) if carried else names
 
 
 def _told_apart(channels: list[Any]) -> tuple[str, ...]:

@@ -74,6 +74,18 @@ def test_bare_logs_get_a_description_that_reads(tmp_path: Path) -> None:
         described("logs", columns[:1], [])
 
 
+def test_the_clock_of_a_log_that_names_its_columns_keeps_its_name(tmp_path: Path) -> None:
+    parquet = pytest.importorskip("pyarrow.parquet")
+    table = pytest.importorskip("pyarrow").table({"cmd": [1.0, 2.0], "p": [2.0, 3.0], "Zeit": [0.0, 1.0]})
+    parquet.write_table(table, tmp_path / "a.parquet")
+    roles = {"cmd": "input", "p": "output", "Zeit": "time"}
+    columns = [{"name": n, "role": r, "unit": "%", "variable": n, "noise": None} for n, r in roles.items()]
+    content = described("logs", columns, [{"file": "a.parquet", "kind": "other", "use": "fit"}])
+    found = change_description(tmp_path / "dataset.toml", content)
+    assert found is not None
+    assert found.logs()[0].data.time.tolist() == [0.0, 1.0]  # type: ignore[union-attr]
+
+
 FILES = ["./logs/a.csv", "logs//a.csv", "logs\\b.csv"]  # as a user may write them
 READ = ["logs/a.csv", "logs/a.csv", "logs/b.csv"]  # as they are read
 

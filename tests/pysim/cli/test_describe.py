@@ -4,7 +4,10 @@ import tomllib
 from pathlib import Path
 
 import numpy as np
+import pyarrow as pa
 import pytest
+from nptdms import ChannelObject, TdmsWriter
+from pyarrow import parquet
 
 from pysim.cli import main
 from pysim.io import read_dataset
@@ -100,6 +103,39 @@ def test_signals_are_counted_where_the_headings_are_others(tmp_path: Path) -> No
     assert main(["data", "describe", str(tmp_path), *words]) == 0
     (log,) = read_dataset(tmp_path).logs()
     assert log.data.names == ("cmd", "load", "y")
+
+
+def of_named_columns(path: Path, names: list[str]) -> Path:
+    """Times in ms, command and answer under these names."""
+    columns = dict(zip(names, (1000 * TIME, np.sin(TIME), np.cos(TIME)), strict=True))
+    if path.suffix == ".parquet":
+        parquet.write_table(pa.table(columns), path)
+    else:
+        with TdmsWriter(path) as writer:
+            writer.write_segment([ChannelObject("log", name, values) for name, values in columns.items()])
+    return path
+
+
+@pytest.mark.parametrize("file", ["log.parquet", "log.tdms"])
+@pytest.mark.parametrize("words", [[], ["--input", "cmd [%]:%", "--response", "y [bar]:bar"]])
+@pytest.mark.parametrize("clock", ["t [ms]", "Time [ms]", "Zeit [ms]", "time"])
+def test_the_clock_of_a_file_that_names_its_columns_may_have_any_name(
+    tmp_path: Path, file: str, words: list[str], clock: str
+) -> None:
+    of_named_columns(tmp_path / file, [clock, "cmd [%]", "y [bar]"])
+    assert main(["data", "describe", str(tmp_path), *words]) == 0
+    (log,) = read_dataset(tmp_path).logs()
+    assert log.data.names == ("cmd [%]", "y [bar]")
+    assert log.data.time[-1] == pytest.approx(TIME[-1] if "ms" in clock else 1000 * TIME[-1])
+
+
+def test_the_clock_is_no_column_that_is_a_signal(tmp_path: Path) -> None:
+    of_named_columns(tmp_path / "a.parquet", ["Zeit", "cmd", "t"])
+    columns = parquet.read_table(tmp_path / "a.parquet").select(["cmd", "t", "Zeit"])
+    parquet.write_table(columns, tmp_path / "a.parquet")
+    assert main(["data", "describe", str(tmp_path), "--input", "cmd:%", "--response", "t:K"]) == 0
+    (log,) = read_dataset(tmp_path).logs()
+    assert (log.data.names, log.data.time[-1]) == (("cmd", "t"), pytest.approx(1000 * TIME[-1]))
 
 
 def test_stepped_sines_are_known_by_their_names(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

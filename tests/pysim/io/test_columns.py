@@ -157,6 +157,38 @@ def test_a_data_set_of_such_files(tmp_path: Path, write: Write, suffix: str) -> 
     np.testing.assert_allclose(record["speed"], np.pi * np.array([2.0, 1.0, 0.5]))
 
 
+def described(folder: Path, record: str) -> Path:
+    """A data set of a command in V and a speed in rpm."""
+    (folder / "dataset.toml").write_text(
+        '[dataset]\nname = "x"\ntime_unit = "ms"\n[signals.command]\nrole = "input"\nunit = "V"\n[signals.speed]\n'
+        f'role = "output"\nunit = "rpm"\n[[records]]\nkind = "other"\n{record}\n'
+    )
+    return folder
+
+
+@BOTH
+def test_the_clock_may_have_another_name(tmp_path: Path, write: Write, suffix: str) -> None:
+    write(tmp_path / f"log.{suffix}", **{"command": [1, 2, 3], "speed": SPEED, "t [ms]": [0.0, 500.0, 1000.0]})
+    columns = f'file = "log.{suffix}"\ncolumns = ["time", "command", "speed"]'
+    record = read_dataset(described(tmp_path, f'{columns}\ntime = "t [ms]"')).logs()[0].data
+    np.testing.assert_allclose(record.time, TIME)
+    assert record.names == ("command", "speed")
+    with pytest.raises(BadInput, match=r"line 10: .*log\.\w+ has no column 'T'; name one of command, speed, t \[ms\]$"):
+        read_dataset(described(tmp_path, f'{columns}\ntime = "T"'))
+    with pytest.raises(BadInput, match="line 10: columns names 'speed' beside \"time\", which is the same; remove the"):
+        read_dataset(described(tmp_path, f'{columns}\ntime = "speed"'))
+    columns = columns.replace("time", "t [ms]")
+    with pytest.raises(BadInput, match=r'no "time"; write "time" for the clock there, and time = "\.\.\." for what'):
+        read_dataset(described(tmp_path, columns))
+
+
+def test_the_clock_of_a_text_log_has_its_place_in_the_order(tmp_path: Path) -> None:
+    (tmp_path / "log.txt").write_text("t command speed\n0 1 2\n1 2 3\n")
+    columns = 'file = "log.txt"\ncolumns = ["time", "command", "speed"]\ntime = "t"'
+    with pytest.raises(BadInput, match=r"line 10: time = 't' means nothing where columns go by .* log\.txt; remove it"):
+        read_dataset(described(tmp_path, columns))
+
+
 @BOTH
 def test_moments_are_in_seconds_whatever_the_unit_of_bare_times(tmp_path: Path, write: Write, suffix: str) -> None:
     stamps = np.datetime64(START) + np.array([0, 500_000, 1_000_000], dtype="timedelta64[us]")

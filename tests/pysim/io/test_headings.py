@@ -76,6 +76,15 @@ def test_channels_of_tdms_have_their_group_where_two_groups_have_the_same(tmp_pa
     assert read_columns(tmp_path / "a.tdms", names, "test").values.shape == (2, 4)
 
 
+def test_waveforms_of_tdms_carry_their_clock_and_other_channels_do_not(tmp_path: Path) -> None:
+    nptdms = pytest.importorskip("nptdms")
+    for properties, names in (({}, ("t", "x")), ({"wf_increment": 0.1}, ("time", "t", "x"))):
+        with nptdms.TdmsWriter(tmp_path / "a.tdms") as writer:
+            values = np.array([0.0, 1.0])
+            writer.write_segment([nptdms.ChannelObject("a", name, values, properties) for name in ("t", "x")])
+        assert column_names(tmp_path / "a.tdms") == names
+
+
 @pytest.mark.parametrize("wrong", [0, 32, 41, None])
 def test_a_damaged_tdms_file_is_refused(tmp_path: Path, wrong: int | None) -> None:
     nptdms = pytest.importorskip("nptdms")
