@@ -11,7 +11,7 @@ from secrets import token_urlsafe
 
 from pysim.app.description import refuse_outside
 from pysim.app.project import Project
-from pysim.io import DAMAGED, LOG_SUFFIXES, counted, unusable_name
+from pysim.io import DAMAGED, LOG_SUFFIXES, counted, same_file, unusable_name
 from pysim.types import BadInput
 
 _PIECE = 2**20
@@ -44,12 +44,13 @@ class Batch:
     name: str = field(default_factory=lambda: token_urlsafe(9))
     size: int = 0
     files: int = 0
+    _taken: dict[str, tuple[str, str]] = field(default_factory=dict)  # what same_file says -> name, and archive or ""
 
     async def take(self, name: str, pieces: AsyncIterator[bytes]) -> None:
         """One file, as it comes in.
 
         Raises:
-            BadInput: too much, or a name that would leave the folder or that not every system keeps.
+            BadInput: too much, or a name that `target` refuses.
         """
         target = self.target(name)
         with target.open("wb") as file:
@@ -57,11 +58,14 @@ class Batch:
                 self.count(len(piece), name)
                 file.write(piece)
 
-    def target(self, name: str) -> Path:
+    def target(self, name: str, archive: str = "") -> Path:
         """Where a file of that name goes; its folders are made.
 
+        Args:
+            archive: that it is unpacked from, seen from the drop; "" where it was dropped itself.
         Raises:
-            BadInput: a name that would leave the folder or that not every system keeps, or one file too many.
+            BadInput: a name that would leave the folder, that not every system keeps or that the drop has already,
+                or one file too many.
         """
         parts = _parts(name)
         bad = not parts or ".." in parts or parts[0] == "/" or PureWindowsPath(name).drive or "\0" in name
@@ -72,12 +76,25 @@ class Batch:
         self.files += 1
         if self.files > self.limits.files:
             raise BadInput(f"more than {self.limits.files} files; drop at most {self.limits.words}")
+        self._occupy("/".join(parts), archive)
         target = self.folder / self.name / Path(*parts)
         try:
             target.parent.mkdir(parents=True, exist_ok=True)
         except OSError as error:
             raise BadInput(f"{name}: cannot be kept ({error.strerror}); rename it") from error
         return target
+
+    def _occupy(self, name: str, archive: str) -> None:
+        """Keep a place for a file: no other of the drop is written over it."""
+        place = same_file(name)
+        if place in self._taken:
+            before, other = self._taken[place]
+            cure = "drop one archive at a time, or give each a folder"
+            if archive == other:
+                cure = f"rename one of them{', and pack it again' if archive else ''}"
+            one, two = (f"{n} of {a}" if a else n for n, a in ((name, archive), (before, other)))
+            raise BadInput(f"{one} and {two} would be one file; {cure}")
+        self._taken[place] = (name, archive)
 
     def count(self, size: int, name: str) -> None:
         """So many bytes more.
@@ -97,7 +114,7 @@ class Batch:
         """Put the content of every .zip in its place.
 
         Raises:
-            BadInput: a damaged archive, a name that leaves the folder, or too much.
+            BadInput: a damaged archive, a name that `target` refuses, or too much.
         """
         for path in sorted((self.folder / self.name).rglob("*")):
             if path.is_file() and path.suffix.lower() == ".zip":
@@ -108,12 +125,13 @@ class Batch:
                 path.unlink()
 
     def _unpack(self, path: Path) -> None:
-        inside = path.parent.relative_to(self.folder / self.name)
+        place = path.relative_to(self.folder / self.name)
         with zipfile.ZipFile(path) as archive:
             for member in archive.infolist():
                 if member.is_dir() or _hidden(_parts(member.filename)):
                     continue
-                target = self.target((inside / member.filename).as_posix() if inside.parts else member.filename)
+                name = (place.parent / member.filename).as_posix() if place.parent.parts else member.filename
+                target = self.target(name, place.as_posix())
                 with archive.open(member) as source, target.open("wb") as file:
                     while piece := source.read(_PIECE):  # what the archive says of sizes is not believed
                         self.count(len(piece), member.filename)

@@ -139,6 +139,18 @@ def test_a_drop_that_the_disk_refuses_is_told_in_a_sentence(tmp_path: Path) -> N
     assert list((tmp_path / "p/uploads").iterdir()) == []
 
 
+def test_a_file_that_comes_twice_ends_the_drop_and_nothing_of_it_stays(tmp_path: Path) -> None:
+    with server(tmp_path / "p") as address:
+        _, name = asked(address, "POST", "/upload")
+        many = b"0,1\n" * 10**6  # comes in many pieces
+        assert asked(address, "PUT", f"/upload/{name}?name=d/a.csv", many) == (200, "kept")
+        told = (413, "d/A.csv and d/a.csv would be one file; rename one of them")
+        assert asked(address, "PUT", f"/upload/{name}?name=d/A.csv", b"0,2\n") == told
+        assert asked(address, "POST", f"/upload/{name}/done")[0] == 409
+    assert list((tmp_path / "p/uploads").iterdir()) == []
+    assert not (tmp_path / "p/data").exists()
+
+
 def asked(address: str, method: str, path: str, body: bytes = b"") -> tuple[int, str]:
     """Status and text of what is not a page."""
     parts = urlsplit(address)

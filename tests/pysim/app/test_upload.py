@@ -178,3 +178,55 @@ def test_a_name_that_is_a_folder_too_is_refused_in_a_sentence(project: Project) 
         adopt(inside, project)
     assert not project.data.exists()
     assert list((project.folder / "uploads").iterdir()) == []
+
+
+TWO, RENAME = "drop one archive at a time, or give each a folder", "rename one of them"
+
+
+@pytest.mark.parametrize(
+    ("files", "words"),
+    [
+        (
+            {"A.zip": {"0.5Hz.txt": b"0 1\n"}, "B.zip": {"0.5Hz.txt": b"0 2\n"}},
+            f"0.5Hz.txt of B.zip and 0.5Hz.txt of A.zip would be one file; {TWO}",
+        ),
+        (
+            {"A.zip": {"dataset.toml": TOML.encode()}, "B.zip": {"dataset.toml": b"?"}},
+            f"dataset.toml of B.zip and dataset.toml of A.zip would be one file; {TWO}",
+        ),
+        (
+            {"x/A.zip": {"s/a.csv": b"0,1\n"}, "x/s/a.csv": b"0,2\n"},
+            f"x/s/a.csv of x/A.zip and x/s/a.csv would be one file; {TWO}",
+        ),
+        (
+            {"A.zip": {"a.csv": b"0,1\n", "A.CSV": b"0,2\n"}},
+            f"A.CSV of A.zip and a.csv of A.zip would be one file; {RENAME}, and pack it again",
+        ),
+        (
+            {"A.zip": {"B.zip": b"?"}, "B.zip": {"a.csv": b"0,1\n"}},
+            f"B.zip of A.zip and B.zip would be one file; {TWO}",
+        ),
+        ({"A.zip": {"A.zip": b"?"}}, f"A.zip of A.zip and A.zip would be one file; {TWO}"),
+        (
+            {"Größe.csv": b"0,1\n", "gro\u0308ße.csv": b"0,2\n"},
+            f"gro\u0308ße.csv and Größe.csv would be one file; {RENAME}",
+        ),
+        ({"a/b.csv": b"0,1\n", "a\\.\\b.csv": b"0,2\n"}, f"a/b.csv and a/b.csv would be one file; {RENAME}"),
+    ],
+)
+def test_no_file_of_a_drop_takes_the_place_of_another(
+    project: Project, files: dict[str, bytes | dict[str, bytes]], words: str
+) -> None:
+    adopt(batch(project, {"before.csv": b"0,1\n"}), project)
+    coming = {name: packed(own) if isinstance(own, dict) else own for name, own in files.items()}
+    with pytest.raises(BadInput, match=f"^{re.escape(words)}$"):
+        adopt(batch(project, coming), project)
+    assert [path.name for path in project.data.iterdir()] == ["before.csv"]
+
+
+def test_archives_that_share_no_name_and_the_pieces_of_a_file_are_taken(project: Project) -> None:
+    logs = {f"{k}/{name}.csv": b"0,1\n" * 50 for k, name in ((1, "a"), (2, "a"), (2, "b"))}  # each in many pieces
+    archives = {f"{k}.zip": packed({n: b for n, b in logs.items() if n[0] == str(k)}) for k in (1, 2)}
+    adopt(batch(project, {**archives, "a.csv": b"0,1\n"}), project)
+    found = {path.relative_to(project.data).as_posix(): path.read_bytes() for path in project.data.rglob("*.csv")}
+    assert found == {**logs, "a.csv": b"0,1\n"}
