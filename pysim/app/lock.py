@@ -12,7 +12,7 @@ from pathlib import Path
 
 from pysim.types import BadInput
 
-_FILE = "server.lock"
+LOCK = "server.lock"
 _ROOM = 1000  # bytes for the words in the file
 _LOCKED = 2**20  # place of the byte that is locked; Windows lets nobody read it, so it lies far behind the words
 
@@ -31,7 +31,7 @@ def held(folder: Path) -> Iterator[Callable[[str], None]]:
     Raises:
         BadInput: another server has it, or a disk that locks no files.
     """
-    path = folder / _FILE
+    path = folder / LOCK
     try:
         file = os.open(path, os.O_RDWR | os.O_CREAT | getattr(os, "O_BINARY", 0))
     except OSError as error:

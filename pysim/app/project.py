@@ -5,18 +5,21 @@ from __future__ import annotations
 import contextlib
 import hashlib
 import json
+import os
 import re
 import tomllib
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, fields, replace
 from pathlib import Path
 from typing import Any
 
 from pysim.app.disk import move_all
+from pysim.app.lock import LOCK
 from pysim.io import write_file
 from pysim.types import BadInput
 
 _SETTINGS = "project.toml"
+_OWN = (_SETTINGS, "data", "model", "earlier", "uploads", "results", LOCK)
 LOOKS = ("auto", "light", "dark")
 
 
@@ -130,15 +133,34 @@ class Project:
         return below.relative_to(self.folder).as_posix() if bare else name
 
     def fingerprint(self) -> str:
-        """Of all that a result depends on: data, model and what may be refitted."""
+        """Of all that a result depends on: data, model and what may be refitted; of files their sizes and times."""
         settings = self.settings()
         digest = hashlib.sha256(repr((settings.model, settings.libraries, settings.free)).encode())
-        for root in (self.data, self.models):
-            for path in sorted(root.rglob("*")) if root.is_dir() else ():
-                if path.is_file():
-                    stat = path.stat()
-                    digest.update(repr((path.relative_to(root).as_posix(), stat.st_size, stat.st_mtime_ns)).encode())
+        for name, path in (*_below(self.data), *_below(self.models), *self._elsewhere(settings)):
+            stat = path.stat()
+            digest.update(repr((name, stat.st_size, stat.st_mtime_ns)).encode())
         return digest.hexdigest()
+
+    def _elsewhere(self, settings: Settings) -> Iterator[tuple[str, Path]]:
+        """Files of the model and the libraries that are neither below `data` nor below `model`, with their names."""
+        seen = [self.data.resolve(), self.models.resolve()]
+        model, libraries = self.folder / settings.model, [self.folder / name for name in settings.libraries]
+        for place in [model, *libraries] if os.path.isfile(model) else libraries:  # a class may be no path at all
+            place = place.resolve()
+            if any(place.is_relative_to(folder) for folder in seen):
+                continue
+            yield from [(place.name, place)] if place.is_file() else self._foreign(place)
+
+    def _foreign(self, library: Path) -> list[tuple[str, Path]]:
+        """Files of a library, without what is hidden, as .git, and, where the project lies in it, the project's own."""
+        project = self.folder.resolve()
+        own = [project / name for name in _OWN] if project.is_relative_to(library) else []
+        return [
+            (name, path)
+            for name, path in _below(library)
+            if not any(part.startswith(".") for part in name.split("/"))
+            and not any(path.is_relative_to(place) for place in own)
+        ]
 
     def replace_data(self, folder: Path) -> str:
         """Take a folder's content as the data set; what was there before is kept below `earlier`.
@@ -186,3 +208,9 @@ class Project:
         earlier.mkdir(exist_ok=True)
         found = (re.fullmatch(rf"{kind}-(\d+)", path.name) for path in earlier.iterdir())
         return earlier / f"{kind}-{1 + max((int(one[1]) for one in found if one), default=0)}"
+
+
+def _below(root: Path) -> list[tuple[str, Path]]:
+    """Every file of a folder with its name seen from there, in order."""
+    paths = sorted(root.rglob("*")) if root.is_dir() else ()
+    return [(path.relative_to(root).as_posix(), path) for path in paths if path.is_file()]

@@ -1,5 +1,6 @@
 """A project is a folder: what was chosen comes back, and results belong to the data and the model they were made of."""
 
+import os
 from pathlib import Path
 
 import pytest
@@ -39,6 +40,63 @@ def test_the_fingerprint_tells_other_data_and_another_model(tmp_path: Path) -> N
     assert len(set(seen)) == 4
     project.change(added=("x",), look="dark")  # neither changes what is compared
     assert project.fingerprint() == seen[-1]
+
+
+@pytest.mark.parametrize("place", ["Pump.fmu", "../elsewhere/Pump.fmu", "absolute"])
+def test_the_fingerprint_tells_an_fmu_that_was_exported_anew_wherever_it_is(tmp_path: Path, place: str) -> None:
+    project = Project.at(tmp_path / "p")
+    name = str(tmp_path / "elsewhere/Pump.fmu") if place == "absolute" else place
+    (tmp_path / "elsewhere").mkdir()
+    project.change(model=name)
+    seen = [project.fingerprint()]
+    for text, time in (("first", 1), ("other", 2), ("longer", 2)):
+        (project.folder / name).write_text(text)
+        os.utime(project.folder / name, ns=(time, time))
+        seen.append(project.fingerprint())
+    assert len(set(seen)) == 4
+    assert project.fingerprint() == seen[-1]
+
+
+@pytest.mark.parametrize("file", ["Lib/Sub/A.mo", "Lib/Resources/table.txt", "One.mo"])
+def test_the_fingerprint_tells_a_library_that_was_changed_wherever_it_is(tmp_path: Path, file: str) -> None:
+    project = Project.at(tmp_path / "p")
+    changed = tmp_path / "elsewhere" / file
+    changed.parent.mkdir(parents=True)
+    project.change(libraries=(str(tmp_path / "elsewhere/Lib"), "../elsewhere/One.mo"))
+    seen = [project.fingerprint()]
+    for text in ("", "1", "12"):
+        changed.write_text(text)
+        seen.append(project.fingerprint())
+    assert len(set(seen)) == 4
+    (tmp_path / "elsewhere/Lib/.git").mkdir(parents=True)
+    (tmp_path / "elsewhere/Lib/.git/index").write_text("what looking at it writes")
+    assert project.fingerprint() == seen[-1]
+
+
+@pytest.mark.parametrize("library", [".", ".."])
+def test_what_the_workbench_writes_is_no_part_of_a_library_that_the_project_lies_in(
+    tmp_path: Path, library: str
+) -> None:
+    project = Project.at(tmp_path / "p")
+    project.change(libraries=(library,))
+    (project.folder / library / "package.mo").write_text("package P end P;")
+    before = project.fingerprint()
+    for place in ("results/compare/job.json", "uploads/x/a.csv", "earlier/data-1/a.csv", "server.lock"):
+        (project.folder / place).parent.mkdir(parents=True, exist_ok=True)
+        (project.folder / place).write_text("x")
+    project.change(look="dark")
+    assert project.fingerprint() == before
+    (project.folder / library / "package.mo").write_text("package P extends Q; end P;")
+    assert project.fingerprint() != before
+
+
+@pytest.mark.parametrize("name", ["A" * 5000, "A.B\0", "data"])
+def test_a_model_that_is_no_file_has_a_fingerprint_too(tmp_path: Path, name: str) -> None:
+    project = Project.at(tmp_path / "p")
+    project.data.mkdir()
+    before = project.fingerprint()
+    project.change(model=name)
+    assert project.fingerprint() not in ("", before)
 
 
 def dropped(folder: Path, text: str, name: str = "a.txt") -> Path:
