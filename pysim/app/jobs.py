@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import hashlib
 import json
 import subprocess
 import time
@@ -112,9 +113,10 @@ def adding(project: Project, effects: Sequence[str]) -> Work:
     base = works(project)["diagnose"].words[1:]
     own = base[: base.index("--json")]
     safe = "+".join("".join(c if c.isalnum() or c in "._-" else "_" for c in name) for name in effects)
+    chain = hashlib.sha256(repr(tuple(effects)).encode()).hexdigest()[:8]  # the names alone may be cut, or look alike
     title = f"Add {effects[-1]}"
     words = [*own, *(word for name in effects for word in ("--effect", name))]
-    return replace(_work("add", title, words, f"add-{safe[:80]}"), effects=tuple(effects))
+    return replace(_work("add", title, words, f"add-{safe[:80]}-{chain}"), effects=tuple(effects))
 
 
 def _work(command: str, title: str, words: Sequence[str], name: str = "") -> Work:

@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import time
 from pathlib import Path
 
@@ -218,9 +219,21 @@ def test_words_are_those_of_the_command_line(project: Project) -> None:
     assert words["compare"].words[:4] == ("compare", "A.B", "--data", "data")
     parse(words["compare"].words, words["diagnose"].words, words["rank"].words, words["locate"].words)
     added = adding(project, ["valve.deadband", "../evil name"])
-    assert added.name == "add-valve.deadband+.._evil_name"
+    assert re.fullmatch(r"add-valve\.deadband\+\.\._evil_name-[0-9a-f]{8}", added.name)
     assert added.effects == ("valve.deadband", "../evil name")
     parse(added.words)
+
+
+def test_no_two_chains_of_effects_share_a_folder(project: Project) -> None:
+    project.change(model="A.B")
+    project.data.mkdir()
+    project.description.touch()
+    long = [f"library.effect_of_some_length_{k}" for k in range(3)]
+    chains = [long, [*long, "a"], [*long, "b"], ["a b"], ["a_b"], ["a", "b"], ["a+b"], ["b", "a"], ["A", "B"]]
+    names = [adding(project, chain).name for chain in chains]
+    assert len({name.casefold() for name in names}) == len(chains)
+    assert max(map(len, names)) < 100
+    assert names == [adding(project, chain).name for chain in chains]
 
 
 def parse(*lines: tuple[str, ...]) -> None:
