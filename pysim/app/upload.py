@@ -15,6 +15,7 @@ from pysim.io import DAMAGED, LOG_SUFFIXES, counted, same_file, unusable_name
 from pysim.types import BadInput
 
 _PIECE = 2**20
+_LONGEST, _BYTES = 200, 255  # letters of a name, and what disks keep of it in UTF-8
 
 
 @dataclass(frozen=True)
@@ -69,7 +70,7 @@ class Batch:
         """
         parts = _parts(name)
         bad = not parts or ".." in parts or parts[0] == "/" or PureWindowsPath(name).drive or "\0" in name
-        if bad or not name.isprintable() or any(len(part) > 200 for part in parts) or len(parts) > 20:
+        if bad or not name.isprintable() or any(map(_long, parts)) or len(parts) > 20:
             raise BadInput(f"{name[:80]!r} is no name of a file below the dropped folder; rename it")
         if why := unusable_name("/".join(parts)):  # behind a colon Windows would lose the log in another file's stream
             raise BadInput(f"{name[:80]!r}: {why}; rename it")
@@ -193,6 +194,11 @@ def _sweep(root: Path) -> None:
 def _hidden(parts: Sequence[str]) -> bool:
     """What systems leave beside a user's files."""
     return any((part.startswith(".") and part != "..") or part == "__MACOSX" for part in parts)
+
+
+def _long(part: str) -> bool:
+    """Whether a disk cannot keep a name, or hardly."""
+    return len(part) > _LONGEST or len(part.encode()) > _BYTES
 
 
 def _parts(name: str) -> list[str]:

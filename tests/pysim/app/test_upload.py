@@ -127,6 +127,21 @@ def test_names_that_every_system_keeps_are_taken(project: Project) -> None:
     assert sorted(path.name for path in project.data.iterdir()) == sorted(names)
 
 
+@pytest.mark.parametrize("letter", ["a", "д", "漢"])
+@pytest.mark.parametrize("place", ["{}.csv", "{}/a.csv"])
+def test_a_name_that_is_too_long_for_a_disk_is_refused_whatever_its_letters(
+    project: Project, letter: str, place: str
+) -> None:
+    longest = (200 if letter == "a" else 254 // len(letter.encode())) - len(".csv")
+    kept, refused = (place.format(letter * count) for count in (longest, longest + 6))
+    assert adopt(batch(project, {kept: b"0,1\n"}), project).kind == "logs"
+    words = f"^{re.escape(repr(refused[:80]))} is no name of a file below the dropped folder; rename it$"
+    with pytest.raises(BadInput, match=words):
+        batch(project, {refused: b"0,1\n"})
+    with pytest.raises(BadInput, match=words):
+        adopt(batch(project, {"a.zip": packed({refused: b"0,1\n"})}), project)
+
+
 def test_limits_hold_for_what_comes_in_and_for_what_is_unpacked(project: Project) -> None:
     small = Limits(size=1000, files=3)
     with pytest.raises(BadInput, match="goes beyond the limit"):
