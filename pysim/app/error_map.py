@@ -7,10 +7,11 @@ from dataclasses import dataclass
 from itertools import count
 from typing import Any, NamedTuple, TypeVar
 
+from pysim.app.log_numbers import log_numbers
 from pysim.app.working_point import command_unit, working_point
 from pysim.types import Dataset
 
-_Row = dict[str, tuple[float, str]]  # column -> error and source
+_Row = dict[str, tuple[float, int | None]]  # column -> error and number of the log
 _Key = TypeVar("_Key")
 
 
@@ -31,14 +32,14 @@ class ErrorMap:
         title: of the columns.
         rows, columns: names.
         values: per row and column, None where no such test was run.
-        sources: of the records, "" where there is none.
+        logs: their numbers in the data set, None where there is none.
     """
 
     title: str
     rows: tuple[str, ...]
     columns: tuple[str, ...]
     values: tuple[tuple[float | None, ...], ...]
-    sources: tuple[tuple[str, ...], ...]
+    logs: tuple[tuple[int | None, ...], ...]
 
 
 def error_maps(stage: Mapping[str, Any], dataset: Dataset) -> list[ErrorMap]:
@@ -49,14 +50,15 @@ def error_maps(stage: Mapping[str, Any], dataset: Dataset) -> list[ErrorMap]:
     Args:
         stage: as a file of stages has it.
     """
-    tests = {record.source: record for record in dataset.records}
+    tests = dataset.logs()
     sines: dict[tuple[_Point, int], _Row] = {}
     logs: dict[tuple[str, int], _Row] = {}
-    for record in stage["records"]:
+    for record, number in zip(stage["records"], log_numbers(stage, dataset), strict=True):
+        test = None if number is None else tests[number]
         for signal, value in zip(record["names"], record["rms"], strict=True):
             if value is None:
                 continue
-            test, cell = tests.get(record["source"]), (value, record["source"])
+            cell = (value, number)
             if record["frequency"] is not None and test is not None and test.offset is not None:
                 point = _Point(test.command, test.offset, float(test.amplitude or 0.0), signal)
                 _put(sines, point, f"{record['frequency']:g}", cell)
@@ -72,7 +74,7 @@ def error_maps(stage: Mapping[str, Any], dataset: Dataset) -> list[ErrorMap]:
     return [one for one in maps if one.rows]
 
 
-def _put(table: dict[tuple[_Key, int], _Row], row: _Key, column: str, cell: tuple[float, str]) -> None:
+def _put(table: dict[tuple[_Key, int], _Row], row: _Key, column: str, cell: tuple[float, int | None]) -> None:
     """In the first row of that key where the column is free: no repeat hides another."""
     repeat = next(k for k in count(1) if column not in table.get((row, k), {}))
     table.setdefault((row, repeat), {})[column] = cell
@@ -95,5 +97,5 @@ def _words(points: Sequence[_Point], dataset: Dataset) -> dict[_Point, str]:
 
 def _map(title: str, rows: Mapping[str, _Row], columns: list[str]) -> ErrorMap:
     values = tuple(tuple(row[c][0] if c in row else None for c in columns) for row in rows.values())
-    sources = tuple(tuple(row[c][1] if c in row else "" for c in columns) for row in rows.values())
-    return ErrorMap(title, tuple(rows), tuple(columns), values, sources)
+    logs = tuple(tuple(row[c][1] if c in row else None for c in columns) for row in rows.values())
+    return ErrorMap(title, tuple(rows), tuple(columns), values, logs)

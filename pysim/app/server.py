@@ -10,7 +10,6 @@ import webbrowser
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from secrets import token_urlsafe
-from typing import Any
 
 from fastapi import Request
 from fastapi.responses import FileResponse, PlainTextResponse, Response
@@ -217,13 +216,12 @@ def _choose(project: Project, adopted: Adopted) -> None:
 def overlay_of(desk: Desk, of: str, record: int) -> Overlay | None:
     """A record of the data set (`of` is "data") or beside the models of a result; None where there is none such."""
     check = desk.loaded.check if desk.loaded else None
-    records: tuple[Any, ...] = check.dataset.logs() if check else ()
-    if not 0 <= record < len(records):
+    if check is None or not 0 <= record < len(check.dataset.logs()):
         return None
     if of == "data":
-        return measured_overlay(records[record])
+        return measured_overlay(check.dataset.logs()[record])
     answer = next((one for one in desk.answers.all if one.job.work.name == of), None)
     try:
-        return None if answer is None else compared_overlay(answer, records[record].source)
+        return None if answer is None else compared_overlay(answer, check.dataset, record)
     except BadInput:  # its files were removed meanwhile, as it is to be run anew
         return None

@@ -13,6 +13,7 @@ from pysim.app.answers import Answer
 from pysim.app.desk import Desk
 from pysim.app.error_map import ErrorMap, error_maps
 from pysim.app.figures import bode_figure, map_figure, step_name
+from pysim.app.log_numbers import log_numbers
 from pysim.app.pages.common import busy, ended, nothing, segments, start
 from pysim.app.parts import Chart, Table, box, button, card, head, live, quantity, text
 from pysim.app.records import MOST, compared_overlay, measured_overlay, stage_keys
@@ -22,16 +23,22 @@ from pysim.types import Dataset, MeasuredRecord, Record
 
 @dataclass
 class _View:
-    """What one tab looks at."""
+    """What one tab looks at.
 
-    record: str = ""
+    Args:
+        record: its number among the logs, since one file may hold several; None: the worst one.
+        model: key of LOOKS.
+        response: number of the frequency response.
+    """
+
+    record: int | None = None
     model: str = ""
     response: int = 0
 
 
-def compare_page(desk: Desk, record: str = "") -> None:
+def compare_page(desk: Desk) -> None:
     """Measured and simulated."""
-    view = _View(record)
+    view = _View()
     live(lambda: desk.version, lambda: _top(desk), "gap")
     live(lambda: (desk.version, view.model), lambda: _maps(desk, view), "gap")
     live(lambda: (desk.version, view.record), lambda: _record(desk, view), "gap")
@@ -83,13 +90,13 @@ def _pick(view: _View, one: ErrorMap, at: Mapping[str, Any]) -> None:
     """Open the record of a cell; its place on the map tells which."""
     index = at.get("index")
     if isinstance(index, list) and len(index) == 2:
-        source = one.sources[int(index[0])][int(index[1])]
-        if source:
-            _open(view, source)
+        number = one.logs[int(index[0])][int(index[1])]
+        if number is not None:
+            _open(view, number)
 
 
-def _open(view: _View, source: str) -> None:
-    view.record = source
+def _open(view: _View, number: int) -> None:
+    view.record = number
     ui.run_javascript("document.getElementById('record')?.scrollIntoView({block: 'start'})")
 
 
@@ -107,14 +114,10 @@ def _record(desk: Desk, view: _View) -> None:
             nothing("No records yet", "Drop a data set on the page Data.")
         return
     answer = _answer(desk)
-    errors = _errors(answer)
-    worst = max(
-        logs,
-        key=lambda log: (errors.get(log.source, [0.0])[-1], log.data.time.size if isinstance(log.data, Record) else 0),
-    )
-    source = view.record if any(log.source == view.record for log in logs) else worst.source
-    number = next(k for k, log in enumerate(logs) if log.source == source)
-    overlay = compared_overlay(answer, source) if answer else None
+    errors = _errors(answer, check.dataset)
+    number = _worst(logs, errors) if view.record is None or view.record >= len(logs) else view.record
+    source = logs[number].source
+    overlay = compared_overlay(answer, check.dataset, number) if answer else None
     overlay = overlay or measured_overlay(logs[number])
     of = answer.job.work.name if answer and overlay.models else "data"
     with card() as place:
@@ -133,27 +136,37 @@ def _record(desk: Desk, view: _View) -> None:
             overlay.figure(), f"{source}: measured and simulated over time", height=round(120 + 165 * panels),
             series={**series, "span": overlay.span, "most": MOST},
         )  # fmt: skip
-    _list(view, check.dataset, errors, source)
+    _list(view, check.dataset, errors, number)
 
 
-def _errors(answer: Answer | None) -> dict[str, list[float]]:
-    """Source -> error over noise of the base and of the last model, the worst signal of each."""
-    found: dict[str, list[float]] = {}
+def _worst(logs: Sequence[MeasuredRecord], errors: Mapping[int, Sequence[float]]) -> int:
+    """The log with the largest error, the longest one of several; its number."""
+
+    def size(number: int) -> tuple[float, int]:
+        data = logs[number].data
+        return errors.get(number, [0.0])[-1], data.time.size if isinstance(data, Record) else 0
+
+    return max(range(len(logs)), key=size)
+
+
+def _errors(answer: Answer | None, dataset: Dataset) -> dict[int, list[float]]:
+    """Number of a log -> error over noise of the base and of the last model, the worst signal of each."""
+    found: dict[int, list[float]] = {}
     for stage in [] if answer is None else [answer.base, answer.last][: 2 if answer.added else 1]:
-        for record in stage["records"]:
-            found.setdefault(record["source"], []).append(max((v for v in record["rms"] if v is not None), default=0.0))
+        for record, number in zip(stage["records"], log_numbers(stage, dataset), strict=True):
+            if number is not None:
+                found.setdefault(number, []).append(max((v for v in record["rms"] if v is not None), default=0.0))
     return found
 
 
-def _list(view: _View, dataset: Dataset, errors: dict[str, list[float]], source: str) -> None:
+def _list(view: _View, dataset: Dataset, errors: Mapping[int, list[float]], picked: int) -> None:
     logs = dataset.logs()
     columns = [("record", "words"), ("use", "words"), ("offset", "number"), ("amplitude", "number"), ("Hz", "number")]
     count = max((len(one) for one in errors.values()), default=0)
     columns += [("error, refitted" if k == 0 else "error, now", "number") for k in range(count)]
-    rows = [_row(log, command_unit(dataset, log.command), errors.get(log.source, []), count) for log in logs]
-    picked = next(k for k, log in enumerate(logs) if log.source == source)
+    rows = [_row(log, command_unit(dataset, log.command), errors.get(k, []), count) for k, log in enumerate(logs)]
     with card("All records"):
-        Table("Records", columns, rows, on_row=lambda k: _open(view, logs[k].source), picked=picked, height="330px")
+        Table("Records", columns, rows, on_row=lambda k: _open(view, k), picked=picked, height="330px")
 
 
 def _row(log: MeasuredRecord, unit: str, errors: list[float], count: int) -> list[Any]:

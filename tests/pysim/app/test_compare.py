@@ -1,4 +1,5 @@
-"""The page Compare in a real browser, on an answer whose numbers are known: Bode plots with the band of Table 1.3."""
+"""The page Compare in a real browser, on answers whose numbers are known: Bode plots with the band of Table 1.3, and a
+file that holds two records."""
 
 import io
 import json
@@ -35,11 +36,8 @@ LIMITS = (("E_M max", "maximum magnitude deviation", 2.0, "dB"), ("E_P max", "ma
 @pytest.fixture
 def project(tmp_path: Path) -> Path:
     """Sines at two operating points, compared with a model that fails at the second."""
-    from pysim.app.project import Project
-
     folder = tmp_path / "project"
     (folder / "data").mkdir(parents=True)
-    (folder / "results/compare").mkdir(parents=True)
     text, time = DESCRIPTION, np.arange(0, 4, 0.005)
     for offset in (0, 25):
         for frequency in F:
@@ -47,8 +45,17 @@ def project(tmp_path: Path) -> Path:
             np.savetxt(folder / f"data/{name}.txt", np.column_stack([time, offset + wave, offset + wave]), fmt="%.5f")
             text += RECORD.format(name=name, offset=offset, frequency=frequency)
     (folder / "data/dataset.toml").write_text(text)
+    answered(folder, [stage("prior", (1.0, 3.0)), stage("refit", (0.5, 2.5))])
+    return folder
+
+
+def answered(folder: Path, stages: list[dict[str, Any]]) -> None:
+    """Make a project of a folder with data, and these stages its only result."""
+    from pysim.app.project import Project
+
+    (folder / "results/compare").mkdir(parents=True)
     (folder / "project.toml").write_text('model = ""\n')
-    stages = [stage("prior", (1.0, 3.0)), stage("refit", (0.5, 2.5))]
+    time = np.arange(0, 4, 0.005)
     about = np.frombuffer(json.dumps({"form": 1, "stages": stages}).encode(), dtype=np.uint8)
     archive = io.BytesIO()
     np.savez(archive, about=about, t=time, m=10 + 0 * time[:, None], s=10 + 0 * time[:, None])
@@ -59,7 +66,6 @@ def project(tmp_path: Path) -> Path:
     job = {"work": {"name": "compare", "title": "Compare", "words": ["compare"], "effects": []}, "state": "done"}
     job |= {"begun": 1.0, "ended": 2.0, "fingerprint": Project(folder).fingerprint(), "message": ""}
     (folder / "results/compare/job.json").write_text(json.dumps(job))
-    return folder
 
 
 def stage(step: str, decibels: tuple[float, float]) -> dict[str, Any]:
@@ -105,6 +111,51 @@ def test_a_bode_plot_stands_in_its_band_and_says_when_it_leaves_it(shown: Any, p
         tab.page.get_by_text("Frequency responses").scroll_into_view_if_needed()
         tab.shot("bode")
         assert tab.errors == []
+
+
+TWICE = """[[records]]
+file = "both.txt"
+columns = ["time", "u", {columns}]
+kind = "step"
+use = "{use}"
+"""
+
+
+def test_of_a_file_with_two_records_each_has_its_own_curves_and_error(shown: Any, tmp_path: Path) -> None:
+    folder, own = tmp_path / "project", stage("refit", (0.5, 2.5))
+    (folder / "data").mkdir(parents=True)
+    time = np.arange(0, 4, 0.005)
+    np.savetxt(folder / "data/both.txt", np.column_stack([time, time > 1, time > 1, time > 1]), fmt="%.3f")
+    text = DESCRIPTION + '[signals.z]\nrole = "output"\nunit = "%"\n'
+    text += TWICE.format(columns='"y", "-"', use="fit") + TWICE.format(columns='"-", "z"', use="validate")
+    (folder / "data/dataset.toml").write_text(text)
+    record = {**own["records"][0], "source": "both.txt", "kind": "step", "frequency": None}
+    told = (("y", "fit", 2.0), ("z", "validate", 7.0))
+    records = [{**record, "names": [name], "use": use, "rms": [rms]} for name, use, rms in told]
+    answered(folder, [{**own, "step": step, "records": records, "responses": []} for step in ("prior", "refit")])
+    with server(folder) as address:
+        tab = Tab(shown, address, artefacts())
+        tab.go("Compare")
+        assert opened(tab) == ("held out", "z (%)")  # the one that is worse
+        rows = tab.page.locator("tr", has_text="both.txt")
+        assert [row.split()[1:] for row in rows.all_inner_texts()] == [["fitted", "2.00"], ["held", "out", "7.00"]]
+        rows.nth(0).click()
+        tab.page.locator("#record .chip", has_text="fitted").wait_for()
+        assert opened(tab) == ("fitted", "y (%)")
+        tab.shot("two records")
+        cells = tab.page.locator(".chart .heatmaplayer").first.bounding_box()
+        tab.page.mouse.click(cells["x"] + 0.75 * cells["width"], cells["y"] + 0.75 * cells["height"])
+        tab.page.locator("#record .chip", has_text="held out").wait_for()
+        assert opened(tab) == ("held out", "z (%)")
+        assert tab.errors == []
+
+
+def opened(tab: Tab) -> tuple[str, str]:
+    """Use of the record that is shown, and what its first axis says."""
+    chart = tab.page.locator("#record .chart[data-ready=yes]")
+    chart.wait_for()
+    axis = chart.evaluate("(el) => el.layout.yaxis.title.text")
+    return tab.page.locator("#record .chip").inner_text(), str(axis)
 
 
 def lines(tab: Tab) -> dict[str, list[float]]:

@@ -6,6 +6,7 @@ import signal
 import socket
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -38,6 +39,34 @@ def test_a_record_whose_result_was_removed_meanwhile_is_none(tmp_path: Path) -> 
     assert overlay.names == ("x",)
     (tmp_path / "a.npz").unlink()
     assert overlay_of(desk, "diagnose", _WAVE) is None
+
+
+def test_of_two_records_of_one_file_the_one_that_was_asked_for_is_given(tmp_path: Path) -> None:
+    """As a .tdms or .parquet file holds them: the same file, other columns."""
+    told = story()
+    wave = told.stages[0].records[_WAVE]
+    names = {_WAVE: "x", _WAVE + 1: "y"}
+    stages = []
+    for stage in told.stages:
+        records = list(stage.records[:_WAVE])
+        for k, name in names.items():
+            measured, simulated = (replace(r, names=(name,), values=k + 0 * r.values) for r in (wave.measured,) * 2)
+            records.append(replace(wave, source="a.tdms", measured=measured, simulated=simulated))
+        stages.append(replace(stage, records=tuple(records)))
+    write_stages(tmp_path / "a.npz", stages)
+    logs = list(dataset().records)
+    for k, name in names.items():
+        data: Any = logs[_WAVE].data
+        logs[k] = replace(logs[_WAVE], source="a.tdms", data=replace(data, names=("F", name)))
+    job = Job(Work("diagnose", "Find", ("diagnose",)), DONE, 1.0, 2.0, "")
+    answer = Answer(job, tmp_path, diagnosis_data(story()), read_stages(tmp_path / "a.npz"))
+    check = SimpleNamespace(dataset=replace(dataset(), records=tuple(logs)))
+    desk: Any = SimpleNamespace(loaded=SimpleNamespace(check=check), answers=SimpleNamespace(all=(answer,)))
+    for k, name in names.items():
+        overlay = overlay_of(desk, "diagnose", k)
+        assert overlay is not None
+        assert overlay.names == (name,)
+        assert overlay.lines[0].values[0] == 1000 * k  # mm
 
 
 @pytest.mark.parametrize(

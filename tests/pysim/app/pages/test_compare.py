@@ -1,8 +1,10 @@
 """The page that compares: what stands in its table and on its buttons."""
 
 from dataclasses import replace
+from types import SimpleNamespace
+from typing import Any
 
-from pysim.app.pages.compare import _points, _row
+from pysim.app.pages.compare import _errors, _points, _row, _worst
 from tests.pysim.diagnosis_story import dataset
 
 
@@ -16,3 +18,16 @@ def test_points_are_told_with_their_units() -> None:
     tests = [{"input": "command", "output": name, "offset": 1e7, "amplitude": 2e6} for name in ("x", "v")]
     assert _points(tests[:1], data) == ["100 ± 20 bar"]
     assert _points(tests, data) == ["100 ± 20 bar, x", "100 ± 20 bar, v"]
+
+
+def test_two_records_of_one_file_have_each_its_own_error() -> None:
+    wave, held = dataset().records[2:]
+    data = replace(dataset(), records=(wave, replace(held, source=wave.source)))
+    about = {"source": wave.source, "kind": wave.kind, "frequency": None, "names": ["x"]}
+    errors = {"fit": (3.0, 1.0), "validate": (8.0, 2.0)}
+    stages = [
+        {"records": [{**about, "use": use, "rms": [own[k]]} for use, own in reversed(errors.items())]} for k in (0, 1)
+    ]
+    answer: Any = SimpleNamespace(base=stages[0], last=stages[1], added=("toy.offset",))
+    assert _errors(answer, data) == {0: [3.0, 1.0], 1: [8.0, 2.0]}
+    assert _worst(data.logs(), _errors(answer, data)) == 1
