@@ -139,27 +139,32 @@ def _record(desk: Desk, view: _View) -> None:
     _list(view, check.dataset, errors, number)
 
 
-def _worst(logs: Sequence[MeasuredRecord], errors: Mapping[int, Sequence[float]]) -> int:
-    """The log with the largest error, the longest one of several; its number."""
+def _worst(logs: Sequence[MeasuredRecord], errors: Mapping[int, Sequence[float | None]]) -> int:
+    """The log with the largest error of the last model, the longest one of several; its number."""
 
     def size(number: int) -> tuple[float, int]:
         data = logs[number].data
-        return errors.get(number, [0.0])[-1], data.time.size if isinstance(data, Record) else 0
+        return errors.get(number, [None])[-1] or 0.0, data.time.size if isinstance(data, Record) else 0
 
     return max(range(len(logs)), key=size)
 
 
-def _errors(answer: Answer | None, dataset: Dataset) -> dict[int, list[float]]:
-    """Number of a log -> error over noise of the base and of the last model, the worst signal of each."""
-    found: dict[int, list[float]] = {}
-    for stage in [] if answer is None else [answer.base, answer.last][: 2 if answer.added else 1]:
+def _errors(answer: Answer | None, dataset: Dataset) -> dict[int, list[float | None]]:
+    """Number of a log -> error over noise of the base and of the last model, the worst signal of each.
+
+    None for a model that has not simulated it.
+    """
+    stages = [] if answer is None else [answer.base, answer.last][: 2 if answer.added else 1]
+    found: dict[int, list[float | None]] = {}
+    for k, stage in enumerate(stages):
         for record, number in zip(stage["records"], log_numbers(stage, dataset), strict=True):
             if number is not None:
-                found.setdefault(number, []).append(max((v for v in record["rms"] if v is not None), default=0.0))
+                told = [v for v in record["rms"] if v is not None]
+                found.setdefault(number, [None] * len(stages))[k] = max(told, default=None)
     return found
 
 
-def _list(view: _View, dataset: Dataset, errors: Mapping[int, list[float]], picked: int) -> None:
+def _list(view: _View, dataset: Dataset, errors: Mapping[int, list[float | None]], picked: int) -> None:
     logs = dataset.logs()
     columns = [("record", "words"), ("use", "words"), ("offset", "number"), ("amplitude", "number"), ("Hz", "number")]
     count = max((len(one) for one in errors.values()), default=0)
@@ -169,11 +174,15 @@ def _list(view: _View, dataset: Dataset, errors: Mapping[int, list[float]], pick
         Table("Records", columns, rows, on_row=lambda k: _open(view, k), picked=picked, height="330px")
 
 
-def _row(log: MeasuredRecord, unit: str, errors: list[float], count: int) -> list[Any]:
+def _row(log: MeasuredRecord, unit: str, errors: list[float | None], count: int) -> list[Any]:
     """A log with its errors over noise, of which there are cells for so many."""
     told = [quantity(log.offset, unit), quantity(log.amplitude, unit), _told(log.frequency)]
-    cells = [{"text": f"{v:.2f}", "value": v, "mark": "high" if v > 1.5 else "low"} for v in errors]
-    return [log.source, "held out" if log.use == "validate" else "fitted", *told, *cells, *[""] * (count - len(cells))]
+    cells = [_error(value) for value in [*errors, *[None] * (count - len(errors))]]
+    return [log.source, "held out" if log.use == "validate" else "fitted", *told, *cells]
+
+
+def _error(value: float | None) -> Any:
+    return "" if value is None else {"text": f"{value:.2f}", "value": value, "mark": "high" if value > 1.5 else "low"}
 
 
 def _told(value: float | None) -> str:
