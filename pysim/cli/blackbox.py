@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import argparse
 import json
-from collections import Counter
+import re
 from collections.abc import Sequence
+from itertools import count
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from pysim.identify.blackbox import FittedResponse, Structure
+
+_LONGEST = 60  # characters of a label in a file name
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -105,19 +108,28 @@ def _write_report(args: argparse.Namespace, name: str, fitted: Sequence[FittedRe
     from pysim.report.blackbox import blackbox_page
 
     pictures: list[bytes] = []
-    taken: Counter[str] = Counter()
-    for one in fitted:
+    for one, stem in zip(fitted, _stems([one.label for one in fitted]), strict=True):
         figure = blackbox_figure(one)
-        taken[one.label] += 1  # a test may have been repeated
-        again = f"_{taken[one.label]}" if taken[one.label] > 1 else ""
-        stem = args.output / f"blackbox_{one.label.replace(' ', '_')}{again}"
-        write_file(stem.with_name(f"{stem.name}.png"), render(figure, "png"))
+        write_file(args.output / f"{stem}.png", render(figure, "png"))
         figure.set_layout_engine("none")  # found by the first drawing
         pictures.append(render(figure, "svg"))
-        write_file(stem.with_name(f"{stem.name}.svg"), pictures[-1])
+        write_file(args.output / f"{stem}.svg", pictures[-1])
     redo = command_line(_words(args))
     write_file(args.output / "report.html", blackbox_page(name, fitted, pictures=pictures, redo=redo))
     print(f"Report: {args.output / 'report.html'}")
+
+
+def _stems(labels: Sequence[str]) -> list[str]:
+    """Names of files on any system, one per label and none twice: a test may have been repeated."""
+    from pysim.io import same_file
+
+    stems: dict[str, str] = {}
+    for label in labels:
+        plain = "blackbox_" + re.sub(r"[^\w+.-]+", "_", label)[:_LONGEST]
+        again = (plain if k == 1 else f"{plain}_{k}" for k in count(1))
+        stem = next(stem for stem in again if same_file(stem) not in stems)
+        stems[same_file(stem)] = stem
+    return list(stems.values())
 
 
 def _words(args: argparse.Namespace) -> list[str]:

@@ -90,6 +90,9 @@ def blackbox_data(fitted: Sequence[FittedResponse], *, dataset: str) -> dict[str
 def _data(one: FittedResponse) -> dict[str, Any]:
     fit, structure = one.fit, one.fit.structure
     return {
+        "input": one.measured.test.input,
+        "output": one.measured.test.output,
+        "origin": one.measured.origin,
         "offset": one.measured.test.offset,
         "amplitude": one.measured.test.amplitude,
         "poles": structure.poles,

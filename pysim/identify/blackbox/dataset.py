@@ -27,7 +27,8 @@ class FittedResponse:
     """One working point.
 
     Args:
-        label: offset and amplitude in the unit that people read, as in the thesis' file names.
+        label: offset and amplitude in the unit that people read, as in the thesis' file names; behind them output and
+            input, where the responses that were fitted are of several.
         measured: the response.
         fit: the transfer function; of the suggested structure where structures were compared.
         suggestion: that comparison, or None.
@@ -60,6 +61,11 @@ class _Found:
     def test(self) -> tuple[float, float]:
         """Offset and amplitude in the unit that people read."""
         return self.factor * self.response.test.offset, self.factor * self.response.test.amplitude
+
+    def label(self, *, signals: bool) -> str:
+        """Offset and amplitude in that unit, with output and input behind them on request."""
+        test = self.response.test
+        return test.label_in(self.factor) + (f", {test.output} to {test.input}" if signals else "")
 
     def matches(self, test: tuple[float, float]) -> bool:
         """Whether it is of that offset and amplitude."""
@@ -99,6 +105,7 @@ def fit_dataset(
     to_fit, held_out = ([one for one in chosen if one.use == use] for use in ("fit", "validate"))
     if not to_fit:
         raise BadInput(f'data set {dataset.name!r}: all its responses have use = "validate"; leave some to be fitted')
+    several = len({(one.response.test.input, one.response.test.output) for one in to_fit}) > 1
     fitted = []
     for i, one in enumerate(to_fit):
         suggestion, measured = None, one.response
@@ -112,7 +119,7 @@ def fit_dataset(
             )
         fit = suggestion.suggested.fit if suggestion else fit_transfer_function(measured, structure, weights=weights)
         others = [other.response for other in held_out if other.repeats(one)]
-        fitted.append(_fitted(one, fit, suggestion, others))
+        fitted.append(_fitted(one, one.label(signals=several), fit, suggestion, others))
         if progress:
             progress(i + 1, len(to_fit))
     return tuple(fitted)
@@ -144,12 +151,16 @@ def _chosen(dataset: Dataset, output: str | None, tests: Sequence[tuple[float, f
 
 
 def _fitted(
-    found: _Found, fit: TransferFunctionFit, suggestion: OrderSuggestion | None, held_out: Sequence[FrequencyResponse]
+    found: _Found,
+    label: str,
+    fit: TransferFunctionFit,
+    suggestion: OrderSuggestion | None,
+    held_out: Sequence[FrequencyResponse],
 ) -> FittedResponse:
     measured = found.response
     reference, deviations = _deviations(fit, measured)
     return FittedResponse(
-        label=measured.test.label_in(found.factor),
+        label=label,
         measured=measured,
         fit=fit,
         suggestion=suggestion,

@@ -39,6 +39,22 @@ def test_the_report_says_how_to_do_it_again(folder: Path, tmp_path: Path) -> Non
     assert "pysim blackbox" in (out / "report.html").read_text()
 
 
+def test_pictures_have_names_of_their_own_on_any_system(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("pysim.plot.render", lambda figure, form: b"drawn")
+    data, out, outputs = tmp_path / "data", tmp_path / "out", ("p/bar", "P:bar", "y")
+    data.mkdir()
+    text = '[dataset]\nname = "d"\n[signals.u]\nrole = "input"\nunit = "%"\n'
+    text += "".join(f'[signals."{name}"]\nrole = "output"\nunit = "%"\n' for name in outputs)
+    for k, name in enumerate((*outputs, "y")):
+        (data / f"{k}.csv").write_text("".join(f"{f},{-f},{-10 * f}\n" for f in (0.1, 0.5, 1, 2, 4)))
+        text += f'[[records]]\nfile = "{k}.csv"\ncolumns = ["frequency_hz", "magnitude_db", "phase_deg"]\n'
+        text += f'kind = "frequency-response-table"\noffset = 25\namplitude = 5\noutput = "{name}"\n'
+    (data / "dataset.toml").write_text(text)
+    assert main(["blackbox", str(data), "--poles", "1", "--output", str(out)]) == 0
+    pictures = {p.name.removeprefix("blackbox_O+25_A5_") for p in out.glob("*.svg")}
+    assert pictures == {"p_bar_to_u.svg", "P_bar_to_u_2.svg", "y_to_u.svg", "y_to_u_2.svg"}
+
+
 def test_orders(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["blackbox", str(folder), "--poles", "3", "--orders", "suggest", "--test", "50/20"]) == 0
     assert "<- suggested" in capsys.readouterr().out

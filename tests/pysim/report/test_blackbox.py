@@ -52,3 +52,14 @@ def test_page_and_suggested_structures() -> None:
     assert "pysim blackbox x --poles 3" in html
     assert "2 poles, no zeros" in blackbox_text(one)
     assert "<- suggested" in blackbox_text(one)
+
+
+def test_every_result_tells_its_signals() -> None:
+    both = fit_dataset(dataset(table(25, 5), table(25, 5, output="p")), Structure(2))
+    data = blackbox_data(both, dataset="bench")["responses"]
+    assert [(one["output"], one["input"], one["origin"]) for one in data] == [(y, "u", "a table") for y in "yp"]
+    html = blackbox_page("bench", both, pictures=[b"<svg/>"] * 2, redo="-")
+    for name in ("O+25 A5, y to u", "O+25 A5, p to u"):
+        assert f"{name}: 2 poles" in blackbox_text(both)
+        assert f"{name}: 2 poles" in html  # the heading
+        assert f"{name}: gain" in html  # the caption

@@ -58,17 +58,17 @@ def test_what_is_held_out_is_not_fitted_but_compared() -> None:
         fit_dataset(dataset(table(0, 1, "validate")), Structure(2))
 
 
-def test_outputs_are_kept_apart() -> None:
-    def of_pressure(record: MeasuredRecord) -> MeasuredRecord:
-        assert isinstance(record.data, FrequencyResponse)
-        test = replace(record.data.test, output="p")
-        return replace(record, data=replace(record.data, gain=7 * record.data.gain, test=test))
+def sevenfold(record: MeasuredRecord) -> MeasuredRecord:
+    """The same table with a larger answer."""
+    assert isinstance(record.data, FrequencyResponse)
+    return replace(record, data=replace(record.data, gain=7 * record.data.gain))
 
-    tables = table(0, 1), table(0, 1, "validate"), of_pressure(table(0, 1)), of_pressure(table(0, 1, "validate"))
-    data = dataset(*tables)
-    data = replace(data, signals=(*data.signals, replace(data.signals[1], name="p")))
+
+def test_outputs_are_kept_apart() -> None:
+    data = dataset(*(table(0, 1, use, output) for output in ("y", "p") for use in ("fit", "validate")))
+    data = replace(data, records=tuple(sevenfold(one) if one.data.test.output == "p" else one for one in data.records))
     both = fit_dataset(data, Structure(2))
-    assert [one.measured.test.output for one in both] == [tables[0].data.test.output, "p"]
+    assert [one.measured.test.output for one in both] == ["y", "p"]
     for one in both:
         (deviations,) = one.held_out
         assert max(d.value for d in deviations) < 1e-6
@@ -76,6 +76,14 @@ def test_outputs_are_kept_apart() -> None:
     assert alone.measured.test.output == "p"
     with pytest.raises(BadInput, match="holds no frequency response of q"):
         fit_dataset(data, Structure(2), output="q")
+
+
+def test_a_label_names_the_signals_where_there_are_several() -> None:
+    tables = dataset(table(0, 1), table(0, 1, output="p"), table(5, 1, "validate"))
+    assert [one.label for one in fit_dataset(tables, Structure(2))] == ["O+0 A1, y to u", "O+0 A1, p to u"]
+    logs = dataset(*(log(f, i, output=output) for output in ("y", "p") for i, f in enumerate(F)))
+    assert [one.label for one in fit_dataset(logs, Structure(2))] == ["O+20 A5, y to u", "O+20 A5, p to u"]
+    assert [one.label for one in fit_dataset(tables, Structure(2), output="p")] == ["O+0 A1"]
 
 
 def test_tests_are_named_in_the_unit_that_people_read() -> None:
