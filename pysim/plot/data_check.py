@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
-from typing import Any, TypeVar
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
-from pysim.io import shown_unit, shown_value
+from pysim.io import shown_unit
 from pysim.plot.style import COLOURS, DASHES, MEASURED, SMALL, TEXT, frequency_axis, legend_above, new_figure, quiet
 from pysim.types import BadInput, Dataset, MeasuredRecord, Record
 
@@ -25,8 +25,20 @@ _COMMAND: dict[str, Any] = {"color": MEASURED, "linewidth": 1.0}
 _ANSWER: dict[str, Any] = {"color": COLOURS[0], "linewidth": 1.2, "linestyle": DASHES[1]}  # in phase, both are seen
 
 
+class _Test(NamedTuple):
+    """What the stepped sines of one row have in common, the numbers in the command's SI unit."""
+
+    command: str
+    offset: float
+    amplitude: float
+
+
+def _test(record: MeasuredRecord) -> _Test:
+    return _Test(record.command, record.offset or 0.0, record.amplitude or 0.0)
+
+
 def coverage_figure(dataset: Dataset) -> Figure:
-    """A row per offset and amplitude, a dot per stepped sine over its frequency; hollow: held out for validation.
+    """A row per input, offset and amplitude, a dot per stepped sine over its frequency; hollow: held out.
 
     Raises:
         BadInput: no stepped sine among the logs.
@@ -34,34 +46,36 @@ def coverage_figure(dataset: Dataset) -> Figure:
     sines = [record for record in dataset.logs() if record.frequency is not None]
     if not sines:
         raise BadInput(f"data set {dataset.name!r} has no stepped sines to show")
-    points = list(dict.fromkeys((record.offset, record.amplitude) for record in sines))
-    figure = new_figure(7.5, 1.3 + 0.28 * max(len(points), 4))  # at least as high as the label
+    tests = list(dict.fromkeys(_test(record) for record in sines))
+    figure = new_figure(7.5, 1.3 + 0.28 * max(len(tests), 4))  # at least as high as the label
     axes = figure.subplots()
     quiet(axes)
     handles: dict[str, Any] = {}
     for use, label, face in (("fit", "to fit", COLOURS[0]), ("validate", "held out", "white")):
         chosen = [record for record in sines if record.use == use]
-        rows = [points.index((record.offset, record.amplitude)) for record in chosen]
+        rows = [tests.index(_test(record)) for record in chosen]
         frequencies = np.array([record.frequency for record in chosen])
         if chosen:
             (handles[label],) = axes.plot(frequencies, rows, "o", color=COLOURS[0], markerfacecolor=face, markersize=6)
     told = [record.frequency for record in sines if record.frequency is not None]
     frequency_axis(axes, 0.8 * min(told), 1.25 * max(told))
-    unit, factor = _shown(dataset, sines[0].command)
-    labels = [f"{factor * (offset or 0):g} / {factor * (amplitude or 0):g}" for offset, amplitude in points]
-    axes.set_yticks(range(len(points)), labels)
+    several = len({test.command for test in tests}) > 1
+    of = [f"{test.command}: " if several else "" for test in tests]
+    labels = [f"{command}{_swing(dataset, test, unit=several)}" for command, test in zip(of, tests, strict=True)]
+    axes.set_yticks(range(len(tests)), labels)
     axes.invert_yaxis()
-    axes.margins(y=0.5 / len(points))
-    axes.set_ylabel(f"Offset / amplitude ({unit})", fontsize=TEXT)
+    axes.margins(y=0.5 / len(tests))
+    unit = "" if several else f" ({_shown(dataset, tests[0].command)[0]})"
+    axes.set_ylabel(f"Offset / amplitude{unit}", fontsize=TEXT)
     axes.set_xlabel("Frequency (Hz)", fontsize=TEXT)
     legend_above(figure, list(handles.values()), list(handles))
     return figure
 
 
 def sine_logs_figure(dataset: Dataset) -> Figure:
-    """A row per offset and amplitude, a panel per frequency: the last two periods of command and answer.
+    """A row per input, offset and amplitude, a panel per frequency: the last two periods of command and answer.
 
-    The answer is the output that most of the logs hold; one in another unit than the command has its own
+    The answer is the output that most of the logs hold; one in another unit than the row's command has its own
     axis on the right, in its colour. At most eight rows and six columns, spread over what there is.
 
     Raises:
@@ -70,45 +84,44 @@ def sine_logs_figure(dataset: Dataset) -> Figure:
     sines = [record for record in dataset.logs() if record.frequency is not None]
     if not sines:
         raise BadInput(f"data set {dataset.name!r} has no stepped sines to show")
-    points = _spread(list(dict.fromkeys((record.offset, record.amplitude) for record in sines)), _ROWS)
+    tests = _spread(list(dict.fromkeys(_test(record) for record in sines)), _ROWS)
     frequencies = _spread(sorted({record.frequency for record in sines if record.frequency is not None}), _COLUMNS)
     outputs = Counter(name for record in sines for name in dataset.columns(record, "output"))
-    names = (sines[0].command, outputs.most_common(1)[0][0])
-    units = [_shown(dataset, name)[0] for name in names]
-    figure = new_figure(1.3 + 1.7 * len(frequencies), 0.9 + 1.2 * len(points))
-    left = figure.subplots(len(points), len(frequencies), sharey="row", squeeze=False)
-    right = left if units[0] == units[1] else _right_axes(left, units[1])
-    by_test = {(record.offset, record.amplitude, record.frequency): record for record in sines}
-    for i, (offset, amplitude) in enumerate(points):
+    answer = outputs.most_common(1)[0][0]
+    commands = list(dict.fromkeys(_shown_name(dataset, record.command) for record in sines))
+    figure = new_figure(1.3 + 1.7 * len(frequencies), 0.9 + 1.2 * len(tests))
+    left = figure.subplots(len(tests), len(frequencies), sharey="row", squeeze=False)
+    by_place = {(_test(record), record.frequency): record for record in sines}
+    unit = _shown(dataset, answer)[0]
+    for i, test in enumerate(tests):
+        right = left[i] if _shown(dataset, test.command)[0] == unit else _right_axes(left[i], unit)
         for k, frequency in enumerate(frequencies):
-            record = by_test.get((offset, amplitude, frequency))
+            record = by_place.get((test, frequency))
             quiet(left[i, k])
-            left[i, k].set_xticks([0, 1, 2], [] if i < len(points) - 1 else ["0", "1", "2"])
+            left[i, k].set_xticks([0, 1, 2], [] if i < len(tests) - 1 else ["0", "1", "2"])
             left[i, k].set_xlim(0, _PERIODS)
             if record is not None:
                 _draw_periods(left[i, k], dataset, record, record.command, _COMMAND)
-                _draw_periods(right[i, k], dataset, record, names[1], _ANSWER)
+                _draw_periods(right[k], dataset, record, answer, _ANSWER)
             if i == 0:
                 left[i, k].set_title(f"{frequency:g} Hz", fontsize=TEXT)
-        factor = _shown(dataset, names[0])[1]
-        swing = shown_value(amplitude or 0.0, dataset.signal(names[0]).unit)
-        left[i, 0].set_ylabel(f"{factor * (offset or 0):g} / {swing}", fontsize=SMALL)
+        of = f"{test.command}\n" if len(commands) > 1 else ""
+        left[i, 0].set_ylabel(f"{of}{_swing(dataset, test, unit=True)}", fontsize=SMALL)
     figure.supylabel("Offset / amplitude", fontsize=TEXT)
     figure.supxlabel("Last periods of the log", fontsize=TEXT)
     figure.align_ylabels()
     lines = [Line2D([], [], **look) for look in (_COMMAND, _ANSWER)]
-    legend_above(figure, lines, [f"{name} ({unit})" for name, unit in zip(names, units, strict=True)])
+    legend_above(figure, lines, [commands[0] if len(commands) == 1 else "command", _shown_name(dataset, answer)])
     return figure
 
 
 def _right_axes(left: NDArray[np.object_], unit: str) -> NDArray[np.object_]:
-    """An axis for the answer over every panel, one scale per row, its numbers at the end of the row."""
+    """An axis for the answer over every panel of a row, all of one scale, its numbers at the end of the row."""
     right = np.empty_like(left)
-    for i, panels in enumerate(left):
-        for k, panel in enumerate(panels):
-            right[i, k] = panel.twinx()
-            right[i, k].sharey(right[i, 0])
-            _quiet_right(right[i, k], unit if k == len(panels) - 1 else None)
+    for k, panel in enumerate(left):
+        right[k] = panel.twinx()
+        right[k].sharey(right[0])
+        _quiet_right(right[k], unit if k == len(left) - 1 else None)
     return right
 
 
@@ -165,6 +178,18 @@ def _names(record: MeasuredRecord) -> tuple[str, ...]:
 def _shown(dataset: Dataset, name: str) -> tuple[str, float]:
     """The unit on an axis, and how many of it an SI unit is."""
     return shown_unit(dataset.signal(name).unit if name else "")
+
+
+def _shown_name(dataset: Dataset, name: str) -> str:
+    """A signal with the unit of its axis."""
+    return f"{name} ({_shown(dataset, name)[0]})"
+
+
+def _swing(dataset: Dataset, test: _Test, *, unit: bool) -> str:
+    """Offset and amplitude as people read them, with the command's unit behind them on request."""
+    own, factor = _shown(dataset, test.command)
+    numbers = f"{factor * test.offset:g} / {factor * test.amplitude:g}"
+    return f"{numbers} {own}" if unit and own not in ("", "-") else numbers
 
 
 def _look(dataset: Dataset, name: str, names: Sequence[str]) -> dict[str, Any]:

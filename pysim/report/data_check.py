@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Mapping
-from itertools import groupby
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from pysim.identify.data_check import DataCheck, RecordCheck
@@ -69,8 +68,10 @@ def data_check_page(check: DataCheck, *, pictures: Mapping[str, bytes], redo: st
     head = ["", "role", "unit", "quantity", "model variable", "noise", "resolution"]
     parts += [heading("Signals"), table("In SI units or %", head, rows)]
     parts += [heading("Pictures"), *(picture(svg, caption) for caption, svg in pictures.items())]
-    head = ["file", "kind", "use", "rows", "duration s", "rate Hz", "jitter %", "offset", "amplitude", "Hz", "warnings"]
-    body = [_row(record) for record in check.records]
+    several = _several_inputs(check.records)
+    head = ["file", "kind", "use", "rows", "duration s", "rate Hz", "jitter %", *(["input"] if several else [])]
+    head += ["offset", "amplitude", "Hz", "warnings"]
+    body = [_row(record, several) for record in check.records]
     parts += [heading("Records"), table("Offset and amplitude in the input's SI unit or %", head, body)]
     parts += [heading("Do it again"), commands(redo)]
     told = {
@@ -103,14 +104,23 @@ def _by_kind(check: DataCheck) -> dict[str, list[RecordCheck]]:
 def _points(records: list[RecordCheck]) -> list[str]:
     """A line per operating point of stepped sines, and one per other record."""
     lines = []
-    sines = [record for record in records if record.frequency is not None]
-    for (offset, amplitude, unit), group in groupby(sines, key=lambda r: (r.offset, r.amplitude, r.unit)):
-        members = list(group)
+    groups: dict[tuple[str, float, float], list[RecordCheck]] = {}
+    for record in records:
+        if record.frequency is not None:
+            groups.setdefault((record.command, record.offset or 0.0, record.amplitude or 0.0), []).append(record)
+    several = _several_inputs(records)
+    for (command, offset, amplitude), members in groups.items():
         frequencies = ", ".join(f"{f:g}" for f in sorted(r.frequency for r in members if r.frequency is not None))
-        point = f"offset {shown_value(offset or 0.0, unit)}, amplitude {shown_value(amplitude or 0.0, unit)}"
+        unit, of = members[0].unit, f"{command} at " if several else ""
+        point = f"{of}offset {shown_value(offset, unit)}, amplitude {shown_value(amplitude, unit)}"
         lines.append(f"{point}: {frequencies} Hz; {_times(members)}")
     lines += [f"{record.source}: {_times([record])}" for record in records if record.frequency is None]
     return [part for line in lines for part in textwrap.wrap(line, _WIDTH, subsequent_indent="    ")]
+
+
+def _several_inputs(records: Sequence[RecordCheck]) -> bool:
+    """Whether offsets and amplitudes are not all of the same input."""
+    return len({record.command for record in records if record.offset is not None or record.amplitude is not None}) > 1
 
 
 def _times(records: list[RecordCheck]) -> str:
@@ -137,7 +147,12 @@ def _record(record: RecordCheck) -> dict[str, Any]:
     base = record.clock
     keys = ("source", "kind", "use", "rows", "offset", "amplitude", "unit", "frequency")
     about: dict[str, Any] = {key: getattr(record, key) for key in keys}
-    about |= {"signals": list(record.signals), "warnings": list(record.warnings), "clock": None}
+    about |= {
+        "input": record.command,
+        "signals": list(record.signals),
+        "warnings": list(record.warnings),
+        "clock": None,
+    }
     if base is not None:
         gaps = [{"after_s": start, "length_s": length} for start, length in base.gaps]
         about["clock"] = {"start_s": base.start, "duration_s": base.duration, "rate_hz": base.rate}
@@ -145,12 +160,14 @@ def _record(record: RecordCheck) -> dict[str, Any]:
     return about
 
 
-def _row(record: RecordCheck) -> list[str]:
+def _row(record: RecordCheck, several: bool) -> list[str]:
+    """Cells of the table of records, the input among them where there are several."""
     base = record.clock
     clock = ["-", "-", "-"]
     if base is not None:
         clock = [f"{base.duration:.4g}", f"{base.rate:.4g}", f"{100 * base.jitter:.2g}"]
-    told = ["-" if v is None else f"{v:g}" for v in (record.offset, record.amplitude, record.frequency)]
+    told = [record.command or "-"] if several else []
+    told += ["-" if v is None else f"{v:g}" for v in (record.offset, record.amplitude, record.frequency)]
     count = len(record.warnings)
     words = [record.source, record.kind, record.use, str(record.rows), *clock, *told]
     return [*(cell(word) for word in words), cell(str(count), "beyond" if count else "")]

@@ -35,6 +35,7 @@ class RecordCheck:
         rows: samples, or frequencies of a table.
         clock: of a log; None for a table.
         offset, amplitude, frequency: as told.
+        command: input that these three speak of; empty where none is told.
         unit: of offset and amplitude; empty where no input is told.
         warnings: sentences on what should be looked at.
     """
@@ -48,6 +49,7 @@ class RecordCheck:
     offset: float | None
     amplitude: float | None
     frequency: float | None
+    command: str
     unit: str
     warnings: tuple[str, ...]
 
@@ -95,6 +97,7 @@ def _check(dataset: Dataset, record: MeasuredRecord, limits: dict[str, tuple[flo
         offset=record.offset,
         amplitude=record.amplitude,
         frequency=record.frequency,
+        command=record.command,
         unit=dataset.signal(record.command).unit if record.command else "",
         warnings=tuple(_warnings(dataset, record, data, base, limits)) if isinstance(data, Record) and base else (),
     )

@@ -30,9 +30,9 @@ def record(frequency: float | None, offset: float = 2e5, use: str = "fit") -> Me
 def answered(one: MeasuredRecord, name: str) -> MeasuredRecord:
     """The same log with a single output."""
     assert isinstance(one.data, Record)
-    k = one.data.names.index(name)
-    names, units = ("p", name), ("Pa", one.data.units[k])
-    return replace(one, data=Record(TIME, one.data.values[:, [0, k]], names, units))
+    k = [0, one.data.names.index(name)]
+    names, units = (tuple(of[i] for i in k) for of in (one.data.names, one.data.units))
+    return replace(one, data=Record(TIME, one.data.values[:, k], names, units))
 
 
 def dataset(*records: MeasuredRecord) -> Dataset:
@@ -90,6 +90,48 @@ def test_many_tests_are_thinned_evenly() -> None:
     assert len(figure.axes) == 2 * 8 * 6
     titles = [axes.get_title() for axes in figure.axes[:6]]
     assert (titles[0], titles[-1]) == ("1 Hz", "19 Hz")
+
+
+TWO = Dataset(
+    "d", "-", "-", (*SIGNALS, replace(SIGNALS[0], name="p_2"), MeasuredSignal("u", "input", "%", "", "u")), ()
+)
+
+
+def driven(one: MeasuredRecord, name: str, scale: float = 1.0) -> MeasuredRecord:
+    """The same test on another input, whose numbers are that many times as large."""
+    assert isinstance(one.data, Record)
+    values, units = one.data.values * [scale, 1, 1], (TWO.signal(name).unit, *one.data.units[1:])
+    log = Record(TIME, values, (name, "w", "q"), units)
+    return replace(one, data=log, command=name, offset=scale * (one.offset or 0), amplitude=scale * 1e5)
+
+
+def test_inputs_of_the_same_numbers_have_rows_of_their_own() -> None:
+    data = replace(TWO, records=(record(1.0), driven(record(1.0), "p_2"), driven(record(2.0), "p_2")))
+    (axes,) = coverage_figure(data).axes
+    np.testing.assert_array_equal(axes.get_lines()[0].get_xydata(), [[1.0, 0], [1.0, 1], [2.0, 1]])
+    assert [label.get_text() for label in axes.get_yticklabels()] == ["p: 2 / 1 bar", "p_2: 2 / 1 bar"]
+    figure = sine_logs_figure(data)
+    assert [len(axes.get_lines()) for axes in figure.axes[:4]] == [1, 0, 1, 1]
+    assert [figure.axes[k].get_ylabel() for k in (0, 2)] == ["p\n2 / 1 bar", "p_2\n2 / 1 bar"]
+    assert [text.get_text() for text in figure.legends[0].get_texts()] == ["command", "w (rpm)"]
+
+
+def test_inputs_of_different_units_are_each_told_in_their_own() -> None:
+    data = replace(TWO, records=(driven(record(1.0), "u", 1e-4), record(1.0)))
+    (axes,) = coverage_figure(data).axes
+    assert [label.get_text() for label in axes.get_yticklabels()] == ["u: 20 / 10 %", "p: 2 / 1 bar"]
+    assert axes.get_ylabel() == "Offset / amplitude"
+    assert is_whole(coverage_figure(data))
+
+
+def test_an_answer_shares_the_axis_of_those_rows_whose_command_has_its_unit() -> None:
+    pressures = tuple(answered(one, "q") for one in (driven(record(1.0), "u", 1e-4), record(1.0)))
+    figure = sine_logs_figure(replace(TWO, records=pressures))
+    percent, bar, answer = figure.axes
+    assert (percent.get_ylabel(), bar.get_ylabel(), answer.get_ylabel()) == ("u\n20 / 10 %", "p\n2 / 1 bar", "(bar)")
+    assert [len(axes.get_lines()) for axes in figure.axes] == [1, 2, 1]
+    np.testing.assert_allclose(np.ptp(percent.get_lines()[0].get_ydata()), 20)
+    assert is_whole(figure)
 
 
 def test_logs_over_time_have_a_panel_per_unit() -> None:

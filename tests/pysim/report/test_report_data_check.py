@@ -55,3 +55,21 @@ def test_pressures_of_sines_are_told_in_bar() -> None:
     sines = MeasuredRecord("a.txt", "frequency-response", "fit", log, 1e7, 1e6, 1.0, command="p")
     text = data_check_text(check_dataset(Dataset("d", "-", "-", signals, (sines,))))
     assert "offset 100 bar, amplitude 10 bar: 1 Hz" in text
+
+
+def test_sines_on_several_inputs_are_told_apart() -> None:
+    time = np.arange(400) / 100
+    signals = (*(MeasuredSignal(name, "input", "Pa", "", name) for name in ("p", "q")), SIGNALS[1])
+    sine = 1e7 + 1e6 * np.sin(2 * np.pi * time)
+
+    def record(command: str, frequency: float) -> MeasuredRecord:
+        log = Record(time, np.column_stack([sine, np.cos(time)]), (command, "y"), ("Pa", "1"))
+        return MeasuredRecord("a.txt", "frequency-response", "fit", log, 1e7, 1e6, frequency, command=command)
+
+    check = check_dataset(Dataset("d", "-", "-", signals, tuple(record(c, f) for f in (1.0, 2.0) for c in "pq")))
+    text = data_check_text(check)
+    for name in "pq":
+        assert f"  {name} at offset 100 bar, amplitude 10 bar: 1, 2 Hz;" in text
+    assert text.count("amplitude 10 bar") == 2
+    assert [one["input"] for one in data_check_data(check)["records"]] == ["p", "q", "p", "q"]
+    assert "<th>input</th>" in data_check_page(check, pictures={}, redo="x")
