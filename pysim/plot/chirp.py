@@ -36,8 +36,7 @@ def chirp_figure(analysis: ChirpAnalysis, stepped: FrequencyResponse | None = No
     if stepped is not None:
         look: dict[str, Any] = {"color": MEASURED, "linestyle": "none", "marker": "o", "markersize": 4.0, "zorder": 5}
         (dots,) = top.plot(stepped.frequency, magnitude_db(stepped, None), **look)
-        turns = np.round((stepped.phase[0] - analysis.mean.phase[0]) / (2 * np.pi))
-        bottom.plot(stepped.frequency, np.degrees(stepped.phase) - 360 * turns, **look)
+        bottom.plot(stepped.frequency, np.degrees(stepped.phase) - 360 * _turns(stepped, analysis.mean), **look)
         handles["stepped sine"] = dots
     for panel in (top, bottom):
         quiet(panel)
@@ -50,6 +49,18 @@ def chirp_figure(analysis: ChirpAnalysis, stepped: FrequencyResponse | None = No
     figure.align_ylabels([top, bottom])
     legend_above(figure, list(handles.values()), list(handles))
     return figure
+
+
+def _turns(stepped: FrequencyResponse, mean: Branch) -> int:
+    """By how many whole turns the sines' phase is above the chirp's.
+
+    At the first sine that the chirp swept over, or else at the one nearest to its sweep.
+    """
+    f = np.log(stepped.frequency)
+    outside = np.abs(f - np.clip(f, *np.log(mean.frequency[[0, -1]])))
+    k = int(np.argmin(outside))
+    swept = np.interp(stepped.frequency[k], mean.frequency, mean.phase)
+    return round(float(stepped.phase[k] - swept) / (2 * np.pi))
 
 
 def _draw(top: Axes, bottom: Axes, branch: Branch, look: dict[str, Any], *, band: bool) -> Artist:
