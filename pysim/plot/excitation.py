@@ -17,6 +17,8 @@ Array = NDArray[np.float64]
 _SAMPLES = 30_000  # of a time course: the tops of a fast sine do not beat with them
 _LONGEST = 60.0  # s that are drawn of a command without an end
 _POINTS = 2**16  # of a spectrum
+_MOST = 2**22  # of one whose sines are too fast for so few
+_PER_PERIOD = 2.5  # of the fastest sine, the fewest that keep it from folding back
 _FEWEST = 64  # samples of it, however short it is
 _HIGHEST_HZ = 1000.0  # that a spectrum resolves, or twice the fastest sine
 
@@ -56,9 +58,12 @@ def excitation_figure(test: Excitation, unit: str) -> Figure:
 
 def _samples(test: Excitation, signal: Signal, end: float) -> tuple[Array, float]:
     """Values (n,) of the command from onset to end, and how many of them a second has."""
-    length = end - test.onset
-    sampling = min(_POINTS / length, max(2 * _HIGHEST_HZ, 4 * test.highest_hz, _FEWEST / length))
-    return signal.value(test.onset + np.arange(int(length * sampling)) / sampling), sampling
+    length, fastest = end - test.onset, test.highest_hz
+    sampling = min(_POINTS / length, max(2 * _HIGHEST_HZ, 4 * fastest, _FEWEST / length))
+    if not isinstance(test, Multisine):  # its lines are known
+        sampling = max(sampling, _PER_PERIOD * fastest)
+    count = min(int(length * sampling), _MOST)
+    return signal.value(test.onset + np.arange(count) / sampling), sampling
 
 
 def _draw_lines(axes: Axes, test: Multisine, unit: str, figure: Figure) -> None:

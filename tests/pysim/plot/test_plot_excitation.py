@@ -73,6 +73,15 @@ def test_density_of_a_chirp_is_that_of_its_sweep() -> None:
     assert np.sqrt(np.mean(density[middle] ** 2)) == pytest.approx(np.sqrt(100 / 2 / 29.5), rel=0.01)
 
 
+def test_spectrum_of_a_long_fast_test_does_not_fold_back() -> None:
+    f, density = curve(excitation_figure(Chirp(50.0, 10.0, 0.1, 200.0, 400.0), "%"), 1).T
+    for low in (1, 40, 80, 120, 160):
+        middle = (f > low) & (f < low + 38)
+        assert np.sqrt(np.mean(density[middle] ** 2)) == pytest.approx(np.sqrt(100 / 2 / 199.9), rel=0.01)
+    f, density = curve(excitation_figure(SteppedSineCommand(0.0, 10.0, 2500.0, 2.5e6), "%"), 1).T  # too long for all
+    assert f[np.argmax(density)] == pytest.approx(2500.0, abs=0.01)
+
+
 def test_density_of_a_wave_follows_its_spectrum() -> None:
     test = StochasticWave(PiersonMoskowitz(100.0, 1.0), 600.0, seed=2, components=500)
     figure = excitation_figure(test, "%")
