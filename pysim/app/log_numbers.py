@@ -1,16 +1,13 @@
-"""Which log of the data set each record of a stage is: its file alone does not tell, since it may hold several."""
+"""Which log of the data set each record of a stage is."""
 
 from __future__ import annotations
 
-import math
-from collections.abc import Collection, Iterator, Mapping, Sequence
-from typing import Any, TypeAlias
+from collections.abc import Mapping
+from typing import Any
 
-from pysim.types import Dataset, MeasuredRecord, Record
-
-_Key: TypeAlias = tuple[str, str, str, tuple[str, ...]]  # file, kind, use, signals that are compared
-
-_CLOSE = 1e-9  # of a frequency, which a stage has by way of rad/s
+from pysim.identify import ComparedLog
+from pysim.identify import log_numbers as numbers
+from pysim.types import Dataset
 
 
 def log_numbers(stage: Mapping[str, Any], dataset: Dataset) -> tuple[int | None, ...]:
@@ -20,57 +17,7 @@ def log_numbers(stage: Mapping[str, Any], dataset: Dataset) -> tuple[int | None,
         stage: as a file of stages has it.
         dataset: that it was made of.
     """
-    records: Sequence[Mapping[str, Any]] = stage["records"]
-    compared = {name for record in records for name in record["names"]}
-    logs = dataset.logs()
-    waiting: dict[_Key, list[int]] = {}
-    for number in _in_order([_test(log, number, compared) for number, log in enumerate(logs)]):
-        log = logs[number]
-        waiting.setdefault((log.source, log.kind, log.use, _names(log, compared)), []).append(number)
-    groups: dict[_Key, list[int]] = {}
-    for place, record in enumerate(records):
-        own = (record["source"], record["kind"], record["use"], tuple(record["names"]))
-        groups.setdefault(own, []).append(place)
-    found: dict[int, int] = {}
-    for key, places in groups.items():
-        told = {place: records[place]["frequency"] for place in places}
-        found.update(_pairs(told, {k: logs[k].frequency for k in waiting.get(key, [])}))
-    return tuple(found.get(place) for place in range(len(records)))
-
-
-def _in_order(tests: Sequence[tuple[Any, ...]]) -> list[int]:
-    """Numbers of the logs in the order of a stage, as far as logs of one file go: sines are where their test begins."""
-    begun: dict[tuple[Any, ...], int] = {}
-    for number, test in enumerate(tests):
-        begun.setdefault(test, number)
-    return sorted(range(len(tests)), key=lambda number: (begun[tests[number]], number))
-
-
-def _test(log: MeasuredRecord, number: int, compared: Collection[str]) -> tuple[Any, ...]:
-    """What the stepped sines of one test have in common; any other log is one by itself."""
-    if log.frequency is None:
-        return (number,)
-    return log.use, log.offset, log.amplitude, *(_names(log, compared, inside) for inside in (False, True))
-
-
-def _names(log: MeasuredRecord, compared: Collection[str], inside: bool = True) -> tuple[str, ...]:
-    """Signals of a log that are compared, or those that are not."""
-    names = log.data.names if isinstance(log.data, Record) else ()
-    return tuple(name for name in names if (name in compared) is inside)
-
-
-def _pairs(told: Mapping[int, float | None], logs: Mapping[int, float | None]) -> Iterator[tuple[int, int]]:
-    """Records and logs that belong together, each with its frequency; only as many as leave no doubt.
-
-    A stepped sine that had not settled is compared as any log, and a stage does not tell its frequency.
-    """
-    left = dict(logs)
-    for frequency in dict.fromkeys(f for f in told.values() if f is not None):
-        places = [place for place, f in told.items() if f == frequency]
-        same = [k for k, f in left.items() if f is not None and math.isclose(f, frequency, rel_tol=_CLOSE)]
-        if len(same) == len(places):
-            yield from zip(places, same, strict=True)
-            left = {k: f for k, f in left.items() if k not in same}
-    others = [place for place, f in told.items() if f is None]
-    if len(others) == len(left):
-        yield from zip(others, left, strict=True)
+    records = [
+        ComparedLog(r["source"], r["kind"], r["use"], tuple(r["names"]), r["frequency"]) for r in stage["records"]
+    ]
+    return numbers(records, dataset)

@@ -13,10 +13,11 @@ from matplotlib.figure import Figure
 from matplotlib.image import AxesImage
 from numpy.typing import NDArray
 
+from pysim.identify import ComparedLog, log_numbers
 from pysim.io import shown_value
 from pysim.plot.diagnosis_records import base_of, stages_compared
 from pysim.plot.style import BAND, COLOURS, LIMIT, SMALL, TEXT, legend_above, new_figure, quiet
-from pysim.types import BadInput, Dataset, Diagnosis, RecordFit, Stage
+from pysim.types import BadInput, Dataset, Diagnosis, MeasuredRecord, RecordFit, Stage
 
 Array = NDArray[np.float64]
 
@@ -68,11 +69,14 @@ def diagnosis_map_figure(diagnosis: Diagnosis, dataset: Dataset) -> Figure:
 
 def _sines(name: str, stage: Stage, dataset: Dataset) -> _Field:
     """Rows by operating point; of a test that was repeated the worst is shown."""
-    own = [record for record in stage.records if record.harmonics]
-    several = len({n for record in own for n in record.measured.names}) > 1
+    logs = dataset.logs()
+    numbers = log_numbers([ComparedLog.of(record) for record in stage.records], dataset)
+    own = [(record, number) for record, number in zip(stage.records, numbers, strict=True) if record.harmonics]
+    several = len({n for record, _ in own for n in record.measured.names}) > 1
     rows: dict[tuple[_Point, str], dict[str, float]] = {}
-    for record in own:
-        point, frequency = _point(record.source, dataset), f"{record.harmonics[0].frequency:g}"
+    for record, number in own:
+        point = _point(record.source, None if number is None else logs[number], dataset)
+        frequency = f"{record.harmonics[0].frequency:g}"
         for signal, value in record.rms.items():
             row = rows.setdefault((point, signal if several else ""), {})
             row[frequency] = max(value, row.get(frequency, 0.0))
@@ -90,8 +94,7 @@ class _Point:
     label: str
 
 
-def _point(source: str, dataset: Dataset) -> _Point:
-    test = next((record for record in dataset.records if record.source == source), None)
+def _point(source: str, test: MeasuredRecord | None, dataset: Dataset) -> _Point:
     if test is None or test.offset is None or test.amplitude is None:
         return _Point("", 0.0, 0.0, source)
     unit = dataset.signal(test.command).unit if test.command else ""

@@ -117,6 +117,23 @@ def test_of_a_test_that_was_repeated_the_map_shows_the_worst() -> None:
     assert [float(text) for text in texts(before)] == pytest.approx([3 * 4.6, 3 * 3.2], abs=0.2)
 
 
+def test_the_map_tells_sines_of_one_file_apart() -> None:
+    told, data = story(), dataset()
+    one_file = {record.source: "all.tdms" for record in data.records if record.frequency}
+    records = [replace(r, source=one_file.get(r.source, r.source)) for r in data.records]
+    records[1] = replace(records[1], offset=80.0)  # the one of 5 Hz
+    stages = [
+        replace(s, records=tuple(replace(r, source=one_file.get(r.source, r.source)) for r in s.records))
+        for s in told.stages
+    ]
+    before = diagnosis_map_figure(replace(told, stages=tuple(stages)), replace(data, records=tuple(records))).axes[0]
+    rows = [label.get_text() for label in before.get_yticklabels()]
+    assert rows == ["offset 50 N, amplitude 10 N", "offset 80 N, amplitude 10 N"]
+    values = np.asarray(before.images[0].get_array())
+    assert values[0, 0] == pytest.approx(4.6, abs=0.1)
+    assert values[1, 1] == pytest.approx(3.2, abs=0.1)
+
+
 def test_failures_stand_by_rank_with_what_is_left_in_the_end() -> None:
     axes = diagnosis_failures_figure(story()).axes[0]
     before = [bar.get_width() for bar in axes.patches]
