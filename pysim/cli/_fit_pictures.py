@@ -47,21 +47,25 @@ def _figures(result: Fit, datasets: Sequence[Dataset]) -> Iterator[tuple[str, st
 def _sines(records: Sequence[RecordFit], datasets: Sequence[Dataset]) -> list[tuple[str, str, list[RecordFit]]]:
     """Stepped sines that belong on one picture: operating point in words, signal, records."""
     found: dict[tuple[str, str], list[RecordFit]] = {}
-    for record in records:
+    for record, test in zip(records, _tests(records, datasets), strict=True):
         for harmonics in record.harmonics:
-            found.setdefault((_test(record, datasets), harmonics.signal), []).append(record)
+            found.setdefault((test, harmonics.signal), []).append(record)
     return [(test, signal, own) for (test, signal), own in found.items()]
 
 
-def _test(record: RecordFit, datasets: Sequence[Dataset]) -> str:
-    """What the data sets say of a stepped sine: where it was measured, and whose command swings how."""
+def _tests(records: Sequence[RecordFit], datasets: Sequence[Dataset]) -> list[str]:
+    """What the data sets say of each record: where it was measured, and whose command swings how."""
+    from pysim.identify import ComparedLog, log_numbers
     from pysim.io import shown_value
 
-    of = f" ({record.dataset})" if len(datasets) > 1 else ""
+    words = [f"of {Path(record.source).parent.as_posix()}" for record in records]
     for one in datasets:
-        for test in one.logs() if one.name == record.dataset else ():
-            if test.source == record.source and test.command and test.offset is not None and test.amplitude is not None:
+        places, logs = [k for k, record in enumerate(records) if record.dataset == one.name], one.logs()
+        numbers = log_numbers([ComparedLog.of(records[k]) for k in places], one)
+        for k, test in ((k, logs[n]) for k, n in zip(places, numbers, strict=True) if n is not None):
+            if test.command and test.offset is not None and test.amplitude is not None:
                 unit = one.signal(test.command).unit
                 around, swing = shown_value(test.offset, unit), shown_value(test.amplitude, unit)
-                return f"at {test.command} {around}, amplitude {swing}{of}"
-    return f"of {Path(record.source).parent.as_posix()}{of}"
+                words[k] = f"at {test.command} {around}, amplitude {swing}"
+    several = len(datasets) > 1
+    return [f"{word} ({record.dataset})" if several else word for word, record in zip(words, records, strict=True)]

@@ -1,0 +1,43 @@
+"""Pictures of a fit stand under the operating points that were measured."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from pysim.cli._fit_pictures import fit_pictures
+from pysim.types import Dataset, Fit, MeasuredRecord, MeasuredSignal, Record
+from tests.pysim.fits import small_fit
+
+SIGNALS = (MeasuredSignal("w", "input", "Pa", "", "w"), MeasuredSignal("y", "output", "%", "", "y"))
+
+
+def sine(source: str, frequency: float, offset: float) -> MeasuredRecord:
+    log = Record(np.arange(2.0), np.zeros((2, 2)), ("w", "y"), ("Pa", "%"))
+    return MeasuredRecord(source, "frequency-response", "fit", log, offset, 1e5, frequency, command="w")
+
+
+def captions(fit: Fit, folder: Path, *records: MeasuredRecord) -> list[str]:
+    """Of its stepped sines, without what all of them say."""
+    told = fit_pictures(fit, [Dataset("set", "-", "-", SIGNALS, records)], folder)
+    found = (caption.partition(":")[0] for caption, _ in told if caption.startswith("Stepped sines"))
+    return [caption.removeprefix("Stepped sines, ") for caption in found]
+
+
+@pytest.fixture(autouse=True)
+def no_drawing(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("pysim.plot.render", lambda figure, form: b"drawn")
+
+
+def test_sines_of_one_test_stand_together(tmp_path: Path) -> None:
+    records = [sine(f"O+25/{f:g}Hz.txt", f, 2e5) for f in (1.0, 5.0)]
+    assert captions(small_fit(), tmp_path, *records) == ["y at w 2 bar, amplitude 1 bar"]
+    assert captions(small_fit(), tmp_path) == ["y of O+25"]  # the data set does not tell
+
+
+def test_sines_of_one_file_stand_under_their_own_test(tmp_path: Path) -> None:
+    fit = small_fit()
+    fit = replace(fit, records=tuple(replace(r, source="a.tdms") if r.harmonics else r for r in fit.records))
+    found = captions(fit, tmp_path, sine("a.tdms", 1.0, 2e5), sine("a.tdms", 5.0, 4e5))
+    assert found == ["y at w 2 bar, amplitude 1 bar", "y at w 4 bar, amplitude 1 bar"]
