@@ -112,13 +112,13 @@ def _record_figures(found: Diagnosis, dataset: Dataset) -> Iterator[tuple[str, s
     )
 
     model = "refitted model" if any(stage.step == "refit" for stage in found.stages) else "model as it is"
-    uses = {record.source: "held out" if record.use == "validate" else "fitted" for record in dataset.records}
-    for k, source in enumerate(telling_records(found)):
+    for k, record in enumerate(telling_records(found)):
+        use = "held out" if record.use == "validate" else "fitted"
         caption = (
-            f"{source} ({uses.get(source, 'fitted')}), where the {model} fails most: measured and simulated; "
+            f"{record.source} ({use}), where the {model} fails most: measured and simulated; "
             "below, what is left (of many samples also running means), grey holds 95 percent of noise."
         )
-        yield "records", f"record_{k + 1}", caption, diagnosis_overlay_figure(found, source)
+        yield "records", f"record_{k + 1}", caption, diagnosis_overlay_figure(found, record)
     logs = [record for stage in found.stages for record in stage.records]
     if found.where:
         caption = f"The places where the {model} fails most."

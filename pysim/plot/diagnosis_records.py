@@ -10,7 +10,7 @@ from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from pysim.identify import HALF_95
+from pysim.identify import HALF_95, ComparedLog
 from pysim.io import shown_unit
 from pysim.plot.style import BAND, COLOURS, DASHES, LIMIT, MEASURED, SMALL, TEXT, legend_above, new_figure, quiet
 from pysim.types import BadInput, Diagnosis, RecordFit, Stage
@@ -21,8 +21,8 @@ _SMOOTH = 5  # samples of the running mean that shows what of a residual is more
 _COARSE = 100  # samples up to which a residual needs no running mean
 
 
-def telling_records(diagnosis: Diagnosis) -> list[str]:
-    """Sources of the records on which the base model fails most: a log, a stepped sine, and one held out."""
+def telling_records(diagnosis: Diagnosis) -> list[RecordFit]:
+    """Records on which the base model fails most, as it has them: a log, a stepped sine, and one held out."""
     base = base_of(diagnosis)
     kinds: dict[tuple[bool, str], RecordFit] = {}
     for record in () if base is None else base.records:
@@ -30,13 +30,22 @@ def telling_records(diagnosis: Diagnosis) -> list[str]:
         if key not in kinds or _size(record) > _size(kinds[key]):
             kinds[key] = record
     order = ((False, "fit"), (True, "fit"), (False, "validate"), (True, "validate"))
-    return [kinds[key].source for key in order if key in kinds][:3]
+    return [kinds[key] for key in order if key in kinds][:3]
 
 
 def base_of(diagnosis: Diagnosis) -> Stage | None:
     """The refitted base model; as it is, where nothing was refitted."""
     stages = {stage.step: stage for stage in diagnosis.stages}
     return stages.get("refit", stages.get("prior"))
+
+
+def same_record(record: RecordFit, own: Stage, other: Stage) -> RecordFit | None:
+    """A record of one stage in another one; None where that has none, or nothing tells which of several it is."""
+    here, there = (
+        [one for one in stage.records if ComparedLog.of(one) == ComparedLog.of(record)] for stage in (own, other)
+    )
+    place = next((k for k, one in enumerate(here) if one is record), None)
+    return None if place is None or len(here) != len(there) else there[place]
 
 
 def stages_shown(diagnosis: Diagnosis) -> list[tuple[str, Stage, str]]:
@@ -55,25 +64,25 @@ def stages_compared(diagnosis: Diagnosis) -> list[tuple[str, Stage, str]]:
     return [one for one in shown if one[1].step != "prior"] or shown
 
 
-def diagnosis_overlay_figure(diagnosis: Diagnosis, source: str) -> Figure:
+def diagnosis_overlay_figure(diagnosis: Diagnosis, record: RecordFit) -> Figure:
     """One record: each signal as measured and as the untouched, the refitted and the final model has it.
 
     Below, what each model leaves in standard deviations of the noise; the grey band holds 95 percent of noise alone.
     A stretch is shown where the refitted model fails most; a stepped sine by its last periods.
 
     Args:
-        source: of the record, as the data set names it.
+        record: one of the base model's.
     Raises:
-        BadInput: no stage has the record.
+        BadInput: it is none of these.
     """
-    shown = [
-        (name, record, colour)
+    base = base_of(diagnosis)
+    beside = [
+        (name, None if base is None else same_record(record, base, stage), colour)
         for name, stage, colour in stages_shown(diagnosis)
-        for record in stage.records
-        if record.source == source
     ]
+    shown = [(name, one, colour) for name, one, colour in beside if one is not None]
     if not shown:
-        raise BadInput(f"overlay figure: no record {source!r} in the diagnosis' stages")
+        raise BadInput(f"overlay figure: {record.source!r} is no record of the diagnosis' base model")
     first = shown[min(1, len(shown) - 1)][1]
     names = first.measured.names
     figure = new_figure(1.2 + 4.6 * max(len(names), 1.4), 4.8)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from scipy import stats
 
 from pysim.identify.residual_spectrum import FEWEST, residual_spectrum
-from pysim.plot.diagnosis_records import stages_compared
+from pysim.plot.diagnosis_records import same_record, stages_compared
 from pysim.plot.style import (
     BAND,
     COLOURS,
@@ -58,7 +58,7 @@ def diagnosis_spectrum_figure(diagnosis: Diagnosis) -> Figure:
     handles: dict[str, Artist] = {}
     for own, (record, j) in zip(axes.ravel(), panels, strict=False):
         for (name, stage, colour), dash in zip(shown, reversed(DASHES[: len(shown)]), strict=True):  # the last: solid
-            one = _same(stage.records, record)
+            one = same_record(record, shown[0][1], stage)
             if one is not None:
                 handles[name] = _draw(own, one, j, {"color": colour, "linestyle": dash})
         own.set_title(f"{record.source}: {record.measured.names[j]}", fontsize=SMALL, loc="left")
@@ -70,10 +70,6 @@ def diagnosis_spectrum_figure(diagnosis: Diagnosis) -> Figure:
         own.set_xlabel("Frequency (Hz)", fontsize=TEXT)
     legend_above(figure, list(handles.values()), list(handles))
     return figure
-
-
-def _same(records: Sequence[RecordFit], record: RecordFit) -> RecordFit | None:
-    return next((one for one in records if one.source == record.source), None)
 
 
 def _draw(axes: Axes, record: RecordFit, column: int, look: Mapping[str, Any]) -> Artist:

@@ -16,7 +16,7 @@ from pysim.plot import (
     render,
     telling_records,
 )
-from pysim.types import BadInput
+from pysim.types import BadInput, Record, RecordFit
 from tests.pysim.diagnosis_story import WAVE, dataset, nothing, step, story
 
 
@@ -72,11 +72,12 @@ def test_a_ranking_needs_candidates() -> None:
 
 
 def test_the_telling_records_are_the_worst_of_each_kind() -> None:
-    assert telling_records(story()) == ["wave.txt", "sines/1Hz.txt", "held.txt"]
+    assert [record.source for record in telling_records(story())] == ["wave.txt", "sines/1Hz.txt", "held.txt"]
 
 
 def test_an_overlay_shows_every_model_and_what_it_leaves() -> None:
-    figure = diagnosis_overlay_figure(story(), "sines/5Hz.txt")
+    found = story()
+    figure = diagnosis_overlay_figure(found, found.stages[1].records[1])
     top, low = figure.axes
     assert len(top.lines) == 4  # measured and three models
     assert top.lines[0].get_xdata()[0] == pytest.approx(8 - 0.01 - 2 / 5, abs=0.011)  # two periods
@@ -86,9 +87,10 @@ def test_an_overlay_shows_every_model_and_what_it_leaves() -> None:
     assert np.mean(base.get_ydata()) == pytest.approx(3.0, abs=0.3)
     assert np.mean(final.get_ydata()) == pytest.approx(0.0, abs=0.3)
     assert "toy.offset" in low.get_title(loc="left")
-    assert len(diagnosis_overlay_figure(nothing(), "wave.txt").axes[0].lines) == 3
-    with pytest.raises(BadInput, match=r"other\.txt"):
-        diagnosis_overlay_figure(story(), "other.txt")
+    less = nothing()
+    assert len(diagnosis_overlay_figure(less, telling_records(less)[0]).axes[0].lines) == 3
+    with pytest.raises(BadInput, match=r"wave\.txt"):
+        diagnosis_overlay_figure(less, found.stages[1].records[2])
 
 
 def test_the_map_holds_the_residuals_by_test_and_frequency() -> None:
@@ -132,6 +134,30 @@ def test_the_map_tells_sines_of_one_file_apart() -> None:
     values = np.asarray(before.images[0].get_array())
     assert values[0, 0] == pytest.approx(4.6, abs=0.1)
     assert values[1, 1] == pytest.approx(3.2, abs=0.1)
+
+
+def doubled(record: RecordFit) -> RecordFit:
+    """The same record with a second signal beside it."""
+    sides = [
+        Record(one.time, np.column_stack([one.values, 3 * one.values]), ("x", "y"), ("m", "m"))
+        for one in (record.measured, record.simulated)
+    ]
+    return replace(record, measured=sides[0], simulated=sides[1], noise=record.noise * 2)
+
+
+def test_logs_of_one_file_stand_beside_themselves() -> None:
+    """The one that is held out has a signal more."""
+    told = story()
+    stages = []
+    for one in told.stages:
+        log, held = (replace(record, source="all.tdms") for record in one.records[2:])
+        stages.append(replace(one, records=(*one.records[:2], log, doubled(held))))
+    told = replace(told, stages=tuple(stages))
+    held = telling_records(told)[2]
+    assert (held.source, held.measured.names) == ("all.tdms", ("x", "y"))
+    figure = diagnosis_overlay_figure(told, held)
+    assert [len(axes.lines) for axes in figure.axes] == [4, 4, 4, 4]  # of two models dots and means
+    assert len([axes for axes in diagnosis_spectrum_figure(told).axes if axes.lines]) == 3
 
 
 def test_failures_stand_by_rank_with_what_is_left_in_the_end() -> None:
