@@ -15,6 +15,7 @@ from pysim.types import Signal
 Array = NDArray[np.float64]
 
 _SAMPLES = 30_000  # of a time course: the tops of a fast sine do not beat with them
+_COARSE = 0.1  # of the fastest sine's period: with times further apart it folds back visibly
 _LONGEST = 60.0  # s that are drawn of a command without an end
 _POINTS = 2**16  # of a spectrum
 _MOST = 2**22  # of one whose sines are too fast for so few
@@ -35,7 +36,7 @@ def excitation_figure(test: Excitation, unit: str) -> Figure:
     """
     signal = test.signal()
     stop = test.duration if np.isfinite(test.duration) else test.onset + _LONGEST
-    t = np.linspace(0.0, stop, _SAMPLES)
+    t = _times(test, stop)
     values, sampling = _samples(test, signal, min(test.end, stop))
     moves = np.ptp(values) > 0
     figure = new_figure(7.2, 5.2 if moves else 2.8)
@@ -54,6 +55,14 @@ def excitation_figure(test: Excitation, unit: str) -> Figure:
         else:
             _draw_density(spectrum_axes, test, values, sampling, unit, figure)
     return figure
+
+
+def _times(test: Excitation, stop: float) -> Array:
+    """When the time course is drawn, (n,): uneven where even times would make slow waves of fast sines."""
+    t = np.linspace(0.0, stop, _SAMPLES)
+    if test.highest_hz * t[1] > _COARSE:
+        t[1:-1] += t[1] * np.random.default_rng(0).uniform(-0.5, 0.5, t.size - 2)
+    return t
 
 
 def _samples(test: Excitation, signal: Signal, end: float) -> tuple[Array, float]:

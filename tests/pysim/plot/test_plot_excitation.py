@@ -66,6 +66,14 @@ def test_time_course_is_the_command() -> None:
     assert figure.axes[0].get_ylabel() == "Command (%)"
 
 
+@pytest.mark.parametrize("test", [Chirp(50.0, 10.0, 0.1, 200.0, 400.0), SteppedSineCommand(50.0, 10.0, 75.0, 30_000.0)])
+def test_time_course_of_a_long_fast_test_fills_its_band(test: Excitation) -> None:
+    t, y = curve(excitation_figure(test, "%"), 0).T
+    assert np.all(np.diff(t) >= 0)
+    parts = np.digitize(t, np.linspace(test.onset + 10, test.end, 400))
+    assert min(np.ptp(y[parts == k]) for k in range(1, 400)) > 0.95 * 20
+
+
 def test_density_of_a_chirp_is_that_of_its_sweep() -> None:
     # A sweep spends 1/rate s per Hz: the power spectral density is A^2/2 per (stop - start).
     f, density = curve(excitation_figure(Chirp(50.0, 10.0, 0.5, 30.0, 200.0), "%"), 1).T
