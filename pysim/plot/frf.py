@@ -63,15 +63,18 @@ def frf_figure(responses: Sequence[MeasuredResponse], reference_hz: float | None
     size_axis(axes[2])
     axes[2].set_xlabel("Frequency (Hz)", fontsize=TEXT)
     figure.align_ylabels(axes)
-    legend_above(figure, handles, [_label(one) for one in responses])
+    several = len({(one.response.test.input, one.response.test.output) for one in responses}) > 1
+    legend_above(figure, handles, [_label(one, signals=several) for one in responses])
     return figure
 
 
-def _label(one: MeasuredResponse) -> str:
+def _label(one: MeasuredResponse, *, signals: bool) -> str:
+    """Offset and amplitude, with output and input ahead of them on request."""
     test = one.response.test
+    of = f"{test.output} to {test.input}, " if signals else ""
     offset = shown_unit(one.input_unit)[1] * test.offset
     held_out = ", held out" if one.use == "validate" else ""
-    return f"{offset:+g} ± {shown_value(test.amplitude, one.input_unit)}{held_out}"
+    return f"{of}{offset:+g} ± {shown_value(test.amplitude, one.input_unit)}{held_out}"
 
 
 def _draw(axes: Sequence[Axes], one: MeasuredResponse, reference_hz: float | None, look: dict[str, Any]) -> Any:

@@ -54,6 +54,13 @@ def test_responses_that_are_held_out_are_told_from_the_others() -> None:
     assert [t.get_text() for t in figure.legends[0].get_texts()] == ["+50 ± 10 %", "+50 ± 10 %, held out"]
 
 
+def test_responses_of_several_outputs_are_told_apart() -> None:
+    (one,) = measured_responses(dataset(log(5.0), log(9.0)))
+    other = replace(one, response=replace(one.response, test=replace(one.response.test, output="p")))
+    figure = frf_figure([one, other], None)
+    assert [t.get_text() for t in figure.legends[0].get_texts()] == ["y to cmd, +50 ± 10 %", "p to cmd, +50 ± 10 %"]
+
+
 def test_refuses_nothing() -> None:
     with pytest.raises(BadInput, match="no response"):
         frf_figure([])
