@@ -28,6 +28,7 @@ class ResidualNoise:
         deviation: of the residuals themselves, in the signal's unit.
         basis: DECLARED, RESIDUALS or COLOURED.
         whiteness: probability that what a fit leaves of white noise looks as coloured as this.
+        at_harmonics: (n_h,) for sines of 2, 3, ... times the frequency, in the signal's unit.
     """
 
     at_frequency: float
@@ -35,6 +36,7 @@ class ResidualNoise:
     deviation: float
     basis: str
     whiteness: float
+    at_harmonics: tuple[float, ...] = ()
 
     def at_least(self, level: float) -> ResidualNoise:
         """The same, but no smaller for sine and mean than white noise of that standard deviation."""
@@ -42,7 +44,13 @@ class ResidualNoise:
 
 
 def residual_noise(
-    residual: Array, regressors: Array, frequency: float, interval: float, *, declared: float | None = None
+    residual: Array,
+    regressors: Array,
+    frequency: float,
+    interval: float,
+    *,
+    declared: float | None = None,
+    harmonics: int = 0,
 ) -> ResidualNoise:
     """Judge the residuals of a fit to evenly spaced samples.
 
@@ -56,6 +64,7 @@ def residual_noise(
         frequency: Hz, of the sine in question.
         interval: s between samples.
         declared: standard deviation of the noise that the data set states, in the signal's unit.
+        harmonics: how many of the sine are judged as well.
     Source: Priestley, Spectral Analysis and Time Series, Section 7.8; for the test see `_whiteness`.
     """
     n, freedom = residual.size, residual.size - regressors.shape[1]
@@ -65,14 +74,19 @@ def residual_noise(
     whiteness = _whiteness(correlation, regressors)
     white = whiteness > _UNLIKELY
     if white and declared is not None and chi2.sf(square / declared**2, freedom) > _UNLIKELY:
-        return ResidualNoise(declared, declared, variance**0.5, DECLARED, whiteness)
+        return ResidualNoise(declared, declared, variance**0.5, DECLARED, whiteness, (declared,) * harmonics)
     if white:
-        return ResidualNoise(variance**0.5, variance**0.5, variance**0.5, RESIDUALS, whiteness)
+        flat = variance**0.5
+        return ResidualNoise(flat, flat, flat, RESIDUALS, whiteness, (flat,) * harmonics)
     filter_ = _autoregression(correlation, n)
     scale = variance / float(np.sum(lfilter([1.0], filter_, _impulse(n)) ** 2))  # variance of what drives the filter
     floor = max(variance, 0.0 if declared is None else declared**2)
-    at = [np.sqrt(max(scale * _gain(filter_, f * interval) ** 2, floor)) for f in (frequency, 0.0)]
-    return ResidualNoise(float(at[0]), float(at[1]), variance**0.5, COLOURED, whiteness)
+    density = [scale * _gain(filter_, k * frequency * interval) ** 2 for k in range(harmonics + 2)]
+    periods = n * frequency * interval
+    if periods > 1.5:  # of P lines from one harmonic to the next the fit has taken one, with its noise
+        density[2:] = [one * periods / (periods - 1) for one in density[2:]]
+    at = [max(d, floor) ** 0.5 for d in density]
+    return ResidualNoise(at[1], at[0], variance**0.5, COLOURED, whiteness, tuple(at[2:]))
 
 
 def _autocorrelation(x: Array, lags: int) -> Array:

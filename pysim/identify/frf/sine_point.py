@@ -56,7 +56,8 @@ class SinePoint:
         mean: of the output, in its unit.
         covariance: (3, 3) of gain, phase and mean.
         harmonics: (n_h,) amplitudes of the output at 2, 3, ... times the frequency, by that at the frequency.
-        harmonics_noise: standard deviation of each of them that noise alone would give.
+        harmonics_noise: standard deviation that noise alone would give them; where the noise has a memory, the root
+            of the mean square over them.
         distorted: whether there are harmonics beyond what noise gives: the response is not linear.
         noise: of the output.
         periods: whole periods that were fitted.
@@ -121,7 +122,7 @@ def sine_point(
     lost = bool(part.holes)
     fit = harmonic_fit(angle, y, count, lost=lost)
     coefficients = fit.coefficients
-    judged = residual_noise(fit.left_over, fit.columns, frequency, interval, declared=noise)
+    judged = residual_noise(fit.left_over, fit.columns, frequency, interval, declared=noise, harmonics=count - 1)
     hidden = judged.basis == COLOURED and part.periods == 1
     if hidden:
         judged = judged.at_least(fit.level_of_harmonics())
@@ -130,9 +131,14 @@ def sine_point(
         raise BadInput(f"{record.source}: {output} does not move at {frequency:g} Hz; there is no response")
     gain = amplitude / command.amplitude
     sizes = np.hypot(coefficients[0:-1:2], coefficients[1::2])
-    deviation = judged.at_frequency if hidden or judged.basis == DECLARED else judged.deviation
-    spread = deviation * math.sqrt(float(np.mean(np.diag(fit.inverse)[2 if count > 1 else 0 : -1])))
-    distorted = count > 1 and _by_chance(fit, slice(2, -1), deviation, judged.basis) < _UNLIKELY
+    noisy = np.full(count - 1, judged.at_frequency) if hidden else np.array(judged.at_harmonics)
+    deviation = np.repeat(noisy if count > 1 else [judged.at_frequency], 2)  # of sine and cosine
+    unit = np.diag(fit.inverse)[2 if count > 1 else 0 : -1]
+    spread = math.sqrt(float(np.mean(deviation**2 * unit)))
+    # Noise with a memory is told there by the lines between the harmonics alone, two numbers each.
+    between = 2 * (count - 1) * (part.periods - 1)
+    known = between if judged.basis == COLOURED and between else fit.freedom
+    distorted = count > 1 and _by_chance(fit, slice(2, -1), deviation, judged.basis, known) < _UNLIKELY
     if part.periods > 1:
         remarks += _unsteady(harmonic_fit(angle, y, count, lost=lost, drifting=True), y, frequency, interval, noise)
     if judged.basis == COLOURED:
@@ -226,21 +232,23 @@ def _told_apart(
     return few, [f"{lost}: {kept}, and others, where there are any, disturb the sine"]
 
 
-def _by_chance(fit: HarmonicFit, part: slice, deviation: float, basis: str) -> float:
-    """Probability of coefficients as large as these, or larger, by noise of that standard deviation alone.
+def _by_chance(fit: HarmonicFit, part: slice, deviation: Array, basis: str, freedom: int) -> float:
+    """Probability of coefficients as large as these, or larger, by noise alone.
 
     Args:
-        part: which coefficients.
+        part: which coefficients, n_c of them.
+        deviation: (n_c,) of white noise that would disturb each of them as much.
         basis: of the noise; unless it was declared it is an estimate, from what the fit leaves over.
+        freedom: degrees of freedom of that estimate.
     """
     chosen = fit.coefficients[part]
-    square = float(chosen @ np.linalg.solve(fit.inverse[part, part], chosen))
-    if deviation == 0:
-        return float(square == 0)
-    power = square / deviation**2
+    if not deviation.all():
+        return float(not chosen.any())
+    relative = chosen / deviation
+    power = float(relative @ np.linalg.solve(fit.inverse[part, part], relative))
     if basis == DECLARED:
         return float(chi2.sf(power, chosen.size))
-    return float(f_distribution.sf(power / chosen.size, chosen.size, fit.freedom))
+    return float(f_distribution.sf(power / chosen.size, chosen.size, min(freedom, fit.freedom)))
 
 
 def _covariance(command: LoggedWave, fit: HarmonicFit, noise: ResidualNoise) -> Array:
@@ -260,7 +268,8 @@ def _unsteady(drifting: HarmonicFit, y: Array, frequency: float, interval: float
     """Whether amplitude or phase drift through the fitted part by more than noise."""
     noise = residual_noise(drifting.left_over, drifting.columns, frequency, interval, declared=declared)
     change = 2 * float(np.hypot(*drifting.coefficients[-2:]))
-    chance = _by_chance(drifting, slice(-2, None), noise.at_frequency, noise.basis)
+    deviation = np.full(2, noise.at_frequency)
+    chance = _by_chance(drifting, slice(-2, None), deviation, noise.basis, drifting.freedom)
     if change <= 1e-9 * np.max(np.abs(y)) or chance > _UNLIKELY:
         return []
     share = change / float(np.hypot(*drifting.coefficients[:2]))

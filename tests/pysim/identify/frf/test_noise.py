@@ -70,10 +70,24 @@ def test_memory_is_seen_and_its_spectrum_found(pole: float) -> None:
     np.testing.assert_allclose(np.mean(ratios, axis=0), np.maximum(truth, 0.3), rtol=0.1)
 
 
+def test_memory_is_seen_at_the_harmonics() -> None:
+    """What a fit over eight periods takes out of the noise there is one line of eight; the others tell the whole."""
+    pole, count, f, found = 0.9, 11, 1.0, []
+    regressors = waves(2000, count, f)
+    for seed in range(40):
+        left = left_over(coloured(2000, 0.3, seed, pole), regressors)
+        found.append(residual_noise(left, regressors, f, INTERVAL, harmonics=count - 1).at_harmonics)
+    turns = f * INTERVAL * np.arange(2, count + 1)
+    truth = 0.3 * np.sqrt(1 - pole**2) / np.abs(1 - pole * np.exp(-2j * np.pi * turns))
+    np.testing.assert_allclose(np.sqrt(np.mean(np.square(found), axis=0)), truth, rtol=0.1)
+
+
 def test_declared_noise_counts_where_the_residuals_agree() -> None:
     residual = white(500, 0.3, 2)
     assert judged(residual, declared=0.3).basis == DECLARED
     assert judged(residual, declared=0.3).at_frequency == 0.3
+    one = waves(500, 1)
+    assert residual_noise(residual, one, 5.0, INTERVAL, declared=0.3, harmonics=2).at_harmonics == (0.3, 0.3)
     assert judged(residual, declared=0.2).basis == RESIDUALS  # more is left than was declared
     memory = judged(coloured(500, 0.3, 2, -0.5), frequency=1.0, declared=0.4)
     assert memory.basis == COLOURED

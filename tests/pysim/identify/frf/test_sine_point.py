@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from pysim.identify import Window, sine_point
+from pysim.identify.frf.noise import COLOURED
 from pysim.types import BadInput, MeasuredRecord, Record
 from tests.pysim.identify.frf.systems import coloured, log, response, white
 
@@ -106,6 +107,35 @@ def test_harmonics_are_found_and_do_not_spoil_the_sine() -> None:
 def test_noise_is_seldom_called_a_harmonic() -> None:
     wrong = sum(sine_point(log(4.0, noise=white(2000, 0.5, seed)), "cmd", "y").distorted for seed in range(80))
     assert wrong <= 1  # one in a thousand expected
+
+
+@pytest.mark.parametrize(("pole", "periods"), [(0.9, 21.2), (0.5, 7.2), (0.9, 4.2), (0.98, 3.2), (0.9, 3.2)])
+def test_noise_with_a_memory_is_seldom_called_a_harmonic(pole: float, periods: float) -> None:
+    """At 1 Hz slow noise is several times as strong as white noise of its size, which nearly always were harmonics."""
+    points = [
+        sine_point(log(1.0, periods=periods, noise=coloured(6000, 0.5, seed, pole)), "cmd", "y") for seed in range(60)
+    ]
+    assert all(point.noise.basis == COLOURED and point.periods == int(periods - 1) for point in points)
+    assert sum(point.distorted for point in points) <= 1  # one in a thousand expected
+
+
+@pytest.mark.parametrize("periods", [21.2, 3.2])
+def test_noise_of_the_harmonics_is_that_of_its_spectrum(periods: float) -> None:
+    """Of a filter 1 / (1 - p z^-1) driven by white noise: a sine's deviation is sqrt(2 / n) times its gain."""
+    pole, fundamental = 0.9, np.abs(response(1.0))
+    points = [sine_point(log(1.0, periods=periods, noise=coloured(6000, 0.5, s, pole)), "cmd", "y") for s in range(40)]
+    turns = np.arange(2, 12) / 250
+    gain = 0.5 * math.sqrt(1 - pole**2) / np.abs(1 - pole * np.exp(-2j * np.pi * turns))
+    truth = math.sqrt(2 / (250 * points[0].periods) * float(np.mean(gain**2))) / (10 * fundamental)
+    assert np.mean([point.harmonics_noise for point in points]) == pytest.approx(truth, rel=0.12)
+
+
+def test_harmonics_are_found_in_noise_with_a_memory() -> None:
+    noise = coloured(6000, 0.5, 3)
+    point = sine_point(log(1.0, periods=21.2, add=0.05, noise=noise), "cmd", "y")
+    assert point.noise.basis == COLOURED
+    assert point.distorted
+    assert point.harmonics[1] == pytest.approx(0.05, abs=4 * point.harmonics_noise)
 
 
 def coarse(frequency: float, rate: float, periods: float, seed: int) -> MeasuredRecord:
