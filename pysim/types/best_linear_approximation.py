@@ -129,6 +129,7 @@ class BestLinearApproximation:
         even, odd: distortion by even and odd powers, each on the lines where it alone can be; None where no such lines
             were left free.
         distortion: the whole of it around each excited line, even and odd.
+        apart: places, from low frequency up, of gains that share no data; None where no two gains do.
     """
 
     frequency: Array
@@ -148,6 +149,7 @@ class BestLinearApproximation:
     even: Distortion | None = None
     odd: Distortion | None = None
     distortion: Level | None = None
+    apart: tuple[int, ...] | None = None
 
     def __post_init__(self) -> None:
         n_f = np.size(self.frequency)

@@ -63,6 +63,7 @@ def assemble(
         even,
         odd,
         distortion,
+        part.apart,
     )
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pysim.identify.multisine.lines import Harmonics, Lines
-from pysim.identify.multisine.local_fit import local_fit, powers, windows
+from pysim.identify.multisine.local_fit import apart, local_fit, powers, windows
 from pysim.identify.multisine.steady import SteadySpectra
 from pysim.types import BadInput
 
@@ -35,6 +35,7 @@ class LinearPart:
         noise: (n_f,) the noise in `power`, or None.
         noise_weight: (n_f,) the share of `noise` that is left in the gain's variance.
         shared: neighbouring lines whose `power` shares data.
+        apart: places of gains that share no data; None where no two do.
     """
 
     gain: Complex
@@ -45,6 +46,7 @@ class LinearPart:
     noise: Array | None
     noise_weight: Array
     shared: float = 1.0
+    apart: tuple[int, ...] | None = None
 
 
 def over_realisations(spectra: SteadySpectra, lines: Lines) -> LinearPart:
@@ -107,7 +109,9 @@ def over_neighbours(spectra: SteadySpectra, lines: Lines, *, order: int = 2, wid
     if spectra.noise is not None:
         noise = noise_power(spectra.noise, lines.excited, gain)[at].mean(axis=1) / inside
     degrees = np.full(n_f, 2.0 * fit.degrees)
-    return LinearPart(gain, variance, degrees, power, degrees, noise, variance / power, float(width))
+    return LinearPart(
+        gain, variance, degrees, power, degrees, noise, variance / power, float(width), apart(at, np.arange(n_f))
+    )
 
 
 def first_gain(spectra: SteadySpectra, lines: Lines) -> Complex:

@@ -73,6 +73,20 @@ def windows(centres: Index, available: Index, width: int) -> Index:
     return np.asarray(first[:, None] + np.arange(width), dtype=np.intp)
 
 
+def apart(at: Index, centres: Index) -> tuple[int, ...]:
+    """Places, from the lowest up, of windows (n, width) that share no line; of equal ones that nearest to its middle.
+
+    Args:
+        at, centres: (n, width) and (n,) as `windows` has them.
+    """
+    off, places, last = np.abs(2 * centres - at[:, 0] - at[:, -1]), [], -1
+    for k in np.lexsort((off, at[:, 0])).tolist():
+        if at[k, 0] > last:
+            places.append(k)
+            last = at[k, -1]
+    return tuple(places)
+
+
 def powers(distance: NDArray[np.float64], order: int) -> Complex:
     """(n, w, order + 1) of 1, x, x^2, ..., with x (n, w) scaled to the window's half width."""
     x = distance / np.max(np.abs(distance), axis=1, keepdims=True)

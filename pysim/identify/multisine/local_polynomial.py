@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pysim.identify.multisine.linear_part import gain_from_responses
-from pysim.identify.multisine.local_fit import LocalFit, local_fit, powers, windows
+from pysim.identify.multisine.local_fit import LocalFit, apart, local_fit, powers, windows
 from pysim.identify.multisine.periods import checked_columns, sampling_interval
 from pysim.identify.multisine.statistics import plain_level
 from pysim.types import BadInput, BestLinearApproximation, MultisineTest, Record
@@ -107,6 +107,7 @@ def local_polynomial_approximation(
         float(np.mean(record[names[1]])),
         float(error[0]) / 4,  # a mean is half a line of a cosine: its variance is a quarter of the lowest line's
         plain_level(frequency, error / amplitude**2, degrees),
+        apart=apart(at, spectra.chosen),
     )
 
 

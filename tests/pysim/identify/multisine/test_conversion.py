@@ -3,8 +3,16 @@
 import numpy as np
 import pytest
 
-from pysim.identify.multisine import DropPeriods, as_frequency_response, robust_approximation
-from tests.pysim.identify.multisine.systems import AMPLITUDE, ODD, gain, measure
+from pysim.identify.blackbox import Structure, fit_transfer_function
+from pysim.identify.multisine import (
+    DropPeriods,
+    as_frequency_response,
+    local_polynomial_approximation,
+    robust_approximation,
+    smooth_approximation,
+)
+from pysim.types import BestLinearApproximation, Record
+from tests.pysim.identify.multisine.systems import AMPLITUDE, FULL, ODD, gain, measure
 
 
 def test_gain_phase_and_their_covariance() -> None:
@@ -30,6 +38,32 @@ def test_the_phase_s_variance_is_that_of_many_draws() -> None:
         assert response.covariance is not None
         claimed.append(response.covariance[:, 1, 1])
     assert np.mean(np.square(responses)) == pytest.approx(np.mean(claimed), rel=0.1)
+
+
+def smooth(seed: int) -> BestLinearApproximation:
+    data = measure(FULL, realisations=1, periods=4, noise=0.1, seed=seed, respond=lambda u: 2 * u)
+    return smooth_approximation(data, transient=DropPeriods(0))
+
+
+def arbitrary(seed: int) -> BestLinearApproximation:
+    rng = np.random.default_rng(seed)
+    u, noise = rng.standard_normal((2, 600))
+    record = Record(0.01 * np.arange(600), np.column_stack([u, 2 * u + 0.1 * noise]), ("u", "y"), ("V", "m"))
+    return local_polynomial_approximation(record, ("u", "y"))
+
+
+@pytest.mark.parametrize(("method", "width", "points"), [(smooth, 9, 6), (arbitrary, 13, 23)])
+def test_a_fit_to_gains_that_neighbours_share_is_as_sure_as_it_says(method, width: int, points: int) -> None:
+    """A static gain of 2 in white noise; with every line as a point of its own the claim was half of what is true."""
+    off, step = [], np.min(np.diff(method(0).frequency))
+    for seed in range(200):
+        response = as_frequency_response(method(seed))
+        assert response.frequency.size == points
+        assert np.min(np.diff(response.frequency)) > 0.99 * width * step
+        fit = fit_transfer_function(response, Structure(0, 0))
+        off.append((fit.values[0] - 2.0) / np.sqrt(fit.covariance[0, 0]))
+    # 200 draws know a standard deviation to 5 percent; variances from 6 and 7 degrees of freedom add some of their own
+    assert np.sqrt(np.mean(np.square(off))) == pytest.approx(1.0, abs=0.2)
 
 
 def test_one_period_does_not_tell_how_sure_the_mean_is() -> None:

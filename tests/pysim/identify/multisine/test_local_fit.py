@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from pysim.identify.multisine.local_fit import local_fit, powers, windows
+from pysim.identify.multisine.local_fit import apart, local_fit, powers, windows
 from pysim.types import BadInput
 
 
@@ -55,3 +55,11 @@ def test_refusals(k: np.ndarray, words: str) -> None:
         local_fit(k.astype(complex), np.ones((1, k.shape[1], 1), dtype=complex))
     with pytest.raises(BadInput, match="does not fit"):
         windows(np.array([1]), np.arange(3), 4)
+
+
+def test_windows_apart_share_no_line_and_are_centred() -> None:
+    centres, lines = np.arange(20), np.arange(20)
+    assert apart(windows(centres, lines, 5), centres) == (2, 7, 12, 17)
+    assert apart(windows(centres, lines, 9), centres) == (4, 13)
+    some = np.array([3, 4, 5, 6, 14, 15, 19])  # from 1, 2, 3, 4, 12, 13 and 15 on
+    assert apart(windows(some, lines, 5), some) == (0, 4)
