@@ -24,7 +24,10 @@ def robust_approximation(
     Raises:
         BadInput: one realisation, or records that do not excite the same lines.
     """
-    spectra, lines = _prepare(periods, excited, transient)
+    return _robust(*_prepare(periods, excited, transient))
+
+
+def _robust(spectra: SteadySpectra, lines: Lines) -> BestLinearApproximation:
     return assemble(spectra, lines, over_realisations(spectra, lines), "robust: over realisations")
 
 
@@ -36,9 +39,13 @@ def fast_approximation(
     What appears on free lines is distortion: even powers on even lines, odd powers on odd ones. Power that the actuator
     itself puts on free lines goes through the linear part, and is taken off with the gain interpolated there.
 
-    Args, Raises: as `robust_approximation`; and BadInput where even lines are excited or no odd ones are free.
+    Args, Raises: as `robust_approximation`; and BadInput where even lines are excited or no odd ones are free, or where
+        the transient's rule leaves one period.
     """
-    spectra, lines = _prepare(periods, excited, transient)
+    return _fast(*_prepare(periods, excited, transient))
+
+
+def _fast(spectra: SteadySpectra, lines: Lines) -> BestLinearApproximation:
     if not lines.are_odd or lines.odd.size < 2:
         raise BadInput(
             "fast method: needs a multisine of odd lines with some of them left free; use the robust method with "
@@ -47,7 +54,9 @@ def fast_approximation(
     gain = first_gain(spectra, lines)
     on_odd_lines = on_free_lines(spectra, lines, lines.odd, gain, amplitude_of(spectra, lines))
     if on_odd_lines is None:
-        raise BadInput("fast method: one period does not tell noise from distortion; record two or more")
+        raise BadInput(
+            "fast method: the one period left does not tell noise from distortion; record more, or leave out fewer"
+        )
     around = pooled(on_odd_lines, hertz(spectra, lines), POOLED_LINES)
     part = over_free_lines(spectra, lines, around.power, around.degrees)
     return assemble(spectra, lines, part, "fast: from lines left free", on_lines=around)
@@ -65,7 +74,10 @@ def smooth_approximation(
 
     Args, Raises: as `robust_approximation`; order and width as `over_neighbours`.
     """
-    spectra, lines = _prepare(periods, excited, transient)
+    return _smooth(*_prepare(periods, excited, transient), order, width)
+
+
+def _smooth(spectra: SteadySpectra, lines: Lines, order: int = 2, width: int = 9) -> BestLinearApproximation:
     part = over_neighbours(spectra, lines, order=order, width=width)
     return assemble(spectra, lines, part, f"local polynomial: order {order} over {width} excited lines")
 
@@ -74,13 +86,12 @@ def best_linear_approximation(
     periods: Periods, *, excited: Harmonics | None = None, transient: Transient | None = None
 ) -> BestLinearApproximation:
     """The method that these records allow: robust with several realisations, fast with odd lines left free and two
-    periods, else the local polynomial method."""
-    if periods.values.shape[0] > 1:
-        return robust_approximation(periods, excited=excited, transient=transient)
-    lines = chosen_lines(periods, excited)
-    parted = lines.are_odd and lines.odd.size > 1 and periods.values.shape[1] > 1
-    method = fast_approximation if parted else smooth_approximation
-    return method(periods, excited=lines.excited, transient=transient)
+    periods that the transient's rule leaves, else the local polynomial method."""
+    spectra, lines = _prepare(periods, excited, transient)
+    if spectra.values.shape[0] > 1:
+        return _robust(spectra, lines)
+    parted = lines.are_odd and lines.odd.size > 1 and spectra.noise is not None
+    return _fast(spectra, lines) if parted else _smooth(spectra, lines)
 
 
 def _prepare(periods: Periods, excited: Harmonics | None, transient: Transient | None) -> tuple[SteadySpectra, Lines]:

@@ -277,6 +277,16 @@ def test_the_method_follows_from_the_records() -> None:
     assert {name(FULL, 1), name(ODD, 1), name(FREE, 1, periods=1)} == {"local polynomial"}
 
 
+def test_the_method_follows_from_the_periods_that_are_left() -> None:
+    data = measure(FREE, realisations=1, periods=2, noise=0.01, seed=19)
+    bla = best_linear_approximation(data, transient=DropPeriods(1))
+    assert bla.method.startswith("local polynomial")
+    assert (bla.test.periods, bla.noise) == (1, None)
+    np.testing.assert_array_equal(bla.gain, smooth_approximation(data, transient=DropPeriods(1)).gain)
+    with pytest.raises(BadInput, match=r"the one period left .* record more, or leave out fewer"):
+        fast_approximation(data, transient=DropPeriods(1))
+
+
 def test_free_lines_tell_even_from_odd_on_an_odd_grid_only() -> None:
     """With even lines excited, u^3 falls on even lines too."""
     lines = np.setdiff1d(FULL, [7, 12, 21, 30, 44])
