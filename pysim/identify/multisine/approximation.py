@@ -6,7 +6,7 @@ from pysim.identify.multisine.assemble import POOLED_LINES, amplitude_of, assemb
 from pysim.identify.multisine.levels import on_free_lines
 from pysim.identify.multisine.linear_part import first_gain, over_free_lines, over_neighbours, over_realisations
 from pysim.identify.multisine.lines import Harmonics, Lines, chosen_lines
-from pysim.identify.multisine.periods import Periods
+from pysim.identify.multisine.periods import Periods, refuse_still
 from pysim.identify.multisine.statistics import pooled
 from pysim.identify.multisine.steady import DropPeriods, LocalTransient, SteadySpectra, Transient
 from pysim.types import BadInput, BestLinearApproximation
@@ -22,7 +22,7 @@ def robust_approximation(
         excited: harmonic numbers; found in the command's spectrum when not given.
         transient: how the start is kept out; `LocalTransient()` by default, nothing where there is one period.
     Raises:
-        BadInput: one realisation, or records that do not excite the same lines.
+        BadInput: one realisation, records that do not excite the same lines, or an output that stands still.
     """
     return _robust(*_prepare(periods, excited, transient))
 
@@ -98,4 +98,6 @@ def _prepare(periods: Periods, excited: Harmonics | None, transient: Transient |
     lines = chosen_lines(periods, excited)
     if transient is None:
         transient = LocalTransient() if periods.values.shape[1] > 1 else DropPeriods(0)
-    return transient.spectra(periods), lines
+    spectra = transient.spectra(periods)
+    refuse_still(spectra.periods.values[..., 1], periods.names[1])
+    return spectra, lines

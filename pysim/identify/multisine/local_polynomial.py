@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from pysim.identify.multisine.linear_part import gain_from_responses
 from pysim.identify.multisine.local_fit import LocalFit, apart, local_fit, powers, windows
-from pysim.identify.multisine.periods import checked_columns, sampling_interval
+from pysim.identify.multisine.periods import checked_columns, refuse_still, sampling_interval
 from pysim.identify.multisine.statistics import plain_level
 from pysim.types import BadInput, BestLinearApproximation, MultisineTest, Record
 
@@ -79,7 +79,8 @@ def local_polynomial_approximation(
     Returns:
         a gain per line of the record's spectrum; estimates less than 2 half_width lines apart share data.
     Raises:
-        BadInput: samples that are not equidistant, too few lines in the band, or an input that does not excite them.
+        BadInput: samples that are not equidistant, too few lines in the band, an input that does not excite them, or an
+            output that stands still.
     Source: Pintelon, Schoukens, Vandersteen and Barbé, Estimation of nonparametric noise and FRF models for
     multivariable systems, Part I: theory, Mechanical Systems and Signal Processing 24 (2010), 573-595.
     """
@@ -133,6 +134,7 @@ def prepare(
     drive = lines[:, 2 if len(names) == 3 else 0]
     frequency = np.arange(1, lines.shape[0] + 1) / length
     chosen = _band(drive, frequency, band, settings)
+    refuse_still(record[names[1]], names[1])
     return WholeSpectra(drive, lines[:, 0], lines[:, :2] if len(names) == 3 else lines[:, 1:2], chosen, length)
 
 

@@ -112,6 +112,19 @@ def checked_columns(columns: Sequence[str]) -> tuple[str, ...]:
     return names
 
 
+def refuse_still(output: Array, name: str) -> None:
+    """Refuse samples of an output that are all alike.
+
+    Raises:
+        BadInput: they are; there would be a gain of zero and a phase of rounding errors.
+    """
+    if np.ptp(output) == 0:
+        raise BadInput(
+            f"multisine: {name} stands still at {float(output.flat[0]):g}; there is no response; name the column that "
+            "responds"
+        )
+
+
 def sampling_interval(record: Record) -> float:
     """s between samples.
 

@@ -336,6 +336,21 @@ def test_refuses_what_cannot_be() -> None:
         robust_approximation(data, excited=np.array([1, 256]))
 
 
+@pytest.mark.parametrize(("realisations", "periods"), [(1, 2), (3, 2), (1, 1)])
+def test_an_output_that_stands_still_is_refused(realisations: int, periods: int) -> None:
+    data = measure(FREE, realisations=realisations, periods=periods, seed=0, respond=lambda u: 0 * u + 3.7)
+    for method in (best_linear_approximation, smooth_approximation):
+        with pytest.raises(BadInput, match=r"multisine: y stands still at 3\.7; there is no response"):
+            method(data)
+
+
+def test_an_output_that_stands_still_but_for_periods_left_out_is_refused() -> None:
+    values = np.array(measure(FREE, realisations=1, periods=3, seed=0).values)
+    values[:, 1:, :, 1] = 3.7
+    with pytest.raises(BadInput, match="stands still"):
+        best_linear_approximation(Periods(values, ("u", "y"), ("V", "m"), 2.0), transient=DropPeriods(1))
+
+
 def test_the_system_of_these_tests_is_stable() -> None:
     assert np.max(np.abs(np.roots(A))) < 0.8
     assert len(B) == 2

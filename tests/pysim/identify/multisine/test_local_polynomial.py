@@ -186,3 +186,11 @@ def test_refusals() -> None:
     jittered = Record(record.time + 0.004 * (np.arange(400) % 2), record.values, ("u", "y"), ("1", "1"))
     with pytest.raises(BadInput, match="equal intervals"):
         local_polynomial_approximation(jittered, ("u", "y"))
+
+
+@pytest.mark.parametrize("level", [0.0, 3.7])
+def test_an_output_that_stands_still_is_refused(level: float) -> None:
+    record = run(600, noise=0.0, seed=0)
+    still = Record(record.time, np.column_stack([record["u"], np.full(600, level)]), ("u", "y"), ("V", "m"))
+    with pytest.raises(BadInput, match=f"multisine: y stands still at {level:g}; there is no response"):
+        local_polynomial_approximation(still, ("u", "y"))
