@@ -7,6 +7,7 @@ import numpy as np
 
 from pysim.identify.multisine import DropPeriods, fast_approximation, robust_approximation, smooth_approximation
 from pysim.report.multisine import multisine_data, multisine_page, multisine_text, verdicts
+from pysim.types import Level
 from tests.pysim.identify.multisine.systems import FULL, ODD, measure, with_free_lines
 
 FREE = with_free_lines(ODD, seed=11)
@@ -26,6 +27,28 @@ def test_verdicts_name_what_is_there_and_what_is_not_seen() -> None:
     assert "even and odd together, is not seen" in linear[1]
     alone = verdicts(robust_approximation(measure(FREE, realisations=3, periods=1, noise=0.01, seed=2)))
     assert alone[1].startswith("Without a second period")
+
+
+def test_the_worst_line_is_one_that_stands_out() -> None:
+    """A line of which little is known may look worst of all; it must not hide the others."""
+    assert SQUARE.distortion is not None
+    f, gain = SQUARE.frequency, np.full(SQUARE.frequency.size, 2.0)
+    variance, low = np.full(f.size, 0.01), np.full(f.size, -0.01)
+    variance[[3, 5, 8]], low[[5, 8]] = (4.0, 0.04, 0.02), 0.01
+    found = replace(SQUARE, gain=gain, distortion=Level(f, variance, low, 2 * variance))
+    assert verdicts(found)[-1] == f"Worst at {f[5]:g} Hz: distortion 20.0 dB below the linear response"  # 0.04 of 2^2
+    none = replace(found, distortion=Level(f, variance, -variance, 2 * variance))
+    assert verdicts(none)[-1] == "No single line's distortion stands out of its noise"
+
+
+def test_a_linear_system_has_no_worst_line() -> None:
+    by_chance = 0
+    for seed in range(10):
+        linear = fast_approximation(measure(FREE, realisations=1, periods=4, noise=0.01, seed=seed))
+        assert linear.distortion is not None
+        by_chance += bool(np.any(linear.distortion.low > 0))
+        assert verdicts(linear)[-1] == "No single line's distortion stands out of its noise"
+    assert by_chance > 0
 
 
 def test_pressures_are_told_in_bar() -> None:
