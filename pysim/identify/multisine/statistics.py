@@ -70,6 +70,7 @@ def pooled(distortion: Distortion, frequency: Array, count: int) -> Distortion:
     """The distortion at other frequencies (n,) in Hz, from the mean over the `count` nearest lines of each.
 
     Single lines know a variance to within a factor of 40 (one realisation, 95 percent); a mean over six to within 5.
+    Lines that share data are no more than one: a mean over fewer than that knows what one of them knows.
     """
     lines = distortion.frequency
     count = min(count, lines.size)
@@ -79,10 +80,10 @@ def pooled(distortion: Distortion, frequency: Array, count: int) -> Distortion:
     return distortion_level(
         frequency,
         distortion.power[at].mean(axis=1),
-        distortion.degrees[at].sum(axis=1),
+        distortion.degrees[at].mean(axis=1) * max(1.0, count / distortion.shared),
         distortion.noise[at].mean(axis=1),
         distortion.noise_degrees[at].mean(axis=1) * max(1.0, count / distortion.noise_shared),
-        shared=max(1.0, count / float(step)),
+        shared=max(1.0, (count + distortion.shared - 1) / float(step)),
         noise_shared=max(1.0, (count + distortion.noise_shared - 1) / float(step)),
     )
 
