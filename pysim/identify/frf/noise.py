@@ -81,10 +81,10 @@ def residual_noise(
     filter_ = _autoregression(correlation, n)
     scale = variance / float(np.sum(lfilter([1.0], filter_, _impulse(n)) ** 2))  # variance of what drives the filter
     floor = max(variance, 0.0 if declared is None else declared**2)
-    density = [scale * _gain(filter_, k * frequency * interval) ** 2 for k in range(harmonics + 2)]
     periods = n * frequency * interval
-    if periods > 1.5:  # of P lines from one harmonic to the next the fit has taken one, with its noise
-        density[2:] = [one * periods / (periods - 1) for one in density[2:]]
+    # Of P lines from one harmonic to the next the fit has taken one, with its noise.
+    taken = periods / (periods - 1) if periods > 1.5 else 1.0
+    density = [taken * scale * _gain(filter_, k * frequency * interval) ** 2 for k in range(harmonics + 2)]
     at = [max(d, floor) ** 0.5 for d in density]
     return ResidualNoise(at[1], at[0], variance**0.5, COLOURED, whiteness, tuple(at[2:]))
 

@@ -82,6 +82,20 @@ def test_memory_is_seen_at_the_harmonics() -> None:
     np.testing.assert_allclose(np.sqrt(np.mean(np.square(found), axis=0)), truth, rtol=0.1)
 
 
+@pytest.mark.parametrize("periods", [2, 3, 6])
+def test_memory_is_seen_in_few_periods(periods: int) -> None:
+    """In two periods the fit takes half of the noise below its highest harmonic; the other half tells of both."""
+    pole, f, found = 0.9, 1.0, []
+    regressors = waves(250 * periods, 11, f)
+    for seed in range(200):
+        left = left_over(coloured(250 * periods, 0.3, seed, pole), regressors)
+        noise = residual_noise(left, regressors, f, INTERVAL)
+        found.append([noise.at_frequency, noise.at_zero])
+    turns = f * INTERVAL * np.array([1, 0])
+    truth = 0.3 * np.sqrt(1 - pole**2) / np.abs(1 - pole * np.exp(-2j * np.pi * turns))
+    np.testing.assert_allclose(np.sqrt(np.mean(np.square(found), axis=0)), truth, rtol=0.12)
+
+
 def test_declared_noise_counts_where_the_residuals_agree() -> None:
     residual = white(500, 0.3, 2)
     assert judged(residual, declared=0.3).basis == DECLARED
