@@ -62,7 +62,6 @@ def test_the_bench_has_the_effect() -> None:
     assert np.ptp(plain["alphaPercent"]) > 30
 
 
-@pytest.mark.slow
 def test_ties_are_what_was_answered_by_several_effects() -> None:
     tied, named, open_ = (Case(name, "named", (("valve.deadband", "middle"),)) for name in "abc")
     answers = {
@@ -72,6 +71,7 @@ def test_ties_are_what_was_answered_by_several_effects() -> None:
     assert ties([tied, named, open_], answers) == [tied]
 
 
+@pytest.mark.slow
 def test_a_case_is_followed() -> None:
     answer = follow_case(Case("a", "named", (("valve.deadband", "middle"),), noise=0.5, spool=False, seed=5))
     assert answer.rivals == () or answer.settled is not None
