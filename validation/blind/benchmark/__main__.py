@@ -111,8 +111,9 @@ def _run(args: argparse.Namespace) -> int:
     if args.command in ("locate", "follow"):
         table = [case for case in table if case.kind == "named"]
     if args.command == "again":
-        older = {name for name, answer in read_kept().answers.items() if answer.code != work.code}
-        table = [case for case in table if case.name in older]
+        kept = read_kept()
+        older = {name for name, answer in kept.answers.items() if answer.code != work.code}
+        table = [case for case in table if case.name in older or case.name in kept.before]
     chosen = choice.of(table)
     if args.command == "follow":
         chosen = ties(chosen, read_kept().answers)

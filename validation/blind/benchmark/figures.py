@@ -288,14 +288,10 @@ def again_figure(table: Sequence[Case], kept: Kept) -> Figure:
     """How far answers of older codes, which count by steps of `carry`, are those that this code gives."""
 
     def alike(pair: Pair) -> bool:
-        return _same(kept.answers[pair[0].name], pair[1])
-
-    def older(pair: Pair) -> bool:
-        before = kept.answers.get(pair[0].name)
-        return before is not None and before.code != pair[1].code
+        return _same(pair[1], kept.answers[pair[0].name])
 
     label = "the same verdict and effects, where this code answers again what an older one has"
-    return _share(label, paired(table, kept.again), alike, among=older)
+    return _share(label, paired(table, kept.before), alike)
 
 
 def _same(one: Answer, other: Answer) -> bool:

@@ -16,11 +16,11 @@ class Kept:
     """Case -> answer, for each of the commands.
 
     Args:
-        answers: verdicts, judged.
+        answers: verdicts, judged; where an older code has answered and this one again, what this one says.
         places: where effects were located.
         followed: what became of ties once the next test was carried out.
         clocked: how long cases took with two cores.
-        again: what this code answers to some of those that an older one has answered.
+        before: what older codes have said where this one has answered again.
         stale: how many verdicts of other code are stored that do not count.
         carried: why those of other code that are among `answers` count.
     """
@@ -29,7 +29,7 @@ class Kept:
     places: Mapping[str, Answer] = field(default_factory=dict)
     followed: Mapping[str, Answer] = field(default_factory=dict)
     clocked: Mapping[str, Answer] = field(default_factory=dict)
-    again: Mapping[str, Answer] = field(default_factory=dict)
+    before: Mapping[str, Answer] = field(default_factory=dict)
     stale: int = 0
     carried: tuple[Carried, ...] = ()
 
@@ -48,7 +48,9 @@ def read_kept(answers: Store | None = None) -> Kept:
             (Store(AGAIN), code),
         )
     )
-    return Kept(counted, places, followed, clocked, again, stale=len(stored) - len(counted), carried=alike.steps)
+    before = {name: answer for name, answer in counted.items() if name in again and answer.code != code}
+    newest = {**counted, **{name: again[name] for name in before}}
+    return Kept(newest, places, followed, clocked, before, stale=len(stored) - len(counted), carried=alike.steps)
 
 
 def _counted(stored: Mapping[str, Answer], alike: Standing) -> dict[str, Answer]:

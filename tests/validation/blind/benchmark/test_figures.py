@@ -147,9 +147,9 @@ def test_the_time() -> None:
 
 def test_what_older_code_has_answered_is_answered_again() -> None:
     table = [replace(NAMED, name=name) for name in "abcd"]
-    answers = {name: replace(RIGHT, case=name, code="old") for name in "abc"} | {"d": replace(RIGHT, case="d")}
-    again = {name: replace(WRONG if name == "b" else RIGHT, case=name, held=1.01) for name in "abd"}
-    figure = again_figure(table, Kept(answers, again=again))
+    before = {name: replace(RIGHT, case=name, code="old") for name in "ab"}
+    answers = {name: replace(WRONG if name == "b" else RIGHT, case=name, held=1.01) for name in "abcd"}
+    figure = again_figure(table, Kept(answers, before=before))
     assert (figure.hits, figure.of) == (1, 2)
 
 
