@@ -19,7 +19,7 @@ from pysim.io.stages import StageFile, read_stages, write_stages
 from pysim.io.text_table import read_text
 from pysim.io.thesis_folder import LOG_SUFFIXES, read_thesis_folder
 from pysim.io.toml_section import Section, TomlFile, log_source, read_toml
-from pysim.io.units import SI, shown_unit, shown_value, signal_in_si
+from pysim.io.units import SI, shown_point, shown_unit, shown_value, signal_in_si
 from pysim.io.write_dataset import write_dataset
 
 __all__ = [
@@ -55,6 +55,7 @@ __all__ = [
     "record_data",
     "record_text",
     "same_file",
+    "shown_point",
     "shown_unit",
     "shown_value",
     "signal_in_si",

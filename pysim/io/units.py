@@ -23,6 +23,16 @@ def shown_value(value: float, unit: str, form: str = "g") -> str:
     return f"{factor * value:{form}} {'' if shown == '-' else shown}".rstrip()
 
 
+def shown_point(offset: float, amplitude: float, unit: str, command: str = "") -> str:
+    """What a command swings around and how far, both in its SI unit: "offset 25 %, amplitude 10 %".
+
+    Args:
+        command: its name, to stand ahead; none where there is but one.
+    """
+    of = f"{command} at " if command else ""
+    return f"{of}offset {shown_value(offset, unit)}, amplitude {shown_value(amplitude, unit)}"
+
+
 @dataclass(frozen=True)
 class Scale:
     """How numbers in one unit become those in another: gain * number + zero.

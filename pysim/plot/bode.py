@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from pysim.identify import FREQUENCY_CRITERIA, magnitude_db
-from pysim.io import shown_value
+from pysim.io import shown_point
 from pysim.plot.style import (
     BAND,
     COLOURS,
@@ -89,8 +89,7 @@ def _draw_column(
         (line,) = top.plot(f, magnitude_db(test.simulated, reference_hz), **look)
         bottom.plot(f, _degrees(test.simulated, measured), **look)
         handles.setdefault(label, line)
-    offset, amplitude = (shown_value(x, unit) for x in (measured.test.offset, measured.test.amplitude))
-    top.set_title(f"offset {offset}, amplitude {amplitude}", fontsize=TEXT)
+    top.set_title(shown_point(measured.test.offset, measured.test.amplitude, unit), fontsize=TEXT)
     _write_verdicts(top, tests)
     bottom.set_xlabel("Frequency (Hz)", fontsize=TEXT)
 

@@ -14,7 +14,7 @@ from matplotlib.image import AxesImage
 from numpy.typing import NDArray
 
 from pysim.identify import ComparedLog, log_numbers
-from pysim.io import shown_value
+from pysim.io import shown_point
 from pysim.plot.diagnosis_records import base_of, stages_compared
 from pysim.plot.style import BAND, COLOURS, LIMIT, SMALL, TEXT, legend_above, new_figure, quiet
 from pysim.types import BadInput, Dataset, Diagnosis, MeasuredRecord, RecordFit, Stage
@@ -99,8 +99,7 @@ def _point(source: str, test: MeasuredRecord | None, dataset: Dataset) -> _Point
         return _Point("", 0.0, 0.0, source)
     unit = dataset.signal(test.command).unit if test.command else ""
     several = len({record.command for record in dataset.logs() if record.command}) > 1
-    of = f"{test.command} at " if several else ""
-    label = f"{of}offset {shown_value(test.offset, unit)}, amplitude {shown_value(test.amplitude, unit)}"
+    label = shown_point(test.offset, test.amplitude, unit, test.command if several else "")
     return _Point(test.command, test.offset, test.amplitude, label)
 
 

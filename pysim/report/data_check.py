@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from pysim.identify.data_check import DataCheck, RecordCheck
-from pysim.io import counted, shown_value
+from pysim.io import counted, shown_point
 from pysim.report.page import cell, commands, heading, items, page, paragraph, picture, table
 
 _UNTOLD = "-"  # a description or a system that dataset.toml leaves out
@@ -111,8 +111,7 @@ def _points(records: list[RecordCheck]) -> list[str]:
     several = _several_inputs(records)
     for (command, offset, amplitude), members in groups.items():
         frequencies = ", ".join(f"{f:g}" for f in sorted(r.frequency for r in members if r.frequency is not None))
-        unit, of = members[0].unit, f"{command} at " if several else ""
-        point = f"{of}offset {shown_value(offset, unit)}, amplitude {shown_value(amplitude, unit)}"
+        point = shown_point(offset, amplitude, members[0].unit, command if several else "")
         lines.append(f"{point}: {frequencies} Hz; {_times(members)}")
     lines += [f"{record.source}: {_times([record])}" for record in records if record.frequency is None]
     return [part for line in lines for part in textwrap.wrap(line, _WIDTH, subsequent_indent="    ")]

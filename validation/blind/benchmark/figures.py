@@ -270,6 +270,16 @@ def tie_figures(table: Sequence[Case], followed: Mapping[str, Answer]) -> Iterat
     yield _share("ties with a next test that the right effect had no part in", ties, lambda p: p not in right)
 
 
+def again_figure(table: Sequence[Case], kept: Kept) -> Figure:
+    """How far answers of older codes, which count by steps of `carry`, are those that this code gives."""
+
+    def alike(pair: Pair) -> bool:
+        return _same(pair[1], kept.answers[pair[0].name])
+
+    label = "the same verdict and effects, where this code answers again what an older one has"
+    return _share(label, paired(table, kept.before), alike)
+
+
 def _first_place(pair: Pair) -> bool:
     return pair[1].rank == 1
 
@@ -282,16 +292,6 @@ def _tied_place(pair: Pair) -> bool:
 
 def _covered(pair: Pair) -> bool:
     return (pair[1].cover or 0.0) >= _RANGE
-
-
-def again_figure(table: Sequence[Case], kept: Kept) -> Figure:
-    """How far answers of older codes, which count by steps of `carry`, are those that this code gives."""
-
-    def alike(pair: Pair) -> bool:
-        return _same(pair[1], kept.answers[pair[0].name])
-
-    label = "the same verdict and effects, where this code answers again what an older one has"
-    return _share(label, paired(table, kept.before), alike)
 
 
 def _same(one: Answer, other: Answer) -> bool:
