@@ -92,6 +92,16 @@ class Tab:
         """A button."""
         self.page.get_by_role("button", name=name, exact=True).first.click()
 
+    def pick(self, chart: str, across: float, down: float) -> None:
+        """Click inside the axes of the first chart of a name, at these shares of width and height.
+
+        The mouse waits until the page has stopped scrolling: a place read before is another place afterwards.
+        """
+        axes = self.page.locator(f".chart[aria-label^='{chart}'][data-ready=yes] .nsewdrag").first
+        axes.scroll_into_view_if_needed()
+        box = axes.bounding_box()
+        axes.click(position={"x": across * box["width"], "y": down * box["height"]})
+
     def see(self, words: str, *, timeout: float = 150.0) -> None:
         """Wait until some words are to be seen."""
         self.page.get_by_text(words).first.wait_for(timeout=1000 * timeout)

@@ -143,8 +143,7 @@ def test_of_a_file_with_two_records_each_has_its_own_curves_and_error(shown: Any
         tab.page.locator("#record .chip", has_text="fitted").wait_for()
         assert opened(tab) == ("fitted", "y (%)")
         tab.shot("two records")
-        cells = tab.page.locator(".chart .heatmaplayer").first.bounding_box()
-        tab.page.mouse.click(cells["x"] + 0.75 * cells["width"], cells["y"] + 0.75 * cells["height"])
+        tab.pick("Map of the error", 0.75, 0.75)
         tab.page.locator("#record .chip", has_text="held out").wait_for()
         assert opened(tab) == ("held out", "z (%)")
         assert tab.errors == []

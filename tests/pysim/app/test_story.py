@@ -90,8 +90,7 @@ def _a_slot_is_picked_by_keyboard(tab: Tab) -> None:
 def _a_cell_opens_its_record(tab: Tab) -> None:
     """A click into the map's second row, of two; the frame of the page stays where it is."""
     assert tab.page.locator("#record h2").inner_text() == "a.txt"  # the worse one
-    cells = tab.page.locator(".chart .heatmaplayer").first.bounding_box()
-    tab.page.mouse.click(cells["x"] + 0.5 * cells["width"], cells["y"] + 0.75 * cells["height"])
+    tab.pick("Map of the error", 0.5, 0.75)
     tab.page.locator("#record h2", has_text="b.txt").wait_for()
     tab.page.wait_for_timeout(700)  # it scrolls there
     assert tab.page.evaluate("document.querySelector('.top').getBoundingClientRect().top") == 0
