@@ -29,6 +29,9 @@ STEP = 1e-2
 _STEEPEST = 1e100
 # Residuals beyond are those of a model that ran away, and no guide: differences by them are no slopes.
 _RUNAWAY = 1e50
+# Slopes of a run with events come from runs so fine that they take ten times the steps. One that takes so many times
+# those of the longest run at the ruler's tolerances chatters there, and one-sided differences say as much.
+_PATIENCE = 20
 
 
 @dataclass(frozen=True)
@@ -118,8 +121,7 @@ class Ruler:
 
     def failure(self, what: Extended, x: Array) -> str:
         """Which run of a model at x (n,) of its space fails first, and why; "" where none does."""
-        runs = self.experiments(_values(what, x))
-        records = simulate_many(what.model, runs, solver=self.solver, workers=self.workers)
+        records = self._runs(what, x)
         names = [run.record for target in self.targets for run in target.runs]
         failed = ((n, r) for n, r in zip(names, records, strict=True) if r.outcome is not Outcome.DONE)
         return next((f"{name}: {record.outcome.value}. {record.message}".strip() for name, record in failed), "")
@@ -153,18 +155,23 @@ class Ruler:
 
     def at(self, what: Extended, x: Array) -> Array | None:
         """Residuals (n_r,) of an extended model at x (n,) of its space."""
-        return self.residuals(what.model, [_values(what, x)])[0]
+        return self._counted(self._runs(what, x))
+
+    def _runs(self, what: Extended, x: Array) -> tuple[Record, ...]:
+        return simulate_many(what.model, self.experiments(_values(what, x)), solver=self.solver, workers=self.workers)
 
     def evaluation(self, what: Extended, x: Array) -> Evaluation:
         """Residuals and their slopes: exact for a model without events, else by one-sided differences.
 
-        So too where an exact slope is no number, as that of a root at nothing.
+        So too where an exact slope is no number, as that of a root at nothing, or where its run chatters.
         """
         whole = self.bare
-        residual = whole.at(what, x)
+        records = whole._runs(what, x)
+        residual = whole._counted(records)
         if residual is None:
             return bad_point(x, "the model could not be simulated")
-        slopes = None if self.has_events(what, x) else whole._exact(what, x)
+        most = _PATIENCE * max(r.statistics["steps"] + r.statistics["rejected"] for r in records)
+        slopes = None if self.has_events(what, x) else whole._exact(what, x, most)
         if slopes is None or not np.all(np.abs(slopes) < _STEEPEST):
             slopes = whole._differences(what, x, residual)
         if slopes is None:
@@ -188,12 +195,14 @@ class Ruler:
         breaks = sum(int(np.count_nonzero(np.logical_or(*signal.breaks()))) for signal in shortest.inputs.values())
         return record.statistics["events"] > breaks
 
-    def _exact(self, what: Extended, x: Array) -> Array | None:
+    def _exact(self, what: Extended, x: Array, most: int) -> Array | None:
+        """Slopes (n_r, n); None where a run fails or takes more than so many steps."""
         runs = [run for target in self.targets for run in target.runs]
         simulation = Simulation(workers=Threads(self.workers))
         if isinstance(self.solver, Rodas | Esdirk):
             known = self.solver
-            simulation = replace(simulation, solver=Esdirk(rtol=known.rtol, atol=known.atol, max_step=known.max_step))
+            solver = Esdirk(rtol=known.rtol, atol=known.atol, max_step=known.max_step, max_steps=max(most, 1))
+            simulation = replace(simulation, solver=solver)
         answer = simulate_runs(what.model, what.space, runs, x, [None] * len(runs), simulation)
         if answer.trouble:
             return None

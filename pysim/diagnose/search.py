@@ -17,6 +17,7 @@ from pysim.diagnose.graduated import is_far
 from pysim.diagnose.null import ALARM, leftover
 from pysim.diagnose.pairs import Pair, joint
 from pysim.diagnose.ranking import as_data, rows
+from pysim.diagnose.reduced import reduced
 from pysim.diagnose.refit import chord_refit, refit_from
 from pysim.diagnose.rounds import Tried, promise, screened
 from pysim.diagnose.scores import by_score, gain, score, share
@@ -228,18 +229,7 @@ def _without_the_needless(story: Story, found: Fitted) -> Fitted:
 def _without(story: Story, found: Fitted, what: Extended) -> tuple[Evaluation, Array] | None:
     """A refit with an effect less."""
     ruler, names = story.ruler_of(what), translated(what, found.what, dict.fromkeys(what.space.keys, 0.0))
-    columns = [found.what.space.keys.index(name) for name in names]
-    x = found.point.x[columns]
-    residual = ruler.at(what, x)
-    if residual is None:
-        return None
-    start = Evaluation(x, float(residual @ residual), residual, found.point.jacobian[:, columns])
-    end = chord_refit(ruler, what, start, steps=6)
-    price = decide.price(found.point.x.size - x.size, found.point.residual.size)
-    if end.cost - found.point.cost > 5 * price + 0.5 * (start.cost - found.point.cost):
-        return None
-    first = ruler.evaluation(what, end.x)
-    return refit_from(ruler, what, first, rounds=2) if first.good else None
+    return reduced(ruler, found, what, [found.what.space.keys.index(name) for name in names])
 
 
 def _nothing_left(story: Story, tried: Tried, at: Fitted) -> bool:

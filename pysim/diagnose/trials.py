@@ -17,6 +17,7 @@ from pysim.diagnose.contenders import Contender
 from pysim.diagnose.corrections import as_noise, blamed, is_off, recounted
 from pysim.diagnose.fitted import Fitted
 from pysim.diagnose.nuisance import Suspect
+from pysim.diagnose.reduced import reduced
 from pysim.diagnose.refit import chord_refit, refit_from
 from pysim.diagnose.rounds import Tried
 from pysim.diagnose.scores import by_score, score, share
@@ -74,8 +75,41 @@ def refitted(
             story.say(
                 f"refitted with {name}: sum of squares {tried.current.point.cost:.6g} -> {found[name].point.cost:.6g}"
             )
+    found |= _special_cases(story, tried, found)
     story.stage("refit leaders")
     return found
+
+
+def _special_cases(story: Story, tried: Tried, found: dict[str, Fitted]) -> dict[str, Fitted]:
+    """Effects that are the leader with parameters less, refitted from where it has led.
+
+    Whether the leader's other parameters are needed is asked of both at their best, and a cheap refit may have stalled.
+    """
+    done = {name: one for name, one in found.items() if one.point.residual.size}  # those on probation have none
+    ends: dict[str, Fitted] = {}
+    for leader in by_score(story, tried.current, done)[:1]:
+        for name, one in tried.contenders.items():
+            if name in done or not one.effect.is_special_case_of(tried.contenders[leader].effect):
+                continue
+            find = partial(_specialised, story, one, found[leader])
+            end = story.fitted(one.what, part_of(tried, name), find, one.ruler)
+            if end is not None:
+                ends[name] = end
+                before = tried.current.point.cost
+                story.say(f"refitted with {name}, from {leader}: sum of squares {before:.6g} -> {end.point.cost:.6g}")
+    return ends
+
+
+def _specialised(story: Story, one: Contender, leader: Fitted) -> tuple[Evaluation, Array] | None:
+    """A refit from the leader's numbers."""
+    ours = zip(one.what.effects, leader.what.effects, strict=True)
+    names = {
+        f"{one.what.places[own.name]}.{p.name}": f"{leader.what.places[its.name]}.{p.name}"
+        for own, its in ours
+        for p in own.parameters
+    }
+    columns = [leader.what.space.keys.index(names.get(key, key)) for key in one.what.space.keys]
+    return reduced(one.ruler, recounted(story.ruler_of(leader.what), one.ruler, leader), one.what, columns)
 
 
 def refitted_elsewhere(story: Story, tried: Tried, found: dict[str, Fitted]) -> dict[str, Fitted]:

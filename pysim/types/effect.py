@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from pysim.types.errors import BadInput
 from pysim.types.experiment import Experiment
@@ -90,6 +90,11 @@ class Effect:
     def strengths(self) -> tuple[EffectParameter, ...]:
         """The parameters that make it vanish when all are at their off value."""
         return tuple(parameter for parameter in self.parameters if parameter.off is not None)
+
+    def is_special_case_of(self, other: Effect) -> bool:
+        """Whether the other fills the same slot and declares all its parameters, by name and range, and more."""
+        own, its = ({replace(p, description="") for p in one.parameters} for one in (self, other))
+        return self.slot == other.slot and own < its
 
     def __getitem__(self, name: str) -> EffectParameter:
         """The parameter of that name, or the one that people call so."""

@@ -33,6 +33,22 @@ def test_exact_slopes_and_differences_agree() -> None:
         assert np.linalg.norm(exact.jacobian[:, j] - central) < 1e-2 * np.linalg.norm(central)
 
 
+def test_slopes_of_a_run_that_chatters_are_differences(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where the run for exact slopes takes so many more steps than a plain one."""
+    given = toy_subject(measured(1))
+    ruler, what = Ruler(given.targets), extended(given, ())
+    x = what.space.to_search(what.space.start)
+    exact = ruler.evaluation(what, x)
+    monkeypatch.setattr(residuals, "_PATIENCE", 0)
+    cheap = ruler.evaluation(what, x)
+    assert cheap.residual.tolist() == exact.residual.tolist()
+    for j, step in enumerate(residuals.steps_inside(x, what.space.bounds())):
+        aside = ruler.at(what, x + step * np.eye(x.size)[j])
+        assert aside is not None
+        assert cheap.jacobian[:, j] == pytest.approx((aside - exact.residual) / step)
+        assert np.linalg.norm(cheap.jacobian[:, j] - exact.jacobian[:, j]) > 0
+
+
 def test_a_model_that_ran_away_has_no_residuals(monkeypatch: pytest.MonkeyPatch) -> None:
     """Differences by such would be slopes whose products leave the range of numbers."""
     given = toy_subject(measured(1))

@@ -1,4 +1,4 @@
-"""Which candidates are refitted on probation, and which once more from other strengths."""
+"""Which candidates are refitted on probation, which from where a leader has led, and which from other strengths."""
 
 from dataclasses import replace
 from pathlib import Path
@@ -7,14 +7,18 @@ from typing import Any
 import numpy as np
 import pytest
 
+from pysim.diagnose import trials
+from pysim.diagnose.contenders import Contender
 from pysim.diagnose.fitted import Fitted
 from pysim.diagnose.refit import refit_from
 from pysim.diagnose.rounds import Tried, screened
+from pysim.diagnose.scores import score
 from pysim.diagnose.screen import Footprint
 from pysim.diagnose.story import Story, begin
 from pysim.diagnose.subject import extended
-from pysim.diagnose.trials import promising, refitted_elsewhere
+from pysim.diagnose.trials import promising, refitted, refitted_elsewhere
 from pysim.identify.greybox.evaluation import Evaluation
+from pysim.types import Dataset
 from tests.pysim.diagnose.toy import CATALOGUE, measured, toy_subject
 
 ROWS = 100
@@ -49,14 +53,44 @@ def test_limits_too_where_the_parameters_are_bent() -> None:
     assert names(10.0 * ROWS, {**gains, "limit": 200.0}) == ["limit", "a", "b", "c"]
 
 
-def relaxed(journal: Path) -> tuple[Story, Tried]:
-    """A round whose plant has a spring in series with a damper."""
-    given = toy_subject(measured(8, "toy.relaxing", T_r=0.4), ("toy.relaxing", "toy.friction"))
-    story = begin(given, seed=0, workers=1, progress=None, journal=journal)
+def round_of(names: tuple[str, ...], dataset: Dataset, journal: Path | None = None) -> tuple[Story, Tried]:
+    """A round with some effects of the catalogue, begun."""
+    story = begin(toy_subject(dataset, names), seed=0, workers=1, progress=None, journal=journal)
     what = extended(story.subject, ())
     base = refit_from(story.ruler, what, story.allow(what, what.space.to_search(what.space.start)))[0]
     story.enter("refit", Fitted(what, base))
     return story, screened(story, Fitted(what, base))
+
+
+def stalled(monkeypatch: pytest.MonkeyPatch, dataset: Dataset) -> tuple[Story, Tried, dict[str, Fitted]]:
+    """Refits of two kinds of dry friction, where a cheap one of that with less parameters comes to nothing."""
+    story, tried = round_of(("toy.friction", "toy.falling"), dataset)
+    cheap = trials._probation
+
+    def probation(tried: Tried, one: Contender, nominal: Fitted | None) -> Evaluation | None:
+        return None if one.effect.name == "toy.friction" else cheap(tried, one, nominal)
+
+    monkeypatch.setattr(trials, "_probation", probation)
+    return story, tried, refitted(story, tried, None)
+
+
+def test_a_special_case_of_the_leader_is_refitted_from_where_it_has_led(monkeypatch: pytest.MonkeyPatch) -> None:
+    story, tried, found = stalled(monkeypatch, measured(9, "toy.friction", F_c=0.3))
+    less, more = found["toy.friction"], found["toy.falling"]
+    (strength,) = (key for key in less.what.space.keys if key.endswith("F_c"))
+    assert less.what.space.values(less.point.x)[strength] == pytest.approx(0.3, rel=0.05)
+    assert less.point.cost == pytest.approx(more.point.cost, abs=5.0)
+    assert score(story, tried.current, less) > score(story, tried.current, more)
+
+
+def test_it_is_not_where_the_leader_is_needed_whole(monkeypatch: pytest.MonkeyPatch) -> None:
+    story, tried, found = stalled(monkeypatch, measured(9, "toy.falling", F_c=0.1, F_d=0.8))
+    assert max(found, key=lambda name: score(story, tried.current, found[name])) == "toy.falling"
+
+
+def relaxed(journal: Path) -> tuple[Story, Tried]:
+    """A round whose plant has a spring in series with a damper."""
+    return round_of(("toy.relaxing", "toy.friction"), measured(8, "toy.relaxing", T_r=0.4), journal)
 
 
 def test_what_cannot_be_switched_off_is_refitted_from_other_strengths(tmp_path: Path) -> None:

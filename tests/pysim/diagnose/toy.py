@@ -31,6 +31,14 @@ package Toy
     f = -F_c*tanh(v/0.02);
     annotation(__HydraulicTestBench(effect="toy.friction", slot="force"));
   end Rubbing;
+  model Falling "Dry friction that falls with speed"
+    extends PartialForce;
+    parameter Real F_c(unit="N", min=0, max=5, nominal=0.3) = 0 "At speed, 0 = off";
+    parameter Real F_d(unit="N", min=0, max=5, nominal=0.3) = 0 "More near standstill, 0 = off";
+  equation
+    f = -tanh(v/0.02)*(F_c + F_d*exp(-abs(v)/0.1));
+    annotation(__HydraulicTestBench(effect="toy.falling", slot="force"));
+  end Falling;
   model Twin "Dry friction, hardly another"
     extends PartialForce;
     parameter Real F_t(unit="N", min=0, max=5, nominal=0.3) = 0 "0 = off";

@@ -1,6 +1,7 @@
 """An effect's own checks, and how it is switched on in an experiment."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -29,6 +30,16 @@ def test_names_that_people_use_are_turned_over() -> None:
 
 def test_strengths_are_what_can_be_off() -> None:
     assert EFFECT.strengths == (FRICTION, STOP)
+
+
+def test_a_special_case_has_the_slot_and_some_of_the_parameters() -> None:
+    less = replace(EFFECT, name="friction.less", parameters=(replace(FRICTION, description="other words"), WIDTH))
+    assert less.is_special_case_of(EFFECT)
+    assert not EFFECT.is_special_case_of(less)
+    assert not EFFECT.is_special_case_of(EFFECT)
+    assert not replace(less, slot="swashTorque").is_special_case_of(EFFECT)
+    wider = replace(less, parameters=(replace(FRICTION, max=900.0), WIDTH))
+    assert not wider.is_special_case_of(EFFECT)  # it can be what the other cannot
 
 
 @pytest.mark.parametrize(
