@@ -99,7 +99,7 @@ class Standing:
 
     Args:
         steps: that lead to it, the last first.
-        but: fingerprint -> patterns of names that some step to the code has left out; none for its own.
+        but: fingerprint, the newest first -> patterns of names that some step to the code has left out; none for its own.
     """
 
     steps: tuple[Carried, ...]
@@ -108,6 +108,11 @@ class Standing:
     def counts(self, answer: Answer) -> bool:
         """Whether that answer stands."""
         return answer.code in self.but and not _any(self.but[answer.code], answer.case)
+
+    def newer(self, one: Answer, other: Answer) -> bool:
+        """Of two that stand, whether the one was given by code nearer to this."""
+        order = list(self.but)
+        return order.index(one.code) < order.index(other.code)
 
 
 def standing(store: Store, code: str) -> Standing:

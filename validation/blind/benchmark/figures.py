@@ -276,7 +276,7 @@ def again_figure(table: Sequence[Case], kept: Kept) -> Figure:
     def alike(pair: Pair) -> bool:
         return _same(pair[1], kept.answers[pair[0].name])
 
-    label = "the same verdict and effects, where this code answers again what an older one has"
+    label = "the same verdict and effects, where a newer code has answered again what an older one had"
     return _share(label, paired(table, kept.before), alike)
 
 

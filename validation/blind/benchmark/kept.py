@@ -16,11 +16,11 @@ class Kept:
     """Case -> answer, for each of the commands.
 
     Args:
-        answers: verdicts, judged; where an older code has answered and this one again, what this one says.
+        answers: verdicts, judged; where an older code has answered and a newer one again, what the newer one says.
         places: where effects were located.
         followed: what became of ties once the next test was carried out.
         clocked: how long cases took with two cores.
-        before: what older codes have said where this one has answered again.
+        before: what older codes have said where a newer one has answered again.
         stale: how many verdicts of other code are stored that do not count.
         carried: why those of other code that are among `answers` count.
     """
@@ -39,16 +39,16 @@ def read_kept(answers: Store | None = None) -> Kept:
     store, code = answers or Store(), fingerprint()
     stored, alike = store.read(), standing(store, code)
     counted = _counted(stored, alike)
-    places, followed, clocked, again = (
+    places, followed, clocked = (
         _counted(one.read(), standing(one, own))
         for one, own in (
             (Store(PLACES), fingerprint(places=True)),
             (Store(FOLLOWED), code),
             (Store(CLOCKED), code),
-            (Store(AGAIN), code),
         )
     )
-    before = {name: answer for name, answer in counted.items() if name in again and answer.code != code}
+    again = _counted(Store(AGAIN).read(), alike)  # what carries one answer to a case carries another
+    before = {n: a for n, a in counted.items() if n in again and alike.newer(again[n], a)}
     newest = {**counted, **{name: again[name] for name in before}}
     return Kept(newest, places, followed, clocked, before, stale=len(stored) - len(counted), carried=alike.steps)
 

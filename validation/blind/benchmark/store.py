@@ -20,7 +20,7 @@ CLOCKED = Path(__file__).parent / "clocked"
 """How long a case took with both cores for itself."""
 
 AGAIN = Path(__file__).parent / "again"
-"""What this code answers to cases whose older answers count."""
+"""What was answered to cases whose older answers count."""
 
 
 @dataclass(frozen=True)

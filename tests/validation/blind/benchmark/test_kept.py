@@ -1,5 +1,6 @@
 """What counts of the stored answers."""
 
+import json
 from pathlib import Path
 
 import pytest
@@ -11,22 +12,20 @@ from validation.blind.benchmark.store import Store
 from validation.blind.plant import cases
 
 
-def test_what_this_code_answers_again_counts(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    one, other, unknown = cases(1)[:3]
+def test_of_two_answers_that_stand_the_newer_counts(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    one, other, third, unknown, left = (case.name for case in cases(1)[:5])
     code, answers, again = fingerprint(), Store(tmp_path / "answers"), Store(tmp_path / "again")
     monkeypatch.setattr(kept, "AGAIN", again.folder)
-    monkeypatch.setattr(kept, "standing", lambda store, code: _Every())
-    for case in (one, other):
-        answers.add(case, Answer(case.name, "older", "2026-01-01", "none"))
-    for case in (other, unknown):
-        again.add(case, Answer(case.name, code, "2026-01-02", "unknown"))
+    table = {case.name: case for case in cases(1)[:5]}
+    for name, by in ((one, "old"), (other, "old"), (third, code), (left, "old")):
+        answers.add(table[name], Answer(name, by, "2026-01-01", "none"))
+    for name, by in ((other, "mid"), (third, "mid"), (unknown, code), (left, "mid")):
+        again.add(table[name], Answer(name, by, "2026-01-02", "unknown"))
+    step = {"day": "2026-01-03", "seed": 1, "cases": [one], "but": [], "anew": False}
+    steps = [{**step, "older": "old", "newer": "mid"}, {**step, "older": "mid", "newer": code, "but": [left]}]
+    (answers.folder / "carried.json").write_text(json.dumps(steps))
     found = kept.read_kept(answers)
-    assert {name: answer.verdict for name, answer in found.answers.items()} == {one.name: "none", other.name: "unknown"}
-    assert {name: answer.code for name, answer in found.before.items()} == {other.name: "older"}
-
-
-class _Every:
-    steps = ()
-
-    def counts(self, answer: Answer) -> bool:
-        return True
+    assert {name: answer.verdict for name, answer in found.answers.items()} == {
+        one: "none", other: "unknown", third: "none",
+    }  # fmt: skip
+    assert {name: answer.code for name, answer in found.before.items()} == {other: "old"}
