@@ -99,7 +99,7 @@ class Standing:
 
     Args:
         steps: that lead to it, the last first.
-        but: fingerprint, the newest first -> patterns of names that some step to the code has left out; none for its own.
+        but: fingerprint, the newest first -> patterns of names that some step to the code leaves out; none for its own.
     """
 
     steps: tuple[Carried, ...]

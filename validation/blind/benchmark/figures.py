@@ -271,7 +271,7 @@ def tie_figures(table: Sequence[Case], followed: Mapping[str, Answer]) -> Iterat
 
 
 def again_figure(table: Sequence[Case], kept: Kept) -> Figure:
-    """How far answers of older codes, which count by steps of `carry`, are those that this code gives."""
+    """How far answers of older codes, which count by steps of `carry`, are those that newer code gives."""
 
     def alike(pair: Pair) -> bool:
         return _same(pair[1], kept.answers[pair[0].name])
