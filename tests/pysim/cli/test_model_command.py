@@ -14,7 +14,7 @@ def test_a_class_tells_its_slots_and_what_they_take(tmp_path: Path, capsys: pyte
     answer = tmp_path / "a.json"
     assert main(["model", "Toy.Mass", "--library", str(library()), "--json", str(answer)]) == 0
     said = capsys.readouterr().out
-    assert "slot force: toy.friction, toy.twin, toy.hardening, toy.bias" in said
+    assert "slot force: toy.friction, toy.falling, toy.twin, toy.hardening, toy.bias" in said
     assert "  m = 1, 0.5 to 5, nominal 1 [kg]\n" in said
     found = json.loads(answer.read_text())
     assert {p["name"]: p["nominal"] for p in found["parameters"]} == {"m": 1, "d": 1, "k": 10}
