@@ -1,22 +1,28 @@
 """Set up an environment of its own beside this file, then run a command in it: `python3 run.py demo` or `... test`.
 
-Needs Python 3.11 or later and nothing else; the first run downloads the packages pyproject.toml names, later runs need
-no network. Packages in a folder wheels/ beside this file are taken from there. What follows the command is passed on to
-it; `python3 run.py python FILE.py` runs a program of your own in the environment.
+Needs Python 3.11 or later and nothing else. The first run downloads the packages that its command needs, as
+pyproject.toml names them; a later command adds what it needs beside them, once. Packages in a folder wheels/ beside
+this file are taken from there. What follows the command is passed on to it; `python3 run.py python FILE.py` runs a
+program of your own in the environment.
 """
 
 import hashlib
 import os
+import queue
 import shutil
 import subprocess
 import sys
+import threading
+import time
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent
 ENVIRONMENT = ROOT / ".venv"
 PYTHON = ENVIRONMENT / ("Scripts/python.exe" if os.name == "nt" else "bin/python")
-STAMP = ENVIRONMENT / "installed.sha256"
+STAMP = ENVIRONMENT / "installed.txt"  # the fingerprint, then the groups of packages, a line each
 BEFORE = ROOT / "build" / "environment-before"  # what .venv was, until its successor is complete
+BYTECODE = ROOT / "build" / "bytecode"
 WHEELS = ROOT / "wheels"
 COMMANDS = {
     "demo": ["-m", "pysim", "demo"],
@@ -26,10 +32,21 @@ COMMANDS = {
     "python": [],
 }
 CHECKS = {  # run beside this file; the others where they were called
-    "test": ["-m", "pytest"],
+    "test": ["-m", "pytest", "-n", "auto", "--dist", "loadfile"],
     "lint": ["-m", "ruff", "check"],
     "types": ["-m", "mypy"],
 }
+GROUPS = {  # optional dependencies in pyproject.toml that a command needs
+    "test": {"test"},
+    "validate": {"test"},
+    "lint": {"lint"},
+    "types": {"test", "lint"},
+}
+
+
+def groups_of(words: Sequence[str]) -> set[str]:
+    """Groups of packages, beside those that every command needs, by the words behind run.py."""
+    return {"app"} if list(words[:2]) == ["pysim", "app"] else GROUPS.get(words[0], set())
 
 
 def fingerprint() -> str:
@@ -38,26 +55,38 @@ def fingerprint() -> str:
     return hashlib.sha256("\0".join(parts).encode()).hexdigest()
 
 
-def prepare() -> None:
-    """Create or refresh the environment where pyproject.toml has changed since the last time.
+def installed() -> set[str] | None:
+    """Groups that the environment holds; None where there is none, or where it is not that of `fingerprint`."""
+    if not PYTHON.exists() or not STAMP.exists():
+        return None
+    stamp, *groups = STAMP.read_text(encoding="utf-8").split()
+    return set(groups) if stamp == fingerprint() else None
+
+
+def prepare(groups: Iterable[str]) -> None:
+    """Bring the environment to what pyproject.toml says now, with these groups of packages.
 
     An environment cannot be moved: its scripts hold its path. So the one of before is set aside, and comes back to its
-    own place where the new one cannot be completed.
+    own place where the new one cannot be completed. Packages that are only added need no new environment.
     """
-    expected = fingerprint()
     recover()
-    if PYTHON.exists() and STAMP.exists() and STAMP.read_text() == expected:
+    held, wanted = installed(), set(groups)
+    if held is not None and wanted <= held:
         return
-    print(f"Setting up {ENVIRONMENT} (once, a minute or two) ...", file=sys.stderr, flush=True)
     try:
-        set_aside()
-        install()
-        STAMP.write_text(expected)
+        if held is None:
+            print(f"Setting up {ENVIRONMENT} (once, half a minute or so) ...", file=sys.stderr, flush=True)
+            set_aside()
+            create()
+        else:
+            print(f"Adding packages for: {', '.join(sorted(wanted - held))} (once) ...", file=sys.stderr, flush=True)
+        install(wanted | (held or set()))
+        STAMP.write_text("\n".join([fingerprint(), *sorted(wanted | (held or set()))]), encoding="utf-8")
     except (subprocess.CalledProcessError, OSError) as error:
         recover()
-        if not usable():
+        if held is not None or not usable():  # without the packages that were to be added the command cannot run
             sys.exit(reason(error))
-        print(f"{reason(error)}\nrun.py: going on with the environment of before.", file=sys.stderr, flush=True)
+        print(f"{reason(error)}\nrun.py: continuing with the previous environment.", file=sys.stderr, flush=True)
     except BaseException:  # Ctrl-C
         recover()
         raise
@@ -84,19 +113,94 @@ def recover() -> None:
     BEFORE.rename(ENVIRONMENT)
 
 
-def install() -> None:
-    """A new environment with all packages: from wheels/ where that holds them all, else with the index."""
+def create() -> None:
+    """A new environment with nothing in it but pip."""
     inside = Path(sys.prefix).resolve() == ENVIRONMENT.resolve()  # this very program runs in what was set aside
     python = getattr(sys, "_base_executable", sys.executable) if inside else sys.executable
     subprocess.run([python, "-m", "venv", "--clear", str(ENVIRONMENT)], check=True)
-    pip = [str(PYTHON), "-m", "pip", "--disable-pip-version-check", "install", "--quiet"]
-    what = ["--editable", f"{ROOT}[test,lint]"]
+
+
+def install(groups: Iterable[str]) -> None:
+    """All packages: from wheels/ where that holds them all, else with the index.
+
+    Bytecode is made when a module is first imported: most of what is installed never is.
+    """
+    names = ",".join(sorted(groups))
+    words = [
+        "install",
+        "--no-compile",
+        "--progress-bar",
+        "off",
+        "--editable",
+        f"{ROOT}[{names}]" if names else str(ROOT),
+    ]
     if WHEELS.is_dir():
-        pip += ["--find-links", str(WHEELS)]
-        if subprocess.run([*pip, "--no-index", *what]).returncode == 0:
+        words += ["--find-links", str(WHEELS)]
+        if pip([*words, "--no-index"]) == 0:
             return
         print("run.py: wheels/ does not hold every package; asking the package index.", file=sys.stderr, flush=True)
-    subprocess.run([*pip, *what], check=True)
+    code = pip(words)
+    if code:
+        raise subprocess.CalledProcessError(code, "pip")
+
+
+def pip(words: Sequence[str]) -> int:
+    """Run pip, say every few seconds what it is doing, and pass on what it says where it fails; its exit status."""
+    command = [str(PYTHON), "-m", "pip", "--disable-pip-version-check", *words]
+    lines: queue.SimpleQueue[str | None] = queue.SimpleQueue()
+    said: list[str] = []
+    with subprocess.Popen(
+        command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace"
+    ) as process:
+
+        def read() -> None:
+            assert process.stdout is not None
+            for line in process.stdout:
+                lines.put(line.strip())
+            lines.put(None)
+
+        threading.Thread(target=read, daemon=True).start()
+        show = Ticker()
+        while True:
+            try:
+                line = lines.get(timeout=1.0)
+            except queue.Empty:
+                line = ""
+            if line is None:
+                break
+            said += [line] if line else []
+            show(line)
+    show.end()
+    if process.returncode:
+        print("\n".join(line for line in said if line.startswith(("ERROR", "error", "Could not"))), file=sys.stderr)
+    return process.returncode
+
+
+class Ticker:
+    """Seconds and the step pip is at, on one line of a terminal; a line every ten seconds elsewhere."""
+
+    STEPS = (("Collecting ", "looking up"), ("Downloading ", "downloading"), ("Installing ", "installing"))
+
+    def __init__(self) -> None:
+        self.begun = self.shown = time.monotonic()
+        self.step = "starting"
+        self.terminal = sys.stderr.isatty()
+
+    def __call__(self, line: str) -> None:
+        for start, verb in self.STEPS:
+            if line.startswith(start):
+                name = "" if verb == "installing" else line[len(start) :].split()[0].rpartition("/")[2]
+                self.step = f"{verb} {name}"
+        now = time.monotonic()
+        if now - self.shown > (0.2 if self.terminal else 10.0):
+            self.shown = now
+            text = f"  {now - self.begun:3.0f} s  {self.step[:70]}"
+            print(f"\r{text:<80}" if self.terminal else text, end="" if self.terminal else "\n", file=sys.stderr)
+            sys.stderr.flush()
+
+    def end(self) -> None:
+        if self.terminal:
+            print(f"\r{'':<80}\r", end="", file=sys.stderr, flush=True)
 
 
 def usable() -> bool:
@@ -121,15 +225,22 @@ def reason(error: Exception) -> str:
     )
 
 
+def surroundings() -> dict[str, str]:
+    """Environment variables of the command: bytecode is kept in build/, so that not every process makes it anew."""
+    kept = {name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"}
+    return {"PYTHONPYCACHEPREFIX": str(BYTECODE)} | kept
+
+
 def main() -> int:
     if sys.version_info < (3, 11):  # noqa: UP036 - this file meets the system's Python before any package does
         sys.exit(f"run.py: needs Python 3.11 or later, this is {sys.version.split()[0]}.")
     known = COMMANDS | CHECKS
     if len(sys.argv) < 2 or sys.argv[1] not in known:
         sys.exit(f"usage: python3 run.py {{{','.join(known)}}} [arguments]\n\n{__doc__}")
-    prepare()
+    prepare(groups_of(sys.argv[1:]))
     folder = ROOT if sys.argv[1] in CHECKS else None
-    return subprocess.run([str(PYTHON), *known[sys.argv[1]], *sys.argv[2:]], cwd=folder).returncode
+    words = [str(PYTHON), *known[sys.argv[1]], *sys.argv[2:]]
+    return subprocess.run(words, cwd=folder, env=surroundings()).returncode
 
 
 if __name__ == "__main__":

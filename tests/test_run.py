@@ -5,7 +5,6 @@ import os
 import subprocess
 import sys
 import zipfile
-from collections.abc import Callable
 from pathlib import Path
 from types import ModuleType
 
@@ -45,83 +44,111 @@ def script(tmp_path: Path) -> ModuleType:
     return module
 
 
-def tools(script: ModuleType, *, pip: Callable[[list[str]], bool], works: bool = True) -> Callable[..., object]:
-    """venv, pip and the question whether the environment works, without any of them.
+def prepared(script: ModuleType, monkeypatch: pytest.MonkeyPatch, *, works: bool = True) -> list[set[str]]:
+    """Stand-ins for venv, pip and the question whether the environment works; the groups that pip is asked for."""
+    asked: list[set[str]] = []
 
-    Args:
-        pip: whether it succeeds, from its words.
-        works: what of the environment is found by the question.
-    """
+    def create() -> None:
+        assert not script.ENVIRONMENT.exists()
+        script.PYTHON.parent.mkdir(parents=True)
+        script.PYTHON.write_text("new")
 
-    def run(words: list[str], *, check: bool = False, **_: object) -> subprocess.CompletedProcess[str]:
-        if "venv" in words:
-            assert not script.ENVIRONMENT.exists()
-            script.PYTHON.parent.mkdir(parents=True)
-            script.PYTHON.write_text("new")
-            return subprocess.CompletedProcess(words, 0)
-        good = pip(words) if "pip" in words else works and script.PYTHON.is_file()
-        if check and not good:
-            raise subprocess.CalledProcessError(1, words)
-        return subprocess.CompletedProcess(words, 0 if good else 1)
-
-    return run
+    monkeypatch.setattr(script, "create", create)
+    monkeypatch.setattr(script, "install", lambda groups: asked.append(set(groups)))
+    monkeypatch.setattr(script, "usable", lambda: works and script.PYTHON.is_file())
+    return asked
 
 
-def installed(script: ModuleType, monkeypatch: pytest.MonkeyPatch) -> None:
-    """An environment that was made before."""
-    monkeypatch.setattr(script.subprocess, "run", tools(script, pip=lambda words: True))
-    script.prepare()
-    assert script.STAMP.read_text() == script.fingerprint()
+def fails(script: ModuleType, monkeypatch: pytest.MonkeyPatch, error: BaseException) -> None:
+    """From now on pip ends like this."""
+
+    def install(groups: set[str]) -> None:
+        raise error
+
+    monkeypatch.setattr(script, "install", install)
+
+
+def installed(script: ModuleType, monkeypatch: pytest.MonkeyPatch, **options: bool) -> None:
+    """An environment that was made before, from another pyproject.toml."""
+    prepared(script, monkeypatch, **options)
+    script.prepare({"app"})
     script.PYTHON.write_text("old")
+    (script.ROOT / "pyproject.toml").write_text("two")
+
+
+def no_index() -> subprocess.CalledProcessError:
+    return subprocess.CalledProcessError(1, "pip")
+
+
+def test_each_command_installs_what_it_needs_once(script: ModuleType, monkeypatch: pytest.MonkeyPatch) -> None:
+    asked = prepared(script, monkeypatch)
+    for words in (
+        ["demo"],
+        ["pysim", "fit"],
+        ["pysim", "app"],
+        ["pysim", "app"],
+        ["test"],
+        ["lint"],
+        ["types"],
+        ["demo"],
+    ):
+        script.prepare(script.groups_of(words))
+    assert asked == [set(), {"app"}, {"app", "test"}, {"app", "test", "lint"}]
+    (script.ROOT / "pyproject.toml").write_text("two")
+    script.prepare(script.groups_of(["demo"]))
+    assert asked[4:] == [set()]
+
+
+def test_packages_that_cannot_be_added_leave_the_environment_as_it_is(
+    script: ModuleType, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    prepared(script, monkeypatch)
+    script.prepare(set())
+    fails(script, monkeypatch, no_index())
+    with pytest.raises(SystemExit, match="is the package index reachable"):
+        script.prepare({"test"})
+    assert script.installed() == set()
 
 
 def test_without_the_index_the_environment_of_before_stays(
     script: ModuleType, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     installed(script, monkeypatch)
-    (script.ROOT / "pyproject.toml").write_text("two")
-    monkeypatch.setattr(script.subprocess, "run", tools(script, pip=lambda words: False))
-    script.prepare()
+    fails(script, monkeypatch, no_index())
+    script.prepare(set())
     said = capsys.readouterr().err
     assert "could not install the packages" in said
-    assert "going on with the environment of before" in said
+    assert "continuing with the previous environment" in said
     assert script.PYTHON.read_text() == "old"
-    assert script.STAMP.read_text() != script.fingerprint()  # the next run tries again
+    assert script.installed() is None  # the next run tries again
     assert not script.BEFORE.exists()
-    monkeypatch.setattr(script.subprocess, "run", tools(script, pip=lambda words: True))
-    script.prepare()
+    prepared(script, monkeypatch)
+    script.prepare(set())
     assert script.PYTHON.read_text() == "new"
-    assert script.STAMP.read_text() == script.fingerprint()
+    assert script.installed() == set()
     assert not script.BEFORE.exists()
 
 
-def test_an_environment_of_another_place_is_not_gone_on_with(
+def test_an_environment_of_another_place_is_not_continued_with(
     script: ModuleType, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    installed(script, monkeypatch)
-    (script.ROOT / "pyproject.toml").write_text("two")
-    monkeypatch.setattr(script.subprocess, "run", tools(script, pip=lambda words: False, works=False))
+    installed(script, monkeypatch, works=False)
+    fails(script, monkeypatch, no_index())
     with pytest.raises(SystemExit, match="is the package index reachable"):
-        script.prepare()
+        script.prepare(set())
     assert script.PYTHON.read_text() == "old"
 
 
 def test_stopped_while_setting_up_it_leaves_what_was_there(script: ModuleType, monkeypatch: pytest.MonkeyPatch) -> None:
     installed(script, monkeypatch)
-    (script.ROOT / "pyproject.toml").write_text("two")
-
-    def stopped(words: list[str]) -> bool:
-        raise KeyboardInterrupt
-
-    monkeypatch.setattr(script.subprocess, "run", tools(script, pip=stopped))
+    fails(script, monkeypatch, KeyboardInterrupt())
     with pytest.raises(KeyboardInterrupt):
-        script.prepare()
+        script.prepare(set())
     assert script.PYTHON.read_text() == "old"
     assert not script.BEFORE.exists()
     script.set_aside()  # and killed here, the next run puts it back
     (script.ROOT / "pyproject.toml").write_text("one")
-    monkeypatch.setattr(script.subprocess, "run", None)
-    script.prepare()
+    script.prepare({"app"})
     assert script.PYTHON.read_text() == "old"
 
 
@@ -129,13 +156,12 @@ def test_what_runs_in_it_keeps_it_from_being_renewed(
     script: ModuleType, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     installed(script, monkeypatch)
-    (script.ROOT / "pyproject.toml").write_text("two")
 
     def locked(self: Path, target: Path) -> None:
         raise PermissionError(13, "in use", str(self))
 
     monkeypatch.setattr(Path, "rename", locked)
-    script.prepare()
+    script.prepare(set())
     assert "close what runs in it and try again" in capsys.readouterr().err
     assert script.PYTHON.read_text() == "old"
 
@@ -145,16 +171,15 @@ def test_wheels_beside_it_come_first(
 ) -> None:
     script.WHEELS.mkdir()
     asked: list[list[str]] = []
-    monkeypatch.setattr(script.subprocess, "run", tools(script, pip=lambda words: bool(asked.append(words) or True)))
-    script.prepare()
+    monkeypatch.setattr(script, "pip", lambda words: asked.append(words) or 0)
+    script.install({"test"})
     (words,) = asked
     assert "--no-index" in words
     assert words[words.index("--find-links") + 1] == str(script.WHEELS)
-    script.STAMP.unlink()
+    assert words[words.index("--editable") + 1] == f"{script.ROOT}[test]"
     asked.clear()
-    complete = tools(script, pip=lambda words: bool(asked.append(words) or "--no-index" not in words))
-    monkeypatch.setattr(script.subprocess, "run", complete)
-    script.prepare()
+    monkeypatch.setattr(script, "pip", lambda words: asked.append(words) or int("--no-index" in words))
+    script.install(set())
     assert ["--no-index" in words for words in asked] == [True, False]
     assert "wheels/ does not hold every package" in capsys.readouterr().err
 
@@ -216,4 +241,4 @@ def test_a_machine_without_a_network_is_set_up_from_wheels(script: ModuleType) -
     (root / "pyproject.toml").write_text(PROJECT + 'description = "another"\n')
     again = python("import needed; print(needed.VALUE)")
     assert (again.returncode, again.stdout.strip()) == (0, "42"), again.stderr
-    assert "going on with the environment of before" in again.stderr
+    assert "continuing with the previous environment" in again.stderr
