@@ -1,0 +1,281 @@
+"""What a diagnosis answers, as numbers and codes alone: the effects that are needed, and what is left after them.
+
+It stands beside `pysim.types.diagnosis` until the diagnosis that gives this answer replaces today's.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from enum import Enum
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pysim.types._frozen import FrozenMapping
+from pysim.types.diagnosis import NONE, UNKNOWN, Failure, NextTest
+from pysim.types.effect import Effect
+from pysim.types.errors import BadInput
+from pysim.types.fit import Direction, Estimate, RecordFit, ResponseFit
+from pysim.types.note import Note
+
+Array = NDArray[np.float64]
+
+
+class FloorSource(Enum):
+    """Where the level below which no residual can fall comes from."""
+
+    SPECIFIED = "specified"
+    REPEATS = "repeats"  # the scatter of repeated periods
+    SPECTRUM = "spectrum"  # the lowest bands of the residual's periodogram
+    RESOLUTION = "resolution"  # rounding, integration error, or a share of the signal's range
+
+
+@dataclass(frozen=True)
+class NoiseFloor:
+    """The least standard deviation that the residual of one signal can have.
+
+    Args:
+        sd: in the signal's unit, above 0.
+        source: what gives it.
+    """
+
+    sd: float
+    source: FloorSource
+
+    def __post_init__(self) -> None:
+        if not self.sd > 0:
+            raise BadInput(f"noise floor: a standard deviation above 0 is needed, got {self.sd:g}")
+
+
+class Verdict(Enum):
+    """What a comparison of two models comes to."""
+
+    BETTER = "better"
+    NO_BETTER = "no_better"
+    TIED = "tied"
+    VETOED = "vetoed"  # worse on logs that may choose, or on blocks left out
+    UNDECIDABLE = "undecidable"  # too few independent samples
+
+
+@dataclass(frozen=True)
+class GainTest:
+    """A larger model against a smaller one: the F test at the effective sample size.
+
+    Args:
+        gain: fall of the objective, nats.
+        df: parameters more.
+        effective_size: number of independent samples that the residuals are worth.
+        p_value: chance of such a gain where the effect is absent, all that was tried counted.
+        penalised: gain less the penalty of the parameters, nats; rivals are ordered by it.
+        held_out, left_out_blocks: change of the logarithm of the error there; None where there is nothing to ask.
+        verdict: what it comes to.
+    """
+
+    gain: float
+    df: int
+    effective_size: float
+    p_value: float
+    penalised: float
+    held_out: float | None
+    left_out_blocks: float | None
+    verdict: Verdict
+
+
+@dataclass(frozen=True)
+class Rival:
+    """A set of effects that was refitted, or only screened.
+
+    Args:
+        effects: standard names.
+        score: gain less the penalty of the parameters, nats.
+        p_value: chance of such a gain where the last of the effects is absent.
+        explained: share of the avoidable sum of squares, 0 ... 1.
+        refitted: whether a refit reached it; else the screening promises it.
+        parameters: of the last effect, by their names as declared.
+        test: against the model without the last of the effects; None where it was not refitted.
+    """
+
+    effects: tuple[str, ...]
+    score: float
+    p_value: float
+    explained: float
+    refitted: bool
+    parameters: Mapping[str, float] = field(default_factory=dict)
+    test: GainTest | None = None
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "parameters", FrozenMapping(self.parameters))
+
+
+@dataclass(frozen=True)
+class FoundEffect:
+    """One effect that the data demand.
+
+    Args:
+        effect: of the catalogue.
+        place: name ahead of its parameters' names in the extended model.
+        estimates: of its parameters, by their names as the class declares them.
+        share: of the avoidable sum of squares that leaving it out brings back, 0 ... 1; None where not counted.
+        held_out: rms over floor on unseen logs without it, over that with it; None where there are none.
+    """
+
+    effect: Effect
+    place: str
+    estimates: tuple[Estimate, ...]
+    share: float | None = None
+    held_out: float | None = None
+
+
+@dataclass(frozen=True)
+class ErrorStep:
+    """One model of the error history, from the untouched one to that with every effect.
+
+    Args:
+        step: "prior", "refit", or the effects that came in, joined by " + ".
+        fit, validate, test: rms residual over the noise floor of logs fitted, used to choose, and never seen; None
+            where there is no such log.
+        criteria: worst value of each criterion of thesis Tables 1.3 and 1.4, by symbol.
+        passes: whether all of these are within their limits.
+        cost: of the objective.
+        not_simulated: number of records that the model could not be run through.
+        estimates, undetermined: parameters of this model; what the data do not determine.
+        records, responses: logs and frequency responses beside it.
+        failures: where it fails, worst first.
+    """
+
+    step: str
+    fit: float | None
+    validate: float | None
+    test: float | None
+    criteria: Mapping[str, float]
+    passes: bool
+    cost: float
+    not_simulated: int = 0
+    estimates: tuple[Estimate, ...] = ()
+    undetermined: tuple[Direction, ...] = ()
+    records: tuple[RecordFit, ...] = field(default=(), repr=False)
+    responses: tuple[ResponseFit, ...] = field(default=(), repr=False)
+    failures: tuple[Failure, ...] = field(default=(), repr=False)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "criteria", FrozenMapping(self.criteria))
+
+
+@dataclass(frozen=True)
+class LearnedLaw:
+    """A law that no catalogue has: `factor(z2) * h(z1)` at a slot, `h` a curve through knots.
+
+    Args:
+        slot: place in the model.
+        factor: variable z2 and what is done with it; "" for 1.
+        argument: variable z1.
+        knots: (m,) increasing, in `argument_unit`.
+        coefficients: (m,) value of h at each, in `unit`.
+        covariance: (m, m) of the coefficients.
+        share: of the avoidable sum of squares, 0 ... 1.
+        argument_unit, unit: SI.
+        absorbed: (m, k) curves that the model's own parameters do as well: any amount may be added without a trace.
+        edf: effective number of coefficients.
+        formula: a short expression, "" where none fits.
+        modelica: text of its class; "" where none was written.
+        alternatives: other places that these data do not tell from this one.
+        parameters: free numbers of the model, by name, refitted beside the law.
+        test: against the model without it.
+    """
+
+    slot: str
+    factor: str
+    argument: str
+    knots: Array
+    coefficients: Array
+    covariance: Array
+    share: float
+    argument_unit: str
+    unit: str
+    absorbed: Array = field(default_factory=lambda: np.zeros((0, 0)))
+    edf: float | None = None
+    formula: str = ""
+    modelica: str = ""
+    alternatives: tuple[str, ...] = ()
+    parameters: Mapping[str, float] = field(default_factory=dict)
+    test: GainTest | None = None
+
+    def __post_init__(self) -> None:
+        for name in ("knots", "coefficients", "covariance", "absorbed"):
+            values = np.array(getattr(self, name), dtype=np.float64)
+            values.setflags(write=False)
+            object.__setattr__(self, name, values)
+        object.__setattr__(self, "parameters", FrozenMapping(self.parameters))
+        m = self.knots.size
+        if self.coefficients.shape != (m,) or self.covariance.shape != (m, m):
+            raise BadInput(
+                f"learned law at {self.slot}: {m} knots need {m} coefficients and their ({m}, {m}) covariance"
+            )
+
+
+@dataclass(frozen=True)
+class Left:
+    """What is left after the last model.
+
+    Args:
+        floors: dataset and signal -> noise floor.
+        fit, validate: rms over floor.
+        share_explained: of the residual, by regression on the model's own signals, 0 ... 1; None where not judged.
+        t: of that share.
+    """
+
+    floors: Mapping[str, NoiseFloor]
+    fit: float | None
+    validate: float | None
+    share_explained: float | None = None
+    t: float | None = None
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "floors", FrozenMapping(self.floors))
+
+
+@dataclass(frozen=True)
+class Diagnosis:
+    """The whole answer.
+
+    Args:
+        effects: that the data demand, what costs most to leave out first.
+        complete: whether nothing but noise is left after them.
+        left: what is left.
+        rivals: what was compared, best first.
+        ties: groups of names that the data do not tell apart.
+        history: the error, model by model.
+        failures: where the refitted base model fails, worst first.
+        learned: laws that no catalogue has, in the order they were added.
+        next_test: where two answers are left that another test would tell apart.
+        estimates: parameters of the final model.
+        notes: what a reader must know.
+        conditions: what it takes to repeat it: model, data, seed, solver, versions.
+        seconds: wall time by stage.
+    """
+
+    effects: tuple[FoundEffect, ...]
+    complete: bool
+    left: Left
+    rivals: tuple[Rival, ...]
+    ties: tuple[tuple[str, ...], ...]
+    history: tuple[ErrorStep, ...]
+    failures: tuple[Failure, ...]
+    learned: tuple[LearnedLaw, ...] = ()
+    next_test: NextTest | None = None
+    estimates: tuple[Estimate, ...] = ()
+    notes: tuple[Note, ...] = ()
+    conditions: Mapping[str, str] = field(default_factory=dict)
+    seconds: Mapping[str, float] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        for name in ("seconds", "conditions"):
+            object.__setattr__(self, name, FrozenMapping(getattr(self, name)))
+
+    @property
+    def verdict(self) -> str:
+        """The first effect's name; UNKNOWN where only a learned law, or nothing, explains the rest; else NONE."""
+        if self.effects:
+            return self.effects[0].effect.name
+        return NONE if self.complete and not self.learned else UNKNOWN

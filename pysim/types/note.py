@@ -1,0 +1,40 @@
+"""What a reader of a result must know, as data: a code and its numbers. Words are made where results are shown."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from enum import Enum
+
+from pysim.types._frozen import FrozenMapping
+
+
+class NoteCode(Enum):
+    """What is said. The keys of `Note.values` that belong to it stand behind it."""
+
+    NOISE_ESTIMATED = "noise_estimated"  # dataset, signal, value, unit: not specified, estimated from the data
+    NOISE_ASSUMED = "noise_assumed"  # dataset, value, unit: of a table that states none
+    RECORD_LEFT_OUT = "record_left_out"  # record, reason (a code of the failure)
+    NOT_SIMULATED = "not_simulated"  # record, step: the model could not be run through it
+    NOT_TRIED = "not_tried"  # effect, reason (a code): it has no slot, does not compile, disturbs the others
+    HELD = "held"  # parameter: the data do not determine it, intervals hold it where it stands
+    AT_BOUND = "at_bound"  # parameter, bound, value, unit
+    USED_TO_CHOOSE = "used_to_choose"  # records that are reported as unseen also chose between models
+    INTERVAL_CONDITIONAL = "interval_conditional"  # intervals hold for the model that was chosen only
+    OTHER = "other"  # text: of a program part that has no codes yet
+
+
+@dataclass(frozen=True)
+class Note:
+    """One thing to know.
+
+    Args:
+        code: what is said.
+        values: numbers and names it is said of, by the keys that stand at the code.
+    """
+
+    code: NoteCode
+    values: Mapping[str, float | str]
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "values", FrozenMapping(self.values))
