@@ -1,1 +1,1 @@
-"""Published and independent results, and what redoes them: `python -m validation --list`."""
+"""Published and independent results, and what redoes them: `python3 run.py validate --list`."""

@@ -6,30 +6,10 @@ from dataclasses import dataclass
 
 
 @dataclass(frozen=True)
-class Cost:
-    """What something took, kept so that runs can be compared over time.
-
-    Args:
-        what: the same words in every run.
-        ours: in `unit`.
-        unit: such as "s of CPU".
-        peer: the other side that was measured in the same run, "" where there is none.
-        theirs: what it took, in the same unit.
-    """
-
-    what: str
-    ours: float
-    unit: str
-    peer: str = ""
-    theirs: float | None = None
-
-
-@dataclass(frozen=True)
 class Finding:
     """One claim. `value` and `limit` are in `unit`; a value that is not a number fails.
 
-    `skipped` says why the claim could not be tried on this machine; such a claim neither holds nor fails. `cost` is
-    what a claim about speed is about.
+    `skipped` says why the claim could not be tried on this machine; such a claim neither holds nor fails.
     """
 
     claim: str
@@ -37,7 +17,6 @@ class Finding:
     limit: float
     unit: str
     skipped: str = ""
-    cost: Cost | None = None
 
     @property
     def holds(self) -> bool:

@@ -1,4 +1,4 @@
-"""The suite's HTML page: what holds, what does not, and why, with the figures redone and the costs over time."""
+"""The suite's HTML page: what holds, what does not, and why, with the figures redone."""
 
 from __future__ import annotations
 
@@ -8,7 +8,6 @@ from matplotlib.figure import Figure
 
 from pysim.plot import render
 from pysim.report.page import cell, commands, heading, items, page, paragraph, picture, statement, table
-from validation.costs import HEAD, cost_figure, cost_rows
 from validation.findings import Finding
 from validation.registry import CASES, GROUPS
 from validation.results import FAILS, HOLDS, SKIPPED, CaseResult, verdict_of
@@ -16,14 +15,11 @@ from validation.results import FAILS, HOLDS, SKIPPED, CaseResult, verdict_of
 _KIND = {HOLDS: "pass", FAILS: "fail", SKIPPED: ""}
 
 
-def suite_page(
-    results: Sequence[CaseResult], history: Sequence[CaseResult], drawn: Mapping[str, Mapping[str, Figure]]
-) -> str:
+def suite_page(results: Sequence[CaseResult], drawn: Mapping[str, Mapping[str, Figure]]) -> str:
     """The page of one run.
 
     Args:
         results: of this run, in the order they ran.
-        history: kept results of former runs, oldest first, for the costs over time.
         drawn: case -> caption -> figure.
     """
     parts = [statement(_verdict(results)), _overview(results)]
@@ -32,26 +28,8 @@ def suite_page(
             parts += [heading(f"{title}: {result.case}"), *_case(result)]
             figures = drawn.get(result.case, {})
             parts += [picture(render(figure, "svg"), caption) for caption, figure in figures.items()]
-    parts += _costs([*history, *results])
     lead = f"{len(results)} cases on {results[0].machine}, {results[0].date}" if results else "no case was run"
     return page("Validation", lead, parts)
-
-
-def _costs(results: Sequence[CaseResult]) -> list[str]:
-    figure = cost_figure(results)
-    if figure is None:
-        return []
-    words = ("what", "unit", "other side", "case", "date")
-    rows = [
-        [cell(text, "words" if name in words else "") for name, text in zip(HEAD, row, strict=True)]
-        for row in cost_rows(results)
-    ]
-    caption = "Measured costs of kept runs and this one, each beside the other side of the same run."
-    return [
-        heading("Costs over time"),
-        picture(render(figure, "svg"), caption),
-        table("The last of each.", list(HEAD), rows),
-    ]
 
 
 def _verdict(results: Sequence[CaseResult]) -> str:

@@ -184,12 +184,6 @@ CASES: Mapping[str, Case] = MappingProxyType(
         "every-class": Case(
             "validation.examples.every_class", "every model and block of the library compiles", "circuits", seconds=60
         ),
-        "compilers": Case(
-            "validation.compilers.case",
-            "every example by our own compiler and by OpenModelica, where that is installed",
-            "fmus",
-            seconds=450,
-        ),
         "fit-bench-01": Case(
             "validation.fit_bench.case", "an independent plant's logs fitted to their noise", "methods", seconds=6
         ),
@@ -238,16 +232,6 @@ CASES: Mapping[str, Case] = MappingProxyType(
         "real-measurements": Case(
             "validation.real_measurements.case", "why the locked model cannot fit; the load", "diagnosis", seconds=330
         ),
-        "slow-tests": Case(
-            "validation.slow_tests.case", "the tests that the test command leaves out", "methods", seconds=720
-        ),
-        "wine": Case(
-            "validation.wine.case",
-            "the Windows binary under Wine against the binary of this machine",
-            "fmus",
-            seconds=200,
-        ),
-        "workbench": Case("validation.workbench.case", "first paint of the workbench's page", "speed", seconds=15),
         "figure-2-1": Case(
             _THESIS + "figure_2_1.case", "command of a stepped-sine test", "thesis", quick=True, seconds=1
         ),

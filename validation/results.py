@@ -11,7 +11,9 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
-from validation.findings import Cost, Finding
+from pysim.io import write_file
+from validation.findings import Finding
+from validation.registry import CASES
 
 HOLDS, FAILS, SKIPPED = "holds", "fails", "skipped"
 _CPU_INFO = Path("/proc/cpuinfo")
@@ -83,6 +85,18 @@ def append_results(path: Path, results: Iterable[CaseResult]) -> None:
         file.writelines(to_line(result) + "\n" for result in results)
 
 
+def keep_results(path: Path, results: Iterable[CaseResult]) -> tuple[CaseResult, ...]:
+    """Put these runs in place of former ones of the same cases; runs of cases that are gone are dropped.
+
+    Returns:
+        what the file holds now: the last run of each case, in the order of the registry.
+    """
+    last = newest([*read_results(path), *results])
+    kept = tuple(last[name] for name in CASES if name in last)
+    write_file(path, "".join(to_line(result) + "\n" for result in kept))
+    return kept
+
+
 def read_results(path: Path) -> tuple[CaseResult, ...]:
     """All lines, oldest first; none where there is no file."""
     if not path.is_file():
@@ -102,17 +116,10 @@ def to_line(result: CaseResult) -> str:
         for name in ("value", "limit"):
             number = float(finding[name])
             finding[name] = float(f"{number:.6g}") if math.isfinite(number) else None
-        if finding["cost"]:
-            finding["cost"] = {name: _short(value) for name, value in finding["cost"].items()}
-        for name in ("skipped", "cost"):
-            if not finding[name]:
-                del finding[name]
+        if not finding["skipped"]:
+            del finding["skipped"]
     data["seconds"], data["cpu"] = round(result.seconds, 1), round(result.cpu, 1)
     return json.dumps(data, ensure_ascii=False)
-
-
-def _short(value: Any) -> Any:
-    return float(f"{value:.6g}") if isinstance(value, float) else value
 
 
 def from_line(line: str) -> CaseResult:
@@ -123,8 +130,7 @@ def from_line(line: str) -> CaseResult:
 
 
 def _finding(row: dict[str, Any]) -> Finding:
-    cost = {"cost": Cost(**row["cost"])} if "cost" in row else {}
-    return Finding(**{**row, **_numbers(row), **cost})
+    return Finding(**{**row, **_numbers(row)})
 
 
 def _numbers(row: dict[str, float | None]) -> dict[str, float]:

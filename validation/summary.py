@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 
-from validation.costs import HEAD, cost_rows
 from validation.findings import Finding
 from validation.registry import CASES, GROUPS
 from validation.results import FAILS, HOLDS, SKIPPED, CaseResult, newest, verdict_of
@@ -42,10 +41,6 @@ def full_summary(results: Iterable[CaseResult], *, kept: bool = True) -> str:
             rows = [_row(name, _linked(name) if kept else name, last.get(name)) for name in names]
             told = [f"\n- {text}" for name in names if name in last for text in _not_held(last[name])]
             lines += ["", f"## {title}", "", *_table(head, rows), *told]
-    costs = cost_rows(last.values())
-    if costs:
-        lines += ["", "## Costs", "", "Each beside the other side of the same run.", "", *_table(list(HEAD), costs)]
-        lines += ["", "![Costs over time](costs.png)"] if kept else []
     machines = sorted({str(result.machine) for result in last.values()})
     return "\n".join([*lines, "", "Machines: " + "; ".join(machines) + ".", ""])
 

@@ -116,10 +116,8 @@ class _Show:
 def _write_page(folder: Path, results: Sequence[CaseResult]) -> None:
     from pysim.io import write_file
     from pysim.plot import render
-    from validation.costs import cost_figure
     from validation.page import suite_page
     from validation.registry import CASES
-    from validation.results import read_results
     from validation.summary import full_summary
 
     drawn: dict[str, Mapping[str, Figure]] = {}
@@ -127,11 +125,7 @@ def _write_page(folder: Path, results: Sequence[CaseResult]) -> None:
         drawn[result.case] = {} if result.error else CASES[result.case].pictures()
         for k, figure in enumerate(drawn[result.case].values(), 1):
             write_file(folder / f"{result.case}-{k}.png", render(figure, "png"))
-    history = read_results(_results_file())
-    costs = cost_figure([*history, *results])
-    if costs is not None:
-        write_file(folder / "costs.png", render(costs, "png"))
-    write_file(folder / "report.html", suite_page(results, history, drawn))
+    write_file(folder / "report.html", suite_page(results, drawn))
     write_file(folder / "summary.md", full_summary(results, kept=False))
     print(f"wrote {folder / 'report.html'}")
 
@@ -158,17 +152,11 @@ def _checkout() -> Path:
 
 def _record(root: Path, results: Sequence[CaseResult]) -> None:
     from pysim.io import write_file
-    from pysim.plot import render
-    from validation.costs import cost_figure
-    from validation.results import append_results, read_results
+    from validation.results import keep_results
     from validation.summary import between_markers, full_summary, short_summary
 
-    append_results(_results_file(), results)
-    kept = read_results(_results_file())
+    kept = keep_results(_results_file(), results)
     write_file(root / "validation" / "RESULTS.md", full_summary(kept))
-    costs = cost_figure(kept)
-    if costs is not None:
-        write_file(root / "validation" / "costs.png", render(costs, "png"))
     readme = root / "README.md"
     write_file(readme, between_markers(readme.read_text(encoding="utf-8"), short_summary(kept)))
     print(f"recorded {len(results)} cases in {_results_file()}")

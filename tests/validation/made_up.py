@@ -4,7 +4,7 @@ from types import SimpleNamespace
 
 from matplotlib.figure import Figure
 
-from validation.findings import Cost, Finding
+from validation.findings import Finding
 from validation.registry import Case
 from validation.results import CaseResult, Machine
 
@@ -40,16 +40,9 @@ def result(name: str, *findings: Finding, date: str = "2026-01-02T03:04:05Z", er
     return CaseResult(name, f"about {name}", "methods", date, 1.5, 2.5, MACHINE, findings, error)
 
 
-def costly(day: int, ours: float, theirs: float | None = None, machine: Machine = MACHINE) -> CaseResult:
-    """A run in January that measured what a step costs."""
-    cost = Cost("a step", ours, "us", "a plain loop" if theirs else "", theirs)
-    findings = (Finding("a step takes", ours, 10.0, "us", cost=cost), Finding("difference", 1e-6, 1e-3, "%"))
-    return CaseResult("speed", "", "speed", f"2026-01-0{day}T00:00:00Z", 1.0, 1.0, machine, findings)
-
-
 def use(monkeypatch) -> None:
     """Let the suite know these cases and no others."""
     monkeypatch.setattr("validation.registry.import_module", lambda module: MODULES[module.split(".")[1]])
-    for module in ("validation.suite", "validation.summary", "validation.page"):
+    for module in ("validation.suite", "validation.summary", "validation.page", "validation.results"):
         monkeypatch.setattr(f"{module}.CASES", CASES)
     monkeypatch.setattr("validation.registry.CASES", CASES)

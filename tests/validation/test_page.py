@@ -4,14 +4,14 @@ import pytest
 from matplotlib.figure import Figure
 
 from tests.validation import made_up
-from tests.validation.made_up import BAD, GOOD, costly, result
+from tests.validation.made_up import BAD, GOOD, result
 from validation.page import suite_page
 
 
 def test_page(monkeypatch: pytest.MonkeyPatch) -> None:
     made_up.use(monkeypatch)
     results = [result("good", *GOOD), result("bad", *BAD, error="ValueError: <no>")]
-    text = suite_page(results, (), {"good": {"the caption": Figure()}})
+    text = suite_page(results, {"good": {"the caption": Figure()}})
     assert "2 claims hold, 1 fail, 1 could not be tried here. 1 cases stopped early." in text
     for words in (
         "no Wine here",
@@ -22,12 +22,4 @@ def test_page(monkeypatch: pytest.MonkeyPatch) -> None:
         "Stopped: ValueError: &lt;no&gt;",
         'class="fail">fails',
     ):
-        assert words in text
-    assert "Costs over time" not in text
-
-
-def test_costs_stand_at_the_end(monkeypatch: pytest.MonkeyPatch) -> None:
-    made_up.use(monkeypatch)
-    text = suite_page([result("good", *GOOD)], [costly(1, 2.0, 6.0)], {})
-    for words in ("Costs over time", "a plain loop", "The last of each."):
         assert words in text

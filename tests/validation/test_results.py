@@ -3,7 +3,7 @@
 import math
 from pathlib import Path
 
-from tests.validation.made_up import BAD, GOOD, MACHINE, costly, result
+from tests.validation.made_up import BAD, GOOD, MACHINE, result
 from validation.findings import Finding
 from validation.results import append_results, from_line, newest, read_results, this_machine, to_line, verdict_of
 
@@ -24,12 +24,6 @@ def test_lines_come_back(tmp_path: Path) -> None:
     append_results(file, [first])
     append_results(file, [second])
     assert read_results(file) == (first, second)
-
-
-def test_costs_come_back_and_are_left_out_where_there_are_none() -> None:
-    run = costly(1, 2.0, 6.0)
-    assert from_line(to_line(run)) == run
-    assert to_line(run).count('"cost"') == 1
 
 
 def test_what_is_no_number_fails_after_reading_too() -> None:

@@ -22,12 +22,11 @@ from pysim.cosim import Connection, Run, System
 from pysim.cosim.members import Fmu
 from pysim.io import extracted, read_model
 from pysim.types import Experiment, Model
-from validation.findings import Cost, Finding
+from validation.findings import Finding
 from validation.libcosim import bench
 from validation.libcosim.case import MISSING
 
 _TURNS, _STEPS = 5, 3000
-_PEERS = ("a plain FMPy loop", "libcosim")
 _PAIR = Path(bench.__file__).parent / "Pair.mo"
 
 
@@ -61,15 +60,11 @@ def run() -> Iterator[Finding]:
         turns = [[master(wired) for master in masters] for _ in range(_TURNS)]
         best = 1e6 * np.min(turns, axis=0) / (_STEPS * len(wired.models))  # microseconds per step and member
         text = f"{wired.about}: {best[0]:.2f} us a step and member"
-        costs = [
-            Cost(f"co-simulation, {wired.about}", best[0], "us a step and member", peer, theirs)
-            for peer, theirs in zip(_PEERS, best[1:].tolist(), strict=False)
-        ]
-        yield Finding(f"{text}, of a plain FMPy loop's {best[1]:.2f} us", best[0] / best[1], 1.0, "", cost=costs[0])
+        yield Finding(f"{text}, of a plain FMPy loop's {best[1]:.2f} us", best[0] / best[1], 1.0, "")
         if len(best) < 3:
             yield Finding(f"{wired.about}: beside libcosim", float("nan"), 2.0, "", skipped=MISSING)
         else:
-            yield Finding(f"{text}, of libcosim's {best[2]:.2f} us", best[0] / best[2], 2.0, "", cost=costs[1])
+            yield Finding(f"{text}, of libcosim's {best[2]:.2f} us", best[0] / best[2], 2.0, "")
 
 
 def _ours(wired: Wired) -> float:

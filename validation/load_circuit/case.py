@@ -13,7 +13,7 @@ import fmu_build
 from pysim.io import read_model
 from pysim.simulate import Rodas, simulate
 from pysim.types import Experiment, Signal
-from validation.findings import Cost, Finding
+from validation.findings import Finding
 from validation.load_circuit import linear
 from validation.load_circuit.crane import crane_minute, pulses
 from validation.load_circuit.linearised import Linear, linearised
@@ -131,5 +131,4 @@ def _whole() -> Iterator[Finding]:
         50 - factor,
         0,
         "",
-        cost=Cost("a minute of the test bench", 60 / factor, "s of CPU"),
     )

@@ -12,7 +12,7 @@ from typing import Any
 
 import pytest
 
-from validation.workbench import served
+from tests.pysim.app import chromium
 
 ROOT = Path(__file__).parents[3]
 _STARTED = 300.0  # s, on a machine that does other things too
@@ -52,9 +52,9 @@ def base(address: str) -> str:
 @contextmanager
 def browser() -> Iterator[Any]:
     """A browser without a window; the test is skipped where there is none."""
-    if why := served.missing():
+    if why := chromium.missing():
         pytest.skip(why)
-    with served.browser() as found:
+    with chromium.browser() as found:
         yield found
 
 

@@ -1,8 +1,6 @@
 """`pysim validate`: what is run, printed, written and kept."""
 
 import json
-import subprocess
-import sys
 import zipfile
 from pathlib import Path
 
@@ -11,8 +9,7 @@ import pytest
 from pysim.cli import main, validate
 from tests.planted import planted
 from tests.validation import made_up
-from tests.validation.made_up import costly
-from validation.results import append_results, read_results
+from validation.results import read_results
 from validation.summary import BEGIN, END
 
 
@@ -44,16 +41,13 @@ def test_list_runs_nothing(capsys: pytest.CaptureFixture[str]) -> None:
     assert [line.split()[0] for line in capsys.readouterr().out.splitlines()] == list(made_up.CASES)
 
 
-def test_what_is_written(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    kept = tmp_path / "kept.jsonl"
-    append_results(kept, [costly(1, 2.0, 6.0)])
-    monkeypatch.setattr(validate, "_results_file", lambda: kept)
+def test_what_is_written(tmp_path: Path) -> None:
     out, numbers = tmp_path / "out", tmp_path / "numbers.jsonl"
     numbers.write_text("old\n")
     assert main(["validate", "good", "bad", "--output", str(out), "--json", str(numbers)]) == 1
     assert [result.case for result in read_results(numbers)] == ["good", "bad"]
     assert {path.name for path in out.iterdir()} == {
-        "report.html", "summary.md", "costs.png", "good-1.png", "bad-1.png",
+        "report.html", "summary.md", "good-1.png", "bad-1.png",
     }  # fmt: skip
     assert "a picture" in (out / "report.html").read_text(encoding="utf-8")
 
@@ -91,7 +85,7 @@ def test_record(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(validate, "_results_file", lambda: tmp_path / "validation" / "recorded.jsonl")
     for _ in range(2):
         assert main(["validate", "good", "--record"]) == 0
-    assert len(read_results(tmp_path / "validation" / "recorded.jsonl")) == 2
+    assert len(read_results(tmp_path / "validation" / "recorded.jsonl")) == 1
     assert "| 1 of 4 | 1 | 0 | 1 |" in readme.read_text(encoding="utf-8")
     assert "| [good](good/README.md) | about good | 1 | 0 | 1 |" in (tmp_path / "validation" / "RESULTS.md").read_text(
         encoding="utf-8"
@@ -115,10 +109,3 @@ def test_fmu(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
         other.writestr("binaries/amiga/planted.library", "")
     assert main(["validate", "fmu", str(tmp_path / "amiga.fmu")]) == 2
     assert "amiga.fmu has no binary for" in capsys.readouterr().err
-
-
-def test_the_module_is_the_same_command() -> None:
-    root = Path(__file__).parents[3]
-    words = [sys.executable, "-m", "validation", "--list", "--quick"]
-    done = subprocess.run(words, cwd=root, capture_output=True, text=True, check=True)
-    assert "table-5-1" in done.stdout

@@ -1,4 +1,4 @@
-"""The case's own arithmetic, on few runs; the claims themselves are tried by `python -m validation`."""
+"""The case's own arithmetic, on few runs; the claims themselves are tried by `pysim validate`."""
 
 import numpy as np
 import pytest

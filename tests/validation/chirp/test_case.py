@@ -1,4 +1,4 @@
-"""The chirp case's helpers; the claims themselves are redone by `python -m validation chirp`."""
+"""The chirp case's helpers; the claims themselves are redone by `python3 run.py validate chirp`."""
 
 import numpy as np
 import pytest

@@ -21,5 +21,5 @@ def test_every_result_is_registered_and_says_what_it_is(folder: Path) -> None:
     name = folder.name.replace("_", "-")
     assert CASES[name].module == f"validation.thesis.{folder.name}.case"
     text = (folder / "README.md").read_text(encoding="utf-8")
-    assert f"python -m validation {name}" in text
+    assert f"python3 run.py validate {name}" in text
     assert "thesis" in text

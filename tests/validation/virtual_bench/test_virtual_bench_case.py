@@ -1,4 +1,4 @@
-"""The case's helpers; the claims themselves are redone by `python -m validation virtual-bench`."""
+"""The case's helpers; the claims themselves are redone by `python3 run.py validate virtual-bench`."""
 
 import numpy as np
 import pytest

@@ -1,18 +1,13 @@
-"""A workbench in a process of its own and a page in front of it."""
+"""Chromium without a window, for the workbench's pages."""
 
 from __future__ import annotations
 
 import importlib.util
-import re
 import shutil
-import subprocess
-import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
-from pathlib import Path
 from typing import Any
 
-_ROOT = Path(__file__).parents[2]
 _PROGRAMS = ("chromium", "chromium-browser", "google-chrome")
 
 
@@ -25,18 +20,6 @@ def missing() -> str:
         if importlib.util.find_spec(module) is None:
             return f"{module} is not installed ({cure})"
     return "" if _program() else "there is no Chromium here (Debian: apt-get install chromium)"
-
-
-@contextmanager
-def served(project: Path) -> Iterator[str]:
-    """The address of the workbench on a project, with its token; ended afterwards."""
-    words = [sys.executable, "-m", "pysim", "app", str(project), "--no-browser"]
-    with subprocess.Popen(words, cwd=_ROOT, stdout=subprocess.PIPE, text=True) as server:
-        try:
-            assert server.stdout is not None
-            yield re.sub(r"^Workbench: ", "", server.stdout.readline().strip())
-        finally:
-            server.terminate()
 
 
 @contextmanager

@@ -1,1 +1,0 @@
-"""Every example compiled by our own chain and by OpenModelica, compared variable by variable."""

@@ -1,1 +1,0 @@
-"""The tests that are too slow for every change."""

@@ -1,1 +1,0 @@
-"""The Windows binary, loaded and stepped under Wine."""
