@@ -29,7 +29,8 @@ def suite_page(results: Sequence[CaseResult], drawn: Mapping[str, Mapping[str, F
             figures = drawn.get(result.case, {})
             parts += [picture(render(figure, "svg"), caption) for caption, figure in figures.items()]
     lead = f"{len(results)} cases on {results[0].machine}, {results[0].date}" if results else "no case was run"
-    return page("Validation", lead, parts)
+    commit = f", commit {results[0].commit}" if results and results[0].commit else ""
+    return page("Validation", f"{lead}{commit}", parts)
 
 
 def _verdict(results: Sequence[CaseResult]) -> str:

@@ -1,4 +1,4 @@
-"""What running a case gave, and how it is kept: a line of JSON with date and machine, so that runs can be compared."""
+"""What running a case gave, and how it is kept: a line of JSON with commit, date and machine."""
 
 from __future__ import annotations
 
@@ -34,7 +34,11 @@ class Machine:
 
 @dataclass(frozen=True)
 class CaseResult:
-    """One run of a case. `error` is the last line of what stopped it, "" where it came to its end."""
+    """One run of a case.
+
+    `error` is the last line of what stopped it, "" where it came to its end. `commit` is of the checkout, with "-dirty"
+    behind it where code or data differed from that commit, and "" where it is not known.
+    """
 
     case: str
     about: str
@@ -45,6 +49,7 @@ class CaseResult:
     machine: Machine
     findings: tuple[Finding, ...]
     error: str = ""
+    commit: str = ""
 
     @property
     def verdict(self) -> str:

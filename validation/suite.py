@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterator, Sequence
 from datetime import UTC, datetime
 
 from pysim.types import BadInput
+from validation.commit import this_commit
 from validation.findings import Finding
 from validation.registry import CASES
 from validation.results import CaseResult, this_machine
@@ -38,7 +39,7 @@ def run_cases(names: Sequence[str], watch: Callable[[str, Finding | None], None]
 
 
 def _run_case(name: str, watch: Callable[[str, Finding | None], None]) -> CaseResult:
-    case, started, before, error = CASES[name], time.monotonic(), _cpu(), ""
+    commit, case, started, before, error = this_commit(), CASES[name], time.monotonic(), _cpu(), ""
     date = datetime.now(UTC).strftime("%Y-%m-%dT%H:%M:%SZ")
     findings: list[Finding] = []
     try:
@@ -49,7 +50,9 @@ def _run_case(name: str, watch: Callable[[str, Finding | None], None]) -> CaseRe
         traceback.print_exc()
         error = f"{type(stop).__name__}: {stop}".splitlines()[0][:300]
     seconds, cpu = time.monotonic() - started, _cpu() - before
-    return CaseResult(name, case.about, case.group, date, seconds, cpu, this_machine(), tuple(findings), error)
+    return CaseResult(
+        name, case.about, case.group, date, seconds, cpu, this_machine(), tuple(findings), error, commit
+    )
 
 
 def _cpu() -> float:

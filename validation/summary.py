@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Mapping
 
 from validation.findings import Finding
@@ -21,7 +22,8 @@ def short_summary(results: Iterable[CaseResult]) -> str:
         counts = [str(sum(result.count(verdict) for result in done)) for verdict in (HOLDS, FAILS, SKIPPED)]
         rows.append([title, f"{len(done)} of {len(names)}", *counts])
     head = ["", "cases recorded", "claims that hold", "fail", "skipped"]
-    return "\n".join([*_table(head, rows), "", *_failing(last), "", "[Case by case](validation/RESULTS.md).", ""])
+    end = f"{_commits(last)} [Case by case](validation/RESULTS.md)."
+    return "\n".join([*_table(head, rows), "", *_failing(last), "", end, ""])
 
 
 def full_summary(results: Iterable[CaseResult], *, kept: bool = True) -> str:
@@ -34,7 +36,7 @@ def full_summary(results: Iterable[CaseResult], *, kept: bool = True) -> str:
     last = newest(results)
     written = "by `pysim validate --record`: each case's last run" if kept else "by `pysim validate`: one run"
     lines = ["# What holds, and what does not", "", f"Written {written}."]
-    head = ["case", "what", "holds", "fails", "skipped", "CPU s", "date"]
+    head = ["case", "what", "holds", "fails", "skipped", "CPU s", "date", "commit"]
     for group, title in GROUPS.items():
         names = [name for name, case in CASES.items() if case.group == group and (kept or name in last)]
         if names:
@@ -47,9 +49,18 @@ def full_summary(results: Iterable[CaseResult], *, kept: bool = True) -> str:
 
 def _row(name: str, label: str, result: CaseResult | None) -> list[str]:
     if result is None:
-        return [label, CASES[name].about, "", "", "", "", "not recorded"]
+        return [label, CASES[name].about, "", "", "", "", "not recorded", ""]
     counts = [str(result.count(verdict)) for verdict in (HOLDS, FAILS, SKIPPED)]
-    return [label, CASES[name].about, *counts, f"{result.cpu:.0f}", result.date[:10]]
+    return [label, CASES[name].about, *counts, f"{result.cpu:.0f}", result.date[:10], result.commit or "-"]
+
+
+def _commits(last: Mapping[str, CaseResult]) -> str:
+    """How many cases each commit has recorded."""
+    counts = Counter(result.commit for result in last.values())
+    named = [f"{count} by commit {commit}" for commit, count in counts.most_common() if commit]
+    if counts[""]:
+        named.append(f"{counts['']} before commits were noted")
+    return f"Cases recorded: {', '.join(named)}." if named else ""
 
 
 def _failing(last: Mapping[str, CaseResult]) -> list[str]:
