@@ -50,9 +50,7 @@ def _run_case(name: str, watch: Callable[[str, Finding | None], None]) -> CaseRe
         traceback.print_exc()
         error = f"{type(stop).__name__}: {stop}".splitlines()[0][:300]
     seconds, cpu = time.monotonic() - started, _cpu() - before
-    return CaseResult(
-        name, case.about, case.group, date, seconds, cpu, this_machine(), tuple(findings), error, commit
-    )
+    return CaseResult(name, case.about, case.group, date, seconds, cpu, this_machine(), tuple(findings), error, commit)
 
 
 def _cpu() -> float:

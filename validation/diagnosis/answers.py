@@ -12,8 +12,8 @@ from typing import Any
 from pysim.diagnose import diagnose, subject
 from pysim.io import write_file
 from pysim.types import Diagnosis
-from validation.blind.benchmark.fingerprint import fingerprint
 from validation.blind.benchmark.workshop import workshop
+from validation.commit import this_commit
 from validation.diagnosis.sets import read_set
 
 ANSWERS = Path(__file__).parent / "answers.json"
@@ -29,7 +29,7 @@ class Kept:
         values: "effect: parameter" -> estimate and 95 percent interval, in the unit of the class.
         fit, validate: residual over noise of the refitted base model and of the final one.
         slot: that was located first.
-        code, day: fingerprint of the code, and when.
+        commit, day: of the checkout that answered, "" where that was not noted, and when.
     """
 
     verdict: str
@@ -39,7 +39,7 @@ class Kept:
     fit: tuple[float, float]
     validate: tuple[float, float]
     slot: str
-    code: str
+    commit: str
     day: str
 
 
@@ -66,7 +66,7 @@ def kept(found: Diagnosis) -> Kept:
         (_short(base.fit), _short(last.fit)),
         (_short(base.validate), _short(last.validate)),
         found.missing[0].slot if found.missing else "",
-        fingerprint(),
+        this_commit(),
         datetime.now(UTC).date().isoformat(),
     )
 

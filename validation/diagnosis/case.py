@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Iterator, Sequence
 
 from pysim.types import Diagnosis
-from validation.blind.benchmark.judged import estimated
+from validation.blind.benchmark.intervals import estimated
 from validation.diagnosis.answers import Kept, answered, kept, read_answers
 from validation.diagnosis.sets import NAMES, Told, read_told
 from validation.drawn import drawn, of_the_day

@@ -1,98 +1,125 @@
-"""Which cases to answer, and the run that answers them."""
+"""Answer cases one by one, each in a process of its own, and keep every answer: a run goes on where it was stopped."""
 
 from __future__ import annotations
 
+import multiprocessing
+import os
 import time
-import zlib
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor, as_completed
 from fnmatch import fnmatchcase
-
-import numpy as np
+from multiprocessing.connection import Connection
+from pathlib import Path
+from zlib import crc32
 
 from pysim.types import BadInput
-from validation.blind.benchmark.answer import Answer
-from validation.blind.benchmark.stopwatch import today
-from validation.blind.benchmark.store import Store
-from validation.blind.benchmark.workers import Task, answers
+from validation.blind.benchmark.answer import Answer, read_answers, write_answer
 from validation.blind.plant import Case
+from validation.commit import this_commit
+
+Task = Callable[[Case], Answer]
 
 KINDS = ("none", "named", "beyond", "left-out", "pair")
+LIMIT = 900.0  # s for one case
+_RESULTS = Path(__file__).parents[3] / "results" / "blind-benchmark"
+_CONTEXT = multiprocessing.get_context("spawn")
+_ONE_THREAD = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS")
 
 
-@dataclass(frozen=True)
-class Choice:
-    """Some cases of a table.
+def choose(
+    table: Sequence[Case], *, kinds: Sequence[str] = KINDS, names: str = "*", count: int | None = None
+) -> list[Case]:
+    """Cases in an order that mixes all kinds by their shares, so that the first of them stand for the whole.
 
     Args:
-        kinds: of them; all where empty.
         names: pattern of their names, with * and ?.
-        sample: how many at random; None takes all.
-        seed: of the sample.
-        shard: the k-th of n equal parts, (k, n) with k from 1.
-    Raises:
-        BadInput: an unknown kind, or a part that is not there.
+        count: the first of them; None takes all.
     """
-
-    kinds: tuple[str, ...] = ()
-    names: str = "*"
-    sample: int | None = None
-    seed: int = 0
-    shard: tuple[int, int] = (1, 1)
-
-    def __post_init__(self) -> None:
-        for kind in self.kinds:
-            if kind not in KINDS:
-                raise BadInput(f"--kinds: there is no kind {kind!r}; there are {', '.join(KINDS)}")
-        k, n = self.shard
-        if not 1 <= k <= n:
-            raise BadInput(f"--shard {k}/{n}: there is no such part; the first of n is 1/n, the last n/n")
-
-    def of(self, table: Sequence[Case]) -> list[Case]:
-        """In an order that mixes all kinds, so that what is done after a while stands for the whole."""
-        found = [c for c in table if (not self.kinds or c.kind in self.kinds) and fnmatchcase(c.name, self.names)]
-        found.sort(key=lambda case: zlib.crc32(case.name.encode()))
-        if self.sample is not None and self.sample < len(found):
-            taken = np.random.default_rng(self.seed).choice(len(found), self.sample, replace=False)
-            found = [found[i] for i in sorted(taken.tolist())]
-        k, n = self.shard
-        return found[k - 1 :: n]
+    place: dict[Case, float] = {}
+    for kind in kinds:
+        own = [case for case in table if case.kind == kind and fnmatchcase(case.name, names)]
+        own.sort(key=lambda case: crc32(case.name.encode()))
+        place |= {case: (i + 0.5) / len(own) for i, case in enumerate(own)}
+    return sorted(place, key=lambda case: place[case])[:count]
 
 
-def run(
+def folder_of(commit: str, seed: int) -> Path:
+    """Where this commit's answers to the table of that seed are kept."""
+    return _RESULTS / commit / f"seed-{seed}"
+
+
+def answer_cases(
     chosen: Sequence[Case],
-    store: Store,
     task: Task,
-    code: str,
+    folder: Path,
+    commit: str,
     *,
-    counts: Callable[[Answer], bool] | None = None,
     workers: int = 2,
-    limit: float = 900.0,
+    limit: float = LIMIT,
     say: Callable[[str], None] = print,
-) -> int:
-    """Answer what the store does not hold of this code, and add it there case by case.
+) -> dict[str, Answer]:
+    """Answer what the folder does not hold; where files differ from the commit, everything, since nobody knows which.
 
     Args:
-        code: fingerprint; answers of another code are given again.
-        counts: whether an answer need not be given again; those of this code alone where None.
-        workers: processes, of one thread each.
-        limit: s for one case, judging and the start of its process included.
+        task: a function of a module, called in processes of their own with one thread each.
+        limit: s after which a case is given up.
     Returns:
-        how many cases were answered.
+        case -> answer, of all that the folder holds.
+    Raises:
+        BadInput: no checkout, or one that changed meanwhile.
     """
-    known = store.read()
-    done_with = counts or (lambda answer: answer.code == code)
-    open_ = [case for case in chosen if case.name not in known or not done_with(known[case.name])]
-    say(f"{len(open_)} of {len(chosen)} cases to answer, code {code}")
-    blank = Answer("", code, today())
+    if not commit:
+        raise BadInput("answers are kept by commit and this is no checkout of git; clone the repository and run there")
+    known = {} if commit.endswith("-dirty") else read_answers(folder)
+    waiting = [case for case in chosen if case.name not in known]
+    say(f"{len(waiting)} of {len(chosen)} cases to answer by commit {commit}")
     begun = time.monotonic()
-    for done, (case, answer) in enumerate(answers(open_, task, blank, workers=workers, limit=limit), start=1):
-        store.add(case, answer)
-        left = (time.monotonic() - begun) / done * (len(open_) - done)
-        said = answer.verdict or answer.trouble
-        say(f"{done}/{len(open_)} {case.name}: {said}; {answer.wall:.0f} s; {_spoken(left)} left")
-    return len(open_)
+    for done, answer in enumerate(_answers(waiting, task, workers, limit), start=1):
+        if this_commit() != commit:
+            raise BadInput(f"the checkout is no longer that of {commit}; run the benchmark in a clone of its own")
+        write_answer(folder, answer)
+        known[answer.case] = answer
+        left = (time.monotonic() - begun) / done * (len(waiting) - done) / 60
+        found = answer.verdict or answer.trouble
+        say(f"{done}/{len(waiting)} {answer.case}: {found}; {answer.wall:.0f} s; {left:.0f} min left")
+    return known
 
 
-def _spoken(seconds: float) -> str:
-    return f"{seconds / 3600:.1f} h" if seconds > 5400 else f"{seconds / 60:.0f} min"
+def _answers(cases: Sequence[Case], task: Task, workers: int, limit: float) -> Iterator[Answer]:
+    """As they come."""
+    os.environ.update(dict.fromkeys(_ONE_THREAD, "1"))  # the processes are the parallel part
+    pool = ThreadPoolExecutor(workers)
+    try:
+        for future in as_completed([pool.submit(_alone, task, case, limit) for case in cases]):
+            yield future.result()
+    finally:
+        pool.shutdown(cancel_futures=True)
+
+
+def _alone(task: Task, case: Case, limit: float) -> Answer:
+    """By a new process; if it crashes or takes too long, that costs its case and no more."""
+    here, there = _CONTEXT.Pipe(duplex=False)
+    process = _CONTEXT.Process(target=_serve, args=(task, case, there), daemon=True)
+    process.start()
+    there.close()
+    try:
+        if here.poll(limit):
+            answer: Answer = here.recv()
+            return answer
+        trouble = f"given up after {limit:g} s"
+    except EOFError:
+        process.join()
+        trouble = f"the process ended with {process.exitcode}"
+    finally:
+        process.kill()
+        process.join()
+        here.close()
+    return Answer(case.name, trouble=trouble)
+
+
+def _serve(task: Task, case: Case, line: Connection) -> None:
+    try:
+        answer = task(case)
+    except Exception as error:  # whatever it is, it is the case's answer
+        answer = Answer(case.name, trouble=f"{type(error).__name__}: {error}"[:300])
+    line.send(answer)

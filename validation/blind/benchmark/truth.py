@@ -1,4 +1,4 @@
-"""What only the one who knows the truth can say of a case: footprints, and how well the true model could be known.
+"""What only the one who knows the truth can say of a case: detectability, and how well the true model could be known.
 
 Counted by itself, not by the diagnosis that is judged: stepped sines as mean and five harmonics, settled; other logs
 sample by sample; each over the noise that the data set states, resolution included.
@@ -122,15 +122,14 @@ class Truth:
         ]
         return evaluation(targets, point, there if costs[1] < costs[0] else point.x)
 
-    def held_out(self) -> tuple[float, float] | None:
-        """Root mean squares over the noise on held-out records: the Cramer-Rao bound, and what the truth leaves."""
+    def bound(self) -> float | None:
+        """Cramer and Rao's bound of the error on held-out records, a root mean square over the noise."""
         point = self.model([name for name, _ in self.case.effects])
         fitted, held = (evaluation(self.of_use(use), point, point.x) for use in ("fit", "validate"))
         if not (fitted.good and held.good):
             return None
         inverse = np.linalg.pinv(np.linalg.qr(fitted.jacobian, mode="r"), rcond=EXACT)
-        spread = np.linalg.norm(held.jacobian @ inverse)
-        return float(spread / np.sqrt(held.residual.size)), float(np.sqrt(np.mean(held.residual**2)))
+        return float(np.linalg.norm(held.jacobian @ inverse) / np.sqrt(held.residual.size))
 
 
 def noise_free(measured: Measured) -> Dataset:
