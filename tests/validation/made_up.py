@@ -1,7 +1,9 @@
 """Cases and results that no calculation is behind."""
 
+from collections.abc import Iterator
 from types import SimpleNamespace
 
+import pytest
 from matplotlib.figure import Figure
 
 from validation.findings import Finding
@@ -20,7 +22,7 @@ def made_of(*findings: Finding) -> SimpleNamespace:
 
 
 def broken() -> SimpleNamespace:
-    def run():
+    def run() -> Iterator[Finding]:
         yield GOOD[0]
         raise ValueError("no good\nat all")
 
@@ -40,7 +42,7 @@ def result(name: str, *findings: Finding, date: str = "2026-01-02T03:04:05Z", er
     return CaseResult(name, f"about {name}", "methods", date, 1.5, 2.5, MACHINE, findings, error)
 
 
-def use(monkeypatch) -> None:
+def use(monkeypatch: pytest.MonkeyPatch) -> None:
     """Let the suite know these cases and no others."""
     monkeypatch.setattr("validation.registry.import_module", lambda module: MODULES[module.split(".")[1]])
     for module in ("validation.suite", "validation.summary", "validation.page", "validation.results"):

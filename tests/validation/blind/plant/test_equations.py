@@ -2,6 +2,7 @@
 
 import cmath
 import math
+from collections.abc import Callable
 
 import numpy as np
 import pytest
@@ -95,7 +96,7 @@ def test_rest_obeys_flow_and_force_balance() -> None:
     ],
 )
 @pytest.mark.parametrize("percent", [50.0, -30.0])
-def test_forces_at_rest(strengths: Strengths, force, percent: float) -> None:
+def test_forces_at_rest(strengths: Strengths, force: Callable[[float], float], percent: float) -> None:
     at = held(percent, strengths)
     assert (at["p1"] - at["p2"]) * BASE.A_p - BASE.k * at["x"] == pytest.approx(-force(at["x"]), abs=0.1)
 
@@ -244,17 +245,25 @@ def test_the_piston_stops_dead_at_its_end() -> None:
     assert at["v"] == 0.0
 
 
-def test_supply_ripple_worn_seal_and_spool_friction_enter_their_balances() -> None:
+@pytest.fixture
+def uncompiled(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The laws as plain Python: to compile them for a few values takes seconds."""
+    for name, law in list(vars(equations).items()):
+        if hasattr(law, "py_func"):
+            monkeypatch.setattr(equations, name, law.py_func)
+
+
+def test_supply_ripple_worn_seal_and_spool_friction_enter_their_balances(uncompiled: None) -> None:
     state = (0.3, 2.0, 4e-3, 0.0, 80e5, 60e5, 0.0, 0.0, 0.0, 0.0)
-    plain = equations._flow.py_func(0.0, 0.0, 0.0, state, BASE, Strengths())
+    plain = equations._flow(0.0, 0.0, 0.0, state, BASE, Strengths())
     quarter = 1 / (4 * 11.3)
-    raised = equations._flow.py_func(quarter, 0.0, 0.0, state, BASE, Strengths(ripple__p=5e5, ripple__f=11.3))
-    assert raised == pytest.approx(equations._flow.py_func(0.0, 0.0, 0.0, state, BASE._replace(p_P=175e5), Strengths()))
-    worn = equations._flow.py_func(0.0, 0.0, 0.0, state, BASE, Strengths(worn__C_w=1e-12, worn__x_w=4e-3))
+    raised = equations._flow(quarter, 0.0, 0.0, state, BASE, Strengths(ripple__p=5e5, ripple__f=11.3))
+    assert raised == pytest.approx(equations._flow(0.0, 0.0, 0.0, state, BASE._replace(p_P=175e5), Strengths()))
+    worn = equations._flow(0.0, 0.0, 0.0, state, BASE, Strengths(worn__C_w=1e-12, worn__x_w=4e-3))
     lost = 1e-12 / math.e * 20e5 * BASE.beta
     assert plain[4] - worn[4] == pytest.approx(lost / (BASE.V_0 + BASE.A_p * 4e-3))
     assert worn[5] - plain[5] == pytest.approx(lost / (BASE.V_0 - BASE.A_p * 4e-3))
-    rubbing = equations._flow.py_func(0.0, 0.0, 0.0, state, BASE, Strengths(spool_friction__a_c=300.0))
+    rubbing = equations._flow(0.0, 0.0, 0.0, state, BASE, Strengths(spool_friction__a_c=300.0))
     assert plain[1] - rubbing[1] == pytest.approx(300 * math.tanh(2.0 / 0.05))
 
 
