@@ -1,6 +1,7 @@
 """Files in and out: .fmu, data sets and their logs, records."""
 
-from pysim.io.archive import DAMAGED, extracted
+from pysim.io.archive import extracted
+from pysim.io.archive_check import DAMAGED
 from pysim.io.binary import check_binary, load_library
 from pysim.io.cache import cache_folder
 from pysim.io.columns import names_its_columns

@@ -9,26 +9,23 @@ import tempfile
 import time
 import uuid
 import zipfile
-import zlib
 from contextlib import suppress
 from functools import lru_cache
-from pathlib import Path, PurePosixPath, PureWindowsPath
+from pathlib import Path
 
+from pysim.io.archive_check import DAMAGED, check_archive
 from pysim.io.cache import cache_folder
 from pysim.types import BadInput
 
 KEPT_FOLDERS = 200
 IN_USE = 86400.0  # s since its last use for which a folder stays, however many there are: a run may still read it
 
-# What zipfile raises for a damaged archive, for a compression it does not know, and for one with a password
-DAMAGED = (zipfile.BadZipFile, zlib.error, EOFError, NotImplementedError, RuntimeError)
-
 
 def extracted(path: Path) -> Path:
     """The folder with the unpacked FMU. The same content is unpacked once per machine, and goes when long unused.
 
     Raises:
-        BadInput: not a zip archive, one that is damaged or encrypted, or a member that would land outside the folder.
+        BadInput: not a zip archive, one that is damaged or encrypted, or one that `check_archive` refuses.
     """
     folder = _folder(path.resolve(), stamp(path))
     try:
@@ -55,10 +52,16 @@ def _unpack(path: Path, folder: Path) -> None:
     """Unpack beside the target and rename, so that a folder that exists is always complete."""
     partial = Path(tempfile.mkdtemp(prefix="unpack-", dir=folder.parent))
     try:
+        members = check_archive(path)
         with zipfile.ZipFile(path) as archive:
-            for member in archive.infolist():
-                _check_member(path, member.filename)
-            archive.extractall(partial)
+            for name, member in members.items():
+                target = partial / name
+                if member.is_dir():
+                    target.mkdir(parents=True, exist_ok=True)
+                    continue
+                target.parent.mkdir(parents=True, exist_ok=True)
+                with archive.open(member) as source, target.open("wb") as file:
+                    shutil.copyfileobj(source, file)
         os.replace(partial, folder)
     except DAMAGED as error:
         raise BadInput(f"{path} is not an FMU that can be unpacked: {error}; export it again") from error
@@ -87,10 +90,3 @@ def _remove(folder: Path) -> None:
     with suppress(OSError):
         os.replace(folder, gone)
         shutil.rmtree(gone, ignore_errors=True)
-
-
-def _check_member(path: Path, name: str) -> None:
-    """Refuse names that leave the folder, by the rules of either family of systems."""
-    parts = PurePosixPath(name.replace("\\", "/"))
-    if parts.is_absolute() or ".." in parts.parts or PureWindowsPath(name).drive:
-        raise BadInput(f"{path} holds a file named {name!r}, which would be written outside its folder: do not use it")

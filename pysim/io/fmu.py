@@ -8,7 +8,8 @@ from pathlib import Path
 
 from fmpy.model_description import ModelDescription, ModelVariable, Unknown, read_model_description
 
-from pysim.io.archive import DAMAGED, stamp
+from pysim.io.archive import stamp
+from pysim.io.archive_check import DAMAGED, check_archive
 from pysim.types import Abilities, BadInput, CoSimulation, Model, Variable
 
 
@@ -18,15 +19,19 @@ def read_model(path: Path | str, *, faulty: bool = False) -> Model:
     Args:
         faulty: take one whose states it does not tell, too, without those, as a check of FMUs has to.
     Raises:
-        BadInput: no such file, not an FMU, FMI 1.0, or a derivative that does not say of which state.
+        BadInput: no such file, not an FMU, one that `check_archive` refuses, FMI 1.0, or a derivative that does not
+            say of which state.
     """
     path = Path(path)
     if not path.is_file():
         raise BadInput(f"no FMU at {path}; correct the path")
     try:
+        check_archive(path)
         description = read_model_description(str(path), validate=False)
     except (*DAMAGED, KeyError) as error:
         raise BadInput(f"{path} is not an FMU: {error}; export it again") from error
+    except BadInput:
+        raise
     except Exception as error:  # FMPy raises bare exceptions for whatever it cannot read
         raise BadInput(f"{path}: its modelDescription.xml cannot be read: {error}") from error
     if description.fmiMajorVersion not in (2, 3):

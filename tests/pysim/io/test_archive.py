@@ -1,3 +1,5 @@
+"""Unpacked FMUs: once, whole, as the archive has them, and never more than a machine can bear."""
+
 import os
 import shutil
 import zipfile
@@ -7,6 +9,7 @@ import pytest
 
 from pysim.io import archive as module
 from pysim.io import extracted, read_model
+from pysim.io.archive_check import ArchiveLimits, check_archive
 from pysim.types import BadInput
 
 
@@ -72,8 +75,59 @@ def test_what_another_process_removed_is_unpacked_again(tmp_path):
     assert (extracted(path) / "resources" / "data").read_text() == "1"
 
 
+def zeros(path, method=zipfile.ZIP_DEFLATED, size=30_000_000):
+    """An archive with a file of zeros: 30 MB shrink to 30 kB."""
+    with zipfile.ZipFile(path, "w", method) as archive:
+        archive.writestr("data", bytes(size))
+    return path
+
+
+def test_an_archive_that_would_grow_a_thousandfold_is_refused_unread(tmp_path, own_cache):
+    path = zeros(tmp_path / "bomb.fmu")
+    for read in (extracted, read_model):
+        with pytest.raises(BadInput, match=r"bomb\.fmu would unpack to 30 MB, more than the 20 MB .*; export it again"):
+            read(path)
+    assert list(own_cache.iterdir()) == []
+
+
 @pytest.mark.parametrize(
-    "name", ["../out", "/out", "a/../../out", "..\\out", "C:\\out", "C:out", "\\\\host\\share\\out"]
+    ("limits", "message"),
+    [
+        (ArchiveLimits(files=2), "holds 3 files, more than 2; export it again with fewer"),
+        (ArchiveLimits(size=2_900_000), "would unpack to 3 MB, more than the 3 MB"),
+        (ArchiveLimits(ratio=900.0, small=0), "would unpack to 3 MB"),
+    ],
+)
+def test_limits(tmp_path, limits, message):
+    path = tmp_path / "a.fmu"
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
+        for name in "abc":
+            archive.writestr(name, bytes(1_000_000))
+    assert set(check_archive(path)) == set("abc")
+    with pytest.raises(BadInput, match=message):
+        check_archive(path, limits)
+
+
+def test_a_directory_that_lies_about_a_size_is_found_out(tmp_path, own_cache):
+    path = zeros(tmp_path / "liar.fmu")
+    content = bytearray(path.read_bytes())
+    for header, at in ((b"PK\x03\x04", 22), (b"PK\x01\x02", 24)):
+        start = content.index(header) + at
+        content[start : start + 4] = (10).to_bytes(4, "little")
+    path.write_bytes(content)
+    with pytest.raises(BadInput, match=r"liar\.fmu is not an FMU that can be unpacked: Bad CRC"):
+        extracted(path)
+    assert list(own_cache.iterdir()) == []
+
+
+def test_a_compression_that_fmi_does_not_allow_is_refused(tmp_path):
+    path = zeros(tmp_path / "a.fmu", zipfile.ZIP_BZIP2, 100)
+    with pytest.raises(BadInput, match="data is not compressed by Deflate"):
+        extracted(path)
+
+
+@pytest.mark.parametrize(
+    "name", ["../out", "/out", "a/../../out", ".", "..\\out", "C:\\out", "C:out", "\\\\host\\share\\out"]
 )
 def test_member_that_leaves_the_folder_is_refused_and_nothing_is_left(tmp_path, own_cache, name):
     path = tmp_path / "evil.fmu"
@@ -106,11 +160,6 @@ def damaged(path: Path, method: int, change) -> Path:
     return path
 
 
-def other_compression(content: bytearray) -> None:
-    for header, at in ((b"PK\x03\x04", 8), (b"PK\x01\x02", 10)):
-        content[content.index(header) + at] = 99
-
-
 def encrypted(content: bytearray) -> None:
     for header, at in ((b"PK\x03\x04", 6), (b"PK\x01\x02", 8)):
         content[content.index(header) + at] |= 1
@@ -121,7 +170,7 @@ def broken_stream(content: bytearray) -> None:
     content[start : start + 4] = b"\xff\xff\xff\xff"
 
 
-@pytest.mark.parametrize("change", [other_compression, encrypted, broken_stream])
+@pytest.mark.parametrize("change", [encrypted, broken_stream])
 def test_damaged_archive_is_bad_input_and_leaves_nothing(tmp_path, own_cache, change):
     path = damaged(tmp_path / "damaged.fmu", zipfile.ZIP_DEFLATED, change)
     with pytest.raises(BadInput, match=r"damaged\.fmu is not an FMU that can be unpacked: .*; export it again"):
