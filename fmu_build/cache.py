@@ -1,8 +1,13 @@
-"""Finished FMUs kept by the content they were made from, so that an unchanged model is not built twice."""
+"""Finished FMUs kept by the content they were made from, so that an unchanged model is not built twice.
+
+An FMU is loaded as code, so it is given out only from a folder that no other user could have written into, and only as
+long as it has the digest in its name.
+"""
 
 import hashlib
 import os
 import shutil
+import stat
 import sys
 import time
 import uuid
@@ -11,9 +16,13 @@ from contextlib import suppress
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
+from platformdirs import user_cache_path
+
 from fmu_build.errors import BuildError
 
 FOLDER_VARIABLE = "HTB_CACHE"
+_NAME = "hydraulic-test-bench"
+_ANOTHER = f"name a folder of your own in the environment variable {FOLDER_VARIABLE}"
 KEPT_FMUS = 200
 IN_USE = 86400.0  # s since its last use for which an FMU stays, however many there are: a run may still read it
 _TOOLS = ("rumoca", "casadi", "ziglang", "fmpy")  # their versions shape the result
@@ -21,18 +30,38 @@ _OWN_SUFFIXES = {".py", ".c", ".h", ".txt"}
 
 
 def cache_folder() -> Path:
-    """$HTB_CACHE, else the place this system has for such files."""
+    """The folder of finished FMUs, made for this user alone (mode 0700) where it is missing.
+
+    It lies below $HTB_CACHE, else in the place this system has for such files.
+
+    Raises:
+        BuildError: it cannot be made, belongs to another user, or others may write into it.
+    """
     given = os.environ.get(FOLDER_VARIABLE)
-    if given:
-        return Path(given)
-    home = Path.home()
-    if sys.platform == "win32":
-        base = Path(os.environ.get("LOCALAPPDATA") or home / "AppData" / "Local")
-    elif sys.platform == "darwin":
-        base = home / "Library" / "Caches"
-    else:
-        base = Path(os.environ.get("XDG_CACHE_HOME") or home / ".cache")
-    return base / "hydraulic-test-bench" / "fmu"
+    root = Path(given).absolute() if given else user_cache_path(_NAME, appauthor=False, opinion=False)
+    folder = root / "fmu"
+    try:
+        root.parent.mkdir(parents=True, exist_ok=True)
+        for made in (root, folder):
+            made.mkdir(mode=0o700, exist_ok=True)
+            _check_private(made)
+    except OSError as error:
+        raise _unwritable(folder, error) from error
+    return folder
+
+
+def _check_private(folder: Path) -> None:
+    """Refuse a folder into which another user could have put files; on Windows the user's profile protects its own."""
+    if os.name == "nt":
+        return
+    known = folder.stat()
+    if known.st_uid != os.geteuid():
+        raise BuildError(f"{folder} belongs to another user, so no FMU is taken from it; {_ANOTHER}.")
+    if known.st_mode & (stat.S_IWGRP | stat.S_IWOTH):
+        raise BuildError(
+            f"other users may write into {folder}, so no FMU is taken from it; delete it, or type "
+            f"`chmod -R go-w {folder}` if you trust what is in it."
+        )
 
 
 def content_key(
@@ -51,24 +80,28 @@ def content_key(
 
 
 def cached(key: str) -> Path | None:
-    """The FMU made from this content, marked as used just now; None where there is none."""
-    path = _place(key)
-    with suppress(OSError):
-        os.utime(path)
-        return path
+    """The FMU made from this content, marked as used just now; None where there is none.
+
+    Raises:
+        BuildError: it is not what was stored, or the folder is not this user's alone.
+    """
+    for path in cache_folder().glob(f"{key}-*.fmu"):
+        with suppress(FileNotFoundError):  # another process has let go of it
+            if path != _place(key, path):
+                raise BuildError(f"{path} was changed after it was built; delete it and build again.")
+            with suppress(OSError):  # Windows: another process has it open
+                os.utime(path)
+            return path
     return None
 
 
 def store(key: str, fmu: Path) -> Path:
     """Keep a copy of a new FMU and let go of those unused for longest, but of none that a run may still read."""
-    target = _place(key)
+    target = _place(key, fmu)
     try:
         copy_whole(fmu, target)
     except OSError as error:
-        raise BuildError(
-            f"cannot keep the FMU in {target.parent}: {error.strerror or error}; "
-            f"name another folder in the environment variable {FOLDER_VARIABLE}."
-        ) from error
+        raise _unwritable(target.parent, error) from error
     _tidy(target.parent)
     return target
 
@@ -97,8 +130,13 @@ def copy_whole(source: Path, target: Path) -> None:
         temporary.unlink(missing_ok=True)
 
 
-def _place(key: str) -> Path:
-    return cache_folder() / f"{key}.fmu"
+def _place(key: str, fmu: Path) -> Path:
+    """Where an FMU made from the content of `key` is kept: its own digest is part of the name."""
+    return cache_folder() / f"{key}-{hashlib.sha256(fmu.read_bytes()).hexdigest()[:32]}.fmu"
+
+
+def _unwritable(folder: Path, error: OSError) -> BuildError:
+    return BuildError(f"cannot keep an FMU in {folder}: {error.strerror or error}; {_ANOTHER}.")
 
 
 def _version(package: str) -> str:

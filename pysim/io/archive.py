@@ -1,4 +1,4 @@
-"""Unpack an FMU once, into a folder named after its content."""
+"""Unpack an FMU once, into a folder named after its content, and give it out only as long as it holds that content."""
 
 from __future__ import annotations
 
@@ -20,20 +20,26 @@ from pysim.types import BadInput
 KEPT_FOLDERS = 200
 IN_USE = 86400.0  # s since its last use for which a folder stays, however many there are: a run may still read it
 
+_CODE = {".so", ".dll", ".dylib"}  # suffixes of what a system loads
+_PIECE = 1 << 20  # bytes compared at a time
+
 
 def extracted(path: Path) -> Path:
     """The folder with the unpacked FMU. The same content is unpacked once per machine, and goes when long unused.
 
+    What the folder holds is compared with the archive once in each process.
+
     Raises:
-        BadInput: not a zip archive, one that is damaged or encrypted, or one that `check_archive` refuses.
+        BadInput: not a zip archive, one that is damaged or encrypted, one that `check_archive` refuses, or a folder
+            that no longer holds what was unpacked.
     """
     folder = _folder(path.resolve(), stamp(path))
     try:
-        with suppress(PermissionError):  # another user's
-            os.utime(folder)  # used just now
+        os.utime(folder)  # used just now
     except FileNotFoundError:
         _unpack(path, folder)
         _let_go(folder.parent)
+    _verify(path.resolve(), stamp(path), folder)
     return folder
 
 
@@ -70,6 +76,29 @@ def _unpack(path: Path, folder: Path) -> None:
             raise
     finally:
         shutil.rmtree(partial, ignore_errors=True)
+
+
+@lru_cache(maxsize=256)
+def _verify(path: Path, _stamp: tuple[int, int], folder: Path) -> None:
+    """Refuse a folder whose files are not those of the archive, or that holds further libraries beside them."""
+    members = {name: member for name, member in check_archive(path).items() if not member.is_dir()}
+    with zipfile.ZipFile(path) as archive:
+        changed = [name for name, member in members.items() if not _is_same(archive, member, folder / name)]
+    found = (file.relative_to(folder).as_posix() for file in folder.rglob("*") if _CODE & set(file.suffixes))
+    changed += [name for name in found if name not in members]
+    if changed:
+        raise BadInput(f"{folder} is not what {path} unpacks to ({changed[0]} was changed); delete that folder")
+
+
+def _is_same(archive: zipfile.ZipFile, member: zipfile.ZipInfo, file: Path) -> bool:
+    try:
+        with archive.open(member) as source, file.open("rb") as copy:
+            while piece := source.read(_PIECE):
+                if copy.read(len(piece)) != piece:
+                    return False
+            return not copy.read(1)
+    except OSError:
+        return False
 
 
 def _let_go(cache: Path) -> None:

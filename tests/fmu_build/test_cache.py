@@ -1,6 +1,9 @@
-"""What makes a difference to the cache, and what does not."""
+"""What makes a difference to the cache, what does not, and what is not given out of it."""
 
 import os
+import stat
+import sys
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import pytest
@@ -9,25 +12,42 @@ from fmu_build import cache
 from fmu_build.cache import cache_folder, cached, content_key, store
 from fmu_build.errors import BuildError
 
+posix = pytest.mark.skipif(os.name == "nt", reason="Windows protects a user's profile by other rights")
+
 
 @pytest.fixture(autouse=True)
-def own_cache(tmp_path, monkeypatch):
+def root(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A cache that the user names, and that does not exist yet."""
     monkeypatch.setenv("HTB_CACHE", str(tmp_path / "cache"))
+    return tmp_path / "cache"
 
 
 @pytest.fixture
-def library(tmp_path):
+def library(tmp_path: Path) -> Path:
     folder = tmp_path / "Library"
     folder.mkdir()
     (folder / "package.mo").write_text("package Library end Library;")
     return folder
 
 
-def key(library, name="Library.A", overrides=None, options=("FMI 2",)):
+@pytest.fixture
+def fmu(tmp_path: Path) -> Path:
+    """A new file to be kept."""
+    path = tmp_path / "a.fmu"
+    path.write_bytes(b"content")
+    return path
+
+
+def key(
+    library: Path,
+    name: str = "Library.A",
+    overrides: Mapping[str, float | str] | None = None,
+    options: Sequence[str] = ("FMI 2",),
+) -> str:
     return content_key(name, [library], overrides or {}, options)
 
 
-def test_everything_that_shapes_the_fmu_changes_the_key(library):
+def test_everything_that_shapes_the_fmu_changes_the_key(library: Path) -> None:
     keys = [
         key(library),
         key(library, name="Library.B"),
@@ -42,7 +62,7 @@ def test_everything_that_shapes_the_fmu_changes_the_key(library):
     assert len(set(keys)) == len(keys)
 
 
-def test_place_time_and_other_files_do_not_matter(library, tmp_path):
+def test_place_time_and_other_files_do_not_matter(library: Path, tmp_path: Path) -> None:
     before = key(library)
     os.utime(library / "package.mo", (0, 0))
     (library / "notes.md").write_text("x")
@@ -50,87 +70,103 @@ def test_place_time_and_other_files_do_not_matter(library, tmp_path):
     assert key(moved) == before
 
 
-def test_an_fmu_comes_back(tmp_path):
-    (tmp_path / "a.fmu").write_bytes(b"content")
+def test_an_fmu_comes_back(fmu: Path) -> None:
     assert cached("k") is None
-    assert store("k", tmp_path / "a.fmu") == cached("k")
-    assert cached("k").read_bytes() == b"content"
-    assert cached("k").parent == cache_folder()
+    kept = store("k", fmu)
+    assert cached("k") == kept
+    assert kept.read_bytes() == b"content"
+    assert kept.parent == cache_folder()
 
 
-def test_the_unused_go_first(tmp_path, monkeypatch):
-    (tmp_path / "a.fmu").write_bytes(b"content")
+def test_an_fmu_that_was_changed_is_refused(fmu: Path) -> None:
+    kept = store("k", fmu)
+    kept.write_bytes(b"planted")
+    with pytest.raises(BuildError, match=f"{kept.name} was changed after it was built; delete it"):
+        cached("k")
+    kept.unlink()
+    assert cached("k") is None
+
+
+@posix
+def test_new_folders_are_for_this_user_alone(root: Path) -> None:
+    before = os.umask(0)
+    try:
+        folder = cache_folder()
+    finally:
+        os.umask(before)
+    assert [stat.S_IMODE(path.stat().st_mode) for path in (root, folder)] == [0o700, 0o700]
+
+
+@posix
+@pytest.mark.parametrize("mode", [0o777, 0o770, 0o702])
+@pytest.mark.parametrize("place", ["cache", "cache/fmu"])
+def test_a_folder_that_others_may_write_into_is_refused(root: Path, fmu: Path, place: str, mode: int) -> None:
+    store("k", fmu)
+    (root.parent / place).chmod(mode)
+    with pytest.raises(BuildError, match=rf"other users may write into .*{place}, .*chmod -R go-w"):
+        cached("k")
+
+
+@posix
+def test_a_folder_that_others_may_read_is_taken(root: Path, fmu: Path) -> None:
+    root.mkdir()
+    root.chmod(0o755)
+    assert store("k", fmu) == cached("k")
+
+
+@posix
+def test_another_users_folder_is_refused(root: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    root.mkdir(mode=0o700)
+    owner = root.stat().st_uid
+    monkeypatch.setattr("os.geteuid", lambda: owner + 1)
+    with pytest.raises(BuildError, match=r"cache belongs to another user, .*; name a folder .* HTB_CACHE"):
+        cached("k")
+
+
+@pytest.mark.skipif(sys.platform in ("win32", "darwin"), reason="the variable is that of Linux")
+def test_without_a_name_it_is_the_systems_place(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delenv("HTB_CACHE")
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "new"))
+    assert cache_folder() == tmp_path / "new" / "hydraulic-test-bench" / "fmu"
+
+
+def test_a_cache_that_cannot_be_written_names_the_cure(root: Path, fmu: Path) -> None:
+    root.touch()
+    with pytest.raises(BuildError, match=r"cannot keep an FMU in .*HTB_CACHE"):
+        store("k", fmu)
+
+
+def test_the_unused_go_first(fmu: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     for k, name in enumerate("abc"):
-        os.utime(store(name, tmp_path / "a.fmu"), (k, k))
+        os.utime(store(name, fmu), (k, k))
     cached("a")  # used just now
     monkeypatch.setattr(cache, "KEPT_FMUS", 2)
-    store("d", tmp_path / "a.fmu")
+    store("d", fmu)
     assert [cached(name) is not None for name in "abcd"] == [True, False, False, True]
 
 
-def test_what_was_used_within_a_day_stays(tmp_path, monkeypatch):
+def test_what_was_used_within_a_day_stays(fmu: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(cache, "KEPT_FMUS", 1)
-    (tmp_path / "a.fmu").touch()
     for name in "abc":
-        store(name, tmp_path / "a.fmu")
+        store(name, fmu)
     assert all(cached(name) is not None for name in "abc")
 
 
-def _two_old_ones(folder, monkeypatch):
-    """FMUs a and b in a cache that keeps none, unused for long; a.fmu in the folder is their file."""
+def test_what_another_process_has_taken_away_meanwhile_does_not_matter(
+    fmu: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setattr(cache, "KEPT_FMUS", 0)
-    (folder / "a.fmu").write_bytes(b"content")
-    old = [store(name, folder / "a.fmu") for name in "ab"]
+    old = [store(name, fmu) for name in "ab"]
     for path in old:
         os.utime(path, (0, 0))
-    return old
-
-
-def test_what_another_process_has_taken_away_meanwhile_does_not_matter(tmp_path, monkeypatch):
-    old = _two_old_ones(tmp_path, monkeypatch)
     listed = Path.glob
 
-    def glob(folder, pattern):
+    def glob(folder: Path, pattern: str) -> list[Path]:
         found = list(listed(folder, pattern))
-        old[0].unlink()  # between the listing and the look at it
+        old[0].unlink(missing_ok=True)  # between the listing and the look at it
         return found
 
     monkeypatch.setattr(Path, "glob", glob)
-    assert store("c", tmp_path / "a.fmu").read_bytes() == b"content"
+    assert cached("a") is None
+    assert store("c", fmu).read_bytes() == b"content"
     assert cached("b") is None
-
-
-def test_a_file_that_cannot_be_let_go_of_does_not_cost_the_new_one(tmp_path, monkeypatch):
-    """Windows keeps a file that a run has open."""
-    old = _two_old_ones(tmp_path, monkeypatch)
-    let_go = Path.unlink
-
-    def unlink(path, missing_ok=False):
-        if path == old[0]:
-            raise PermissionError(13, "in use")
-        let_go(path, missing_ok)
-
-    monkeypatch.setattr(Path, "unlink", unlink)
-    assert store("c", tmp_path / "a.fmu").read_bytes() == b"content"
-    assert [path.exists() for path in old] == [True, False]
-
-
-def test_a_cache_that_cannot_be_written_names_the_cure(tmp_path, monkeypatch):
-    (tmp_path / "file").touch()
-    monkeypatch.setenv("HTB_CACHE", str(tmp_path / "file" / "cache"))
-    with pytest.raises(BuildError, match="HTB_CACHE"):
-        store("k", tmp_path / "file")
-
-
-@pytest.mark.parametrize(
-    ("system", "variable", "tail"),
-    [
-        ("linux", "XDG_CACHE_HOME", ("hydraulic-test-bench", "fmu")),
-        ("win32", "LOCALAPPDATA", ("hydraulic-test-bench", "fmu")),
-    ],
-)
-def test_the_systems_own_place(monkeypatch, tmp_path, system, variable, tail):
-    monkeypatch.delenv("HTB_CACHE")
-    monkeypatch.setattr(cache.sys, "platform", system)
-    monkeypatch.setenv(variable, str(tmp_path))
-    assert cache_folder() == tmp_path.joinpath(*tail)

@@ -10,6 +10,7 @@ from typing import Any
 
 import pytest
 
+from fmu_build.openmodelica import installation
 from fmu_build.pack import select_platforms
 from fmu_build.pack.fmu import pack
 from tests import ode_models
@@ -41,7 +42,7 @@ def omc(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, built: Path) -> Callabl
     monkeypatch.setenv("OPENMODELICAHOME", str(home))
     monkeypatch.setenv("FAKE_OMC", str(tmp_path / "told.json"))
     monkeypatch.setenv("HTB_CACHE", str(tmp_path / "cache"))
-    monkeypatch.setattr("os.geteuid", lambda: 1000, raising=False)
+    monkeypatch.setattr(installation, "is_root", lambda: False)
 
     def behave(**told: Any) -> Path:
         log = tmp_path / "asked.txt"

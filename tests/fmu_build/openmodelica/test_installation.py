@@ -34,7 +34,7 @@ def test_a_missing_ompython_is_said_with_its_cure(omc, monkeypatch):
 
 
 def test_root_is_told_why(omc, monkeypatch):
-    monkeypatch.setattr("os.geteuid", lambda: 0)
+    monkeypatch.setattr(installation, "is_root", lambda: True)
     assert "does not serve the user root" in what_is_missing()
 
 

@@ -18,9 +18,15 @@ def own_cache(tmp_path, monkeypatch):
     folder = tmp_path / "cache"
     folder.mkdir()
     monkeypatch.setattr(module, "cache_folder", lambda purpose: folder)
-    module._folder.cache_clear()
+    new_process()
     yield folder
+    new_process()
+
+
+def new_process():
+    """Forget what this one knows of archives."""
     module._folder.cache_clear()
+    module._verify.cache_clear()
 
 
 def pack(path: Path, **members: str) -> Path:
@@ -73,6 +79,36 @@ def test_what_another_process_removed_is_unpacked_again(tmp_path):
     path = pack(tmp_path / "a.fmu", resources__data="1")
     shutil.rmtree(extracted(path))
     assert (extracted(path) / "resources" / "data").read_text() == "1"
+
+
+LIBRARY = "binaries/linux64/m.so"
+
+
+@pytest.mark.parametrize("planted", [LIBRARY, "binaries/linux64/libm.so.6", "resources/data.dll", "resources/data"])
+def test_what_was_planted_is_not_given_out(tmp_path, planted):
+    path = pack(tmp_path / "a.fmu", **{LIBRARY: "code"}, resources__data="1")
+    folder = extracted(path)
+    (folder / planted).write_text("planted")
+    new_process()
+    with pytest.raises(BadInput, match=rf"{planted} was changed\); delete that folder"):
+        extracted(path)
+    shutil.rmtree(folder)
+    assert (extracted(path) / LIBRARY).read_text() == "code"
+
+
+def test_a_library_that_is_gone_is_missed(tmp_path):
+    path = pack(tmp_path / "a.fmu", **{LIBRARY: "code"})
+    (extracted(path) / LIBRARY).unlink()
+    new_process()
+    with pytest.raises(BadInput, match="delete that folder"):
+        extracted(path)
+
+
+def test_what_an_fmu_writes_beside_its_files_does_not_matter(tmp_path):
+    path = pack(tmp_path / "a.fmu", **{LIBRARY: "code"}, resources__data="1")
+    (extracted(path) / "resources" / "log.txt").write_text("x")
+    new_process()
+    assert (extracted(path) / "resources" / "log.txt").exists()
 
 
 def zeros(path, method=zipfile.ZIP_DEFLATED, size=30_000_000):
