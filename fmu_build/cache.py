@@ -11,8 +11,9 @@ import stat
 import sys
 import time
 import uuid
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
+from functools import cache, lru_cache
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
@@ -25,8 +26,10 @@ _NAME = "hydraulic-test-bench"
 _ANOTHER = f"name a folder of your own in the environment variable {FOLDER_VARIABLE}"
 KEPT_FMUS = 200
 IN_USE = 86400.0  # s since its last use for which an FMU stays, however many there are: a run may still read it
+_SETTLED = 2.0  # s since a file's last change from when a further one changes its time too: FAT counts in steps of 2 s
 _TOOLS = ("rumoca", "casadi", "ziglang", "fmpy")  # their versions shape the result
-_OWN_SUFFIXES = {".py", ".c", ".h", ".txt"}
+_OWN_FILES = (".py", ".c", ".h", ".txt")  # how their names end
+_MODELICA_FILES = (".mo", ".mos", "package.order")
 
 
 def cache_folder() -> Path:
@@ -71,11 +74,9 @@ def content_key(
     digest = hashlib.sha256()
     _add(digest, class_name, repr(sorted(overrides.items())), repr(list(options)), sys.version)
     _add(digest, *(_version(tool) for tool in _TOOLS))
-    package = Path(__file__).parent
-    _add_files(digest, package, (path for path in package.rglob("*") if path.suffix in _OWN_SUFFIXES))
+    _add_files(digest, Path(__file__).parent, _OWN_FILES)
     for library in libraries:
-        files = library.rglob("*") if library.is_dir() else [library]
-        _add_files(digest, library, (p for p in files if p.suffix in (".mo", ".mos") or p.name == "package.order"))
+        _add_files(digest, library, _MODELICA_FILES)
     return digest.hexdigest()
 
 
@@ -139,6 +140,7 @@ def _unwritable(folder: Path, error: OSError) -> BuildError:
     return BuildError(f"cannot keep an FMU in {folder}: {error.strerror or error}; {_ANOTHER}.")
 
 
+@cache
 def _version(package: str) -> str:
     try:
         return f"{package} {version(package)}"
@@ -152,9 +154,31 @@ def _add(digest: "hashlib._Hash", *texts: str) -> None:
         digest.update(f"{len(data)}\0".encode() + data)
 
 
-def _add_files(digest: "hashlib._Hash", root: Path, files: Iterable[Path]) -> None:
-    """Name and content of each; the root's own place does not matter."""
-    for path in sorted(files):
-        _add(digest, path.relative_to(root).as_posix())
-        data = path.read_bytes()
-        digest.update(f"{len(data)}\0".encode() + data)
+def _add_files(digest: "hashlib._Hash", root: Path, ends: tuple[str, ...]) -> None:
+    """Name and content of a file, or of each below a folder whose name ends so; the place of `root` does not matter."""
+    top = str(root)
+    found = [(".", top)] if root.is_file() else []
+    for folder, _, names in os.walk(top):
+        found += [(os.path.join(folder, name)[len(top) :], os.path.join(folder, name)) for name in names]
+    for name, file in sorted(found):
+        if file.endswith(ends):
+            _add(digest, name.replace(os.sep, "/"))
+            digest.update(_file_digest(file))
+
+
+def _file_digest(file: str) -> bytes:
+    """SHA-256 of a file; read once in a process as long as its time and size stay the same."""
+    known = os.stat(file)
+    changed = max(known.st_mtime_ns, known.st_ctime_ns)
+    if abs(time.time() - changed / 1e9) < _SETTLED:
+        return _read_digest(file)
+    return _kept_digest(file, changed, known.st_size)
+
+
+@lru_cache(maxsize=4096)
+def _kept_digest(file: str, _changed: int, _size: int) -> bytes:
+    return _read_digest(file)
+
+
+def _read_digest(file: str) -> bytes:
+    return hashlib.sha256(Path(file).read_bytes()).digest()

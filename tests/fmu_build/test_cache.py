@@ -47,6 +47,12 @@ def key(
     return content_key(name, [library], overrides or {}, options)
 
 
+def aged(file: Path) -> int:
+    """Make a file look as if it had been saved long ago; its time, ns."""
+    os.utime(file, ns=(10**18, 10**18))
+    return 10**18
+
+
 def test_everything_that_shapes_the_fmu_changes_the_key(library: Path) -> None:
     keys = [
         key(library),
@@ -68,6 +74,30 @@ def test_place_time_and_other_files_do_not_matter(library: Path, tmp_path: Path)
     (library / "notes.md").write_text("x")
     moved = library.rename(tmp_path / "elsewhere")
     assert key(moved) == before
+
+
+@pytest.mark.parametrize("settled", [-1.0, 3600.0])  # s: the file counts as saved long ago, and as saved just now
+def test_a_text_of_the_same_length_is_another_key(
+    library: Path, monkeypatch: pytest.MonkeyPatch, settled: float
+) -> None:
+    """Also where its time is set back to what it was, as some tools do that copy files."""
+    monkeypatch.setattr(cache, "_SETTLED", settled)
+    file = library / "A.mo"
+    keys = []
+    for text in ("model A Real a; end A;", "model A Real b; end A;"):
+        file.write_text(text)
+        aged(file)
+        keys.append(key(library))
+    assert keys[0] != keys[1]
+
+
+def test_a_settled_file_is_read_once(library: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(cache, "_SETTLED", -1.0)
+    read: list[Path] = []
+    plain = Path.read_bytes
+    monkeypatch.setattr(Path, "read_bytes", lambda path: read.append(path) or plain(path))
+    assert key(library) == key(library)
+    assert read.count(library / "package.mo") == 1
 
 
 def test_an_fmu_comes_back(fmu: Path) -> None:
