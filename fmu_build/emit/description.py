@@ -7,6 +7,7 @@ from xml.etree import ElementTree
 from xml.etree.ElementTree import Element
 
 from fmu_build.emit.influence import Layout, direct_influence
+from fmu_build.emit.names import structured
 from fmu_build.emit.structure import Unknown
 from fmu_build.emit.table import derivative_rows
 from fmu_build.emit.units import BASE_UNITS, Unit, conversion, parse_unit
@@ -71,9 +72,13 @@ def xml_type(variable: Variable) -> str:
 
 
 def variable_attributes(variable: Variable, row: int) -> dict[str, str | None]:
-    """What a variable is; its value reference is its row of the table."""
+    """What a variable is; its value reference is its row of the table.
+
+    Raises:
+        BuildError: a name that FMI does not allow.
+    """
     return {
-        "name": variable.name,
+        "name": structured(variable.name),
         "valueReference": str(row),
         "description": variable.description or None,
         "causality": variable.causality,

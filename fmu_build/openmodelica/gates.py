@@ -12,7 +12,7 @@ from pathlib import Path
 from fmu_build.errors import BuildError
 from fmu_build.pack.archive import write_archive
 from fmu_build.pack.platforms import Platform, host_platform
-from fmu_build.pack.validation import validate
+from fmu_build.pack.validation import validate_foreign
 
 _LOAD = "import ctypes, sys; ctypes.CDLL(sys.argv[1])"  # in a process of its own: a library may do anything
 _LONGEST_S = 60.0
@@ -33,7 +33,7 @@ def accept(fmu: Path, output: Path) -> None:
     identifier = _check_kinds(members)
     _check_solver(members)
     _check_library(members, identifier, host_platform())
-    write_archive(output, members, validate)
+    write_archive(output, members, validate_foreign)
 
 
 def _check_kinds(members: Mapping[str, bytes]) -> str:

@@ -23,7 +23,7 @@ from fmu_build.pack.documentation import documentation_page
 from fmu_build.pack.mach_o import fat_library
 from fmu_build.pack.platforms import Platform
 from fmu_build.pack.sources import Sources, sources_for
-from fmu_build.pack.validation import validate
+from fmu_build.pack.validation import validate_own
 
 _NO_TOKEN = "{00000000-0000-0000-0000-000000000000}"
 _LICENSE = Path(__file__).with_name("license.txt")
@@ -45,7 +45,7 @@ def pack(model: OdeModel, output: Path, *, fmi: int, platforms: Sequence[Platfor
         members[path] = members[path].replace(_NO_TOKEN.encode(), token.encode())
     model_c = members["sources/model.c"]
     members |= _binaries(model_c, sources, model_identifier(model.name), fmi, platforms)
-    write_archive(output, members, validate)
+    write_archive(output, members, validate_own)
 
 
 def _texts(model: OdeModel, sources: Sources, fmi: int) -> dict[str, bytes]:
