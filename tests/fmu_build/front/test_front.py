@@ -92,41 +92,6 @@ def test_unknown_class_and_library(library, tmp_path):
         load("X", [tmp_path / "none"])
 
 
-def test_what_is_no_model_is_refused_by_its_kind(library, write):
-    with pytest.raises(BuildError, match="L is a package; name a model"):
-        load("L", [library])
-    file = write("model M\n  Real x = time;\nend M;\npartial model P\n  Real x;\nend P;")
-    with pytest.raises(BuildError, match="P is a partial model; name a model") as caught:
-        load("P", [file])
-    assert caught.value.line == 4
-
-
-@pytest.mark.parametrize(
-    ("text", "line", "message"),
-    [
-        ("model M\n  Real x\nequation\n  der(x) = 1;\nend M;", 2, "syntax error: unexpected `x`"),
-        ("model M\n  Real x;\n  Real y;\nequation\n  der(x) = 1;\nend M;", 1, "unbalanced"),
-        ("model M\n  input Real u;\n  Real y;\nequation\n  y = der(u);\nend M;", 5, "der"),
-        ('model M\n  Real x = time;\n  String s = "a";\nend M;', 3, "s is a String variable"),
-        ("model M\n  Real x;\n  Real y;\nequation\n  x = 1;\nend M;", 1, "1 equations for 2 unknowns; add 1"),
-        ("model M\n  Real x[2];\nequation\n  x = {1, 2, 3};\nend M;", 4, "dimension"),
-        (
-            'model M\n  function f input Real x; output Real y; external "C" y = g(x); end f;\n'
-            "  Real y = f(time);\nequation\nend M;",
-            2,
-            "external",
-        ),
-    ],
-)
-def test_refusals_name_file_and_line(write, capfd, text, line, message):
-    file = write(text)
-    with pytest.raises(BuildError, match=message) as caught:
-        load("M", [file])
-    assert (caught.value.file, caught.value.line) == (file, line)
-    assert str(caught.value).startswith(f"{file}:{line}: ")
-    assert capfd.readouterr().err == ""
-
-
 def test_another_schema_is_refused():
     with pytest.raises(BuildError, match=r"install rumoca==0\.10\.2"):
         to_flat_model(
@@ -138,31 +103,6 @@ def test_another_schema_is_refused():
             documentation="",
             description="",
         )
-
-
-def test_if_on_parameters_inside_a_when_clause_is_refused(write):
-    """rumoca would keep the branch of the default value without a word."""
-    file = write(
-        """
-        model M
-          Real x(start = 0, fixed = true);
-          discrete Real a(start = 0);
-          parameter Real limit = 3;
-        equation
-          der(x) = 1;
-          when x > 1 then
-            if limit > 2 then
-              a = 1;
-            else
-              a = 2;
-            end if;
-          end when;
-        end M;
-        """
-    )
-    with pytest.raises(BuildError, match="if-expression") as caught:
-        load("M", [file])
-    assert caught.value.line == 8
 
 
 def test_conditions_are_told_from_if_expressions():
@@ -275,13 +215,6 @@ def test_a_class_says_what_it_is_wherever_its_annotation_stands(write):
     assert (inner.experiment.stop, other.documentation) == (3.0, "<html>b</html>")
     with pytest.raises(BuildError, match="there is no Nothing"):
         find_class("P.A.Nothing", [file])
-
-
-def test_a_class_behind_a_syntax_error_is_refused_for_the_error(write):
-    file = write("package P\n  model A\n    Real x = (1;\n  end A;\n  model B\n    Real y = 1;\n  end B;\nend P;\n")
-    with pytest.raises(BuildError, match="syntax error") as caught:
-        load("P.B", [file])
-    assert (caught.value.file, caught.value.line) == (file, 3)
 
 
 def test_a_library_may_use_another(tmp_path):

@@ -10,6 +10,11 @@ from fmu_build.front import load, session
 MODEL = "model M\n  Real x(start = 1, fixed = true);\nequation\n  der(x) = -x;\nend M;\n"
 
 
+@pytest.fixture(autouse=True)
+def compiler() -> None:
+    """The one that users get, in its own process."""
+
+
 @pytest.fixture
 def file(tmp_path):
     file = tmp_path / "M.mo"
@@ -63,7 +68,8 @@ def test_only_libraries_that_are_named_are_read(file, tmp_path, monkeypatch):
     assert load("M", [file, library]).name == "M"
 
 
-def test_the_derivative_of_an_input_is_named_in_the_library_file_that_takes_it(tmp_path):
+def test_the_derivative_of_an_input_is_named_in_the_library_file_that_takes_it(tmp_path, capfd):
+    """A panic of the compiler, which prints much to its own standard error."""
     library = tmp_path / "L"
     library.mkdir()
     (library / "package.mo").write_text("package L\nend L;\n", encoding="utf-8")
@@ -75,3 +81,4 @@ def test_the_derivative_of_an_input_is_named_in_the_library_file_that_takes_it(t
     with pytest.raises(BuildError, match=r"der\(\) of an input") as caught:
         load("L.Rate", [library])
     assert (caught.value.file, caught.value.line) == (library / "Rate.mo", 7)
+    assert capfd.readouterr().err == ""

@@ -15,6 +15,23 @@ RESULTS = (
 )  # fmt: skip
 
 
+class Compiled:
+    """An expression of a model as a function of all its symbols, called without a conversion of each of them."""
+
+    def __init__(self, name: str, symbols: ca.SX, value: ca.SX) -> None:
+        function = ca.Function(name, [symbols], [ca.densify(value)])
+        self.arguments, self.result = np.zeros(symbols.numel()), np.zeros(value.numel())
+        self.buffer, self.evaluate = function.buffer()
+        self.buffer.set_arg(0, memoryview(self.arguments))
+        self.buffer.set_res(0, memoryview(self.result))
+
+    def __call__(self, values: np.ndarray) -> np.ndarray:
+        """Column by column, as one vector."""
+        self.arguments[:] = values
+        self.evaluate()
+        return self.result.copy()
+
+
 class Runner:
     """One run of a model; `at(name)` reads a variable at the present time.
 
@@ -33,7 +50,7 @@ class Runner:
     ) -> None:
         self.model, self.inputs = model, inputs
         self.names = [field.name for field in fields(model.symbols)]
-        symbols = [getattr(model.symbols, name) for name in self.names]
+        symbols = ca.vertcat(*(ca.vec(getattr(model.symbols, name)) for name in self.names))
         expressions = {name: getattr(model, name) for name in RESULTS}
         expressions["indicators"] = ca.vertcat(ca.SX(0, 1), *(r.value for r in model.relations))
         expressions["instants"] = ca.vertcat(
@@ -46,10 +63,10 @@ class Runner:
         expressions["delays"] = ca.vertcat(ca.SX(0, 1), *(delay.time for delay in model.delays))
         expressions["checks"] = ca.vertcat(ca.SX(0, 1), *(check.condition for check in model.checks))
         expressions["terminations"] = ca.vertcat(ca.SX(0, 1), *(check.condition for check in model.terminations))
-        self.functions = {name: ca.Function(name, symbols, [value]) for name, value in expressions.items()}
         s = model.symbols
-        self.jacobian_q = ca.Function("dgdq", symbols, [ca.jacobian(model.residual, s.q)])
-        self.jacobian_i = ca.Function("dgdi", symbols, [ca.jacobian(model.initial_residual, s.i)])
+        expressions["dgdq"] = ca.jacobian(model.residual, s.q)
+        expressions["dgdi"] = ca.jacobian(model.initial_residual, s.i)
+        self.functions = {name: Compiled(name, symbols, value) for name, value in expressions.items()}
         self.values = {name: np.zeros(getattr(s, name).numel()) for name in self.names}
         for vector in ("p", "x", "d", "u"):
             for variable in model.variables:
@@ -74,7 +91,7 @@ class Runner:
 
     def get(self, name: str) -> np.ndarray:
         self.values["t"] = np.array([self.time])
-        return self.functions[name](*(self.values[key] for key in self.names)).full().ravel()
+        return self.functions[name](np.concatenate([self.values[key] for key in self.names]))
 
     def run(self, stop: float) -> "Runner":
         """Integrate to `stop` with every event on the way."""
@@ -93,7 +110,7 @@ class Runner:
         self.values["c"] = self.get("calculated")
         self.values["i"] = self.get("guess_i")
         for _ in range(10):
-            self._newton("i", "initial_residual", self.jacobian_i)
+            self._newton("i", "initial_residual", "dgdi")
             self.values["x"], self.values["d"] = user_x, user_d
             x, d, q = self.get("start_x"), self.get("start_d"), self.get("start_q")
             self.values |= {"x": x, "d": d, "q": q, "pre_d": d.copy()}
@@ -103,14 +120,14 @@ class Runner:
         self.values["pre_b"] = self.get("updates_b")
         self._iterate(0)
 
-    def _newton(self, unknown: str, residual: str, jacobian: ca.Function) -> None:
+    def _newton(self, unknown: str, residual: str, jacobian: str) -> None:
         if self.values[unknown].size == 0:
             return
         for _ in range(50):
             if unknown == "i":
                 self.values["c"] = self.get("calculated")
             g = self.get(residual)
-            matrix = jacobian(*(self.values[key] for key in self.names)).full()
+            matrix = self.get(jacobian).reshape((g.size, -1), order="F")
             step = np.linalg.solve(matrix, g)
             self.values[unknown] = self.values[unknown] - step
             if np.max(np.abs(step)) < 1e-13 * (1 + np.max(np.abs(self.values[unknown]))):
@@ -118,7 +135,7 @@ class Runner:
         self.values["c"] = self.get("calculated")
 
     def _solve(self) -> None:
-        self._newton("q", "residual", self.jacobian_q)
+        self._newton("q", "residual", "dgdq")
         if self.values["i"].size == 0:
             self.values["c"] = self.get("calculated")
 

@@ -4,7 +4,6 @@ from math import isnan
 
 import pytest
 
-from fmu_build.errors import BuildError
 from tests.fmu_build.lower.compiling import body, compiled
 from tests.fmu_build.lower.reference_runner import Runner
 
@@ -50,22 +49,6 @@ def test_a_vector_of_indices_may_be_set(elements: str, expected: list[float]) ->
     assert [run.at("y[1]"), run.at("y[2]")] == expected
 
 
-def test_an_index_that_has_to_be_known_says_what_it_depends_on() -> None:
-    with pytest.raises(BuildError, match="depends on n, which can still change; make it final or a constant") as caught:
-        compiled(
-            """
-            package P
-              function f input Integer n; output Real y; protected Real v[3];
-              algorithm v := {1, 2, 3};
-                v[{n, 1}] := {7, 8};
-                y := v[1]; end f;
-              model M input Integer n(start = 2); Real y = f(n); end M;
-            end P;""",
-            "P.M",
-        )
-    assert caught.value.line == 5
-
-
 FUNCTIONS = """
 package P
   function square input Real x; output Real y; algorithm y := x^2; end square;
@@ -109,10 +92,3 @@ def test_texts_are_compared(condition: str, expected: float) -> None:
         parameter String mode = "fast"; parameter Boolean is_fast = mode == "fast";
         Real y = if {condition} then 1 else 0;""")
     assert Runner(model).at("y") == expected
-
-
-@pytest.mark.parametrize("condition", ['mode < "slow"', 'String(k) == "2"', '"k = " + String(k) <> "k = 2"'])
-def test_a_comparison_of_texts_without_meaning_is_refused(condition: str) -> None:
-    with pytest.raises(BuildError, match="texts are joined") as caught:
-        body(f'parameter String mode = "fast"; parameter Integer k = 2;\nReal y = if {condition} then 1 else 0;')
-    assert caught.value.line == 3

@@ -4,7 +4,6 @@ from math import asin, ceil, floor, sqrt
 
 import pytest
 
-from fmu_build.errors import BuildError
 from tests.fmu_build.lower.compiling import body, compiled
 from tests.fmu_build.lower.reference_runner import Runner
 
@@ -300,8 +299,3 @@ def test_discrete_inputs():
     )
     run = Runner(model, inputs=lambda t: [0, 3]).run(1)
     assert (run.at("x"), run.at("c")) == (pytest.approx(3, rel=1e-12), 1)
-
-
-def test_discrete_loop_is_refused():
-    with pytest.raises(BuildError, match=r"cycle|depend on each other"):
-        body("Boolean a; Boolean b; equation a = not b; b = a;")

@@ -2,7 +2,6 @@
 
 import pytest
 
-from fmu_build.errors import BuildError
 from fmu_build.lower import OdeModel
 from tests.fmu_build.lower.compiling import body
 
@@ -22,13 +21,6 @@ def starts(model: OdeModel) -> dict[str, float | None]:
 )
 def test_the_value_of_a_declaration_is_the_start_value(text: str, expected: dict[str, float]) -> None:
     assert starts(body(text)) == expected
-
-
-@pytest.mark.parametrize("value", ["3*time", "if time > 1 then 2 else 1", "v", "x"])
-def test_a_value_that_changes_is_refused(value: str) -> None:
-    with pytest.raises(BuildError, match=r'the input u is declared with a value.*take "input" away') as caught:
-        body(f"input Real v;\ninput Real u = {value};\nReal x(start = 1, fixed = true);\nequation\nder(x) = u + v;")
-    assert caught.value.line == 3
 
 
 def test_an_input_is_discrete_by_prefix_or_by_type() -> None:
