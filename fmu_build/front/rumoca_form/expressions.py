@@ -12,8 +12,8 @@ Node = Mapping[str, Any]
 VALUE_COORDINATES = ("parameter", "input", "state", "algebraic", "discrete_real", "discrete_value")
 PRE_COORDINATES = ("pre_state", "pre_algebraic", "pre_discrete_real", "pre_discrete_value")
 
-# mod, div and rem in equations bring nodes for their event roots along that the list leaves out.
-HIDDEN_NODES = {"runtime_quotient_owner": 6}
+# mod, div and rem in equations, but not in functions, bring nodes for their event roots that the list leaves out.
+HIDDEN_NODES_OF_A_QUOTIENT = 6
 
 
 class Arena:
@@ -175,7 +175,8 @@ def _layout(
             subscripts[number] = arena["subscripts"][at_subscript : at_subscript + n_subscripts]
             at_operand += n_operands
             at_subscript += n_subscripts
-        number += 1 + HIDDEN_NODES.get(kind, 0)
+        is_with_events = kind == "runtime_quotient_owner" and "model" in content["kind"]
+        number += 1 + is_with_events * HIDDEN_NODES_OF_A_QUOTIENT
     if (at_operand, at_subscript) != (len(arena["operands"]), len(arena["subscripts"])):
         raise BuildError("rumoca's expression list does not add up; is this rumoca 0.10.2?")
     return nodes, operands, subscripts

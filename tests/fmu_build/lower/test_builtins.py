@@ -1,11 +1,16 @@
-"""Slopes of built-in functions where they have a kink, and powers of matrices."""
+"""Built-in functions: quotients and remainders of either sign, slopes at a kink, powers of matrices."""
+
+import math
+from itertools import product
+from pathlib import Path
 
 import casadi as ca
 import pytest
 
-from fmu_build.errors import BuildError
+import fmu_build
 from fmu_build.lower.builtins import ELEMENTWISE
-from tests.fmu_build.lower.compiling import body
+from tests.contracts.fmu import Fmu
+from tests.fmu_build.lower.compiling import body, compiled
 from tests.fmu_build.lower.reference_runner import Runner
 
 
@@ -44,19 +49,51 @@ def test_the_power_of_a_matrix_is_its_repeated_product(power: str, expected: lis
     assert [run.at(f"B[{row},{col}]") for row in (1, 2) for col in (1, 2)] == expected
 
 
-@pytest.mark.parametrize(
-    ("power", "message"),
-    [
-        ("A^n", "make the parameter final"),
-        ("A^(-1)", "whole number from 0 on"),
-        ("A^0.5", "must be a scalar Integer"),
-        ("C^2", "must be a square matrix"),
-    ],
-)
-def test_a_power_without_meaning_is_refused(power: str, message: str) -> None:
-    with pytest.raises(BuildError, match=message) as caught:
-        body(
-            f"parameter Real A[2,2] = {{{{1, 2}}, {{3, 4}}}}; parameter Real C[2,3] = ones(2, 3);\n"
-            f"parameter Integer n = 2; Real y;\nequation\ny = sum({power});"
-        )
-    assert caught.value.line == 5
+PLACES = ("parameter", "no_event", "function", "event")  # each has an implementation of its own
+DIVISIONS = """
+model Divisions
+  function f input Real a; input Real b; output Real q[3];
+  algorithm q := {div(a, b), mod(a, b), rem(a, b)}; end f;
+  parameter Real x = 1;
+  parameter Real y = 1;
+  input Real u(start = 1);
+  final parameter Real parameter_div = div(x, y);
+  final parameter Real parameter_mod = mod(x, y);
+  final parameter Real parameter_rem = rem(x, y);
+  Real no_event_div = noEvent(div(u, y));
+  Real no_event_mod = noEvent(mod(u, y));
+  Real no_event_rem = noEvent(rem(u, y));
+  Real event_div = div(u, y);
+  Real event_mod = mod(u, y);
+  Real event_rem = rem(u, y);
+  Real of_function[3] = f(u, y);
+  Real function_div = of_function[1];
+  Real function_mod = of_function[2];
+  Real function_rem = of_function[3];
+end Divisions;
+"""
+PAIRS = tuple(product((7.0, -7.0, 6.0, -6.0, 0.5, -0.5, 0.0), (3.0, -3.0)))
+
+
+def quotients(x: float, y: float) -> dict[str, float]:
+    """Modelica 3.7.1.1: div cuts towards zero, rem has the sign of x, mod that of y."""
+    right = {"div": float(math.trunc(x / y)), "mod": x - math.floor(x / y) * y, "rem": math.fmod(x, y)}
+    return {f"{place}_{name}": value for place in PLACES for name, value in right.items()}
+
+
+def test_quotients_and_remainders_of_either_sign() -> None:
+    model = compiled(DIVISIONS, "Divisions")
+    for x, y in PAIRS:
+        run = Runner(model, {"x": x, "y": y}, inputs=lambda t, x=x: [x])
+        expected = quotients(x, y)
+        assert {name: run.at(name) for name in expected} == expected, (x, y)
+
+
+def test_quotients_and_remainders_in_the_fmu(tmp_path: Path) -> None:
+    file = tmp_path / "Divisions.mo"
+    file.write_text(DIVISIONS, encoding="utf-8")
+    fmu = Fmu.unpack(fmu_build.build("Divisions", libraries=[file]), tmp_path / "fmu", 2)
+    for x, y in PAIRS:
+        expected = quotients(x, y)
+        with fmu.open("me").start({"x": x, "y": y, "u": x}) as instance:
+            assert dict(zip(expected, instance.get(list(expected)), strict=True)) == expected, (x, y)
