@@ -4,13 +4,11 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-
-from pysim.types import Effect
 
 Array = NDArray[np.float64]
 
@@ -19,30 +17,6 @@ _COARSE = 0.05
 # Share of the term that a formula has to give.
 _GOOD = 0.9
 _WIDTHS = 24
-# Head start of a form that a catalogue effect has at that very place.
-_KNOWN = 6.0
-
-# Catalogue effects by where their slot's law is looked at (last word of the argument) and its form.
-_NAMED = {
-    ("sign", "v"): ("friction.coulomb",),
-    ("sign", "x"): ("spring.preload",),
-    ("cube", "x"): ("spring.hardening",),
-    ("constant", "x"): ("swash.bias",),
-    ("constant", "v"): ("swash.bias",),
-    ("constant", "s"): ("valve.offset",),
-    ("saturation", "s"): ("valve.deadband", "card.error_deadzone"),
-    ("linear", "s_t"): ("sensor.lag",),
-    ("linear", "der"): ("card.sampling",),
-    ("sign", "der"): ("valve.hysteresis",),
-    ("sign", "s_t"): ("linkage.backlash",),
-    ("linear", "Q"): ("supply.droop",),
-    ("linear", "dp"): ("leakage.laminar",),
-    ("linear", "p"): ("leakage.external",),
-    ("falling", "p"): ("oil.air",),
-    ("beyond", "u"): ("valve.saturation",),
-    ("beyond", "u_t"): ("valve.rate_limit",),
-    ("sign and fall", "v"): ("friction.stribeck",),
-}
 
 
 @dataclass(frozen=True)
@@ -52,14 +26,12 @@ class Formula:
     Args:
         text: with numbers and units; "" where nothing does.
         form: word for its kind, "" where nothing does.
-        effect: standard name of the catalogue's effect of that kind at that place, "" where there is none.
         along: (k,) amounts of what refitting absorbs, with which the table and the formula agree.
         spread: (k, k) their covariance.
     """
 
     text: str
     form: str
-    effect: str
     along: Array
     spread: Array
 
@@ -83,8 +55,6 @@ def formula(
     argument: str,
     unit_in: str,
     unit_out: str,
-    slot: str = "",
-    catalogue: Sequence[Effect] = (),
 ) -> Formula:
     """The expression with the best information criterion, if one gives nearly the whole term.
 
@@ -94,11 +64,10 @@ def formula(
         covariance: (m, m) of the values.
         absorbed: (m, a) orthonormal directions in which they may be anything.
         argument, unit_in, unit_out: names and units to write with.
-        slot, catalogue: where the term is, and the effects known there.
     Source: the criterion is Schwarz 1978, Annals of Statistics 6:461.
     """
     count = absorbed.shape[1]
-    nothing = Formula("", "", "", np.zeros(count), np.zeros((count, count)))
+    nothing = Formula("", "", np.zeros(count), np.zeros((count, count)))
     m, size = k.size, float(np.sqrt(np.mean(values**2)))
     if not size > 0:
         return nothing
@@ -117,7 +86,6 @@ def formula(
         amounts: Array = np.linalg.lstsq(design, target, rcond=None)[0].astype(np.float64)
         rest = float(np.sum((target - design @ amounts) ** 2))
         score = rest + (columns.shape[1] + term.sized) * math.log(m)
-        score -= _KNOWN if _effect(term.form, argument, slot, catalogue) else 0.0
         if best is None or score < best[0]:
             best = (score, term, width, amounts[: columns.shape[1]], amounts[columns.shape[1] :])
     assert best is not None
@@ -127,9 +95,8 @@ def formula(
         return nothing
     design = np.column_stack([white @ term.columns(k, width), free])
     spread: Array = np.linalg.pinv(design.T @ design)[own.size :, own.size :].astype(np.float64)
-    effect = _effect(term.form, argument, slot, catalogue)
     text = term.written(own, width, argument, unit_in, unit_out)
-    return Formula(text, term.form, effect, -along, spread)
+    return Formula(text, term.form, -along, spread)
 
 
 def _whitener(covariance: Array, least: float) -> Array:
@@ -139,12 +106,6 @@ def _whitener(covariance: Array, least: float) -> Array:
     """
     sizes, turned = np.linalg.eigh(covariance)
     return np.asarray((turned / np.sqrt(np.maximum(sizes, 0.0) + least**2)) @ turned.T)
-
-
-def _effect(form: str, argument: str, slot: str, catalogue: Sequence[Effect]) -> str:
-    last = "der" if argument.startswith("der(") else argument.rpartition(".")[2]
-    names = _NAMED.get((form, last), ())
-    return next((e.name for e in catalogue if e.name in names and e.slot == slot), "")
 
 
 def _tried(k: Array) -> Iterator[tuple[_Term, float]]:

@@ -80,7 +80,7 @@ def locate(
     tried = _tried(few, base, _beside(named, spread) if whole else spread, probed, say)
     running = tried if whole else _fitted(few, base, tried)
     named = [_acting(base, one, spread) for one in _first_of_place(named)]
-    found = [described(subject, one) for one in (*running, *_drawn(few, base, named, running))]
+    found = [described(one) for one in (*running, *_drawn(few, base, named, running))]
     missing = rows(base, in_order(found, named, neighbours(tried)))
     for row in missing:
         also = f" {', '.join(row.alike)} would do as well." if row.alike else ""

@@ -13,11 +13,10 @@ from pysim.diagnose.locating.found import Base, Found, Named
 from pysim.diagnose.locating.laws import KNOTS
 from pysim.diagnose.locating.shape import Told, shape, told, units
 from pysim.diagnose.strengths import translated
-from pysim.diagnose.subject import Subject
 from pysim.types import Missing
 from pysim.types.diagnosis import Shape
 
-# Terms whose likelihoods differ by less than this factor's logarithm are not told apart: a named form goes first.
+# Terms whose likelihoods differ by less than this factor's logarithm cannot be told apart.
 TIE = 5.0
 
 
@@ -52,6 +51,14 @@ class Place:
         return not isinstance(self.leads, Found) or self.leads.fitted
 
     @property
+    def suggested(self) -> str:
+        """The effect with its sizes where it leads, or where the data cannot tell its law from the table; else ""."""
+        if self.named is None:
+            return ""
+        tied = self.table is not None and self.table.evidence - self.named.evidence < TIE
+        return self.named.one.text if tied or self.leads is self.named else ""
+
+    @property
     def by_effect(self) -> bool:
         """Whether it is drawn as the effect does it: that remembers, or no table was fitted."""
         if not isinstance(self.leads, Named) or self.leads.acted is None:
@@ -66,27 +73,25 @@ def in_order(tables: Sequence[Found], named: Sequence[Named], same: Mapping[str,
         tables: with what is told of them, where they were fitted.
         same: place -> others where any term does the very same.
     """
-    best: dict[str, Found] = {}
-    for found in _named_first(sorted(tables, key=lambda found: (not found.fitted, -found.evidence))):
-        best.setdefault(found.law.slot, found)
     effects: dict[str, Named] = {}
     for one in sorted(named, key=lambda one: -one.evidence):
         effects.setdefault(one.one.slot, one)
+    looked_at = dict.fromkeys(found.law.slot for found in tables)
+    best = {slot: _best([f for f in tables if f.law.slot == slot], effects.get(slot)) for slot in looked_at}
     slots = dict.fromkeys([*best, *(slot for slot, one in effects.items() if one.acted is not None)])
     places = [Place(slot, best.get(slot), effects.get(slot), tuple(same.get(slot, ()))) for slot in slots]
     return sorted(places, key=lambda place: (not place.fitted, -place.leads.evidence))
 
 
-def _named_first(found: list[Found]) -> list[Found]:
-    """Of those that the data do not tell apart, one whose form a catalogue effect has at that very place goes first."""
-    if not found:
-        return found
-    near = [f for f in found if found[0].evidence - f.evidence < TIE]
-    near.sort(key=lambda f: not (f.formula and f.formula.effect))
-    return near + [f for f in found if not any(f is g for g in near)]
+def _best(tables: Sequence[Found], named: Named | None) -> Found:
+    """Of one place the likeliest; of those that the data cannot tell apart, the one over which its effect acts."""
+    first = min(tables, key=lambda found: (not found.fitted, -found.evidence))
+    law = named.acted.law if named and named.acted else None
+    near = (f for f in tables if f.fitted is first.fitted and first.evidence - f.evidence < TIE)
+    return next((f for f in near if f.law == law), first)
 
 
-def described(subject: Subject, found: Found) -> Found:
+def described(found: Found) -> Found:
     """A fitted term with its band and its formula."""
     if not found.fitted:
         return found
@@ -100,8 +105,6 @@ def described(subject: Subject, found: Found) -> Found:
         argument=law.argument,
         unit_in=unit_in,
         unit_out=unit_out,
-        slot=law.slot,
-        catalogue=subject.catalogue,
     )
     return replace(found, told=of, formula=said)
 
@@ -152,11 +155,9 @@ def _by_table(base: Base, place: Place) -> tuple[str, Shape, str, dict[str, floa
         unit, solution = found.estimate.table.unit, found.estimate.solution
         values, covariance = unit * solution.values, unit**2 * solution.covariance
         of = Told(found.estimate.table.knots, values, covariance, np.zeros((KNOTS, 0)))
-        said = Formula("", "", "", np.zeros(0), np.zeros((0, 0)))
-    text = f"{said.text} ({said.effect})" if said.effect else said.text
-    text += f", {1e3 * law.lag:g} ms late" if text and law.lag else ""
-    if not said.effect and isinstance(place.leads, Named):
-        text = f"{text}; {place.leads.one.text}" if text else place.leads.one.text
+        said = Formula("", "", np.zeros(0), np.zeros((0, 0)))
+    late = f", {1e3 * law.lag:g} ms late" if said.text and law.lag else ""
+    text = "; ".join(filter(None, (f"{said.text}{late}", place.suggested)))
     shown = shape(of, law, found.estimate.table.model, said.along, said.spread)
     numbers = found.estimate.table.space(base.at).values(found.estimate.point.x)
     return law.argument, shown, text, {name: numbers[name] for name in base.at.what.space.keys}

@@ -4,12 +4,9 @@ import numpy as np
 import pytest
 
 from pysim.diagnose.locating.formula import formula
-from pysim.types import Effect, EffectParameter
 
 K = np.array([-0.3, -0.1, -0.04, -0.015, -0.005, -0.001, 0.0, 0.001, 0.005, 0.015, 0.04, 0.1, 0.3])
 NONE = np.zeros((K.size, 0))
-F_C = EffectParameter("F_c", "N", 0, 1e3, 50, 0.0, 0.0)
-FRICTION = Effect("friction.coulomb", "pistonForce", "E.F", (F_C,))
 
 
 def found(values, absorbed=NONE, *, noise=0.5, argument="pistonForce.v", units=("m/s", "N"), **more):
@@ -17,14 +14,26 @@ def found(values, absorbed=NONE, *, noise=0.5, argument="pistonForce.v", units=(
     return formula(K, values, covariance, absorbed, argument=argument, unit_in=units[0], unit_out=units[1], **more)
 
 
-def test_dry_friction_is_known_by_name() -> None:
-    said = found(-80 * np.sign(K), slot="pistonForce", catalogue=[FRICTION])
-    assert (said.form, said.effect) == ("sign", "friction.coulomb")
-    assert said.text == "-80 N sign(pistonForce.v)"
-
-
-def test_the_name_belongs_to_its_slot() -> None:
-    assert found(-80 * np.sign(K), slot="elsewhere", catalogue=[FRICTION]).effect == ""
+@pytest.mark.parametrize(
+    ("values", "units", "form", "text"),
+    [
+        (-80 * np.sign(K), ("m/s", "N"), "sign", "-80 N sign(z)"),
+        (-2.4e4 * K**3, ("m", "N"), "cube", "-2.4e+04 N/m3 z^3"),
+        (
+            -np.clip(K, -0.015, 0.015),
+            ("1", "1"),
+            "saturation",
+            "-limit(z, +-0.0138), a dead band",
+        ),  # the nearest width that is tried
+        (30 * K * np.abs(K), ("m/s", "N"), "square", "30 N/(m/s)2 z abs(z)"),
+        (5 * K, ("m", "N"), "linear", "5 N/m z"),
+    ],
+)
+def test_a_law_that_was_put_in_comes_out_with_its_unit(
+    values: np.ndarray, units: tuple[str, str], form: str, text: str
+) -> None:
+    said = found(values, noise=1e-3 * np.abs(values).max(), argument="z", units=units)
+    assert (said.form, said.text) == (form, text)
 
 
 @pytest.mark.parametrize("hidden", [0.0, 300.0])
@@ -43,17 +52,6 @@ def test_a_direction_that_the_data_leave_open_hides_nothing_else() -> None:
     assert np.linalg.eigvalsh(covariance)[0] < 0  # by rounding
     names = {"argument": "pistonForce.v", "unit_in": "m/s", "unit_out": "N"}
     assert formula(K, -80 * np.sign(K) + 300 * K, covariance, NONE, **names).form == "sign"
-
-
-def test_a_dead_band_is_a_saturation_of_slope_minus_one() -> None:
-    said = found(-np.clip(K, -0.015, 0.015), noise=1e-4, argument="spoolOpening.s", units=("1", "1"))
-    assert said.form == "saturation"
-    assert said.text.endswith("a dead band")
-
-
-def test_a_cube_has_its_unit() -> None:
-    said = found(-2.4e4 * K**3, noise=1.0, argument="pistonForce.x", units=("m", "N"))
-    assert (said.form, said.text) == ("cube", "-2.4e+04 N/m3 pistonForce.x^3")
 
 
 def test_a_law_that_is_not_in_the_library_has_no_formula() -> None:

@@ -7,16 +7,20 @@ import pytest
 from pysim.diagnose.locating.found import Found, Named
 from pysim.diagnose.locating.places import TIE, Place, in_order, rows
 
-ACTED = SimpleNamespace(remembers=False)
-MEMORY = SimpleNamespace(remembers=True)
+ACTED = SimpleNamespace(remembers=False, law=None)
+MEMORY = SimpleNamespace(remembers=True, law=None)
 
 
-def table(slot: str, evidence: float, *, fitted: bool = True) -> Found:
-    return Found(SimpleNamespace(slot=slot), SimpleNamespace(), fitted, evidence, 0.5)
+def table(slot: str, evidence: float, *, fitted: bool = True, over: str = "") -> Found:
+    return Found(law(slot, over), SimpleNamespace(), fitted, evidence, 0.5)
+
+
+def law(slot: str, over: str) -> SimpleNamespace:
+    return SimpleNamespace(slot=slot, argument=over)
 
 
 def named(slot: str, evidence: float, acted: object = ACTED) -> Named:
-    return Named(SimpleNamespace(slot=slot), evidence, 0.9, acted)
+    return Named(SimpleNamespace(slot=slot, text="an effect"), evidence, 0.9, acted)
 
 
 def test_a_promise_counts_less_than_a_fit() -> None:
@@ -29,6 +33,21 @@ def test_at_one_place_the_better_fit_counts() -> None:
     assert isinstance(Place("a", table("a", 70.0), named("a", 60.0)).leads, Found)
     assert isinstance(Place("a", table("a", 70.0, fitted=False), named("a", 60.0)).leads, Named)
     assert isinstance(Place("a", table("a", 70.0), None).leads, Found)
+
+
+@pytest.mark.parametrize(("behind", "over"), [(0.9 * TIE, "v"), (1.1 * TIE, "x")])
+def test_of_laws_as_likely_the_one_over_which_the_effect_acts_is_taken(behind: float, over: str) -> None:
+    does = SimpleNamespace(remembers=False, law=law("a", "v"))
+    found = [table("a", 70.0, over="x"), table("a", 70.0 - behind, over="v")]
+    (place,) = in_order(found, [named("a", 60.0, does)], {})
+    assert place.table is not None
+    assert place.table.law.argument == over
+
+
+@pytest.mark.parametrize(("ahead", "suggested"), [(-1.0, "an effect"), (0.9 * TIE, "an effect"), (1.1 * TIE, "")])
+def test_an_effect_is_suggested_where_the_table_fits_no_better(ahead: float, suggested: str) -> None:
+    assert Place("a", table("a", 60.0 + ahead), named("a", 60.0)).suggested == suggested
+    assert Place("a", table("a", 60.0 + ahead), None).suggested == ""
 
 
 @pytest.mark.parametrize(
