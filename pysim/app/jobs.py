@@ -120,10 +120,10 @@ def adding(project: Project, effects: Sequence[str]) -> Work:
 
 
 def _work(command: str, title: str, words: Sequence[str], name: str = "") -> Work:
-    """With all results in a folder of its own."""
+    """With all results in a folder of its own, the report and the model in one within it that is the answer's alone."""
     folder = f"results/{name or command}"
     files = ["--json", f"{folder}/{ANSWER}", "--records", f"{folder}/{RECORDS}", "--story", f"{folder}/{_STORY}"]
-    return Work(name or command, title, (command, *words, *files, "--output", folder))
+    return Work(name or command, title, (command, *words, *files, "--output", f"{folder}/report"))
 
 
 def read_job(folder: Path) -> Job | None:

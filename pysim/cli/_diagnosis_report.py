@@ -17,24 +17,23 @@ _PLACES = 3  # whose missing term is drawn
 
 
 def write_diagnosis(
-    found: Diagnosis, given: Given, folder: Path, redo: str, *, question: str, answer: str
+    found: Diagnosis, given: Given, folder: Path, redo: str, *, question: str, answer: str, place: Path | None = None
 ) -> dict[str, Path]:
-    """Write the page, every picture as PNG and SVG, and the fitted model; name -> path. All of it is listed.
+    """Write the page, every picture as PNG and SVG, and the fitted model; name -> path.
 
     Args:
+        place: where the folder's files will lie in the end; the folder itself by default.
         redo: the command line that makes it again.
         question, answer: what leads the page.
     """
-    from pysim.cli._earlier import remember
     from pysim.cli._extended import relative_files, write_extended
     from pysim.io import write_file
     from pysim.report.diagnosis_page import diagnosis_page
 
-    files = write_extended(found, given, folder)
+    files = write_extended(found, given, folder, place=place)
     if found.next_test is not None and found.next_test.plan:
         files["plan"] = folder / "next_test.toml"
         write_file(files["plan"], found.next_test.plan)
-    remember(folder, files.values())
     drawn, pictures = _drawn(found, given.dataset, folder)
     title = f"{given.model_name} against {given.dataset.name}"
     beside = relative_files(files, folder)
@@ -42,7 +41,6 @@ def write_diagnosis(
         found, title=title, pictures=pictures, redo=redo, files=beside, question=question, answer=answer
     )
     write_file(folder / "report.html", text)
-    remember(folder, [folder / "report.html"])
     return {"report": folder / "report.html", **files, **drawn}
 
 
@@ -50,7 +48,6 @@ def _drawn(
     found: Diagnosis, dataset: Dataset, folder: Path
 ) -> tuple[dict[str, Path], Mapping[str, Mapping[str, bytes]]]:
     """Files written, and for each section of the page SVG by caption."""
-    from pysim.cli._earlier import remember
     from pysim.io import write_file
     from pysim.plot import render
 
@@ -62,7 +59,6 @@ def _drawn(
         figure.set_layout_engine("none")  # found by the first drawing
         svg = render(figure, "svg")
         write_file(folder / f"{name}.svg", svg)
-        remember(folder, [folder / f"{name}.png", folder / f"{name}.svg"])
         pictures.setdefault(section, {})[caption] = svg
     return files, pictures
 

@@ -14,11 +14,14 @@ if TYPE_CHECKING:
 _WIDTH = 110
 
 
-def write_extended(found: Diagnosis, given: Given, folder: Path) -> dict[str, Path]:
+def write_extended(found: Diagnosis, given: Given, folder: Path, *, place: Path | None = None) -> dict[str, Path]:
     """Write the fitted values, and the class and its FMU where effects were added; name -> path, none without a refit.
 
     Nothing of the user's files is changed: the class extends theirs.
 
+    Args:
+        place: where the folder's files will lie in the end, for the line that compiles the class; the folder by
+            default.
     Raises:
         BadInput: the folder cannot be written.
     """
@@ -31,7 +34,7 @@ def write_extended(found: Diagnosis, given: Given, folder: Path) -> dict[str, Pa
         name = extended_name(given.variants.class_name, [one.effect.class_name for one in found.added])
         values = {**given.overrides, **fitted}
         effects, fmu = [one.effect for one in found.added], folder / f"{name}.fmu"
-        given.variants.write(effects, folder, fmu, name, values, _comment(found, given, folder, name))
+        given.variants.write(effects, folder, fmu, name, values, _comment(found, given, place or folder, name))
         files = {"modelica": folder / f"{name}.mo", "fmu": fmu}
         about = f"{name}, the class in {name}.mo, fitted to data set {given.dataset.name}."
     else:

@@ -67,24 +67,6 @@ def refuse_inside(path: Path, option: str, read: Sequence[Path]) -> None:
             raise BadInput(f"{option} {path}: this is what is read, and would be lost; choose another name")
 
 
-def refuse_replacing_parameters(output: Path | None, parameters: Path | None) -> None:
-    """Fitted values do not take the place of those that the command reads.
-
-    Args:
-        output: folder of the results.
-        parameters: file of `--parameters`.
-    Raises:
-        BadInput: they would.
-    """
-    from pysim.types import BadInput
-
-    if output and parameters and (output / PARAMETERS).resolve() == parameters.resolve():
-        raise BadInput(
-            f"--output {output}: --parameters reads {parameters}, which the fitted values would take the place of; "
-            "choose another folder"
-        )
-
-
 def _probe(folder: Path, what: str, cure: str) -> None:
     from pysim.types import BadInput
 

@@ -24,11 +24,6 @@ def write_pictures(comparisons: Sequence[Comparison], folder: Path) -> dict[str,
     return pictures
 
 
-def picture_names(comparisons: Sequence[Comparison]) -> list[str]:
-    """Names of the files."""
-    return list(_figures(comparisons))
-
-
 def _figures(comparisons: Sequence[Comparison]) -> dict[str, tuple[str, float | None]]:
     """File name -> caption, and the offset of a Bode plot."""
     from pysim.io import shown_value

@@ -166,14 +166,10 @@ def unfold(
     Args:
         work: the steps, handed what tells and the journal's place.
     Raises:
-        BadInput: the results would take the place of parameters that are read.
         KeyboardInterrupt: stopped by the user; says how to go on.
     """
-    from pysim.cli._outputs import refuse_replacing_parameters
     from pysim.types import Told
 
-    if given.subject.free:
-        refuse_replacing_parameters(args.output, args.parameters)
     journal = args.output / JOURNAL if args.output else None
     try:
         with Story(f"{given.dataset.name}: {given.model_name}") as story:
@@ -209,8 +205,8 @@ def finish(
     """
     import json
 
+    from pysim.cli._answer_folder import answer_folder
     from pysim.cli._diagnosis_report import write_diagnosis
-    from pysim.cli._earlier import in_place_of_earlier
     from pysim.cli._extended import relative_files
     from pysim.cli._outputs import command_line
     from pysim.cli._subject import subject_words
@@ -222,8 +218,9 @@ def finish(
     files: dict[str, Path] = {}
     if args.output:
         print("Drawing the report ...", file=sys.stderr)
-        with in_place_of_earlier(args.output, read=files_read(args)):
-            files = write_diagnosis(found, given, args.output, redo, question=question, answer=answer)
+        with answer_folder(args.output, beside=results_beside(args)) as new:
+            files = write_diagnosis(found, given, new, redo, question=question, answer=answer, place=args.output)
+        files = {name: args.output / path.name for name, path in files.items()}
         print(f"Report: {args.output / 'report.html'}")
     if args.records:
         write_stages(args.records, found.stages)
@@ -234,9 +231,9 @@ def finish(
         (args.output / JOURNAL).unlink(missing_ok=True)
 
 
-def files_read(args: argparse.Namespace) -> list[Path]:
-    """What a step takes, but for its measurements."""
-    return [Path(args.model), *args.library, *([args.parameters] if args.parameters else [])]
+def results_beside(args: argparse.Namespace) -> list[Path | None]:
+    """What a step writes beside the folder of its answer."""
+    return [args.json, args.records, args.story]
 
 
 def _conditions(given: Given, args: argparse.Namespace, redo: str) -> dict[str, str]:

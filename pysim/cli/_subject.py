@@ -87,13 +87,16 @@ def prepare_results(args: argparse.Namespace) -> None:
     Raises:
         BadInput: they cannot.
     """
-    from pysim.cli._outputs import JSON, prepare_file, prepare_folder
+    from pysim.cli._answer_folder import prepare_answer
+    from pysim.cli._outputs import JSON, prepare_file
+    from pysim.cli._story import results_beside
 
     for option, suffixes in (("json", JSON), ("records", (".npz",)), ("story", (".jsonl", ".json"))):
         if getattr(args, option):
             prepare_file(getattr(args, option), f"--{option}", suffixes, read=[args.data])
     if args.output:
-        prepare_folder(args.output, read=[args.data])
+        read = [Path(args.model), *args.library, *([args.parameters] if args.parameters else [])]
+        prepare_answer(args.output, data=[args.data], read=read, beside=results_beside(args))
 
 
 def read_subject(args: argparse.Namespace, *, refits: bool = True) -> Given:

@@ -121,18 +121,17 @@ def _responses(args: argparse.Namespace, dataset: Dataset) -> int:
 
 
 def _write_report(args: argparse.Namespace, comparison: Comparison) -> None:
-    from pysim.cli._earlier import in_place_of_earlier, remember
+    from pysim.cli._answer_folder import answer_folder
     from pysim.cli._outputs import command_line
-    from pysim.cli._pictures import picture_names, write_pictures
-    from pysim.cli._story import files_read
+    from pysim.cli._pictures import write_pictures
+    from pysim.cli._story import results_beside
     from pysim.cli._subject import subject_words
     from pysim.io import write_file
     from pysim.report import comparison_page
 
     redo = command_line(["compare", *subject_words(args, model_first=True)])
-    with in_place_of_earlier(args.output, read=files_read(args)):
-        pictures = write_pictures([comparison], args.output)
+    with answer_folder(args.output, beside=results_beside(args)) as new:
+        pictures = write_pictures([comparison], new)
         text = comparison_page("A model against its measurements", [comparison], pictures=pictures, redo=redo)
-        write_file(args.output / "report.html", text)
-        remember(args.output, [args.output / name for name in ("report.html", *picture_names([comparison]))])
+        write_file(new / "report.html", text)
     print(f"Report: {args.output / 'report.html'}")

@@ -52,10 +52,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Print the estimates; 0 when the search converged, 1 when it did not."""
+    from pysim.cli._answer_folder import prepare_answer
     from pysim.cli._any_model import read_fmu_or_class
     from pysim.cli._measurements import read_measurements
     from pysim.cli._options import names_of
-    from pysim.cli._outputs import JSON, prepare_file, prepare_folder, refuse_inside, refuse_replacing_parameters
+    from pysim.cli._outputs import JSON, prepare_file, refuse_inside
     from pysim.cli._progress import announce_compilation
     from pysim.identify.greybox import (
         OBJECTIVES,
@@ -71,8 +72,8 @@ def run(args: argparse.Namespace) -> int:
     from pysim.report.fit import fit_text
 
     if args.output:
-        prepare_folder(args.output, read=args.data)
-        refuse_replacing_parameters(args.output, args.parameters)
+        read = [Path(args.model), *args.library, *([args.parameters] if args.parameters else [])]
+        prepare_answer(args.output, data=args.data, read=read, beside=[args.json])
     if args.json:
         prepare_file(args.json, "--json", JSON, read=args.data)
     if args.log:
@@ -215,17 +216,19 @@ def _tie(text: str) -> tuple[str, str, float]:
 
 
 def _write_report(args: argparse.Namespace, result: Fit, datasets: Sequence[Dataset]) -> None:
+    from pysim.cli._answer_folder import answer_folder
     from pysim.cli._fit_pictures import fit_pictures
     from pysim.cli._outputs import PARAMETERS, command_line
     from pysim.io import write_file
     from pysim.report.fit import fit_page
 
     lines = [f'"{name}" = {value!r}' for name, value in result.values.items() if "@" not in name]
-    write_file(args.output / PARAMETERS, "\n".join([*lines, ""]))
-    pictures = fit_pictures(result, datasets, args.output)
     units = {signal.name: signal.unit for one in datasets for signal in one.signals if signal.role == "input"}
-    page = fit_page(result, units=units, pictures=pictures, redo=command_line(_words(args)))
-    write_file(args.output / "report.html", page)
+    with answer_folder(args.output, beside=[args.json, args.output / "log"]) as new:
+        write_file(new / PARAMETERS, "\n".join([*lines, ""]))
+        pictures = fit_pictures(result, datasets, new)
+        page = fit_page(result, units=units, pictures=pictures, redo=command_line(_words(args)))
+        write_file(new / "report.html", page)
     print(f"Report: {args.output / 'report.html'}; for --parameters: {args.output / PARAMETERS}")
 
 

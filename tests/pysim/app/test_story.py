@@ -118,7 +118,7 @@ def test_a_stopped_diagnosis_goes_on_and_a_reload_finds_it(
         tab.press("Find what is missing")
         tab.see("Stop")
         other.see("Stop")  # two tabs agree
-        journal = project / "results/diagnose/journal.jsonl"
+        journal = project / "results/diagnose/report/journal.jsonl"
         found = lines(journal, 2)  # whose it is, and the first part that is done
         other.press("Stop")  # at once: the toy is found within seconds
         tab.see("was stopped; what it had found is kept")

@@ -6,7 +6,6 @@ from pathlib import Path
 import numpy as np
 
 from pysim.cli._diagnosis_report import write_diagnosis
-from pysim.cli._earlier import LIST
 from pysim.cli._subject import Given
 from pysim.types import Missing, NextTest, Shape
 from tests.pysim.diagnose.toy import measured, toy_subject
@@ -25,8 +24,6 @@ def given() -> Given:
 def test_every_part_of_the_story_has_its_file(tmp_path: Path) -> None:
     found = story(missing=(MISSING, EMPTY), next_test=TEST)
     files = write_diagnosis(found, given(), tmp_path, "pysim diagnose x", question="Why?", answer="Because.")
-    listed = {line.split()[1] for line in (tmp_path / LIST).read_text().splitlines()}
-    assert {*listed, LIST} == {path.name for path in tmp_path.iterdir()}
     drawn = {name.removeprefix("picture ") for name in files if name.startswith("picture ")}
     several = {"ledger", "record_1", "record_2", "record_3", "where", "map", "spectrum", "ranking", "parameters"}
     assert drawn == several | {"missing_1"}  # the other term has no shape

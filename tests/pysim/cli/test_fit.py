@@ -183,7 +183,7 @@ def test_parameters_that_are_read_are_not_written_over(
     own.write_text("g = 1\n")
     words = ["fit", str(place / "Lag.fmu"), "--data", str(place / "data"), "--free", "K,T"]
     assert main([*words, "--parameters", str(own), "--output", str(tmp_path)]) == 2
-    assert "which the fitted values would take the place of; choose another folder" in capsys.readouterr().err
+    assert "parameters.toml is read, and the new answer would replace it" in capsys.readouterr().err
     assert own.read_text() == "g = 1\n"
 
 

@@ -1,0 +1,112 @@
+"""The folder of `--output`: new, empty, or an earlier answer of ours, which the next one replaces as a whole."""
+
+from __future__ import annotations
+
+import re
+import shutil
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager, suppress
+from pathlib import Path
+
+MARKER = ".pysim-answer"  # in the folder: the names of our files, a line each
+_NEW = ".pysim-new"  # in the folder while an answer is written
+# What a stopped run goes on from; it lies there before any answer does. A kill may leave half of it under another name.
+_UNFINISHED = re.compile(
+    rf"({re.escape(MARKER)}|journal\.jsonl|log/[^/]+/(iterations\.jsonl|state\.npz))(\.[0-9a-f]{{8}}\.part)?"
+)
+
+
+def prepare_answer(folder: Path, *, data: Sequence[Path], read: Iterable[Path], beside: Iterable[Path | None]) -> None:
+    """See that an answer can be written into the folder, and make it where it is missing.
+
+    Args:
+        data: data sets, which are never written into.
+        read: files and Modelica libraries that the run takes.
+        beside: other results of the same run, which may lie in the folder.
+    Raises:
+        BadInput: the folder holds a file that is not ours or that is read, lies in a data set, or cannot be written.
+    """
+    from pysim.cli._outputs import prepare_folder
+    from pysim.types import BadInput
+
+    for path in read:
+        if path.exists() and path.resolve().is_relative_to(folder.resolve()):
+            raise BadInput(
+                f"--output {folder}: {path} is read, and the new answer would replace it; choose another folder"
+            )
+    ours = _listed(folder) | _inside(folder, beside)
+    other = next((name for name in _files(folder) if name not in ours and not _is_unfinished(name)), None)
+    if other is not None:
+        raise BadInput(
+            f"--output {folder}: {other} is there, which is no part of an earlier answer; choose a new folder, or move "
+            "that file"
+        )
+    prepare_folder(folder, read=data)
+
+
+@contextmanager
+def answer_folder(folder: Path, *, beside: Iterable[Path | None] = ()) -> Iterator[Path]:
+    """Give a folder to write a whole answer to; its files replace the earlier answer once all of them are there.
+
+    Args:
+        beside: other results of the same run, files and folders; those that lie in the folder stay there.
+    """
+    new = folder / _NEW
+    shutil.rmtree(new, ignore_errors=True)  # of a run that was killed
+    new.mkdir(parents=True)
+    try:
+        yield new
+        _replace(folder, new, _inside(folder, beside))
+    finally:
+        shutil.rmtree(new, ignore_errors=True)
+
+
+def _replace(folder: Path, new: Path, beside: set[str]) -> None:
+    """Move the files of the new answer in; every state in between is known to be ours."""
+    coming, earlier, there = {path.name for path in new.iterdir()}, _listed(folder), set(_files(folder))
+    kept = beside | {name for name in there if any(name.startswith(f"{one}/") for one in beside)}
+    _mark(folder, earlier | coming | kept)
+    for name in sorted((earlier & there) - coming - kept):
+        _remove(folder, folder / name)
+    for name in sorted(coming):
+        (new / name).replace(folder / name)
+    _mark(folder, coming | kept)
+
+
+def _remove(folder: Path, path: Path) -> None:
+    """A file of ours, and the folders within the answer that it leaves empty."""
+    path.unlink()
+    for parent in path.relative_to(folder).parents:
+        with suppress(OSError):  # something else is in it
+            if parent.name:
+                (folder / parent).rmdir()
+
+
+def _mark(folder: Path, names: set[str]) -> None:
+    from pysim.io import write_file
+
+    write_file(folder / MARKER, "".join(f"{name}\n" for name in sorted(names)))
+
+
+def _listed(folder: Path) -> set[str]:
+    """Our files, by the marker."""
+    marker = folder / MARKER
+    return set(marker.read_text(encoding="utf-8", errors="replace").splitlines()) if marker.is_file() else set()
+
+
+def _files(folder: Path) -> Iterator[str]:
+    """All files but the marker and what was being written when a run was killed, one by one."""
+    for path in folder.rglob("*") if folder.is_dir() else ():
+        name = path.relative_to(folder).as_posix()
+        if name != MARKER and name.partition("/")[0] != _NEW and (path.is_symlink() or not path.is_dir()):
+            yield name
+
+
+def _inside(folder: Path, paths: Iterable[Path | None]) -> set[str]:
+    """Names in the folder, of those that lie there."""
+    home, whole = folder.resolve(), [path.resolve() for path in paths if path is not None]
+    return {path.relative_to(home).as_posix() for path in whole if path.is_relative_to(home)}
+
+
+def _is_unfinished(name: str) -> bool:
+    return _UNFINISHED.fullmatch(name) is not None
