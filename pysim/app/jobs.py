@@ -97,7 +97,7 @@ def works(project: Project) -> dict[str, Work]:
     more += ["--free", ",".join(settings.free)] if settings.free else []
     behind = ["data", "--model", settings.model, *more]
     return {
-        "compare": _work("compare", "Compare and refit", [settings.model, "--data", "data", *more, "--refit"]),
+        "compare": _work("compare", "Compare and refit", [*behind, "--refit"]),
         "locate": _work("locate", "Locate what is missing", behind),
         "rank": _work("rank", "Rank the candidates", behind),
         "diagnose": _work("diagnose", "Find what is missing", behind),

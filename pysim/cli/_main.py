@@ -8,7 +8,6 @@ import os
 import sys
 import traceback
 from collections.abc import Sequence
-from typing import Any
 
 from pysim.cli import (
     add,
@@ -72,8 +71,9 @@ def main(argv: Sequence[str] | None = None) -> int:
         0 done, 1 the answer is no, 2 wrong use, 3 our bug.
     """
     print_everything()
+    words = list(sys.argv[1:] if argv is None else argv)
     try:
-        args = argument_parser().parse_args(argv)
+        args = argument_parser().parse_args(words, argparse.Namespace(words=words))
     except SystemExit as end:  # argparse has said what is wrong, or shown the help
         return int(end.code or 0)
     return _guarded(args)
@@ -81,27 +81,12 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 def argument_parser() -> argparse.ArgumentParser:
     """Every command with its options."""
-    parser = _Parser(prog="pysim", description="Simulate FMUs and compare them with a test bench.")
+    parser = argparse.ArgumentParser(prog="pysim", description="Simulate FMUs and compare them with a test bench.")
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
     for name, module in _COMMANDS.items():
         help_text = (module.__doc__ or "").strip().splitlines()[0]
         module.add_arguments(commands.add_parser(name, help=help_text, description=help_text))
     return parser
-
-
-class _Parser(argparse.ArgumentParser):
-    """Lets a command finish what was read: `set_defaults(finish=function)`, which may raise ArgumentTypeError."""
-
-    def parse_known_args(self, args: Any = None, namespace: Any = None) -> tuple[Any, list[str]]:
-        found, rest = super().parse_known_args(args, namespace)
-        finish = getattr(found, "finish", None)
-        if finish is not None:
-            del found.finish
-            try:
-                finish(found)
-            except argparse.ArgumentTypeError as error:
-                self.error(str(error))
-        return found, rest
 
 
 def _guarded(args: argparse.Namespace) -> int:

@@ -68,11 +68,6 @@ def chosen_reference(given: float | None, responses: Iterable[FrequencyResponse]
     return THESIS_HZ if all(away < 1e-6 for away in lowest) else None
 
 
-def reference_words(args: argparse.Namespace) -> list[str]:
-    """`--reference-hz` as it was chosen, for the line that repeats the command."""
-    return ["--reference-hz", "none" if args.reference_hz is None else repr(args.reference_hz)]
-
-
 def reference_hz(text: str) -> float | None:
     """Of `--reference-hz`: a frequency in Hz, or None."""
     try:

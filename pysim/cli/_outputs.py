@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import argparse
 import os
 import shlex
 import subprocess
@@ -82,6 +83,11 @@ def _probe(folder: Path, what: str, cure: str) -> None:
 def quoted(words: Sequence[str]) -> str:
     """Words as this system's shell takes them."""
     return subprocess.list2cmdline(words) if sys.platform == "win32" else shlex.join(words)
+
+
+def repeating(args: argparse.Namespace) -> str:
+    """The line that runs the command again: the words that were typed."""
+    return command_line(args.words)
 
 
 def command_line(words: Sequence[str], folder: Path = Path(), *, program: str = "pysim") -> str:

@@ -192,7 +192,6 @@ def finish(
     found: Diagnosis,
     given: Given,
     args: argparse.Namespace,
-    command: str,
     *,
     question: str = "Which effect is missing?",
     answer: str = "",
@@ -200,7 +199,6 @@ def finish(
     """Write the report, the fitted model and the JSON answer, where they were asked for, in place of an earlier answer.
 
     Args:
-        command: that was run.
         question, answer: what leads the report; the verdict where empty.
     """
     import json
@@ -208,12 +206,11 @@ def finish(
     from pysim.cli._answer_folder import answer_folder
     from pysim.cli._diagnosis_report import write_diagnosis
     from pysim.cli._extended import relative_files
-    from pysim.cli._outputs import command_line
-    from pysim.cli._subject import subject_words
+    from pysim.cli._outputs import repeating
     from pysim.io import write_file, write_stages
     from pysim.report.diagnosis import diagnosis_data
 
-    redo = command_line([command, *subject_words(args, model_first=command == "compare")])
+    redo = repeating(args)
     found = replace(found, conditions={**_conditions(given, args, redo), **found.conditions})
     files: dict[str, Path] = {}
     if args.output:

@@ -41,10 +41,10 @@ class Given:
 
 def add_subject(parser: argparse.ArgumentParser) -> None:
     """`DATASET --model MODEL` and what goes with them."""
-    from pysim.cli._model_and_data import DATA, add_model_and_data
+    from pysim.cli._any_model import add_data_and_model
     from pysim.cli._options import add_parameters, add_reference
 
-    add_model_and_data(parser, DATA, "a Modelica class with slots, or its .fmu")
+    add_data_and_model(parser, "a Modelica class with slots, or its .fmu")
     add_fitted(parser)
     add_parameters(parser)
     add_reference(parser)
@@ -210,27 +210,6 @@ def effects_of(names: Sequence[str], given: Given, option: str = "--effect") -> 
             raise BadInput(f"{option} {name}: named twice; name each effect once")
     catalogue = read_catalogue(STANDARD_LIBRARY, *given.libraries)
     return named_effects(names, given.subject.catalogue, catalogue, option, given.model_name)
-
-
-def subject_words(args: argparse.Namespace, *, model_first: bool = False) -> list[str]:
-    """These options again, for the line that repeats the command.
-
-    Args:
-        model_first: whether the command takes `MODEL --data DATASET`.
-    """
-    from pysim.cli._options import THESIS_HZ, reference_words
-
-    words = [args.model, "--data", str(args.data)] if model_first else [str(args.data), "--model", args.model]
-    for option in ("effect", "effects", "with", "free", "library", "bounds", "set"):
-        for value in getattr(args, option, []):
-            words += [f"--{option}", str(value)]
-    for option in ("parameters", "seed", "most", "json", "output"):
-        value = getattr(args, option, None)
-        if value not in (None, ""):
-            words += [f"--{option}", str(value)]
-    if args.reference_hz != THESIS_HZ:
-        words += reference_words(args)
-    return [*words, "--refit"] if getattr(args, "refit", False) else words
 
 
 def _model(text: str, libraries: Sequence[Path]) -> tuple[Model, str, list[str]]:

@@ -31,5 +31,5 @@ def run(args: argparse.Namespace) -> int:
     announce_compilation()
     found = unfold(given, args, lambda story, journal: add(given.subject, effects, progress=story, journal=journal))
     print(added_sentence(found), evidence_text(found), sep="\n\n")
-    finish(found, given, args, "add", question="What do the effects mend?", answer=added_sentence(found))
+    finish(found, given, args, question="What do the effects mend?", answer=added_sentence(found))
     return 0

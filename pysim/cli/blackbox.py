@@ -102,7 +102,7 @@ def _refuse_contradictions(args: argparse.Namespace, structure: Structure) -> No
 
 
 def _write_report(args: argparse.Namespace, name: str, fitted: Sequence[FittedResponse]) -> None:
-    from pysim.cli._outputs import command_line
+    from pysim.cli._outputs import repeating
     from pysim.io import write_file
     from pysim.plot import blackbox_figure, render
     from pysim.report.blackbox import blackbox_page
@@ -114,8 +114,7 @@ def _write_report(args: argparse.Namespace, name: str, fitted: Sequence[FittedRe
         figure.set_layout_engine("none")  # found by the first drawing
         pictures.append(render(figure, "svg"))
         write_file(args.output / f"{stem}.svg", pictures[-1])
-    redo = command_line(_words(args))
-    write_file(args.output / "report.html", blackbox_page(name, fitted, pictures=pictures, redo=redo))
+    write_file(args.output / "report.html", blackbox_page(name, fitted, pictures=pictures, redo=repeating(args)))
     print(f"Report: {args.output / 'report.html'}")
 
 
@@ -130,16 +129,3 @@ def _stems(labels: Sequence[str]) -> list[str]:
         stem = next(stem for stem in again if same_file(stem) not in stems)
         stems[same_file(stem)] = stem
     return list(stems.values())
-
-
-def _words(args: argparse.Namespace) -> list[str]:
-    """What to type to do it again."""
-    words = ["blackbox", str(args.dataset), "--poles", str(args.poles), "--zeros", str(args.zeros)]
-    words += ["--dead-time", f"{args.dead_time!r}"] if args.dead_time else []
-    words += ["--dead-time-max", f"{args.dead_time_max!r}"] if args.dead_time_max is not None else []
-    words += ["--stable"] if args.stable else []
-    words += ["--weights", args.weights] if args.weights else []
-    words += ["--orders", args.orders] if args.orders else []
-    words += [f"--test={o!r}/{a!r}" for o, a in args.test]  # with =, or a negative offset would be an option
-    words += ["--signal", args.signal] if args.signal else []
-    return [*words, "--output", str(args.output)]

@@ -85,7 +85,7 @@ def _stepped(dataset: Dataset, analysis: ChirpAnalysis) -> FrequencyResponse | N
 
 
 def _write_report(args: argparse.Namespace, dataset: Dataset, analyses: Sequence[ChirpAnalysis]) -> None:
-    from pysim.cli._outputs import command_line
+    from pysim.cli._outputs import repeating
     from pysim.io import write_file
     from pysim.plot import chirp_figure, render
     from pysim.report.chirp import chirp_page
@@ -98,10 +98,6 @@ def _write_report(args: argparse.Namespace, dataset: Dataset, analyses: Sequence
         svg = render(figure, "svg")
         write_file(args.output / f"{name}.svg", svg)
         pictures[f"{one.source}: tops, bottoms and their mean with its 95 percent interval."] = svg
-    words = ["chirp", str(args.data), "--output", str(args.output)]
-    for option in ("columns", "units", "signal", "level"):
-        value = getattr(args, option)
-        words += [] if value is None else [f"--{option}={value}"]  # with =, or -1e-05 would be an option
-    text = chirp_page(analyses, dataset=dataset.name, pictures=pictures, redo=command_line(words))
+    text = chirp_page(analyses, dataset=dataset.name, pictures=pictures, redo=repeating(args))
     write_file(args.output / "report.html", text)
     print(f"Report: {args.output / 'report.html'}")

@@ -13,12 +13,11 @@ if TYPE_CHECKING:
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The words behind `pysim compare`."""
-    from pysim.cli._any_model import WHAT
-    from pysim.cli._model_and_data import MODEL, add_model_and_data
+    from pysim.cli._any_model import add_data_and_model
     from pysim.cli._options import add_parameters, add_reference
     from pysim.cli._subject import add_fitted, add_results
 
-    add_model_and_data(parser, MODEL, WHAT)
+    add_data_and_model(parser)
     parser.add_argument("--refit", action="store_true", help="refit within the bounds too, and say where it fails")
     add_fitted(parser)
     add_parameters(parser)
@@ -86,7 +85,7 @@ def _story(args: argparse.Namespace) -> int:
     )
     answer = comparison_sentence(found)
     print(answer, evidence_text(found), sep="\n\n")
-    finish(found, given, args, "compare", question="How far is the model from its measurements?", answer=answer)
+    finish(found, given, args, question="How far is the model from its measurements?", answer=answer)
     last = found.error[-1]
     return 0 if last.passes and last.criteria else 1
 
@@ -122,16 +121,16 @@ def _responses(args: argparse.Namespace, dataset: Dataset) -> int:
 
 def _write_report(args: argparse.Namespace, comparison: Comparison) -> None:
     from pysim.cli._answer_folder import answer_folder
-    from pysim.cli._outputs import command_line
+    from pysim.cli._outputs import repeating
     from pysim.cli._pictures import write_pictures
     from pysim.cli._story import results_beside
-    from pysim.cli._subject import subject_words
     from pysim.io import write_file
     from pysim.report import comparison_page
 
-    redo = command_line(["compare", *subject_words(args, model_first=True)])
     with answer_folder(args.output, beside=results_beside(args)) as new:
         pictures = write_pictures([comparison], new)
-        text = comparison_page("A model against its measurements", [comparison], pictures=pictures, redo=redo)
+        text = comparison_page(
+            "A model against its measurements", [comparison], pictures=pictures, redo=repeating(args)
+        )
         write_file(new / "report.html", text)
     print(f"Report: {args.output / 'report.html'}")

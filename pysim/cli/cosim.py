@@ -111,7 +111,7 @@ def _write(args: argparse.Namespace, file: SystemFile, record: Record, seconds: 
 
 
 def _write_report(args: argparse.Namespace, file: SystemFile, record: Record, seconds: float) -> None:
-    from pysim.cli._outputs import command_line
+    from pysim.cli._outputs import repeating
     from pysim.io import write_file
     from pysim.plot import cosim_figure, render
     from pysim.report.cosim import cosim_page
@@ -120,10 +120,6 @@ def _write_report(args: argparse.Namespace, file: SystemFile, record: Record, se
     write_file(args.output / "cosim.png", render(figure, "png"))
     svg = render(figure, "svg")
     write_file(args.output / "cosim.svg", svg)
-    words = ["cosim", str(args.system), "--output", str(args.output)]
-    for option in ("stop", "step"):
-        value = getattr(args, option)
-        words += [] if value is None else [f"--{option}", repr(value)]
     text = cosim_page(
         file.name,
         record,
@@ -131,7 +127,7 @@ def _write_report(args: argparse.Namespace, file: SystemFile, record: Record, se
         parts=[(m.name, _what(m), len(m.inputs), len(m.outputs)) for m in file.system.members],
         wires=[(c.source, c.target, c.gain, c.offset) for c in file.system.connections],
         pictures={"Everything that was recorded, by unit.": svg},
-        redo=command_line(words),
+        redo=repeating(args),
     )
     write_file(args.output / "report.html", text)
     print(f"Report: {args.output / 'report.html'}")

@@ -123,7 +123,7 @@ def _signal(role: str, text: str) -> MeasuredSignal:
 
 
 def _write_report(args: argparse.Namespace, check: DataCheck) -> None:
-    from pysim.cli._outputs import command_line
+    from pysim.cli._outputs import repeating
     from pysim.io import write_file
     from pysim.plot import render
     from pysim.plot.data_check import coverage_figure, sine_logs_figure, time_logs_figure
@@ -143,8 +143,6 @@ def _write_report(args: argparse.Namespace, check: DataCheck) -> None:
         figure.set_layout_engine("none")
         pictures[caption] = render(figure, "svg")
         write_file(args.output / f"{name}.svg", pictures[caption])
-    words = ["data", "check", str(args.dataset), *(w for text in args.input for w in ("--input", text))]
-    words += [*(w for text in args.response for w in ("--response", text)), "--output", str(args.output)]
-    text = data_check_page(check, pictures=pictures, redo=command_line(words))
+    text = data_check_page(check, pictures=pictures, redo=repeating(args))
     write_file(args.output / "report.html", text)
     print(f"Report: {args.output / 'report.html'}")

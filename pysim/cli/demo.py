@@ -44,7 +44,7 @@ def run(args: argparse.Namespace) -> int:
         print(comparison_text(comparison), end="\n\n")
     numbers = json.dumps(comparison_data(comparisons), indent=1, allow_nan=False)
     write_file(folder / "comparison.json", numbers)
-    write_file(folder / "report.html", _report(comparisons, folder, args.quick))
+    write_file(folder / "report.html", _report(comparisons, args))
     print(f"Report: {folder / 'report.html'}")
     return 0
 
@@ -64,17 +64,16 @@ def _compare(label: str, folder: Path, dataset: Dataset) -> Comparison:
         return compare(model, dataset, label=label, about=SOURCES[label], progress=progress)
 
 
-def _report(comparisons: Sequence[Comparison], folder: Path, quick: bool) -> str:
-    from pysim.cli._outputs import command_line
+def _report(comparisons: Sequence[Comparison], args: argparse.Namespace) -> str:
+    from pysim.cli._outputs import repeating
     from pysim.cli._pictures import write_pictures
     from pysim.report import comparison_page
 
     # with fewer frequencies the largest deviations are others, and the thesis' tables cannot be held against them
-    remarks = [] if quick else [part for comparison in comparisons for part in _against_the_thesis(comparison)]
-    redo = command_line(["demo", "--output", str(folder), *(["--quick"] if quick else [])])
-    pictures = write_pictures(comparisons, folder)
+    remarks = [] if args.quick else [part for comparison in comparisons for part in _against_the_thesis(comparison)]
+    pictures = write_pictures(comparisons, args.output)
     title = "The pump's swash plate against the transfer functions of thesis Table 4.1"
-    return comparison_page(title, comparisons, pictures=pictures, redo=redo, remarks=remarks)
+    return comparison_page(title, comparisons, pictures=pictures, redo=repeating(args), remarks=remarks)
 
 
 def _against_the_thesis(comparison: Comparison) -> list[str]:

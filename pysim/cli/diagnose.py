@@ -34,5 +34,5 @@ def run(args: argparse.Namespace) -> int:
         lambda story, journal: diagnose(given.subject, seed=args.seed, most=args.most, progress=story, journal=journal),
     )
     print(diagnosis_text(found))
-    finish(found, given, args, "diagnose")
+    finish(found, given, args)
     return 0

@@ -17,11 +17,10 @@ if TYPE_CHECKING:
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The words behind `pysim fit`."""
-    from pysim.cli._any_model import WHAT, add_library
-    from pysim.cli._model_and_data import MODEL, add_model_and_data
+    from pysim.cli._any_model import add_data_and_model, add_library
     from pysim.cli._options import add_names, add_parameters_file, add_reference
 
-    add_model_and_data(parser, MODEL, WHAT, several=True)
+    add_data_and_model(parser, several=True)
     add_library(parser)
     add_names(parser, "--free", what="parameters to find, bounds as the model says", required=True)
     parser.add_argument(
@@ -218,7 +217,7 @@ def _tie(text: str) -> tuple[str, str, float]:
 def _write_report(args: argparse.Namespace, result: Fit, datasets: Sequence[Dataset]) -> None:
     from pysim.cli._answer_folder import answer_folder
     from pysim.cli._fit_pictures import fit_pictures
-    from pysim.cli._outputs import PARAMETERS, command_line
+    from pysim.cli._outputs import PARAMETERS, repeating
     from pysim.io import write_file
     from pysim.report.fit import fit_page
 
@@ -227,25 +226,6 @@ def _write_report(args: argparse.Namespace, result: Fit, datasets: Sequence[Data
     with answer_folder(args.output, beside=[args.json, args.output / "log"]) as new:
         write_file(new / PARAMETERS, "\n".join([*lines, ""]))
         pictures = fit_pictures(result, datasets, new)
-        page = fit_page(result, units=units, pictures=pictures, redo=command_line(_words(args)))
+        page = fit_page(result, units=units, pictures=pictures, redo=repeating(args))
         write_file(new / "report.html", page)
     print(f"Report: {args.output / 'report.html'}; for --parameters: {args.output / PARAMETERS}")
-
-
-def _words(args: argparse.Namespace) -> list[str]:
-    """The command line again, without --resume."""
-    from pysim.cli._options import reference_words
-
-    words = ["fit", args.model, "--objective", args.objective, *reference_words(args)]
-    for option in ("data", "library", "free", "fix", "tie", "start", "bounds", "signal", "profile"):
-        for value in getattr(args, option) or ():
-            words += [f"--{option}", str(value)]
-    for option in ("parameters", "optimiser", "seed", "log", "json", "output"):
-        if getattr(args, option) is not None:
-            words += [f"--{option}", str(getattr(args, option))]
-    return (
-        words
-        + (["--starts", str(args.starts)] if args.starts else [])
-        + (["--isolate"] if args.isolate else [])
-        + (["--trust-start"] if args.trust_start else [])
-    )

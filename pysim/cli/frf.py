@@ -56,8 +56,7 @@ def run(args: argparse.Namespace) -> int:
 
 
 def _write_report(args: argparse.Namespace, name: str, responses: Sequence[MeasuredResponse]) -> None:
-    from pysim.cli._options import reference_words
-    from pysim.cli._outputs import command_line
+    from pysim.cli._outputs import repeating
     from pysim.io import write_file
     from pysim.plot import frf_figure, render
     from pysim.report.frf import frf_page
@@ -67,9 +66,6 @@ def _write_report(args: argparse.Namespace, name: str, responses: Sequence[Measu
     svg = render(figure, "svg")
     write_file(args.output / "frf.svg", svg)
     pictures = {"Magnitude, phase and harmonics; bars: 95 percent intervals; filled: beyond the noise.": svg}
-    words = ["frf", str(args.dataset), *reference_words(args), "--output", str(args.output)]
-    words += ["--settle", repr(args.settle), "--settle-periods", repr(args.settle_periods)]
-    words += ["--signal", args.signal] if args.signal else []
-    text = frf_page(responses, args.reference_hz, dataset=name, pictures=pictures, redo=command_line(words))
+    text = frf_page(responses, args.reference_hz, dataset=name, pictures=pictures, redo=repeating(args))
     write_file(args.output / "report.html", text)
     print(f"Report: {args.output / 'report.html'}")

@@ -80,7 +80,7 @@ def _fits(args: argparse.Namespace) -> tuple[FrictionFit, FrictionFit | None]:
 
 
 def _write_report(args: argparse.Namespace, fit: FrictionFit, thesis: FrictionFit | None) -> None:
-    from pysim.cli._outputs import command_line
+    from pysim.cli._outputs import repeating
     from pysim.io import write_file
     from pysim.plot import friction_figure, render
     from pysim.report import friction_page
@@ -89,10 +89,6 @@ def _write_report(args: argparse.Namespace, fit: FrictionFit, thesis: FrictionFi
     write_file(args.output / "friction.png", render(figure, "png"))
     figure.set_layout_engine("none")
     caption = "Friction torque over speed, all speeds and those near standstill; grey: speeds that no sample has."
-    words = ["friction", str(args.dataset), "--speed", args.speed, "--supply", args.supply]
-    words += ["--supply-gain", f"{args.supply_gain!r}", "--inertia", f"{args.inertia!r}"]
-    words += ["--load", args.load, "--load-gain", f"{args.load_gain!r}"] if args.load else []
-    words += ["--pulses", "none" if args.pulses is None else str(args.pulses), "--cutoff-hz", repr(args.cutoff_hz)]
     load = f" and {args.load}" if args.load else ""
     about = f"{args.dataset}: {args.speed} against {args.supply}{load}, inertia {args.inertia:g} kg.m2."
     text = friction_page(
@@ -100,7 +96,7 @@ def _write_report(args: argparse.Namespace, fit: FrictionFit, thesis: FrictionFi
         thesis,
         about=about,
         pictures={caption: render(figure, "svg")},
-        redo=command_line([*words, "--output", str(args.output)]),
+        redo=repeating(args),
     )
     write_file(args.output / "report.html", text)
     print(f"Report: {args.output / 'report.html'}")

@@ -32,5 +32,5 @@ def run(args: argparse.Namespace) -> int:
     announce_compilation()
     found = unfold(given, args, lambda story, journal: located(given.subject, effects, progress=story, journal=journal))
     print(missing_sentence(found), evidence_text(found), sep="\n\n")
-    finish(found, given, args, "locate", question="Where is what missing?", answer=missing_sentence(found))
+    finish(found, given, args, question="Where is what missing?", answer=missing_sentence(found))
     return 0

@@ -199,7 +199,7 @@ def _arbitrary(args: argparse.Namespace, record: Record, columns: tuple[str, ...
 
 
 def _write_report(args: argparse.Namespace, found: Sequence[tuple[str, BestLinearApproximation]]) -> None:
-    from pysim.cli._outputs import command_line
+    from pysim.cli._outputs import repeating
     from pysim.io import write_file
     from pysim.plot import multisine_figure, render
     from pysim.report.multisine import multisine_page
@@ -213,18 +213,6 @@ def _write_report(args: argparse.Namespace, found: Sequence[tuple[str, BestLinea
         caption = f"{name}: gain with its 95 percent band, and the levels beside it; points are single lines."
         pictures.append((caption, svg))
     title = f"Best linear approximation of {args.data[0].name}"
-    text = multisine_page(title, found, pictures=pictures, redo=command_line(_words(args)))
+    text = multisine_page(title, found, pictures=pictures, redo=repeating(args))
     write_file(args.output / "report.html", text)
     print(f"Report: {args.output / 'report.html'}")
-
-
-def _words(args: argparse.Namespace) -> list[str]:
-    """The command line again."""
-    words = ["multisine", *(str(path) for path in args.data), "--method", args.method]
-    for name in ("period", "input", "signal", "reference", "start", "periods", "drop", "lines", "output"):
-        value = getattr(args, name)
-        if value is not None:
-            words += [f"--{name}", str(value)]
-    if args.band is not None:
-        words += ["--band", *(repr(x) for x in args.band)]
-    return words + (["--records", args.records] if args.records != "*" else [])

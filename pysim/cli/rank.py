@@ -32,5 +32,5 @@ def run(args: argparse.Namespace) -> int:
         given, args, lambda story, journal: rank(given.subject, seed=args.seed, progress=story, journal=journal)
     )
     print(ranking_sentence(found), evidence_text(found), sep="\n\n")
-    finish(found, given, args, "rank", question="What would each effect gain?", answer=ranking_sentence(found))
+    finish(found, given, args, question="What would each effect gain?", answer=ranking_sentence(found))
     return 0

@@ -142,7 +142,7 @@ def _run(
 
 def _write(args: argparse.Namespace, data: Any, figures: Mapping[str, tuple[str, Figure]], make_page: Any) -> None:
     """Numbers, pictures and the page, where they were asked for."""
-    from pysim.cli._outputs import command_line
+    from pysim.cli._outputs import repeating
     from pysim.io import write_file
     from pysim.plot.render import render
 
@@ -155,10 +155,5 @@ def _write(args: argparse.Namespace, data: Any, figures: Mapping[str, tuple[str,
         write_file(args.output / f"{name}.png", render(figure, "png"))
         pictures[caption] = render(figure, "svg")
         write_file(args.output / f"{name}.svg", pictures[caption])
-    words = ["rig", args.test, "--output", str(args.output), "--interface", args.interface]
-    own = {"step": ("speed", "load", "length"), "heave": ("height", "period", "seed", "length")}[args.test]
-    for option in ("dt", "fmi", *own):
-        value = getattr(args, option)
-        words += [] if value is None else [f"--{option}={value}"]
-    write_file(args.output / "report.html", make_page(pictures, command_line(words)))
+    write_file(args.output / "report.html", make_page(pictures, repeating(args)))
     print(f"Report: {args.output / 'report.html'}")

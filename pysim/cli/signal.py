@@ -91,15 +91,20 @@ def _add_common(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--output", metavar="DIR", type=Path, help="write the picture and report.html here; a .csv is taken as --file"
     )
-    parser.set_defaults(finish=_finish)
 
 
-def _finish(args: argparse.Namespace) -> None:
-    """Elsewhere the option of the one result is --output."""
+def _choose_file(args: argparse.Namespace) -> None:
+    """Elsewhere the option of the one result is --output.
+
+    Raises:
+        BadInput: no file is named.
+    """
+    from pysim.types import BadInput
+
     if args.file is None and args.output is not None and args.output.suffix.lower() == ".csv":
         args.file, args.output = args.output, None
     if args.file is None:
-        raise argparse.ArgumentTypeError("the following arguments are required: -o/--file")
+        raise BadInput("name the file to write, -o FILE.csv")
 
 
 def run(args: argparse.Namespace) -> int:
@@ -107,6 +112,7 @@ def run(args: argparse.Namespace) -> int:
     from pysim.cli._outputs import prepare_file, prepare_folder
     from pysim.io import write_signal
 
+    _choose_file(args)
     test = _excitation(args)
     _refuse_slow_sampling(test, args.sampling)
     prepare_file(args.file, "-o", (".csv",))
@@ -162,7 +168,7 @@ def _lead(args: argparse.Namespace) -> LeadIn:
 
 def _title(args: argparse.Namespace) -> str:
     """The settings in one line, so that the file tells what it is."""
-    skip = {"command", "kind", "file", "output"}
+    skip = {"words", "command", "kind", "file", "output"}
     settings = (f"{key} {value}" for key, value in vars(args).items() if key not in skip and value is not None)
     return f"{args.kind}: {', '.join(settings)}"
 

@@ -96,7 +96,7 @@ def _numbers(text: str, option: str, count: int | None = None) -> tuple[float, .
 
 
 def _write_report(args: argparse.Namespace, loops: dict[str, Gains]) -> None:
-    from pysim.cli._outputs import command_line
+    from pysim.cli._outputs import repeating
     from pysim.io import write_file
     from pysim.plot.render import render
     from pysim.plot.tuning import tuning_figure
@@ -107,11 +107,6 @@ def _write_report(args: argparse.Namespace, loops: dict[str, Gains]) -> None:
     svg = render(figure, "svg")
     write_file(args.output / "tuning.svg", svg)
     caption = "Open loop with its crossovers, closed loop, and the sampled loop after unit steps."
-    words = ["tune", args.plant, "--output", str(args.output), "--dt", repr(args.dt)]
-    for option in ("numerator", "denominator", "delay", "phase_margin", "crossover", "gain_margin"):
-        value = getattr(args, option)
-        words += [] if value is None else [f"--{option.replace('_', '-')}={value}"]
-    words += [f"--gains={text}" for text in args.gains]
-    text = tuning_page(loops, pictures={caption: svg}, redo=command_line(words))
+    text = tuning_page(loops, pictures={caption: svg}, redo=repeating(args))
     write_file(args.output / "report.html", text)
     print(f"Report: {args.output / 'report.html'}")

@@ -216,7 +216,7 @@ def test_words_are_those_of_the_command_line(project: Project) -> None:
     project.description.touch()
     words = works(project)
     assert words["diagnose"].words[:6] == ("diagnose", "data", "--model", "A.B", "--library", "model/L")
-    assert words["compare"].words[:4] == ("compare", "A.B", "--data", "data")
+    assert words["compare"].words[:4] == ("compare", "data", "--model", "A.B")
     parse(words["compare"].words, words["diagnose"].words, words["rank"].words, words["locate"].words)
     added = adding(project, ["valve.deadband", "../evil name"])
     assert re.fullmatch(r"add-valve\.deadband\+\.\._evil_name-[0-9a-f]{8}", added.name)

@@ -31,7 +31,7 @@ def test_a_system_is_run_and_reported(folder: Path, tmp_path: Path, capsys: pyte
         "Lag_2.fmu, FMI 2, model exchange: stepped by our solver",
         "controller.u",
         "plant.u",
-        "--stop 12.0",
+        "--stop 12",
         "image/svg+xml",
     ):
         assert text in page

@@ -82,7 +82,7 @@ def test_numbers_report_and_pictures(folder: Path, tmp_path: Path, capsys: pytes
     page = (out / "report.html").read_text()
     assert page.count("data:image/svg+xml") == 3
     assert "O+25_A10/30Hz.txt" in page
-    assert f"data check {folder} --output {out}" in page
+    assert f"data check {folder} --json {numbers} --output {out}" in page
     assert before == {path: path.stat().st_mtime_ns for path in folder.rglob("*")}
 
 

@@ -186,7 +186,7 @@ def test_what_cannot_be_drafted_leaves_nothing(
     assert not (tmp_path / "dataset.toml").exists()
 
 
-@pytest.mark.parametrize("command", [["frf"], ["blackbox", "--poles", "2"], ["compare", "m.fmu", "--data"]])
+@pytest.mark.parametrize("command", [["frf"], ["blackbox", "--poles", "2"], ["compare", "--model", "m.fmu"]])
 def test_a_folder_without_a_description_says_how_to_come_to_one(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], command: list[str]
 ) -> None:

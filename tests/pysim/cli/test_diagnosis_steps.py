@@ -102,11 +102,8 @@ def test_compare_tells_how_far_the_model_is_and_where(
 ) -> None:
     words = [
         "compare",
-        "Toy.Mass",
-        "--library",
-        str(library()),
-        "--data",
         str(data),
+        *MODEL,
         "--json",
         str(tmp_path / "a.json"),
     ]
@@ -124,7 +121,7 @@ def test_compare_tells_how_far_the_model_is_and_where(
     assert prior["fit"] > 1.5 * refit["fit"] > 1.5
     assert (found["verdict"], found["reason"].partition("; ")[2]) == ("unknown", "no effect was tried")
     assert found["where"][0]["error"] > refit["fit"]
-    assert "pysim compare Toy.Mass --data" in (output / "report.html").read_text()
+    assert f"pysim compare {data} --model Toy.Mass" in (output / "report.html").read_text()
     told = ["--parameters", str(output / "parameters.toml"), "--story", str(tmp_path / "s.jsonl")]
     main([*words, *told])  # its values are those of the model that was compared
     (again,) = json.loads((tmp_path / "a.json").read_text())["error"]
@@ -150,7 +147,7 @@ def test_tables_beside_logs_are_left_out_and_said_to_be(
     table = MeasuredRecord("t.csv", "frequency-response-table", "fit", response, 0.0, 1.0)
     write_dataset(tmp_path / "both", replace(logs, records=(table, *logs.records)))
     answer = tmp_path / "a.json"
-    assert main(["compare", *MODEL, "--data", str(tmp_path / "both"), "--refit", "--json", str(answer)]) == 0
+    assert main(["compare", str(tmp_path / "both"), *MODEL, "--refit", "--json", str(answer)]) == 0
     found = json.loads(answer.read_text())
     assert found["error"][-1]["fit"] == pytest.approx(1.0, abs=0.1)
     assert any("left out: tables of frequency responses (1), beside logs over time" in note for note in found["notes"])
@@ -166,7 +163,7 @@ def test_compare_does_not_pass_a_model_that_fails_in_a_record(
         return replace(found, records=rest, notes=(f"not simulated: {lost.source} ends early",), lost=1)
 
     monkeypatch.setattr(diagnosis_story, "beside", beside)
-    words = ["compare", *MODEL, "--data", str(data), "--refit", "--json", str(tmp_path / "a.json")]
+    words = ["compare", str(data), *MODEL, "--refit", "--json", str(tmp_path / "a.json")]
     assert main(words) == 1
     said = capsys.readouterr().out
     assert "Table 1.4 not judged, 1 record not simulated" in said
@@ -178,7 +175,7 @@ def test_compare_does_not_pass_a_model_that_fails_in_a_record(
 
 def test_compare_draws_a_model_that_is_not_refitted(data: Path, tmp_path: Path) -> None:
     output = tmp_path / "out"
-    words = ["compare", "Toy.Mass", "--library", str(library()), "--data", str(data), "--output", str(output)]
+    words = ["compare", str(data), *MODEL, "--output", str(output)]
     assert main(words) == 1
     page = (output / "report.html").read_text()
     assert "Where the model as it is fails" in page
@@ -206,7 +203,7 @@ def test_an_answer_takes_the_place_of_the_one_before(
     ours = {"report.html", "parameters.toml", MARKER}
     first = {path.name for path in output.iterdir()}
     assert first == ours | {"MassWithRubbing.mo", "MassWithRubbing.fmu"}
-    words = ["compare", *MODEL, "--data", str(data), "--refit", "--output", str(output)]
+    words = ["compare", str(data), *MODEL, "--refit", "--output", str(output)]
     with monkeypatch.context() as patch:
         patch.setattr(Story, "__call__", stopped_at("prior"))
         assert main(words) == 2

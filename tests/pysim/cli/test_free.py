@@ -13,7 +13,7 @@ from pysim.types import BadInput
 from tests.foreign import made_foreign
 from tests.pysim.diagnose.toy import base, library, measured
 
-MODEL = ["Toy.Mass", "--library", str(library())]
+MODEL = ["--model", "Toy.Mass", "--library", str(library())]
 
 
 @pytest.fixture(scope="module")
@@ -38,8 +38,8 @@ def compared(words: list[str], tmp_path: Path, end: int = 0) -> dict:
 def test_what_a_fit_found_is_compared(data: Path, tmp_path: Path) -> None:
     """Every parameter with bounds is in the file, so nothing is left to be free."""
     out = tmp_path / "fit"
-    assert main(["fit", *MODEL, "--data", str(data), "--free", "m,d", "--free", "k", "--output", str(out)]) == 0
-    found = compared([*MODEL, "--data", str(data), "--parameters", str(out / "parameters.toml")], tmp_path)
+    assert main(["fit", str(data), *MODEL, "--free", "m,d", "--free", "k", "--output", str(out)]) == 0
+    found = compared([str(data), *MODEL, "--parameters", str(out / "parameters.toml")], tmp_path)
     (prior,) = found["error"]
     assert prior["fit"] == pytest.approx(1.0, abs=0.1)
     assert found["conditions"]["free parameters"] == "none"
@@ -47,15 +47,15 @@ def test_what_a_fit_found_is_compared(data: Path, tmp_path: Path) -> None:
 
 
 def test_the_others_are_refitted_beside_what_was_set(data: Path, tmp_path: Path) -> None:
-    found = compared([*MODEL, "--data", str(data), "--set", "m=1.05", "--refit"], tmp_path)
+    found = compared([str(data), *MODEL, "--set", "m=1.05", "--refit"], tmp_path)
     assert set(found["parameters"]) == {"d", "k"}
     assert found["error"][-1]["fit"] == pytest.approx(1.0, abs=0.1)
 
 
 def test_an_fmu_without_bounds_is_compared(data: Path, foreign: Path, tmp_path: Path) -> None:
     """As the FMU with bounds is: nothing is refitted in either."""
-    by_name = compared([*MODEL, "--data", str(data)], tmp_path)
-    without = compared([str(foreign), "--data", str(data)], tmp_path)
+    by_name = compared([str(data), *MODEL], tmp_path)
+    without = compared([str(data), "--model", str(foreign)], tmp_path)
     assert without["error"][0]["fit"] == pytest.approx(by_name["error"][0]["fit"], rel=1e-4)
     assert without["parameters"] == {}
     assert not any("without bounds" in note for note in without["notes"])
@@ -63,15 +63,15 @@ def test_an_fmu_without_bounds_is_compared(data: Path, foreign: Path, tmp_path: 
 
 def test_bounds_alone_make_free(data: Path, foreign: Path, tmp_path: Path) -> None:
     bounds = [word for text in ("m=0.5:5", "k=1:100") for word in ("--bounds", text)]
-    found = compared([str(foreign), "--data", str(data), "--refit", *bounds], tmp_path)
+    found = compared([str(data), "--model", str(foreign), "--refit", *bounds], tmp_path)
     assert set(found["parameters"]) == {"m", "k"}
 
 
 def test_where_nothing_can_be_refitted_the_options_are_named(
     data: Path, foreign: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    for words in (["compare", str(foreign), "--refit"], ["diagnose", "--model", str(foreign)]):
-        assert main([*words, "--data", str(data)]) == 2
+    for words in (["compare", "--refit"], ["diagnose"]):
+        assert main([*words, str(data), "--model", str(foreign)]) == 2
         assert "name those to refit, and their bounds, as --free m --bounds m=0.1:10" in capsys.readouterr().err
 
 
@@ -79,7 +79,7 @@ def test_what_a_fit_found_is_where_the_refit_begins(data: Path, tmp_path: Path) 
     """Named with `--free`, values of `--parameters` are no longer held; as they were found they come out again."""
     values = tmp_path / "parameters.toml"
     values.write_text("m = 1.3\nd = 0.4\n")
-    words = [*MODEL, "--data", str(data), "--parameters", str(values)]
+    words = [str(data), *MODEL, "--parameters", str(values)]
     as_is = compared(words, tmp_path, 1)["error"][0]["fit"]
     held = compared([*words, "--refit"], tmp_path, 1)
     assert set(held["parameters"]) == {"k"}

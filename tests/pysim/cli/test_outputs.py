@@ -40,8 +40,8 @@ COMMANDS = {
     "blackbox": ["blackbox", "{}", "--poles", "1"],
     "chirp": ["chirp", "{}"],
     "friction": ["friction", "{}", "--speed", "u", "--supply", "y", "--inertia", "1"],
-    "fit": ["fit", "m.fmu", "--data", "other", "--data", "{}", "--free", "m"],
-    "compare": ["compare", "m.fmu", "--data", "{}"],
+    "fit": ["fit", "other", "{}", "--model", "m.fmu", "--free", "m"],
+    "compare": ["compare", "{}", "--model", "m.fmu"],
     "diagnose": ["diagnose", "{}", "--model", "m.fmu"],
     "locate": ["locate", "{}", "--model", "m.fmu"],
     "rank": ["rank", "{}", "--model", "m.fmu"],
@@ -91,7 +91,7 @@ def test_an_input_is_not_overwritten_by_the_run(tmp_path: Path, capsys: pytest.C
     ("words", "message"),
     [
         (["frf", "{}", "--json", "n.txt"], "--json n.txt: the suffix chooses the form; write one of .json"),
-        (["compare", "m.fmu", "--data", "{}", "--records", "r.csv"], "--records r.csv: the suffix chooses the form"),
+        (["compare", "{}", "--model", "m.fmu", "--records", "r.csv"], "--records r.csv: the suffix chooses the form"),
         (["diagnose", "{}", "--model", "m.fmu", "--story", "s.txt"], "write one of .jsonl, .json"),
     ],
 )

@@ -117,4 +117,4 @@ def test_the_file_may_be_called_output_as_elsewhere(
     assert (tmp_path / "a.csv").read_text() == (tmp_path / "b.csv").read_text()
     capsys.readouterr()
     assert main([*words, "--output", "folder"]) == 2
-    assert "the following arguments are required: -o/--file" in capsys.readouterr().err
+    assert "name the file to write, -o FILE.csv" in capsys.readouterr().err

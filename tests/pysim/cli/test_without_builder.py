@@ -75,7 +75,7 @@ def data(tmp_path: Path) -> Path:
 @pytest.mark.parametrize(("parameter", "code"), [("w=20", 0), ("w=10", 1)])
 def test_compare_needs_nothing_of_the_builder(data: Path, tmp_path: Path, parameter: str, code: int) -> None:
     fmu, numbers = build(OSCILLATOR, 2, data), tmp_path / "numbers.json"
-    words = ["compare", str(fmu), "--data", str(data), "--set", parameter, "--set", "D=1", "--json", str(numbers)]
+    words = ["compare", str(data), "--model", str(fmu), "--set", parameter, "--set", "D=1", "--json", str(numbers)]
     done = subprocess.run([sys.executable, "-c", SCRIPT, *words], cwd=ROOT, capture_output=True, text=True, check=False)
     assert done.returncode == code, done.stderr
     (test,) = json.loads(numbers.read_text())["parameter_sets"][0]["tests"]

@@ -1,0 +1,48 @@
+"""What the commands read from their words: one form for a data set and a model, and lists of names."""
+
+from pathlib import Path
+
+import pytest
+
+from pysim.cli._main import argument_parser
+from pysim.cli._options import names_of
+
+OWN = {"add": ["--effect", "e"], "fit": ["--free", "m"]}
+
+
+@pytest.mark.parametrize("command", ["add", "compare", "diagnose", "fit", "locate", "rank"])
+def test_a_data_set_and_its_model_have_one_form(command: str, capsys: pytest.CaptureFixture[str]) -> None:
+    args = argument_parser().parse_args([command, "d", "--model", "m.fmu", *OWN.get(command, [])])
+    assert args.model == "m.fmu"
+    assert args.data == ([Path("d")] if command == "fit" else Path("d"))
+    for words, named in ((["d"], "--model"), (["--model", "m"], "DATASET")):
+        with pytest.raises(SystemExit) as end:
+            argument_parser().parse_args([command, *words, *OWN.get(command, [])])
+        assert end.value.code == 2
+        assert named in capsys.readouterr().err.splitlines()[-1]
+
+
+def test_a_fit_takes_several_data_sets() -> None:
+    args = argument_parser().parse_args(["fit", "a", "b", "--model", "m.fmu", "--free", "m"])
+    assert args.data == [Path("a"), Path("b")]
+
+
+@pytest.mark.parametrize(
+    ("words", "option"),
+    [
+        (["add", "d", "--model", "m", "--effect", "a,b", "--effects", "c"], "effect"),
+        (["locate", "d", "--model", "m", "--with", "a, b", "--effect", "c"], "with"),
+        (["diagnose", "d", "--model", "m", "--effect", "a", "--effect", "b,c"], "effects"),
+        (["rank", "d", "--model", "m", "--effects", "a,b,c"], "effects"),
+        (["fit", "d", "--model", "m", "--free", "a,b", "--free", "c"], "free"),
+        (["fit", "d", "--model", "m", "--free", "a", "--signal", "a,b", "--signal", "c"], "signal"),
+        (["fit", "d", "--model", "m", "--free", "a", "--profile", "a,b,c"], "profile"),
+        (["simulate", "m", "--record", "a,b", "--record", "c"], "record"),
+    ],
+)
+def test_names_are_listed_with_commas_or_one_by_one(words: list[str], option: str) -> None:
+    assert names_of(getattr(argument_parser().parse_args(words), option)) == ["a", "b", "c"]
+
+
+def test_a_comma_within_brackets_belongs_to_the_name() -> None:
+    assert names_of(["x[1,2],y,z[3, 4].u"]) == ["x[1,2]", "y", "z[3, 4].u"]
