@@ -103,7 +103,7 @@ class Answers:
     @property
     def verdict(self) -> Answer | None:
         """The whole diagnosis, where it was run."""
-        return next((one for one in self.all if one.job.work.words[0] == "diagnose"), None)
+        return next((one for one in self.all if one.job.work.name == "diagnose"), None)
 
 
 def ledger(answer: Answer, added: tuple[str, ...]) -> list[Mapping[str, Any]]:

@@ -100,7 +100,7 @@ class Desk:
             return
         self.changed()
         answer = next((one for one in self.answers.all if one.job.work.name == job.work.name), None)
-        if answer is not None and job.work.words[0] in ("diagnose", "add"):
+        if answer is not None and (job.work.name == "diagnose" or job.work.words[0] == "add"):
             self.project.change(added=answer.added)
 
     def start(self, work: Work) -> None:

@@ -83,7 +83,7 @@ class Job:
 
 
 def works(project: Project) -> dict[str, Work]:
-    """What can be run on a project as it is, by the first word of the command.
+    """What can be run on a project as it is, by its name.
 
     Raises:
         BadInput: no model or no data yet.
@@ -99,7 +99,7 @@ def works(project: Project) -> dict[str, Work]:
     return {
         "compare": _work("compare", "Compare and refit", [*behind, "--refit"]),
         "locate": _work("locate", "Locate what is missing", behind),
-        "rank": _work("rank", "Rank the candidates", behind),
+        "rank": _work("diagnose", "Rank the candidates", [*behind, "--max-effects", "0"], "rank"),
         "diagnose": _work("diagnose", "Find what is missing", behind),
     }
 

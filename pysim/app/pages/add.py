@@ -76,7 +76,7 @@ class _Stairs:
     def _steps(self) -> tuple[Sequence[Mapping[str, Any]], str]:
         """Of what runs, of the model as it is now, or of what was stopped; and what is being worked on."""
         job = self._desk.runner.running
-        if job is not None and job.work.words[0] in ("diagnose", "add", "compare", "rank", "locate"):
+        if job is not None and job.work.words[0] in ("diagnose", "add", "compare", "locate"):
             return job.steps, job.stage
         added = self._desk.project.settings().added
         answer = self._desk.answers.with_effects(added)

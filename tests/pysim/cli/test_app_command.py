@@ -52,4 +52,4 @@ def test_the_page_shows_the_lines_of_this_environment_for_the_project_s_folder(
     monkeypatch.setattr(sys, "prefix", str(root / ".venv"))
     monkeypatch.chdir(root)
     assert main(["app", str(tmp_path / "p")]) == 0
-    assert shlex.split(served["redo"](["rank", "data"]))[1:] == [str(root / "run.py"), "pysim", "rank", "data"]
+    assert shlex.split(served["redo"](["locate", "data"]))[1:] == [str(root / "run.py"), "pysim", "locate", "data"]

@@ -10,7 +10,7 @@ from pysim.cli._options import names_of
 OWN = {"add": ["--effect", "e"], "fit": ["--free", "m"]}
 
 
-@pytest.mark.parametrize("command", ["add", "compare", "diagnose", "fit", "locate", "rank"])
+@pytest.mark.parametrize("command", ["add", "compare", "diagnose", "fit", "locate"])
 def test_a_data_set_and_its_model_have_one_form(command: str, capsys: pytest.CaptureFixture[str]) -> None:
     args = argument_parser().parse_args([command, "d", "--model", "m.fmu", *OWN.get(command, [])])
     assert args.model == "m.fmu"
@@ -33,7 +33,6 @@ def test_a_fit_takes_several_data_sets() -> None:
         (["add", "d", "--model", "m", "--effect", "a,b", "--effects", "c"], "effect"),
         (["locate", "d", "--model", "m", "--with", "a, b", "--effect", "c"], "with"),
         (["diagnose", "d", "--model", "m", "--effect", "a", "--effect", "b,c"], "effects"),
-        (["rank", "d", "--model", "m", "--effects", "a,b,c"], "effects"),
         (["fit", "d", "--model", "m", "--free", "a,b", "--free", "c"], "free"),
         (["fit", "d", "--model", "m", "--free", "a", "--signal", "a,b", "--signal", "c"], "signal"),
         (["fit", "d", "--model", "m", "--free", "a", "--profile", "a,b,c"], "profile"),

@@ -283,7 +283,7 @@ def test_the_line_to_redo_is_quoted_as_windows_wants_it(monkeypatch: pytest.Monk
         "frequency in Hz whose gain counts as 0 dB, or none for absolute gains (0.1 where every test",
     ],
 )
-@pytest.mark.parametrize("command", ["diagnose", "rank"])
+@pytest.mark.parametrize("command", ["diagnose"])
 def test_the_help_says_what_an_option_does(command: str, said: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert main([command, "--help"]) == 0
     words = " ".join(capsys.readouterr().out.split())

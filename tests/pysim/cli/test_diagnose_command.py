@@ -90,7 +90,7 @@ def test_only_what_the_slots_take_is_a_candidate(
     words = ["--model", "Toy.Mass", "--library", str(library()), "--json", str(tmp_path / "a.json")]
     assert main(["diagnose", str(data), *words, "--effects", "toy.bias,friction.coulomb"]) == 2
     assert "friction.coulomb: no slot of Toy.Mass takes it; its slots take toy.friction, " in capsys.readouterr().err
-    assert main(["diagnose", str(data), *words, "--most", "1"]) == 0
+    assert main(["diagnose", str(data), *words, "--max-effects", "1"]) == 0
     assert {row["effect"] for row in json.loads((tmp_path / "a.json").read_text())["ranking"]} <= set(CATALOGUE)
     assert f"compiling {len(CATALOGUE)} candidates" in capsys.readouterr().err
 
@@ -129,7 +129,7 @@ def test_what_weakens_the_answer_is_noted(tmp_path: Path, capsys: pytest.Capture
     write_dataset(tmp_path / "data", replace(good, records=good.records[:1]))
     broken = tmp_path / "Mine.mo"
     broken.write_text(BROKEN)
-    words = ["--model", "Toy.Mass", "--library", str(library()), "--library", str(broken), "--most", "1"]
+    words = ["--model", "Toy.Mass", "--library", str(library()), "--library", str(broken), "--max-effects", "1"]
     words += ["--effects", "toy.bias,mine.broken"]
     assert main(["diagnose", str(tmp_path / "data"), *words]) == 0
     said = capsys.readouterr().out

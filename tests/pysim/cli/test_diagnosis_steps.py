@@ -39,7 +39,7 @@ def undrawn(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_rank_tells_what_each_gains_and_decides_nothing(
     data: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    words = ["rank", str(data), *MODEL, "--effects", "toy.friction,toy.bias,toy.hardening"]
+    words = ["diagnose", str(data), *MODEL, "--max-effects", "0", "--effects", "toy.friction,toy.bias,toy.hardening"]
     assert main([*words, "--json", str(tmp_path / "a.json")]) == 0
     found = json.loads((tmp_path / "a.json").read_text())
     assert found["ranking"][0]["effect"] == "toy.friction"
@@ -93,7 +93,7 @@ def test_a_model_without_its_class_gets_no_effect(
     fmu = build("Toy.Mass", tmp_path / "mass.fmu", libraries=[library()])
     assert main(["add", str(data), "--model", str(fmu), "--effect", "toy.bias"]) == 2
     assert "its class is in none of the libraries" in capsys.readouterr().err
-    assert main(["rank", str(data), "--model", str(fmu)]) == 2
+    assert main(["diagnose", str(data), "--model", str(fmu), "--max-effects", "0"]) == 2
     assert "class is not at hand" in capsys.readouterr().err
 
 

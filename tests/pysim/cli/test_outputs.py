@@ -44,7 +44,6 @@ COMMANDS = {
     "compare": ["compare", "{}", "--model", "m.fmu"],
     "diagnose": ["diagnose", "{}", "--model", "m.fmu"],
     "locate": ["locate", "{}", "--model", "m.fmu"],
-    "rank": ["rank", "{}", "--model", "m.fmu"],
     "add": ["add", "{}", "--model", "m.fmu", "--effect", "e"],
     "data check": ["data", "check", "{}"],
 }
