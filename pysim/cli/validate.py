@@ -1,4 +1,4 @@
-"""Redo what is claimed and published, case by case; `pysim validate fmu FILE` checks an FMU as an importer would."""
+"""Redo what is claimed and published, case by case."""
 
 from __future__ import annotations
 
@@ -17,19 +17,15 @@ if TYPE_CHECKING:
     from validation.results import CaseResult
 
 
-FMU = "fmu"
-
-
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The words behind `pysim validate`."""
-    parser.add_argument("names", metavar="NAME", nargs="*", help="cases to run, all by default; or: fmu FILE ...")
+    parser.add_argument("names", metavar="NAME", nargs="*", help="cases to run, all by default")
     parser.add_argument("--quick", action="store_true", help="only cases that take seconds, under 5 min in all")
     parser.add_argument("--list", action="store_true", help="say which cases there are, and run none")
     parser.add_argument(
         "-o", "--output", metavar="DIR", type=Path, help="write report.html, summary.md and pictures here"
     )
     parser.add_argument("--json", metavar="FILE", type=Path, help="write all numbers here, a line of JSON per case")
-    parser.add_argument("--strict", action="store_true", help="with fmu: what is doubtful counts as failing")
     parser.add_argument(
         "--record", action="store_true", help="keep the results in the checkout, and write its summary and README anew"
     )
@@ -37,26 +33,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """0 when every claim that could be tried holds, 1 when one fails."""
-    _refuse_idle(args)
-    if args.names[:1] == [FMU]:
-        from pysim.cli._fmu_check import check_files
-
-        return check_files(args)
-    return _suite(args)
-
-
-def _refuse_idle(args: argparse.Namespace) -> None:
-    """Cases and FMUs have options of their own."""
-    from pysim.types import BadInput
-
-    fmu = args.names[:1] == [FMU]
-    for option in ("quick", "list", "record") if fmu else ("strict",):
-        if getattr(args, option):
-            meant = "of cases; leave it out, or leave out fmu" if fmu else "of `validate fmu FILE`; leave it out"
-            raise BadInput(f"--{option} is an option {meant}")
-
-
-def _suite(args: argparse.Namespace) -> int:
     from pysim.cli._outputs import prepare_file, prepare_folder
     from validation.registry import CASES
     from validation.results import FAILS, append_results

@@ -1,13 +1,10 @@
 """`pysim validate`: what is run, printed, written and kept."""
 
-import json
-import zipfile
 from pathlib import Path
 
 import pytest
 
 from pysim.cli import main, validate
-from tests.planted import planted
 from tests.validation import made_up
 from validation.results import read_results
 from validation.summary import BEGIN, END
@@ -60,23 +57,6 @@ def test_a_device_is_written_to_and_stays(tmp_path: Path) -> None:
     assert device.is_char_device()
 
 
-@pytest.mark.parametrize(
-    ("words", "told"),
-    [
-        (["good", "--strict"], "--strict is an option of `validate fmu FILE`"),
-        (["--list", "--strict"], "--strict is an option of"),
-        (["fmu", "none.fmu", "--quick"], "--quick is an option of cases"),
-        (["fmu", "none.fmu", "--list"], "--list is an option of cases"),
-        (["fmu", "none.fmu", "--record"], "--record is an option of cases; leave it out, or leave out fmu"),
-    ],
-)
-def test_options_that_would_do_nothing_are_refused(
-    words: list[str], told: str, capsys: pytest.CaptureFixture[str]
-) -> None:
-    assert main(["validate", *words]) == 2
-    assert told in capsys.readouterr().err
-
-
 def test_record(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "validation").mkdir()
     readme = tmp_path / "README.md"
@@ -90,22 +70,3 @@ def test_record(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     assert "| [good](good/README.md) | about good | 1 | 0 | 1 |" in (tmp_path / "validation" / "RESULTS.md").read_text(
         encoding="utf-8"
     )
-
-
-def test_fmu(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    fmu, out, numbers = planted("IDLE_GAIN", tmp_path), tmp_path / "out", tmp_path / "numbers.json"
-    words = ["validate", "fmu", str(fmu), "--output", str(out), "--json", str(numbers)]
-    assert main(words) == 0
-    assert main([*words, "--strict"]) == 1
-    assert "doubtful parameters: every parameter has an effect: g" in capsys.readouterr().out
-    assert "has an effect" in (out / "report.html").read_text(encoding="utf-8")
-    assert json.loads(numbers.read_text())[0]["model"] == "Mass"
-    assert main(["validate", "fmu", str(planted("OTHER_START", tmp_path))]) == 1
-    assert main(["validate", "fmu"]) == 2
-    assert main(["validate", "fmu", str(tmp_path / "none.fmu")]) == 2
-    capsys.readouterr()
-    with zipfile.ZipFile(fmu) as archive, zipfile.ZipFile(tmp_path / "amiga.fmu", "w") as other:
-        other.writestr("modelDescription.xml", archive.read("modelDescription.xml"))
-        other.writestr("binaries/amiga/planted.library", "")
-    assert main(["validate", "fmu", str(tmp_path / "amiga.fmu")]) == 2
-    assert "amiga.fmu has no binary for" in capsys.readouterr().err

@@ -1,4 +1,4 @@
-"""`pysim validate fmu FILE ...`: check FMUs as a strict importer would."""
+"""Try FMUs as a strict importer would, and name their faults."""
 
 from __future__ import annotations
 
@@ -7,25 +7,29 @@ import json
 from pathlib import Path
 
 
-def check_files(args: argparse.Namespace) -> int:
-    """0 when nothing fails, and with --strict nothing is doubtful either; 1 otherwise."""
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The words behind `pysim check-fmu`."""
+    parser.add_argument("files", metavar="FILE.fmu", type=Path, nargs="+", help="of any tool, FMI 2 or 3")
+    parser.add_argument("--strict", action="store_true", help="what is doubtful counts as failing")
+    parser.add_argument("--json", metavar="FILE", type=Path, help="write all findings here")
+    parser.add_argument("-o", "--output", metavar="DIR", type=Path, help="write report.html here")
+
+
+def run(args: argparse.Namespace) -> int:
+    """Print the findings; 0 when nothing fails, and with --strict nothing is doubtful either; 1 otherwise."""
     from pysim.cli._outputs import JSON, prepare_file, prepare_folder
     from pysim.cli._progress import ProgressBar
     from pysim.fmu_check import DOUBTFUL, check_fmu
     from pysim.io import check_binary, read_model, write_file
     from pysim.report.fmu_check import fmu_check_data, fmu_check_parts, fmu_check_text
     from pysim.report.page import page
-    from pysim.types import BadInput
 
-    files = [Path(name) for name in args.names[1:]]
-    if not files:
-        raise BadInput("name at least one FMU behind `validate fmu`")
     if args.output:
         prepare_folder(args.output)
     if args.json:
         prepare_file(args.json, "--json", JSON)
     reports = []
-    for file in files:
+    for file in args.files:
         model = read_model(file, faulty=True)
         own = model.abilities.stepping
         check_binary(model, own.library if own and not model.abilities.model_exchange else model.abilities.library)
