@@ -1,17 +1,15 @@
 """A log that ends in one hollow or the other is told from those that no small change moves far."""
 
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 
-from pysim.diagnose.diagnose import diagnose
 from pysim.diagnose.fitted import Fitted
 from pysim.diagnose.jumps import jumping, logs, without
 from pysim.diagnose.refit import refit_from
 from pysim.diagnose.residuals import Ruler
 from tests.pysim.diagnose.logs import sines, wave
-from tests.pysim.diagnose.marble import LAST, TRUTH, measured, pushed
+from tests.pysim.diagnose.marble import LAST, TRUTH, pushed
 from tests.pysim.diagnose.test_steps import mass
 
 
@@ -66,17 +64,3 @@ def test_logs_are_left_out_of_targets_one_by_one() -> None:
     (fewer,) = without(several, ("1Hz", "y"))
     assert [log.source for log in fewer.logs] == [run.record for run in fewer.runs] == ["0.5Hz", "2Hz"]
     assert without(several, ("0.5Hz", "1Hz", "2Hz")) == several[1:]
-
-
-def test_a_diagnosis_is_begun_again_without_it_and_goes_on_where_it_was_stopped(tmp_path: Path) -> None:
-    given, journal = measured(1e-3, seed=3), tmp_path / "journal.jsonl"
-    found = diagnose(given, journal=journal)
-    assert found.verdict == "none"
-    assert any(note.startswith(f"{LAST}: left out of the fit") for note in found.notes)
-    assert [step.step for step in found.error] == ["prior", "refit"]
-    for estimate in found.parameters:
-        assert abs(estimate.value / TRUTH[estimate.name] - 1) < 0.002
-    lines = journal.read_text("utf-8").splitlines(keepends=True)
-    journal.write_text("".join(lines[:-1]), "utf-8")
-    again = diagnose(given, journal=journal)
-    assert (again.verdict, again.notes, again.parameters) == (found.verdict, found.notes, found.parameters)

@@ -45,20 +45,6 @@ def test_a_dent_is_left_by_the_way_that_an_effect_has_shown() -> None:
     assert story.journal.once("refitted before", lambda: 2) == 2  # what was learned from the dent is not used again
 
 
-def test_it_goes_on_from_what_was_kept_after_the_dent(tmp_path: Path) -> None:
-    path = tmp_path / "journal.jsonl"
-    first = _freed(*dented(refitted=False, journal=path))
-    kept = path.read_text()
-    story, base, found = dented(refitted=False, journal=path)
-    again = _freed(story, base, found)
-    assert first is not None
-    assert again is not None
-    assert again.at.point.x.tolist() == first.at.point.x.tolist()
-    assert again.at.point.cost == first.at.point.cost
-    assert story.journal.reused >= 2
-    assert path.read_text() == kept
-
-
 def test_without_a_dent_the_refit_stands() -> None:
     story, base, found = dented("toy.friction", refitted=True, F_c=0.4)
     assert base.at.point.cost > 3 * found.point.cost

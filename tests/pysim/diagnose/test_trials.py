@@ -104,12 +104,3 @@ def test_what_cannot_be_switched_off_is_refitted_from_other_strengths(tmp_path: 
     # not where as much was found before
     better = Fitted(end.what, replace(end.point, cost=0.9 * end.point.cost, residual=0.9 * end.point.residual))
     assert not refitted_elsewhere(story, tried, {"toy.relaxing": better})
-
-
-def test_refits_from_other_strengths_are_kept(tmp_path: Path) -> None:
-    first = refitted_elsewhere(*relaxed(tmp_path / "journal.jsonl"), {})["toy.relaxing"]
-    kept = (tmp_path / "journal.jsonl").read_text()
-    story, tried = relaxed(tmp_path / "journal.jsonl")
-    again = refitted_elsewhere(story, tried, {})["toy.relaxing"]
-    assert again.point.x.tolist() == first.point.x.tolist()
-    assert (tmp_path / "journal.jsonl").read_text() == kept

@@ -138,17 +138,17 @@ def base() -> Model:
     return read_model(build("Toy.Mass", libraries=[library()]))
 
 
-def measured(seed: int, *effects: str, noise: float = NOISE, **values: float) -> Dataset:
+def measured(seed: int, *effects: str, noise: float = NOISE, seconds: float = 12.0, **values: float) -> Dataset:
     """Two waves, one held out, of a mass whose parameters differ from the model's by some percent."""
     rng = np.random.default_rng(seed)
     model, places = _built(effects) if effects else (base(), {})
     records = []
     for name, use in (("a.txt", "fit"), ("b.txt", "validate")):
-        knots = np.arange(0.0, 12.01, 0.4)
+        knots = np.arange(0.0, seconds + 0.01, 0.4)
         push = 6 * rng.standard_normal(knots.size)
         push[0] = 0.0
         command = Signal.through(knots, push)
-        times = np.arange(0.0, 12.0, 0.02)
+        times = np.arange(0.0, seconds, 0.02)
         run = Experiment(times, ("x",), {"F": command}, start=-Rest().hold).override(m=1.05, d=0.75, k=21.0)
         for effect in (CATALOGUE[name] for name in effects):
             own = {p.name: values[p.name] for p in effect.parameters}

@@ -54,9 +54,3 @@ def test_what_the_data_do_not_ask_for_is_worth_nothing() -> None:
 def test_without_effects_or_their_class_nothing_is_tried() -> None:
     assert fitted(toy_subject(rubbing(), ())) == ()
     assert fitted(replace(toy_subject(rubbing(), ["toy.friction"]), build_variant=None)) == ()
-
-
-def test_a_leader_that_bent_parameters_mislead_is_fitted_beside_the_models_own() -> None:
-    first = fitted(toy_subject(measured(1, "toy.stop", inverse_x_m=10.0), ("toy.friction", "toy.stop")))[0]
-    assert first.effect.name == "toy.stop"
-    assert first.worth > 10 * first.at.point.cost  # from bent parameters alone it is worth twice what it leaves

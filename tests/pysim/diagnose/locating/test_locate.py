@@ -82,12 +82,6 @@ def test_the_damping_that_refitting_absorbs_is_told() -> None:
     np.testing.assert_allclose(slope, slope[0], rtol=1e-6)
 
 
-def test_a_hardening_spring_is_a_force_over_position() -> None:
-    found = located(measured(3, "toy.hardening", k_3=8.0))[0]
-    assert (found.slot, found.depends_on) == ("force", "force.x")
-    assert covered(found, -8.0 * found.shape.argument**3) > 0.9
-
-
 def test_a_term_that_an_effect_points_at_is_still_estimated_from_the_measurements() -> None:
     found = located(measured(1, "toy.friction", F_c=0.4), names=("toy.friction", "toy.hardening"), open_=True)[0]
     assert (found.slot, found.depends_on) == ("force", "force.v")

@@ -1,7 +1,6 @@
 """Terms at inputs and outputs of a model that stays shut: a plant whose actuator or sensor is bent in a known way."""
 
 from collections.abc import Callable
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -15,7 +14,7 @@ from pysim.diagnose.residuals import rulers
 from pysim.diagnose.subject import extended
 from pysim.io import read_model
 from pysim.simulate import Rodas, simulate
-from pysim.types import Dataset, Experiment, MeasuredRecord, MeasuredSignal, Missing, Model, Record, Signal
+from pysim.types import Dataset, Experiment, Missing, Model, Signal
 from tests.foreign import made_foreign
 from tests.pysim.diagnose.toy import BENCH, library
 
@@ -77,7 +76,8 @@ def distance(found: Missing, truth: Bent) -> float:
 
 
 def test_a_dead_band_of_the_actuator_is_seen_at_the_input(mass: Model) -> None:
-    first, *_ = seen(mass, measured(mass, 1, actuator=dead_band))
+    first, *_ = found = seen(mass, measured(mass, 1, actuator=dead_band))
+    assert sorted(one.slot for one in found) == ["F", "x"]  # each place once, and nothing inside
     assert (first.slot, first.depends_on) == ("F", "F")
     assert (first.shape.argument_unit, first.shape.unit) == ("N", "N")
     assert first.share > 0.9
@@ -92,23 +92,5 @@ def test_a_bent_sensor_is_seen_at_the_output(mass: Model) -> None:
     assert distance(first, threshold) < 0.15
 
 
-def test_each_place_is_told_once_and_nothing_inside(mass: Model) -> None:
-    found = seen(mass, measured(mass, 3, actuator=dead_band))
-    assert sorted(one.slot for one in found) == ["F", "x"]
-
-
 def test_where_nothing_is_missing_no_term_takes_much(mass: Model) -> None:
     assert all(one.share < 0.3 for one in seen(mass, measured(mass, 4)))
-
-
-def test_logs_may_have_different_columns(mass: Model) -> None:
-    data = measured(mass, 5, sensor=threshold)
-    first = data.records[0]
-    run = Experiment(first.data.time, ("v",), {"F": Signal.through(first.data.time, first.data["F"])}, TRUTH)
-    v = simulate(mass, run, solver=Rodas(rtol=1e-8, atol=1e-8))["v"]
-    v = v + 1e-2 * np.random.default_rng(6).standard_normal(v.size)
-    other = Record(first.data.time, np.column_stack([first.data["F"], v]), ("F", "v"), ("N", "m/s"))
-    signal = MeasuredSignal("v", "output", "m/s", "speed", "v", noise=1e-2)
-    both = (first, MeasuredRecord("b.txt", "stochastic", "fit", other))
-    found = seen(mass, replace(data, signals=(*data.signals, signal), records=both))
-    assert found[0].slot == "x"
