@@ -7,14 +7,13 @@ from matplotlib.figure import Figure
 
 
 def numbers(axis: Axis) -> list[str]:
-    """The numbers within the ends of an axis, as they are written."""
-    figure = axis.get_figure(root=True)
-    assert isinstance(figure, Figure)
-    figure.draw_without_rendering()
+    """The numbers within the ends of an axis, as they are written; nothing is drawn for it."""
     low, high = sorted(axis.get_view_interval())
     room = 1e-3 * (high - low)
-    shown = [tick for tick in axis.get_major_ticks() if low - room <= tick.get_loc() <= high + room]
-    return [tick.label1.get_text().replace("\N{MINUS SIGN}", "-") for tick in shown]
+    places = axis.get_majorticklocs()
+    words = axis.get_major_formatter().format_ticks(list(places))
+    inside = [low - room <= place <= high + room for place in places]
+    return [word.replace("\N{MINUS SIGN}", "-") for word, shown in zip(words, inside, strict=True) if shown]
 
 
 def is_whole(figure: Figure) -> bool:

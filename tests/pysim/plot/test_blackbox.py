@@ -3,9 +3,10 @@
 from dataclasses import replace
 
 import numpy as np
+import pytest
 from matplotlib.figure import Figure
 
-from pysim.identify.blackbox import Structure, fit_dataset
+from pysim.identify.blackbox import FittedResponse, Structure, fit_dataset
 from pysim.plot import blackbox_figure
 from tests.pysim.identify.blackbox.logs import F, dataset, log, table
 
@@ -14,8 +15,13 @@ def lines(figure: Figure, axes: int) -> list[np.ndarray]:
     return [np.asarray(line.get_ydata(), dtype=float) for line in figure.axes[axes].get_lines()]
 
 
-def test_curves_points_residuals_and_roots() -> None:
-    (one,) = fit_dataset(dataset(*(log(f, i) for i, f in enumerate(F))), Structure(2))
+@pytest.fixture(scope="module")
+def one() -> FittedResponse:
+    (found,) = fit_dataset(dataset(*(log(f, i) for i, f in enumerate(F))), Structure(2))
+    return found
+
+
+def test_curves_points_residuals_and_roots(one: FittedResponse) -> None:
     figure = blackbox_figure(one)
     gain, phase, residual, plane = figure.axes
     curve, points = lines(figure, 0)[:2]
@@ -33,8 +39,7 @@ def test_curves_points_residuals_and_roots() -> None:
     assert residual.get_xlabel() == "Frequency (Hz)"
 
 
-def test_a_region_across_the_axis_is_shown_whole() -> None:
-    (one,) = fit_dataset(dataset(*(log(f, i) for i, f in enumerate(F))), Structure(2))
+def test_a_region_across_the_axis_is_shown_whole(one: FittedResponse) -> None:
     doubtful = tuple(replace(pole, covariance=np.diag([25.0, 9.0])) for pole in one.fit.poles)  # about -5 ± 30j rad/s
     *_, plane = blackbox_figure(replace(one, fit=replace(one.fit, poles=doubtful))).axes
     assert plane.get_xlim()[1] > max(pole.value.real for pole in doubtful) + 2.447 * 5

@@ -7,7 +7,7 @@ import pytest
 
 from pysim.plot.data_check import coverage_figure, sine_logs_figure, time_logs_figure
 from pysim.types import BadInput, Dataset, MeasuredRecord, MeasuredSignal, Record
-from tests.pysim.plot.looking import is_whole, numbers
+from tests.pysim.plot.looking import numbers
 
 SIGNALS = (
     MeasuredSignal("p", "input", "Pa", "", "p"),
@@ -52,7 +52,6 @@ def test_coverage_has_a_dot_per_sine() -> None:
 def test_a_single_frequency_is_told() -> None:
     figure = coverage_figure(dataset(record(2.0)))
     assert numbers(figure.axes[0].xaxis) == ["1.6", "1.8", "2", "2.2", "2.4"]
-    assert is_whole(figure)
 
 
 def test_sines_show_the_last_two_periods_of_command_and_answer() -> None:
@@ -68,7 +67,6 @@ def test_sines_show_the_last_two_periods_of_command_and_answer() -> None:
     assert figure.axes[2].get_ylabel() == "-4 / 1 bar"
     assert [axes.get_ylabel() for axes in figure.axes[4:]] == ["", "(rpm)"] * 2
     assert figure.axes[6].get_ylim() == figure.axes[7].get_ylim()
-    assert is_whole(figure)
 
 
 def test_an_answer_in_the_unit_of_the_command_shares_its_axis() -> None:
@@ -85,11 +83,8 @@ def test_the_answer_is_the_one_that_most_logs_hold() -> None:
 
 
 def test_many_tests_are_thinned_evenly() -> None:
-    data = dataset(*(record(float(f), 1e5 * o) for f in range(1, 20) for o in range(12)))
-    figure = sine_logs_figure(data)
-    assert len(figure.axes) == 2 * 8 * 6
-    titles = [axes.get_title() for axes in figure.axes[:6]]
-    assert (titles[0], titles[-1]) == ("1 Hz", "19 Hz")
+    figure = sine_logs_figure(dataset(*(answered(record(float(f)), "q") for f in range(1, 20))))
+    assert [axes.get_title() for axes in figure.axes] == ["1 Hz", "5 Hz", "8 Hz", "12 Hz", "15 Hz", "19 Hz"]
 
 
 TWO = Dataset(
@@ -121,7 +116,6 @@ def test_inputs_of_different_units_are_each_told_in_their_own() -> None:
     (axes,) = coverage_figure(data).axes
     assert [label.get_text() for label in axes.get_yticklabels()] == ["u: 20 / 10 %", "p: 2 / 1 bar"]
     assert axes.get_ylabel() == "Offset / amplitude"
-    assert is_whole(coverage_figure(data))
 
 
 def test_an_answer_shares_the_axis_of_those_rows_whose_command_has_its_unit() -> None:
@@ -131,7 +125,6 @@ def test_an_answer_shares_the_axis_of_those_rows_whose_command_has_its_unit() ->
     assert (percent.get_ylabel(), bar.get_ylabel(), answer.get_ylabel()) == ("u\n20 / 10 %", "p\n2 / 1 bar", "(bar)")
     assert [len(axes.get_lines()) for axes in figure.axes] == [1, 2, 1]
     np.testing.assert_allclose(np.ptp(percent.get_lines()[0].get_ydata()), 20)
-    assert is_whole(figure)
 
 
 def test_logs_over_time_have_a_panel_per_unit() -> None:
