@@ -25,7 +25,6 @@ def test_text_reads_the_curves_at_round_frequencies(found: ChirpAnalysis) -> Non
     assert numbers[1] == pytest.approx(float(magnitude), abs=0.006)
     assert numbers[3] == pytest.approx(float(phase), abs=0.06)
     assert numbers[5] == pytest.approx(float(found.top.at(np.array(10.0))[0]), abs=0.006)
-    assert "below 2 Hz the frequency changes" in "\n".join(lines)
 
 
 def test_pressures_are_told_in_bar(found: ChirpAnalysis) -> None:
@@ -44,5 +43,4 @@ def test_data_is_complete_and_fit_for_json(found: ChirpAnalysis) -> None:
 def test_page_holds_the_table_and_the_picture(found: ChirpAnalysis) -> None:
     page = chirp_page([found], dataset="d", pictures={"A picture": b"<svg/>"}, redo="pysim chirp d")
     assert "A picture" in page
-    assert "Eq. 2.15" in page
     assert page.count("<tr>") > 5
