@@ -115,7 +115,7 @@ def adding(project: Project, effects: Sequence[str]) -> Work:
     safe = "+".join("".join(c if c.isalnum() or c in "._-" else "_" for c in name) for name in effects)
     chain = hashlib.sha256(repr(tuple(effects)).encode()).hexdigest()[:8]  # the names alone may be cut, or look alike
     title = f"Add {effects[-1]}"
-    words = [*own, *(word for name in effects for word in ("--effect", name))]
+    words = [*own, *(word for name in effects for word in ("--effects", name))]
     return replace(_work("add", title, words, f"add-{safe[:80]}-{chain}"), effects=tuple(effects))
 
 
@@ -236,7 +236,7 @@ class Runner:
         if self._stop_asked is not None and time.monotonic() - self._stop_asked > _PATIENCE:
             end(self._process, hard=True)
         elif self._stop_asked is None and self._job.seconds > self.limit:
-            self._job = replace(self._job, message=f"it took longer than {self.limit:g} s (--limit-s raises that)")
+            self._job = replace(self._job, message=f"it took longer than {self.limit:g} s; run it on the command line")
             self.stop()
         code = self._process.poll()
         if code is not None:

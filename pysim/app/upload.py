@@ -105,7 +105,7 @@ class Batch:
         """
         self.size += size
         if self.size > self.limits.size:
-            raise BadInput(f"{name} goes beyond the limit; drop at most {self.limits.words} (--limit-mb raises it)")
+            raise BadInput(f"{name} goes beyond the limit; drop at most {self.limits.words}")
 
     def end(self) -> None:
         """Remove what is left of it."""

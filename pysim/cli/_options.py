@@ -19,29 +19,24 @@ SEED = "seed of the random draws; the same seed gives the same answer (0)"
 _BY_DATA = -1.0  # of `--reference-hz`, where it was not said
 
 
-def add_parameters(parser: argparse.ArgumentParser) -> None:
-    """`--set` and `--parameters`."""
+def add_parameters(parser: argparse.ArgumentParser, more: str = "where both set a parameter, --set wins") -> None:
+    """`--set` and `--parameters`.
+
+    Args:
+        more: for the help, behind what the file holds.
+    """
     parser.add_argument(
         "--set", metavar="NAME=VALUE", action="append", default=[], help="set a parameter, in its own unit"
     )
-    add_parameters_file(parser)
-
-
-def add_parameters_file(parser: argparse.ArgumentParser, more: str = "where both set a parameter, --set wins") -> None:
-    """`--parameters`.
-
-    Args:
-        more: for the help, behind what it holds.
-    """
     parser.add_argument(
         "--parameters", metavar="FILE.toml", type=Path, help=f"lines NAME = VALUE, in their own units; {more}"
     )
 
 
-def add_names(parser: argparse.ArgumentParser, *options: str, what: str, required: bool = False) -> None:
+def add_names(parser: argparse.ArgumentParser, option: str, *, what: str, required: bool = False) -> None:
     """An option that lists names, with commas between them or repeated; for `names_of`."""
     parser.add_argument(
-        *options, metavar="NAME,...", action="append", default=[], required=required, help=f"{what}; commas or repeat"
+        option, metavar="NAME,...", action="append", default=[], required=required, help=f"{what}; commas or repeat"
     )
 
 

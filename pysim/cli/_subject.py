@@ -70,7 +70,7 @@ def add_effects(parser: argparse.ArgumentParser) -> None:
     """`--effects`."""
     from pysim.cli._options import add_names
 
-    add_names(parser, "--effects", "--effect", what="consider only these of the catalogue")
+    add_names(parser, "--effects", what="consider only these of the catalogue")
 
 
 def add_results(parser: argparse.ArgumentParser, what: str) -> None:
@@ -99,11 +99,12 @@ def prepare_results(args: argparse.Namespace) -> None:
         prepare_answer(args.output, data=[args.data], read=read, beside=results_beside(args))
 
 
-def read_subject(args: argparse.Namespace, *, refits: bool = True) -> Given:
+def read_subject(args: argparse.Namespace, *, refits: bool = True, only: Sequence[str] = ()) -> Given:
     """Model, data and catalogue of a command line.
 
     Args:
         refits: whether parameters will be refitted, so that some must be free.
+        only: effects to consider; all that the slots take, where none is named.
     Raises:
         BadInput: what cannot be read, or does not go together. BuildError: a model that does not compile.
     """
@@ -121,7 +122,7 @@ def read_subject(args: argparse.Namespace, *, refits: bool = True) -> Given:
     libraries = [STANDARD_LIBRARY, *args.library]
     model, class_name, notes = _model(args.model, libraries)
     dataset, notes = in_model_units(dataset, model), [*left_out, *notes]
-    catalogue = _catalogue(libraries, names_of(getattr(args, "effects", [])), class_name)
+    catalogue = _catalogue(libraries, only, class_name)
     if class_name and not catalogue:
         notes.append(f"no slot of {class_name} takes an effect of the libraries, so none could be tried")
     variants = Variants(class_name, libraries) if class_name else None
@@ -191,7 +192,7 @@ def read_inside(args: argparse.Namespace) -> tuple[Model, str, tuple[Slot, ...],
     return model, class_name, slots(class_name, libraries), _catalogue(libraries, [], class_name)
 
 
-def effects_of(names: Sequence[str], given: Given, option: str = "--effect") -> tuple[Effect, ...]:
+def effects_of(names: Sequence[str], given: Given, option: str = "--effects") -> tuple[Effect, ...]:
     """Effects that an option names, in order.
 
     Raises:

@@ -11,7 +11,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     from pysim.cli._subject import add_results, add_subject
 
     add_subject(parser)
-    add_names(parser, "--effect", "--effects", what="to add, by their standard names, in order", required=True)
+    add_names(parser, "--effects", what="to add, by their standard names, in order", required=True)
     add_results(parser, ", parameters.toml, the extended class and its FMU")
 
 
@@ -27,7 +27,7 @@ def run(args: argparse.Namespace) -> int:
 
     prepare_results(args)
     given = read_subject(args)
-    effects = effects_of(names_of(args.effect), given)
+    effects = effects_of(names_of(args.effects), given)
     announce_compilation()
     found = unfold(given, args, lambda story, journal: add(given.subject, effects, progress=story, journal=journal))
     print(added_sentence(found), evidence_text(found), sep="\n\n")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import math
 from pathlib import Path
 
 _HIGHEST_PORT = 65535
@@ -19,12 +18,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--host", metavar="NAME", default="127.0.0.1", help="to listen at (127.0.0.1: this machine alone)"
     )
     parser.add_argument("--no-browser", action="store_true", help="print the address and open nothing")
-    parser.add_argument(
-        "--limit-mb", metavar="N", type=float, default=256.0, help="that may be dropped at a time (256)"
-    )
-    parser.add_argument(
-        "--limit-s", metavar="S", type=float, default=3600.0, help="that any piece of work may take (3600)"
-    )
 
 
 def run(args: argparse.Namespace) -> int:
@@ -39,16 +32,12 @@ def run(args: argparse.Namespace) -> int:
         raise BadInput(f"the workbench needs {error.name}; {cure}") from error
     if not 0 <= args.port <= _HIGHEST_PORT:
         raise BadInput(f"--port {args.port}: write a number from 0 (any that is free) to {_HIGHEST_PORT}")
-    if not (0 < args.limit_mb < math.inf and 0 < args.limit_s < math.inf):
-        raise BadInput("--limit-mb and --limit-s: write finite numbers above zero")
-    limits = Limits(size=round(args.limit_mb * 2**20))
     serve(
         args.project,
         redo=lambda words: command_line(words, args.project),
         host=args.host,
         port=args.port,
         show=not args.no_browser,
-        limits=limits,
-        limit_s=args.limit_s,
+        limits=Limits(),
     )
     return 0

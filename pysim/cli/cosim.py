@@ -21,9 +21,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--step", metavar="SECONDS", type=float, help="between two communication points (the file's own)"
     )
     parser.add_argument("--export-ssp", metavar="FILE.ssp", type=Path, help="write the system's FMUs and wires; no run")
-    parser.add_argument(
-        "--fmus-only", action="store_true", help="leave out of the .ssp what it cannot hold: blocks and their wires"
-    )
     parser.add_argument("--json", metavar="FILE", type=Path, help="write how the run went here")
     parser.add_argument(
         "-o", "--output", metavar="DIR", type=Path, help="write record.csv, report.html and the plot here"
@@ -65,7 +62,7 @@ def _export(args: argparse.Namespace, file: SystemFile) -> int:
 
     package = [args.system] if args.system.suffix.lower() == ".ssp" else []
     prepare_file(args.export_ssp, "--export-ssp", (".ssp",), read=package)
-    left_out = write_ssp(file, args.export_ssp, fmus_only=args.fmus_only)
+    left_out = write_ssp(file, args.export_ssp)
     for text in left_out:
         print(f"pysim cosim: left out: {text}", file=sys.stderr)
     print(f"Written: {args.export_ssp}")

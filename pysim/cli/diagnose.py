@@ -25,6 +25,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Show the story as it unfolds; 0 with a verdict, whatever it is."""
+    from pysim.cli._options import names_of
     from pysim.cli._progress import announce_compilation
     from pysim.cli._story import finish, unfold
     from pysim.cli._subject import prepare_results, read_subject
@@ -35,7 +36,7 @@ def run(args: argparse.Namespace) -> int:
     if args.max_effects < 0:
         raise BadInput(f"--max-effects {args.max_effects}: write how many effects may be added, 0 or more")
     prepare_results(args)
-    given = read_subject(args)
+    given = read_subject(args, only=names_of(args.effects))
     announce_compilation()
     if not args.max_effects:
         return _rank(args, given)

@@ -18,15 +18,12 @@ if TYPE_CHECKING:
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The words behind `pysim fit`."""
     from pysim.cli._any_model import add_data_and_model, add_library
-    from pysim.cli._options import add_names, add_parameters_file, add_reference
+    from pysim.cli._options import add_names, add_parameters, add_reference
 
     add_data_and_model(parser, several=True)
     add_library(parser)
     add_names(parser, "--free", what="parameters to find, bounds as the model says", required=True)
-    parser.add_argument(
-        "--fix", "--set", metavar="NAME=VALUE", action="append", default=[], help="set a parameter, its unit"
-    )
-    add_parameters_file(parser, "where free ones begin, and what others are set to; --start and --fix win")
+    add_parameters(parser, "where free ones begin, and what others are set to; --start and --set win")
     parser.add_argument("--tie", metavar="A=[F*]B", action="append", default=[], help="let A follow the free B")
     parser.add_argument("--start", metavar="NAME=VALUE", action="append", default=[], help="where a free one begins")
     parser.add_argument(
@@ -38,10 +35,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_reference(parser)
     parser.add_argument("--starts", metavar="N", type=int, default=0, help="more searches, drawn between the bounds")
     parser.add_argument("--seed", metavar="S", type=int, help="of the draw")
-    parser.add_argument("--trust-start", action="store_true", help="do not try the model's own values beside --start")
     add_names(parser, "--profile", what="exact intervals")
-    parser.add_argument("--log", metavar="DIR", type=Path, help="log of the search; in --output by default")
-    parser.add_argument("--resume", action="store_true", help="go on where the log of a killed fit ends")
     parser.add_argument("--isolate", action="store_true", help="worker processes: an FMU may crash")
     parser.add_argument("--json", metavar="FILE", type=Path, help="write all numbers here")
     parser.add_argument(
@@ -55,7 +49,7 @@ def run(args: argparse.Namespace) -> int:
     from pysim.cli._any_model import read_fmu_or_class
     from pysim.cli._measurements import read_measurements
     from pysim.cli._options import names_of
-    from pysim.cli._outputs import JSON, prepare_file, refuse_inside
+    from pysim.cli._outputs import JSON, prepare_file
     from pysim.cli._progress import announce_compilation
     from pysim.identify.greybox import (
         OBJECTIVES,
@@ -67,6 +61,7 @@ def run(args: argparse.Namespace) -> int:
         fit,
         profile,
     )
+    from pysim.identify.greybox.journal import STATE
     from pysim.io import in_model_units
     from pysim.report.fit import fit_text
 
@@ -75,15 +70,13 @@ def run(args: argparse.Namespace) -> int:
         prepare_answer(args.output, data=args.data, read=read, beside=[args.json])
     if args.json:
         prepare_file(args.json, "--json", JSON, read=args.data)
-    if args.log:
-        refuse_inside(args.log, "--log", args.data)
     model = read_fmu_or_class(args.model, args.library)
     datasets = [in_model_units(read_measurements(folder), model) for folder in args.data]
     problem = _problem(args, model, datasets)
     profiled = names_of(args.profile)
     _refuse_unprofiled(problem, profiled)
     simulation = Simulation(workers=Processes()) if args.isolate else Simulation()
-    log = args.log or (args.output / "log" if args.output else None)
+    log = args.output / "log" if args.output else None
     optimiser = {"gauss-newton": GaussNewton(), "interior-point": InteriorPoint(), None: None}[args.optimiser]
     announce_compilation()
     try:
@@ -92,12 +85,12 @@ def run(args: argparse.Namespace) -> int:
             objective=OBJECTIVES[args.objective],
             optimiser=optimiser,
             simulation=simulation,
-            effort=Effort(args.starts, args.seed, not args.trust_start, log, args.resume),
+            effort=Effort(args.starts, args.seed, log=log, resume=log is not None),
             progress=_say,
         )
     except KeyboardInterrupt:
-        cure = "the same command with --resume goes on where it was"
-        raise KeyboardInterrupt(cure if log else "with --output DIR a fit can be gone on with, by --resume") from None
+        cure = "the same command goes on where it was" if log else "with --output DIR a fit can be gone on with"
+        raise KeyboardInterrupt(cure) from None
     print(fit_text(result))
     _write_numbers(args, result, [])
     if args.output:
@@ -107,6 +100,8 @@ def run(args: argparse.Namespace) -> int:
         profiles.append(profile(problem, result, name, simulation=simulation))
         print(f"Profile of {name}: 95 % from {profiles[-1].interval[0]:.5g} to {profiles[-1].interval[1]:.5g}")
         _write_numbers(args, result, profiles)
+    for state in log.glob(f"*/{STATE}") if log else ():  # nothing is left to go on with; the lines stay
+        state.unlink()
     return 0 if result.outcome.name == "CONVERGED" else 1
 
 
@@ -170,7 +165,7 @@ def _values(
     starts = {name: value for name, value in told.items() if name in free}
     fixed = {name: value for name, value in told.items() if name not in free and name not in tied}
     unit = "the parameter's unit"
-    return starts | assigned(args.start, "--start", unit), fixed | assigned(args.fix, "--fix", unit)
+    return starts | assigned(args.start, "--start", unit), fixed | assigned(args.set, "--set", unit)
 
 
 def _refuse_idle(given: Iterable[str], names: Sequence[str]) -> None:
@@ -178,7 +173,7 @@ def _refuse_idle(given: Iterable[str], names: Sequence[str]) -> None:
 
     for name in given:
         if name not in names:
-            raise BadInput(f"{name} has a start or bounds but is not free; add it to --free, or use --fix")
+            raise BadInput(f"{name} has a start or bounds but is not free; add it to --free, or use --set")
 
 
 def _refuse_still(datasets: Sequence[Dataset]) -> None:

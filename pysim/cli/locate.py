@@ -11,7 +11,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     from pysim.cli._subject import add_results, add_subject
 
     add_subject(parser)
-    add_names(parser, "--with", "--effect", what="effects that the model is to have already")
+    add_names(parser, "--with", what="effects that the model is to have already")
     add_results(parser, ", parameters.toml")
 
 

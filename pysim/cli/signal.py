@@ -51,7 +51,6 @@ def _add_settings(parser: argparse.ArgumentParser, kind: str) -> None:
         number("--peak-period", "s")
         number("--length", "s of the wave", 30.0)
         parser.add_argument("--components", type=int, default=100, help="how many sines (100)")
-        parser.add_argument("--even", action="store_true", help="evenly spaced frequencies, as in the thesis")
     elif kind == "step":
         number("--height", "of the step, either sign, in the command's unit")
         number("--length", "s at each level")
@@ -70,8 +69,6 @@ def _add_multisine(parser: argparse.ArgumentParser, number: Callable[..., None])
     level.add_argument("--rms", type=float, help="level without the offset, in the command's unit")
     level.add_argument("--peak", type=float, help="largest deviation from the offset, in the command's unit")
     parser.add_argument("--lines", choices=("full", "odd", "random-odd"), default="random-odd", help="(random-odd)")
-    parser.add_argument("--group", type=int, default=4, help="odd lines, of which one is left out at random (4)")
-    parser.add_argument("--grid-seed", type=int, default=0, help="which lines are left out (0)")
     number("--periods", "how many", 3.0)
 
 
@@ -153,9 +150,8 @@ def _excitation(args: argparse.Namespace) -> Excitation:
         return make.Step(args.offset, args.height, args.length, args.back, lead)
     if args.kind == "stochastic":
         spectrum = make.PiersonMoskowitz(args.height, args.peak_period)
-        many, offset, scatter = args.components, args.offset, not args.even
-        return make.StochasticWave(spectrum, args.length, args.seed, many, offset, scatter=scatter, lead=lead)
-    grid = make.LineGrid(args.period, args.low_hz, args.high_hz, args.lines, args.group, args.grid_seed)
+        return make.StochasticWave(spectrum, args.length, args.seed, args.components, args.offset, lead=lead)
+    grid = make.LineGrid(args.period, args.low_hz, args.high_hz, args.lines)
     level = {"rms": args.rms, "peak": args.peak}
     return make.Multisine(grid, args.seed, **level, offset=args.offset, periods=args.periods, lead=lead)
 

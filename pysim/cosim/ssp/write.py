@@ -55,7 +55,7 @@ def write_ssp(file: SystemFile, path: Path | str, *, fmus_only: bool = False) ->
     if package.left_out and not fmus_only:
         raise BadInput(
             f"{path.name}: SSP holds FMUs and cannot hold {'; '.join(package.left_out)}; leave that out with "
-            "fmus_only=True (--fmus-only)"
+            "write_ssp(..., fmus_only=True) in Python"
         )
     if not package.fmus:
         raise BadInput(f"{path.name}: the system has no FMU; there is nothing to export")

@@ -99,7 +99,7 @@ def test_what_takes_too_long_is_ended_and_says_so(project: Project) -> None:
     wait(runner)
     job = read_job(project.results("try"))
     assert job is not None
-    assert (job.state, job.message) == (FAILED, "it took longer than 0.2 s (--limit-s raises that)")
+    assert (job.state, job.message) == (FAILED, "it took longer than 0.2 s; run it on the command line")
 
 
 def test_a_journal_is_kept_for_the_same_data_and_removed_for_others(project: Project) -> None:

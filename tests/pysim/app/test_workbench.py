@@ -19,8 +19,8 @@ LONG = 500_000  # samples of the long log
 
 @pytest.fixture(scope="module")
 def address(shown: Any, tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
-    """A workbench that takes at most 100 MB."""
-    with server(tmp_path_factory.mktemp("workbench") / "project", "--limit-mb", "100") as found:
+    """A workbench."""
+    with server(tmp_path_factory.mktemp("workbench") / "project") as found:
         yield found
 
 
@@ -149,17 +149,17 @@ def test_a_wrong_file_is_refused_in_a_sentence(shown: Any, address: str, tmp_pat
     tab.see("is no name of a file below the dropped folder")
 
 
-def test_200_mb_are_too_many_for_this_page_and_for_its_server(shown: Any, address: str, tmp_path: Path) -> None:
+def test_300_mb_are_too_many_for_this_page_and_for_its_server(shown: Any, address: str, tmp_path: Path) -> None:
     with (tmp_path / "big.txt").open("wb") as file:
-        file.truncate(200 * 2**20)
+        file.truncate(300 * 2**20)
     tab = Tab(shown, address)
     tab.drop("files", tmp_path / "big.txt")
-    tab.see("200 MB in 1 files are too much; drop at most 100 MB")
+    tab.see("300 MB in 1 files are too much; drop at most 256 MB")
     script = """async () => {
         const name = await (await fetch("/upload", { method: "POST" })).text();
-        const body = new Blob([new Uint8Array(120 * 2 ** 20)]);
+        const body = new Blob([new Uint8Array(257 * 2 ** 20)]);
         const answer = await fetch(`/upload/${name}?name=big.txt`, { method: "PUT", body });
         return [answer.status, await answer.text()];
     }"""
     code, words = tab.page.evaluate(script)  # who does not ask the page first
-    assert (code, "goes beyond the limit; drop at most 100 MB" in words) == (413, True)
+    assert (code, "goes beyond the limit; drop at most 256 MB" in words) == (413, True)

@@ -29,13 +29,6 @@ def test_a_port_that_there_is_not_is_refused(port: str, tmp_path: Path, capsys: 
     assert not (tmp_path / "p").exists()
 
 
-@pytest.mark.parametrize("words", [["--limit-mb", "0"], ["--limit-mb", "inf"], ["--limit-s", "-1"]])
-def test_limits_are_above_zero(words: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    pytest.importorskip("nicegui")
-    assert main(["app", str(tmp_path / "p"), *words]) == 2
-    assert "write finite numbers above zero" in capsys.readouterr().err
-
-
 def test_a_folder_of_something_else_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     pytest.importorskip("nicegui")
     (tmp_path / "letter.txt").write_text("dear")

@@ -7,7 +7,7 @@ import pytest
 from pysim.cli._main import argument_parser
 from pysim.cli._options import names_of
 
-OWN = {"add": ["--effect", "e"], "fit": ["--free", "m"]}
+OWN = {"add": ["--effects", "e"], "fit": ["--free", "m"]}
 
 
 @pytest.mark.parametrize("command", ["add", "compare", "diagnose", "fit", "locate"])
@@ -30,9 +30,9 @@ def test_a_fit_takes_several_data_sets() -> None:
 @pytest.mark.parametrize(
     ("words", "option"),
     [
-        (["add", "d", "--model", "m", "--effect", "a,b", "--effects", "c"], "effect"),
-        (["locate", "d", "--model", "m", "--with", "a, b", "--effect", "c"], "with"),
-        (["diagnose", "d", "--model", "m", "--effect", "a", "--effect", "b,c"], "effects"),
+        (["add", "d", "--model", "m", "--effects", "a,b", "--effects", "c"], "effects"),
+        (["locate", "d", "--model", "m", "--with", "a, b", "--with", "c"], "with"),
+        (["diagnose", "d", "--model", "m", "--effects", "a", "--effects", "b,c"], "effects"),
         (["fit", "d", "--model", "m", "--free", "a,b", "--free", "c"], "free"),
         (["fit", "d", "--model", "m", "--free", "a", "--signal", "a,b", "--signal", "c"], "signal"),
         (["fit", "d", "--model", "m", "--free", "a", "--profile", "a,b,c"], "profile"),

@@ -55,7 +55,7 @@ def test_a_candidate_differs_from_the_fmu_in_its_effect_alone(tmp_path: Path) ->
     write_dataset(data, measured(1))
     fmu = tmp_path / "Mass.fmu"
     build("Toy.Mass", fmu, libraries=[library()], overrides={"m": 1.3})
-    words = ["add", str(data), "--effect", "toy.friction", "--free", "d,k", *LIBRARY]
+    words = ["add", str(data), "--effects", "toy.friction", "--free", "d,k", *LIBRARY]
     answers = []
     for model in (["--model", str(fmu)], ["--model", "Toy.Mass", "--set", "m=1.3"]):
         main([*words, *model, "--json", str(tmp_path / "a.json")])

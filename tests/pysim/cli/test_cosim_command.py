@@ -51,8 +51,6 @@ def test_an_exported_system_is_run(folder: Path, tmp_path: Path, capsys: pytest.
     assert package.read_bytes() == before
     assert main(["cosim", str(folder / "controlled.toml"), "--export-ssp", str(package)]) == 2
     assert "cannot hold controller, which is Python" in capsys.readouterr().err
-    assert main(["cosim", str(folder / "controlled.toml"), "--export-ssp", str(package), "--fmus-only"]) == 0
-    assert "left out: controller, which is Python" in capsys.readouterr().err
 
 
 def test_a_run_that_stops_early_is_told_and_kept(

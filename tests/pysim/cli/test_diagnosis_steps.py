@@ -55,7 +55,7 @@ def test_add_writes_the_extended_class_and_the_falling_error(
     undrawn: None, data: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     output, answer = tmp_path / "out", tmp_path / "a.json"
-    words = ["--effect", "toy.friction", "--effect", "toy.bias", "--output", str(output), "--json", str(answer)]
+    words = ["--effects", "toy.friction", "--effects", "toy.bias", "--output", str(output), "--json", str(answer)]
     assert main(["add", str(data), *MODEL, *words]) == 0
     found = json.loads(answer.read_text())
     assert [row["step"] for row in found["error"]] == ["prior", "refit", "toy.friction", "toy.bias"]
@@ -75,15 +75,15 @@ def test_add_writes_the_extended_class_and_the_falling_error(
 @pytest.mark.parametrize(
     ("effects", "message"),
     [
-        (["toy.magic"], "--effect toy.magic: not in the catalogue; it has "),
-        (["friction.coulomb"], "--effect friction.coulomb: no slot of Toy.Mass takes it"),
+        (["toy.magic"], "--effects toy.magic: not in the catalogue; it has "),
+        (["friction.coulomb"], "--effects friction.coulomb: no slot of Toy.Mass takes it"),
         (["toy.bias", "toy.bias"], "named twice"),
     ],
 )
 def test_add_refuses_what_it_cannot_add(
     effects: list[str], message: str, data: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    assert main(["add", str(data), *MODEL, *(word for name in effects for word in ("--effect", name))]) == 2
+    assert main(["add", str(data), *MODEL, *(word for name in effects for word in ("--effects", name))]) == 2
     assert message in capsys.readouterr().err
 
 
@@ -91,7 +91,7 @@ def test_a_model_without_its_class_gets_no_effect(
     data: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     fmu = build("Toy.Mass", tmp_path / "mass.fmu", libraries=[library()])
-    assert main(["add", str(data), "--model", str(fmu), "--effect", "toy.bias"]) == 2
+    assert main(["add", str(data), "--model", str(fmu), "--effects", "toy.bias"]) == 2
     assert "its class is in none of the libraries" in capsys.readouterr().err
     assert main(["diagnose", str(data), "--model", str(fmu), "--max-effects", "0"]) == 2
     assert "class is not at hand" in capsys.readouterr().err
@@ -199,7 +199,7 @@ def test_an_answer_takes_the_place_of_the_one_before(
     undrawn: None, data: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     output = tmp_path / "out"
-    assert main(["add", str(data), *MODEL, "--effect", "toy.friction", "--output", str(output)]) == 0
+    assert main(["add", str(data), *MODEL, "--effects", "toy.friction", "--output", str(output)]) == 0
     ours = {"report.html", "parameters.toml", MARKER}
     first = {path.name for path in output.iterdir()}
     assert first == ours | {"MassWithRubbing.mo", "MassWithRubbing.fmu"}

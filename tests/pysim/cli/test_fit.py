@@ -8,7 +8,9 @@ import pytest
 
 import fmu_build
 from fmu_build.cli import main as build_command
+from pysim.cli import fit as fit_command
 from pysim.cli import main
+from pysim.identify.greybox import Tried
 from pysim.io import read_model, write_dataset
 from tests.pysim.identify.greybox import measurements as m
 from tests.pysim.identify.greybox.conftest import LAG
@@ -25,7 +27,7 @@ def place(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def test_a_fit_writes_numbers_parameters_report_and_log(place: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    words = ["fit", str(place / "data"), "--model", str(place / "Lag.fmu"), "--free", "K,T", "--fix", "g=1"]
+    words = ["fit", str(place / "data"), "--model", str(place / "Lag.fmu"), "--free", "K,T", "--set", "g=1"]
     code = main([*words, "--json", str(place / "fit.json"), "--output", str(place / "out")])
     assert code == 0
     assert "converged" in capsys.readouterr().out
@@ -36,14 +38,35 @@ def test_a_fit_writes_numbers_parameters_report_and_log(place: Path, capsys: pyt
     assert (place / "out" / "report.html").read_text().count("<img") == 4
     lines = (place / "out" / "log" / "given" / "iterations.jsonl").read_text().splitlines()
     assert json.loads(lines[-1])["outcome"] == "converged"
-    again = main([*words, "--resume", "--output", str(place / "out"), "--json", str(place / "again.json")])
-    assert again == 0
-    assert json.loads((place / "again.json").read_text())["values"] == data["values"]
+    assert not list((place / "out" / "log").rglob("state.npz"))  # nothing is left to go on with
+
+
+def test_a_stopped_fit_goes_on_with_the_same_command(
+    place: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """To the same numbers, bit for bit, and without a point that was known; another fit is refused meanwhile."""
+    words = ["fit", str(place / "data"), "--model", str(place / "Lag.fmu"), "--free", "K,T", "--set", "g=1"]
+    assert main([*words, "--json", str(tmp_path / "whole.json")]) == 0
+    out, points = tmp_path / "out", []
+
+    def stop(tried: Tried) -> None:
+        points.append((tried.search, tried.tried))
+        if len(points) == 2:
+            raise KeyboardInterrupt
+
+    monkeypatch.setattr(fit_command, "_say", stop)
+    assert main([*words, "--output", str(out)]) == 2
+    assert main([*words, "--start", "K=1.5", "--output", str(out)]) == 2
+    assert len(points) == 2
+    assert main([*words, "--output", str(out), "--json", str(tmp_path / "resumed.json")]) == 0
+    assert len(points) == len(set(points))
+    whole, resumed = (json.loads((tmp_path / f"{name}.json").read_text()) for name in ("whole", "resumed"))
+    assert resumed["values"] == whole["values"]
 
 
 def test_a_table_without_the_thesis_reference_is_fitted_as_it_is(place: Path, tmp_path: Path) -> None:
     write_dataset(tmp_path / "table", m.dataset([m.table(2.0, 0.7, np.array([0.2, 0.5, 1.0]))]))
-    words = ["fit", str(tmp_path / "table"), "--model", str(place / "Lag.fmu"), "--free", "K,T", "--fix", "g=1"]
+    words = ["fit", str(tmp_path / "table"), "--model", str(place / "Lag.fmu"), "--free", "K,T", "--set", "g=1"]
     assert main([*words, "--json", str(tmp_path / "fit.json"), "--output", str(tmp_path / "out")]) == 0
     found = json.loads((tmp_path / "fit.json").read_text())["values"]
     assert (found["K"], found["T"]) == pytest.approx((2.0, 0.7), rel=1e-3)
@@ -71,7 +94,7 @@ def test_each_operating_point_has_a_picture(place: Path, tmp_path: Path) -> None
     for name in ("one", "two"):
         write_dataset(tmp_path / name, replace(m.dataset([m.ramp_log(2.0, 0.7, seed=2), *sines, *other]), name=name))
     words = ["fit", str(tmp_path / "one"), str(tmp_path / "two"), "--model", str(place / "Lag.fmu")]
-    assert main([*words, "--free", "K,T", "--fix", "g=1", "--output", str(tmp_path / "out")]) == 0
+    assert main([*words, "--free", "K,T", "--set", "g=1", "--output", str(tmp_path / "out")]) == 0
     page = (tmp_path / "out" / "report.html").read_text()
     assert len(list((tmp_path / "out").glob("sines_*.png"))) == 4
     assert page.count("<img") == 2 + 2 + 4
@@ -82,7 +105,7 @@ def test_each_operating_point_has_a_picture(place: Path, tmp_path: Path) -> None
 def test_profiles_that_cannot_be_are_refused_before_the_fit(
     place: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    words = ["fit", str(place / "data"), "--model", str(place / "Lag.fmu"), "--fix", "g=1", "--free"]
+    words = ["fit", str(place / "data"), "--model", str(place / "Lag.fmu"), "--set", "g=1", "--free"]
     assert main([*words, "K,T", "--profile", "K,tau"]) == 2
     assert "--profile tau: not a free parameter; choose of K, T" in capsys.readouterr().err
     assert main([*words, "K", "--profile", "K"]) == 2
@@ -98,7 +121,9 @@ def test_an_interval_without_an_end_is_written(place: Path, tmp_path: Path) -> N
     assert len(json.loads((tmp_path / "fit.json").read_text())["profiles"]["g"]["interval"]) == 2
 
 
-@pytest.mark.parametrize(("more", "cure"), [([], "--output DIR"), (["--log", "log"], "--resume goes on where it was")])
+@pytest.mark.parametrize(
+    ("more", "cure"), [([], "--output DIR"), (["--output", "out"], "the same command goes on where it was")]
+)
 def test_a_stopped_one_says_how_to_go_on(
     place: Path,
     tmp_path: Path,
@@ -120,11 +145,10 @@ def test_a_stopped_one_says_how_to_go_on(
 @pytest.mark.parametrize(
     ("more", "message"),
     [
-        (["--free", "K", "--fix", "T"], "--fix T: write NAME=VALUE"),
+        (["--free", "K", "--set", "T"], "--set T: write NAME=VALUE"),
         (["--free", "K", "--tie", "g=two*K"], "write A=B or A=2.5*B"),
         (["--free", "K", "--bounds", "K=1"], "write NAME=LOW:HIGH"),
         (["--free", "K", "--start", "T=1"], "T has a start or bounds but is not free"),
-        (["--free", "K", "--resume"], "nothing to resume"),
         (["--free", "K", "--objective", "time", "--optimiser", "gauss-newton"], "sum of squares"),
     ],
 )
@@ -139,7 +163,7 @@ def test_an_input_that_never_moves_is_refused(place: Path, tmp_path: Path, capsy
     time = np.arange(0, 3, 0.02)
     still = m.log(time, np.full(time.size, 25.0), np.full(time.size, 50.0) + 0.02 * np.sin(9 * time))
     write_dataset(tmp_path / "still", m.dataset([still]))
-    words, still = ["--model", str(place / "Lag.fmu"), "--free", "K", "--fix", "g=1"], str(tmp_path / "still")
+    words, still = ["--model", str(place / "Lag.fmu"), "--free", "K", "--set", "g=1"], str(tmp_path / "still")
     assert main(["fit", still, *words]) == 2
     said = capsys.readouterr().err
     assert "the input w is constant in every record to fit, so nothing can be told of what moves" in said
@@ -186,7 +210,7 @@ def test_parameters_that_are_read_are_not_written_over(
 
 
 def test_what_was_fitted_is_built_into_an_fmu(place: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    words = ["fit", str(place / "data"), "--model", str(place / "Lag.fmu"), "--free", "K,T", "--fix", "g=1"]
+    words = ["fit", str(place / "data"), "--model", str(place / "Lag.fmu"), "--free", "K,T", "--set", "g=1"]
     assert main([*words, "--output", str(tmp_path / "out")]) == 0
     file = tmp_path / "out" / "parameters.toml"
     fitted = tomllib.loads(file.read_text())

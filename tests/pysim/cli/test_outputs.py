@@ -44,10 +44,10 @@ COMMANDS = {
     "compare": ["compare", "{}", "--model", "m.fmu"],
     "diagnose": ["diagnose", "{}", "--model", "m.fmu"],
     "locate": ["locate", "{}", "--model", "m.fmu"],
-    "add": ["add", "{}", "--model", "m.fmu", "--effect", "e"],
+    "add": ["add", "{}", "--model", "m.fmu", "--effects", "e"],
     "data check": ["data", "check", "{}"],
 }
-MORE = [("compare", "--records", "r.npz"), ("diagnose", "--story", "s.jsonl"), ("fit", "--log", "log")]
+MORE = [("compare", "--records", "r.npz"), ("diagnose", "--story", "s.jsonl")]
 PLACES = [(name, option, "x.json") for name in COMMANDS for option in ("--json", "--output")]
 
 

@@ -17,8 +17,8 @@ CASES: list[tuple[str, Excitation]] = [
     ("step --offset 20 --height 10 --length 2 --back --ramp-down 0", Step(20, 10, 2, True, LeadIn(ramp_down=0.0))),
     ("stochastic --height 100 --peak-period 1 --seed 4", StochasticWave(SEA, 30.0, 4)),
     (
-        "stochastic --height 100 --peak-period 1 --even --components 20 --length 10",
-        StochasticWave(SEA, 10.0, 0, 20, scatter=False),
+        "stochastic --height 100 --peak-period 1 --components 20 --length 10",
+        StochasticWave(SEA, 10.0, 0, 20),
     ),
     ("multisine --period 5 --rms 5 --offset 50", Multisine(LineGrid(5.0, 0.1, 30.0), 0, rms=5.0, offset=50.0)),
     (
