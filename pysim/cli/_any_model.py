@@ -54,6 +54,9 @@ def read_fmu_or_class(text: str, libraries: Sequence[Path]) -> Model:
 
     if is_fmu(text):
         return read_model(Path(text))
-    import fmu_build
+    from pysim.cli._progress import Working
 
-    return read_model(fmu_build.build(text, libraries=list(libraries)))
+    with Working(f"Building {text}"):
+        import fmu_build
+
+        return read_model(fmu_build.build(text, libraries=list(libraries)))

@@ -1,12 +1,17 @@
-"""A progress bar on standard error."""
+"""Progress on standard error."""
 
 from __future__ import annotations
 
 import sys
+import threading
 import time
 from types import TracebackType
 
+from pysim.cli._terminal import draws_over
+
 _WIDTH = 30
+_COMPILING = "Compiling the simulation loop, once on this machine"
+_MOMENT, _TICK, _PAUSE = 0.4, 0.5, 10.0  # s: before the first line, between two on a terminal, and elsewhere
 
 
 def announce_compilation() -> None:
@@ -14,7 +19,50 @@ def announce_compilation() -> None:
     from pysim.simulate import is_compiled
 
     if not is_compiled():
-        print("Compiling the simulation loop, once on this machine, some 15 s ...", file=sys.stderr)
+        print(f"{_COMPILING} ...", file=sys.stderr)
+
+
+class Working:
+    """Says what goes on, and for how long already, once it lasts longer than a moment.
+
+    On a terminal one line is drawn over and taken away at the end; elsewhere there is a line every ten seconds.
+    """
+
+    def __init__(self, title: str) -> None:
+        self._title = title
+        self._begun = time.monotonic()
+        self._live = draws_over(sys.stderr)
+        self._shown = False
+        self._ended = threading.Event()
+        self._clock = threading.Thread(target=self._tick, daemon=True)
+
+    def __enter__(self) -> Working:
+        self._clock.start()
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, where: TracebackType | None
+    ) -> None:
+        self._ended.set()
+        self._clock.join()
+        if self._shown and self._live:
+            print("\r\x1b[K", end="", file=sys.stderr, flush=True)
+
+    def _tick(self) -> None:
+        pause = _MOMENT
+        while not self._ended.wait(pause):
+            since = f" {time.monotonic() - self._begun:.0f} s" if self._shown else ""
+            line = f"{self._title} ...{since}"
+            start, end = ("\r\x1b[K", "") if self._live else ("", "\n")
+            print(f"{start}{line}", end=end, file=sys.stderr, flush=True)
+            self._shown, pause = True, _TICK if self._live else _PAUSE
+
+
+def simulating() -> Working:
+    """What is said while a model runs; the first run on a machine compiles the loop of the solver."""
+    from pysim.simulate import is_compiled
+
+    return Working("Simulating" if is_compiled() else _COMPILING)
 
 
 class ProgressBar:

@@ -123,14 +123,15 @@ def _run(
     title: str,
 ) -> Record:
     import fmu_build
-    from pysim.cli._progress import ProgressBar
+    from pysim.cli._progress import ProgressBar, Working
     from pysim.cosim import cosimulate
     from pysim.cosim.members import Fmu
     from pysim.io import read_model
     from pysim.rig import rig_member, rig_system
 
     def member(name: str) -> Any:
-        return read_model(fmu_build.build(name, fmi=args.fmi))
+        with Working(f"Building {name}"):
+            return read_model(fmu_build.build(name, fmi=args.fmi))
 
     crane = Fmu("crane", member(_CRANE), interface=args.interface) if args.test == "heave" else None
     rig = rig_member(member(_RIG), interface=args.interface)

@@ -43,18 +43,19 @@ def run(args: argparse.Namespace) -> int:
     from pysim.cli._any_model import read_fmu_or_class
     from pysim.cli._inputs import input_files
     from pysim.cli._outputs import JSON, prepare_file
-    from pysim.cli._progress import announce_compilation
-    from pysim.simulate import Rk45, Rodas, simulate
+    from pysim.cli._progress import Working, simulating
     from pysim.types import Outcome
 
+    with Working("Loading the simulation"):  # Numba takes its seconds
+        from pysim.simulate import Rk45, Rodas, simulate
     model = read_fmu_or_class(args.model, args.library)
     experiment = _experiment(args, model)
     if args.output:
         prepare_file(args.output, "--output", (".csv", ".npz"), read=input_files(args))
     if args.json:
         prepare_file(args.json, "--json", JSON)
-    announce_compilation()
-    record = simulate(model, experiment, solver=Rodas() if args.solver == "rodas" else Rk45(), check=False)
+    with simulating():
+        record = simulate(model, experiment, solver=Rodas() if args.solver == "rodas" else Rk45(), check=False)
     _write(args, record)
     if record.outcome is not Outcome.DONE:
         print(f"pysim simulate: {model.name} stopped early: {record.message}", file=sys.stderr)

