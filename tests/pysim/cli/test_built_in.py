@@ -1,18 +1,16 @@
 """An FMU is diagnosed with the values it was built with, in the candidates too."""
 
-import json
 from pathlib import Path
 
 import pytest
 
 from fmu_build import build
-from pysim.cli import main
 from pysim.cli._built_in import built_in
-from pysim.io import read_model, write_dataset
+from pysim.cli._main import argument_parser
+from pysim.cli._subject import read_subject
+from pysim.io import read_model
 from pysim.types import BadInput
-from tests.pysim.diagnose.toy import library, measured
-
-LIBRARY = ["--library", str(library())]
+from tests.pysim.diagnose.toy import library
 
 
 def test_values_that_the_class_has_too_are_not_told(tmp_path: Path) -> None:
@@ -49,17 +47,12 @@ def test_a_fixed_number_of_another_value_is_refused(tmp_path: Path) -> None:
         built_in(one, "Fixed", [source])
 
 
-def test_a_candidate_differs_from_the_fmu_in_its_effect_alone(tmp_path: Path) -> None:
-    """A mass that is held at 1.3 kg in the FMU is held there with friction too: friction off is the FMU."""
-    data = tmp_path / "toy"
-    write_dataset(data, measured(1))
-    fmu = tmp_path / "Mass.fmu"
-    build("Toy.Mass", fmu, libraries=[library()], overrides={"m": 1.3})
-    words = ["add", str(data), "--effects", "toy.friction", "--free", "d,k", *LIBRARY]
-    answers = []
+def test_candidates_of_an_fmu_have_the_values_that_it_was_built_with(rubbing: Path, tmp_path: Path) -> None:
+    """A mass that is held at 1.3 kg in the FMU stays there in every candidate, as with `--set` on the class."""
+    fmu = build("Toy.Mass", tmp_path / "Mass.fmu", libraries=[library()], overrides={"m": 1.3})
+    words = ["add", str(rubbing), "--effects", "toy.friction", "--free", "d,k", "--library", str(library())]
     for model in (["--model", str(fmu)], ["--model", "Toy.Mass", "--set", "m=1.3"]):
-        main([*words, *model, "--json", str(tmp_path / "a.json")])
-        answers.append(json.loads((tmp_path / "a.json").read_text()))
-    by_fmu, by_class = answers
-    assert by_fmu["error"][-1]["fit"] == pytest.approx(by_class["error"][-1]["fit"], rel=1e-6)
-    assert any("built with values of its own, which every candidate has too: m" in note for note in by_fmu["notes"])
+        given = read_subject(argument_parser().parse_args([*words, *model]))
+        assert given.overrides == {"m": 1.3}
+        assert given.subject.free == ("d", "k")
+        assert all(run.experiment.overrides["m"] == 1.3 for target in given.subject.targets for run in target.runs)

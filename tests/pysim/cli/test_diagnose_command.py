@@ -1,18 +1,22 @@
 """`pysim diagnose` from a data set on disk to the JSON answer, the extended class and its FMU."""
 
 import json
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from fmu_build import build
 from pysim.cli import main
+from pysim.cli._answer_folder import MARKER
+from pysim.cli._main import argument_parser
+from pysim.cli._story import JOURNAL, Story
+from pysim.cli._subject import Given, read_subject
 from pysim.io import read_model, write_dataset
-from pysim.types import Record
-from tests.foreign import made_foreign
-from tests.pysim.diagnose.toy import CATALOGUE, library, measured
+from pysim.types import Record, Told
+from tests.pysim.cli.ran import Ran, refused
+from tests.pysim.diagnose.toy import CATALOGUE, measured
 
 KEYS = {
     "verdict", "added", "ranking", "confusable", "error", "parameters", "where", "missing", "next_test", "seconds",
@@ -20,59 +24,62 @@ KEYS = {
 }  # fmt: skip
 
 
-@pytest.fixture(scope="module")
-def data(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    folder = tmp_path_factory.mktemp("data") / "toy"
-    write_dataset(folder, measured(1, "toy.bias", F_b=-0.4))
-    return folder
-
-
-def test_from_a_class_to_the_extended_model(data: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    words = ["--model", "Toy.Mass", "--library", str(library()), "--effects", "toy.bias,toy.hardening"]
-    answer, output = tmp_path / "answer.json", tmp_path / "out"
-    assert main(["diagnose", str(data), *words, "--json", str(answer), "--output", str(output)]) == 0
-    found = json.loads(answer.read_text())
+def test_the_answer_names_the_effect_and_its_size(diagnosed: Ran) -> None:
+    found = diagnosed.answer
+    assert diagnosed.code == 0
     assert set(found) >= KEYS
-    assert found["verdict"] == "toy.bias"
+    assert (found["verdict"], found["missing"], found["next_test"]) == ("toy.friction", [], None)
     (added,) = found["added"]
-    low, high = added["intervals"]["F_b"]
-    assert low < -0.4 < high
-    assert added["unit"]["F_b"] == "N"
-    assert [row["step"] for row in found["error"]] == ["prior", "refit", "toy.bias"]
-    assert found["missing"] == []
-    assert found["next_test"] is None
-    pump = read_model(answer.parent / found["files"]["fmu"])
-    assert pump["force.F_b"].min == -5
-    assert "redeclare Toy.Bias force" in (answer.parent / found["files"]["modelica"]).read_text()
-    said = capsys.readouterr()
-    assert "Verdict: toy.bias" in said.out
-    assert "screened 2 effects" in said.err
-    report = (output / "report.html").read_text()
-    assert "The model lacks an effect: constant force (toy.bias)." in report
-    assert "pysim diagnose" in report
-    pictures = [path for name, path in found["files"].items() if name.startswith("picture ")]
-    assert len(pictures) >= 8
-    assert all((answer.parent / path).is_file() for path in found["files"].values())
+    low, high = added["intervals"]["F_c"]
+    assert low < 0.4 < high
+    assert added["unit"]["F_c"] == "N"
+    prior, refit, friction = found["error"]
+    assert [row["step"] for row in found["error"]] == ["prior", "refit", "toy.friction"]
+    assert prior["fit"] > refit["fit"] > 1.5
+    assert friction["fit"] == pytest.approx(1.0, abs=0.1)
+    assert friction["validate"] < 1.1 < refit["validate"]
     assert found["conditions"]["seed"] == "0"
 
 
-def test_an_fmu_whose_class_is_unknown_is_compared_only(data: Path, tmp_path: Path) -> None:
-    fmu = build("Toy.Mass", tmp_path / "mass.fmu", libraries=[library()])
-    answer = tmp_path / "answer.json"
-    assert main(["diagnose", str(data), "--model", str(fmu), "--json", str(answer)]) == 0
-    found = json.loads(answer.read_text())
+def test_the_folder_holds_the_extended_model_and_every_file_of_the_answer(diagnosed: Ran) -> None:
+    home = diagnosed.output.parent
+    files = {name: home / path for name, path in diagnosed.answer["files"].items()}
+    assert all(path.is_file() for path in files.values())
+    assert sum(name.startswith("picture ") for name in files) >= 8
+    assert "redeclare Toy.Rubbing force" in files["modelica"].read_text()
+    model, (added,) = read_model(files["fmu"]), diagnosed.answer["added"]
+    assert model[f"{added['place']}.F_c"].start == added["parameters"]["F_c"]
+    assert (model["m"].min, model["m"].max) == (0.5, 5)
+    own = {path.name for path in files.values()} | {path.with_suffix(".svg").name for path in files.values()}
+    assert {path.name for path in diagnosed.output.iterdir()} <= own | {MARKER}
+
+
+def test_the_answer_says_how_to_have_it_again(diagnosed: Ran) -> None:
+    assert " ".join(diagnosed.words) in diagnosed.answer["conditions"]["command"]
+
+
+def test_ranking_tells_what_each_gains_and_decides_nothing(rubbing: Path, toy: list[str], tmp_path: Path) -> None:
+    words = ["diagnose", str(rubbing), *toy, "--max-effects", "0", "--effects", "toy.friction,toy.bias"]
+    assert main([*words, "--json", str(tmp_path / "a.json")]) == 0
+    found = json.loads((tmp_path / "a.json").read_text())
+    assert found["ranking"][0]["effect"] == "toy.friction"
+    assert found["ranking"][0]["explained"] > 0.9
+    assert (len(found["ranking"]), found["added"]) == (2, [])
+    assert [row["step"] for row in found["error"]] == ["prior", "refit"]
+
+
+@pytest.mark.slow
+def test_an_unknown_comes_with_its_shape(rubbing: Path, toy: list[str], tmp_path: Path) -> None:
+    words = ["diagnose", str(rubbing), *toy, "--effects", "toy.bias", "--json", str(tmp_path / "a.json")]
+    assert main(words) == 0
+    found = json.loads((tmp_path / "a.json").read_text())
     assert found["verdict"] == "unknown"
-    assert any("no effect can be added" in note for note in found["notes"])
-    assert found["where"][0]["error"] > 1.2
+    assert found["missing"][0]["depends_on"] == "force.v"
 
 
-def test_an_fmu_of_another_tool_is_compared_and_refitted(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_an_fmu_of_another_tool_is_compared_and_refitted(rubbing: Path, foreign: Path, tmp_path: Path) -> None:
     """It has no derivatives, no bounds and no source; the plant rubs, which no refit can hide."""
-    write_dataset(tmp_path / "data", measured(1, "toy.friction", F_c=0.4))
-    fmu = made_foreign(build("Toy.Mass", libraries=[library()]), tmp_path / "foreign.fmu")
-    words = ["diagnose", str(tmp_path / "data"), "--model", str(fmu), "--json", str(tmp_path / "a.json")]
-    assert main(words) == 2
-    assert "no parameter min, max and nominal" in capsys.readouterr().err
+    words = ["diagnose", str(rubbing), "--model", str(foreign), "--json", str(tmp_path / "a.json")]
     bounds = [word for text in ("m=0.5:5", "d=0:10", "k=1:100") for word in ("--bounds", text)]
     assert main([*words, "--free", "m,d,k", *bounds]) == 0
     found = json.loads((tmp_path / "a.json").read_text())
@@ -81,84 +88,15 @@ def test_an_fmu_of_another_tool_is_compared_and_refitted(tmp_path: Path, capsys:
     assert 1.5 < refit["fit"] < 0.8 * prior["fit"]
     assert 1.5 < refit["validate"] < prior["validate"]
     assert all(0.5 < found["parameters"][name]["value"] < 100 for name in ("m", "d", "k"))
-    assert any("inputs F and the outputs x, v of foreign.fmu, nothing inside it" in note for note in found["notes"])
 
 
-def test_only_what_the_slots_take_is_a_candidate(
-    data: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    words = ["--model", "Toy.Mass", "--library", str(library()), "--json", str(tmp_path / "a.json")]
-    assert main(["diagnose", str(data), *words, "--effects", "toy.bias,friction.coulomb"]) == 2
-    assert "friction.coulomb: no slot of Toy.Mass takes it; its slots take toy.friction, " in capsys.readouterr().err
-    assert main(["diagnose", str(data), *words, "--max-effects", "1"]) == 0
-    assert {row["effect"] for row in json.loads((tmp_path / "a.json").read_text())["ranking"]} <= set(CATALOGUE)
-    assert f"compiling {len(CATALOGUE)} candidates" in capsys.readouterr().err
+def given(*words: str) -> Given:
+    """What a command line of `diagnose` names."""
+    return read_subject(argument_parser().parse_args(["diagnose", *words]))
 
 
-def test_an_unknown_effect_is_refused(data: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    words = ["--model", "Toy.Mass", "--library", str(library()), "--effects", "toy.magic"]
-    assert main(["diagnose", str(data), *words, "--json", str(tmp_path / "a.json")]) == 2
-    assert "toy.magic" in capsys.readouterr().err
-    assert not (tmp_path / "a.json").exists()
-
-
-TOO_SHORT = "has 20 samples to fit for 3 free parameters"
-STILL = "the input F is constant in every record to fit"
-
-
-@pytest.mark.parametrize(("cut", "moves", "message"), [(20, True, TOO_SHORT), (600, False, STILL)])
-def test_data_that_cannot_carry_it_are_refused(
-    cut: int, moves: bool, message: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    good = measured(1, "toy.bias", F_b=-0.4)
-    records = []
-    for record in good.records:
-        log = record.data
-        assert isinstance(log, Record)
-        values = log.values[:cut] * (1.0 if moves else np.array([0.0, 1.0]))
-        records.append(replace(record, data=replace(log, time=log.time[:cut], values=values)))
-    write_dataset(tmp_path / "data", replace(good, records=tuple(records)))
-    words = ["--model", "Toy.Mass", "--library", str(library()), "--output", str(tmp_path / "out")]
-    assert main(["diagnose", str(tmp_path / "data"), *words]) == 2
-    assert message in capsys.readouterr().err
-    assert list((tmp_path / "out").iterdir()) == []
-
-
-def test_what_weakens_the_answer_is_noted(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    good = measured(1, "toy.bias", F_b=-0.4)
-    write_dataset(tmp_path / "data", replace(good, records=good.records[:1]))
-    broken = tmp_path / "Mine.mo"
-    broken.write_text(BROKEN)
-    words = ["--model", "Toy.Mass", "--library", str(library()), "--library", str(broken), "--max-effects", "1"]
-    words += ["--effects", "toy.bias,mine.broken"]
-    assert main(["diagnose", str(tmp_path / "data"), *words]) == 0
-    said = capsys.readouterr().out
-    assert "Verdict: toy.bias" in said
-    assert "Note: no record is held out" in said
-    assert "Note: only x was logged" in said
-    assert "Note: mine.broken could not be tried: " in said
-
-
-BROKEN = """
-model Broken "Does not compile"
-  extends Toy.PartialForce;
-  parameter Real c(unit="N", min=0, max=5, nominal=1) = 0;
-equation
-  f = -c*nowhere;
-  annotation(__HydraulicTestBench(effect="mine.broken", slot="force"));
-end Broken;
-"""
-
-
-def test_a_place_that_cannot_be_written_is_told_before_the_work(
-    data: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    (tmp_path / "file").write_text("")
-    words = ["--model", "Toy.Mass", "--library", str(library()), "--output", str(tmp_path / "file" / "out")]
-    assert main(["diagnose", str(data), *words]) == 2
-    said = capsys.readouterr()
-    assert "cannot write there" in said.err
-    assert "comparing" not in said.err
+def test_all_that_the_slots_take_is_a_candidate_and_nothing_else(rubbing: Path, toy: list[str]) -> None:
+    assert {effect.name for effect in given(str(rubbing), *toy).subject.catalogue} == set(CATALOGUE)
 
 
 SEALED = """
@@ -176,25 +114,125 @@ end Sealed;
 """
 
 
-def test_a_model_without_slots_is_compared_and_told_so(
-    data: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_model_without_slots_has_no_candidates(rubbing: Path, tmp_path: Path) -> None:
     (tmp_path / "Mine.mo").write_text(SEALED)
-    words = ["--model", "Sealed", "--library", str(tmp_path / "Mine.mo"), "--json", str(tmp_path / "a.json")]
-    assert main(["diagnose", str(data), *words]) == 0
+    found = given(str(rubbing), "--model", "Sealed", "--library", str(tmp_path / "Mine.mo"))
+    assert found.subject.catalogue == ()
+    assert any("no slot of Sealed" in note for note in found.subject.notes)
+
+
+BROKEN = """
+model Broken "Does not compile"
+  extends Toy.PartialForce;
+  parameter Real c(unit="N", min=0, max=5, nominal=1) = 0;
+equation
+  f = -c*nowhere;
+  annotation(__HydraulicTestBench(effect="mine.broken", slot="force"));
+end Broken;
+"""
+
+
+def test_an_effect_that_does_not_compile_is_noted_and_left_out(rubbing: Path, toy: list[str], tmp_path: Path) -> None:
+    (tmp_path / "Mine.mo").write_text(BROKEN)
+    words = [
+        *toy,
+        "--library",
+        str(tmp_path / "Mine.mo"),
+        "--max-effects",
+        "0",
+        "--effects",
+        "toy.friction,mine.broken",
+    ]
+    assert main(["diagnose", str(rubbing), *words, "--json", str(tmp_path / "a.json")]) == 0
     found = json.loads((tmp_path / "a.json").read_text())
-    assert (found["verdict"], found["ranking"]) == ("unknown", [])
-    assert any("no slot of Sealed takes an effect" in note for note in found["notes"])
-    assert "Verdict: unknown" in capsys.readouterr().out
+    assert [row["effect"] for row in found["ranking"]] == ["toy.friction"]
+    assert any("mine.broken" in note for note in found["notes"])
+
+
+def stopped_at(step: str) -> Callable[[Story, Told], None]:
+    """In place of what tells: Ctrl-C once a step of the ledger is known."""
+    tell = Story.__call__
+
+    def stop(self: Story, told: Told) -> None:
+        tell(self, told)
+        if told.step is not None and told.step.step == step:
+            raise KeyboardInterrupt
+
+    return stop
+
+
+def test_a_command_that_was_stopped_goes_on_with_the_same_answer(
+    diagnosed: Ran, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    output = tmp_path / "out"
+    words = [*diagnosed.words, "--output", str(output)]
+    with monkeypatch.context() as patch:
+        patch.setattr(Story, "__call__", stopped_at("refit"))
+        assert main(words) == 2
+    assert [path.name for path in output.iterdir()] == [JOURNAL]
+    refused([*words, "--seed", "5"], capsys, JOURNAL, "delete it")
+    assert main([*words, "--json", str(tmp_path / "a.json")]) == 0
+    assert not (output / JOURNAL).exists()
+    again = json.loads((tmp_path / "a.json").read_text())
+    for key in ("verdict", "added", "ranking", "error", "parameters", "where"):
+        assert again[key] == diagnosed.answer[key]
+
+
+@pytest.mark.parametrize(
+    ("words", "named"),
+    [
+        ([], ["--model"]),
+        (["--model", "Toy.Nothing"], ["Toy.Nothing"]),
+        (["--model", "none.fmu"], ["none.fmu"]),
+        (["--effects", "toy.magic"], ["--effects toy.magic", "it has "]),
+        (["--effects", "friction.coulomb"], ["--effects friction.coulomb", "its slots take toy.friction"]),
+        (["--max-effects", "-1"], ["--max-effects -1", "0 or more"]),
+        (["--free", "mm"], ["mm", "near it: m"]),
+        (["--bounds", "m=2:1"], ["--bounds m=2:1", "write the lower bound first"]),
+        (["--bounds", "m=2"], ["--bounds m=2", "write NAME=LOW:HIGH"]),
+        (["--output", "{here}/file/out"], ["--output", "choose another folder"]),
+        (["--output", "{here}"], ["--output", "choose a new folder"]),
+        (["--parameters", "{here}/own/p.toml", "--output", "{here}/own"], ["p.toml is read", "choose another folder"]),
+        (["--story", "s.txt"], ["--story s.txt", "write one of .jsonl"]),
+    ],
+)
+def test_mistakes_are_one_line_before_the_work(
+    rubbing: Path, toy: list[str], words: list[str], named: list[str], tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+) -> None:  # fmt: skip
+    (tmp_path / "file").write_text("")
+    (tmp_path / "own").mkdir()
+    (tmp_path / "own" / "p.toml").write_text("m = 1.1\n")
+    before = sorted(tmp_path.rglob("*"))
+    model = toy if words and "--model" not in words else []
+    filled = [word.format(here=tmp_path) for word in words]
+    refused(["diagnose", str(rubbing), *model, *filled, "--json", str(tmp_path / "a.json")], capsys, *named)
+    assert sorted(tmp_path.rglob("*")) == before
+
+
+@pytest.mark.parametrize(
+    ("cut", "moves", "named"),
+    [(20, True, ["20 samples", "3 free parameters"]), (600, False, ["the input F is constant in every record to fit"])],
+)
+def test_data_that_cannot_carry_it_are_refused(
+    cut: int, moves: bool, named: list[str], toy: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    good = measured(1, "toy.friction", F_c=0.4)
+    records = []
+    for record in good.records:
+        log = record.data
+        assert isinstance(log, Record)
+        values = log.values[:cut] * (1.0 if moves else np.array([0.0, 1.0]))
+        records.append(replace(record, data=replace(log, time=log.time[:cut], values=values)))
+    write_dataset(tmp_path / "data", replace(good, records=tuple(records)))
+    refused(["diagnose", str(tmp_path / "data"), *toy, "--output", str(tmp_path / "out")], capsys, *named)
+    assert list((tmp_path / "out").iterdir()) == []
 
 
 def test_a_class_that_does_not_compile_is_refused(
-    data: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    rubbing: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (tmp_path / "Mine.mo").write_text("model Bad\n  Real x;\nequation\n  der(x) = y;\nend Bad;\n")
     words = ["--model", "Bad", "--library", str(tmp_path / "Mine.mo"), "--json", str(tmp_path / "a.json")]
-    assert main(["diagnose", str(data), *words]) == 2
-    said = capsys.readouterr().err
-    assert said.startswith("pysim diagnose: ")
-    assert len(said.splitlines()) == 1
+    refused(["diagnose", str(rubbing), *words], capsys, "pysim diagnose: ")
     assert not (tmp_path / "a.json").exists()

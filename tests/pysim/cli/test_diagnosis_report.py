@@ -31,9 +31,7 @@ def test_every_part_of_the_story_has_its_file(tmp_path: Path) -> None:
     assert files["plan"].read_text() == TEST.plan
     page = files["report"].read_text()
     assert page.count("<img ") == len(drawn)
-    assert "<h1>Why?</h1>" in page
-    assert "Because." in page
-    assert "next_test.toml" in page
+    assert all(text in page for text in ("Why?", "Because.", "next_test.toml"))
     assert set(files) == {"report", "parameters", "plan", *(f"picture {name}" for name in drawn)}
 
 
@@ -44,4 +42,3 @@ def test_a_comparison_alone_draws_what_it_has(tmp_path: Path) -> None:
     drawn = {name.removeprefix("picture ") for name in files if name.startswith("picture ")}
     assert drawn == {"ledger", "record_1", "record_2", "record_3", "where", "map", "spectrum"}
     assert "parameters" not in files
-    assert "where the model as it is fails most" in files["report"].read_text()

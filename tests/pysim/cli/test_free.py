@@ -5,12 +5,10 @@ from pathlib import Path
 
 import pytest
 
-from fmu_build import build
 from pysim.cli import main
 from pysim.cli._free import free_parameters
 from pysim.io import write_dataset
 from pysim.types import BadInput
-from tests.foreign import made_foreign
 from tests.pysim.diagnose.toy import base, library, measured
 
 MODEL = ["--model", "Toy.Mass", "--library", str(library())]
@@ -22,12 +20,6 @@ def data(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("data") / "toy"
     write_dataset(folder, measured(1))
     return folder
-
-
-@pytest.fixture(scope="module")
-def foreign(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """An FMU that gives no bounds."""
-    return made_foreign(build("Toy.Mass", libraries=[library()]), tmp_path_factory.mktemp("fmu") / "foreign.fmu")
 
 
 def compared(words: list[str], tmp_path: Path, end: int = 0) -> dict:
@@ -65,14 +57,6 @@ def test_bounds_alone_make_free(data: Path, foreign: Path, tmp_path: Path) -> No
     bounds = [word for text in ("m=0.5:5", "k=1:100") for word in ("--bounds", text)]
     found = compared([str(data), "--model", str(foreign), "--refit", *bounds], tmp_path)
     assert set(found["parameters"]) == {"m", "k"}
-
-
-def test_where_nothing_can_be_refitted_the_options_are_named(
-    data: Path, foreign: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    for words in (["compare", "--refit"], ["diagnose"]):
-        assert main([*words, str(data), "--model", str(foreign)]) == 2
-        assert "name those to refit, and their bounds, as --free m --bounds m=0.1:10" in capsys.readouterr().err
 
 
 def test_what_a_fit_found_is_where_the_refit_begins(data: Path, tmp_path: Path) -> None:
