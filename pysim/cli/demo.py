@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from pysim.types import Comparison, Dataset
+    from pysim.types import Comparison, Dataset, Model
 
 QUICK_FREQUENCIES_HZ = (0.1, 1, 3, 6, 10, 15, 20, 30)
 _TABLES = {"free": "4.8", "locked": "4.7"}
@@ -31,47 +31,71 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Print both tables and leave report.html, plots, JSON, the FMUs and the data set; 0 when that is done."""
+    from concurrent.futures import ProcessPoolExecutor
+    from multiprocessing import get_context
+
     from pysim.cli._outputs import prepare_folder
+    from pysim.cli._pictures import draw_picture, write_pictures
+    from pysim.cli._progress import Working
     from pysim.io import read_dataset, write_file
     from pysim.report import comparison_data, comparison_text
     from validation.thesis import FREQUENCIES_HZ, write_dataset
 
     folder = prepare_folder(args.output)
     frequencies = QUICK_FREQUENCIES_HZ if args.quick else FREQUENCIES_HZ
-    dataset = read_dataset(write_dataset(folder / "measurements", frequencies))
-    comparisons = [_compare(label, folder, dataset) for label in _TABLES]
-    for comparison in comparisons:
-        print(comparison_text(comparison), end="\n\n")
+    # On two cores the loop is compiled while the models are built, and pictures are drawn while the models run.
+    with ProcessPoolExecutor(2, mp_context=get_context("spawn")) as helpers:
+        compiled = helpers.submit(_compile_loop)
+        models = {label: _build(label, folder) for label in _TABLES}
+        dataset = read_dataset(write_dataset(folder / "measurements", frequencies))
+        with Working("Compiling the simulation loop, once on this machine"):
+            compiled.result()
+        comparisons: list[Comparison] = []
+        for label, model in models.items():
+            comparisons.append(_compare(label, model, dataset))
+            helpers.submit(draw_picture, tuple(comparisons), folder, "bode_O+50.png")  # something to look at, early
+        for comparison in comparisons:
+            print(comparison_text(comparison), end="\n\n")
+        with Working("Drawing pictures"):
+            pictures = write_pictures(comparisons, folder, helpers)
     numbers = json.dumps(comparison_data(comparisons), indent=1, allow_nan=False)
     write_file(folder / "comparison.json", numbers)
-    write_file(folder / "report.html", _report(comparisons, args))
+    write_file(folder / "report.html", _report(comparisons, args, pictures))
     print(f"Report: {folder / 'report.html'}")
     return 0
 
 
-def _compare(label: str, folder: Path, dataset: Dataset) -> Comparison:
-    """Build one parameter set's FMU and run all tests through it."""
-    import sys
+def _compile_loop() -> None:
+    from pysim.simulate import compile_loop
 
-    from pysim.cli._progress import ProgressBar, announce_compilation
+    compile_loop()
+
+
+def _build(label: str, folder: Path) -> Model:
+    """One parameter set's FMU."""
+    from pysim.cli._progress import Working
+    from validation.pump import CLASSES, pump_model
+
+    with Working(f"Building {CLASSES[label]}"):
+        return pump_model(label, output=folder / f"{CLASSES[label].rpartition('.')[2]}.fmu")
+
+
+def _compare(label: str, model: Model, dataset: Dataset) -> Comparison:
+    """Run all tests through one model."""
+    from pysim.cli._progress import ProgressBar
     from pysim.diagnose import compare
-    from validation.pump import CLASSES, SOURCES, pump_model
+    from validation.pump import SOURCES
 
-    print(f"Building {CLASSES[label]} ...", file=sys.stderr)
-    model = pump_model(label, output=folder / f"{CLASSES[label].rpartition('.')[2]}.fmu")
-    announce_compilation()
     with ProgressBar(f"{label} set") as progress:
         return compare(model, dataset, label=label, about=SOURCES[label], progress=progress)
 
 
-def _report(comparisons: Sequence[Comparison], args: argparse.Namespace) -> str:
+def _report(comparisons: Sequence[Comparison], args: argparse.Namespace, pictures: dict[str, bytes]) -> str:
     from pysim.cli._outputs import repeating
-    from pysim.cli._pictures import write_pictures
     from pysim.report import comparison_page
 
     # with fewer frequencies the largest deviations are others, and the thesis' tables cannot be held against them
     remarks = [] if args.quick else [part for comparison in comparisons for part in _against_the_thesis(comparison)]
-    pictures = write_pictures(comparisons, args.output)
     title = "The pump's swash plate against the transfer functions of thesis Table 4.1"
     return comparison_page(title, comparisons, pictures=pictures, redo=repeating(args), remarks=remarks)
 

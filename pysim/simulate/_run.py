@@ -6,6 +6,7 @@ from collections.abc import Callable
 from time import perf_counter
 
 import numpy as np
+from numba import typeof
 
 from pysim.simulate._base import Solver
 from pysim.simulate._check import check_arguments, check_experiment
@@ -26,6 +27,11 @@ _BETWEEN_LOOKS = 0.02  # s, whatever the model's own functions cost
 _LONGER = 10.0  # times the steps before, at most
 
 _STATUS = {DISCARD: "the model discards the point", ERROR: "an FMI function failed", FATAL: "a fatal FMI error"}
+
+
+def compile_loop() -> None:
+    """Compile the loop of `simulate` now where this machine does not hold it yet; a process may, while others work."""
+    integrate.compile((typeof(Job(Rk45()).record), typeof(_FIRST_LOOK)))  # type: ignore[attr-defined]
 
 
 def simulate(model: Model, experiment: Experiment, *, solver: Solver = Rk45(), check: bool = True) -> Record:  # noqa: B008
