@@ -1,4 +1,4 @@
-"""Builds each model under test once per FMI version."""
+"""Unpacks each model under test once per FMI version; the FMUs are those of the store that all tests share."""
 
 from collections.abc import Callable
 
@@ -18,9 +18,7 @@ def built(tmp_path_factory: pytest.TempPathFactory) -> Callable[[Case, int], Fmu
     def get(case: Case, fmi: int) -> Fmu:
         key = case.name, fmi
         if key not in made:
-            with pytest.MonkeyPatch.context() as patch:
-                patch.setenv("HTB_CACHE", str(folder / "cache"))
-                made[key] = Fmu.unpack(build_case(case, fmi, folder), folder / f"{case.name}_{fmi}", fmi)
+            made[key] = Fmu.unpack(build_case(case, fmi, folder), folder / f"{case.name}_{fmi}", fmi)
         return made[key]
 
     return get

@@ -1,10 +1,12 @@
-"""Many instances of every model, side by side and one after another."""
+"""Many instances of a model, side by side and one after another."""
 
 import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
+
+from tests.cases import BY_NAME
 
 CYCLES = 2000
 PAGE = 4096
@@ -16,6 +18,7 @@ def resident_bytes():
 
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="reads /proc")
 @pytest.mark.parametrize("kind", ["me", "cs"])
+@pytest.mark.parametrize("case", [BY_NAME["sampled"]], ids=["sampled"])  # what allocates is the same for all
 def test_instances_leave_nothing_behind(fmu, kind):
     instance = fmu.open(kind)
     raw = instance.raw
