@@ -5,8 +5,6 @@
 
 #include <math.h>
 
-#include "evaluate.h"
-
 /* Points closer than this part of the maximum delay replace each other, so that the ring never runs short. */
 static const double CLOSEST = 2.0 / (double)DELAY_CAPACITY;
 enum { NODES = 6 };
@@ -229,8 +227,6 @@ static void record_one(Instance *s, size_t k, double value, bool is_break) {
 
 Status delay_record(Instance *s, bool is_break) {
     const size_t n = s->model->n_v;
-    if (n == 0) return STATUS_OK;
-    if (evaluate_unknowns(s) != STATUS_OK) return STATUS_DISCARD;
     double *source = s->event.delay_source;
     double *res[] = {source, NULL, NULL};
     if (call_model(s, s->model->delays, res) != STATUS_OK) return STATUS_DISCARD;

@@ -15,7 +15,7 @@ Status delay_values_complete(Instance *s);
 /* Starts all histories at the present time and value; before it, the value was the same. */
 Status delay_start(Instance *s);
 
-/* Adds the present point to all histories. `is_break`: something changed abruptly here. */
+/* Adds the present point, whose v and q are up to date, to all histories. `is_break`: something changed abruptly here. */
 Status delay_record(Instance *s, bool is_break);
 
 /* Lets delayed values go past the breaks that they have reached. True if one was passed. */

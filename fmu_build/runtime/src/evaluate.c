@@ -108,3 +108,8 @@ Status evaluate_indicators(Instance *s) {
     set_computed(s, HAS_Z);
     return STATUS_OK;
 }
+
+Status evaluate_history(Instance *s, bool is_break) {
+    if (s->model->n_v == 0) return STATUS_OK;
+    return evaluate_unknowns(s) == STATUS_OK ? delay_record(s, is_break) : STATUS_DISCARD;
+}

@@ -11,6 +11,9 @@ Status evaluate_derivatives(Instance *s); /* dx */
 Status evaluate_outputs(Instance *s);     /* w */
 Status evaluate_indicators(Instance *s);  /* z, as the model gives it */
 
+/* Adds the present point to the histories of delay(), if there are any; `is_break` as for delay_record. */
+Status evaluate_history(Instance *s, bool is_break);
+
 /* What a change leaves valid. */
 static inline void changed_parameters(Instance *s) { s->memory->computed = 0; }
 static inline void changed_point(Instance *s) { s->memory->computed &= HAS_START | HAS_C; }

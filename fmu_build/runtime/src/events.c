@@ -117,7 +117,7 @@ Status events_update(Instance *s, EventResult *result) {
     if (delay_pass_breaks(s, time_slack(s))) changed_point(s);
     bool happened = false;
     Status status = happen(s, &happened, &result->x_changed);
-    if (status == STATUS_OK) status = delay_record(s, happened);
+    if (status == STATUS_OK) status = evaluate_history(s, happened);
     if (status != STATUS_OK) return status;
     s->memory->last_event_time = *s->t;
     s->memory->is_disturbed = 0;

@@ -3,7 +3,6 @@
 #include <math.h>
 
 #include "constraints.h"
-#include "delay.h"
 #include "evaluate.h"
 #include "initialise.h"
 #include "relations.h"
@@ -56,12 +55,12 @@ Status set_time(Instance *s, const char *function, double time) {
 
 Status enter_event_mode(Instance *s) {
     set_phase(s, PHASE_EVENT);
-    return delay_record(s, false);
+    return evaluate_history(s, false);
 }
 
 Status completed_step(Instance *s, bool *enter_event_mode) {
     Status status = relations_are_crossed(s, enter_event_mode);
-    if (status == STATUS_OK) status = delay_record(s, false);
+    if (status == STATUS_OK) status = evaluate_history(s, false);
     if (status == STATUS_OK) status = constraints_check(s);
     if (status == STATUS_OK) status = events_check(s);
     return failed_if_error(s, status);

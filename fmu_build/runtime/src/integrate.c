@@ -116,7 +116,7 @@ static Status record_history(Instance *s) {
     Status status = STATUS_OK;
     for (int k = 1; k <= HISTORY_POINTS && status == STATUS_OK; k++) {
         rodas_move(s, k < HISTORY_POINTS ? reached * (double)k / (double)HISTORY_POINTS : reached);
-        status = delay_record(s, false);
+        status = evaluate_history(s, false);
     }
     return status;
 }
