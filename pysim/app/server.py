@@ -14,6 +14,7 @@ from secrets import token_urlsafe
 from fastapi import Request
 from fastapi.responses import FileResponse, PlainTextResponse, Response
 from nicegui import app, run, ui
+from starlette.requests import ClientDisconnect
 
 from pysim.app.desk import Desk
 from pysim.app.disk import disk_trouble
@@ -23,12 +24,14 @@ from pysim.app.lock import held
 from pysim.app.pages.shell import shell
 from pysim.app.project import Project
 from pysim.app.records import MOST, Overlay, compared_overlay, measured_overlay
-from pysim.app.upload import Adopted, Batch, Limits, adopt
+from pysim.app.upload import Adopted, Batch, Limits, adopt, announced
+from pysim.io import counted
 from pysim.types import BadInput
 
 _STATIC = Path(__file__).parent / "static"
 _LOOPBACK = ("127.0.0.1", "localhost", "::1")
 _TICK = 0.2  # s
+_BROKE_OFF = "the drop broke off, or another one has begun since; drop it again"
 
 
 def serve(
@@ -155,22 +158,34 @@ def _routes(desk: Desk) -> None:
     async def take(name: str, request: Request) -> Response:
         batch = desk.batches.get(name)
         if batch is None:
-            return PlainTextResponse("another drop has begun since; drop it again", 409)
+            return PlainTextResponse(_BROKE_OFF, 409)
+        kept = False
         try:
-            await batch.take(request.query_params.get("name", ""), request.stream())
+            size, digest = announced(request.headers)
+            await batch.take(request.query_params.get("name", ""), request.stream(), size=size, digest=digest)
+            kept = True
+        except ClientDisconnect:
+            return PlainTextResponse("the connection broke; drop it again", 400)
         except BadInput as error:
-            desk.batches.pop(name).end()
-            return PlainTextResponse(str(error), 413)
+            return PlainTextResponse(str(error), 422)
         except OSError as error:
-            desk.batches.pop(name).end()
+            if desk.batches.get(name) is not batch:  # its folder is gone
+                return PlainTextResponse(_BROKE_OFF, 409)
             return PlainTextResponse(str(disk_trouble(error)), 507)
+        finally:
+            if not kept:  # a drop with a file that is not whole is none
+                desk.batches.pop(name, None)
+                batch.end()
         return PlainTextResponse("kept")
 
     @app.post("/upload/{name}/done")
-    async def done(name: str) -> Response:
+    async def done(name: str, files: int) -> Response:
         batch = desk.batches.pop(name, None)
         if batch is None:
-            return PlainTextResponse("another drop has begun since; drop it again", 409)
+            return PlainTextResponse(_BROKE_OFF, 409)
+        if batch.whole != files:
+            batch.end()
+            return PlainTextResponse(f"{batch.whole} of {counted(files, 'file')} arrived; drop them again", 409)
         if desk.runner.running is not None or desk.taking:
             batch.end()
             return PlainTextResponse("wait until the running work has ended, or stop it; then drop it again", 409)

@@ -14,10 +14,19 @@ async function below(entry, path) {
   return found;
 }
 
-const send = (method, url, body, progress) =>
+// The SHA-256 of a file as RFC 9530 writes it. A browser computes it on this machine or behind https alone; elsewhere the
+// server compares the length.
+async function digest(file) {
+  if (!globalThis.crypto?.subtle) return {};
+  const bytes = new Uint8Array(await crypto.subtle.digest("SHA-256", await file.arrayBuffer()));
+  return { "Content-Digest": `sha-256=:${btoa(String.fromCharCode(...bytes))}:` };
+}
+
+const send = (method, url, body, headers, progress) =>
   new Promise((done) => {
     const request = new XMLHttpRequest();
     request.open(method, url);
+    for (const [name, value] of Object.entries(headers ?? {})) request.setRequestHeader(name, value);
     request.upload.onprogress = (event) => progress?.(event.loaded);
     request.onload = () => done({ ok: request.status < 300, text: request.responseText });
     request.onerror = () => done({ ok: false, text: "the connection broke; is pysim app still running?" });
@@ -71,13 +80,17 @@ export default {
       for (const { path, file } of begun.ok ? found : []) {
         this.state = `Taking over ${path}`;
         const url = `/upload/${begun.text}?name=${encodeURIComponent(path)}`;
-        answer = await send("PUT", url, file, (part) => (this.percent = Math.round((100 * (done + part)) / (size || 1))));
+        const progress = (part) => (this.percent = Math.round((100 * (done + part)) / (size || 1)));
+        answer = await digest(file).then(
+          (headers) => send("PUT", url, file, headers, progress),
+          (error) => ({ ok: false, text: `${path} cannot be read (${error.message}); drop it again` }),
+        );
         done += file.size;
         if (!answer.ok) break;
       }
       if (answer.ok) {
         this.state = "Reading";
-        answer = await send("POST", `/upload/${begun.text}/done`);
+        answer = await send("POST", `/upload/${begun.text}/done?files=${found.length}`);
       }
       this.busy = false;
       this.$emit(answer.ok ? "taken" : "refused", answer.text);

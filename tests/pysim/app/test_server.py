@@ -6,6 +6,8 @@ import signal
 import socket
 import subprocess
 import sys
+import time
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
@@ -163,7 +165,7 @@ def test_a_drop_that_the_disk_refuses_is_told_in_a_sentence(tmp_path: Path) -> N
     with server(tmp_path / "p") as address:
         _, name = asked(address, "POST", "/upload")
         assert asked(address, "PUT", f"/upload/{name}?name=a.csv", b"0,1\n") == (200, "kept")
-        code, words = asked(address, "POST", f"/upload/{name}/done")
+        code, words = asked(address, "POST", f"/upload/{name}/done?files=1")
         assert (code, words.partition(";")[0]) == (507, f"{tmp_path / 'p/earlier'}: File exists")
     assert list((tmp_path / "p/uploads").iterdir()) == []
 
@@ -173,11 +175,38 @@ def test_a_file_that_comes_twice_ends_the_drop_and_nothing_of_it_stays(tmp_path:
         _, name = asked(address, "POST", "/upload")
         many = b"0,1\n" * 10**6  # comes in many pieces
         assert asked(address, "PUT", f"/upload/{name}?name=d/a.csv", many) == (200, "kept")
-        told = (413, "d/A.csv and d/a.csv would be one file; rename one of them")
+        told = (422, "d/A.csv and d/a.csv would be one file; rename one of them")
         assert asked(address, "PUT", f"/upload/{name}?name=d/A.csv", b"0,2\n") == told
-        assert asked(address, "POST", f"/upload/{name}/done")[0] == 409
+        assert asked(address, "POST", f"/upload/{name}/done?files=1")[0] == 409
     assert list((tmp_path / "p/uploads").iterdir()) == []
     assert not (tmp_path / "p/data").exists()
+
+
+def test_an_upload_that_breaks_off_is_not_taken_for_a_whole_one(tmp_path: Path) -> None:
+    with server(tmp_path / "p") as address:
+        parts = urlsplit(address)
+        _, name = asked(address, "POST", "/upload")
+        head = (
+            f"PUT /upload/{name}?name=a.csv HTTP/1.1", f"Host: {parts.netloc}", "Content-Length: 400",
+            f"Cookie: pysim_app_{parts.port}={address.partition('token=')[2]}", "", "",
+        )  # fmt: skip
+        with socket.create_connection((parts.hostname or "", parts.port or 0)) as half:
+            half.sendall("\r\n".join(head).encode() + b"0,1\n" * 50)
+            _until(lambda: any(path.is_file() for path in (tmp_path / "p/uploads").rglob("*")))
+        _until(lambda: not any((tmp_path / "p/uploads").iterdir()))
+        assert asked(address, "POST", f"/upload/{name}/done?files=1")[0] == 409
+        _, name = asked(address, "POST", "/upload")
+        assert asked(address, "PUT", f"/upload/{name}?name=a.csv", b"0,1\n") == (200, "kept")
+        assert asked(address, "POST", f"/upload/{name}/done?files=2") == (409, "1 of 2 files arrived; drop them again")
+    assert list((tmp_path / "p/uploads").iterdir()) == []
+    assert not (tmp_path / "p/data").exists()
+
+
+def _until(met: Callable[[], bool]) -> None:
+    begun = time.monotonic()
+    while not met():
+        assert time.monotonic() - begun < 60
+        time.sleep(0.01)
 
 
 def asked(address: str, method: str, path: str, body: bytes = b"") -> tuple[int, str]:

@@ -1,6 +1,7 @@
 """Drops: what they become, and what never leaves or fills the project's folder."""
 
 import asyncio
+import hashlib
 import io
 import re
 import zipfile
@@ -10,9 +11,10 @@ from pathlib import Path
 import pytest
 
 from pysim.app.project import Project
-from pysim.app.upload import Batch, Limits, adopt
+from pysim.app.upload import Batch, Limits, adopt, announced
 from pysim.types import BadInput
 
+SENT = b"0,1\n0,1\n"
 TOML = '[dataset]\nname = "a"\n'
 
 
@@ -31,7 +33,7 @@ def batch(project: Project, files: dict[str, bytes], limits: Limits = Limits()) 
             yield data[k : k + 7]
 
     for name, data in files.items():
-        asyncio.run(found.take(name, pieces(data)))
+        asyncio.run(found.take(name, pieces(data), size=len(data)))
     return found
 
 
@@ -41,6 +43,43 @@ def packed(files: dict[str, bytes]) -> bytes:
         for name, content in files.items():
             archive.writestr(name, content)
     return data.getvalue()
+
+
+@pytest.mark.parametrize(
+    ("came", "digest", "why"),
+    [
+        (b"0,1\n0,", None, r"d/a.csv did not arrive whole \(6 bytes where 8 were announced\); drop it again"),
+        (b"0,1\n0,1\n0", None, r"d/a.csv did not arrive whole \(9 bytes where 8 were announced\); drop it again"),
+        (b"0,1\n0,2\n", hashlib.sha256(SENT).digest(), "d/a.csv did not arrive as it was sent"),
+        (None, None, "the connection broke"),
+    ],
+)
+def test_of_a_file_that_does_not_arrive_as_it_was_sent_nothing_stays(
+    project: Project, came: bytes | None, digest: bytes | None, why: str
+) -> None:
+    coming = batch(project, {"d/b.csv": b"0,1\n"})
+
+    async def pieces() -> AsyncIterator[bytes]:
+        if came is None:
+            yield SENT[:3]
+            raise ConnectionError("the connection broke")
+        yield came
+
+    with pytest.raises((BadInput, ConnectionError), match=why):
+        asyncio.run(coming.take("d/a.csv", pieces(), size=len(SENT), digest=digest))
+    assert coming.whole == 1
+    assert [path.name for path in (coming.folder / coming.name).rglob("*")] == ["d", "b.csv"]
+
+
+def test_what_a_sender_says_of_a_file_is_read_as_the_standards_write_it() -> None:
+    # RFC 9530, appendix B.1: {"hello": "world"} and a line feed
+    digest = "sha-256=:RK/0qy18MlBSVnWgjwz6lZEWjP/lF5HF9bvEF8FabDg=:"
+    told = announced({"content-length": "19", "content-digest": f"unixsum=:00:, {digest}"})
+    assert told == (19, hashlib.sha256(b'{"hello": "world"}\n').digest())
+    assert announced({"content-length": "0"}) == (0, None)
+    for headers in ({}, {"content-length": "-1"}, {"content-length": "9", "content-digest": "sha-256=:RK/0:"}):
+        with pytest.raises(BadInput, match="drop it again"):
+            announced(headers)
 
 
 @pytest.mark.parametrize("as_zip", [False, True])
