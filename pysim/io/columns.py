@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from pysim.io.named_columns import Numbers
+from pysim.io.named_columns import Table
 from pysim.io.parquet_table import read_parquet
 from pysim.io.tdms_table import read_tdms
 from pysim.io.text_fields import LEFT_OUT
@@ -22,7 +22,7 @@ TIME = "time"
 _MANY = 0.05  # of all rows: more of them that stand still are no slip
 
 # Files that name their columns themselves; all others are text.
-_BY_NAME: Mapping[str, Callable[[Path, tuple[str, ...], str], list[Numbers]]] = {
+_BY_NAME: Mapping[str, Callable[[Path, tuple[str, ...], str], Table]] = {
     ".parquet": read_parquet,
     ".tdms": read_tdms,
 }
@@ -59,7 +59,9 @@ class Columns:
             second: how many s the unit of the file's times is.
         """
         factors = np.array([second if other == name and name not in self.seconds else 1.0 for other in self.names])
-        return replace(self, values=self.values * factors, seconds=self.seconds | {name})
+        # a long log is not copied for nothing
+        values = self.values if np.all(factors == 1.0) else self.values * factors
+        return replace(self, values=values, seconds=self.seconds | {name})
 
     def __getitem__(self, name: str) -> Array:
         """The column of that name, (n_r,)."""
@@ -85,12 +87,13 @@ def read_columns(path: Path, names: tuple[str, ...], wanted_by: str, *, clock: s
     by_name = _BY_NAME.get(path.suffix.lower())
     wanted = tuple(name for name in names if name != LEFT_OUT)
     if by_name is not None:
-        columns = by_name(path, tuple(clock if name == TIME else name for name in wanted), wanted_by)
-        if not columns[0].values.size:
+        own = tuple(clock if name == TIME else name for name in wanted)
+        table = by_name(path, own, wanted_by)
+        rows = table.values.shape[0]
+        if not rows:
             raise BadInput(f"{path} holds no numbers; it needs rows of {', '.join(wanted)}")
-        values = np.column_stack([column.values for column in columns])
-        seconds = frozenset(name for name, column in zip(wanted, columns, strict=True) if column.seconds)
-        return Columns(path, wanted, values, np.arange(1, values.shape[0] + 1), "row", seconds)
+        seconds = frozenset(name for name, its in zip(wanted, own, strict=True) if its in table.seconds)
+        return Columns(path, wanted, table.values, np.arange(1, rows + 1), "row", seconds)
     values, lines = read_table(path, names, wanted_by)
     return Columns(path, wanted, values[:, [name != LEFT_OUT for name in names]], lines)
 

@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path, PurePosixPath
 
+from pysim.io.limits import LIMITS
 from pysim.io.measured_log import LOGS, TIME, read_log
 from pysim.io.measured_table import TABLE, read_measured_table
 from pysim.io.text_fields import LEFT_OUT
 from pysim.io.toml_section import Section, read_toml
 from pysim.io.units import Scale, signal_in_si, unit_cure
-from pysim.types import SECONDS, SI, UNITS, BadInput, Dataset, MeasuredSignal
+from pysim.types import SECONDS, SI, UNITS, BadInput, Dataset, MeasuredRecord, MeasuredSignal, Record
 
 _KEYS = ("dataset", "signals", "records")
 _DATASET_KEYS = ("name", "description", "system", "time_unit")
@@ -61,13 +62,16 @@ def _read(folder: Path, *, keep_going: bool) -> tuple[Dataset, tuple[tuple[str, 
     kinds = [_kind(section) for section in sections]
     _refuse_repeated(sections)
     second = SECONDS[head.text("time_unit", "s", among=tuple(SECONDS))]
-    records, refused = [], []
+    records: list[MeasuredRecord] = []
+    refused, numbers = [], 0
     for section, kind in zip(sections, kinds, strict=True):
         try:
             if kind == TABLE:
                 records.append(read_measured_table(toml.path.parent, section, written))
             else:
-                records.append(read_log(toml.path.parent, section, kind, written, scales, second))
+                log = read_log(toml.path.parent, section, kind, written, scales, second)
+                numbers = _counted(section, numbers, log)
+                records.append(log)
         except BadInput as error:
             if not keep_going:
                 raise
@@ -75,6 +79,18 @@ def _read(folder: Path, *, keep_going: bool) -> tuple[Dataset, tuple[tuple[str, 
     signals = tuple(signal_in_si(signal) for signal in written.values())
     name, about, system = head.text("name"), head.text("description", "-"), head.text("system", "-")
     return Dataset(name, about, system, signals, tuple(records)), tuple(refused)
+
+
+def _counted(section: Section, before: int, log: MeasuredRecord) -> int:
+    """Numbers of the logs so far, with this one; a small file may hold many, and several records may name it."""
+    data = log.data
+    numbers = before + (data.time.size + data.values.size if isinstance(data, Record) else 0)
+    if numbers > LIMITS.dataset_numbers:
+        raise BadInput(
+            f"{section.place}: with this log the data set holds {numbers} numbers, and {LIMITS.dataset_numbers} at "
+            "most are read; write fewer samples a second, or leave logs out"
+        )
+    return numbers
 
 
 def _description(place: Path) -> Path:

@@ -73,7 +73,8 @@ def in_si(columns: Columns, scales: Mapping[str, Scale], origin: str) -> Record:
     names = tuple(name for name in columns.names if name != TIME)
     own = [scales[name] for name in names]
     order = [columns.names.index(name) for name in names]
-    values = columns.values[:, order] * np.array([scale.gain for scale in own])
+    values = columns.values[:, order]  # a copy
+    values *= np.array([scale.gain for scale in own])
     zeros = np.array([scale.zero for scale in own])
     if zeros.any():
         values += zeros

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from pysim.io.limits import ReadLimits
 from pysim.types import BadInput
 
 Array = NDArray[np.float64]
@@ -30,6 +31,19 @@ class Numbers:
 
     values: Array
     seconds: bool = False
+
+
+@dataclass(frozen=True)
+class Table:
+    """The wanted columns of a file that names them.
+
+    Args:
+        values: (n_r, n_c), finite.
+        seconds: columns that are in s, as of `Numbers`.
+    """
+
+    values: Array
+    seconds: frozenset[str] = frozenset()
 
 
 def optional_package(module: str, wanted_by: str, package: str) -> ModuleType:
@@ -65,9 +79,24 @@ def refuse_missing(
             raise BadInput(f"{wanted_by}: {path} has {found}; name one of {', '.join(shown or present)}")
 
 
-def as_numbers(path: Path, name: str, cells: NDArray[Any]) -> Numbers:
+def refuse_many(path: Path, numbers: int, wanted_by: str, limits: ReadLimits) -> None:
+    """A file may hold so many numbers in the columns that are wanted of it.
+
+    Raises:
+        BadInput: it announces more.
+    """
+    if numbers > limits.file_numbers:
+        raise BadInput(
+            f"{wanted_by}: {path} holds {numbers} numbers in the columns that are named, and {limits.file_numbers} at "
+            "most are read from one file; name fewer columns, or split it into several logs"
+        )
+
+
+def as_numbers(path: Path, name: str, cells: NDArray[Any], *, row: int = 1) -> Numbers:
     """Finite numbers (n_r,) from the cells of a column; moments become seconds since the first one.
 
+    Args:
+        row: of the first cell in the file, for messages.
     Raises:
         BadInput: a cell that is empty, text or not finite, with its row.
     """
@@ -79,11 +108,13 @@ def as_numbers(path: Path, name: str, cells: NDArray[Any]) -> Numbers:
     elif cells.dtype.kind in "fiub":
         values = cells.astype(np.float64)
     else:
-        values = np.array([_number(path, name, row, cell) for row, cell in enumerate(cells.tolist(), 1)])
+        values = np.array(
+            [_number(path, name, k, cell) for k, cell in enumerate(cells.tolist(), row)], dtype=np.float64
+        )
     wrong = np.flatnonzero(~np.isfinite(values))
     if wrong.size:
         what = "empty or not a number" if math.isnan(values[wrong[0]]) else "not finite"
-        raise BadInput(f"{path}, row {wrong[0] + 1}: {name} is {what}; correct it or remove the row")
+        raise BadInput(f"{path}, row {wrong[0] + row}: {name} is {what}; correct it or remove the row")
     return Numbers(values, seconds)
 
 

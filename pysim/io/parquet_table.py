@@ -3,25 +3,91 @@
 from __future__ import annotations
 
 from pathlib import Path
+from types import ModuleType
+from typing import Any
 
-from pysim.io.named_columns import Numbers, as_numbers, optional_package, refuse_missing
+import numpy as np
+from numpy.typing import NDArray
+
+from pysim.io.limits import LIMITS, ReadLimits
+from pysim.io.named_columns import Table, as_numbers, optional_package, refuse_many, refuse_missing
 from pysim.types import BadInput
 
 
-def read_parquet(path: Path, names: tuple[str, ...], wanted_by: str) -> list[Numbers]:
-    """The named columns, (n_r,) each.
+def read_parquet(path: Path, names: tuple[str, ...], wanted_by: str, limits: ReadLimits = LIMITS) -> Table:
+    """The named columns, unpacked some rows at a time.
 
     Args:
         wanted_by: what named the file, for messages.
+        limits: what the file's own directory may announce, before anything is unpacked.
     Raises:
-        BadInput: the package is missing, no Parquet file, or a column that is not there or holds no numbers.
+        BadInput: the package is missing, no Parquet file, a column that is not there or holds no numbers, or a file
+            that unpacks to more than the limits.
     """
     need = f"{wanted_by}: {path} is a Parquet file"
     arrow, parquet = (optional_package(module, need, "pyarrow") for module in ("pyarrow", "pyarrow.parquet"))
     try:
         with parquet.ParquetFile(path) as file:
-            refuse_missing(path, names, file.schema_arrow.names, wanted_by)
-            table = file.read(columns=list(names))
-    except (OSError, arrow.ArrowInvalid) as error:
+            schema = file.schema_arrow
+            refuse_missing(path, names, schema.names, wanted_by)
+            texts = [name for name in names if _is_text(arrow, path, name, schema.field(name).type)]
+            _refuse_large(path, file.metadata, names, wanted_by, limits)
+        # the cells of a column of texts are kept once each, so that a repeated one does not multiply
+        with parquet.ParquetFile(path, read_dictionary=texts) as file:
+            return _read(path, file, names, limits)
+    except (OSError, arrow.ArrowException) as error:
         raise BadInput(f"{wanted_by}: cannot read {path} as Parquet ({error}); correct the name or the file") from error
-    return [as_numbers(path, name, table.column(name).to_numpy()) for name in names]
+
+
+def _is_text(arrow: ModuleType, path: Path, name: str, kind: Any) -> bool:
+    """Whether a column's numbers are written as text."""
+    types = arrow.types
+    if types.is_dictionary(kind):
+        kind = kind.value_type
+    if types.is_string(kind) or types.is_large_string(kind):
+        return True
+    plain = (types.is_integer, types.is_floating, types.is_boolean, types.is_decimal, types.is_temporal, types.is_null)
+    if not any(one(kind) for one in plain):
+        raise BadInput(f"{path}: {name} holds {kind} and no numbers; write one number a row")
+    return False
+
+
+def _refuse_large(path: Path, about: Any, names: tuple[str, ...], wanted_by: str, limits: ReadLimits) -> None:
+    """What the directory announces must be within the limits."""
+    refuse_many(path, about.num_rows * len(names), wanted_by, limits)
+    size = 0
+    for group in map(about.row_group, range(about.num_row_groups)):
+        columns = map(group.column, range(group.num_columns))
+        size += sum(column.total_uncompressed_size for column in columns if column.path_in_schema in names)
+    if size > limits.file_bytes:
+        raise BadInput(
+            f"{wanted_by}: {path} unpacks to {size / 1e6:.0f} MB in the columns {', '.join(names)}, and "
+            f"{limits.file_bytes / 1e6:.0f} MB at most are unpacked; split it into several logs"
+        )
+
+
+def _read(path: Path, file: Any, names: tuple[str, ...], limits: ReadLimits) -> Table:
+    values = np.empty((file.metadata.num_rows, len(names)))
+    begun: dict[str, Any] = {}  # the first moment of a column of moments
+    seconds: set[str] = set()
+    row = 0
+    for batch in file.iter_batches(batch_size=limits.batch_rows, columns=list(names), use_threads=False):
+        if row + batch.num_rows > values.shape[0]:
+            raise BadInput(f"{path} holds more rows than it announces ({values.shape[0]}); export it again")
+        for j, name in enumerate(names):
+            cells = _cells(batch.column(name))
+            if cells.dtype.kind == "M":
+                cells = cells - begun.setdefault(name, cells[:1]).repeat(cells.size)
+            found = as_numbers(path, name, cells, row=row + 1)
+            values[row : row + batch.num_rows, j] = found.values
+            seconds |= {name} if found.seconds else set()
+        row += batch.num_rows
+    return Table(values[:row], frozenset(seconds))
+
+
+def _cells(column: Any) -> NDArray[Any]:
+    """Of some rows; of texts those that are the same are one object."""
+    if not hasattr(column, "dictionary"):
+        return np.asarray(column.to_numpy(zero_copy_only=False))
+    own = np.array([*column.dictionary.to_pylist(), None], dtype=object)  # None: an empty cell
+    return np.asarray(own[column.indices.fill_null(-1).to_numpy(zero_copy_only=False)])

@@ -9,7 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from pysim.io.named_columns import Numbers, as_numbers, optional_package, refuse_missing
+from pysim.io.limits import LIMITS, ReadLimits
+from pysim.io.named_columns import Numbers, Table, as_numbers, optional_package, refuse_many, refuse_missing
 from pysim.types import BadInput
 
 Array = NDArray[np.float64]
@@ -42,22 +43,29 @@ def _told_apart(channels: list[Any]) -> tuple[str, ...]:
     return tuple(c.name if names.count(c.name) == 1 else f"{c.group_name}/{c.name}" for c in channels)
 
 
-def read_tdms(path: Path, names: tuple[str, ...], wanted_by: str) -> list[Numbers]:
-    """The named channels, (n_r,) each: by the channel's own name, or "group/channel" where two groups have it.
+def read_tdms(path: Path, names: tuple[str, ...], wanted_by: str, limits: ReadLimits = LIMITS) -> Table:
+    """The named channels: by the channel's own name, or "group/channel" where two groups have it.
 
     Waveforms carry no channel of times but a start and an increment; the column "time" then follows from those.
 
     Args:
         wanted_by: what named the file, for messages.
+        limits: what the file may announce, before its samples are read.
     Raises:
-        BadInput: the package is missing, no TDMS file, a channel that is not there or holds no numbers, channels of
-            different lengths, or no time.
+        BadInput: the package is missing, no TDMS file, a channel that is not there or holds no numbers, more of them
+            than the limits, channels of different lengths, or no time.
     """
     tdms = optional_package("nptdms", f"{wanted_by}: {path} is a TDMS file", "npTDMS")
     try:
-        file = tdms.TdmsFile.read(path)
+        with tdms.TdmsFile.open(path) as file:
+            return _read(path, file, names, wanted_by, limits)
     except _DAMAGED as error:
+        if isinstance(error, BadInput):
+            raise
         raise BadInput(f"{wanted_by}: cannot read {path} as TDMS ({error}); correct the name or the file") from error
+
+
+def _read(path: Path, file: Any, names: tuple[str, ...], wanted_by: str, limits: ReadLimits) -> Table:
     channels = [channel for group in file.groups() for channel in group.channels()]
     if not channels:
         raise BadInput(f"{wanted_by}: cannot read {path} as TDMS (it has no channels); correct the name or the file")
@@ -68,11 +76,13 @@ def read_tdms(path: Path, names: tuple[str, ...], wanted_by: str) -> list[Number
     there = [*present, *(name for name in full if name in wanted)]
     refuse_missing(path, wanted, there, wanted_by, shown=_told_apart(channels))
     chosen = {name: channels[full.index(name) if name in full else present.index(name)] for name in wanted}
+    refuse_many(path, sum(map(len, chosen.values())), wanted_by, limits)
     columns = {name: as_numbers(path, name, np.asarray(channel[:])) for name, channel in chosen.items()}
     if clock:
         columns[_TIME] = Numbers(_common_clock(path, chosen), seconds=True)
     _refuse_different_lengths(path, columns)
-    return [columns[name] for name in names]
+    values = np.column_stack([columns[name].values for name in names])
+    return Table(values, frozenset(name for name, column in columns.items() if column.seconds))
 
 
 def _common_clock(path: Path, channels: dict[str, Any]) -> Array:

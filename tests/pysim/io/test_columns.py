@@ -13,6 +13,9 @@ from pyarrow import parquet
 
 from pysim.io import read_dataset
 from pysim.io.columns import read_columns
+from pysim.io.limits import ReadLimits
+from pysim.io.parquet_table import read_parquet
+from pysim.io.tdms_table import read_tdms
 from pysim.types import BadInput
 
 TIME = [0.0, 0.5, 1.0]
@@ -209,3 +212,68 @@ def test_standing_time_is_named_by_row(tmp_path: Path) -> None:
     )
     with pytest.raises(BadInput, match=r"log\.parquet, row 3: time stands still at 1 s"):
         read_dataset(tmp_path)
+
+
+def test_a_small_file_that_would_fill_the_memory_is_refused(tmp_path: Path) -> None:
+    """67 million zeros in some kB, half a GB as numbers and three times that while they are read."""
+    group = pa.table(dict.fromkeys(("time", "speed"), np.zeros(2**24, dtype=bool)))
+    with parquet.ParquetWriter(tmp_path / "bomb.parquet", group.schema, compression="zstd") as file:
+        for _ in range(2):
+            file.write_table(group)
+    assert (tmp_path / "bomb.parquet").stat().st_size < 2**20
+    with pytest.raises(BadInput, match=r"bomb\.parquet holds 67108864 numbers .* 60000000 at most .*; name fewer"):
+        read_columns(tmp_path / "bomb.parquet", NAMES, "test")
+
+
+@BOTH
+def test_numbers_are_counted_before_any_is_read(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, write: Write, suffix: str
+) -> None:
+    path = write(tmp_path / f"log.{suffix}", time=TIME, torque=[7, 8, 9], speed=SPEED)
+    read: Any = {"parquet": read_parquet, "tdms": read_tdms}[suffix]
+    assert read(path, NAMES, "test", ReadLimits(file_numbers=6)).values.shape == (3, 2)
+    for module, name in (("pyarrow.parquet.ParquetFile", "iter_batches"), ("nptdms.TdmsChannel", "__getitem__")):
+        monkeypatch.delattr(f"{module}.{name}")
+    with pytest.raises(BadInput, match="6 numbers in the columns that are named, and 5 at most"):
+        read(path, NAMES, "test", ReadLimits(file_numbers=5))
+
+
+def test_texts_that_unpack_to_too_much_are_refused(tmp_path: Path) -> None:
+    path = as_parquet(tmp_path / "log.parquet", time=TIME, speed=["1", "2", "3" * 1000])
+    with pytest.raises(BadInput, match=r"unpacks to \d+ MB in the columns speed, time, and 0 MB at most"):
+        read_parquet(path, NAMES, "test", ReadLimits(file_bytes=1000))
+
+
+def test_logs_of_a_data_set_are_counted_together(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    as_parquet(tmp_path / "log.parquet", command=[1, 2, 3], other=[1, 2, 3], time=TIME, speed=SPEED)
+    text = 'file = "log.parquet"\ncolumns = ["time", "command", "speed"]\n[signals.other]\nrole = "input"\nunit = "V"\n'
+    text += '[[records]]\nkind = "other"\nfile = "log.parquet"\ncolumns = ["time", "other", "speed"]'
+    monkeypatch.setattr("pysim.io.dataset.LIMITS", ReadLimits(dataset_numbers=18))
+    assert len(read_dataset(described(tmp_path, text)).records) == 2
+    monkeypatch.setattr("pysim.io.dataset.LIMITS", ReadLimits(dataset_numbers=17))
+    with pytest.raises(BadInput, match=r"line 17: with this log the data set holds 18 numbers, and 17"):
+        read_dataset(tmp_path)
+
+
+def test_rows_keep_their_order_and_number_from_batch_to_batch(tmp_path: Path) -> None:
+    rows = np.arange(1000)
+    moments = np.datetime64(START) + rows.astype("timedelta64[s]")
+    columns = {
+        "a": rows / 8,
+        "b": pa.array([f"{k % 7}" for k in rows]),
+        "c": moments,
+        "d": pa.array(rows.tolist(), pa.decimal128(9)),
+    }
+    path = as_parquet(tmp_path / "log.parquet", **columns)
+    found = read_parquet(path, ("c", "a", "d", "b"), "test", ReadLimits(batch_rows=64))
+    np.testing.assert_array_equal(found.values, np.column_stack([rows, rows / 8, rows, rows % 7]))
+    assert found.seconds == {"c"}
+    path = as_parquet(tmp_path / "log.parquet", a=np.where(rows == 700, np.nan, rows))
+    with pytest.raises(BadInput, match="row 701: a is empty or not a number"):
+        read_parquet(path, ("a",), "test", ReadLimits(batch_rows=64))
+
+
+def test_a_column_of_lists_holds_no_numbers(tmp_path: Path) -> None:
+    path = as_parquet(tmp_path / "log.parquet", time=TIME, speed=[[1.0], [2.0], [3.0]])
+    with pytest.raises(BadInput, match=r"speed holds list.* and no numbers; write one number a row"):
+        read_parquet(path, NAMES, "test")

@@ -1,0 +1,44 @@
+"""How much is read from files that pack their content: a small file may unpack to more than a machine holds."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+
+def limit(default: int, *, unit: str, meaning: str, source: str) -> Any:
+    """A field of a dataclass of limits, with what a reader must know of its number."""
+    return field(default=default, metadata={"unit": unit, "meaning": meaning, "source": source})
+
+
+@dataclass(frozen=True)
+class ReadLimits:
+    """Of logs; each field has its unit, meaning and source as metadata."""
+
+    file_numbers: int = limit(
+        60_000_000,
+        unit="numbers",
+        meaning="rows times named columns of one Parquet or TDMS file",
+        source="a log of 10 million rows with a time, a command and four signals; measured: 1.5 GB while it is read",
+    )
+    file_bytes: int = limit(
+        1_000_000_000,
+        unit="bytes",
+        meaning="the named columns of one Parquet file once unpacked, as its directory gives them",
+        source="16 bytes for each of these numbers, as a text of 16 digits takes",
+    )
+    dataset_numbers: int = limit(
+        120_000_000,
+        unit="numbers",
+        meaning="times and values of all logs of a data set",
+        source="two of the largest logs: 1 GB as float64, an eighth of a small computer's memory",
+    )
+    batch_rows: int = limit(
+        65_536,
+        unit="rows",
+        meaning="of a Parquet file that are unpacked at a time",
+        source="what pyarrow takes where nothing is said; 0.5 MB a column",
+    )
+
+
+LIMITS = ReadLimits()
