@@ -7,11 +7,10 @@ from dataclasses import dataclass
 from itertools import count
 from typing import Any, NamedTuple, TypeVar
 
-from pysim.app.log_numbers import log_numbers
 from pysim.app.working_point import command_unit, working_point
 from pysim.types import Dataset
 
-_Row = dict[str, tuple[float, int | None]]  # column -> error and number of the log
+_Row = dict[str, tuple[float, int]]  # column -> error and number of the log
 _Key = TypeVar("_Key")
 
 
@@ -53,13 +52,14 @@ def error_maps(stage: Mapping[str, Any], dataset: Dataset) -> list[ErrorMap]:
     tests = dataset.logs()
     sines: dict[tuple[_Point, int], _Row] = {}
     logs: dict[tuple[str, int], _Row] = {}
-    for record, number in zip(stage["records"], log_numbers(stage, dataset), strict=True):
-        test = None if number is None else tests[number]
+    for record in stage["records"]:
+        number = record["index"]
+        test = tests[number]
         for signal, value in zip(record["names"], record["rms"], strict=True):
             if value is None:
                 continue
             cell = (value, number)
-            if record["frequency"] is not None and test is not None and test.offset is not None:
+            if record["frequency"] is not None and test.offset is not None:
                 point = _Point(test.command, test.offset, float(test.amplitude or 0.0), signal)
                 _put(sines, point, f"{record['frequency']:g}", cell)
             else:
@@ -74,7 +74,7 @@ def error_maps(stage: Mapping[str, Any], dataset: Dataset) -> list[ErrorMap]:
     return [one for one in maps if one.rows]
 
 
-def _put(table: dict[tuple[_Key, int], _Row], row: _Key, column: str, cell: tuple[float, int | None]) -> None:
+def _put(table: dict[tuple[_Key, int], _Row], row: _Key, column: str, cell: tuple[float, int]) -> None:
     """In the first row of that key where the column is free: no repeat hides another."""
     repeat = next(k for k in count(1) if column not in table.get((row, k), {}))
     table.setdefault((row, repeat), {})[column] = cell

@@ -12,9 +12,8 @@ from numpy.typing import NDArray
 from pysim.app.answers import Answer
 from pysim.app.decimate import decimated, window
 from pysim.app.figures import LOOKS, Figure, overlay_figure, signal_trace
-from pysim.app.log_numbers import log_numbers
 from pysim.io import shown_unit
-from pysim.types import Dataset, MeasuredRecord, Record
+from pysim.types import MeasuredRecord, Record
 
 Array = NDArray[np.float64]
 
@@ -97,9 +96,9 @@ def measured_overlay(record: MeasuredRecord) -> Overlay:
     return Overlay(data.names, units, (), tuple(lines))
 
 
-def compared_overlay(answer: Answer, dataset: Dataset, number: int) -> Overlay | None:
+def compared_overlay(answer: Answer, number: int) -> Overlay | None:
     """A log, by its number among those of the data set, beside the models of an answer; None where not compared."""
-    sides = [(key, words, _of(stage, dataset, number)) for key, words, stage in stage_keys(answer)]
+    sides = [(key, words, _of(stage, number)) for key, words, stage in stage_keys(answer)]
     found = [(key, words, own) for key, words, own in sides if own is not None]
     if not found:
         return None
@@ -120,9 +119,8 @@ def compared_overlay(answer: Answer, dataset: Dataset, number: int) -> Overlay |
     return Overlay(tuple(first["names"]), units, models, tuple(lines))
 
 
-def _of(stage: Mapping[str, Any], dataset: Dataset, number: int) -> Mapping[str, Any] | None:
-    numbers = log_numbers(stage, dataset)
-    return next((record for record, own in zip(stage["records"], numbers, strict=True) if own == number), None)
+def _of(stage: Mapping[str, Any], number: int) -> Mapping[str, Any] | None:
+    return next((record for record in stage["records"] if record["index"] == number), None)
 
 
 def _shown(units: Sequence[str]) -> tuple[tuple[str, ...], tuple[float, ...]]:

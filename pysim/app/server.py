@@ -237,6 +237,6 @@ def overlay_of(desk: Desk, of: str, record: int) -> Overlay | None:
         return measured_overlay(check.dataset.logs()[record])
     answer = next((one for one in desk.answers.all if one.job.work.name == of), None)
     try:
-        return None if answer is None else compared_overlay(answer, check.dataset, record)
+        return None if answer is None else compared_overlay(answer, record)
     except BadInput:  # its files were removed meanwhile, as it is to be run anew
         return None

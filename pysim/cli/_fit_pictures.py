@@ -55,17 +55,15 @@ def _sines(records: Sequence[RecordFit], datasets: Sequence[Dataset]) -> list[tu
 
 def _tests(records: Sequence[RecordFit], datasets: Sequence[Dataset]) -> list[str]:
     """What the data sets say of each record: where it was measured, and whose command swings how."""
-    from pysim.identify import ComparedLog, log_numbers
     from pysim.io import shown_value
 
     words = [f"of {Path(record.source).parent.as_posix()}" for record in records]
-    for one in datasets:
-        places, logs = [k for k, record in enumerate(records) if record.dataset == one.name], one.logs()
-        numbers = log_numbers([ComparedLog.of(records[k]) for k in places], one)
-        for k, test in ((k, logs[n]) for k, n in zip(places, numbers, strict=True) if n is not None):
-            if test.command and test.offset is not None and test.amplitude is not None:
-                unit = one.signal(test.command).unit
-                around, swing = shown_value(test.offset, unit), shown_value(test.amplitude, unit)
-                words[k] = f"at {test.command} {around}, amplitude {swing}"
+    for k, record in enumerate(records):
+        own = [one for one in datasets if one.name == record.dataset]
+        test = own[0].logs()[record.index] if len(own) == 1 else None
+        if test is not None and test.command and test.offset is not None and test.amplitude is not None:
+            unit = own[0].signal(test.command).unit
+            around, swing = shown_value(test.offset, unit), shown_value(test.amplitude, unit)
+            words[k] = f"at {test.command} {around}, amplitude {swing}"
     several = len(datasets) > 1
     return [f"{word} ({record.dataset})" if several else word for word, record in zip(words, records, strict=True)]

@@ -127,7 +127,7 @@ def _ruler(
         reading = Record(experiment.times, nothing, tuple(s.name for s in signals), tuple(s.unit for s in signals))
         noise = tuple(_noise(signal) for signal in signals)
         run = Run(str(number), experiment)
-        targets.append(LogTarget("next test", str(number), "other", "fit", reading, noise, noise, run))
+        targets.append(LogTarget("next test", str(number), "other", "fit", reading, noise, noise, run, index=number))
     return Ruler(tuple(targets), workers=workers)
 
 

@@ -17,7 +17,6 @@ from pysim.identify.frequency_response import (
 )
 from pysim.identify.frf import MeasuredResponse, SinePoint, Window, measured_responses, sine_point
 from pysim.identify.interval import HALF_95
-from pysim.identify.log_numbers import ComparedLog, log_numbers
 from pysim.identify.logged import LoggedWave, logged_command, logged_wave
 from pysim.identify.settling import SteadyRun, run_until_settled
 from pysim.identify.sine_fit import SineFit, sine_fit
@@ -29,7 +28,6 @@ __all__ = [
     "HALF_95",
     "THESIS_REFERENCE_HZ",
     "TIME_CRITERIA",
-    "ComparedLog",
     "LoggedWave",
     "MeasuredResponse",
     "SineFit",
@@ -41,7 +39,6 @@ __all__ = [
     "command",
     "frequency_deviations",
     "frequency_response",
-    "log_numbers",
     "logged_command",
     "logged_wave",
     "magnitude_db",

@@ -19,7 +19,7 @@ from pysim.types import BadInput, Deviation, Estimate, RecordFit, ResponseFit, S
 
 Array = NDArray[np.float64]
 
-_FORM = 1
+_FORM = 2
 
 
 @dataclass(frozen=True)
@@ -105,7 +105,13 @@ def _record(fit: RecordFit, own: str, first: str, arrays: dict[str, Array]) -> d
         keys[what] = f"{letter}{first if same else own}"
         arrays[keys[what]] = values[what]
     deviations = {name: [_deviation(d) for d in own_ones] for name, own_ones in fit.deviations.items()}
-    about: dict[str, Any] = {"source": fit.source, "kind": fit.kind, "use": fit.use, "names": list(fit.measured.names)}
+    about: dict[str, Any] = {
+        "index": fit.index,
+        "source": fit.source,
+        "kind": fit.kind,
+        "use": fit.use,
+        "names": list(fit.measured.names),
+    }
     rms = [json_number(value) for value in fit.rms.values()]
     about |= {"units": list(fit.measured.units), "noise": list(fit.noise), "rms": rms}
     frequency = fit.harmonics[0].frequency if fit.harmonics else None

@@ -10,7 +10,7 @@ from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from pysim.identify import HALF_95, ComparedLog
+from pysim.identify import HALF_95
 from pysim.io import shown_unit
 from pysim.plot.style import BAND, COLOURS, DASHES, LIMIT, MEASURED, SMALL, TEXT, legend_above, new_figure, quiet
 from pysim.types import BadInput, Diagnosis, RecordFit, Stage
@@ -39,13 +39,9 @@ def base_of(diagnosis: Diagnosis) -> Stage | None:
     return stages.get("refit", stages.get("prior"))
 
 
-def same_record(record: RecordFit, own: Stage, other: Stage) -> RecordFit | None:
-    """A record of one stage in another one; None where that has none, or nothing tells which of several it is."""
-    here, there = (
-        [one for one in stage.records if ComparedLog.of(one) == ComparedLog.of(record)] for stage in (own, other)
-    )
-    place = next((k for k, one in enumerate(here) if one is record), None)
-    return None if place is None or len(here) != len(there) else there[place]
+def same_record(record: RecordFit, stage: Stage) -> RecordFit | None:
+    """The record of the same log in a stage; None where that has none."""
+    return next((one for one in stage.records if one.index == record.index), None)
 
 
 def stages_shown(diagnosis: Diagnosis) -> list[tuple[str, Stage, str]]:
@@ -76,13 +72,10 @@ def diagnosis_overlay_figure(diagnosis: Diagnosis, record: RecordFit) -> Figure:
         BadInput: it is none of these.
     """
     base = base_of(diagnosis)
-    beside = [
-        (name, None if base is None else same_record(record, base, stage), colour)
-        for name, stage, colour in stages_shown(diagnosis)
-    ]
-    shown = [(name, one, colour) for name, one, colour in beside if one is not None]
-    if not shown:
+    if base is None or not any(one is record for one in base.records):
         raise BadInput(f"overlay figure: {record.source!r} is no record of the diagnosis' base model")
+    beside = [(name, same_record(record, stage), colour) for name, stage, colour in stages_shown(diagnosis)]
+    shown = [(name, one, colour) for name, one, colour in beside if one is not None]
     first = shown[min(1, len(shown) - 1)][1]
     names = first.measured.names
     figure = new_figure(1.2 + 4.6 * max(len(names), 1.4), 4.8)

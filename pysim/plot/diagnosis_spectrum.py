@@ -58,7 +58,7 @@ def diagnosis_spectrum_figure(diagnosis: Diagnosis) -> Figure:
     handles: dict[str, Artist] = {}
     for own, (record, j) in zip(axes.ravel(), panels, strict=False):
         for (name, stage, colour), dash in zip(shown, reversed(DASHES[: len(shown)]), strict=True):  # the last: solid
-            one = same_record(record, shown[0][1], stage)
+            one = same_record(record, stage)
             if one is not None:
                 handles[name] = _draw(own, one, j, {"color": colour, "linestyle": dash})
         own.set_title(f"{record.source}: {record.measured.names[j]}", fontsize=SMALL, loc="left")

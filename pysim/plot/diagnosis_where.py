@@ -13,7 +13,6 @@ from matplotlib.figure import Figure
 from matplotlib.image import AxesImage
 from numpy.typing import NDArray
 
-from pysim.identify import ComparedLog, log_numbers
 from pysim.io import shown_point
 from pysim.plot.diagnosis_records import base_of, stages_compared
 from pysim.plot.style import BAND, COLOURS, LIMIT, SMALL, TEXT, legend_above, new_figure, quiet
@@ -70,12 +69,11 @@ def diagnosis_map_figure(diagnosis: Diagnosis, dataset: Dataset) -> Figure:
 def _sines(name: str, stage: Stage, dataset: Dataset) -> _Field:
     """Rows by operating point; of a test that was repeated the worst is shown."""
     logs = dataset.logs()
-    numbers = log_numbers([ComparedLog.of(record) for record in stage.records], dataset)
-    own = [(record, number) for record, number in zip(stage.records, numbers, strict=True) if record.harmonics]
-    several = len({n for record, _ in own for n in record.measured.names}) > 1
+    own = [record for record in stage.records if record.harmonics]
+    several = len({name for record in own for name in record.measured.names}) > 1
     rows: dict[tuple[_Point, str], dict[str, float]] = {}
-    for record, number in own:
-        point = _point(record.source, None if number is None else logs[number], dataset)
+    for record in own:
+        point = _point(logs[record.index], dataset)
         frequency = f"{record.harmonics[0].frequency:g}"
         for signal, value in record.rms.items():
             row = rows.setdefault((point, signal if several else ""), {})
@@ -94,9 +92,9 @@ class _Point:
     label: str
 
 
-def _point(source: str, test: MeasuredRecord | None, dataset: Dataset) -> _Point:
-    if test is None or test.offset is None or test.amplitude is None:
-        return _Point("", 0.0, 0.0, source)
+def _point(test: MeasuredRecord, dataset: Dataset) -> _Point:
+    if test.offset is None or test.amplitude is None:
+        return _Point("", 0.0, 0.0, test.source)
     unit = dataset.signal(test.command).unit if test.command else ""
     several = len({record.command for record in dataset.logs() if record.command}) > 1
     label = shown_point(test.offset, test.amplitude, unit, test.command if several else "")

@@ -125,6 +125,7 @@ class RecordFit:
         noise: (n_y,) standard deviation of the measurement noise, in the columns' units.
         deviations: per column, the criteria of thesis Table 1.4.
         harmonics: of a stepped sine, one per column.
+        index: place of the log among `Dataset.logs()`, from 0; a diagnosis leaves tables out, which does not change it.
     """
 
     dataset: str
@@ -136,6 +137,7 @@ class RecordFit:
     noise: tuple[float, ...]
     deviations: Mapping[str, tuple[Deviation, ...]] = field(default_factory=dict)
     harmonics: tuple[Harmonics, ...] = ()
+    index: int = field(kw_only=True)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "deviations", FrozenMapping(self.deviations))

@@ -40,11 +40,11 @@ def estimate(name: str, value: float, half: float, *, start: float = 1.0, unit: 
     return Estimate(name, unit, value, start, 0.1, 10.0, std, interval)
 
 
-def record(source: str, use: str, step: str, seed: int, *, frequency: float = 0.0) -> RecordFit:
+def record(source: str, use: str, step: str, index: int, *, frequency: float = 0.0) -> RecordFit:
     """A log of one signal, sampled at 100 Hz for 8 s; noise 0.5 in its unit."""
     noise, time = 0.5, np.arange(0, 8, 0.01)
     wave = np.sin(2 * np.pi * (frequency or 0.7) * time)
-    white = np.random.default_rng(seed).standard_normal(time.size)
+    white = np.random.default_rng(index + 1).standard_normal(time.size)
     white = (white - white.mean()) / white.std()  # so that what is left over has a known size
     left = LEFT[step] * (1.5 if frequency == 1.0 else 1.0)
     ripple = 6 * np.sin(2 * np.pi * WAVE * time) if (step, use, frequency) == ("refit", "fit", 0.0) else 0.0
@@ -55,16 +55,16 @@ def record(source: str, use: str, step: str, seed: int, *, frequency: float = 0.
         size = np.array([0.0, 20.0], dtype=np.complex128)
         harmonics = (Harmonics("x", frequency, size + noise * np.array([left, 0]), size, np.array([0.1, 0.1])),)
     kind = "frequency-response" if frequency else "stochastic"
-    return RecordFit("toy", source, kind, use, *columns, (noise,), {}, harmonics)
+    return RecordFit("toy", source, kind, use, *columns, (noise,), {}, harmonics, index=index)
 
 
 def stage(step: str, *estimates: Estimate, **told: object) -> Stage:
     """With two stepped sines, a log, and a log held out."""
     records = (
-        record("sines/1Hz.txt", "fit", step, 1, frequency=1.0),
-        record("sines/5Hz.txt", "fit", step, 2, frequency=5.0),
-        record("wave.txt", "fit", step, 3),
-        record("held.txt", "validate", step, 4),
+        record("sines/1Hz.txt", "fit", step, 0, frequency=1.0),
+        record("sines/5Hz.txt", "fit", step, 1, frequency=5.0),
+        record("wave.txt", "fit", step, 2),
+        record("held.txt", "validate", step, 3),
     )
     where = tuple(Failure(r.source, "x", "everywhere", r.rms["x"]) for r in records)
     return Stage(step, estimates, records=records, where=where, **told)

@@ -31,8 +31,9 @@ def small_fit() -> Fit:
     simulated = Record(time, measured.values + np.array([0.2, 0.0]), ("y", "u"), ("%", "1"))
     limit = Criterion("mean error", "E_t mean", 2.0, "%", "thesis Table 1.4")
     wave = RecordFit(
-        "set", "wave.txt", "stochastic", "validate", measured, simulated, (0.1, 0.002), {"y": (Deviation(limit, 0.2),)}
-    )
+        "set", "wave.txt", "stochastic", "validate", measured, simulated, (0.1, 0.002), {"y": (Deviation(limit, 0.2),)},
+        index=2,
+    )  # fmt: skip
     columns = [Record(r.time, r.values[:, :1], ("y",), ("%",)) for r in (measured, simulated)]
     sines = [
         RecordFit(
@@ -45,8 +46,9 @@ def small_fit() -> Fit:
             (0.1,),
             {},
             (Harmonics("y", f, np.array([25, 9j, 0.2]), np.array([25, 9.01j, 0.19]), np.array([0.01, 0.02, 0.02])),),
+            index=place,
         )
-        for f in (1.0, 5.0)
+        for place, f in enumerate((1.0, 5.0))
     ]
     response = FrequencyResponse(
         np.array([1.0, 5.0]), np.array([1.0, 0.9]), np.array([-0.1, -0.5]), SineTest(25, 10, "w", "y"), "measured"

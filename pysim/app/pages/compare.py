@@ -13,7 +13,6 @@ from pysim.app.answers import Answer
 from pysim.app.desk import Desk
 from pysim.app.error_map import ErrorMap, error_maps
 from pysim.app.figures import bode_figure, map_figure, step_name
-from pysim.app.log_numbers import log_numbers
 from pysim.app.pages.common import busy, ended, nothing, segments, start
 from pysim.app.parts import Chart, Table, box, button, card, head, live, quantity, text
 from pysim.app.records import MOST, compared_overlay, measured_overlay, stage_keys
@@ -114,10 +113,10 @@ def _record(desk: Desk, view: _View) -> None:
             nothing("No records yet", "Drop a data set on the page Data.")
         return
     answer = _answer(desk)
-    errors = _errors(answer, check.dataset)
+    errors = _errors(answer)
     number = _worst(logs, errors) if view.record is None or view.record >= len(logs) else view.record
     source = logs[number].source
-    overlay = compared_overlay(answer, check.dataset, number) if answer else None
+    overlay = compared_overlay(answer, number) if answer else None
     overlay = overlay or measured_overlay(logs[number])
     of = answer.job.work.name if answer and overlay.models else "data"
     with card() as place:
@@ -149,7 +148,7 @@ def _worst(logs: Sequence[MeasuredRecord], errors: Mapping[int, Sequence[float |
     return max(range(len(logs)), key=size)
 
 
-def _errors(answer: Answer | None, dataset: Dataset) -> dict[int, list[float | None]]:
+def _errors(answer: Answer | None) -> dict[int, list[float | None]]:
     """Number of a log -> error over noise of the base and of the last model, the worst signal of each.
 
     None for a model that has not simulated it.
@@ -157,10 +156,9 @@ def _errors(answer: Answer | None, dataset: Dataset) -> dict[int, list[float | N
     stages = [] if answer is None else [answer.base, answer.last][: 2 if answer.added else 1]
     found: dict[int, list[float | None]] = {}
     for k, stage in enumerate(stages):
-        for record, number in zip(stage["records"], log_numbers(stage, dataset), strict=True):
-            if number is not None:
-                told = [v for v in record["rms"] if v is not None]
-                found.setdefault(number, [None] * len(stages))[k] = max(told, default=None)
+        for record in stage["records"]:
+            sizes = [v for v in record["rms"] if v is not None]
+            found.setdefault(record["index"], [None] * len(stages))[k] = max(sizes, default=None)
     return found
 
 

@@ -105,8 +105,9 @@ def _log(target: LogTarget, simulated: Simulated) -> RecordFit:
         for j, name in enumerate(target.measured.names)
     }
     return RecordFit(
-        target.dataset, target.source, target.kind, target.use, target.measured, model, target.noise, deviations
-    )
+        target.dataset, target.source, target.kind, target.use, target.measured, model, target.noise, deviations,
+        index=target.index,
+    )  # fmt: skip
 
 
 def _sine(target: SineTarget, log: SineLog, simulated: Simulated) -> RecordFit:
@@ -118,8 +119,9 @@ def _sine(target: SineTarget, log: SineLog, simulated: Simulated) -> RecordFit:
     )
     beside = replace(log.measured, values=values, origin="simulated")
     return RecordFit(
-        target.dataset, log.source, target.kind, target.use, log.measured, beside, log.noise, {}, harmonics
-    )
+        target.dataset, log.source, target.kind, target.use, log.measured, beside, log.noise, {}, harmonics,
+        index=log.index,
+    )  # fmt: skip
 
 
 def _responses(target: SineTarget, simulated: Sequence[Simulated], column: int) -> ResponseFit:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,6 +24,7 @@ class LogTarget:
         noise: (n_y,) standard deviations, in the columns' units.
         full_scale: (n_y,) what counts as 100 percent, in the columns' units.
         run: the model's run, recorded at the log's times.
+        index: of the log, as in `RecordFit`.
     """
 
     dataset: str
@@ -35,6 +36,7 @@ class LogTarget:
     full_scale: tuple[float, ...]
     run: Run
     domain: str = "time"
+    index: int = field(kw_only=True)
 
     @property
     def runs(self) -> tuple[Run, ...]:

@@ -111,7 +111,9 @@ def build_targets(
     setting = _Setting(model, dataset, data.overrides, outputs, noise, treatment, started)
     targets: list[Target] = []
     sines: dict[tuple[object, ...], list[_Swing]] = {}
+    index = -1  # of the log
     for record in dataset.records:
+        index += isinstance(record.data, Record)
         if isinstance(record.data, FrequencyResponse):
             if record.data.test.output in outputs:
                 targets.append(_table(setting, record, record.data))
@@ -119,14 +121,14 @@ def build_targets(
             notes.append(f"{record.source}: no column of it is compared")
         elif record.kind == "frequency-response":
             test = (record.use, record.offset, record.amplitude, *setting.columns(record))
-            sines.setdefault(test, []).append(_swing(setting, record, record.data))
+            sines.setdefault(test, []).append(_swing(setting, record, record.data, index))
         else:
-            targets.append(_log(setting, record, record.data))
+            targets.append(_log(setting, record, record.data, index))
     early = _unsettled(setting, [one for group in sines.values() for one in group])
     for group in sines.values():
         steady = [one for one in group if one not in early]
         targets += [_sines(setting, steady)] if steady else []
-    targets += [_log(setting, one.record, one.data) for one in early]
+    targets += [_log(setting, one.record, one.data, one.log.index) for one in early]
     notes += unsettled_note([one.record.source for one in early])
     if any(isinstance(target, TableTarget) and not target.told for target in targets):
         notes.append("tables without covariance: 20/90 dB and 1 degree are taken as standard deviations (Eq. 2.25)")
@@ -174,7 +176,7 @@ def _full_scale(signal: MeasuredSignal, values: Array) -> float:
     return {"%": 100.0, "1": 1.0}.get(signal.unit) or float(np.max(np.abs(values))) or 1.0
 
 
-def _log(setting: _Setting, record: MeasuredRecord, data: Record) -> LogTarget:
+def _log(setting: _Setting, record: MeasuredRecord, data: Record, index: int) -> LogTarget:
     columns, outputs = setting.columns(record)
     measured, start, rest = _cut(data, outputs), float(data.time[0]), setting.treatment.rest
     commands, begin = {}, start
@@ -197,6 +199,7 @@ def _log(setting: _Setting, record: MeasuredRecord, data: Record) -> LogTarget:
         noise=tuple(setting.noise[name] for name in outputs),
         full_scale=tuple(_full_scale(setting.dataset.signal(n), measured[n]) for n in outputs),
         run=Run(record.source, experiment),
+        index=index,
     )
 
 
@@ -210,13 +213,13 @@ class _Swing:
     run: Run
 
 
-def _swing(setting: _Setting, record: MeasuredRecord, data: Record) -> _Swing:
+def _swing(setting: _Setting, record: MeasuredRecord, data: Record, index: int) -> _Swing:
     columns, outputs = setting.columns(record)
     swinging = max(columns, key=lambda column: float(np.std(data[column])))  # the others stand still
     sine = steady_sine(logged_wave(record, swinging))
     noise = tuple(setting.noise[name] for name in outputs)
     plan = setting.treatment.sine
-    log = sine_log(record.source, _cut(data, outputs), sine, noise, plan)
+    log = sine_log(record.source, _cut(data, outputs), sine, noise, plan, index=index)
     others = {c: Signal.constant(float(np.mean(data[c]))) for c in columns if c != swinging}
     return _Swing(
         record, data, log, _steady_run(setting, record.source, swinging, sine, outputs, others, plan.settle_time)

@@ -78,6 +78,7 @@ class SineLog:
         noise: (n_y,) standard deviations, in the columns' units.
         count: harmonics.
         points: samples over one period of the model's orbit.
+        index: of the log, as in `RecordFit`.
     """
 
     source: str
@@ -86,6 +87,7 @@ class SineLog:
     noise: tuple[float, ...]
     count: int
     points: int
+    index: int = field(kw_only=True)
     # every harmonic's size and phase in one: orthonormal columns (n_t, n_h) and the triangle (n_h, n_h) behind them
     _factors: tuple[Array, Array] = field(init=False, repr=False)
 
@@ -151,7 +153,7 @@ def _kept(data: Record, keep: NDArray[np.bool_]) -> Record:
     return Record(data.time[keep], data.values[keep], data.names, data.units, origin=data.origin)
 
 
-def sine_log(source: str, data: Record, sine: Sine, noise: tuple[float, ...], plan: SinePlan) -> SineLog:
+def sine_log(source: str, data: Record, sine: Sine, noise: tuple[float, ...], plan: SinePlan, *, index: int) -> SineLog:
     """Cut the last whole periods after settling.
 
     Raises:
@@ -172,4 +174,4 @@ def sine_log(source: str, data: Record, sine: Sine, noise: tuple[float, ...], pl
     count = harmonic_count(sine.frequency, 1 / gap, plan.harmonics)
     if cut.time.size < 2 * count + 2:
         raise BadInput(f"{source}: {cut.time.size} samples in {whole} periods are too few; record faster")
-    return SineLog(source, sine, cut, noise, count, plan.points)
+    return SineLog(source, sine, cut, noise, count, plan.points, index=index)

@@ -56,7 +56,7 @@ def answered(folder: Path, stages: list[dict[str, Any]]) -> None:
     (folder / "results/compare").mkdir(parents=True)
     (folder / "project.toml").write_text('model = ""\n')
     time = np.arange(0, 4, 0.005)
-    about = np.frombuffer(json.dumps({"form": 1, "stages": stages}).encode(), dtype=np.uint8)
+    about = np.frombuffer(json.dumps({"form": 2, "stages": stages}).encode(), dtype=np.uint8)
     archive = io.BytesIO()
     np.savez(archive, about=about, t=time, m=10 + 0 * time[:, None], s=10 + 0 * time[:, None])
     (folder / "results/compare/records.npz").write_bytes(archive.getvalue())
@@ -85,7 +85,7 @@ def stage(step: str, decibels: tuple[float, float]) -> dict[str, Any]:
         one = {"offset": offset, "amplitude": 10.0, "input": "u", "output": "y", "use": "fit", "frequency": F}
         one |= {"measured": {"gain": gain, "phase": [-0.1, -0.2, -0.5]}, "simulated": simulated, "message": ""}
         responses.append({**one, "passes": off <= 2.0, "deviations": told})
-    records = [{**own, "source": name} for name in names]
+    records = [{**own, "index": k, "source": name} for k, name in enumerate(names)]
     return {
         "step": step, "estimates": [], "undetermined": [], "where": [], "records": records, "responses": responses,
     }  # fmt: skip
@@ -131,7 +131,7 @@ def test_of_a_file_with_two_records_each_has_its_own_curves_and_error(shown: Any
     (folder / "data/dataset.toml").write_text(text)
     record = {**own["records"][0], "source": "both.txt", "kind": "step", "frequency": None}
     told = (("y", "fit", 2.0), ("z", "validate", 7.0))
-    records = [{**record, "names": [name], "use": use, "rms": [rms]} for name, use, rms in told]
+    records = [{**record, "index": k, "names": [n], "use": u, "rms": [rms]} for k, (n, u, rms) in enumerate(told)]
     answered(folder, [{**own, "step": step, "records": records, "responses": []} for step in ("prior", "refit")])
     with server(folder) as address:
         tab = Tab(shown, address, artefacts())

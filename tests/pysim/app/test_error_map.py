@@ -26,10 +26,10 @@ def test_sines_go_by_working_point_and_frequency_and_logs_by_signal(tmp_path: Pa
             assert [told[dataset().logs()[number].source] for number in row if number is not None] == list(own)
 
 
-def sine(source: str, rms: float, *names: str) -> dict[str, Any]:
+def sine(index: int, rms: float, *names: str) -> dict[str, Any]:
     """A stepped sine of 1 Hz, as a file of stages has it."""
     names = names or ("x",)
-    about = {"source": source, "kind": "frequency-response", "use": "fit", "frequency": 1.0}
+    about = {"index": index, "source": "a.txt", "use": "fit", "frequency": 1.0}
     return {**about, "names": list(names), "rms": [rms] * len(names)}
 
 
@@ -52,14 +52,14 @@ def points(*tests: tuple[str, str, float, float], unit: str = "N", names: Sequen
 
 def test_a_repeat_hides_no_other_and_can_be_opened() -> None:
     data = points(("a.txt", "F", 50.0, 10.0), ("b.txt", "F", 50.0, 10.0))
-    (found,) = error_maps({"records": [sine("a.txt", 30.0), sine("b.txt", 1.0)]}, data)
+    (found,) = error_maps({"records": [sine(0, 30.0), sine(1, 1.0)]}, data)
     assert found.rows == ("50 ± 10 N", "50 ± 10 N, repeat 2")
     assert (found.values, found.logs) == (((30.0,), (1.0,)), ((0,), (1,)))
 
 
 def test_the_same_point_on_another_input_has_a_row_of_its_own() -> None:
     data = points(("a.txt", "F", 50.0, 10.0), ("b.txt", "G", 50.0, 10.0), names=("x", "y"))
-    (found,) = error_maps({"records": [sine("a.txt", 30.0, "x", "y"), sine("b.txt", 1.0, "x", "y")]}, data)
+    (found,) = error_maps({"records": [sine(0, 30.0, "x", "y"), sine(1, 1.0, "x", "y")]}, data)
     assert found.rows == ("F: 50 ± 10 N, x", "F: 50 ± 10 N, y", "G: 50 ± 10 N, x", "G: 50 ± 10 N, y")
     assert found.logs == ((0,), (0,), (1,), (1,))
 
@@ -70,18 +70,18 @@ def test_two_records_of_one_file_are_told_apart_by_their_signals() -> None:
     assert isinstance(other.data, Record)
     data = points(("a.tdms", "F", 50.0, 10.0))
     data = replace(data, records=(one, replace(other, data=replace(other.data, names=("F", "y")))))
-    (found,) = error_maps({"records": [sine("a.tdms", 30.0), sine("a.tdms", 1.0, "y")]}, data)
+    (found,) = error_maps({"records": [sine(0, 30.0), sine(1, 1.0, "y")]}, data)
     assert found.rows == ("20 ± 5 N, y", "50 ± 10 N, x")
     assert (found.values, found.logs) == (((1.0,), (30.0,)), ((1,), (0,)))
 
 
 def test_two_records_of_one_log_stand_beside_each_other() -> None:
-    twice = [{**sine("a.txt", rms), "frequency": None} for rms in (30.0, 1.0)]
+    twice = [{**sine(2, rms), "frequency": None} for rms in (30.0, 1.0)]
     (found,) = error_maps({"records": twice}, dataset())
     assert found.rows == ("a.txt (fitted)", "a.txt (fitted), repeat 2")
     assert found.values == ((30.0,), (1.0,))
 
 
 def test_points_are_told_in_the_unit_that_people_read() -> None:
-    (found,) = error_maps({"records": [sine("a.txt", 1.0)]}, points(("a.txt", "p", 1e7, 2e6), unit="Pa"))
+    (found,) = error_maps({"records": [sine(0, 1.0)]}, points(("a.txt", "p", 1e7, 2e6), unit="Pa"))
     assert found.rows == ("100 ± 20 bar",)

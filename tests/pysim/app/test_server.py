@@ -53,7 +53,7 @@ def test_of_two_records_of_one_file_the_one_that_was_asked_for_is_given(tmp_path
         records = list(stage.records[:_WAVE])
         for k, name in names.items():
             measured, simulated = (replace(r, names=(name,), values=k + 0 * r.values) for r in (wave.measured,) * 2)
-            records.append(replace(wave, source="a.tdms", measured=measured, simulated=simulated))
+            records.append(replace(wave, index=k, source="a.tdms", measured=measured, simulated=simulated))
         stages.append(replace(stage, records=tuple(records)))
     write_stages(tmp_path / "a.npz", stages)
     logs = list(dataset().records)

@@ -34,7 +34,7 @@ def sines(
         w = 2 * np.pi * f
         swing = 3 + 10 * np.sin(w * time) + np.cos(2 * w * time) - 0.5 * np.sin(3 * w * time)
         data = Record(time, (swing + added(time.size))[:, None], ("y",), ("m",))
-        log = sine_log(f"{f:g}Hz", data, Sine(0.0, 10.0, f, 0.0, 0.0, 8.0), (told,), SinePlan())
+        log = sine_log(f"{f:g}Hz", data, Sine(0.0, 10.0, f, 0.0, 0.0, 8.0), (told,), SinePlan(), index=len(logs))
         times = 0.5 + np.arange(log.points) / log.points / f
         logs.append(log)
         runs.append(Run(log.source, Experiment(times, ("y",), {"u": Signal.constant(0.0)})))
@@ -46,4 +46,4 @@ def wave(values: Array, told: float, *, name: str = "y", use: str = "fit", inter
     time = np.arange(values.shape[0]) * interval
     data = Record(time, values.reshape(time.size, -1), (name,), ("m",))
     run = Run(name, Experiment(time, (name,), {"u": Signal.through(time, np.sin(2 * np.pi * 0.7 * time))}))
-    return LogTarget("data", f"{name}.txt", "stochastic", use, data, (told,), (1.0,), run)
+    return LogTarget("data", f"{name}.txt", "stochastic", use, data, (told,), (1.0,), run, index=0)

@@ -10,7 +10,7 @@ from pysim.types import Record, RecordFit
 def one(source: str, use: str, values: list[float]) -> RecordFit:
     time = 0.5 + 0.1 * np.arange(len(values))
     measured, simulated = (Record(time, np.array(v)[:, None], ("y",), ("1",)) for v in (values, [0.0] * len(values)))
-    return RecordFit("data", source, "stochastic", use, measured, simulated, (0.5,))
+    return RecordFit("data", source, "stochastic", use, measured, simulated, (0.5,), index=0)
 
 
 def test_of_the_samples_that_count() -> None:

@@ -13,7 +13,7 @@ TIME = np.arange(0, 40, 0.01)
 def log(residual: np.ndarray, signal: np.ndarray) -> RecordFit:
     """A log whose residual in units of noise is given."""
     columns = [Record(TIME, values[:, None], ("x",), ("m",)) for values in (signal + 0.5 * residual, signal)]
-    return RecordFit("toy", "log.txt", "other", "fit", *columns, (0.5,))
+    return RecordFit("toy", "log.txt", "other", "fit", *columns, (0.5,), index=0)
 
 
 def white() -> np.ndarray:

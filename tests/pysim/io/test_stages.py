@@ -25,6 +25,7 @@ def test_every_record_comes_back_bit_for_bit(tmp_path: Path) -> None:
                 assert np.array_equal(file.array(own[what]), sent.values)
                 assert np.array_equal(file.array(own["time"]), sent.time)
             assert (own["source"], own["use"], tuple(own["noise"])) == (fit.source, fit.use, fit.noise)
+            assert own["index"] == fit.index
             assert own["rms"] == list(fit.rms.values())
 
 

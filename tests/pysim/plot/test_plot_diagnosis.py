@@ -108,7 +108,7 @@ def test_of_a_test_that_was_repeated_the_map_shows_the_worst() -> None:
     stages = []
     for one in told.stages:
         sines = [record for record in one.records if record.harmonics]
-        again = [replace(r, source=f"again/{r.source}", noise=tuple(n / 3 for n in r.noise)) for r in sines]
+        again = [replace(r, index=4 + r.index, noise=tuple(n / 3 for n in r.noise)) for r in sines]
         stages.append(replace(one, records=(*one.records, *again)))
     repeated = tuple(replace(r, source=f"again/{r.source}") for r in data.records if r.frequency)
     both = replace(data, records=(*data.records, *repeated))

@@ -5,10 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from pysim.identify.greybox import Measurements, Rest, Treatment, problem
+from pysim.identify.greybox import Measurements, Rest, Treatment, fit, problem
 from pysim.identify.greybox.log_target import LogTarget
 from pysim.simulate import Rodas, simulate
-from pysim.types import Experiment, Model
+from pysim.types import Experiment, Model, Record
 from tests.pysim.identify.greybox import measurements as m
 
 TIME = np.arange(0, 3, 0.02)
@@ -39,3 +39,17 @@ def test_a_command_that_begins_elsewhere_is_led_to(lag: Model) -> None:
     ahead = Rest(ramp=0.5, hold=2.0)
     assert run_of(lag, 1.0 + TIME, rest=ahead).start == -2.5
     assert run_of(lag, 1.0 + TIME, rest=ahead, x=1.0).start == -2.5
+
+
+def test_every_record_of_a_fit_says_which_log_it_is(lag: Model) -> None:
+    """Whatever the order in which logs are compared, of which file they are, and though a table stands between them."""
+    ramps = [m.ramp_log(2.0, 0.7, seed=k, use=use, source="a.tdms") for k, use in ((1, "fit"), (2, "validate"))]
+    fast, slow = (replace(m.sine_log(2.0, 0.7, f, seed=3), source="a.tdms") for f in (2.0, 0.5))
+    data = m.dataset([ramps[0], fast, m.table(2.0, 0.7, np.array([0.1, 1.0])), slow, ramps[1]])
+    records = fit(problem(lag, [data], ["K"])).records
+    assert sorted(record.index for record in records) == [0, 1, 2, 3]
+    for record in records:
+        whole = data.logs()[record.index].data
+        assert isinstance(whole, Record)
+        samples = np.isin(whole.time, record.measured.time)
+        assert np.array_equal(record.measured.values[:, 0], whole["y"][samples])

@@ -21,7 +21,7 @@ def swing(drift: float, seed: int | None = None, *, seconds: float = 4.0) -> Sin
     if seed is not None:
         values = values + TOLD * np.random.default_rng(seed).standard_normal(time.size)
     data = Record(time, values[:, None], ("y",), ("1",))
-    return sine_log("2Hz.txt", data, Sine(0.0, 1.0, F, -2 * np.pi * F * 7, 7.0, 11.0), (TOLD,), SinePlan())
+    return sine_log("2Hz.txt", data, Sine(0.0, 1.0, F, -2 * np.pi * F * 7, 7.0, 11.0), (TOLD,), SinePlan(), index=0)
 
 
 def test_a_drift_is_seen_where_the_noise_lets_it_be() -> None:
