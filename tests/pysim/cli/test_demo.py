@@ -15,6 +15,7 @@ from pysim.cli import main
 from pysim.identify import TransferFunction
 from pysim.types import Experiment, Model, Record
 from tests.pysim import comparisons as linear
+from tests.pysim.cli.ran import refused
 from validation.read_csv import read_csv
 from validation.thesis.table_4_1 import responses as table_4_1
 
@@ -58,16 +59,12 @@ def demo(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Path:
         return [from_the_table(experiment, 2e-3 * (model.name == "locked")) for experiment in experiments]
 
     monkeypatch.setattr("validation.pump.pump_model", pump_model)
-    monkeypatch.setattr("pysim.plot.render", lambda figure, form: b"drawn")  # slow, and tested where it lives
     monkeypatch.setattr(import_module("pysim.diagnose.compare"), "simulate_many", simulate_many)
     return tmp_path / "results" / "demo"
 
 
-def test_demo_leaves_everything_behind(demo: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_demo_leaves_everything_behind(demo: Path) -> None:
     assert main(["demo", "--output", str(demo)]) == 0
-    text = capsys.readouterr().out
-    assert "9 of 9 independent tests pass (18 of 18 rows)." in text
-    assert text.count("nine independent tests") == 2
     names = {path.name for path in demo.iterdir()}
     assert {"report.html", "comparison.json", "deviations.png", "measurements", "FreeGreyBox.fmu"} <= names
     assert sum(name.startswith("bode_O") for name in names) == 6
@@ -75,19 +72,14 @@ def test_demo_leaves_everything_behind(demo: Path, capsys: pytest.CaptureFixture
     assert max(test["deviations"]["max_magnitude_db"] for test in free["tests"]) < 1e-6
     frequencies = np.array(free["tests"][0]["frequency_hz"])
     assert locked["tests"][0]["deviations"]["mean_phase_deg"] == pytest.approx(0.72 * frequencies.mean())
-    page = (demo / "report.html").read_text(encoding="utf-8")
-    assert "Where and why this differs from thesis Table 4.8 (free set)" in page
-    assert "21.1 cm3" in page
 
 
 def test_quick_takes_fewer_frequencies(demo: Path) -> None:
     assert main(["demo", "--quick", "--output", str(demo)]) == 0
     data = json.loads((demo / "comparison.json").read_text(encoding="utf-8"))
     assert len(data["parameter_sets"][0]["tests"][0]["frequency_hz"]) == 8
-    assert "differs from thesis Table" not in (demo / "report.html").read_text(encoding="utf-8")
 
 
 def test_a_place_that_cannot_be_written_to_is_known_at_once(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (tmp_path / "file").write_text("")
-    assert main(["demo", "--output", str(tmp_path / "file")]) == 2
-    assert "choose another folder" in capsys.readouterr().err
+    refused(["demo", "--output", str(tmp_path / "file")], capsys, "--output", "choose another folder")

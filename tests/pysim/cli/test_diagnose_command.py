@@ -1,7 +1,6 @@
 """`pysim diagnose` from a data set on disk to the JSON answer, the extended class and its FMU."""
 
 import json
-from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
@@ -11,10 +10,9 @@ import pytest
 from pysim.cli import main
 from pysim.cli._answer_folder import MARKER
 from pysim.cli._main import argument_parser
-from pysim.cli._story import JOURNAL, Story
 from pysim.cli._subject import Given, read_subject
 from pysim.io import read_model, write_dataset
-from pysim.types import Record, Told
+from pysim.types import Record
 from tests.pysim.cli.ran import Ran, refused
 from tests.pysim.diagnose.toy import CATALOGUE, measured
 
@@ -58,14 +56,29 @@ def test_the_answer_says_how_to_have_it_again(diagnosed: Ran) -> None:
     assert " ".join(diagnosed.words) in diagnosed.answer["conditions"]["command"]
 
 
+BROKEN = """
+model Broken "Does not compile"
+  extends Toy.PartialForce;
+  parameter Real c(unit="N", min=0, max=5, nominal=1) = 0;
+equation
+  f = -c*nowhere;
+  annotation(__HydraulicTestBench(effect="mine.broken", slot="force"));
+end Broken;
+"""
+
+
 def test_ranking_tells_what_each_gains_and_decides_nothing(rubbing: Path, toy: list[str], tmp_path: Path) -> None:
-    words = ["diagnose", str(rubbing), *toy, "--max-effects", "0", "--effects", "toy.friction,toy.bias"]
-    assert main([*words, "--json", str(tmp_path / "a.json")]) == 0
+    """An effect that does not compile is noted and left out."""
+    (tmp_path / "Mine.mo").write_text(BROKEN)
+    words = ["diagnose", str(rubbing), *toy, "--library", str(tmp_path / "Mine.mo"), "--max-effects", "0"]
+    words += ["--effects", "toy.friction,toy.bias,mine.broken", "--json", str(tmp_path / "a.json")]
+    assert main(words) == 0
     found = json.loads((tmp_path / "a.json").read_text())
-    assert found["ranking"][0]["effect"] == "toy.friction"
+    assert [row["effect"] for row in found["ranking"]] == ["toy.friction", "toy.bias"]
     assert found["ranking"][0]["explained"] > 0.9
-    assert (len(found["ranking"]), found["added"]) == (2, [])
+    assert found["added"] == []
     assert [row["step"] for row in found["error"]] == ["prior", "refit"]
+    assert any("mine.broken" in note for note in found["notes"])
 
 
 @pytest.mark.slow
@@ -119,63 +132,6 @@ def test_a_model_without_slots_has_no_candidates(rubbing: Path, tmp_path: Path) 
     found = given(str(rubbing), "--model", "Sealed", "--library", str(tmp_path / "Mine.mo"))
     assert found.subject.catalogue == ()
     assert any("no slot of Sealed" in note for note in found.subject.notes)
-
-
-BROKEN = """
-model Broken "Does not compile"
-  extends Toy.PartialForce;
-  parameter Real c(unit="N", min=0, max=5, nominal=1) = 0;
-equation
-  f = -c*nowhere;
-  annotation(__HydraulicTestBench(effect="mine.broken", slot="force"));
-end Broken;
-"""
-
-
-def test_an_effect_that_does_not_compile_is_noted_and_left_out(rubbing: Path, toy: list[str], tmp_path: Path) -> None:
-    (tmp_path / "Mine.mo").write_text(BROKEN)
-    words = [
-        *toy,
-        "--library",
-        str(tmp_path / "Mine.mo"),
-        "--max-effects",
-        "0",
-        "--effects",
-        "toy.friction,mine.broken",
-    ]
-    assert main(["diagnose", str(rubbing), *words, "--json", str(tmp_path / "a.json")]) == 0
-    found = json.loads((tmp_path / "a.json").read_text())
-    assert [row["effect"] for row in found["ranking"]] == ["toy.friction"]
-    assert any("mine.broken" in note for note in found["notes"])
-
-
-def stopped_at(step: str) -> Callable[[Story, Told], None]:
-    """In place of what tells: Ctrl-C once a step of the ledger is known."""
-    tell = Story.__call__
-
-    def stop(self: Story, told: Told) -> None:
-        tell(self, told)
-        if told.step is not None and told.step.step == step:
-            raise KeyboardInterrupt
-
-    return stop
-
-
-def test_a_command_that_was_stopped_goes_on_with_the_same_answer(
-    diagnosed: Ran, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    output = tmp_path / "out"
-    words = [*diagnosed.words, "--output", str(output)]
-    with monkeypatch.context() as patch:
-        patch.setattr(Story, "__call__", stopped_at("refit"))
-        assert main(words) == 2
-    assert [path.name for path in output.iterdir()] == [JOURNAL]
-    refused([*words, "--seed", "5"], capsys, JOURNAL, "delete it")
-    assert main([*words, "--json", str(tmp_path / "a.json")]) == 0
-    assert not (output / JOURNAL).exists()
-    again = json.loads((tmp_path / "a.json").read_text())
-    for key in ("verdict", "added", "ranking", "error", "parameters", "where"):
-        assert again[key] == diagnosed.answer[key]
 
 
 @pytest.mark.parametrize(

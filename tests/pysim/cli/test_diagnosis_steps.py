@@ -1,6 +1,8 @@
 """Each step of the diagnosis as a command of its own."""
 
 import json
+import shutil
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -10,23 +12,53 @@ import pytest
 
 from pysim.cli import main
 from pysim.cli._answer_folder import MARKER
+from pysim.cli._story import JOURNAL, Story
 from pysim.diagnose import ledger
 from pysim.diagnose import story as diagnosis_story
 from pysim.identify.greybox.comparison import Compared
 from pysim.io import read_model, write_dataset
-from pysim.types import FrequencyResponse, MeasuredRecord, SineTest
+from pysim.types import FrequencyResponse, MeasuredRecord, SineTest, Told
 from tests.pysim.cli.ran import Ran, refused
 from tests.pysim.diagnose.toy import measured
 from tests.pysim.diagnosis_story import story
 
 
-def test_add_writes_the_extended_class_and_the_falling_error_in_place_of_an_earlier_answer(
-    rubbing: Path, toy: list[str], tmp_path: Path
+def stopped_at(step: str) -> Callable[[Story, Told], None]:
+    """In place of what tells: Ctrl-C once a step of the ledger is known."""
+    tell = Story.__call__
+
+    def stop(self: Story, told: Told) -> None:
+        tell(self, told)
+        if told.step is not None and told.step.step == step:
+            raise KeyboardInterrupt
+
+    return stop
+
+
+def test_a_command_that_was_stopped_goes_on_with_the_same_answer(
+    compared: Ran, toy: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    output, answer = tmp_path / "out", tmp_path / "a.json"
-    words = ["add", str(rubbing), *toy, "--output", str(output), "--json", str(answer)]
-    for effects in ("toy.bias", "toy.friction,toy.bias"):
-        assert main([*words, "--effects", effects]) == 0
+    output = tmp_path / "out"
+    words = [*compared.words, "--output", str(output)]
+    with monkeypatch.context() as patch:
+        patch.setattr(Story, "__call__", stopped_at("prior"))
+        assert main(words) == 2
+    assert "the same command goes on" in capsys.readouterr().err
+    assert [path.name for path in output.iterdir()] == [JOURNAL]
+    refused([*words, "--free", "m"], capsys, JOURNAL, "delete it")
+    assert main([*words, "--json", str(tmp_path / "a.json")]) == 0
+    assert not (output / JOURNAL).exists()
+    again = json.loads((tmp_path / "a.json").read_text())
+    for key in ("verdict", "error", "parameters", "where"):
+        assert again[key] == compared.answer[key]
+
+
+def test_add_writes_the_extended_class_and_the_falling_error_in_place_of_an_earlier_answer(
+    compared: Ran, rubbing: Path, toy: list[str], tmp_path: Path
+) -> None:
+    output, answer = Path(shutil.copytree(compared.output, tmp_path / "out")), tmp_path / "a.json"
+    words = ["add", str(rubbing), *toy, "--effects", "toy.friction,toy.bias"]
+    assert main([*words, "--output", str(output), "--json", str(answer)]) == 0
     found = json.loads(answer.read_text())
     assert [row["step"] for row in found["error"]] == ["prior", "refit", "toy.friction", "toy.bias"]
     refit, friction = found["error"][1:3]

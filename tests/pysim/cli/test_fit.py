@@ -12,7 +12,7 @@ from fmu_build.cli import main as build_command
 from pysim.cli import fit as fit_command
 from pysim.cli import main
 from pysim.cli._answer_folder import MARKER
-from pysim.identify.greybox import Tried
+from pysim.identify.greybox import Profile, Tried
 from pysim.io import read_model, write_dataset
 from tests.pysim.cli.ran import Ran, refused
 from tests.pysim.identify.greybox import measurements as m
@@ -107,10 +107,20 @@ def test_each_operating_point_has_a_picture(lag: Path, tmp_path: Path) -> None:
     assert (tmp_path / "out" / "report.html").read_text().count("<img") == 2 + 2 + 4
 
 
-def test_an_interval_without_an_end_is_written(base: list[str], tmp_path: Path) -> None:
-    """Gain and factor are known as a product only."""
-    assert main([*base, "--free", "K,T,g", "--profile", "g", "--json", str(tmp_path / "fit.json")]) in (0, 1)
-    assert len(json.loads((tmp_path / "fit.json").read_text())["profiles"]["g"]["interval"]) == 2
+def test_intervals_are_written_one_by_one_also_without_an_end(
+    fitted: Ran, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    asked, numbers = [], tmp_path / "fit.json"
+
+    def profile(_: object, __: object, name: str, **___: object) -> Profile:
+        asked.append((name, len(json.loads(numbers.read_text())["profiles"])))
+        return Profile(name, np.array([[1.0, 2.0], [3.0, np.inf]]), (0.5, np.inf))
+
+    monkeypatch.setattr("pysim.identify.greybox.profile", profile)
+    assert main([*fitted.words, "--profile", "K", "--profile", "T", "--json", str(numbers)]) == 0
+    found = json.loads(numbers.read_text())["profiles"]
+    assert asked == [("K", 0), ("T", 1)]
+    assert found["T"] == {"interval": [0.5, None], "points": [[1.0, 2.0], [3.0, None]]}
 
 
 def test_an_input_that_never_moves_is_refused_by_itself_and_welcome_beside_one_that_does(

@@ -7,71 +7,55 @@ import pytest
 
 from pysim.cli import main
 from pysim.cli._free import free_parameters
-from pysim.io import write_dataset
+from pysim.cli._main import argument_parser
+from pysim.cli._subject import Given, read_subject
 from pysim.types import BadInput
-from tests.pysim.diagnose.toy import base, library, measured
-
-MODEL = ["--model", "Toy.Mass", "--library", str(library())]
+from tests.pysim.diagnose.toy import base
 
 
-@pytest.fixture(scope="module")
-def data(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Logs of a plant that is the model with other parameters."""
-    folder = tmp_path_factory.mktemp("data") / "toy"
-    write_dataset(folder, measured(1))
-    return folder
+def given(*words: str) -> Given:
+    """What a command line of `compare --refit` names."""
+    return read_subject(argument_parser().parse_args(["compare", *words, "--refit"]))
 
 
-def compared(words: list[str], tmp_path: Path, end: int = 0) -> dict:
-    assert main(["compare", *words, "--json", str(tmp_path / "a.json")]) == end
-    return json.loads((tmp_path / "a.json").read_text())
-
-
-def test_what_a_fit_found_is_compared(data: Path, tmp_path: Path) -> None:
-    """Every parameter with bounds is in the file, so nothing is left to be free."""
-    out = tmp_path / "fit"
-    assert main(["fit", str(data), *MODEL, "--free", "m,d", "--free", "k", "--output", str(out)]) == 0
-    found = compared([str(data), *MODEL, "--parameters", str(out / "parameters.toml")], tmp_path)
+def as_it_is(words: list[str], tmp_path: Path) -> dict[str, float]:
+    """The error over noise of a model that is not refitted."""
+    assert main(["compare", *words, "--json", str(tmp_path / "a.json")]) == 1
+    found = json.loads((tmp_path / "a.json").read_text())
+    assert (found["parameters"], found["conditions"]["free parameters"]) == ({}, "none")
     (prior,) = found["error"]
-    assert prior["fit"] == pytest.approx(1.0, abs=0.1)
-    assert found["conditions"]["free parameters"] == "none"
-    assert found["parameters"] == {}
+    return {key: prior[key] for key in ("fit", "validate")}
 
 
-def test_the_others_are_refitted_beside_what_was_set(data: Path, tmp_path: Path) -> None:
-    found = compared([str(data), *MODEL, "--set", "m=1.05", "--refit"], tmp_path)
-    assert set(found["parameters"]) == {"d", "k"}
-    assert found["error"][-1]["fit"] == pytest.approx(1.0, abs=0.1)
+def test_an_fmu_without_bounds_is_compared_as_that_with_bounds(
+    rubbing: Path, toy: list[str], foreign: Path, tmp_path: Path
+) -> None:
+    by_name = as_it_is([str(rubbing), *toy], tmp_path)
+    assert as_it_is([str(rubbing), "--model", str(foreign)], tmp_path) == pytest.approx(by_name, rel=1e-4)
 
 
-def test_an_fmu_without_bounds_is_compared(data: Path, foreign: Path, tmp_path: Path) -> None:
-    """As the FMU with bounds is: nothing is refitted in either."""
-    by_name = compared([str(data), *MODEL], tmp_path)
-    without = compared([str(data), "--model", str(foreign)], tmp_path)
-    assert without["error"][0]["fit"] == pytest.approx(by_name["error"][0]["fit"], rel=1e-4)
-    assert without["parameters"] == {}
-    assert not any("without bounds" in note for note in without["notes"])
+def test_the_others_are_refitted_beside_what_was_set(rubbing: Path, toy: list[str]) -> None:
+    found = given(str(rubbing), *toy, "--set", "m=1.05")
+    assert (found.subject.free, found.overrides) == (("d", "k"), {"m": 1.05})
+    assert any("held as set" in note for note in found.subject.notes)
 
 
-def test_bounds_alone_make_free(data: Path, foreign: Path, tmp_path: Path) -> None:
+def test_bounds_alone_make_free(rubbing: Path, foreign: Path) -> None:
     bounds = [word for text in ("m=0.5:5", "k=1:100") for word in ("--bounds", text)]
-    found = compared([str(data), "--model", str(foreign), "--refit", *bounds], tmp_path)
-    assert set(found["parameters"]) == {"m", "k"}
+    found = given(str(rubbing), "--model", str(foreign), *bounds)
+    assert found.subject.free == ("m", "k")
+    assert dict(found.subject.bounds) == {"m": (0.5, 5.0), "k": (1.0, 100.0)}
 
 
-def test_what_a_fit_found_is_where_the_refit_begins(data: Path, tmp_path: Path) -> None:
-    """Named with `--free`, values of `--parameters` are no longer held; as they were found they come out again."""
+def test_what_a_fit_found_is_where_the_refit_begins(rubbing: Path, toy: list[str], tmp_path: Path) -> None:
+    """Named with `--free`, values of `--parameters` are no longer held."""
     values = tmp_path / "parameters.toml"
     values.write_text("m = 1.3\nd = 0.4\n")
-    words = [str(data), *MODEL, "--parameters", str(values)]
-    as_is = compared(words, tmp_path, 1)["error"][0]["fit"]
-    held = compared([*words, "--refit"], tmp_path, 1)
-    assert set(held["parameters"]) == {"k"}
-    assert any("held as set, not refitted: m, d; --free refits them from there" in note for note in held["notes"])
-    begun = compared([*words, "--free", "m,d,k", "--refit"], tmp_path)
-    assert set(begun["parameters"]) == {"m", "d", "k"}
-    assert begun["error"][0]["fit"] == pytest.approx(as_is, rel=1e-6)
-    assert held["error"][-1]["fit"] > 1.5 > begun["error"][-1]["fit"]
+    words = [str(rubbing), *toy, "--parameters", str(values)]
+    held, begun = given(*words), given(*words, "--free", "m,d,k")
+    assert (held.subject.free, held.overrides) == (("k",), {"m": 1.3, "d": 0.4})
+    assert (begun.subject.free, begun.overrides) == (("m", "d", "k"), {})
+    assert [begun.subject.model[name].start for name in "mdk"] == [1.3, 0.4, 20.0]
 
 
 def test_what_is_set_is_refitted_where_it_is_named_or_has_bounds() -> None:

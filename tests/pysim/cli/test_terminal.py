@@ -1,14 +1,12 @@
 """Streams that can less than a terminal of today."""
 
 import io
-import os
-import subprocess
 import sys
 from pathlib import Path
 
 import pytest
 
-from pysim.cli import _terminal
+from pysim.cli import _terminal, main
 from pysim.cli._terminal import draws_over, print_everything
 
 
@@ -39,17 +37,15 @@ def test_letters_that_an_encoding_lacks_are_replaced(monkeypatch: pytest.MonkeyP
     assert raw.getvalue().decode("cp1252").rstrip() == "Öl ± 5, ? ?mega"
 
 
-def test_a_command_prints_names_that_the_stream_cannot_hold(tmp_path: Path) -> None:
+def test_a_command_prints_names_that_the_stream_cannot_hold(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "a.txt").write_text("".join(f"{k / 10} {k % 7} {k % 5}\n" for k in range(50)), encoding="utf-8")
     (tmp_path / "dataset.toml").write_text(
         '[dataset]\nname = "πρέσα"\n[signals.u]\nrole = "input"\nunit = "%"\n[signals.y]\nrole = "output"\nunit = "%"\n'
         '[[records]]\nfile = "a.txt"\ncolumns = ["time", "u", "y"]\nkind = "other"\n',
         encoding="utf-8",
     )
-    words = [sys.executable, "-m", "pysim", "data", "check", str(tmp_path)]
-    path = os.pathsep.join(filter(None, sys.path))
-    done = subprocess.run(
-        words, capture_output=True, env={**os.environ, "PYTHONIOENCODING": "cp1252", "PYTHONPATH": path}, check=False
-    )
-    assert done.returncode == 0, done.stderr
-    assert done.stdout.decode("cp1252").splitlines()[0] == "?????"
+    raw = io.BytesIO()
+    monkeypatch.setattr(sys, "stdout", io.TextIOWrapper(raw, encoding="cp1252"))
+    assert main(["data", "check", str(tmp_path)]) == 0
+    sys.stdout.flush()
+    assert raw.getvalue().decode("cp1252").splitlines()[0] == "?????"

@@ -4,18 +4,17 @@ from pathlib import Path
 import pytest
 
 from pysim.cli import main
+from tests.pysim.cli.ran import refused
 
 
-def test_gains_of_the_load_controller(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_gains_of_the_load_controller(tmp_path: Path) -> None:
     words = ["tune", "load", "--crossover", "3.0", "--phase-margin", "60", "--json", str(tmp_path / "t.json")]
     assert main([*words, "--output", str(tmp_path / "out"), "--gains", "2e-9,0.05"]) == 0
     found = json.loads((tmp_path / "t.json").read_text())
     assert list(found) == ["tuned", "MATLAB tuned (Table 6.1)", "manually tuned (Table 6.1)", "2e-9,0.05"]
     assert found["tuned"]["K_p"] == pytest.approx(1.01e-9, rel=0.05)
     assert found["tuned"]["phase_margin_deg"] == pytest.approx(60)
-    assert "manually tuned" in capsys.readouterr().out
-    assert (tmp_path / "out" / "tuning.png").read_bytes().startswith(b"\x89PNG")
-    assert "--crossover 3.0" in (tmp_path / "out" / "report.html").read_text()
+    assert {path.name for path in (tmp_path / "out").iterdir()} == {"tuning.png", "tuning.svg", "report.html"}
 
 
 def test_a_plant_of_ones_own_with_dead_time(tmp_path: Path) -> None:
@@ -45,5 +44,4 @@ def test_an_unstable_loop_is_a_no() -> None:
     ],
 )
 def test_wrong_use(words: list[str], told: str, capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["tune", *words]) == 2
-    assert told in capsys.readouterr().err
+    refused(["tune", *words], capsys, told)

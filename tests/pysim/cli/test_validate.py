@@ -19,13 +19,8 @@ def _cases(monkeypatch: pytest.MonkeyPatch) -> None:
     ("words", "code"),
     [(["good"], 0), (["bad"], 1), (["nan"], 1), (["broken"], 1), (["bad", "good"], 1), ([], 1), (["--quick"], 0)],
 )
-def test_exit_code(words: list[str], code: int, capsys: pytest.CaptureFixture[str]) -> None:
+def test_exit_code(words: list[str], code: int) -> None:
     assert main(["validate", *words]) == code
-    out = capsys.readouterr().out
-    if "bad" in words:
-        assert "FAILS    c | d: 2.5 deg, limit 2" in out
-    if "good" in words:
-        assert "skipped  b: no Wine here" in out
 
 
 @pytest.mark.parametrize("words", [["none"], ["--nonsense"]])
