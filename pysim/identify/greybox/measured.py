@@ -6,7 +6,6 @@ import math
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +17,7 @@ from pysim.identify.greybox.sine_log import Sine, SineLog, sine_log, steady_sine
 from pysim.identify.greybox.sine_target import SineTarget
 from pysim.identify.greybox.table_target import TableTarget
 from pysim.identify.greybox.target import Run, Target
+from pysim.identify.greybox.treatment import Measurements, Treatment
 from pysim.identify.greybox.unsettled import unsettled, unsettled_note
 from pysim.identify.logged import logged_command, logged_wave
 from pysim.simulate import Periodic, Rodas, simulate
@@ -34,9 +34,6 @@ from pysim.types import (
     Signal,
     SineTest,
 )
-
-if TYPE_CHECKING:
-    from pysim.identify.greybox.problem import Measurements, Treatment
 
 Array = NDArray[np.float64]
 
