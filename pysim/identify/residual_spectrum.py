@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import signal
 
 from pysim.types import sampling
 
@@ -27,6 +26,8 @@ def residual_spectrum(time: Array, values: Array) -> tuple[Array, Array, float]:
         power (n_f,); and the degrees of freedom of each value.
     Source: Welch 1967, IEEE Transactions on Audio and Electroacoustics 15:70; Hann windows, halves overlapping.
     """
+    from scipy import signal  # half a second to import, and only a diagnosis' picture needs it
+
     step = sampling(time).step
     length = min(values.size, max(FEWEST // 2, values.size // _SEGMENTS))
     frequency, density = signal.welch(values, 1 / step, nperseg=length, detrend=False)

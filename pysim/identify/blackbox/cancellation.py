@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import stats
+from scipy.special import chdtri
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -47,4 +47,4 @@ def within_noise(distance: complex, spread: Complex) -> bool:
         return True
     gap = np.array([distance.real, distance.imag])[: rows.shape[0]]
     size = float(gap @ np.linalg.pinv(rows @ rows.T) @ gap)
-    return size < float(stats.chi2.ppf(_LEVEL, rows.shape[0])) and bool(np.any(rows))
+    return size < float(chdtri(rows.shape[0], 1 - _LEVEL)) and bool(np.any(rows))

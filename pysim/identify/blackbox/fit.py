@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from scipy import stats
+from scipy.special import chdtrc
 
 from pysim.identify.blackbox import sections
 from pysim.identify.blackbox.notes import notes_on
@@ -93,7 +93,7 @@ def _function(problem: Problem, minimum: Minimum) -> TransferFunction:
 
 def _variance(misfit: float, freedom: int, known: bool) -> float:
     """The factor on the covariance: of the residuals, unless the noise is known and explains them."""
-    if known and (freedom == 0 or stats.chi2.sf(misfit, freedom) >= UNLIKELY):
+    if known and (freedom == 0 or chdtrc(freedom, misfit) >= UNLIKELY):
         return 1.0
     return misfit / freedom
 

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import least_squares
 
 from pysim.identify.blackbox.objective import Point, Problem
 
@@ -42,6 +41,8 @@ def refine(problem: Problem, start: Array, *, most: int = 300) -> Minimum:
     Args:
         most: evaluations after which the search gives up.
     """
+    from scipy.optimize import least_squares  # 0.2 s to import, for those alone who fit
+
     if not start.size:
         return Minimum(start, problem.evaluate(start), np.zeros(0, dtype=bool), True, 1)
     memory: dict[bytes, Point] = {}

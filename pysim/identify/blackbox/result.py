@@ -7,7 +7,7 @@ from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import stats
+from scipy.special import chdtrc, ndtri, stdtrit
 
 from pysim.identify.blackbox.response import ComplexResponse
 from pysim.identify.blackbox.structure import Structure
@@ -134,7 +134,7 @@ class TransferFunctionFit:
     @property
     def explains(self) -> float:
         """The probability that noise alone makes a misfit as large as this; not a number where noise is not known."""
-        return float(stats.chi2.sf(self.misfit, self.freedom)) if self.noise_known else np.nan
+        return float(chdtrc(self.freedom, self.misfit)) if self.noise_known else np.nan
 
     def estimates(self, level: float = 0.95) -> tuple[FittedNumber, ...]:
         """Every coefficient and the dead time with its interval at the level, to first order in the noise."""
@@ -175,7 +175,7 @@ class TransferFunctionFit:
         """Half width of an interval in standard deviations: normal where the noise is known, Student's t elsewhere."""
         tail = 0.5 + level / 2
         known = self.noise_known and self.scatter == 1.0
-        return float(stats.norm.ppf(tail) if known or self.freedom == 0 else stats.t.ppf(tail, self.freedom))
+        return float(ndtri(tail) if known or self.freedom == 0 else stdtrit(self.freedom, tail))
 
     def _estimate(self, name: str, value: float, deviation: float, unit: str, level: float) -> FittedNumber:
         if name in self.undetermined:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.stats import norm, t
+from scipy.special import ndtri, stdtrit
 
 from pysim.identify._near_orthogonal import near_orthogonal_fit
 
@@ -46,7 +46,7 @@ class HarmonicFit:
             return 0.0
         sizes = self.coefficients[sines] ** 2 + self.coefficients[sines + 1] ** 2
         squares = sizes / (self.inverse[sines, sines] + self.inverse[sines + 1, sines + 1])
-        return float(np.sqrt(np.median(squares) / math.log(2)) * t.ppf(0.975, sines.size) / norm.ppf(0.975))
+        return float(np.sqrt(np.median(squares) / math.log(2)) * stdtrit(sines.size, 0.975) / ndtri(0.975))
 
     @property
     def freedom(self) -> int:

@@ -6,8 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.signal import lfilter
-from scipy.stats import chi2
+from scipy.special import chdtrc
 
 Array = NDArray[np.float64]
 
@@ -73,13 +72,13 @@ def residual_noise(
     correlation = _autocorrelation(residual, min(_MOST_LAGS, n // 5))
     whiteness = _whiteness(correlation, regressors)
     white = whiteness > _UNLIKELY
-    if white and declared is not None and chi2.sf(square / declared**2, freedom) > _UNLIKELY:
+    if white and declared is not None and chdtrc(freedom, square / declared**2) > _UNLIKELY:
         return ResidualNoise(declared, declared, variance**0.5, DECLARED, whiteness, (declared,) * harmonics)
     if white:
         flat = variance**0.5
         return ResidualNoise(flat, flat, flat, RESIDUALS, whiteness, (flat,) * harmonics)
-    filter_ = _autoregression(correlation, n)
-    scale = variance / float(np.sum(lfilter([1.0], filter_, _impulse(n)) ** 2))  # variance of what drives the filter
+    filter_, share = _autoregression(correlation, n)
+    scale = variance * share  # variance of what drives the filter
     floor = max(variance, 0.0 if declared is None else declared**2)
     periods = n * frequency * interval
     # Of P lines from one harmonic to the next the fit has taken one, with its noise.
@@ -113,31 +112,38 @@ def _whiteness(correlation: Array, regressors: Array) -> float:
     if lags < 1 or not correlation[1:].any():
         return 1.0
     q, _ = np.linalg.qr(regressors)
-    shifted = np.array([_shifted(q, k) for k in range(1, lags + 1)])  # T_k Q, (lags, n, p)
-    inside = np.einsum("np,knr->kpr", q, shifted)  # Q' T_k Q
-    flat, small = shifted.reshape(lags, -1), inside.reshape(lags, -1)
-    trace = -np.trace(inside, axis1=1, axis2=2)
-    products = np.diag(0.5 * (n - np.arange(1.0, lags + 1))) - 2 * flat @ flat.T + small @ small.T
+    small = np.array([(q[k:].T @ q[: n - k]) for k in range(1, lags + 1)])
+    small = (0.5 * (small + small.transpose(0, 2, 1))).reshape(lags, -1)  # Q' T_k Q
+    trace = -small[:, :: q.shape[1] + 1].sum(axis=1)
+    products = np.diag(0.5 * (n - np.arange(1.0, lags + 1))) - 2 * _shifted_products(q, lags) + small @ small.T
     m = n - q.shape[1]
     covariance = 2 * (products - np.outer(trace, trace) / m) / (m * (m + 2))
     variances, axes = np.linalg.eigh(covariance)
     free = variances > _NOTHING * variances[-1]
     off = axes[:, free].T @ (correlation[1:] - trace / m)
-    return float(chi2.sf(float(np.sum(off**2 / variances[free])), int(free.sum())))
+    return float(chdtrc(int(free.sum()), float(np.sum(off**2 / variances[free]))))
 
 
-def _shifted(q: Array, k: int) -> Array:
-    """Half the sum of the columns (n, p) moved by k rows to either side."""
-    moved = np.zeros_like(q)
-    moved[k:] += 0.5 * q[:-k]
-    moved[:-k] += 0.5 * q[k:]
-    return moved
+def _shifted_products(q: Array, lags: int) -> Array:
+    """Traces of Q' T_i T_j Q, (lags, lags), from the products of rows (n, p) that lie 0 to 2 lags apart."""
+    n = q.shape[0]
+    sums = [np.append(0.0, np.cumsum(np.einsum("np,np->n", q[: n - d], q[d:]))) for d in range(2 * lags + 1)]
+    found = np.empty((lags, lags))
+    for j in range(1, lags + 1):
+        for i in range(1, j + 1):  # each half of T_i meets each of T_j: to the same side, then to opposite ones
+            near, far = sums[j - i], sums[i + j]
+            same = near[n - j] + near[n - j + i] - near[i]
+            found[i - 1, j - 1] = found[j - 1, i - 1] = 0.25 * (same + 2 * far[-1])
+    return found
 
 
-def _autoregression(correlation: Array, n: int) -> Array:
-    """1, a_1 ... a_p of e_t + a_1 e_(t-1) + ... = white noise, by Levinson's recursion; p by Akaike's criterion."""
+def _autoregression(correlation: Array, n: int) -> tuple[Array, float]:
+    """1, a_1 ... a_p of e_t + a_1 e_(t-1) + ... = white noise, by Levinson's recursion; p by Akaike's criterion.
+
+    The second number is the variance of that white noise, as a share of the variance of e.
+    """
     a, power = np.ones(1), 1.0
-    best, least = a, 0.0
+    best, driven, least = a, power, 0.0
     for order in range(1, correlation.size):
         reflection = -float(a @ correlation[order:0:-1][: a.size]) / power
         extended = np.append(a, 0.0)
@@ -147,12 +153,8 @@ def _autoregression(correlation: Array, n: int) -> Array:
             break
         criterion = n * np.log(power) + 2 * order
         if criterion < least:
-            best, least = a, criterion
-    return best
-
-
-def _impulse(n: int) -> Array:
-    return np.eye(1, max(n, 2000))[0]
+            best, driven, least = a, power, criterion
+    return best, driven
 
 
 def _gain(filter_: Array, turns: float) -> float:

@@ -7,8 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.stats import chi2
-from scipy.stats import f as f_distribution
+from scipy.special import chdtrc, fdtrc
 
 from pysim.identify.frf.harmonic_fit import HarmonicFit, harmonic_fit, told_apart
 from pysim.identify.frf.noise import COLOURED, DECLARED, ResidualNoise, residual_noise
@@ -247,8 +246,8 @@ def _by_chance(fit: HarmonicFit, part: slice, deviation: Array, basis: str, free
     relative = chosen / deviation
     power = float(relative @ np.linalg.solve(fit.inverse[part, part], relative))
     if basis == DECLARED:
-        return float(chi2.sf(power, chosen.size))
-    return float(f_distribution.sf(power / chosen.size, chosen.size, min(freedom, fit.freedom)))
+        return float(chdtrc(chosen.size, power))
+    return float(fdtrc(chosen.size, min(freedom, fit.freedom), power / chosen.size))
 
 
 def _covariance(command: LoggedWave, fit: HarmonicFit, noise: ResidualNoise) -> Array:

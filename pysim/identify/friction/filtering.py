@@ -6,7 +6,6 @@ import math
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import signal
 
 from pysim.types import BadInput, sampling
 
@@ -31,6 +30,8 @@ def zero_phase(time: Array, values: Array, cutoff_hz: float, *, order: int = 2) 
         BadInput: uneven times, too few samples, or a cutoff that the sampling rate does not allow.
     Source: thesis Section 5.5 (a filter used forward and backward in time); the cutoff is not given there.
     """
+    from scipy import signal  # half a second to import, and only friction tests need it
+
     rate = sampling_rate(time)
     single = cutoff_hz * (math.sqrt(2) - 1) ** (-1 / (2 * order))
     if not 0 < single < rate / 2:

@@ -7,15 +7,15 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.stats import chi2
+from scipy.special import chdtri
 
 Array = NDArray[np.float64]
 Solution = tuple[Array, float]  # parameters (4,), r first, and their sum of squares
 
 _FACTORS = (1.02, 1.1, 1.3, 1.7)  # of the first steps away from the estimate; then the last one again and again
 _FAR = 200.0  # rise of the profile beyond which nobody needs to look
-_CLAIM = float(chi2.ppf(0.999, 1))  # rise at a bound from which on r counts as known from that side
-_TWO_ENDS, _ONE_END = float(chi2.ppf(0.95, 1)), float(chi2.ppf(0.90, 1))
+_CLAIM = float(chdtri(1, 0.001))  # rise at a bound from which on r counts as known from that side
+_TWO_ENDS, _ONE_END = float(chdtri(1, 0.05)), float(chdtri(1, 0.10))
 _SAME = 0.01  # rise that nobody can tell from none
 
 

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import stats
+from scipy.special import chdtri
 
 from pysim.identify.greybox.evaluation import Evaluate, Evaluation, evaluator
 from pysim.identify.greybox.gauss_newton import GaussNewton
@@ -59,7 +59,7 @@ def profile(
         BadInput: not a free parameter, or the only one.
     """
     place = _place(problem.space, name)
-    limit = float(stats.chi2.ppf(level, 1)) * max(fit.misfit, 1.0) ** 2
+    limit = float(chdtri(1, 1 - level)) * max(fit.misfit, 1.0) ** 2
     walker = _Walker(problem, fit, place, simulation or Simulation())
     rows = {fit[name].value: walker.best}
     ends = tuple(_end(walker, fit, name, side, limit, steps, rows) for side in (-1, 1))

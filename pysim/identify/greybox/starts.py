@@ -6,7 +6,6 @@ from collections.abc import Mapping
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.stats import qmc
 
 from pysim.identify.greybox.parameters import ParameterSpace
 from pysim.types import BadInput, Model
@@ -39,6 +38,8 @@ def starts(
 
 def _drawn(space: ParameterSpace, count: int, seed: int | None) -> dict[str, Array]:
     """A Latin hypercube between the bounds, on the search's scale."""
+    from scipy.stats import qmc  # a quarter of a second, for those alone who draw
+
     if seed is None:
         raise BadInput("fit: starts drawn at random need a seed; give one, so that the fit can be repeated")
     lower, upper = space.bounds()

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import stats
+from scipy.special import ndtri, stdtrit
 
 from pysim.identify.greybox.evaluation import Evaluation
 from pysim.identify.greybox.identifiability import EXACT, Identifiability, identifiability, whole_exponents
@@ -86,7 +86,7 @@ def uncertainty(space: ParameterSpace, point: Evaluation, *, scale: float, told:
 def _quantile(freedom: int | None, *, one_sided: bool = False) -> float:
     """Standard deviations to the end of an interval: of the normal distribution, or of Student's with `freedom`."""
     level = LEVEL if one_sided else 0.5 + LEVEL / 2
-    return float(stats.norm.ppf(level) if freedom is None else stats.t.ppf(level, freedom))
+    return float(ndtri(level) if freedom is None else stdtrit(freedom, level))
 
 
 def _at_bounds(space: ParameterSpace, point: Evaluation) -> list[str]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import special, stats
+from scipy.special import chdtri, digamma, fdtrc, fdtri, ndtr, polygamma, stdtrit
 
 from pysim.types import BestLinearApproximation, Distortion, Level
 
@@ -16,7 +16,7 @@ CONFIDENCE = 0.95
 def variance_interval(variance: Array, degrees: Array, confidence: float = CONFIDENCE) -> tuple[Array, Array]:
     """Ends (n,) of the interval of variances (n,) estimated with `degrees` (n,) real degrees of freedom."""
     tail = (1 - confidence) / 2
-    return variance * degrees / stats.chi2.isf(tail, degrees), variance * degrees / stats.chi2.ppf(tail, degrees)
+    return variance * degrees / chdtri(degrees, tail), variance * degrees / chdtri(degrees, 1 - tail)
 
 
 def difference_interval(
@@ -31,19 +31,19 @@ def difference_interval(
     """
     tail = (1 - confidence) / 2
     difference = first - second
-    f = stats.f.isf(tail, first_degrees, second_degrees)
-    g1, h2 = 1 - first_degrees / stats.chi2.isf(tail, first_degrees), _excess(second_degrees, tail)
+    f = fdtri(first_degrees, second_degrees, 1 - tail)
+    g1, h2 = 1 - first_degrees / chdtri(first_degrees, tail), _excess(second_degrees, tail)
     g12 = ((f - 1) ** 2 - (g1 * f) ** 2 - h2**2) / f
     below = (g1 * first) ** 2 + (h2 * second) ** 2 + g12 * first * second
-    f = stats.f.ppf(tail, first_degrees, second_degrees)
-    h1, g2 = _excess(first_degrees, tail), 1 - second_degrees / stats.chi2.isf(tail, second_degrees)
+    f = fdtri(first_degrees, second_degrees, tail)
+    h1, g2 = _excess(first_degrees, tail), 1 - second_degrees / chdtri(second_degrees, tail)
     h12 = ((1 - f) ** 2 - (h1 * f) ** 2 - g2**2) / f
     above = (h1 * first) ** 2 + (g2 * second) ** 2 + h12 * first * second
     return difference - np.sqrt(np.maximum(below, 0.0)), difference + np.sqrt(np.maximum(above, 0.0))
 
 
 def _excess(degrees: Array, tail: float) -> Array:
-    return np.asarray(degrees / stats.chi2.ppf(tail, degrees) - 1)
+    return np.asarray(degrees / chdtri(degrees, 1 - tail) - 1)
 
 
 def plain_level(frequency: Array, variance: Array, degrees: Array) -> Level:
@@ -108,15 +108,15 @@ def distortion_p_value(distortion: Distortion) -> float:
     """
     ratio, first, second = distortion.ratio, distortion.degrees, distortion.noise_degrees
     n = ratio.size
-    single = n * float(np.min(stats.f.sf(ratio, first, second)))
     if np.isinf(ratio).any():
         return 0.0
+    single = n * float(np.min(fdtrc(first, second, np.maximum(ratio, 0.0))))
     if np.any(ratio <= 0):
         return min(1.0, 2 * single)
     a, b = first / 2, second / 2
-    expected = special.digamma(a) - np.log(a) - special.digamma(b) + np.log(b)
-    spread = distortion.shared * special.polygamma(1, a) + distortion.noise_shared * special.polygamma(1, b)
-    whole = float(stats.norm.sf(np.sum(np.log(ratio) - expected) / np.sqrt(np.sum(spread))))
+    expected = digamma(a) - np.log(a) - digamma(b) + np.log(b)
+    spread = distortion.shared * polygamma(1, a) + distortion.noise_shared * polygamma(1, b)
+    whole = float(ndtr(-np.sum(np.log(ratio) - expected) / np.sqrt(np.sum(spread))))
     return min(1.0, 2 * min(whole, single))
 
 
@@ -125,7 +125,7 @@ def gain_interval(bla: BestLinearApproximation, confidence: float = CONFIDENCE) 
 
     Student's distribution, because the variance is estimated too.
     """
-    half = stats.t.isf((1 - confidence) / 2, bla.degrees) * np.sqrt(bla.variance / 2)
+    half = stdtrit(bla.degrees, (1 + confidence) / 2) * np.sqrt(bla.variance / 2)
     return half, half / np.abs(bla.gain)
 
 
@@ -134,4 +134,4 @@ def gain_radius(bla: BestLinearApproximation, confidence: float = CONFIDENCE) ->
 
     Source: |error|^2 / variance is F distributed with 2 and `degrees` degrees of freedom.
     """
-    return np.asarray(np.sqrt(bla.variance * stats.f.isf(1 - confidence, 2, bla.degrees)))
+    return np.asarray(np.sqrt(bla.variance * fdtri(2, bla.degrees, confidence)))
