@@ -1,4 +1,4 @@
-"""A thousand random wirings: each runs, or is refused with one clear line."""
+"""Two hundred random wirings: each runs, or is refused with one clear line."""
 
 import re
 
@@ -75,7 +75,7 @@ def sensible(members: list, wires: list) -> list[tuple[str, str]]:
     return bent
 
 
-@settings(max_examples=1000, derandomize=True, database=None, suppress_health_check=list(HealthCheck))
+@settings(max_examples=200, derandomize=True, database=None, suppress_health_check=list(HealthCheck))
 @given(wiring)
 def test_every_wiring_runs_or_is_refused_in_one_line(drawn: tuple) -> None:
     kinds, wires, order, doubling, fill = drawn
@@ -117,6 +117,6 @@ outcomes = {"done": 0, "refused": 0, "stopped": 0}
 
 def test_both_happened_often() -> None:
     """Of the wirings above; else they would prove little."""
-    assert outcomes["done"] > 100
-    assert outcomes["refused"] > 100
-    assert outcomes["stopped"] < 20
+    assert outcomes["done"] > 20
+    assert outcomes["refused"] > 20
+    assert outcomes["stopped"] < 5

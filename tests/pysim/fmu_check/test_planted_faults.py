@@ -85,6 +85,7 @@ def test_a_hang_is_a_finding(subject: Callable[[str], Subject]) -> None:
     assert "hangs" in hang.detail
 
 
+@pytest.mark.slow
 def test_many_slow_answers_are_no_hang(subject: Callable[[str], Subject]) -> None:
     """Half a second for each of eight instances."""
     results = check_fmu(subject("SLOW").path, ("start values",), patience=3.0).results

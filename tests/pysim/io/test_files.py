@@ -28,22 +28,6 @@ def test_a_failure_half_way_leaves_the_old_file(tmp_path: Path, monkeypatch: pyt
     assert list(tmp_path.iterdir()) == [path]
 
 
-def test_a_file_that_another_program_has_open_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    path = tmp_path / "open in Excel.csv"
-    path.write_text("old")
-
-    def fail(*_: object) -> None:
-        raise PermissionError(13, "Access is denied", "a.part", 5, str(path))
-
-    monkeypatch.setattr(os, "replace", fail)
-    with pytest.raises(
-        PermissionError, match=r"cannot be replaced; close the program that shows it.*open in Excel\.csv"
-    ):
-        write_file(path, b"new")
-    assert path.read_text() == "old"
-    assert list(tmp_path.iterdir()) == [path]
-
-
 @pytest.mark.skipif(os.name == "nt", reason="a device file of Unix")
 def test_a_device_stays_a_device() -> None:
     write_file(Path(os.devnull), "gone")

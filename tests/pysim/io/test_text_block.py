@@ -38,7 +38,7 @@ def logs(draw: st.DrawFn) -> tuple[str, list[list[float]], str]:
     return text, expected, draw(st.sampled_from(["utf-8", "utf-8-sig", "latin-1", "utf-16"]))
 
 
-@settings(max_examples=300)
+@settings(max_examples=60)
 @given(logs())
 def test_every_dialect_gives_the_numbers_that_were_written(
     tmp_path_factory: pytest.TempPathFactory, log: tuple[str, list[list[float]], str]
@@ -56,7 +56,7 @@ def test_every_dialect_gives_the_numbers_that_were_written(
 CHARACTERS = st.text("0123456789.,;\t eE+-_#ab\n", max_size=60)
 
 
-@settings(max_examples=500)
+@settings(max_examples=100)
 @given(CHARACTERS, st.integers(1, 3))
 def test_in_one_go_and_line_by_line_agree_on_anything(text: str, width: int) -> None:
     lines = [line for line in ("1 2 3"[: 2 * width - 1] + "\n" + text).split("\n") if line.strip()]
@@ -92,7 +92,7 @@ MIXED = st.text("0123456789.,; \teE+-_:ab", max_size=12)
 FIELDS = st.sampled_from(["1", "2.5", "3,5", "1e999", "x", "", "1_0", "0x10", "nan", "1d5"])
 
 
-@settings(max_examples=500)
+@settings(max_examples=100)
 @given(
     st.lists(st.tuples(MIXED, st.sampled_from(["1", "2.5", "3,5", "1e999", "x", "", "1_0"])), max_size=4), SEPARATORS
 )
@@ -119,7 +119,7 @@ def test_words_in_columns_that_are_left_out_are_no_obstacle(separator: str) -> N
     np.testing.assert_array_equal(values[:, [1, 3]], [[0.5, 2], [1, -30]])
 
 
-@settings(max_examples=200)
+@settings(max_examples=40)
 @given(
     st.integers(1, 30),  # above it all could be header
     st.integers(0, 2),
