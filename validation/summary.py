@@ -13,7 +13,7 @@ BEGIN, END = "<!-- validation: begin, written by pysim validate --record -->", "
 
 
 def short_summary(results: Iterable[CaseResult]) -> str:
-    """A row per group, and every claim that fails: what the README includes."""
+    """A row per group, and which cases fail: what the README includes."""
     last = newest(results)
     rows = []
     for group, title in GROUPS.items():
@@ -22,8 +22,8 @@ def short_summary(results: Iterable[CaseResult]) -> str:
         counts = [str(sum(result.count(verdict) for result in done)) for verdict in (HOLDS, FAILS, SKIPPED)]
         rows.append([title, f"{len(done)} of {len(names)}", *counts])
     head = ["", "cases recorded", "claims that hold", "fail", "skipped"]
-    end = f"{_commits(last)} [Case by case](validation/RESULTS.md)."
-    return "\n".join([*_table(head, rows), "", *_failing(last), "", end, ""])
+    words = (_failing(last), "[Every case and every claim that fails](validation/RESULTS.md).", _commits(last))
+    return "\n".join([*_table(head, rows), "", *words, ""])
 
 
 def full_summary(results: Iterable[CaseResult], *, kept: bool = True) -> str:
@@ -40,9 +40,9 @@ def full_summary(results: Iterable[CaseResult], *, kept: bool = True) -> str:
     for group, title in GROUPS.items():
         names = [name for name, case in CASES.items() if case.group == group and (kept or name in last)]
         if names:
-            rows = [_row(name, _linked(name) if kept else name, last.get(name)) for name in names]
-            told = [f"\n- {text}" for name in names if name in last for text in _not_held(last[name])]
-            lines += ["", f"## {title}", "", *_table(head, rows), *told]
+            rows = [_row(name, f"[{name}]({CASES[name].readme})" if kept else name, last.get(name)) for name in names]
+            others = [f"- {name}: {text}" for name in names if name in last for text in _not_held(last[name])]
+            lines += ["", f"## {title}", "", *_table(head, rows), *(["", *others] if others else [])]
     machines = sorted({str(result.machine) for result in last.values()})
     return "\n".join([*lines, "", "Machines: " + "; ".join(machines) + ".", ""])
 
@@ -63,14 +63,14 @@ def _commits(last: Mapping[str, CaseResult]) -> str:
     return f"Cases recorded: {', '.join(named)}." if named else ""
 
 
-def _failing(last: Mapping[str, CaseResult]) -> list[str]:
-    texts = [
-        f"- {_linked(name, 'validation/')}: {text}"
+def _failing(last: Mapping[str, CaseResult]) -> str:
+    """How many claims fail, by case."""
+    named = [
+        f"[{name}](validation/{CASES[name].readme}) ({result.count(FAILS)}{', stopped' if result.error else ''})"
         for name, result in last.items()
-        for text in _not_held(result)
         if result.verdict == FAILS
     ]
-    return ["Claims that do not hold:", "", *texts] if texts else ["No claim of a recorded case fails."]
+    return f"Claims that fail: {', '.join(named)}." if named else "No claim of a recorded case fails."
 
 
 def _not_held(result: CaseResult) -> list[str]:
@@ -80,10 +80,6 @@ def _not_held(result: CaseResult) -> list[str]:
 
 def _sentence(finding: Finding) -> str:
     return f"{verdict_of(finding)}: {finding.outcome}"
-
-
-def _linked(name: str, folder: str = "") -> str:
-    return f"[{name}]({folder}{CASES[name].readme})"
 
 
 def _table(head: list[str], rows: list[list[str]]) -> list[str]:
