@@ -12,10 +12,11 @@ from pysim.io.text_fields import LEFT_OUT
 from pysim.io.toml_section import Section, read_toml
 from pysim.io.units import Scale, signal_in_si, unit_cure
 from pysim.types import SECONDS, SI, UNITS, BadInput, Dataset, MeasuredRecord, MeasuredSignal, Record
+from pysim.types.record_kind import HOLDS
 
 _KEYS = ("dataset", "signals", "records")
 _DATASET_KEYS = ("name", "description", "system", "time_unit")
-SIGNAL_KEYS = ("role", "unit", "quantity", "variable", "noise", "resolution")
+SIGNAL_KEYS = ("role", "unit", "quantity", "variable", "noise", "resolution", "hold")
 _SCALE_KEYS = ("factor", "offset")
 _TEST_KEYS = ("offset", "amplitude", "frequency", "input", "output")
 _RECORD_KEYS = ("file", "columns", TIME, "kind", "use", *_TEST_KEYS, "origin")
@@ -124,14 +125,20 @@ def described_signal(name: str, section: Section, units: Sequence[str] = tuple(S
     unit = section.text("unit")
     if unit not in units:
         raise BadInput(f"{section.place}: unit = {unit!r} is not known; {unit_cure(unit, units)}")
+    role = section.text("role", among=("input", "output"))
+    if "hold" in section.values and role == "output":
+        raise BadInput(
+            f"{section.place}: hold is for inputs, and this is an output; remove it"
+        )
     return MeasuredSignal(
         name=name,
-        role=section.text("role", among=("input", "output")),
+        role=role,
         unit=unit,
         quantity=section.text("quantity", name),
         variable=section.text("variable", name),
         noise=section.not_negative("noise"),
         resolution=section.not_negative("resolution"),
+        hold=HOLDS[section.text("hold", among=tuple(HOLDS))] if "hold" in section.values else None,
     )
 
 

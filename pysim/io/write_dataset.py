@@ -17,6 +17,7 @@ from pysim.io.measured_log import LOGS
 from pysim.io.response_table import TABLE_COLUMNS
 from pysim.io.units import Scale
 from pysim.types import UNITS, BadInput, Dataset, FrequencyResponse, MeasuredRecord, MeasuredSignal, Record, conversion
+from pysim.types.record_kind import HOLDS
 
 Array = NDArray[np.float64]
 
@@ -159,7 +160,9 @@ def _description(dataset: Dataset, name: str, units: Mapping[str, str], scales: 
         about = {"role": signal.role, "unit": units[signal.name], "quantity": signal.quantity or signal.name}
         about |= {} if signal.variable in ("", signal.name) else {"variable": signal.variable}
         noise, resolution = (None if v is None else _tidy(v / to_si) for v in (signal.noise, signal.resolution))
-        parts.append(_section(f"[signals.{_key(signal.name)}]", about | {"noise": noise, "resolution": resolution}))
+        hold = next((word for word, command in HOLDS.items() if command is signal.hold), None)
+        about |= {"noise": noise, "resolution": resolution, "hold": hold}
+        parts.append(_section(f"[signals.{_key(signal.name)}]", about))
     parts += [_section("[[records]]", _about(record, dataset, scales)) for record in dataset.records]
     return "\n".join(parts)
 

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from pysim.types.errors import BadInput
 from pysim.types.frequency_response import FrequencyResponse
 from pysim.types.record import Record
+from pysim.types.record_kind import Command
 
 
 @dataclass(frozen=True)
@@ -22,6 +23,7 @@ class MeasuredSignal:
         variable: the model variable it stands for.
         noise: standard deviation of the measurement noise, in `unit`, or None where not known.
         resolution: quantisation step, in `unit`, or None where not known.
+        hold: how an input runs between samples; None where the record's kind says it.
     """
 
     name: str
@@ -31,6 +33,7 @@ class MeasuredSignal:
     variable: str
     noise: float | None = None
     resolution: float | None = None
+    hold: Command | None = None
 
     @property
     def deviation(self) -> float:

@@ -13,8 +13,14 @@ class Command(Enum):
 
     SINE = "sine"  # the closed form, fitted to the logged command
     CHIRP = "chirp"  # the same of a sweep
-    SPLINE = "spline"  # a cubic spline through the samples
+    SPLINE = "spline"  # a cubic spline through the samples, from jump to jump
+    LINES = "lines"  # straight lines from sample to sample
     STEPS = "steps"  # held until the next sample
+
+
+HOLDS: Mapping[str, Command] = MappingProxyType(
+    {"zero": Command.STEPS, "linear": Command.LINES, "spline": Command.SPLINE}
+)  # as dataset.toml spells how an input runs between samples
 
 
 class Compared(Enum):

@@ -178,7 +178,7 @@ def _log(setting: _Setting, record: MeasuredRecord, data: Record, index: int) ->
     measured, start, rest = _cut(data, outputs), float(data.time[0]), setting.treatment.rest
     commands, begin = {}, start
     for column in columns:
-        name, signal = setting.variable(column), logged_command(record, column)
+        name, signal = setting.variable(column), logged_command(record, column, setting.dataset.signal(column).hold)
         if rest is not None:
             signal, first = from_rest(signal, start, float(setting.model[name].start or 0.0), rest)
             begin = min(begin, first)

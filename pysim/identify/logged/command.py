@@ -7,24 +7,27 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from pysim.identify.logged.wave import CHIRP, STEPPED_SINE, LoggedWave, logged_wave
+from pysim.identify.logged.wave import LoggedWave, logged_wave
 from pysim.types import BadInput, MeasuredRecord, Record, Signal
+from pysim.types.record_kind import KINDS, Command
 
 Array = NDArray[np.float64]
 
 
-def logged_command(record: MeasuredRecord, column: str) -> Signal:
+def logged_command(record: MeasuredRecord, column: str, hold: Command | None = None) -> Signal:
     """The command as a function of time, with its derivative.
 
     A stepped sine and a chirp run by their closed form, fitted to the logged column; what leads to them and what
-    follows by straight lines through the samples. Anything else runs by natural cubic splines through its samples, from
-    jump to jump: a command that stood exactly still, to the last digit, for three samples before or after a change
-    has jumped when the change is more than three times that of its other side, and did so at the sample that shows it
-    first. Where noise hides that, the spline overshoots by a tenth. Before the first sample its value holds.
+    follows by straight lines through the samples. Steps hold each sample until the next. Anything else runs by natural
+    cubic splines through its samples, from jump to jump: a command that stood exactly still, to the last digit, for
+    three samples before or after a change has jumped when the change is more than three times that of its other side,
+    and did so at the sample that shows it first. Where noise hides that, the spline overshoots by a tenth. Before the
+    first sample its value holds.
 
     Args:
         record: a log over time.
         column: name of the logged command.
+        hold: how it runs between samples, STEPS, LINES or SPLINE; None as the record's kind says.
     Returns:
         in the column's unit, in the log's time.
     Raises:
@@ -33,9 +36,15 @@ def logged_command(record: MeasuredRecord, column: str) -> Signal:
     if not isinstance(record.data, Record):
         raise BadInput(f"{record.source}: holds a response over frequency; only a log over time has a command")
     time, values = record.data.time, record.data[column]
-    if record.kind not in (STEPPED_SINE, CHIRP):
-        return _from_jump_to_jump(time, values)
-    return _around(logged_wave(record, column), time, values)
+    command = hold or KINDS[record.kind].command
+    if command is Command.STEPS:
+        changes = np.append(True, np.diff(values) != 0)
+        return Signal.steps(time[changes], values[changes])
+    if command is Command.LINES:
+        return Signal.lines(time, values)
+    if command in (Command.SINE, Command.CHIRP):
+        return _around(logged_wave(record, column), time, values)
+    return _from_jump_to_jump(time, values)
 
 
 # A jump is more than so many times what the command moves by beside it.

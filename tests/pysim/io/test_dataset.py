@@ -93,6 +93,12 @@ def test_reading_changes_nothing(folder: Path) -> None:
         ('unit = "%"', 'unit = "percent"', "line 6: unit = 'percent' is not known"),
         ("noise = 0.1", "noise = nan", "line 12: noise = nan is no finite number"),
         ("noise = 0.1", "noise = -0.1", "line 12: noise cannot be negative, got -0.1"),
+        ("noise = 0.1", 'hold = "zero"', "line 12: hold is for inputs, and this is an output; remove it"),
+        (
+            'variable = "alphaCMD"',
+            'hold = "cubic"',
+            "line 6: hold = 'cubic' is not known; use one of zero, linear",
+        ),
         ("[signals.cmd]", "[signals.time]", "line 6: time is the clock of every log and no signal"),
         ('file = "sub/reordered.txt"', 'file = ""', "line 26: file is missing or no text"),
         ("offset = 25.0\n", "", "line 18: offset is missing"),

@@ -10,9 +10,10 @@ from hypothesis import strategies as st
 
 from pysim.io import read_dataset, read_single_log, write_dataset
 from pysim.types import BadInput, Dataset, FrequencyResponse, MeasuredRecord, MeasuredSignal, Record, SineTest
+from pysim.types.record_kind import Command
 
 SIGNALS = (
-    MeasuredSignal("cmd", "input", "%", "command", "alphaCMD"),
+    MeasuredSignal("cmd", "input", "%", "command", "alphaCMD", hold=Command.STEPS),
     MeasuredSignal("p A", "output", "Pa", "pressure", "chamber.p", noise=2e3, resolution=5e3),
     MeasuredSignal("w", "output", "rad/s", "speed", "w", noise=0.01),
 )

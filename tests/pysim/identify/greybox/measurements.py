@@ -24,7 +24,7 @@ def dataset(records: list[MeasuredRecord], noise: float | None = NOISE) -> Datas
 
 def log(time: Array, w: Array, y: Array, source: str = "log.txt", use: str = "fit") -> MeasuredRecord:
     data = Record(time, np.column_stack([w, y]), ("w", "y"), ("1", "1"))
-    return MeasuredRecord(source, "step", use, data)
+    return MeasuredRecord(source, "other", use, data)
 
 
 def ramp_answer(t: Array, K: float, T: float) -> Array:
