@@ -2,16 +2,17 @@
 
 import ctypes
 import subprocess
-import sys
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+import ziglang
 
 from fmu_build.emit.c_function import ARGUMENTS
 
 INCLUDE = Path(__file__).parents[1] / "fmu_build" / "runtime" / "include"
+ZIG = Path(ziglang.__file__).with_name("zig")  # started directly: `python -m ziglang` starts a second Python
 WARNINGS = ("-Wall", "-Wextra", "-Wpedantic", "-Werror")
 
 _Pointer = ctypes.POINTER(ctypes.c_double)
@@ -21,7 +22,7 @@ def compile_shared(source: str, folder: Path) -> ctypes.CDLL:
     """A shared library of one C file in which model.h can be included."""
     file, library = folder / "generated.c", folder / "generated.so"
     file.write_text(source, encoding="utf-8")
-    command = [sys.executable, "-m", "ziglang", "cc", "-std=c11", "-O1", "-shared", "-fPIC", *WARNINGS]
+    command = [str(ZIG), "cc", "-std=c11", "-O1", "-shared", "-fPIC", *WARNINGS]
     done = subprocess.run(
         [*command, f"-I{INCLUDE}", str(file), "-o", str(library)], capture_output=True, text=True, check=False
     )

@@ -4,6 +4,7 @@ import importlib
 import subprocess
 import sys
 import zipfile
+from pathlib import Path
 
 import pytest
 
@@ -42,10 +43,6 @@ def test_a_second_build_comes_from_the_cache(loads, tmp_path):
 
 def test_a_path_may_be_a_text(loads, tmp_path):
     assert build("Test.Oscillator", str(tmp_path / "a.fmu")) == tmp_path / "a.fmu"
-    with pytest.raises(BuildError, match="does not exist; create it first"):
-        build("Test.Oscillator", str(tmp_path / "none" / "a.fmu"))
-    with pytest.raises(BuildError, match="the library nowhere does not exist"):
-        build("Test.Oscillator", libraries=["nowhere"])
 
 
 def test_another_value_or_version_is_another_build(loads):
@@ -111,7 +108,7 @@ def test_an_unchanged_model_needs_none_of_the_tools(loads, tmp_path):
     [
         ({"fmi": 1}, "FMI version 1"),
         ({"platforms": ["beos"]}, "beos"),
-        ({"libraries": ["nowhere"]}, "nowhere does not exist"),
+        ({"libraries": ["nowhere"]}, "the library nowhere does not exist"),
     ],
 )
 def test_wrong_arguments(loads, options, message):
@@ -120,9 +117,10 @@ def test_wrong_arguments(loads, options, message):
     assert not loads
 
 
-def test_an_unwritable_target_is_refused_before_any_work(loads, tmp_path):
-    with pytest.raises(BuildError, match="does not exist"):
-        build("A", tmp_path / "missing" / "a.fmu")
+@pytest.mark.parametrize("form", [str, Path])
+def test_an_unwritable_target_is_refused_before_any_work(loads, tmp_path, form):
+    with pytest.raises(BuildError, match="does not exist; create it first"):
+        build("A", form(tmp_path / "missing" / "a.fmu"))
     assert not loads
 
 

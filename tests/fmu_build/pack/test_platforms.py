@@ -1,27 +1,11 @@
 """Names of platforms."""
 
 import platform
-import sys
 
 import pytest
 
 from fmu_build.errors import BuildError
 from fmu_build.pack import PLATFORMS, host_platform, select_platforms
-
-
-@pytest.mark.parametrize(
-    ("system", "machine", "name"),
-    [
-        ("linux", "x86_64", "x86_64-linux"),
-        ("linux", "aarch64", "aarch64-linux"),
-        ("win32", "AMD64", "x86_64-windows"),
-        ("darwin", "arm64", "aarch64-darwin"),
-    ],
-)
-def test_host(monkeypatch, system, machine, name):
-    monkeypatch.setattr(sys, "platform", system)
-    monkeypatch.setattr(platform, "machine", lambda: machine)
-    assert host_platform().name == name
 
 
 def test_a_host_we_cannot_build_for(monkeypatch):
