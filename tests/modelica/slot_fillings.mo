@@ -1,5 +1,5 @@
-// Every pump effect of the standard list, as short as it can be, to show that the slots take them all.
-// Each class fills one slot; its first parameter is the strength, 0 = off. Used by test_slots.py.
+// A class for each slot of the pump, as short as it can be; its first parameter is the strength, 0 = off.
+// Used by test_slots.py.
 
 package SlotFillings
   model PistonCoulomb
@@ -9,34 +9,12 @@ package SlotFillings
     f = -F_c*tanh(v/1e-3);
   end PistonCoulomb;
 
-  model PistonStribeck
-    extends HydraulicTestBench.Interfaces.PartialPistonForce;
-    parameter Real F_s = 0;
-    parameter Real v_s = 5e-3;
-  equation
-    f = -tanh(v/1e-3)*(0.5*F_s + 0.5*F_s*exp(-abs(v)/v_s));
-  end PistonStribeck;
-
-  model SpringHardening
-    extends HydraulicTestBench.Interfaces.PartialPistonForce;
-    parameter Real k_3 = 0;
-  equation
-    f = -k_3*x^3;
-  end SpringHardening;
-
   model SpringPreload
     extends HydraulicTestBench.Interfaces.PartialPistonForce;
     parameter Real F_0 = 0;
   equation
     f = -F_0*tanh(x/0.2e-3);
   end SpringPreload;
-
-  model SwashBias
-    extends HydraulicTestBench.Interfaces.PartialPistonForce;
-    parameter Real F_b = 0;
-  equation
-    f = F_b;
-  end SwashBias;
 
   model TwoForces
     extends HydraulicTestBench.Interfaces.PartialPistonForce;
@@ -72,25 +50,6 @@ package SlotFillings
   equation
     y = s + u_n;
   end ValveOffset;
-
-  model ValveSaturation
-    extends HydraulicTestBench.Interfaces.PartialSpool(u(start=0, fixed=true), u_t(start=0, fixed=true));
-    parameter Real inverse_u_max = 0;
-  protected
-    Real free "Acceleration without stops";
-    Boolean is_up(start=false, fixed=true);
-    Boolean is_down(start=false, fixed=true);
-  equation
-    is_up = u*inverse_u_max > 1;
-    is_down = u*inverse_u_max < -1;
-    free = omega_v^2*(u_ref - u) - 2*zeta_v*omega_v*u_t;
-    u_tt = if is_up and free > 0 or is_down and free < 0 then 0 else free;
-    der(u) = u_t;
-    der(u_t) = u_tt;
-    when {is_up, is_down} then
-      reinit(u_t, 0);
-    end when;
-  end ValveSaturation;
 
   model ValveRateLimit
     extends HydraulicTestBench.Interfaces.PartialSpool(u(start=0, fixed=true), u_t(start=0, fixed=true));
@@ -151,15 +110,6 @@ package SlotFillings
     y_t = (s - y)/max(T_f, 1e-5);
     der(y) = y_t;
   end SensorLag;
-
-  model CardSampling
-    extends HydraulicTestBench.Interfaces.PartialSignal(y(start=0, fixed=true));
-    parameter Real T_s = 0;
-  equation
-    when sample(0, T_s) then
-      y = s;
-    end when;
-  end CardSampling;
 
   model ErrorDeadZone
     extends HydraulicTestBench.Interfaces.PartialSignalWithRate;

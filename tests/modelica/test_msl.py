@@ -1,4 +1,4 @@
-"""The library that joins ours to the Modelica Standard Library: its files, and its models where that is installed.
+"""The library that joins ours to the Modelica Standard Library: its models, where that is installed.
 
 A folder on MODELICAPATH that holds `Modelica`, `ModelicaServices` and `Complex.mo` of version 4.0.0 is enough for our
 own compiler; OpenModelica brings its own.
@@ -10,52 +10,20 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-import rumoca
 
 import fmu_build
 from fmu_build.openmodelica import what_is_missing
 from pysim.io import read_model
 from pysim.simulate import Rodas, simulate
 from pysim.types import Experiment, Record
-from tests.modelica.declared import without_description
 from tests.modelica.library import LIBRARY
 
 JOINED = LIBRARY.parent / "HydraulicTestBenchMSL"
-FILES = sorted(JOINED.rglob("*.mo"))
 PLACES = [Path(place) for place in os.environ.get("MODELICAPATH", "").split(os.pathsep) if place]
 STANDARD = next((place for place in PLACES if (place / "Modelica" / "package.mo").is_file()), None)
 with_standard_library = pytest.mark.skipif(STANDARD is None, reason="no Modelica 4.0.0 on MODELICAPATH")
 MISSING = what_is_missing()
 with_omc = pytest.mark.skipif(bool(MISSING), reason=MISSING)
-
-
-def name_of(file: Path) -> str:
-    parts = file.relative_to(JOINED.parent).with_suffix("").parts
-    return ".".join(part for part in parts if part != "package")
-
-
-@pytest.mark.parametrize("file", FILES, ids=name_of)
-def test_file_is_in_its_place_and_documented(file: Path) -> None:
-    source = file.read_text(encoding="utf-8")
-    *outer, name = name_of(file).split(".")
-    assert source.startswith(f"within {'.'.join(outer)};\n")
-    assert re.search(rf"^end {name};$", source, re.MULTILINE)
-    assert re.search(rf'\b(package|model|block) {name}\s+"[^"]+"', source)
-    documentation = re.search(r'Documentation\(info="((?:\\.|[^"\\])*)"', source)
-    assert documentation
-    assert documentation[1].strip().startswith("<html>")
-    assert "<b>Source:</b>" in documentation[1]
-    assert without_description(file, source) == []
-    assert max(map(len, source.splitlines())) <= 120
-    assert [found.message for found in rumoca.validate(str(file)) if found.rule == "syntax-error"] == []
-
-
-@pytest.mark.parametrize("folder", sorted({file.parent for file in FILES}), ids=lambda folder: folder.name)
-def test_package_order_names_each_class_once(folder: Path) -> None:
-    ordered = (folder / "package.order").read_text(encoding="utf-8").split()
-    classes = [path.stem for path in folder.glob("*.mo") if path.stem != "package"]
-    classes += [path.parent.name for path in folder.glob("*/package.mo")]
-    assert sorted(ordered) == sorted(classes)
 
 
 def test_versions_it_uses_are_those_there_are() -> None:

@@ -40,55 +40,45 @@ def read(*parts: str) -> str:
     return LIBRARY.joinpath(*parts).read_text(encoding="utf-8")
 
 
-@pytest.mark.parametrize(
-    ("record", "table"), [("FreeGreyBox", "table_4_6_free"), ("LockedGreyBox", "table_4_5_locked")]
-)
-def test_identified_values(record: str, table: str) -> None:
-    body = re.search(r"extends GreyBox\((.*?)\);", read("Data", f"{record}.mo"), re.DOTALL)
-    assert body
-    values = dict(item.split("=") for item in re.sub(r"\s", "", body[1]).split(","))
-    assert list(values) == IDENTIFIED
-    for name, text in values.items():
-        assert value_of(text) == pytest.approx(TABLES[table][name] * SI[TABLES["units"][name]], rel=1e-12), name
+def test_identified_values() -> None:
+    for record, table in (("FreeGreyBox", "table_4_6_free"), ("LockedGreyBox", "table_4_5_locked")):
+        body = re.search(r"extends GreyBox\((.*?)\);", read("Data", f"{record}.mo"), re.DOTALL)
+        assert body
+        values = dict(item.split("=") for item in re.sub(r"\s", "", body[1]).split(","))
+        assert list(values) == IDENTIFIED
+        for name, text in values.items():
+            assert value_of(text) == pytest.approx(TABLES[table][name] * SI[TABLES["units"][name]], rel=1e-12), name
 
 
-@pytest.mark.parametrize("name", IDENTIFIED)
-def test_bounds_of_table_4_6(name: str) -> None:
-    declared = re.search(
-        rf"parameter Types\.\w+ {name}\(min=([^,]*), max=([^,)]*)", read("Pump", "SwashPlateControl.mo")
-    )
-    assert declared
-    factor = SI[TABLES["units"][name]]
-    assert value_of(declared[1]) == pytest.approx(TABLES["table_4_6_lower"][name] * factor, rel=1e-12)
-    assert value_of(declared[2]) == pytest.approx(TABLES["table_4_6_upper"][name] * factor, rel=1e-12)
+def test_bounds_of_table_4_6() -> None:
+    source = read("Pump", "SwashPlateControl.mo")
+    for name in IDENTIFIED:
+        declared = re.search(rf"parameter Types\.\w+ {name}\(min=([^,]*), max=([^,)]*)", source)
+        assert declared, name
+        limits = [TABLES[f"table_4_6_{end}"][name] for end in ("lower", "upper")]
+        factor = SI[TABLES["units"][name]]
+        assert [value_of(text) for text in declared.groups()] == pytest.approx(
+            [limit * factor for limit in limits], rel=1e-12
+        ), name
+        for table in ("table_4_6_free", "table_4_5_locked"):
+            assert limits[0] <= TABLES[table][name] <= limits[1], (name, table)
 
 
-@pytest.mark.parametrize("name", IDENTIFIED)
-@pytest.mark.parametrize("table", ["table_4_6_free", "table_4_5_locked"])
-def test_values_lie_within_the_bounds(name: str, table: str) -> None:
-    assert TABLES["table_4_6_lower"][name] <= TABLES[table][name] <= TABLES["table_4_6_upper"][name]
-
-
-@pytest.mark.parametrize("name", list(TABLES["table_5"]))
-def test_static_values(name: str) -> None:
-    declared = re.search(rf"^  Types\.\w+ {name} = ([^\"]*) \"", read("Data", "StaticParameters.mo"), re.MULTILINE)
-    assert declared
-    value, unit = TABLES["table_5"][name]
-    assert value_of(declared[1]) == pytest.approx(value * SI[unit], rel=1e-12)
+def test_static_values() -> None:
+    source = read("Data", "StaticParameters.mo")
+    for name, (value, unit) in TABLES["table_5"].items():
+        declared = re.search(rf"^  Types\.\w+ {name} = ([^\"]*) \"", source, re.MULTILINE)
+        assert declared, name
+        assert value_of(declared[1]) == pytest.approx(value * SI[unit], rel=1e-12), name
 
 
 @pytest.mark.parametrize("name", ["SwashPlateControl", "FreeGreyBox", "LockedGreyBox"])
-def test_names_of_appendix_f_exist(name: str) -> None:
-    variables = set(compiled(f"HydraulicTestBench.Pump.{name}").to_dict("flat")["variables"])
-    for table, names in TABLES["appendix_F"].items():
-        assert set(names) - variables == set(), table
-
-
-@pytest.mark.parametrize("name", ["FreeGreyBox", "LockedGreyBox"])
-def test_each_identified_parameter_is_free(name: str) -> None:
-    """Its value comes from the constant record alone, so that it can be set without touching another."""
+def test_pump_has_the_names_of_appendix_f_and_each_identified_parameter_is_free(name: str) -> None:
+    """The value comes from the constant record alone, so that it can be set without touching another."""
     variables = compiled(f"HydraulicTestBench.Pump.{name}").to_dict("flat")["variables"]
-    for parameter in IDENTIFIED:
+    for table, names in TABLES["appendix_F"].items():
+        assert set(names) - set(variables) == set(), table
+    for parameter in IDENTIFIED if name != "SwashPlateControl" else ():
         variable = variables[parameter]
         binding = variable["binding"] or variable["start"]
         assert "Parameter" in variable["variability"]

@@ -112,6 +112,8 @@ def test_off_is_the_base_model_bit_for_bit(base: At, full: At) -> None:
         ({"motorLeakage.C_m": 2e-12}, "volume_LA.p", BETA / 1.01e-3 * 2e-12 * 50e5),
         ({"servoOpening.u_0": 0.02}, "volume_LA.p", BETA / 1.01e-3 * 0.02 * K_SV * np.sqrt(2 / RHO * 120e5)),
         ({"hoses.V": 1e-3, "hoses.T": 0.01}, "volume_LA.p", -1e-3 / 1.01e-3 * (120e5 - 100e5) / 0.01),
+        ({"hoses.V": 1e-3, "hoses.T": 0.01}, "volume_LB.p", -1e-3 / 1.01e-3 * (170e5 - 100e5) / 0.01),
+        ({"hoses.V": 1e-3, "hoses.T": 0.01}, "volume_sA.p", -1e-3 / 1.52e-3 * (90e5 - 100e5) / 0.01),
         ({"hoses.V": 1e-3, "hoses.T": 0.01}, "volume_sB.p", -1e-3 / 1.52e-3 * (40e5 - 100e5) / 0.01),
     ],
 )
