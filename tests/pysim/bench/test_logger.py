@@ -47,6 +47,11 @@ def test_stamps_are_ticks_that_never_repeat() -> None:
     np.testing.assert_array_equal(Logger(((1, 250.0),)).stamps(instants), instants)
 
 
+def test_a_stamp_is_the_nearest_tick() -> None:
+    stamps = Logger(((1, 100.0),), tick=3e-3).stamps(np.array([0.0014, 0.0046, 0.0104]))
+    np.testing.assert_allclose(stamps, [0.0, 0.006, 0.009], atol=1e-12)
+
+
 @pytest.mark.parametrize(
     ("settings", "words"),
     [

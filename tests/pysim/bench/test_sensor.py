@@ -32,6 +32,11 @@ def test_noise_is_gaussian_and_of_that_size() -> None:
     assert np.mean(np.abs(errors) < 0.3) == pytest.approx(0.6827, abs=4 * np.sqrt(0.6827 * 0.3173 / 1e5))
 
 
+def test_a_reading_is_the_nearest_step() -> None:
+    values = np.array([0.2, 0.3, 0.7, 0.8, -0.2, -0.3])
+    np.testing.assert_array_equal(sensor(step=0.5).measure(values, random()), [0.0, 0.5, 0.5, 1.0, 0.0, -0.5])
+
+
 def test_steps_add_their_twelfth_to_the_variance() -> None:
     values = np.linspace(0, 50, 100_001)
     errors = sensor(noise=0.1, step=0.5).measure(values, random()) - values

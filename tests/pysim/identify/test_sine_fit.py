@@ -36,6 +36,14 @@ def test_covariance_agrees_with_repeated_noise() -> None:
     assert np.mean([f.residual**2 for f in fits]) == pytest.approx(0.25, rel=0.02)
 
 
+def test_three_fitted_numbers_are_three_degrees_of_freedom_less() -> None:
+    time = np.arange(6) / 6.0
+    signs = np.array([1.0, -1.0] * 3)  # at right angles to sine, cosine and constant: six squares of one are left over
+    fit = sine_fit(time, 2.0 * np.sin(2 * np.pi * time) + signs, 1.0)
+    assert fit.residual == pytest.approx(np.sqrt(6 / (6 - 3)), rel=1e-12)
+    assert fit.covariance[0, 0] == pytest.approx(2 / 6 * (6 / 3), rel=1e-12)  # 2 sigma^2 / n
+
+
 def test_textbook_variance_over_whole_periods() -> None:
     time = np.arange(400) / 100.0
     fit = sine_fit(time, 4.0 * np.sin(2 * np.pi * time), 1.0, noise=0.2)

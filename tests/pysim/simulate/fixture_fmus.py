@@ -59,6 +59,13 @@ OSCILLATOR = Fixture(
 BALL = Fixture(
     "ball", ("h", "v"), parameters=(("g", 9.81), ("e", 0.8)), outputs=("bounces",), indicators=1, starts=(1.0, 0.0)
 )
+GATES = Fixture(
+    "gates",
+    ("x",),
+    parameters=(("a", 0.3), ("b", 0.31), ("s", 40.0)),
+    outputs=("at_a", "at_b", "events"),
+    indicators=2,
+)
 CLOCK = Fixture("clock", ("x",), parameters=(("period", 0.3), ("last", 1e9)), outputs=("level",))
 STIFF = Fixture("stiff", ("x", "y"), parameters=(("rate", 1e5),), outputs=("miss",), starts=(0.0, 1.0))
 FRAGILE = Fixture(

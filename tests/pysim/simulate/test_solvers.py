@@ -9,7 +9,7 @@ import pytest
 from pysim.simulate import simulate
 from pysim.simulate.native.method import ExplicitMethod
 from pysim.types import BadInput, Experiment, Signal
-from tests.pysim.simulate.fixture_fmus import BALL, OSCILLATOR
+from tests.pysim.simulate.fixture_fmus import BALL, OSCILLATOR, STIFF
 from tests.pysim.simulate.solver_cases import SOLVERS, SolverCase
 from tests.pysim.simulate.text_models import LAG, PEAKS, text_model
 
@@ -44,11 +44,22 @@ def largest_error(model, times, solver) -> tuple[float, int]:
     return float(np.max(np.abs(record["x"] - forced_oscillation(times)))), record.statistics["steps"]
 
 
-def test_error_falls_with_the_claimed_order(case, fixture_model):
-    model, end = fixture_model(OSCILLATOR), np.array([20.0])
-    coarse_error, coarse_steps = largest_error(model, end, case.make(case.coarse))
+def riccati_error(model, times, solver) -> tuple[float, int]:
+    """y' = -y^2 from 1, beside x' = cos t - (x - sin t) from 0."""
+    record = simulate(model, Experiment(times, ("x", "y"), overrides={"rate": 1.0}), solver=solver)
+    return float(np.max(np.abs(record["y"] - 1 / (1 + times)))), record.statistics["steps"]
+
+
+@pytest.mark.parametrize(
+    ("fixture", "error", "end"),
+    [(OSCILLATOR, largest_error, 20.0), (STIFF, riccati_error, 8.0)],
+    ids=["forced and linear", "nonlinear"],
+)
+def test_error_falls_with_the_claimed_order(case, fixture_model, fixture, error, end):
+    model, times = fixture_model(fixture), np.array([end])
+    coarse_error, coarse_steps = error(model, times, case.make(case.coarse))
     finer = case.coarse / (4 if case.fixed else 1e3)
-    fine_error, fine_steps = largest_error(model, end, case.make(finer))
+    fine_error, fine_steps = error(model, times, case.make(finer))
     measured = math.log(coarse_error / fine_error) / math.log(fine_steps / coarse_steps)
     assert measured == pytest.approx(case.order, abs=0.6)  # a single end point, and steps that differ in length
 

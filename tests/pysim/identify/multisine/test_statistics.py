@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from pysim.identify.multisine import distortion_p_value, pooled, variance_interval
+from pysim.identify.multisine import distortion_p_value, gain_interval, gain_radius, pooled, variance_interval
 from pysim.identify.multisine.statistics import added, difference_interval, distortion_level, plain_level
+from pysim.types import BestLinearApproximation, MultisineTest
 
 RUNS = 20000  # a coverage of 95 percent is then known to 0.15 percent (one sigma)
 
@@ -91,3 +92,12 @@ def test_pooling_lines_that_share_data_makes_nothing_surer_than_it_is(count: int
         alarms += distortion_p_value(mean) < 0.05
     assert np.mean(covered) > 0.94  # 0.85 to 0.69 where the lines count as independent
     assert alarms <= stats.binom.isf(0.001, runs, 0.05)
+
+
+def test_a_gain_s_interval_has_half_of_its_variance_and_the_circle_all_of_it() -> None:
+    """Quantiles from printed tables: t(0.975; 8) = 2.306 and F(0.95; 2, 8) = 4.459."""
+    test, row = MultisineTest("u", "y", "V", "m", 1.0, 0.5, 2.0, 3, 4), np.ones(1)
+    bla = BestLinearApproximation(row, 2j * row, 0.08 * row, 8 * row, None, test, "robust", "a", row, 0.0, 1.0)
+    size, phase = gain_interval(bla)
+    np.testing.assert_allclose([size[0], phase[0]], [2.306 * 0.2, 2.306 * 0.2 / 2], rtol=2e-4)
+    np.testing.assert_allclose(gain_radius(bla), np.sqrt(4.459 * 0.08), rtol=2e-4)
