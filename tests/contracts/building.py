@@ -1,10 +1,14 @@
 """How a case becomes an .fmu."""
 
+from collections.abc import Callable
 from pathlib import Path
 
 from fmu_build import build
 from fmu_build.emit import model_identifier
 from tests.cases import Case
+from tests.contracts.fmu import Fmu
+
+Built = Callable[[Case, int], Fmu]  # (case, FMI version) -> unpacked FMU
 
 
 def build_case(case: Case, fmi: int, folder: Path, *, use_cache: bool = True) -> Path:

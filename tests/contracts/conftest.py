@@ -1,17 +1,15 @@
 """Unpacks each model under test once per FMI version; the FMUs are those of the store that all tests share."""
 
-from collections.abc import Callable
-
 import pytest
 
 from tests.cases import CASES, Case
-from tests.contracts.building import build_case
+from tests.contracts.building import Built, build_case
 from tests.contracts.fmu import Fmu
 
 
 @pytest.fixture(scope="session")
-def built(tmp_path_factory: pytest.TempPathFactory) -> Callable[[Case, int], Fmu]:
-    """(case, FMI version) -> unpacked FMU."""
+def built(tmp_path_factory: pytest.TempPathFactory) -> Built:
+    """An FMU of a case, unpacked once."""
     made: dict[tuple[str, int], Fmu] = {}
     folder = tmp_path_factory.mktemp("fmus")
 
@@ -35,5 +33,5 @@ def fmi(request: pytest.FixtureRequest) -> int:
 
 
 @pytest.fixture
-def fmu(built: Callable[[Case, int], Fmu], case: Case, fmi: int) -> Fmu:
+def fmu(built: Built, case: Case, fmi: int) -> Fmu:
     return built(case, fmi)

@@ -12,6 +12,7 @@ from pysim.io import read_model
 from pysim.simulate import simulate
 from pysim.types import Experiment, Outcome
 from tests.cases import Case
+from tests.contracts.building import Built
 from tests.contracts.fmu import Fmu, Instance
 
 LIMITED = Case(
@@ -50,11 +51,11 @@ def warnings(instance: Instance) -> list[float]:
 
 
 @pytest.fixture
-def limited(built, fmi):
+def limited(built: Built, fmi: int) -> Fmu:
     return built(LIMITED, fmi)
 
 
-def stopped_at(instance, advance):
+def stopped_at(instance: Instance, advance: Callable[[float, float], None]) -> float:
     """End of the last step of 0.05 s that was accepted."""
     status = None
     for number in itertools.count():
@@ -68,21 +69,21 @@ def stopped_at(instance, advance):
     return number * 0.05
 
 
-def test_the_description_asks_for_steps(limited):
+def test_the_description_asks_for_steps(limited: Fmu) -> None:
     assert limited.description.modelExchange.needsCompletedIntegratorStep
 
 
-def test_co_simulation_stops(limited):
+def test_co_simulation_stops(limited: Fmu) -> None:
     with limited.open("cs") as instance:
         instance.start()
         assert stopped_at(instance, instance.step) == pytest.approx(0.65, abs=0.051)
 
 
-def test_model_exchange_stops_at_the_first_step_beyond(limited):
+def test_model_exchange_stops_at_the_first_step_beyond(limited: Fmu) -> None:
     with limited.open("me") as instance:
         instance.start()
 
-        def advance(time, size):
+        def advance(time: float, size: float) -> None:
             instance.raw.setTime(time + size)
             instance.x = [time + size + 1e-9]
             instance.raw.completedIntegratorStep()
@@ -90,7 +91,7 @@ def test_model_exchange_stops_at_the_first_step_beyond(limited):
         assert stopped_at(instance, advance) == pytest.approx(0.65)
 
 
-def test_the_native_loop_stops_too(limited):
+def test_the_native_loop_stops_too(limited: Fmu) -> None:
     model = read_model(limited.path)
     assert model.abilities.needs_completed_step
     record = simulate(model, Experiment(np.linspace(0, 1, 21), ("x",)), check=False)
@@ -98,7 +99,7 @@ def test_the_native_loop_stops_too(limited):
     assert "x is too large" in record.message
 
 
-def test_a_warning_is_logged_once_per_violation(built: Callable[[Case, int], Fmu]) -> None:
+def test_a_warning_is_logged_once_per_violation(built: Built) -> None:
     """x is large from 0.1 s to 0.5 s and from 0.7 s on, with a tick in each 20 ms: two messages in 1 s."""
     with built(WARNED, 3).open("cs") as instance:
         instance.start()

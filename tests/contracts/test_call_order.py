@@ -1,14 +1,17 @@
 """Illegal calls end in an error and a message, never in a crash."""
 
+from collections.abc import Callable
+
 import pytest
 from fmpy.fmi1 import FMICallException
 
-from tests.cases import BY_NAME
+from tests.cases import BY_NAME, Case
+from tests.contracts.fmu import Fmu, Instance
 
 ERROR, DISCARD = 3, 2
 
 
-def refused(instance, call):
+def refused(instance: Instance, call: Callable[[], object]) -> None:
     """The call returns an error and says why."""
     before = len(instance.messages)
     with pytest.raises(FMICallException) as failure:
@@ -58,14 +61,14 @@ RUNNING_KINDS = [(kind, name) for kind in ("me", "cs") for name in WHILE_RUNNING
 
 @one_model
 @pytest.mark.parametrize(("kind", "name"), KINDS)
-def test_too_early(fmu, kind, name):
+def test_too_early(fmu: Fmu, kind: str, name: str) -> None:
     with fmu.open(kind) as instance:
         refused(instance, lambda: BEFORE_START[kind][name](instance))
 
 
 @one_model
 @pytest.mark.parametrize(("kind", "name"), RUNNING_KINDS)
-def test_out_of_place(fmu, case, kind, name):
+def test_out_of_place(fmu: Fmu, case: Case, kind: str, name: str) -> None:
     with fmu.open(kind) as instance:
         instance.start(case.settings)
         refused(instance, lambda: WHILE_RUNNING[kind][name](instance))
@@ -73,7 +76,7 @@ def test_out_of_place(fmu, case, kind, name):
 
 @one_model
 @pytest.mark.parametrize("kind", ["me", "cs"])
-def test_after_the_end(fmu, case, kind):
+def test_after_the_end(fmu: Fmu, case: Case, kind: str) -> None:
     call = (lambda i: i.raw.setTime(1.0)) if kind == "me" else (lambda i: i.step(0.0, 0.1))
     with fmu.open(kind) as instance:
         instance.start(case.settings)
@@ -82,7 +85,7 @@ def test_after_the_end(fmu, case, kind):
 
 
 @pytest.mark.parametrize("kind", ["me", "cs"])
-def test_unknown_references_and_wrong_types(fmu, case, kind):
+def test_unknown_references_and_wrong_types(fmu: Fmu, case: Case, kind: str) -> None:
     real, boolean = ("getReal", "getBoolean") if fmu.fmi == 2 else ("getFloat64", "getBoolean")
     row = next(v.valueReference for v in fmu.description.modelVariables if v.type in ("Real", "Float64"))
     for function, reference in ((real, 10**6), (boolean, row), (boolean, 10**6)):
@@ -91,7 +94,7 @@ def test_unknown_references_and_wrong_types(fmu, case, kind):
             refused(instance, lambda f=function, r=reference, i=instance: getattr(i.raw, f)([r]))
 
 
-def test_calculated_variables_cannot_be_set(fmu, case):
+def test_calculated_variables_cannot_be_set(fmu: Fmu, case: Case) -> None:
     names = [v.name for v in fmu.description.modelVariables if v.initial == "calculated"]
     for name in names[:20]:
         if fmu.variables[name].type in ("Real", "Float64"):
@@ -99,7 +102,7 @@ def test_calculated_variables_cannot_be_set(fmu, case):
                 refused(instance, lambda n=name, i=instance: i.set({n: 1.0}))
 
 
-def test_fixed_parameters_cannot_change_during_a_run(fmu, case):
+def test_fixed_parameters_cannot_change_during_a_run(fmu: Fmu, case: Case) -> None:
     for name in fmu.of(causality="parameter", variability="fixed"):
         with fmu.open("cs") as instance:
             instance.start(case.settings)
@@ -107,7 +110,7 @@ def test_fixed_parameters_cannot_change_during_a_run(fmu, case):
 
 
 @one_model
-def test_null_pointers(fmu, case):
+def test_null_pointers(fmu: Fmu, case: Case) -> None:
     prefix, kind = (f"fmi{fmu.fmi}", "Real" if fmu.fmi == 2 else "Float64")
     extra = () if fmu.fmi == 2 else (1,)
     for verb in ("Get", "Set"):
@@ -118,21 +121,21 @@ def test_null_pointers(fmu, case):
 
 
 @one_model
-def test_no_instance(fmu):
+def test_no_instance(fmu: Fmu) -> None:
     with fmu.open("me") as instance, pytest.raises(FMICallException) as failure:
         instance.raw._call(f"fmi{fmu.fmi}Terminate", None)
     assert failure.value.status == ERROR
 
 
 @one_model
-def test_another_models_token(fmu):
+def test_another_models_token(fmu: Fmu) -> None:
     with fmu.open("me") as instance:
         instance.raw.guid = "{other}"
         with pytest.raises(Exception, match=r"(?i)instantiate"):
             instance._instantiate({})
 
 
-def test_reset_after_an_error(fmu, case):
+def test_reset_after_an_error(fmu: Fmu, case: Case) -> None:
     with fmu.open("me") as instance:
         refused(instance, lambda: instance.raw.setTime(1.0))
         instance.raw.reset()

@@ -10,6 +10,7 @@ from pysim.io import read_model
 from pysim.simulate import simulate
 from pysim.types import Experiment, Outcome
 from tests.cases import Case
+from tests.contracts.building import Built
 
 PENDULUM = """model {name}
   parameter Real L = 1;
@@ -38,7 +39,7 @@ SWINGING = Case(
 )
 
 
-def test_co_simulation_ends_where_the_states_are_lost(built):
+def test_co_simulation_ends_where_the_states_are_lost(built: Built) -> None:
     with built(FALLING, 3).open("cs") as instance:
         instance.start()
         instance.step(0.0, 0.8)
@@ -49,14 +50,14 @@ def test_co_simulation_ends_where_the_states_are_lost(built):
         assert "the states no longer determine x" in instance.messages[-1]
 
 
-def test_a_native_run_ends_there_too(built, fmi):
+def test_a_native_run_ends_there_too(built: Built, fmi: int) -> None:
     record = simulate(read_model(built(FALLING, fmi).path), Experiment(np.linspace(0, 1.2, 13), ("x",)), check=False)
     assert record.outcome is Outcome.MODEL_ERROR
     assert "the states no longer determine x" in record.message
 
 
 @pytest.mark.parametrize("length", [1e-6, 1.0, 1e6])
-def test_a_pendulum_of_any_size_swings_on(built, fmi, length):
+def test_a_pendulum_of_any_size_swings_on(built: Built, fmi: int, length: float) -> None:
     period = 2 * math.pi * math.sqrt(length / 9.81)
     with built(SWINGING, fmi).open("cs") as instance:
         instance.start({"L": length}, tolerance=1e-9)

@@ -1,15 +1,18 @@
 """Directional derivatives, adjoint derivatives and dependencies of every model, at a point off its start."""
 
+from collections.abc import Iterator
+
 import numpy as np
 import pytest
 
-from tests.cases import CASES
+from tests.cases import CASES, Case
+from tests.contracts.fmu import Fmu
 
-SAME = {"rel": 1e-14, "abs": 0.0}  # an unknown that is solved for anew may differ in its last digit
+SAME = 1e-14  # relative: an unknown that is solved for anew may differ in its last digit
 PROBE = 1e-6  # step of finite differences, relative to a variable's size: 1 Pa where orifices are smooth over 1e3 Pa
 
 
-def scales(fmu, names, values):
+def scales(fmu: Fmu, names: list[str], values: np.ndarray) -> np.ndarray:
     """Size of each variable: its value or its nominal value, whichever is larger."""
     nominal = [float(fmu.variables[name].nominal or 1.0) for name in names]
     return np.maximum(np.abs(values), nominal)
@@ -18,7 +21,7 @@ def scales(fmu, names, values):
 class Point:
     """A model-exchange instance in continuous time whose states and inputs are a little off their start values."""
 
-    def __init__(self, fmu, case):
+    def __init__(self, fmu: Fmu, case: Case) -> None:
         self.fmu = fmu
         self.instance = fmu.open("me").start(case.settings)
         random = np.random.default_rng(2)
@@ -29,13 +32,13 @@ class Point:
         self.scale = scales(fmu, self.knowns, values)
         self.move(values + 1e-3 * self.scale * random.uniform(0.5, 1, values.size))
 
-    def move(self, values):
+    def move(self, values: np.ndarray) -> None:
         self.values = values
         if self.states:
             self.instance.x = values[: len(self.states)]
         self.instance.set(dict(zip(self.inputs, values[len(self.states) :], strict=True)))
 
-    def finite_difference(self, unknowns, k):
+    def finite_difference(self, unknowns: list[str], k: int) -> np.ndarray:
         """Change of the unknowns with the k-th known."""
         base, step = self.values, PROBE * self.scale[k]
         results = []
@@ -49,17 +52,17 @@ class Point:
 
 
 @pytest.fixture
-def point(fmu, case):
+def point(fmu: Fmu, case: Case) -> Iterator[Point]:
     made = Point(fmu, case)
     yield made
     made.instance.raw.freeInstance()
 
 
-def unknowns_of(fmu):
+def unknowns_of(fmu: Fmu) -> list[str]:
     return [*fmu.derivatives, *fmu.of(causality="output", variability="continuous")]
 
 
-def test_directional_derivatives_are_those_of_finite_differences(point, fmu):
+def test_directional_derivatives_are_those_of_finite_differences(point: Point, fmu: Fmu) -> None:
     unknowns = unknowns_of(fmu)
     values = point.instance.get(unknowns)
     exact = np.array([point.instance.directional(unknowns, [known], [1.0]) for known in point.knowns]).T
@@ -73,7 +76,7 @@ def test_directional_derivatives_are_those_of_finite_differences(point, fmu):
 
 # An event at the start writes the history of delay() anew, so a difference shows more than the held values.
 @pytest.mark.parametrize("case", [case for case in CASES if not case.has_delay], ids=lambda case: case.name)
-def test_derivatives_by_tunable_parameters(point, fmu, case):
+def test_derivatives_by_tunable_parameters(point: Point, fmu: Fmu, case: Case) -> None:
     parameters = fmu.of(causality="parameter", variability="tunable")
     unknowns = unknowns_of(fmu)
     values = point.instance.get(unknowns)
@@ -92,7 +95,7 @@ def test_derivatives_by_tunable_parameters(point, fmu, case):
         np.testing.assert_allclose(exact, numeric, rtol=1e-5, atol=limit, err_msg=name)
 
 
-def test_seeds_add_up(point, fmu):
+def test_seeds_add_up(point: Point, fmu: Fmu) -> None:
     unknowns = unknowns_of(fmu)
     random = np.random.default_rng(3)
     seed = random.normal(size=len(point.knowns)) * point.scale
@@ -102,7 +105,7 @@ def test_seeds_add_up(point, fmu):
     np.testing.assert_allclose(together, total, rtol=1e-9, atol=1e-12 * np.abs(single).max(initial=1))
 
 
-def test_seeds_of_parameters_add_up_at_every_point(point, fmu):
+def test_seeds_of_parameters_add_up_at_every_point(point: Point, fmu: Fmu) -> None:
     """Those of dx alone take another way than those with an output among them."""
     parameters = fmu.of(causality="parameter", variability="tunable")
     unknowns = unknowns_of(fmu)
@@ -118,7 +121,7 @@ def test_seeds_of_parameters_add_up_at_every_point(point, fmu):
 
 
 @pytest.mark.parametrize("fmi", [3], indirect=True)
-def test_adjoint_derivatives_are_the_transpose(point, fmu):
+def test_adjoint_derivatives_are_the_transpose(point: Point, fmu: Fmu) -> None:
     unknowns = unknowns_of(fmu)
     forward = np.array([point.instance.directional(unknowns, [known], [1.0]) for known in point.knowns])
     reverse = np.array([point.instance.adjoint([unknown], point.knowns, [1.0]) for unknown in unknowns]).T
@@ -126,7 +129,7 @@ def test_adjoint_derivatives_are_the_transpose(point, fmu):
     np.testing.assert_allclose(reverse.reshape(forward.shape), forward, rtol=1e-9, atol=1e-13 * size)
 
 
-def test_what_is_no_dependency_has_no_influence(point, fmu):
+def test_what_is_no_dependency_has_no_influence(point: Point, fmu: Fmu) -> None:
     listed = [*fmu.description.derivatives, *fmu.description.eventIndicators, *fmu.description.outputs]
     listed = [u for u in listed if u.variable.variability == "continuous"]
     names = [u.variable.name for u in listed]
@@ -140,10 +143,10 @@ def test_what_is_no_dependency_has_no_influence(point, fmu):
         point.move(base)
         for unknown, a, b in zip(listed, before, after, strict=True):
             if known not in [d.name for d in unknown.dependencies]:
-                assert a == pytest.approx(b, **SAME), f"{unknown.variable.name} depends on {known}"
+                assert a == pytest.approx(b, rel=SAME, abs=0.0), f"{unknown.variable.name} depends on {known}"
 
 
-def test_time_is_a_dependency_where_it_matters(point, fmu):
+def test_time_is_a_dependency_where_it_matters(point: Point, fmu: Fmu) -> None:
     listed = [*fmu.description.derivatives, *fmu.description.outputs]
     listed = [u for u in listed if u.variable.variability == "continuous"]
     names = [u.variable.name for u in listed]
@@ -151,10 +154,10 @@ def test_time_is_a_dependency_where_it_matters(point, fmu):
     point.instance.raw.setTime(1e-3)
     for unknown, a, b in zip(listed, before, point.instance.get(names), strict=True):
         if "time" not in [d.name for d in unknown.dependencies]:
-            assert a == pytest.approx(b, **SAME), unknown.variable.name
+            assert a == pytest.approx(b, rel=SAME, abs=0.0), unknown.variable.name
 
 
-def test_constant_factors_stay(point, fmu):
+def test_constant_factors_stay(point: Point, fmu: Fmu) -> None:
     """Kinds that promise linearity: the derivative is the same at another point."""
     linear = {"constant", "fixed", "tunable", "discrete"}
     pairs = [
@@ -169,7 +172,7 @@ def test_constant_factors_stay(point, fmu):
     assert first == second
 
 
-def test_initial_unknowns_depend_on_what_they_say(fmu, case):
+def test_initial_unknowns_depend_on_what_they_say(fmu: Fmu, case: Case) -> None:
     listed = fmu.description.initialUnknowns
     names = [u.variable.name for u in listed]
     knowns = [

@@ -3,6 +3,8 @@
 import pytest
 
 from tests.cases import Case
+from tests.contracts.building import Built
+from tests.contracts.fmu import Fmu
 
 FOLLOWING = Case(
     name="following",
@@ -17,11 +19,11 @@ end Following;
 
 
 @pytest.fixture
-def following(built, fmi):
+def following(built: Built, fmi: int) -> Fmu:
     return built(FOLLOWING, fmi)
 
 
-def test_in_co_simulation_with_the_next_step(following):
+def test_in_co_simulation_with_the_next_step(following: Fmu) -> None:
     with following.open("cs") as instance:
         instance.start()
         instance.step(0.0, 0.1)
@@ -31,7 +33,7 @@ def test_in_co_simulation_with_the_next_step(following):
         assert list(instance.get(["twice", "thrice"])) == [14, 21]
 
 
-def test_in_model_exchange_with_the_next_update(following):
+def test_in_model_exchange_with_the_next_update(following: Fmu) -> None:
     with following.open("me") as instance:
         instance.start()
         instance.raw.enterEventMode()

@@ -3,6 +3,7 @@
 import pytest
 
 from tests.cases import Case
+from tests.contracts.building import Built
 
 BEGINNING = Case(
     name="beginning",
@@ -29,7 +30,7 @@ end Beginning;
 )
 
 
-def test_a_condition_of_time_rises_at_the_start(built, fmi):
+def test_a_condition_of_time_rises_at_the_start(built: Built, fmi: int) -> None:
     with built(BEGINNING, fmi).open("cs") as instance:
         instance.start()
         instance.step(0.0, 1.0)

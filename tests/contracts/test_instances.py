@@ -6,24 +6,25 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tests.cases import BY_NAME
+from tests.cases import BY_NAME, Case
+from tests.contracts.fmu import Fmu
 
 CYCLES = 2000
 PAGE = 4096
 
 
-def resident_bytes():
+def resident_bytes() -> int:
     return int(Path("/proc/self/statm").read_text().split()[1]) * PAGE
 
 
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="reads /proc")
 @pytest.mark.parametrize("kind", ["me", "cs"])
 @pytest.mark.parametrize("case", [BY_NAME["sampled"]], ids=["sampled"])  # what allocates is the same for all
-def test_instances_leave_nothing_behind(fmu, kind):
+def test_instances_leave_nothing_behind(fmu: Fmu, kind: str) -> None:
     instance = fmu.open(kind)
     raw = instance.raw
 
-    def cycle(count):
+    def cycle(count: int) -> None:
         for _ in range(count):
             raw.freeInstanceOnly()
             instance._instantiate({})
@@ -38,7 +39,7 @@ def test_instances_leave_nothing_behind(fmu, kind):
     assert grown < 1_000_000
 
 
-def test_instances_do_not_know_each_other(fmu, case):
+def test_instances_do_not_know_each_other(fmu: Fmu, case: Case) -> None:
     size, names = case.stop / 10, [v.name for v in fmu.description.modelVariables]
     with fmu.open("cs") as alone:
         alone.start(case.settings)

@@ -4,13 +4,14 @@ import pytest
 from fmpy.fmi1 import FMICallException
 
 from tests.cases import Case
+from tests.contracts.building import Built
 
 
 def case(name: str, body: str) -> Case:
     return Case(name=name.lower(), class_name=name, text=f"model {name}\n{body}\nend {name};\n")
 
 
-def reasons(built, unsolvable: Case) -> str:
+def reasons(built: Built, unsolvable: Case) -> str:
     """What is logged until initialisation or a run of 2 s fails."""
     with built(unsolvable, 3).open("cs") as instance:
         with pytest.raises(FMICallException):
@@ -37,5 +38,5 @@ def reasons(built, unsolvable: Case) -> str:
     ],
     ids=lambda value: value.name if isinstance(value, Case) else "",
 )
-def test_a_failed_solution_names_its_unknown(built, unsolvable, expected):
+def test_a_failed_solution_names_its_unknown(built: Built, unsolvable: Case, expected: str) -> None:
     assert expected in reasons(built, unsolvable)

@@ -10,17 +10,17 @@ from tests.cases import CASES, Answer, Case
 from tests.contracts.fmu import Fmu
 
 
-def reals(fmu):
+def reals(fmu: Fmu) -> list[str]:
     """What is compared: states and continuous outputs."""
     return list(dict.fromkeys([*fmu.states, *fmu.of(causality="output", variability="continuous")]))
 
 
-def sizes(fmu, names, values):
+def sizes(fmu: Fmu, names: list[str], values: np.ndarray) -> np.ndarray:
     nominal = [float(fmu.variables[name].nominal or 1.0) for name in names]
     return np.maximum(np.abs(values).max(axis=0), nominal)
 
 
-def stepped(fmu, case, names, times, tolerance=1e-8):
+def stepped(fmu: Fmu, case: Case, names: list[str], times: np.ndarray, tolerance: float = 1e-8) -> np.ndarray:
     """Co-simulation from communication point to communication point: values (n_t, n)."""
     with fmu.open("cs") as instance:
         instance.start(case.settings, tolerance=tolerance)
@@ -48,7 +48,7 @@ def test_known_answers(fmu: Fmu, case: Case, answer: Answer) -> None:
     assert found == pytest.approx(answer.value, abs=answer.tolerance)
 
 
-def test_the_communication_step_does_not_matter(fmu, case):
+def test_the_communication_step_does_not_matter(fmu: Fmu, case: Case) -> None:
     names = reals(fmu)
     random = np.random.default_rng(4)
     uneven = np.sort(random.uniform(0, case.stop, 40))
@@ -61,7 +61,7 @@ def test_the_communication_step_does_not_matter(fmu, case):
     assert (np.ptp(ends, axis=0) <= 1e-5 * size).all()
 
 
-def test_model_exchange_and_co_simulation_agree(fmu, case):
+def test_model_exchange_and_co_simulation_agree(fmu: Fmu, case: Case) -> None:
     names = reals(fmu)
     common = {
         "stop_time": case.stop,
@@ -79,7 +79,7 @@ def test_model_exchange_and_co_simulation_agree(fmu, case):
         assert np.abs(theirs - mine[:, k]).max() <= AGREEMENT * size[k], name
 
 
-def test_start_values_and_parameters_are_obeyed(fmu, case):
+def test_start_values_and_parameters_are_obeyed(fmu: Fmu, case: Case) -> None:
     settable = [
         v
         for v in fmu.description.modelVariables
@@ -95,7 +95,7 @@ def test_start_values_and_parameters_are_obeyed(fmu, case):
             assert instance.get([variable.name])[0] == value, variable.name
 
 
-def test_declared_start_values_are_the_ones_used(fmu):
+def test_declared_start_values_are_the_ones_used(fmu: Fmu) -> None:
     """What the XML says is what an instance begins with."""
     declared = {v.name: v.start for v in fmu.description.modelVariables if v.start is not None}
     numbers = {"true": 1.0, "false": 0.0}

@@ -3,10 +3,13 @@
 import numpy as np
 import pytest
 
+from tests.cases import Case
+from tests.contracts.fmu import Fmu, Instance
+
 STEPS = 20
 
 
-def trace(instance, names, first, last, size):
+def trace(instance: Instance, names: list[str], first: int, last: int, size: float) -> np.ndarray:
     """Values after each communication step."""
     rows = []
     for k in range(first, last):
@@ -15,11 +18,11 @@ def trace(instance, names, first, last, size):
     return np.array(rows)
 
 
-def shown(fmu):
+def shown(fmu: Fmu) -> list[str]:
     return [v.name for v in fmu.description.modelVariables if v.causality != "independent"]
 
 
-def test_a_serialised_run_continues_in_another_instance(fmu, case):
+def test_a_serialised_run_continues_in_another_instance(fmu: Fmu, case: Case) -> None:
     size, names = case.stop / STEPS, shown(fmu)
     with fmu.open("cs") as first, fmu.open("cs") as second:
         first.start(case.settings)
@@ -34,7 +37,7 @@ def test_a_serialised_run_continues_in_another_instance(fmu, case):
         assert first.save() == second.save()
 
 
-def test_a_state_of_model_exchange_comes_back(fmu, case):
+def test_a_state_of_model_exchange_comes_back(fmu: Fmu, case: Case) -> None:
     names = shown(fmu)
     with fmu.open("me") as instance:
         instance.start(case.settings)
@@ -46,7 +49,7 @@ def test_a_state_of_model_exchange_comes_back(fmu, case):
         np.testing.assert_array_equal(instance.get(names), before)
 
 
-def test_a_damaged_state_is_refused(fmu, case):
+def test_a_damaged_state_is_refused(fmu: Fmu, case: Case) -> None:
     with fmu.open("cs") as instance:
         instance.start(case.settings)
         saved = instance.save()
@@ -55,7 +58,7 @@ def test_a_damaged_state_is_refused(fmu, case):
         assert instance.messages
 
 
-def test_reset_starts_all_over(fmu, case):
+def test_reset_starts_all_over(fmu: Fmu, case: Case) -> None:
     size, names = case.stop / STEPS, shown(fmu)
     with fmu.open("cs") as instance:
         instance.start(case.settings)

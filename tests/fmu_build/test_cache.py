@@ -95,7 +95,12 @@ def test_a_settled_file_is_read_once(library: Path, monkeypatch: pytest.MonkeyPa
     monkeypatch.setattr(cache, "_SETTLED", -1.0)
     read: list[Path] = []
     plain = Path.read_bytes
-    monkeypatch.setattr(Path, "read_bytes", lambda path: read.append(path) or plain(path))
+
+    def read_bytes(path: Path) -> bytes:
+        read.append(path)
+        return plain(path)
+
+    monkeypatch.setattr(Path, "read_bytes", read_bytes)
     assert key(library) == key(library)
     assert read.count(library / "package.mo") == 1
 

@@ -81,7 +81,12 @@ class Builder:
     def __init__(self, compiler: Compiler) -> None:
         self.compiler = compiler
         headers = sorted([*RUNTIME.rglob("*.h"), *fmi_headers().glob("fmi*.h")])
-        self._common = [compiler.version, *_WARNINGS, *compiler.options, *(path.read_bytes() for path in headers)]
+        self._common: list[str | bytes] = [
+            compiler.version,
+            *_WARNINGS,
+            *compiler.options,
+            *(path.read_bytes() for path in headers),
+        ]
         self._objects: dict[Path, Path] = {}
         for source in sorted({*sources(2), *sources(3)}):
             self._object(source)

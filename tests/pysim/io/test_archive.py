@@ -3,6 +3,7 @@
 import os
 import shutil
 import zipfile
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
@@ -14,7 +15,7 @@ from pysim.types import BadInput
 
 
 @pytest.fixture(autouse=True)
-def own_cache(tmp_path, monkeypatch):
+def own_cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
     folder = tmp_path / "cache"
     folder.mkdir()
     monkeypatch.setattr(module, "cache_folder", lambda purpose: folder)
@@ -23,7 +24,7 @@ def own_cache(tmp_path, monkeypatch):
     new_process()
 
 
-def new_process():
+def new_process() -> None:
     """Forget what this one knows of archives."""
     module._folder.cache_clear()
     module._verify.cache_clear()
@@ -36,7 +37,7 @@ def pack(path: Path, **members: str) -> Path:
     return path
 
 
-def test_same_content_is_unpacked_once_and_other_content_elsewhere(tmp_path, own_cache):
+def test_same_content_is_unpacked_once_and_other_content_elsewhere(tmp_path: Path, own_cache: Path) -> None:
     one = extracted(pack(tmp_path / "a.fmu", resources__data="1"))
     assert (one / "resources" / "data").read_text() == "1"
     (one / "mark").touch()
@@ -48,7 +49,7 @@ def test_same_content_is_unpacked_once_and_other_content_elsewhere(tmp_path, own
     assert {path.name for path in own_cache.iterdir()} == {one.name, other.name}
 
 
-def test_the_unused_go_first_and_come_back(tmp_path, own_cache, monkeypatch):
+def test_the_unused_go_first_and_come_back(tmp_path: Path, own_cache: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     files = [pack(tmp_path / f"{name}.fmu", resources__data=name) for name in "abc"]
     folders = [extracted(file) for file in files]
     for age, folder in enumerate(folders):
@@ -60,13 +61,13 @@ def test_the_unused_go_first_and_come_back(tmp_path, own_cache, monkeypatch):
     assert (extracted(files[1]) / "resources" / "data").read_text() == "b"
 
 
-def test_what_was_used_within_a_day_stays(tmp_path, own_cache, monkeypatch):
+def test_what_was_used_within_a_day_stays(tmp_path: Path, own_cache: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(module, "KEPT_FOLDERS", 1)
     folders = [extracted(pack(tmp_path / f"{name}.fmu", resources__data=name)) for name in "abc"]
     assert all(folder.is_dir() for folder in folders)
 
 
-def test_files_beside_the_folders_stay(tmp_path, own_cache, monkeypatch):
+def test_files_beside_the_folders_stay(tmp_path: Path, own_cache: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(module, "KEPT_FOLDERS", 0)
     built = own_cache / "built.fmu"
     built.touch()
@@ -75,7 +76,7 @@ def test_files_beside_the_folders_stay(tmp_path, own_cache, monkeypatch):
     assert built.exists()
 
 
-def test_what_another_process_removed_is_unpacked_again(tmp_path):
+def test_what_another_process_removed_is_unpacked_again(tmp_path: Path) -> None:
     path = pack(tmp_path / "a.fmu", resources__data="1")
     shutil.rmtree(extracted(path))
     assert (extracted(path) / "resources" / "data").read_text() == "1"
@@ -85,7 +86,7 @@ LIBRARY = "binaries/linux64/m.so"
 
 
 @pytest.mark.parametrize("planted", [LIBRARY, "binaries/linux64/libm.so.6", "resources/data.dll", "resources/data"])
-def test_what_was_planted_is_not_given_out(tmp_path, planted):
+def test_what_was_planted_is_not_given_out(tmp_path: Path, planted: str) -> None:
     path = pack(tmp_path / "a.fmu", **{LIBRARY: "code"}, resources__data="1")
     folder = extracted(path)
     (folder / planted).write_text("planted")
@@ -96,7 +97,7 @@ def test_what_was_planted_is_not_given_out(tmp_path, planted):
     assert (extracted(path) / LIBRARY).read_text() == "code"
 
 
-def test_a_library_that_is_gone_is_missed(tmp_path):
+def test_a_library_that_is_gone_is_missed(tmp_path: Path) -> None:
     path = pack(tmp_path / "a.fmu", **{LIBRARY: "code"})
     (extracted(path) / LIBRARY).unlink()
     new_process()
@@ -104,21 +105,21 @@ def test_a_library_that_is_gone_is_missed(tmp_path):
         extracted(path)
 
 
-def test_what_an_fmu_writes_beside_its_files_does_not_matter(tmp_path):
+def test_what_an_fmu_writes_beside_its_files_does_not_matter(tmp_path: Path) -> None:
     path = pack(tmp_path / "a.fmu", **{LIBRARY: "code"}, resources__data="1")
     (extracted(path) / "resources" / "log.txt").write_text("x")
     new_process()
     assert (extracted(path) / "resources" / "log.txt").exists()
 
 
-def zeros(path, method=zipfile.ZIP_DEFLATED, size=30_000_000):
+def zeros(path: Path, method: int = zipfile.ZIP_DEFLATED, size: int = 30_000_000) -> Path:
     """An archive with a file of zeros: 30 MB shrink to 30 kB."""
     with zipfile.ZipFile(path, "w", method) as archive:
         archive.writestr("data", bytes(size))
     return path
 
 
-def test_an_archive_that_would_grow_a_thousandfold_is_refused_unread(tmp_path, own_cache):
+def test_an_archive_that_would_grow_a_thousandfold_is_refused_unread(tmp_path: Path, own_cache: Path) -> None:
     path = zeros(tmp_path / "bomb.fmu")
     for read in (extracted, read_model):
         with pytest.raises(BadInput, match=r"bomb\.fmu would unpack to 30 MB, more than the 20 MB .*; export it again"):
@@ -134,7 +135,7 @@ def test_an_archive_that_would_grow_a_thousandfold_is_refused_unread(tmp_path, o
         (ArchiveLimits(ratio=900.0, small=0), "would unpack to 3 MB"),
     ],
 )
-def test_limits(tmp_path, limits, message):
+def test_limits(tmp_path: Path, limits: ArchiveLimits, message: str) -> None:
     path = tmp_path / "a.fmu"
     with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
         for name in "abc":
@@ -144,7 +145,7 @@ def test_limits(tmp_path, limits, message):
         check_archive(path, limits)
 
 
-def test_a_directory_that_lies_about_a_size_is_found_out(tmp_path, own_cache):
+def test_a_directory_that_lies_about_a_size_is_found_out(tmp_path: Path, own_cache: Path) -> None:
     path = zeros(tmp_path / "liar.fmu")
     content = bytearray(path.read_bytes())
     for header, at in ((b"PK\x03\x04", 22), (b"PK\x01\x02", 24)):
@@ -156,7 +157,7 @@ def test_a_directory_that_lies_about_a_size_is_found_out(tmp_path, own_cache):
     assert list(own_cache.iterdir()) == []
 
 
-def test_a_compression_that_fmi_does_not_allow_is_refused(tmp_path):
+def test_a_compression_that_fmi_does_not_allow_is_refused(tmp_path: Path) -> None:
     path = zeros(tmp_path / "a.fmu", zipfile.ZIP_BZIP2, 100)
     with pytest.raises(BadInput, match="data is not compressed by Deflate"):
         extracted(path)
@@ -165,7 +166,9 @@ def test_a_compression_that_fmi_does_not_allow_is_refused(tmp_path):
 @pytest.mark.parametrize(
     "name", ["../out", "/out", "a/../../out", ".", "..\\out", "C:\\out", "C:out", "\\\\host\\share\\out"]
 )
-def test_member_that_leaves_the_folder_is_refused_and_nothing_is_left(tmp_path, own_cache, name):
+def test_member_that_leaves_the_folder_is_refused_and_nothing_is_left(
+    tmp_path: Path, own_cache: Path, name: str
+) -> None:
     path = tmp_path / "evil.fmu"
     with zipfile.ZipFile(path, "w") as archive:
         archive.writestr("good", "1")
@@ -178,7 +181,7 @@ def test_member_that_leaves_the_folder_is_refused_and_nothing_is_left(tmp_path, 
     assert not (tmp_path / "out").exists()
 
 
-def test_broken_archive_is_bad_input_and_leaves_nothing(tmp_path, own_cache):
+def test_broken_archive_is_bad_input_and_leaves_nothing(tmp_path: Path, own_cache: Path) -> None:
     path = tmp_path / "broken.fmu"
     path.write_bytes(b"PK\x03\x04 nothing that follows makes sense")
     with pytest.raises(BadInput, match=r"broken\.fmu is not an FMU"):
@@ -186,9 +189,9 @@ def test_broken_archive_is_bad_input_and_leaves_nothing(tmp_path, own_cache):
     assert list(own_cache.iterdir()) == []
 
 
-def damaged(path: Path, method: int, change) -> Path:
+def damaged(path: Path, change: Callable[[bytearray], None]) -> Path:
     """An archive of one member whose headers or content were changed."""
-    with zipfile.ZipFile(path, "w", method) as archive:
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
         archive.writestr("data", "12345678" * 200)
     content = bytearray(path.read_bytes())
     change(content)
@@ -207,8 +210,10 @@ def broken_stream(content: bytearray) -> None:
 
 
 @pytest.mark.parametrize("change", [encrypted, broken_stream])
-def test_damaged_archive_is_bad_input_and_leaves_nothing(tmp_path, own_cache, change):
-    path = damaged(tmp_path / "damaged.fmu", zipfile.ZIP_DEFLATED, change)
+def test_damaged_archive_is_bad_input_and_leaves_nothing(
+    tmp_path: Path, own_cache: Path, change: Callable[[bytearray], None]
+) -> None:
+    path = damaged(tmp_path / "damaged.fmu", change)
     with pytest.raises(BadInput, match=r"damaged\.fmu is not an FMU that can be unpacked: .*; export it again"):
         extracted(path)
     assert list(own_cache.iterdir()) == []
