@@ -3,7 +3,7 @@
 from collections.abc import Mapping, Sequence
 from functools import cache
 from pathlib import Path
-from tempfile import mkdtemp
+from tempfile import TemporaryDirectory
 
 import numpy as np
 
@@ -26,13 +26,19 @@ def effects(names: Sequence[str]) -> list[Effect]:
     return [CATALOGUE[name] for name in names]
 
 
+def built_variant(made: Variant, probes: Sequence[str] = ()) -> Path:
+    """The FMU of a class `Variant`, in the store."""
+    with TemporaryDirectory() as folder:
+        file = Path(folder) / "Variant.mo"
+        file.write_text(made.text)
+        return fmu_build.build("Variant", libraries=[file], probes=probes)
+
+
 @cache
 def pump(names: tuple[str, ...]) -> tuple[Variant, Path]:
     """The free pump with these effects, and its FMU."""
     made = variant(BASE, effects(names), [LIBRARY], name="Variant")
-    folder = Path(mkdtemp(prefix="effects-"))
-    (folder / "Variant.mo").write_text(made.text)
-    return made, fmu_build.build("Variant", folder / "Variant.fmu", libraries=[folder / "Variant.mo"])
+    return made, built_variant(made)
 
 
 def model(names: tuple[str, ...]) -> Model:

@@ -4,8 +4,7 @@ All effects that can be off exactly stand in one pump together, so that they are
 The equations are written down here a second time.
 """
 
-from collections.abc import Iterator
-from pathlib import Path
+from collections.abc import Iterator, Mapping
 
 import numpy as np
 import pytest
@@ -13,7 +12,7 @@ import pytest
 from pysim.io import read_model
 from pysim.simulate import simulate
 from pysim.types import Experiment
-from tests.modelica.built import FINE, built
+from tests.modelica.built import FINE
 from tests.modelica.effects import (
     BYPASSED,
     CATALOGUE,
@@ -62,11 +61,15 @@ def full(tmp_path_factory: pytest.TempPathFactory) -> Iterator[RightHandSide]:
         yield side
 
 
+def but_for(values: Mapping[str, Mapping[str, float]]) -> dict[str, dict[str, float]]:
+    """Strengths of all effects that can be off exactly: those given, and all others off."""
+    off = {name: {p.name: float(p.off or 0) for p in CATALOGUE[name].strengths} for name in EXACT}
+    return off | {name: {**off[name], **given} for name, given in values.items()}
+
+
 def on(**values: dict[str, float]) -> dict[str, float]:
     """FMU settings of the full pump with those effects on and all others off; two underscores for the dot."""
-    off = {name: {p.name: p.off for p in CATALOGUE[name].strengths} for name in EXACT}
-    off |= {key.replace("__", "."): {**off[key.replace("__", ".")], **given} for key, given in values.items()}
-    return settings(EXACT, off)
+    return settings(EXACT, but_for({key.replace("__", "."): given for key, given in values.items()}))
 
 
 def pairs_of_states(count: int = 12) -> Iterator[dict[str, float]]:
@@ -80,23 +83,15 @@ def test_the_catalogue_is_the_standard_list() -> None:
     assert set(BYPASSED) == {"sensor.lag", "card.sampling", "valve.hysteresis"}
 
 
-def test_play_that_is_off_is_off_from_any_start(tmp_path: Path) -> None:
-    text = tmp_path / "Off.mo"
-    text.write_text("""model Off
-  HydraulicTestBench.Pump.FreeGreyBox pump(piston(x(start=5e-3)));
-  HydraulicTestBench.Pump.FreeGreyBox play(
-    piston(x(start=5e-3)), redeclare HydraulicTestBench.Effects.LinkageBacklash linkage);
-equation
-  pump.alphaCMD = 0;
-  pump.alphaCMD_t = 0;
-  play.alphaCMD = 0;
-  play.alphaCMD_t = 0;
-end Off;
-""")
-    names = ("pump.alphaPercent", "play.alphaPercent")
-    record = simulate(built("Off", (), (text,)), Experiment(np.linspace(0, 0.5, 51), names), solver=FINE)
-    assert record[names[0]][0] > 10
-    assert np.allclose(record[names[1]], record[names[0]], rtol=0, atol=1e-5)
+def test_play_that_is_off_is_off_from_any_start() -> None:
+    """Off the middle the linkage begins where the piston does."""
+    times = np.linspace(0, 0.5, 51)
+    found = []
+    for names, off in (((), {}), (EXACT, on())):
+        run = Experiment(times, ("alphaPercent",), overrides={"piston.x": 5e-3, **off})
+        found.append(simulate(model(names), run, solver=FINE)["alphaPercent"])
+    assert found[0][0] > 10
+    assert np.allclose(found[1], found[0], rtol=0, atol=1e-5)
 
 
 @pytest.mark.slow
@@ -225,8 +220,8 @@ def play(s: np.ndarray, half: float) -> np.ndarray:
 
 
 def test_backlash_is_play_between_piston_and_angle() -> None:
-    names, d = ("linkage.backlash",), 2e-4
-    record = ran(names, {"linkage.backlash": {"d": d}}, ("xp", "linkage.y", "alpha"), step=2e-4)
+    d = 2e-4
+    record = ran(EXACT, but_for({"linkage.backlash": {"d": d}}), ("xp", "linkage.y", "alpha"), step=2e-4)
     # between samples the piston turns back by less than a (1e-4 s)^2 / 2 = 1e-7 m
     assert np.abs(record["linkage.y"] - play(record["xp"], d)).max() < 3e-7
     assert np.abs(record["linkage.y"] - record["xp"]).max() == pytest.approx(d, rel=1e-2)
@@ -237,7 +232,7 @@ def test_backlash_is_play_between_piston_and_angle() -> None:
 def test_spool_stops_and_comes_back_without_wind_up() -> None:
     limit = 0.05
     names = ("spool.u", "spool.u_t", "spool.u_ref")
-    record = ran(("valve.saturation",), {"valve.saturation": {"inverse_u_max": 1 / limit}}, names)
+    record = ran(EXACT, but_for({"valve.saturation": {"inverse_u_max": 1 / limit}}), names)
     u = record["spool.u"]
     assert np.abs(ran((), {}, ("spool.u",))["spool.u"]).max() > 1.5 * limit
     assert np.abs(u).max() < limit * (1 + 1e-6)
@@ -252,7 +247,7 @@ def test_spool_stops_and_comes_back_without_wind_up() -> None:
 def test_spool_is_no_faster_than_its_limit() -> None:
     limit, (omega_v, zeta_v) = 1.0, (PARAMETERS["omega_v"], PARAMETERS["zeta_v"])
     names = ("spool.u", "spool.u_t", "spool.u_ref", "spool.u_tt")
-    record = ran(("valve.rate_limit",), {"valve.rate_limit": {"inverse_r_max": 1 / limit}}, names)
+    record = ran(EXACT, but_for({"valve.rate_limit": {"inverse_r_max": 1 / limit}}), names)
     assert np.abs(ran((), {}, ("spool.u_t",))["spool.u_t"]).max() > 1.5 * limit
     assert np.abs(record["spool.u_t"]).max() < limit * (1 + 1e-6)
     held = np.abs(record["spool.u_t"]) > limit * (1 - 1e-9)
@@ -318,27 +313,34 @@ def test_bypassed_effects_tend_to_the_base_as_they_shrink(name: str, parameter: 
     assert left[2] < (0.03 if name == "card.sampling" else 2e-3)  # percent; the card samples every 0.1 ms then
 
 
-def test_two_and_three_effects_share_a_slot(base: RightHandSide, tmp_path: Path) -> None:
-    names = ("swash.bias", "spring.hardening", "friction.coulomb", "valve.offset", "valve.deadband")
-    given = {"swash.bias": {"F_b": 40.0}, "spring.hardening": {"k_3": 2e7}, "friction.coulomb": {"F_c": 60.0}}
-    given |= {"valve.offset": {"u_n": 0.01}, "valve.deadband": {"u_0": 0.02}}
-    with RightHandSide(names, tmp_path) as side:
-        for state in pairs_of_states():
-            x, v, u = (state[name] for name in ("piston.x", "piston.v", "spool.u"))
-            found = side.at(state, settings(names, given))
-            force = 40 - 2e7 * x**3 - 60 * np.tanh(v / 1e-3)
-            change = (found["piston.v"] - base.at(state)["piston.v"]) * M_EFF
-            assert change == pytest.approx(force, rel=1e-7, abs=1e-6)
-            opening = u + 0.01  # the first named comes first: offset, then dead band
-            opening = float(np.sign(opening) * max(abs(opening) - 0.02, 0))
-            expected = base.at({**state, "spool.u": opening})["chamber1.p"]
-            assert found["chamber1.p"] == pytest.approx(expected, rel=1e-12, abs=1e-3)
+def test_two_and_three_effects_share_a_slot(base: RightHandSide, full: RightHandSide) -> None:
+    together = on(
+        swash__bias={"F_b": 40.0},
+        spring__hardening={"k_3": 2e7},
+        friction__coulomb={"F_c": 60.0},
+        valve__offset={"u_n": 0.01},
+        valve__deadband={"u_0": 0.02},
+    )
+    order = [name for name in EXACT if name in ("valve.offset", "valve.deadband")]
+    for state in pairs_of_states():
+        x, v, u = (state[name] for name in ("piston.x", "piston.v", "spool.u"))
+        found = full.at(state, together)
+        force = 40 - 2e7 * x**3 - 60 * np.tanh(v / 1e-3)
+        change = (found["piston.v"] - base.at(state)["piston.v"]) * M_EFF
+        assert change == pytest.approx(force, rel=1e-7, abs=1e-6)
+        opening = u
+        for name in order:  # the first named comes first
+            if name == "valve.offset":
+                opening += 0.01
+            else:
+                opening = float(np.sign(opening) * max(abs(opening) - 0.02, 0))
+        expected = base.at({**state, "spool.u": opening})["chamber1.p"]
+        assert found["chamber1.p"] == pytest.approx(expected, rel=1e-12, abs=1e-3)
 
 
 def test_stops_and_speed_limit_of_the_spool_at_once() -> None:
-    names = ("valve.saturation", "valve.rate_limit")
     given = {"valve.saturation": {"inverse_u_max": 20.0}, "valve.rate_limit": {"inverse_r_max": 1.0}}
-    record = ran(names, given, ("spool.u", "spool.u_t"))
+    record = ran(EXACT, but_for(given), ("spool.u", "spool.u_t"))
     assert np.abs(record["spool.u"]).max() == pytest.approx(0.05, rel=1e-5)
     assert np.abs(record["spool.u_t"]).max() == pytest.approx(1.0, rel=1e-5)
 

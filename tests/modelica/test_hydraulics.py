@@ -117,32 +117,27 @@ def test_pipe_friction_is_laminar_then_turbulent(roughness: float) -> None:
 
 HOSE = "HydraulicTestBench.Hydraulics.Hose {}(l=1, d=0.01, n=2, beta=1.4e9, rho=875);"
 BEHIND = {  # part: its declaration, its port, its pressure, its compliance in m3/Pa
-    "Hose": (HOSE.format("other"), "port_a", "p[3]", np.pi / 4 * 1e-4 / 280e6),
-    "Volume": ("HydraulicTestBench.Hydraulics.Volume other(V=1e-3, beta=1.4e9);", "port_a", "p", 1e-3 / 1.4e9),
-    "Chamber": (
-        "HydraulicTestBench.Hydraulics.Chamber other(V=1e-3, kappa=0, beta=1.4e9);",
-        "port",
-        "p",
-        1e-3 / 1.4e9,
-    ),
+    "hose": (HOSE, "port_a", "p[3]", np.pi / 4 * 1e-4 / 280e6),
+    "volume": ("HydraulicTestBench.Hydraulics.Volume {}(V=1e-3, beta=1.4e9);", "port_a", "p", 1e-3 / 1.4e9),
+    "chamber": ("HydraulicTestBench.Hydraulics.Chamber {}(V=1e-3, kappa=0, beta=1.4e9);", "port", "p", 1e-3 / 1.4e9),
 }
 
 
-@pytest.mark.parametrize("part", BEHIND)
-def test_hose_as_it_comes_joins_what_gives_a_pressure_too(part: str, tmp_path: Path) -> None:
-    """What is pumped in for a second spreads over the compliances of both."""
-    declared, port, pressure, compliance = BEHIND[part]
+def test_hose_as_it_comes_joins_what_gives_a_pressure_too(tmp_path: Path) -> None:
+    """What is pumped in for a second spreads over the compliances of the hose and of what is behind it."""
+    declared, connected = "", ""
+    for part, (declaration, port, _, _) in BEHIND.items():
+        declared += f"  {HOSE.format(f'to_{part}')}\n  {declaration.format(part)}\n"
+        declared += f"  HydraulicTestBench.Hydraulics.FlowSource into_{part}(q=1e-5);\n"
+        connected += f"  connect(into_{part}.port, to_{part}.port_a);\n  connect(to_{part}.port_b, {part}.{port});\n"
     text = tmp_path / "Joined.mo"
-    text.write_text(
-        f"model Joined\n  {HOSE.format('hose')}\n  {declared}\n"
-        "  HydraulicTestBench.Hydraulics.FlowSource source(q=1e-5);\n"
-        "equation\n  connect(source.port, hose.port_a);\n"
-        f"  connect(hose.port_b, other.{port});\nend Joined;\n"
-    )
-    record = ran(built("Joined", (), (text,)), 1.0, ("hose.p[1]", f"other.{pressure}"))
-    expected = 1e-5 / (compliance + np.pi / 4 * 1e-4 / 280e6)
-    for name in ("hose.p[1]", f"other.{pressure}"):  # apart by friction and by what T_w holds back
-        assert record[name][-1] == pytest.approx(expected, rel=1e-3)
+    text.write_text(f"model Joined\n{declared}equation\n{connected}end Joined;\n")
+    names = {part: (f"to_{part}.p[1]", f"{part}.{pressure}") for part, (_, _, pressure, _) in BEHIND.items()}
+    record = ran(built("Joined", (), (text,)), 1.0, [name for pair in names.values() for name in pair])
+    for part, (_, _, _, compliance) in BEHIND.items():
+        expected = 1e-5 / (compliance + np.pi / 4 * 1e-4 / 280e6)
+        for name in names[part]:  # apart by friction and by what T_w holds back
+            assert record[name][-1] == pytest.approx(expected, rel=1e-3), name
 
 
 def test_two_volumes_at_a_node_fill_as_one(tmp_path: Path) -> None:
@@ -163,17 +158,17 @@ end Two;
 
 def test_hose_with_air_is_softer_at_low_pressure(tmp_path: Path) -> None:
     """Its first resonance by the stiffness of oil with air beside the wall, at 2 and at 100 bar."""
-    found = {}
-    for bar in (2, 100):
-        text = tmp_path / f"Airy{bar}.mo"
+    hoses, recorded = "", {bar: f"hose{bar}.p[1]" for bar in (2, 100)}
+    for bar in recorded:
         shape = f"p(start={{{', '.join(str(bar * 1e5 + 100 * s) for s in (1, 0.5, -0.5, -1))}}})"
-        text.write_text(
-            f"model Airy{bar}\n  HydraulicTestBench.Hydraulics.Hose hose(l=3, d=0.01, n=3, beta=1.4e9, rho=875,\n"
-            f"    T_w=0, redeclare HydraulicTestBench.Hydraulics.Fluids.EntrainedAir fluid(each eps=0.02), {shape});\n"
-            f"end Airy{bar};\n"
-        )
-        record = ran(built(f"Airy{bar}", (), (text,)), 1.0, ("hose.p[1]",), 8001)
-        swing = record["hose.p[1]"] - bar * 1e5
+        hoses += f"  HydraulicTestBench.Hydraulics.Hose hose{bar}(l=3, d=0.01, n=3, beta=1.4e9, rho=875, T_w=0,\n"
+        hoses += f"    redeclare HydraulicTestBench.Hydraulics.Fluids.EntrainedAir fluid(each eps=0.02), {shape});\n"
+    text = tmp_path / "Airy.mo"
+    text.write_text(f"model Airy\n{hoses}end Airy;\n")
+    record = ran(built("Airy", (), (text,)), 1.0, tuple(recorded.values()), 8001)
+    found = {}
+    for bar, name in recorded.items():
+        swing = record[name] - bar * 1e5
         turns = np.flatnonzero(np.diff(np.sign(swing)) != 0)
         found[bar] = (turns.size - 1) / (record.time[turns[-1]] - record.time[turns[0]]) / 2
         absolute = bar * 1e5 + 1.013e5

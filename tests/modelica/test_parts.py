@@ -11,6 +11,8 @@ OFFSET, AMPLITUDE, F, HEIGHT, FLOW = 20.0, 8.0, 3.0, 30.0, 1e-4
 PARTS = f"""model Parts
   import L = HydraulicTestBench;
   L.Sources.SteppedSine sine(offset={OFFSET}, amplitude={AMPLITUDE}, f={F}, t_ramp=0.1, t_hold=0.3, t_sine=0.4);
+  L.Sources.Constant held(k=-7);
+  L.Sources.Constant zero;
   L.Sources.Step step(height={HEIGHT}, t_step=0.2);
   L.Pump.TransportDelay delayed(tau=0.03);
   L.Pump.CommandRateInput fed;
@@ -45,6 +47,7 @@ end Parts;
 """
 SEEN = ("sine.y", "sine.y_t", "step.y", "delayed.y", "fed.rate", "plate.alphaPercent", "plate.alpha", "plate.alpha_t")
 SEEN += ("hose.port_a.p", "hose.port_b.p", "hose.port_b.q", "drive.tau", "high.port.q", "mass.s", "wheel.phi")
+SEEN += ("held.y", "zero.y")
 
 
 @pytest.fixture(scope="module")
@@ -70,7 +73,9 @@ def test_stepped_sine_and_its_rate(record: Record) -> None:
     assert np.array_equal(record["fed.rate"], record["sine.y_t"])
 
 
-def test_step_comes_at_its_time(record: Record) -> None:
+def test_step_comes_at_its_time_and_a_constant_stays(record: Record) -> None:
+    assert (record["held.y"] == -7).all()
+    assert (record["zero.y"] == 0).all()
     away = np.abs(record.time - 0.2) > 1e-6
     assert np.array_equal(record["step.y"][away], np.where(record.time < 0.2, 0, HEIGHT)[away])
 

@@ -10,7 +10,7 @@ from pysim.io import read_model
 from pysim.simulate import Rodas, simulate
 from pysim.types import Experiment, Model, Signal
 from tests.contracts.fmu import Fmu
-from tests.modelica.effects import BASE, RightHandSide, pump, states
+from tests.modelica.effects import BASE, RightHandSide, built_variant, pump, states
 
 SLOTS = {  # slot: its outputs, as in HydraulicTestBench.Interfaces
     "commandRate": ("rate",),
@@ -83,8 +83,7 @@ def test_a_probe_of_the_piston_force_is_a_bias_of_the_swash_plate(probed, unmove
 
 def test_a_probe_adds_to_the_effect_that_fills_the_slot(probed):
     made, _ = pump(("swash.bias",))
-    folder_of = pump(("swash.bias",))[1].parent / "Variant.mo"
-    both = read_model(build("Variant", libraries=[folder_of], probes=("pistonForce.f",)))
+    both = read_model(built_variant(made, probes=("pistonForce.f",)))
     summed = response(both, overrides={made.parameter("swash.bias", "F_b"): 200.0}, pistonForce__f=100.0)
     expected = response(probed, pistonForce__f=300.0)
     assert (np.abs(summed - expected) < 1e-9 * sizes(expected)).all()

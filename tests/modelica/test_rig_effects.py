@@ -134,7 +134,7 @@ def test_two_at_once_add_up(full: At) -> None:
 
 def test_coupling_is_spring_and_damper_between_the_halves(base: At, tmp_path: Path) -> None:
     """Twisted by 1 mrad at 2000 N m/rad, and opening at 0.5 rad/s; neither shows in the sum of both halves."""
-    names = ("coupling.compliance", "shaft.friction")
+    names = tuple(CATALOGUE)
     with At(made(names, tmp_path)[1], tmp_path / "fmu") as at:
         twisted = {**STATE, "inertiaL.phi": 1e-3, "inertiaL.w": 3.5}
         given = {**off(names), "coupling.inverse_k_t": 1 / 2000, "coupling.T_d": 3e-4}
