@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from pysim.identify.chirp.cycle_fit import Samples, fit_cycle, regressors
+from pysim.identify.chirp.cycle_fit import Extreme, Samples, fit_cycle, regressors
+from tests.pysim.identify.seeds import seeds
 
 
 def samples(per_turn: float, turns: float = 12.0, noise: float = 0.0, seed: int = 0) -> Samples:
@@ -14,6 +15,15 @@ def samples(per_turn: float, turns: float = 12.0, noise: float = 0.0, seed: int 
 
 def curve(angle: np.ndarray) -> np.ndarray:
     return 3.0 + (2.0 + 0.01 * angle) * np.sin(angle - 0.8) + 0.3 * np.cos(2 * angle)
+
+
+def top(given: Samples) -> Extreme:
+    """The top next to 33.8 rad."""
+    fit = fit_cycle(given, 30.0)
+    assert fit is not None
+    extreme = fit.extreme(31.0 + 2.79, 1)
+    assert extreme is not None
+    return extreme
 
 
 @pytest.mark.parametrize("per_turn", [9.3, 25.0, 250.0])
@@ -31,28 +41,22 @@ def test_finds_the_extreme_between_samples(per_turn: float, sign: int) -> None:
     assert fit.phase == pytest.approx(-0.8, abs=1e-6)
 
 
-def test_doubts_are_those_of_noise() -> None:
-    found = []
-    for seed in range(300):
-        fit = fit_cycle(samples(25.0, noise=0.1, seed=seed), 30.0)
-        extreme = fit.extreme(31.0 + 2.79, 1)  # type: ignore[union-attr]
-        found.append((extreme.value, extreme.angle, extreme.value_deviation, extreme.angle_deviation))  # type: ignore[union-attr]
-    value, angle, value_deviation, angle_deviation = np.array(found).T
-    assert np.std(value) / 0.1 == pytest.approx(np.mean(value_deviation), rel=0.15)
-    assert np.std(angle) / 0.1 == pytest.approx(np.mean(angle_deviation), rel=0.15)
+@seeds(300)
+def test_doubts_are_those_of_noise(runs: int) -> None:
+    tops = [top(samples(25.0, noise=0.1, seed=seed)) for seed in range(runs)]
+    known = 3 / np.sqrt(2 * runs)  # three standard errors of a standard deviation, relative
+    assert np.std([t.value for t in tops]) / 0.1 == pytest.approx(np.mean([t.value_deviation for t in tops]), rel=known)
+    assert np.std([t.angle for t in tops]) / 0.1 == pytest.approx(np.mean([t.angle_deviation for t in tops]), rel=known)
 
 
 def test_noise_lifts_a_top_by_what_is_told() -> None:
-    quiet = fit_cycle(samples(10.0), 30.0).extreme(31.0 + 2.79, 1)  # type: ignore[union-attr]
-    noise, values, lifts = 0.5, [], []
-    for seed in range(4000):
-        extreme = fit_cycle(samples(10.0, noise=noise, seed=seed), 30.0).extreme(31.0 + 2.79, 1)  # type: ignore[union-attr]
-        values.append(extreme.value)  # type: ignore[union-attr]
-        lifts.append(noise**2 * extreme.lift)  # type: ignore[union-attr]
-    error = 3 * np.std(values) / np.sqrt(4000)
-    assert quiet is not None
-    assert np.mean(lifts) > 2 * error  # it can be seen at all
-    assert np.mean(values) - quiet.value == pytest.approx(np.mean(lifts), abs=error)
+    """Each noise comes with either sign: what is odd in it, all but the lift, cancels."""
+    pairs = [[top(samples(10.0, noise=noise, seed=seed)) for noise in (0.5, -0.5)] for seed in range(200)]
+    found = np.array([np.mean([t.value for t in pair]) for pair in pairs]) - top(samples(10.0)).value
+    lift = np.mean([0.5**2 * t.lift for pair in pairs for t in pair])
+    error = 3 * np.std(found) / np.sqrt(len(pairs))
+    assert lift > 2 * error  # it can be seen at all
+    assert np.mean(found) == pytest.approx(lift, abs=error)
 
 
 def test_regressors_derivatives_are_limits_of_differences() -> None:

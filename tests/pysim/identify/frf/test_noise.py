@@ -6,6 +6,7 @@ from scipy.stats import chi2
 
 from pysim.identify.frf.noise import COLOURED, DECLARED, RESIDUALS, ResidualNoise, residual_noise
 from tests.pysim.identify.frf.systems import coloured, white
+from tests.pysim.identify.seeds import at_most, seeds
 
 INTERVAL = 0.004  # s
 
@@ -36,15 +37,29 @@ def test_white_residuals_are_taken_as_they_are() -> None:
     assert noise.at_frequency == noise.at_zero == noise.deviation == pytest.approx(0.3, rel=0.05)
 
 
+def test_what_a_fit_takes_out_is_missing_from_the_degrees_of_freedom() -> None:
+    """Of 40 samples 11 waves and a mean leave 17 degrees of freedom: 17 squares of 0.3 are noise of 0.3."""
+    regressors = waves(40, 11, 2.0, 1 / 70)
+    residual = left_over(white(40, 1.0, 3), regressors)
+    residual *= 0.3 * np.sqrt(17 / (residual @ residual))
+    noise = residual_noise(residual, regressors, 2.0, 1 / 70)
+    assert noise.basis == RESIDUALS
+    assert (noise.deviation, noise.at_frequency) == (pytest.approx(0.3, rel=1e-12), pytest.approx(0.3, rel=1e-12))
+
+
+@seeds(500)
 @pytest.mark.parametrize(
     ("samples", "count", "frequency", "rate"), [(400, 1, 5, 250), (70, 11, 2, 70), (47, 11, 3, 70), (30, 9, 1, 30)]
 )
-def test_white_residuals_are_seldom_called_coloured(samples: int, count: int, frequency: float, rate: float) -> None:
+def test_white_residuals_are_seldom_called_coloured(
+    samples: int, count: int, frequency: float, rate: float, runs: int
+) -> None:
+    """Three in a hundred at most."""
     regressors, coloured_ones = waves(samples, count, frequency, 1 / rate), 0
-    for seed in range(500):
+    for seed in range(runs):
         residual = left_over(white(samples, 1.0, seed), regressors)
         coloured_ones += residual_noise(residual, regressors, frequency, 1 / rate).basis == COLOURED
-    assert coloured_ones <= 25  # at most 3 percent expected; P(more) of a binomial is 1 percent
+    assert coloured_ones <= at_most(0.03, runs)
 
 
 def test_whiteness_without_waves_is_that_of_ljung_and_box() -> None:
@@ -82,12 +97,13 @@ def test_memory_is_seen_at_the_harmonics() -> None:
     np.testing.assert_allclose(np.sqrt(np.mean(np.square(found), axis=0)), truth, rtol=0.1)
 
 
+@seeds(200)
 @pytest.mark.parametrize("periods", [2, 3, 6])
-def test_memory_is_seen_in_few_periods(periods: int) -> None:
+def test_memory_is_seen_in_few_periods(periods: int, runs: int) -> None:
     """In two periods the fit takes half of the noise below its highest harmonic; the other half tells of both."""
     pole, f, found = 0.9, 1.0, []
     regressors = waves(250 * periods, 11, f)
-    for seed in range(200):
+    for seed in range(runs):
         left = left_over(coloured(250 * periods, 0.3, seed, pole), regressors)
         noise = residual_noise(left, regressors, f, INTERVAL)
         found.append([noise.at_frequency, noise.at_zero])

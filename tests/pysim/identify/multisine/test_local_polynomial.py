@@ -9,6 +9,7 @@ from pysim.identify.multisine import LocalPolynomial, gain_radius, local_polynom
 from pysim.identify.multisine.local_polynomial import solve
 from pysim.types import BadInput, BestLinearApproximation, Record
 from tests.pysim.identify.multisine.systems import A, B
+from tests.pysim.identify.seeds import at_least, at_most, seeds
 
 STEP = 0.01
 
@@ -80,15 +81,16 @@ def results(
     return [local_polynomial_approximation(record, ("u", "y"), band=band) for record in records]
 
 
-def test_noise_and_coverage_at_a_single_line_over_many_records() -> None:
+@seeds(300)
+def test_noise_and_coverage_at_a_single_line_over_many_records(runs: int) -> None:
     """q complex degrees of freedom: the level over the truth is chi-square distributed, the error circle F."""
-    found, line = results(range(300), band=(13.0, 15.0)), 10
+    found, line = results(range(runs), band=(13.0, 15.0)), 10
     q = LocalPolynomial().degrees
     true = 4 * 0.05**2 / 1500
     level = np.array([f.total.variance[line] * f.amplitude[line] ** 2 for f in found if f.total is not None])
     assert stats.kstest(level / true * 2 * q, stats.chi2(2 * q).cdf).pvalue > 0.001
     inside = [abs(f.gain[line] - gain(f.frequency)[line]) < gain_radius(f)[line] for f in found]
-    assert stats.binom.ppf(0.001, 300, 0.95) <= np.sum(inside) <= stats.binom.ppf(0.999, 300, 0.95)
+    assert at_least(0.95, runs) <= np.sum(inside) <= at_most(0.95, runs)
 
 
 def test_pooled_coverage_and_no_bias() -> None:
