@@ -88,5 +88,5 @@ def text_model(text: str, folder: Path, *, fmi: int = 2) -> Model:
     if not output.exists():
         library = folder / f"{name}.mo"
         library.write_text(text, encoding="utf-8")
-        build(name, output, libraries=[library], fmi=fmi, use_cache=False)
+        build(name, output, libraries=[library], fmi=fmi)
     return read_model(output)

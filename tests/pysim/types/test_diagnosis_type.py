@@ -2,7 +2,7 @@
 
 import pytest
 
-from pysim.types import BadInput, Told
+from pysim.types import BadInput
 from tests.pysim.diagnosis_story import nothing, story
 
 
@@ -15,11 +15,6 @@ def test_moves_are_counted_on_one_scale_in_half_widths_of_the_interval_afterward
     assert moves["k"] == pytest.approx(0.0, abs=1e-12)
     assert moves["d"] == pytest.approx(5.0)
     assert "F_o" not in moves
-
-
-def test_what_is_told_reads_as_a_line() -> None:
-    assert str(Told("screening", "three found")) == "three found"
-    assert str(Told("screening")) == "screening ..."
 
 
 def test_none_has_no_effects() -> None:

@@ -173,8 +173,10 @@ def test_lost_samples_are_no_slow_sampling_and_leave_out_what_they_hide() -> Non
     assert np.max(off[0] / found.mean.magnitude_deviation_db[found.mean.frequency >= 1.5][: off.shape[1]]) < 6
 
 
-@pytest.mark.parametrize("down", [False, True], ids=["up", "down"])
-@pytest.mark.parametrize(("begin", "lost"), [(15.0, 1.0), (30.0, 0.05), (30.0, 0.4), (40.0, 1.0)])
+@pytest.mark.parametrize(
+    ("down", "begin", "lost"),
+    [(False, 15.0, 1.0), (True, 15.0, 1.0), (False, 30.0, 0.05), (True, 30.0, 0.4), (False, 40.0, 1.0)],
+)
 def test_turns_that_lost_samples_hide_are_counted(down: bool, begin: float, lost: float) -> None:
     found = analyse_chirp(without(log(0.5, down=down), begin, begin + lost), "u", "y")
     assert found.command.rate == pytest.approx(-0.5 if down else 0.5, rel=1e-6)

@@ -1,14 +1,7 @@
-import ast
-import importlib
-import inspect
-import re
-from collections import Counter
-from dataclasses import fields
-
 import numpy as np
 import pytest
 
-from pysim.identify.greybox.identifiability import Identifiability, identifiability, whole_exponents
+from pysim.identify.greybox.identifiability import identifiability, whole_exponents
 
 KEYS = ("L", "A", "m", "c")
 
@@ -46,17 +39,3 @@ def test_a_loose_direction_is_told_with_its_spread() -> None:
 def test_exponents_that_are_no_fractions_stay_as_they_are() -> None:
     assert whole_exponents(("a", "b"), np.array([1.0, -1.4142])) == {"a": 1.0, "b": -1.414}
     assert whole_exponents(("a", "b"), np.array([0.3, 0.2])) == {"a": 1.5, "b": 1.0}
-
-
-def test_the_docstring_names_the_fields_and_nothing_else() -> None:
-    told = re.findall(r"^        (\w+): ", str(Identifiability.__doc__), flags=re.MULTILINE)
-    assert told == [field.name for field in fields(Identifiability)]
-
-
-@pytest.mark.parametrize("name", ["identifiability", "uncertainty"])
-def test_a_constant_is_given_once(name: str) -> None:
-    source = ast.parse(inspect.getsource(importlib.import_module(f"pysim.identify.greybox.{name}")))
-    names = [
-        t.id for node in source.body if isinstance(node, ast.Assign) for t in node.targets if isinstance(t, ast.Name)
-    ]
-    assert [name for name, count in Counter(names).items() if count > 1] == []

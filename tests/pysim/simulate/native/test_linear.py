@@ -1,13 +1,13 @@
 import numpy as np
 import pytest
-from numba import njit
 
+from pysim.simulate.native.compiled import entry
 from pysim.simulate.native.linear import factorise, solve
 
 rng = np.random.default_rng(1)
 
 
-@njit
+@entry
 def _solve(matrix, pivots, right, n):
     done = factorise(matrix.ctypes.data, pivots.ctypes.data, n)
     if done:

@@ -1,11 +1,11 @@
 import numpy as np
 import pytest
-from numba import njit
 
+from pysim.simulate.native.compiled import entry
 from pysim.simulate.native.vector import add_rows
 
 
-@njit
+@entry
 def _add(base, rows, weights, count, scale, result):
     n = base.size
     add_rows(base.ctypes.data, rows.ctypes.data, weights.ctypes.data, count, scale, result.ctypes.data, n)
