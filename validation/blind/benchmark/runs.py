@@ -58,7 +58,7 @@ def answer_cases(
     limit: float = LIMIT,
     say: Callable[[str], None] = print,
 ) -> dict[str, Answer]:
-    """Answer what the folder does not hold; where files differ from the commit, everything, since nobody knows which.
+    """Answer what the folder does not hold, and what it holds no verdict of; where files differ from the commit, all.
 
     Args:
         task: a function of a module, called in processes of their own with one thread each.
@@ -71,7 +71,7 @@ def answer_cases(
     if not commit:
         raise BadInput("answers are kept by commit and this is no checkout of git; clone the repository and run there")
     known = {} if commit.endswith("-dirty") else read_answers(folder)
-    waiting = [case for case in chosen if case.name not in known]
+    waiting = [case for case in chosen if case.name not in known or known[case.name].trouble]
     say(f"{len(waiting)} of {len(chosen)} cases to answer by commit {commit}")
     begun = time.monotonic()
     for done, answer in enumerate(_answers(waiting, task, workers, limit), start=1):
