@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The words behind `pysim validate`."""
     parser.add_argument("names", metavar="NAME", nargs="*", help="cases to run, all by default")
-    parser.add_argument("--quick", action="store_true", help="only cases that take seconds, under 5 min in all")
+    parser.add_argument("--quick", action="store_true", help="only cases that take seconds, under 2 min of CPU in all")
     parser.add_argument("--list", action="store_true", help="say which cases there are, and run none")
     parser.add_argument(
         "-o", "--output", metavar="DIR", type=Path, help="write report.html, summary.md and pictures here"
