@@ -10,9 +10,12 @@ import numpy as np
 import ziglang
 
 from fmu_build.emit.c_function import ARGUMENTS
+from fmu_build.pack import host_platform
 
 INCLUDE = Path(__file__).parents[1] / "fmu_build" / "runtime" / "include"
 ZIG = Path(ziglang.__file__).with_name("zig")  # started directly: `python -m ziglang` starts a second Python
+# Target and level are those of our FMUs, so that zig compiles its start-up code once for both.
+OPTIONS = ("-std=c11", "-O3", "-shared", "-fPIC", "-fsanitize=undefined", "-fsanitize-trap=undefined")
 WARNINGS = ("-Wall", "-Wextra", "-Wpedantic", "-Werror")
 
 _Pointer = ctypes.POINTER(ctypes.c_double)
@@ -22,7 +25,7 @@ def compile_shared(source: str, folder: Path) -> ctypes.CDLL:
     """A shared library of one C file in which model.h can be included."""
     file, library = folder / "generated.c", folder / "generated.so"
     file.write_text(source, encoding="utf-8")
-    command = [str(ZIG), "cc", "-std=c11", "-O1", "-shared", "-fPIC", *WARNINGS]
+    command = [str(ZIG), "cc", "-target", host_platform().zig_target, *OPTIONS, *WARNINGS]
     done = subprocess.run(
         [*command, f"-I{INCLUDE}", str(file), "-o", str(library)], capture_output=True, text=True, check=False
     )
