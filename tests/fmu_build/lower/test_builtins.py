@@ -1,10 +1,11 @@
-"""Built-in functions: quotients and remainders of either sign, slopes at a kink, powers of matrices."""
+"""Built-in functions: arrays, quotients and remainders of either sign, slopes at a kink, powers of matrices."""
 
 import math
 from itertools import product
 from pathlib import Path
 
 import casadi as ca
+import numpy as np
 import pytest
 
 import fmu_build
@@ -97,3 +98,36 @@ def test_quotients_and_remainders_in_the_fmu(tmp_path: Path) -> None:
         expected = quotients(x, y)
         with fmu.open("me").start({"x": x, "y": y, "u": x}) as instance:
             assert dict(zip(expected, instance.get(list(expected)), strict=True)) == expected, (x, y)
+
+
+ARRAYS = {  # an expression of v = {1, 2, 4}, w = {3, -1, 5} and A = [1, 2; 3, 4; 5, 6]: its elements, row by row
+    "linspace(-1.0, 3.0, 5)": np.linspace(-1, 3, 5),
+    "cross(v, w)": np.cross([1, 2, 4], [3, -1, 5]),
+    "outerProduct(v, w)": np.outer([1, 2, 4], [3, -1, 5]),
+    "identity(3)": np.eye(3),
+    "diagonal(v)": np.diag([1, 2, 4]),
+    "transpose(A)": [[1, 3, 5], [2, 4, 6]],
+    "cat(1, v, {7.0, 8.0})": [1, 2, 4, 7, 8],
+    "cat(2, A, A)": [[1, 2, 1, 2], [3, 4, 3, 4], [5, 6, 5, 6]],
+    "[v, w; 8, 9]": [[1, 3], [2, -1], [4, 5], [8, 9]],
+    "fill(2.5, 2, 2)": [[2.5, 2.5], [2.5, 2.5]],
+    "{sum(v), product(w), min(v), max(A), v*w}": [7, -15, 1, 6, 21],
+    "A*{1, 10}": [21, 43, 65],
+    "v*A": [27, 34],
+    "vector(A[2:2, :])": [3, 4],
+    "v .* w - v ./ w + 2*v": [3 - 1 / 3 + 2, -2 + 2 + 4, 20 - 4 / 5 + 8],
+}
+
+
+def test_arrays_are_what_numpy_makes_of_them() -> None:
+    values = [np.asarray(value, dtype=float) for value in ARRAYS.values()]
+    declared = "".join(
+        f"  Real y{k}[{', '.join(map(str, value.shape))}] = {expression};\n"
+        for k, (expression, value) in enumerate(zip(ARRAYS, values, strict=True))
+    )
+    given = "parameter Real v[3] = {1, 2, 4}; parameter Real w[3] = {3, -1, 5}; parameter Real A[3, 2] = "
+    run = Runner(body(f"{given}{{{{1, 2}}, {{3, 4}}, {{5, 6}}}};\n{declared}"))
+    for k, (expression, value) in enumerate(zip(ARRAYS, values, strict=True)):
+        for place, expected in np.ndenumerate(value):
+            index = ",".join(str(i + 1) for i in place)
+            assert run.at(f"y{k}[{index}]") == pytest.approx(expected, rel=1e-14), (expression, index)

@@ -1,6 +1,7 @@
 """What cannot be lowered: each row is the body of a model M, the line that is named, and words of cause and cure."""
 
 import re
+from pathlib import Path
 
 import pytest
 
@@ -99,7 +100,7 @@ def test_a_value_on_its_bound_or_from_start_is_taken(text: str) -> None:
     assert body(text).name == "M"
 
 
-def test_a_value_that_is_missing_can_be_set(tmp_path) -> None:
+def test_a_value_that_is_missing_can_be_set(tmp_path: Path) -> None:
     file = tmp_path / "M.mo"
     file.write_text("model M parameter Real p; Real x = p*time; end M;", encoding="utf-8")
     assert lower(load("M", [file], {"p": 3})).name == "M"
