@@ -56,9 +56,13 @@ def diagnosed(undrawn: None, rubbing: Path, toy: list[str], tmp_path_factory: py
 
 
 @pytest.fixture(scope="session")
-def compared(undrawn: None, rubbing: Path, toy: list[str], tmp_path_factory: pytest.TempPathFactory) -> Ran:
-    """`pysim compare --refit`."""
-    return ran(["compare", str(rubbing), *toy, "--refit"], tmp_path_factory.mktemp("compared"))
+def compared(rubbing: Path, toy: list[str], tmp_path_factory: pytest.TempPathFactory) -> Ran:
+    """`pysim compare --refit`; nothing is plotted."""
+    from pysim.cli import _diagnosis_report
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(_diagnosis_report, "_figures", lambda found, dataset: iter(()))
+        return ran(["compare", str(rubbing), *toy, "--refit"], tmp_path_factory.mktemp("compared"))
 
 
 @pytest.fixture(scope="session")

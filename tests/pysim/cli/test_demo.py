@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from pysim.cli import main
+from pysim.cli import _pictures, main
 from pysim.identify import TransferFunction
 from pysim.types import Experiment, Model, Record
 from tests.pysim import comparisons as linear
@@ -74,7 +74,8 @@ def test_demo_leaves_everything_behind(demo: Path) -> None:
     assert locked["tests"][0]["deviations"]["mean_phase_deg"] == pytest.approx(0.72 * frequencies.mean())
 
 
-def test_quick_takes_fewer_frequencies(demo: Path) -> None:
+def test_quick_takes_fewer_frequencies(demo: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(_pictures, "_figures", lambda comparisons: {})
     assert main(["demo", "--quick", "--output", str(demo)]) == 0
     data = json.loads((demo / "comparison.json").read_text(encoding="utf-8"))
     assert len(data["parameter_sets"][0]["tests"][0]["frequency_hz"]) == 8
