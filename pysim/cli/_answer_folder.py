@@ -10,6 +10,7 @@ from pathlib import Path
 
 MARKER = ".pysim-answer"  # in the folder: the names of our files, a line each
 _NEW = ".pysim-new"  # in the folder while an answer is written
+_OF_THE_SYSTEM = {".DS_Store", "Thumbs.db", "desktop.ini"}  # whoever looks into a folder leaves one; they stay
 # What a stopped run goes on from; it lies there before any answer does. A kill may leave half of it under another name.
 _UNFINISHED = re.compile(
     rf"({re.escape(MARKER)}|journal\.jsonl|log/[^/]+/(iterations\.jsonl|state\.npz))(\.[0-9a-f]{{8}}\.part)?"
@@ -95,10 +96,11 @@ def _listed(folder: Path) -> set[str]:
 
 
 def _files(folder: Path) -> Iterator[str]:
-    """All files but the marker and what was being written when a run was killed, one by one."""
+    """All files, but for the marker, what a killed run was writing, and what the system leaves."""
     for path in folder.rglob("*") if folder.is_dir() else ():
         name = path.relative_to(folder).as_posix()
-        if name != MARKER and name.partition("/")[0] != _NEW and (path.is_symlink() or not path.is_dir()):
+        known = name == MARKER or path.name in _OF_THE_SYSTEM or name.partition("/")[0] == _NEW
+        if not known and (path.is_symlink() or not path.is_dir()):
             yield name
 
 

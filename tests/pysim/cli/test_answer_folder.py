@@ -38,6 +38,13 @@ def test_an_earlier_answer_is_replaced_as_a_whole(tmp_path: Path) -> None:
     assert (tmp_path / "report.html").read_text() == "our report.html"
 
 
+def test_what_the_system_leaves_in_a_folder_stays_and_is_nobodys(tmp_path: Path) -> None:
+    answer(tmp_path, "report.html")
+    (tmp_path / ".DS_Store").write_text("of the Finder")
+    answer(tmp_path, "other.html")
+    assert left(tmp_path) == {"other.html", ".DS_Store", MARKER}
+
+
 @pytest.mark.parametrize("name", ["mine.png", "sub/mine.png", "log/mine.txt"])
 @pytest.mark.parametrize("ours", [(), ("report.html",)])
 def test_a_folder_with_a_file_of_somebody_elses_is_refused_and_left_alone(
