@@ -1,15 +1,22 @@
 """Chirp analysis against the closed form of a linear system, whose tops and bottoms answer alike."""
 
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import pytest
 
-from pysim.identify.chirp import Branch, analyse_chirp, chirp_responses, sweep_error
+from pysim.identify.chirp import Branch, ChirpAnalysis, analyse_chirp, chirp_responses, sweep_error
 from pysim.types import BadInput, Dataset, MeasuredRecord, MeasuredSignal, Record
 from tests.pysim.identify.chirp.chirps import log, response
 
 SIGNALS = (MeasuredSignal("u", "input", "%", "", "u"), MeasuredSignal("y", "output", "%", "", "y", 0.3))
+
+
+@cache
+def analysed(rate: float, **system: float) -> ChirpAnalysis:
+    """Of a log of `chirps.log`."""
+    return analyse_chirp(log(rate, **system), "u", "y")  # type: ignore[arg-type]
 
 
 def errors(branch: Branch, *, low: float = 0.0, high: float = 20.0, **system: float) -> np.ndarray:
@@ -22,7 +29,7 @@ def errors(branch: Branch, *, low: float = 0.0, high: float = 20.0, **system: fl
 
 @pytest.mark.parametrize("down", [False, True], ids=["up", "down"])
 def test_a_slow_sweep_gives_the_closed_form(down: bool) -> None:
-    found = analyse_chirp(log(0.5, down=down), "u", "y")
+    found = analysed(0.5, down=down)
     assert np.max(np.abs(errors(found.mean)[0])) < 0.02
     assert np.max(np.abs(errors(found.mean)[1])) < 0.25
     for branch in (found.top, found.bottom):
@@ -33,7 +40,7 @@ def test_a_slow_sweep_gives_the_closed_form(down: bool) -> None:
 
 @pytest.mark.parametrize(("rate", "damping"), [(0.5, 0.6), (1.0, 0.2), (0.5, 0.1)])
 def test_the_error_stays_below_that_of_the_sweep(rate: float, damping: float) -> None:
-    found = analyse_chirp(log(rate, damping=damping), "u", "y")
+    found = analysed(rate, damping=damping)
     share = sweep_error(rate, 8.0, damping)
     decibel, degrees = np.max(np.abs(errors(found.mean, low=2.0, damping=damping)), axis=1)
     assert decibel < 20 * np.log10(1 + share)
@@ -41,7 +48,7 @@ def test_the_error_stays_below_that_of_the_sweep(rate: float, damping: float) ->
 
 
 def test_a_lag_of_several_turns_is_followed() -> None:
-    found = analyse_chirp(log(0.5, delay=0.15), "u", "y")
+    found = analysed(0.5, delay=0.15)
     assert found.mean.phase_deg[-1] < -1300  # 0.15 s at 25 Hz alone are 1350 degrees
     unwrapped = np.unwrap(np.angle(response(np.linspace(0.01, 20, 4000), delay=0.15)))
     at20 = np.interp(20.0, found.mean.frequency, found.mean.phase_deg)
@@ -67,8 +74,8 @@ def test_intervals_hold_what_noise_does() -> None:
 
 
 def test_the_level_is_taken_off() -> None:
-    at_zero = analyse_chirp(log(2.0, offset=0.0), "u", "y")
-    raised = analyse_chirp(log(2.0, offset=70.0), "u", "y")
+    at_zero = analysed(2.0, offset=0.0)
+    raised = analysed(2.0, offset=70.0)
     np.testing.assert_allclose(raised.mean.gain, at_zero.mean.gain, rtol=1e-4)
     other = analyse_chirp(log(2.0, offset=70.0), "u", "y", level=69.0)
     slow = other.top.frequency < 3
@@ -84,30 +91,30 @@ def test_different_units_need_a_level() -> None:
     ):
         analyse_chirp(radians, "u", "y")
     found = analyse_chirp(radians, "u", "y", level=50.0)
-    np.testing.assert_allclose(found.mean.gain, analyse_chirp(record, "u", "y").mean.gain, rtol=1e-4)
+    np.testing.assert_allclose(found.mean.gain, analysed(2.0).mean.gain, rtol=1e-4)
 
 
 def test_a_slow_logger_still_shows_the_response() -> None:
-    found = analyse_chirp(log(1.0, sampling=80), "u", "y")  # 3.2 samples per period at the end
+    found = analysed(1.0, sampling=80)  # 3.2 samples per period at the end
     assert np.max(np.abs(errors(found.mean, low=2.0)[0])) < 0.1
     assert np.max(np.abs(errors(found.mean, low=2.0)[1])) < 1.0
 
 
 def test_stops_where_tops_are_lost_in_noise() -> None:
-    found = analyse_chirp(log(1.0, natural_hz=2.0, noise=0.5, stop_hz=40.0), "u", "y")
+    found = analysed(1.0, natural_hz=2.0, noise=0.5, stop_hz=40.0)
     assert any("lost in noise" in remark for remark in found.remarks)
     assert 6.0 < found.mean.frequency[-1] < 35.0
     assert np.max(np.abs(errors(found.mean, low=3.0, natural_hz=2.0)[0])) < 6.0
 
 
 def test_remarks_name_the_fast_start_and_the_few_samples() -> None:
-    found = analyse_chirp(log(1.0, sampling=125), "u", "y")
+    found = analysed(1.0, sampling=125)
     assert any(remark.startswith("below 1.4 Hz the frequency changes") for remark in found.remarks)
     assert any("5.0 samples per period" in remark for remark in found.remarks)
 
 
 def test_the_mean_is_a_frequency_response() -> None:
-    found = analyse_chirp(log(2.0, noise=0.1), "u", "y")
+    found = analysed(2.0, noise=0.1)
     response_, places = found.response, list(found.apart)
     np.testing.assert_allclose(response_.gain, np.sqrt(found.top.gain * found.bottom.gain)[places])
     np.testing.assert_allclose(response_.frequency, 0.5 * (found.top.frequency + found.bottom.frequency)[places])
