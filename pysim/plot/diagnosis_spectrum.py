@@ -10,7 +10,7 @@ from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
-from scipy import stats
+from scipy.special import chdtri
 
 from pysim.identify.residual_spectrum import FEWEST, residual_spectrum
 from pysim.plot.diagnosis_records import same_record, stages_compared
@@ -78,7 +78,7 @@ def _draw(axes: Axes, record: RecordFit, column: int, look: Mapping[str, Any]) -
     if not axes.lines:
         quiet(axes)
         size_axis(axes)
-        low, high = stats.chi2.ppf([0.025, 0.975], freedom) / freedom
+        low, high = chdtri(freedom, [0.975, 0.025]) / freedom
         axes.axhspan(low, high, color=BAND, alpha=0.6, linewidth=0, zorder=0)
         axes.axhline(1.0, color=LIMIT, linewidth=0.8, zorder=1)
         frequency_axis(axes, float(frequency[0]), float(frequency[-1]))
