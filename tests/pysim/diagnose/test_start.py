@@ -102,7 +102,8 @@ def test_what_one_nuisance_does_as_well_is_told() -> None:
         "toy.hardening": Blame(frozenset({offset, gain}), 95.0, 25.0),
     }
     note_mimics(story, none, blamed)
-    assert story.notes[-1] == "toy.bias would do what the offset of x does: these data cannot tell them apart"
+    assert "toy.bias" in story.notes[-1]
+    assert "offset of x" in story.notes[-1]
     note_mimics(story, Blame(frozenset({offset, gain}), 100.0, 28.0), {"toy.bias": blamed["toy.bias"]})
     assert len([note for note in story.notes if "would do" in note]) == 1
 

@@ -77,3 +77,4 @@ def test_bands_cover_the_axis_once_with_several_lines_each() -> None:
         assert [part.start for part in parts] == [0, *(part.stop for part in parts[:-1])]
         assert parts[-1].stop == count
         assert all(part.stop - part.start >= 8 for part in parts[:-1])
+    assert [part.stop for part in bands(np.arange(1.0, 512.0))] == [11, 22, 41, 78, 146, 273, 511]  # an even logarithm

@@ -7,7 +7,7 @@ import pytest
 from pysim.io import read_model
 from pysim.types import BadInput
 from tests.foreign import made_foreign
-from tests.pysim.simulate.fixture_fmus import BALL, OSCILLATOR, STIFF, build
+from tests.pysim.simulate.fixture_fmus import BALL, OSCILLATOR, build
 from tests.pysim.simulate.text_models import LAG, text_model
 
 
@@ -32,7 +32,7 @@ def test_table_and_abilities(tmp_path, fmi):
 @pytest.mark.parametrize("fmi", [2, 3])
 def test_event_indicators_are_counted(tmp_path, fmi):
     assert read_model(build(BALL, fmi, tmp_path)).abilities.event_indicators == 1
-    assert read_model(build(STIFF, fmi, tmp_path)).abilities.event_indicators == 0
+    assert read_model(build(OSCILLATOR, fmi, tmp_path)).abilities.event_indicators == 0
 
 
 def test_dependencies_are_names_and_none_where_not_given(tmp_path):

@@ -35,6 +35,7 @@ def test_curves_points_residuals_and_roots(one: FittedResponse) -> None:
     roots = next(line for line in plane.get_lines() if line.get_label() == "pole")
     np.testing.assert_allclose(np.sort(np.asarray(roots.get_ydata())), [-30, 30], rtol=0.02)
     assert len(plane.patches) == 2
+    assert plane.get_xlim()[1] == pytest.approx(0.12 * 30, rel=0.02)  # the imaginary axis is in sight
     assert [axes.get_ylabel() for axes in (gain, phase)] == ["Gain (dB)", "Phase (deg)"]
     assert residual.get_xlabel() == "Frequency (Hz)"
 

@@ -37,15 +37,18 @@ def test_the_band_lies_around_the_term() -> None:
     assert (edges[:, 1].min(), edges[:, 1].max()) == pytest.approx((-85.0, 85.0))
 
 
-def test_what_refitting_absorbs_is_said() -> None:
-    told = missing_figure(friction(V[:, None], "-80 N sign(pistonForce.v)"))._supxlabel.get_text()
-    assert told.splitlines()[0] == "-80 N sign(pistonForce.v)"
-    assert "parameters do as well" in told
+def below(missing: Missing) -> str:
+    return str(missing_figure(missing)._supxlabel.get_text())
+
+
+def test_the_formula_stands_below_and_what_refitting_absorbs_is_said() -> None:
+    formula = "-80 N sign(pistonForce.v)"
+    assert below(friction(formula=formula)) == formula
+    assert below(friction(V[:, None], formula)).startswith(f"{formula}\n")
 
 
 def test_places_that_would_do_as_well_are_said() -> None:
-    told = missing_figure(replace(friction(), alike=("supply", "oil")))._supxlabel.get_text()
-    assert told == "these data do not tell it from a term at supply, oil"
+    assert "supply, oil" in below(replace(friction(), alike=("supply", "oil")))
 
 
 def test_a_single_point_is_refused() -> None:

@@ -106,13 +106,14 @@ def test_each_table_has_its_own_verdict_with_numbers_and_limits(
 
 def test_a_size_that_people_turn_over_is_told_both_ways() -> None:
     (parameter,) = OFFSET.parameters
-    turned = replace(OFFSET, parameters=(replace(parameter, inverse="G"),))
-    (name, value, interval, unit), (other, one_over, turned_interval, per) = sizes(
-        AddedEffect(turned, "force", (estimate("F_o", 0.5, 0.1),))
+    turned = AddedEffect(
+        replace(OFFSET, parameters=(replace(parameter, inverse="G"),)), "force", (estimate("F_o", 0.5, 0.1),)
     )
-    assert (name, value, interval, unit) == ("F_o", 0.5, (0.4, 0.6), "N")
-    assert (other, one_over, per) == ("G", 2.0, "1/(N)")
-    assert turned_interval == (1 / 0.6, 2.5)
+    assert sizes(turned) == [("F_o", 0.5, (0.4, 0.6), "N"), ("G", 2.0, (1 / 0.6, 2.5), "1/(N)")]
+    (added,) = diagnosis_data(story(added=(turned,)))["added"]
+    assert added["parameters"] == {"F_o": 0.5, "G": 2.0}
+    assert added["intervals"] == {"F_o": [0.4, 0.6], "G": [1 / 0.6, 2.5]}
+    assert added["unit"] == {"F_o": "N", "G": "1/(N)"}
 
 
 def test_the_numbers_hold_the_missing_term_and_the_next_test() -> None:

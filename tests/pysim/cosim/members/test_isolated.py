@@ -68,23 +68,28 @@ def _go_twice(run) -> None:  # type: ignore[no-untyped-def]
     run.go()
 
 
-def test_closing_ends_the_process_and_a_closed_one_starts_anew(fragile: Model) -> None:
-    member = Isolated(Fmu("root", fragile))
-    numbers = []
-    for manner in (1.0, 2.0):
-        with driven(member, step=1.0, manner=manner) as run:
-            numbers.append(member._process.pid)
-            run.go()
-            assert run["root"] == pytest.approx(0.5, abs=2e-3)
-            if manner == 2.0:  # what the member says of itself comes through
-                with pytest.raises(MemberFailed, match="root of a negative number"):
-                    _go_twice(run)
-    assert numbers[0] != numbers[1]
+@pytest.fixture(scope="module")
+def member(fragile: Model) -> Isolated:
+    return Isolated(Fmu("root", fragile))
+
+
+def test_closing_ends_the_process(member: Isolated) -> None:
+    with driven(member, step=1.0) as run:
+        number = member._process.pid
+        run.go()
+        assert run["root"] == pytest.approx(0.5, abs=2e-3)
     if os.name == "posix":
         with pytest.raises(ProcessLookupError):
-            os.kill(numbers[1], signal.SIGTERM)
+            os.kill(number, signal.SIGTERM)
     with pytest.raises(BadInput, match="has not been started"):
         member.update()
+
+
+def test_a_closed_one_starts_anew_and_what_it_says_of_itself_comes_through(member: Isolated) -> None:
+    with driven(member, step=1.0, manner=2.0) as run:
+        run.go()
+        with pytest.raises(MemberFailed, match="root of a negative number"):
+            _go_twice(run)
 
 
 def test_what_cannot_be_isolated(fragile: Model) -> None:

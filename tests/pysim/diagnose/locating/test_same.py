@@ -25,6 +25,8 @@ def found(of: Law, evidence: float, *, knots: np.ndarray = K, unit: float = 1.0)
 
 def test_laws_run_over_the_same_values_at_two_places() -> None:
     assert alike(law("a"), K, law("b"), K * (1 + 1e-6))
+    assert alike(law("a"), 1e3 * K, law("b"), 1e3 * K + 1.0)  # a thousandth of its range
+    assert not alike(law("a"), 1e-3 * K, law("b"), 1e-3 * K + 1e-5)
     assert not alike(law("a"), K, law("a"), K)  # one place
     assert not alike(law("a"), K, law("b"), 2 * K)
     assert not alike(law("a"), K, law("b", of_rate=True), K)
