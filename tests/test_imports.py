@@ -52,7 +52,7 @@ ALLOWED = {
     "fmu_build": set(),
 }
 # Packages whose outside world is limited too.
-OUTSIDE = {"pysim.types": {"numpy"}, "pysim.excitation": {"numpy"}, "pysim.io": {"numpy", "fmpy"}}
+OUTSIDE = {"pysim.types": {"numpy"}, "pysim.excitation": {"numpy"}, "pysim.io": {"numpy", "fmpy", "platformdirs"}}
 MAIN = {Path("pysim/__main__.py"): {"pysim.cli"}, Path("validation/__main__.py"): {"pysim.cli"}}
 
 
