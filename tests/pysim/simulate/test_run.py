@@ -94,7 +94,7 @@ def test_a_run_that_was_stopped_says_so(fixture_model):
     assert 0 < len(record.time) < 3
 
 
-def test_simulating_and_comparing_need_no_compiler_no_front_end_and_no_large_part_of_scipy():
+def test_simulating_and_comparing_need_no_compiler_no_front_end_and_no_large_part_of_scipy() -> None:
     """Every command pays for what these import."""
     large = "{'rumoca', 'casadi', 'ziglang', 'matplotlib', 'scipy.optimize', 'scipy.signal', 'scipy.stats'}"
     code = f"import sys, pysim.identify, pysim.simulate; print(*({large} & set(sys.modules)))"

@@ -2,18 +2,20 @@
 
 import dataclasses
 import math
+from collections.abc import Callable
 
 import numpy as np
 import pytest
 
-from pysim.simulate import simulate
+from pysim.simulate import Solver, simulate
 from pysim.simulate.native.method import ExplicitMethod
-from pysim.types import BadInput, Experiment, Signal
-from tests.pysim.simulate.fixture_fmus import BALL, OSCILLATOR, STIFF
+from pysim.types import BadInput, Experiment, Model, Signal
+from tests.pysim.simulate.fixture_fmus import BALL, OSCILLATOR, STIFF, Fixture
 from tests.pysim.simulate.solver_cases import SOLVERS, SolverCase
 from tests.pysim.simulate.text_models import LAG, PEAKS, text_model
 
 _W, _D, _OMEGA = 2.0, 0.1, 3.0
+LargestError = Callable[[Model, np.ndarray, Solver], tuple[float, int]]  # and the steps it took
 
 
 @pytest.fixture(params=SOLVERS.values(), ids=SOLVERS.keys())
@@ -39,12 +41,12 @@ def forced(times: np.ndarray) -> Experiment:
     return Experiment(times, ("x", "v"), {"u": sine(_OMEGA)}, {"x": 1.0})
 
 
-def largest_error(model, times, solver) -> tuple[float, int]:
+def largest_error(model: Model, times: np.ndarray, solver: Solver) -> tuple[float, int]:
     record = simulate(model, forced(times), solver=solver)
     return float(np.max(np.abs(record["x"] - forced_oscillation(times)))), record.statistics["steps"]
 
 
-def riccati_error(model, times, solver) -> tuple[float, int]:
+def riccati_error(model: Model, times: np.ndarray, solver: Solver) -> tuple[float, int]:
     """y' = -y^2 from 1, beside x' = cos t - (x - sin t) from 0."""
     record = simulate(model, Experiment(times, ("x", "y"), overrides={"rate": 1.0}), solver=solver)
     return float(np.max(np.abs(record["y"] - 1 / (1 + times)))), record.statistics["steps"]
@@ -55,7 +57,9 @@ def riccati_error(model, times, solver) -> tuple[float, int]:
     [(OSCILLATOR, largest_error, 20.0), (STIFF, riccati_error, 8.0)],
     ids=["forced and linear", "nonlinear"],
 )
-def test_error_falls_with_the_claimed_order(case, fixture_model, fixture, error, end):
+def test_error_falls_with_the_claimed_order(
+    case: SolverCase, fixture_model: Callable[..., Model], fixture: Fixture, error: LargestError, end: float
+) -> None:
     model, times = fixture_model(fixture), np.array([end])
     coarse_error, coarse_steps = error(model, times, case.make(case.coarse))
     finer = case.coarse / (4 if case.fixed else 1e3)
