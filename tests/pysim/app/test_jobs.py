@@ -15,7 +15,6 @@ from pysim.app.processes import Started
 from pysim.app.project import Project
 from pysim.types import BadInput
 from tests.pysim.app.alive import PARENT, alive, child
-from tests.pysim.app.in_use import content, in_use
 
 _WAIT = 60.0  # s
 
@@ -113,20 +112,6 @@ def test_a_journal_is_kept_for_the_same_data_and_removed_for_others(project: Pro
     runner.start(work(project, "raise SystemExit(2)"))
     wait(runner)
     assert not journal.exists()
-
-
-def test_a_result_that_another_program_shows_is_not_removed_by_half(
-    project: Project, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    runner = Runner(project)
-    runner.start(work(project, f"{ANSWERED}; open('results/try/report.html', 'w')"))
-    wait(runner)
-    before = content(project.results("try"))
-    in_use(monkeypatch, project.results("try") / "report.html")
-    with pytest.raises(BadInput, match=r"try: Access is denied; close the program that shows it or a file in it"):
-        runner.start(work(project, ANSWERED))
-    assert content(project.results("try")) == before
-    assert runner.running is None
 
 
 def test_what_a_server_left_running_is_ended_and_counts_as_stopped(project: Project) -> None:
