@@ -1,20 +1,24 @@
 """The workbench in a process of its own, and Debian's Chromium in front of it."""
 
+import http.client
 import os
 import re
 import subprocess
 import sys
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
+from urllib.parse import urlsplit
 
 import pytest
 
 from tests.pysim.app import chromium
 
 ROOT = Path(__file__).parents[3]
+SIZE: Any = {"width": 1280, "height": 800}
+Show = Callable[..., str]  # from a project to the address of the workbench that shows it
 _STARTED = 300.0  # s, on a machine that does other things too
 
 
@@ -44,18 +48,70 @@ def _address(log: Path, process: "subprocess.Popen[bytes]") -> str:
     raise AssertionError(f"the workbench did not start: {log.read_text(encoding='utf-8')}")
 
 
+def asked(address: str, method: str, path: str, body: bytes = b"") -> tuple[int, str]:
+    """Status and text of what is not a page."""
+    parts = urlsplit(address)
+    connection = http.client.HTTPConnection(parts.hostname or "", parts.port, timeout=60)
+    cookie = f"pysim_app_{parts.port}={address.partition('token=')[2]}"
+    connection.request(method, path, body, {"Cookie": cookie})
+    answer = connection.getresponse()
+    return answer.status, answer.read().decode()
+
+
 def base(address: str) -> str:
     """Without path and token."""
     return address.partition("/?")[0]
 
 
+class Shown:
+    """A browser without a window. Its first tab is kept from test to test, since a new one reads, compiles and draws
+    all of the page's scripts anew: 2 s of computing each; every further tab has a context of its own.
+
+    Args:
+        found: Chromium with nothing open.
+    """
+
+    def __init__(self, found: Any) -> None:
+        self._browser = found
+        self._kept = self._tab()
+        self._begun = 0
+        self._heard: list[tuple[str, Callable[[Any], object]]] = []
+
+    def page(self) -> Any:
+        """A tab that shows nothing."""
+        self._begun += 1
+        return self._kept if self._begun == 1 else self._tab()
+
+    def listen(self, page: Any, event: str, heard: Callable[[Any], object]) -> None:
+        """Tell what happens on a page, until the end of the test."""
+        page.on(event, heard)
+        if page is self._kept:
+            self._heard.append((event, heard))
+
+    def end(self) -> None:
+        """Close all tabs but the first, which shows nothing and has the first look again."""
+        self._begun = 0
+        for context in self._browser.contexts:
+            if context is not self._kept.context:
+                context.close()
+        for event, heard in self._heard:
+            self._kept.remove_listener(event, heard)
+        self._heard.clear()
+        self._kept.goto("about:blank")
+        self._kept.emulate_media(color_scheme="light")
+        self._kept.set_viewport_size(SIZE)
+
+    def _tab(self) -> Any:
+        return self._browser.new_context(viewport=SIZE, accept_downloads=True).new_page()
+
+
 @contextmanager
-def browser() -> Iterator[Any]:
-    """A browser without a window; the test is skipped where there is none."""
+def browser() -> Iterator[Shown]:
+    """A browser; the test is skipped where there is none."""
     if why := chromium.missing():
         pytest.skip(why)
     with chromium.browser() as found:
-        yield found
+        yield Shown(found)
 
 
 class Tab:
@@ -65,18 +121,19 @@ class Tab:
         shown: a browser.
         address: with the token.
         artefacts: where screenshots are kept; none where None.
+        media: what the page is told of the system, such as color_scheme.
     """
 
-    def __init__(self, shown: Any, address: str, artefacts: Path | None = None, **options: Any) -> None:
-        context = shown.new_context(viewport={"width": 1280, "height": 800}, accept_downloads=True, **options)
-        self.page = context.new_page()
+    def __init__(self, shown: Shown, address: str, artefacts: Path | None = None, **media: Any) -> None:
+        self.page = shown.page()
+        self.page.emulate_media(**media)
         self.page.set_default_timeout(150_000)
         self.errors: list[str] = []
         self.asked: list[str] = []
-        self.page.on("pageerror", lambda error: self.errors.append(str(error)))
-        self.page.on("console", lambda m: self.errors.append(m.text) if m.type == "error" else None)
-        self.page.on("request", lambda request: self.asked.append(request.url))
-        self.page.on("dialog", lambda dialog: self.errors.append(f"dialog {dialog.message}"))
+        shown.listen(self.page, "pageerror", lambda error: self.errors.append(str(error)))
+        shown.listen(self.page, "console", lambda m: self.errors.append(m.text) if m.type == "error" else None)
+        shown.listen(self.page, "request", lambda request: self.asked.append(request.url))
+        shown.listen(self.page, "dialog", lambda dialog: self.errors.append(f"dialog {dialog.message}"))
         self._base, self._artefacts = base(address), artefacts
         self.page.goto(address)
         self.page.wait_for_selector(".page h1")

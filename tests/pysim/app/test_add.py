@@ -2,12 +2,12 @@
 
 import json
 import re
+from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
 import pytest
 
-from tests.pysim.app.browser import Tab, artefacts, server
+from tests.pysim.app.browser import Show, Shown, Tab, artefacts
 from tests.pysim.diagnose.toy import TEXT
 
 DESCRIPTION = """
@@ -23,15 +23,6 @@ unit = "m"
 file = "a.txt"
 columns = ["time", "F", "x"]
 kind = "other"
-"""
-# The workbench whose work does nothing: what it tells is written by the test.
-SLOW = """
-import subprocess, sys
-import pysim.app.jobs
-from pysim.cli import main
-sleep = [sys.executable, "-c", "import time; time.sleep(600)"]
-pysim.app.jobs.run_pysim = lambda words, folder, output: subprocess.Popen(sleep, start_new_session=True)
-sys.exit(main(sys.argv[1:]))
 """
 _PATIENCE = 150e3  # ms
 
@@ -63,37 +54,51 @@ def drawn(tab: Tab, number: str) -> None:
     words.wait_for(state="attached", timeout=_PATIENCE)
 
 
-def test_the_staircase_moves_while_the_fit_runs_and_stays_usable(shown: Any, project: Path) -> None:
-    with server(project, program=("-c", SLOW)) as address:
-        tab = Tab(shown, address, artefacts())
-        tab.go("Add")
-        tab.page.get_by_role("button", name="Find what is missing", disabled=False).click()
-        tab.see("Stop")
-        tab.page.get_by_role("button", name="Stop").evaluate("(el) => (el.dataset.mark = 'the same')")
-        drawn(tab, "noise alone")  # the place of the first step, before the process tells anything
-        for step, fit, number in (("prior", 63.8, "63.8"), ("refit", 20.3, "20.3"), ("toy.friction", 0.97, "0.97")):
-            tell(project, step, fit)
-            drawn(tab, number)
-        assert tab.page.locator(".chart .main-svg").count() == 3  # one figure: below, above, and what hovers
-        tab.page.locator(".job .time", has_text=re.compile("0:0[3-9]|0:[1-5]|[1-9]:")).wait_for()
-        tab.page.locator(".job button[data-mark='the same']").wait_for()  # a button that is made anew loses presses
-        tab.shot("running")
-        _follows_the_look(tab)
-        _follows_the_window(tab)
-        tab.page.reload()  # in the middle
-        drawn(tab, "0.97")
-        tab.press("Stop")
-        tab.see("was stopped; what it had found is kept")
-        tab.page.reload()
-        drawn(tab, "0.97")
-        assert tab.page.get_by_text("Nothing was fitted yet").count() == 0
-        tab.press("Go on")
-        tab.see("Stop")
-        drawn(tab, "0.97")  # what it had found, until it is found again
-        tell(project, "prior", 55.5)
-        drawn(tab, "55.5")
-        drawn(tab, "0.97")
-        assert tab.errors == []
+@pytest.fixture
+def tab(shown: Shown, show: Show, project: Path) -> Iterator[Tab]:
+    """The page while a diagnosis runs."""
+    found = Tab(shown, show(project, idle=True), artefacts())
+    found.go("Add")
+    found.page.get_by_role("button", name="Find what is missing", disabled=False).click()
+    found.see("Stop")
+    yield found
+    assert found.errors == []
+
+
+def test_the_staircase_moves_while_the_fit_runs(tab: Tab, project: Path) -> None:
+    tab.page.get_by_role("button", name="Stop").evaluate("(el) => (el.dataset.mark = 'the same')")
+    drawn(tab, "noise alone")  # the place of the first step, before the process tells anything
+    for step, fit, number in (("prior", 63.8, "63.8"), ("refit", 20.3, "20.3"), ("toy.friction", 0.97, "0.97")):
+        tell(project, step, fit)
+        drawn(tab, number)
+    assert tab.page.locator(".chart .main-svg").count() == 3  # one figure: below, above, and what hovers
+    tab.page.locator(".job .time", has_text=re.compile("0:0[1-9]|0:[1-5]|[1-9]:")).wait_for()
+    tab.page.locator(".job button[data-mark='the same']").wait_for()  # a button that is made anew loses presses
+    tab.shot("running")
+
+
+def test_what_a_stopped_fit_had_found_stays_until_it_is_found_again(tab: Tab, project: Path) -> None:
+    tell(project, "prior", 63.8)
+    tell(project, "refit", 0.97)
+    tab.page.reload()  # in the middle
+    drawn(tab, "0.97")
+    tab.press("Stop")
+    tab.see("was stopped; what it had found is kept")
+    tab.page.reload()
+    drawn(tab, "0.97")
+    assert tab.page.get_by_text("Nothing was fitted yet").count() == 0
+    tab.press("Go on")
+    tab.see("Stop")
+    drawn(tab, "0.97")
+    tell(project, "prior", 55.5)
+    drawn(tab, "55.5")
+    drawn(tab, "0.97")
+
+
+def test_a_figure_follows_the_look_and_the_window(tab: Tab) -> None:
+    drawn(tab, "noise alone")
+    _follows_the_look(tab)
+    _follows_the_window(tab)
 
 
 def _follows_the_look(tab: Tab) -> None:

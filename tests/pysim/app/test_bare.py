@@ -2,12 +2,11 @@
 
 import tomllib
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
 
-from tests.pysim.app.browser import Tab, artefacts, server
+from tests.pysim.app.browser import Show, Shown, Tab, artefacts
 from tests.pysim.diagnose.toy import CATALOGUE, TEXT
 
 TIME = np.arange(0, 8, 0.005)
@@ -24,83 +23,79 @@ def logs(tmp_path: Path) -> list[Path]:
     return paths
 
 
-def test_single_logs_are_described_on_the_page(shown: Any, logs: list[Path], tmp_path: Path) -> None:
+def test_single_logs_are_described_on_the_page(shown: Shown, show: Show, logs: list[Path], tmp_path: Path) -> None:
     folder = tmp_path / "project"
     (tmp_path / "Toy.mo").write_text(TEXT)
-    with server(folder) as address:
-        tab = Tab(shown, address, artefacts())
-        tab.drop("files", *logs)
-        tab.see("3 logs, 4 columns, as run1.csv has them")
-        assert tab.page.get_by_label("unit of column 3").input_value() == "mm"
-        tab.page.get_by_label("noise of column 3").fill("0.5")
-        tab.page.get_by_label("noise of column 3").press("Tab")
-        tab.drop("files", tmp_path / "Toy.mo")  # the page changes meanwhile
-        tab.see("Libraries of yours: model/Toy.mo")
-        tab.page.get_by_label("Modelica class").fill("Toy.Mass")
-        tab.press("Use this model")
-        tab.see(f"{len(CATALOGUE)} effects that fit", timeout=300)
-        tab.page.wait_for_function("document.querySelector('[aria-label=\"variable of column 3\"]')?.value === 'x'")
-        assert tab.page.get_by_label("noise of column 3").input_value() == "0.5"  # what was filled in stays
-        tab.shot("bare")
-        tab.press("Use these logs")
-        tab.see("spare: choose a unit, or a dash to leave the column out")
-        tab.page.get_by_label("role of column 4").select_option("-")
-        tab.press("Use these logs")
-        tab.see("3 records, 1 held out")
-        found = tomllib.loads((folder / "data/dataset.toml").read_text())
-        assert found["signals"] == {
-            "F": {"role": "input", "unit": "N", "variable": "F"},
-            "x": {"role": "output", "unit": "mm", "variable": "x", "noise": 0.5},
-        }  # fmt: skip
-        assert [(r["file"], r["use"]) for r in found["records"]] == [
-            ("run1.csv", "fit"), ("run2.csv", "fit"), ("run3.csv", "validate"),
-        ]  # fmt: skip
-        assert found["records"][0]["columns"] == ["time", "F", "x", "-"]
-        tab.see("Ready to compare")
-        assert tab.errors == []
+    tab = Tab(shown, show(folder), artefacts())
+    tab.drop("files", *logs)
+    tab.see("3 logs, 4 columns, as run1.csv has them")
+    assert tab.page.get_by_label("unit of column 3").input_value() == "mm"
+    tab.page.get_by_label("noise of column 3").fill("0.5")
+    tab.page.get_by_label("noise of column 3").press("Tab")
+    tab.drop("files", tmp_path / "Toy.mo")  # the page changes meanwhile
+    tab.see("Libraries of yours: model/Toy.mo")
+    tab.page.get_by_label("Modelica class").fill("Toy.Mass")
+    tab.press("Use this model")
+    tab.see(f"{len(CATALOGUE)} effects that fit", timeout=300)
+    tab.page.wait_for_function("document.querySelector('[aria-label=\"variable of column 3\"]')?.value === 'x'")
+    assert tab.page.get_by_label("noise of column 3").input_value() == "0.5"  # what was filled in stays
+    tab.shot("bare")
+    tab.press("Use these logs")
+    tab.see("spare: choose a unit, or a dash to leave the column out")
+    tab.page.get_by_label("role of column 4").select_option("-")
+    tab.press("Use these logs")
+    tab.see("3 records, 1 held out")
+    found = tomllib.loads((folder / "data/dataset.toml").read_text())
+    assert found["signals"] == {
+        "F": {"role": "input", "unit": "N", "variable": "F"},
+        "x": {"role": "output", "unit": "mm", "variable": "x", "noise": 0.5},
+    }  # fmt: skip
+    assert [(r["file"], r["use"]) for r in found["records"]] == [
+        ("run1.csv", "fit"), ("run2.csv", "fit"), ("run3.csv", "validate"),
+    ]  # fmt: skip
+    assert found["records"][0]["columns"] == ["time", "F", "x", "-"]
+    tab.see("Ready to compare")
+    assert tab.errors == []
 
 
-def test_stepped_sines_are_known_by_their_names(shown: Any, tmp_path: Path) -> None:
+def test_stepped_sines_are_known_by_their_names(shown: Shown, show: Show, tmp_path: Path) -> None:
     for frequency in (1, 2):
         wave = 25 + 10 * np.sin(2 * np.pi * frequency * TIME)
         np.savetxt(tmp_path / f"{frequency}Hz.txt", np.column_stack([TIME, wave, wave]), fmt="%.5f")
-    with server(tmp_path / "project") as address:
-        tab = Tab(shown, address, artefacts())
-        tab.drop("files", tmp_path / "1Hz.txt", tmp_path / "2Hz.txt")
-        tab.see("2 logs, 3 columns")
-        assert tab.page.get_by_label("kind of the logs").input_value() == "frequency-response"
-        for number, name in ((2, "command"), (3, "angle")):
-            tab.page.get_by_label(f"name of column {number}").fill(name)
-            tab.page.get_by_label(f"unit of column {number}").select_option("%")
-        tab.press("Use these logs")
-        tab.see("2 records, 0 held out")
-        records = tomllib.loads((tmp_path / "project/data/dataset.toml").read_text())["records"]
-        assert [(r["offset"], r["amplitude"], r["frequency"]) for r in records] == [(25, 10, 1), (25, 10, 2)]
-        assert tab.errors == []
+    tab = Tab(shown, show(tmp_path / "project"), artefacts())
+    tab.drop("files", tmp_path / "1Hz.txt", tmp_path / "2Hz.txt")
+    tab.see("2 logs, 3 columns")
+    assert tab.page.get_by_label("kind of the logs").input_value() == "frequency-response"
+    for number, name in ((2, "command"), (3, "angle")):
+        tab.page.get_by_label(f"name of column {number}").fill(name)
+        tab.page.get_by_label(f"unit of column {number}").select_option("%")
+    tab.press("Use these logs")
+    tab.see("2 records, 0 held out")
+    records = tomllib.loads((tmp_path / "project/data/dataset.toml").read_text())["records"]
+    assert [(r["offset"], r["amplitude"], r["frequency"]) for r in records] == [(25, 10, 1), (25, 10, 2)]
+    assert tab.errors == []
 
 
-def test_times_in_ms_are_told(shown: Any, tmp_path: Path) -> None:
+def test_times_in_ms_are_told(shown: Shown, show: Show, tmp_path: Path) -> None:
     np.savetxt(
         tmp_path / "a.txt", np.column_stack([1000 * TIME, TIME, TIME]), header="t (ms) u (V) y (bar)", fmt="%.4f"
     )
     text = (tmp_path / "a.txt").read_text().removeprefix("# ").replace(" (", "(")
     (tmp_path / "a.txt").write_text(text)
-    with server(tmp_path / "project") as address:
-        tab = Tab(shown, address, artefacts())
-        tab.drop("files", tmp_path / "a.txt")
-        tab.see("1 log, 3 columns")
-        units = [tab.page.get_by_label(f"unit of column {k}").input_value() for k in (1, 2, 3)]
-        assert units == ["ms", "V", "bar"]
-        tab.press("Use these logs")
-        tab.see("1 record, 0 held out")
-        assert tab.page.locator("td.number", has_text="7.995").count() == 1  # s, not 7995
-        assert tab.errors == []
+    tab = Tab(shown, show(tmp_path / "project"), artefacts())
+    tab.drop("files", tmp_path / "a.txt")
+    tab.see("1 log, 3 columns")
+    units = [tab.page.get_by_label(f"unit of column {k}").input_value() for k in (1, 2, 3)]
+    assert units == ["ms", "V", "bar"]
+    tab.press("Use these logs")
+    tab.see("1 record, 0 held out")
+    assert tab.page.locator("td.number", has_text="7.995").count() == 1  # s, not 7995
+    assert tab.errors == []
 
 
-def test_a_log_without_numbers_is_refused_in_a_sentence(shown: Any, tmp_path: Path) -> None:
+def test_a_log_without_numbers_is_refused_in_a_sentence(shown: Shown, show: Show, tmp_path: Path) -> None:
     (tmp_path / "words.txt").write_text("no numbers\nat all\n")
-    with server(tmp_path / "project") as address:
-        tab = Tab(shown, address, artefacts())
-        tab.drop("files", tmp_path / "words.txt")
-        tab.see("words.txt holds no rows of numbers")
-        assert tab.errors == []
+    tab = Tab(shown, show(tmp_path / "project"), artefacts())
+    tab.drop("files", tmp_path / "words.txt")
+    tab.see("words.txt holds no rows of numbers")
+    assert tab.errors == []

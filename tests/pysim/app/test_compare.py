@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from tests.pysim.app.browser import Tab, artefacts, server
+from tests.pysim.app.browser import Show, Shown, Tab, artefacts
 
 DESCRIPTION = """
 [dataset]
@@ -91,26 +91,25 @@ def stage(step: str, decibels: tuple[float, float]) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def test_a_bode_plot_stands_in_its_band_and_says_when_it_leaves_it(shown: Any, project: Path) -> None:
-    with server(project) as address:
-        tab = Tab(shown, address, artefacts())
-        tab.go("Compare")
-        tab.see("passes Table 1.3")
-        curves = lines(tab)
-        measured, band, model = curves["measured y"], curves["± 2 dB, ± 35° (Table 1.3) y"], curves["refitted y"]
-        assert max(abs(a - b) for a, b in zip(model, measured, strict=True)) == pytest.approx(0.5)
-        assert band == pytest.approx([v + 2 for v in measured] + [v - 2 for v in reversed(measured)])
-        assert curves["refitted y2"] == pytest.approx(curves["measured y2"])
-        tab.see("maximum magnitude deviation 0.5 of 2 dB")
-        tab.page.get_by_role("button", name="25 ± 10").press("Enter")
-        tab.see("beyond Table 1.3")
-        tab.see("maximum magnitude deviation 2.5 of 2 dB")
-        curves = lines(tab)
-        out = [a - b for a, b in zip(curves["refitted y"], curves["measured y"], strict=True)]
-        assert out == pytest.approx([0, 2.5, 2.5])
-        tab.page.get_by_text("Frequency responses").scroll_into_view_if_needed()
-        tab.shot("bode")
-        assert tab.errors == []
+def test_a_bode_plot_stands_in_its_band_and_says_when_it_leaves_it(shown: Shown, show: Show, project: Path) -> None:
+    tab = Tab(shown, show(project), artefacts())
+    tab.go("Compare")
+    tab.see("passes Table 1.3")
+    curves = lines(tab)
+    measured, band, model = curves["measured y"], curves["± 2 dB, ± 35° (Table 1.3) y"], curves["refitted y"]
+    assert max(abs(a - b) for a, b in zip(model, measured, strict=True)) == pytest.approx(0.5)
+    assert band == pytest.approx([v + 2 for v in measured] + [v - 2 for v in reversed(measured)])
+    assert curves["refitted y2"] == pytest.approx(curves["measured y2"])
+    tab.see("maximum magnitude deviation 0.5 of 2 dB")
+    tab.page.get_by_role("button", name="25 ± 10").press("Enter")
+    tab.see("beyond Table 1.3")
+    tab.see("maximum magnitude deviation 2.5 of 2 dB")
+    curves = lines(tab)
+    out = [a - b for a, b in zip(curves["refitted y"], curves["measured y"], strict=True)]
+    assert out == pytest.approx([0, 2.5, 2.5])
+    tab.page.get_by_text("Frequency responses").scroll_into_view_if_needed()
+    tab.shot("bode")
+    assert tab.errors == []
 
 
 TWICE = """[[records]]
@@ -121,7 +120,7 @@ use = "{use}"
 """
 
 
-def test_of_a_file_with_two_records_each_has_its_own_curves_and_error(shown: Any, tmp_path: Path) -> None:
+def test_of_a_file_with_two_records_each_has_its_own_curves_and_error(shown: Shown, show: Show, tmp_path: Path) -> None:
     folder, own = tmp_path / "project", stage("refit", (0.5, 2.5))
     (folder / "data").mkdir(parents=True)
     time = np.arange(0, 4, 0.005)
@@ -133,20 +132,19 @@ def test_of_a_file_with_two_records_each_has_its_own_curves_and_error(shown: Any
     told = (("y", "fit", 2.0), ("z", "validate", 7.0))
     records = [{**record, "index": k, "names": [n], "use": u, "rms": [rms]} for k, (n, u, rms) in enumerate(told)]
     answered(folder, [{**own, "step": step, "records": records, "responses": []} for step in ("prior", "refit")])
-    with server(folder) as address:
-        tab = Tab(shown, address, artefacts())
-        tab.go("Compare")
-        assert opened(tab) == ("held out", "z (%)")  # the one that is worse
-        rows = tab.page.locator("tr", has_text="both.txt")
-        assert [row.split()[1:] for row in rows.all_inner_texts()] == [["fitted", "2.00"], ["held", "out", "7.00"]]
-        rows.nth(0).click()
-        tab.page.locator("#record .chip", has_text="fitted").wait_for()
-        assert opened(tab) == ("fitted", "y (%)")
-        tab.shot("two records")
-        tab.pick("Map of the error", 0.75, 0.75)
-        tab.page.locator("#record .chip", has_text="held out").wait_for()
-        assert opened(tab) == ("held out", "z (%)")
-        assert tab.errors == []
+    tab = Tab(shown, show(folder), artefacts())
+    tab.go("Compare")
+    assert opened(tab) == ("held out", "z (%)")  # the one that is worse
+    rows = tab.page.locator("tr", has_text="both.txt")
+    assert [row.split()[1:] for row in rows.all_inner_texts()] == [["fitted", "2.00"], ["held", "out", "7.00"]]
+    rows.nth(0).click()
+    tab.page.locator("#record .chip", has_text="fitted").wait_for()
+    assert opened(tab) == ("fitted", "y (%)")
+    tab.shot("two records")
+    tab.pick("Map of the error", 0.75, 0.75)
+    tab.page.locator("#record .chip", has_text="held out").wait_for()
+    assert opened(tab) == ("held out", "z (%)")
+    assert tab.errors == []
 
 
 def opened(tab: Tab) -> tuple[str, str]:

@@ -2,10 +2,9 @@
 
 import http.client
 import os
+import re
 import signal
 import socket
-import subprocess
-import sys
 import time
 from collections.abc import Callable
 from dataclasses import replace
@@ -24,7 +23,7 @@ from pysim.app.upload import Limits
 from pysim.io import read_stages, write_stages
 from pysim.report.diagnosis import diagnosis_data
 from pysim.types import BadInput
-from tests.pysim.app.browser import base, server
+from tests.pysim.app.browser import Show, asked, base, server
 from tests.pysim.diagnosis_story import dataset, story
 
 _WAVE = 2  # number of the log wave.txt in the data set
@@ -115,19 +114,6 @@ def test_a_port_that_another_has_is_refused() -> None:
             free_port("127.0.0.1", number)
 
 
-def test_on_windows_a_port_is_asked_for_alone(monkeypatch: pytest.MonkeyPatch) -> None:
-    seen: list[int] = []
-
-    class Probe(socket.socket):
-        def setsockopt(self, level: int, option: int, value: Any) -> None:  # type: ignore[override]
-            seen.append(option)
-
-    monkeypatch.setattr(socket, "SO_EXCLUSIVEADDRUSE", ~socket.SO_REUSEADDR, raising=False)
-    monkeypatch.setattr(socket, "socket", Probe)
-    assert free_port("127.0.0.1", 0) > 0
-    assert seen == [~socket.SO_REUSEADDR]
-
-
 @pytest.fixture
 def six() -> str:
     """The loopback of IPv6, where there is one."""
@@ -146,58 +132,61 @@ def test_a_killed_server_makes_room_for_the_next_and_ipv6_is_answered(tmp_path: 
         cookie = f'a,b=1; theme={{"dark": true}}; pysim_app_{urlsplit(address).port}={address.partition("token=")[2]}'
         assert status(f"{base(address)}/", Cookie=cookie) == 200
         assert status(f"{base(address)}/_nicegui_ws/socket.io/?EIO=4&transport=polling", Cookie=cookie) == 200
-        second = subprocess.run(
-            [sys.executable, "-m", "pysim", "app", str(tmp_path / "p"), "--no-browser"],
-            capture_output=True, text=True, timeout=300, cwd=Path(__file__).parents[3],
-        )  # fmt: skip
-        found = f"runs at {base(address)} (process "
-        assert second.returncode == 2
-        assert found in second.stderr
-        os.kill(int(second.stderr.partition(found)[2].partition(")")[0]), getattr(signal, "SIGKILL", signal.SIGTERM))
-        with server(tmp_path / "p") as other:
-            assert status(other) == 303
+        with pytest.raises(BadInput, match=re.escape(f"runs at {base(address)} (process ")) as refused:
+            serve(tmp_path / "p", redo=" ".join, show=False, limits=Limits())
+        os.kill(int(str(refused.value).partition("(process ")[2].partition(")")[0]), signal.SIGKILL)
+        _until(lambda: _free(tmp_path / "p"))
 
 
-def test_a_drop_that_the_disk_refuses_is_told_in_a_sentence(tmp_path: Path) -> None:
+def _free(folder: Path) -> bool:
+    """Whether the next server gets a project."""
+    try:
+        with held(folder):
+            return True
+    except BadInput:
+        return False
+
+
+def test_a_drop_that_the_disk_refuses_is_told_in_a_sentence(show: Show, tmp_path: Path) -> None:
     (tmp_path / "p/data").mkdir(parents=True)
     (tmp_path / "p/project.toml").write_text("")
     (tmp_path / "p/earlier").write_text("where the data set should go")
-    with server(tmp_path / "p") as address:
-        _, name = asked(address, "POST", "/upload")
-        assert asked(address, "PUT", f"/upload/{name}?name=a.csv", b"0,1\n") == (200, "kept")
-        code, words = asked(address, "POST", f"/upload/{name}/done?files=1")
-        assert (code, words.partition(";")[0]) == (507, f"{tmp_path / 'p/earlier'}: File exists")
+    address = show(tmp_path / "p")
+    _, name = asked(address, "POST", "/upload")
+    assert asked(address, "PUT", f"/upload/{name}?name=a.csv", b"0,1\n") == (200, "kept")
+    code, words = asked(address, "POST", f"/upload/{name}/done?files=1")
+    assert (code, words.partition(";")[0]) == (507, f"{tmp_path / 'p/earlier'}: File exists")
     assert list((tmp_path / "p/uploads").iterdir()) == []
 
 
-def test_a_file_that_comes_twice_ends_the_drop_and_nothing_of_it_stays(tmp_path: Path) -> None:
-    with server(tmp_path / "p") as address:
-        _, name = asked(address, "POST", "/upload")
-        many = b"0,1\n" * 10**6  # comes in many pieces
-        assert asked(address, "PUT", f"/upload/{name}?name=d/a.csv", many) == (200, "kept")
-        told = (422, "d/A.csv and d/a.csv would be one file; rename one of them")
-        assert asked(address, "PUT", f"/upload/{name}?name=d/A.csv", b"0,2\n") == told
-        assert asked(address, "POST", f"/upload/{name}/done?files=1")[0] == 409
+def test_a_file_that_comes_twice_ends_the_drop_and_nothing_of_it_stays(show: Show, tmp_path: Path) -> None:
+    address = show(tmp_path / "p")
+    _, name = asked(address, "POST", "/upload")
+    many = b"0,1\n" * 10**6  # comes in many pieces
+    assert asked(address, "PUT", f"/upload/{name}?name=d/a.csv", many) == (200, "kept")
+    told = (422, "d/A.csv and d/a.csv would be one file; rename one of them")
+    assert asked(address, "PUT", f"/upload/{name}?name=d/A.csv", b"0,2\n") == told
+    assert asked(address, "POST", f"/upload/{name}/done?files=1")[0] == 409
     assert list((tmp_path / "p/uploads").iterdir()) == []
     assert not (tmp_path / "p/data").exists()
 
 
-def test_an_upload_that_breaks_off_is_not_taken_for_a_whole_one(tmp_path: Path) -> None:
-    with server(tmp_path / "p") as address:
-        parts = urlsplit(address)
-        _, name = asked(address, "POST", "/upload")
-        head = (
-            f"PUT /upload/{name}?name=a.csv HTTP/1.1", f"Host: {parts.netloc}", "Content-Length: 400",
-            f"Cookie: pysim_app_{parts.port}={address.partition('token=')[2]}", "", "",
-        )  # fmt: skip
-        with socket.create_connection((parts.hostname or "", parts.port or 0)) as half:
-            half.sendall("\r\n".join(head).encode() + b"0,1\n" * 50)
-            _until(lambda: any(path.is_file() for path in (tmp_path / "p/uploads").rglob("*")))
-        _until(lambda: not any((tmp_path / "p/uploads").iterdir()))
-        assert asked(address, "POST", f"/upload/{name}/done?files=1")[0] == 409
-        _, name = asked(address, "POST", "/upload")
-        assert asked(address, "PUT", f"/upload/{name}?name=a.csv", b"0,1\n") == (200, "kept")
-        assert asked(address, "POST", f"/upload/{name}/done?files=2") == (409, "1 of 2 files arrived; drop them again")
+def test_an_upload_that_breaks_off_is_not_taken_for_a_whole_one(show: Show, tmp_path: Path) -> None:
+    address = show(tmp_path / "p")
+    parts = urlsplit(address)
+    _, name = asked(address, "POST", "/upload")
+    head = (
+        f"PUT /upload/{name}?name=a.csv HTTP/1.1", f"Host: {parts.netloc}", "Content-Length: 400",
+        f"Cookie: pysim_app_{parts.port}={address.partition('token=')[2]}", "", "",
+    )  # fmt: skip
+    with socket.create_connection((parts.hostname or "", parts.port or 0)) as half:
+        half.sendall("\r\n".join(head).encode() + b"0,1\n" * 50)
+        _until(lambda: any(path.is_file() for path in (tmp_path / "p/uploads").rglob("*")))
+    _until(lambda: not any((tmp_path / "p/uploads").iterdir()))
+    assert asked(address, "POST", f"/upload/{name}/done?files=1")[0] == 409
+    _, name = asked(address, "POST", "/upload")
+    assert asked(address, "PUT", f"/upload/{name}?name=a.csv", b"0,1\n") == (200, "kept")
+    assert asked(address, "POST", f"/upload/{name}/done?files=2") == (409, "1 of 2 files arrived; drop them again")
     assert list((tmp_path / "p/uploads").iterdir()) == []
     assert not (tmp_path / "p/data").exists()
 
@@ -207,16 +196,6 @@ def _until(met: Callable[[], bool]) -> None:
     while not met():
         assert time.monotonic() - begun < 60
         time.sleep(0.01)
-
-
-def asked(address: str, method: str, path: str, body: bytes = b"") -> tuple[int, str]:
-    """Status and text of what is not a page."""
-    parts = urlsplit(address)
-    connection = http.client.HTTPConnection(parts.hostname or "", parts.port, timeout=60)
-    cookie = f"pysim_app_{parts.port}={address.partition('token=')[2]}"
-    connection.request(method, path, body, {"Cookie": cookie})
-    answer = connection.getresponse()
-    return answer.status, answer.read().decode()
 
 
 def status(address: str, **headers: str) -> int:

@@ -3,12 +3,11 @@
 import re
 import time
 from pathlib import Path
-from typing import Any
 
 import pytest
 
 from pysim.io import read_model, write_dataset
-from tests.pysim.app.browser import Tab, artefacts, server
+from tests.pysim.app.browser import Shown, Tab, artefacts, server
 from tests.pysim.diagnose.toy import CATALOGUE, TEXT, measured
 
 pytestmark = pytest.mark.slow
@@ -23,7 +22,7 @@ def dropped(tmp_path: Path) -> tuple[Path, Path]:
     return tmp_path / "rubbing", tmp_path / "Toy.mo"
 
 
-def begun(shown: Any, address: str, dropped: tuple[Path, Path]) -> Tab:
+def begun(shown: Shown, address: str, dropped: tuple[Path, Path]) -> Tab:
     """A tab that has data and model."""
     tab = Tab(shown, address, artefacts())
     tab.drop("folder", dropped[0])
@@ -36,7 +35,9 @@ def begun(shown: Any, address: str, dropped: tuple[Path, Path]) -> Tab:
     return tab
 
 
-def test_from_the_dropped_folder_to_the_downloaded_fmu(shown: Any, dropped: tuple[Path, Path], tmp_path: Path) -> None:
+def test_from_the_dropped_folder_to_the_downloaded_fmu(
+    shown: Shown, dropped: tuple[Path, Path], tmp_path: Path
+) -> None:
     with server(tmp_path / "project") as address:
         tab = begun(shown, address, dropped)
         tab.shot("data")
@@ -109,7 +110,7 @@ def lines(path: Path, count: int) -> list[str]:
 
 
 def test_a_stopped_diagnosis_goes_on_and_a_reload_finds_it(
-    shown: Any, dropped: tuple[Path, Path], tmp_path: Path
+    shown: Shown, dropped: tuple[Path, Path], tmp_path: Path
 ) -> None:
     project = tmp_path / "project"
     with server(project) as address:
