@@ -10,10 +10,11 @@ from typing import Any
 from pysim.app.description import described
 from pysim.io import name_and_unit, read_thesis_folder
 from pysim.types import SECONDS, UNITS, BadInput, MeasuredSignal
+from pysim.types.record_kind import CHIRP, LOGS, STEPPED_SINE
 
-SINE = "frequency-response"
+SINE = STEPPED_SINE.name
 ROLES = ("time", "input", "output", "-")
-KINDS = ("other", "step", "stochastic", "chirp", "multisine", SINE)
+KINDS = tuple(kind.name for kind in reversed(LOGS))
 
 
 def guesses(headings: Sequence[str], *, fixed: bool = False) -> list[dict[str, Any]]:
@@ -83,7 +84,7 @@ def _time_unit(columns: Sequence[Mapping[str, Any]]) -> str:
 
 def _others(folder: Path, logs: Sequence[Path], kind: str) -> list[dict[str, Any]]:
     """The last of several is held out."""
-    if kind == "chirp":
+    if kind == CHIRP.name:
         raise BadInput("chirps need their offset and amplitude; write a dataset.toml, as docs/data.md shows")
     files = [path.relative_to(folder).as_posix() for path in logs]
     held = len(files) - 1 if len(files) > 1 else -1

@@ -10,8 +10,7 @@ from typing import Any
 
 from pysim.io import log_source, names_its_columns, read_dataset_partly, read_toml, write_file
 from pysim.types import BadInput, Dataset
-
-_SINE = "frequency-response"
+from pysim.types.record_kind import STEPPED_SINE
 
 
 def read_description(path: Path) -> dict[str, Any]:
@@ -129,7 +128,7 @@ def described(name: str, columns: Sequence[Mapping[str, Any]], logs: Sequence[Ma
     told = {"input": inputs[0]} if len(inputs) > 1 else {}
     clock = next(column["name"] for column in columns if column["role"] == "time")
     records = [
-        {**log, "columns": names, **_called(log["file"], clock), **(told if log["kind"] == _SINE else {})}
+        {**log, "columns": names, **_called(log["file"], clock), **(told if log["kind"] == STEPPED_SINE.name else {})}
         for log in logs
     ]
     signals = {column["name"]: {key: column.get(key) for key in keys} for column in own}

@@ -9,6 +9,7 @@ from typing import Protocol
 
 from pysim.excitation import Chirp, Excitation, LeadIn, Multisine, Step, SteppedSineCommand, StochasticWave
 from pysim.types import BadInput
+from pysim.types.record_kind import STEPPED_SINE
 
 
 @dataclass(frozen=True)
@@ -98,7 +99,7 @@ class SteppedSines:
                 command = SteppedSineCommand(offset, amplitude, frequency, self.periods_of(frequency), self.lead)
                 yield Run(
                     f"{point}/{frequency:g}Hz.txt",
-                    "frequency-response",
+                    STEPPED_SINE.name,
                     self.use,
                     self.input,
                     self.outputs,

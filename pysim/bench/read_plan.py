@@ -14,6 +14,7 @@ from pysim.bench.sensor import Sensor
 from pysim.excitation import Chirp, LeadIn, LineGrid, Multisine, PiersonMoskowitz, Step, StochasticWave
 from pysim.io import SI, SIGNAL_KEYS, Section, described_signal, read_toml, signal_in_si
 from pysim.types import BadInput, MeasuredSignal
+from pysim.types.record_kind import STEPPED_SINE
 
 _PLANS = Path(__file__).parent / "plans"
 _KEYS = ("plan", "signals", "logging", "inputs", "lead", "tests")
@@ -196,7 +197,7 @@ def _name(section: Section) -> str:
 _LINES = ("lines", "group", "seed", "periods", "realisations")
 _Make = Callable[[Section, float, LeadIn, dict[str, Any]], BenchTest]
 _KINDS: Mapping[str, tuple[tuple[str, ...], _Make]] = {
-    "frequency-response": (("points", "frequencies", "periods", "least", "most"), _sines),
+    STEPPED_SINE.name: (("points", "frequencies", "periods", "least", "most"), _sines),
     "chirp": (("name", "offset", "amplitude", "start_hz", "stop_hz", "sweep"), _chirp),
     "stochastic": (
         ("name", "significant_height", "peak_period", "length", "seed", "components", "offset", "band_hz", "scatter"),

@@ -232,15 +232,19 @@ def _signal(found: Draft, name: str) -> str:
 
 def _record(found: Draft, source: str, *, first: bool) -> str:
     """A log; the first says what else it may be."""
+    from pysim.types.record_kind import LOGS, OTHER, STEPPED_SINE
+
     lines = ["[[records]]", f"file = {_toml(source)}", f"columns = {_toml(found.columns[source])}"]
     if source in found.called:
         lines.append(f"time = {_toml(found.called[source])}" + "    # what this log calls it" * first)
     sine = found.sines.get(source)
     if sine is None:
-        others = "    # step | stochastic | multisine | chirp | frequency-response; the last two say more"
-        lines.append('kind = "other"' + others * first)
+        others = (
+            "    # " + " | ".join(kind.name for kind in reversed(LOGS) if kind is not OTHER) + "; the last two say more"
+        )
+        lines.append(f'kind = "{OTHER.name}"' + others * first)
     else:
-        lines.append('kind = "frequency-response"')
+        lines.append(f'kind = "{STEPPED_SINE.name}"')
         lines += [f"{key} = {getattr(sine, key)!r}" for key in ("offset", "amplitude", "frequency")]
         command = next(name for name, role in found.roles.items() if role == "input")
         lines[-3] += f"    # of {command}, in its unit" if first else ""

@@ -72,10 +72,11 @@ def _read(args: argparse.Namespace) -> Dataset:
 def _stepped(dataset: Dataset, analysis: ChirpAnalysis) -> FrequencyResponse | None:
     """The stepped sines around the chirp's offset with its amplitude, where the data set has some."""
     from pysim.identify import measured_responses
+    from pysim.types.record_kind import STEPPED_SINE
 
     point = (analysis.command.offset, analysis.command.amplitude)
     near = 0.02 * analysis.command.amplitude
-    if not any(record.kind == "frequency-response" for record in dataset.logs()):
+    if not any(record.kind == STEPPED_SINE.name for record in dataset.logs()):
         return None
     for one in measured_responses(dataset, output=analysis.output):
         test = one.response.test

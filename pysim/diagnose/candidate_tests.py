@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from pysim.excitation import Excitation, LeadIn, PiersonMoskowitz, Step, SteppedSineCommand, StochasticWave
 from pysim.types import BadInput, Dataset, Experiment, MeasuredSignal, Model, Record
+from pysim.types.record_kind import STEPPED_SINE, STOCHASTIC
 
 Array = NDArray[np.float64]
 
@@ -90,7 +91,7 @@ class CandidateTest:
         names = ", ".join(f'"{output}"' for output in outputs)
         rows = [
             "[[tests]]",
-            f'kind = "{"frequency-response" if self.periods else "stochastic"}"',
+            f'kind = "{STEPPED_SINE.name if self.periods else STOCHASTIC.name}"',
             f"outputs = [{names}]",
         ]
         if self.periods:

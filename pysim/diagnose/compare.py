@@ -28,6 +28,7 @@ from pysim.types import (
     ResponseComparison,
     SineTest,
 )
+from pysim.types.record_kind import RESPONSE_TABLE
 
 # The stiff method takes long steps where nothing happens; at these tolerances the four numbers of the pump's tests are
 # within 0.002 dB and 0.01 degrees of those at 1e-8.
@@ -75,7 +76,7 @@ def compare(
         logs = f" ({len(dataset.logs())} logs over time)" if dataset.logs() else ""
         raise BadInput(
             f"data set {dataset.name!r} holds no frequency responses{logs}; "
-            'add records of the kind "frequency-response-table"'
+            f'add records of the kind "{RESPONSE_TABLE.name}"'
         )
     if reference_hz is not None:
         for response in responses:  # now, not after minutes of runs

@@ -14,6 +14,7 @@ from pysim.identify.greybox.log_target import LogTarget
 from pysim.identify.greybox.sine_log import SineLog
 from pysim.identify.greybox.sine_target import SineTarget
 from pysim.identify.greybox.target import Target
+from pysim.types.record_kind import STEPPED_SINE
 
 Array = NDArray[np.float64]
 
@@ -184,7 +185,7 @@ def _tapered(targets: Sequence[Target], column: Column) -> Iterator[_Ordinates]:
     """Of logs over time, every second frequency, since a taper ties neighbours."""
     for target in targets:
         if isinstance(target, LogTarget) and target.dataset == column[0] and column[1] in target.measured.names:
-            if target.kind == "frequency-response":  # of lines at some of those frequencies
+            if target.kind == STEPPED_SINE.name:  # of lines at some of those frequencies
                 continue
             time, values = target.measured.time, target.measured[column[1]]
             n, interval = time.size, float(np.median(np.diff(time))) if time.size > 1 else 0.0

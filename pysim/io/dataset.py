@@ -6,13 +6,13 @@ from collections.abc import Sequence
 from pathlib import Path, PurePosixPath
 
 from pysim.io.limits import LIMITS
-from pysim.io.measured_log import LOGS, TIME, read_log
-from pysim.io.measured_table import TABLE, read_measured_table
+from pysim.io.measured_log import TIME, read_log
+from pysim.io.measured_table import read_measured_table
 from pysim.io.text_fields import LEFT_OUT
 from pysim.io.toml_section import Section, read_toml
 from pysim.io.units import Scale, signal_in_si, unit_cure
 from pysim.types import SECONDS, SI, UNITS, BadInput, Dataset, MeasuredRecord, MeasuredSignal, Record
-from pysim.types.record_kind import HOLDS
+from pysim.types.record_kind import HOLDS, KINDS, RESPONSE_TABLE
 
 _KEYS = ("dataset", "signals", "records")
 _DATASET_KEYS = ("name", "description", "system", "time_unit")
@@ -67,7 +67,7 @@ def _read(folder: Path, *, keep_going: bool) -> tuple[Dataset, tuple[tuple[str, 
     refused, numbers = [], 0
     for section, kind in zip(sections, kinds, strict=True):
         try:
-            if kind == TABLE:
+            if kind == RESPONSE_TABLE.name:
                 records.append(read_measured_table(toml.path.parent, section, written))
             else:
                 log = read_log(toml.path.parent, section, kind, written, scales, second)
@@ -127,9 +127,7 @@ def described_signal(name: str, section: Section, units: Sequence[str] = tuple(S
         raise BadInput(f"{section.place}: unit = {unit!r} is not known; {unit_cure(unit, units)}")
     role = section.text("role", among=("input", "output"))
     if "hold" in section.values and role == "output":
-        raise BadInput(
-            f"{section.place}: hold is for inputs, and this is an output; remove it"
-        )
+        raise BadInput(f"{section.place}: hold is for inputs, and this is an output; remove it")
     return MeasuredSignal(
         name=name,
         role=role,
@@ -158,8 +156,8 @@ def _scale(unit: str, section: Section) -> Scale:
 def _kind(section: Section) -> str:
     """What a record holds, once its keys are known to be, and to mean something there."""
     section.refuse_unknown(_RECORD_KEYS)
-    kind = section.text("kind", among=(TABLE, *LOGS))
-    for idle in _LOG_ONLY if kind == TABLE else _TABLE_ONLY:
+    kind = section.text("kind", among=tuple(KINDS))
+    for idle in _LOG_ONLY if kind == RESPONSE_TABLE.name else _TABLE_ONLY:
         if idle in section.values:
             cure = "remove it, or correct the kind"
             raise BadInput(f'{section.place}: {idle} means nothing where kind = "{kind}"; {cure}')

@@ -12,16 +12,8 @@ from pysim.io.text_fields import LEFT_OUT
 from pysim.io.toml_section import Section
 from pysim.io.units import Scale
 from pysim.types import BadInput, MeasuredRecord, MeasuredSignal, Record, sampling
+from pysim.types.record_kind import KINDS, STEPPED_SINE
 
-# What each kind of log must say of its test, so that its command is known between the samples.
-LOGS: Mapping[str, tuple[str, ...]] = {
-    "frequency-response": ("offset", "amplitude", "frequency"),
-    "chirp": ("offset", "amplitude"),
-    "stochastic": (),
-    "step": (),
-    "multisine": (),
-    "other": (),
-}
 _ROUNDING = 1e-6  # of a sampling rate, even where its times are printed with all digits
 
 
@@ -38,7 +30,7 @@ def read_log(
     Args:
         folder: what its file is relative to.
         section: what dataset.toml says of it.
-        kind: one of LOGS.
+        kind: of a log over time, see `pysim.types.KINDS`.
         signals: by their names, in the units of the files.
         scales: of their columns.
         second: how many s the unit of its times is.
@@ -154,12 +146,12 @@ def _command(section: Section, names: tuple[str, ...], signals: Mapping[str, Mea
 
 def _test(section: Section, kind: str, scale: Scale) -> tuple[float | None, float | None, float | None]:
     """Offset and amplitude in SI units or %, and the frequency in Hz, as far as told."""
-    for key in LOGS[kind]:
+    for key in KINDS[kind].needs:
         if key not in section.values:
             raise BadInput(f'{section.place}: {key} is missing, and kind = "{kind}" needs it; write {key} = a number')
-    if "frequency" in section.values and kind != "frequency-response":
+    if "frequency" in section.values and kind != STEPPED_SINE.name:
         raise BadInput(
-            f'{section.place}: frequency belongs to kind = "frequency-response", and this is "{kind}"; '
+            f'{section.place}: frequency belongs to kind = "{STEPPED_SINE.name}", and this is "{kind}"; '
             "remove it, or correct the kind"
         )
     offset, amplitude = section.optional_number("offset"), section.positive("amplitude")

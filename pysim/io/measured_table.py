@@ -10,8 +10,7 @@ from pysim.io.text_fields import LEFT_OUT
 from pysim.io.toml_section import Section
 from pysim.io.units import Scale
 from pysim.types import BadInput, MeasuredRecord, MeasuredSignal, SineTest
-
-TABLE = "frequency-response-table"
+from pysim.types.record_kind import RESPONSE_TABLE
 
 
 def read_measured_table(folder: Path, section: Section, signals: Mapping[str, MeasuredSignal]) -> MeasuredRecord:
@@ -37,7 +36,7 @@ def read_measured_table(folder: Path, section: Section, signals: Mapping[str, Me
     origin = section.text("origin", f"measured, {source}")
     scale = Scale.of(signals[output].unit).gain / driven.gain
     response = read_response(folder / source, names, test, section.place, scale=scale, origin=origin)
-    return MeasuredRecord(source, TABLE, use, response, offset, amplitude, command=command)
+    return MeasuredRecord(source, RESPONSE_TABLE.name, use, response, offset, amplitude, command=command)
 
 
 def _signal_of_role(section: Section, role: str, signals: tuple[MeasuredSignal, ...]) -> str:

@@ -15,6 +15,7 @@ from pysim.io.columns import Columns, read_columns, refuse_standing_time
 from pysim.io.measured_log import TIME, in_si, refuse_fast_sine
 from pysim.io.units import Scale, signal_in_si, unit_cure
 from pysim.types import UNITS, BadInput, Dataset, MeasuredRecord, MeasuredSignal
+from pysim.types.record_kind import STEPPED_SINE
 
 Array = NDArray[np.float64]
 
@@ -129,7 +130,7 @@ def _record(folder: Path, log: _Named, signals: dict[str, MeasuredSignal]) -> Me
         offset, amplitude = _swing(log, columns, command.name)
     driven = scales[command.name]
     test = driven.number(offset), driven.gain * amplitude, log.frequency
-    return MeasuredRecord(source, "frequency-response", "fit", data, *test, command=command.name)
+    return MeasuredRecord(source, STEPPED_SINE.name, "fit", data, *test, command=command.name)
 
 
 def _swing(log: _Named, columns: Columns, command: str) -> tuple[float, float]:

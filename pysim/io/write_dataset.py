@@ -13,11 +13,10 @@ from numpy.typing import NDArray
 from pysim.io.columns import names_its_columns
 from pysim.io.file_names import same_file, unusable_name
 from pysim.io.files import write_file
-from pysim.io.measured_log import LOGS
 from pysim.io.response_table import TABLE_COLUMNS
 from pysim.io.units import Scale
 from pysim.types import UNITS, BadInput, Dataset, FrequencyResponse, MeasuredRecord, MeasuredSignal, Record, conversion
-from pysim.types.record_kind import HOLDS
+from pysim.types.record_kind import HOLDS, KINDS
 
 Array = NDArray[np.float64]
 
@@ -75,7 +74,7 @@ def _scale(signal: MeasuredSignal, unit: str) -> Scale:
 def _check_tests(dataset: Dataset) -> None:
     """What `read_dataset` would miss."""
     for record in dataset.logs():
-        missing = [key for key in LOGS.get(record.kind, ()) if getattr(record, key) is None]
+        missing = [key for key in KINDS[record.kind].needs if getattr(record, key) is None]
         if missing:
             needed = f"kind {record.kind!r} needs {' and '.join(missing)}"
             raise BadInput(f"record {record.source!r}: {needed}; tell what it was, or give another kind")
@@ -161,8 +160,8 @@ def _description(dataset: Dataset, name: str, units: Mapping[str, str], scales: 
         about |= {} if signal.variable in ("", signal.name) else {"variable": signal.variable}
         noise, resolution = (None if v is None else _tidy(v / to_si) for v in (signal.noise, signal.resolution))
         hold = next((word for word, command in HOLDS.items() if command is signal.hold), None)
-        about |= {"noise": noise, "resolution": resolution, "hold": hold}
-        parts.append(_section(f"[signals.{_key(signal.name)}]", about))
+        numbers = {"noise": noise, "resolution": resolution}
+        parts.append(_section(f"[signals.{_key(signal.name)}]", about | numbers | {"hold": hold}))
     parts += [_section("[[records]]", _about(record, dataset, scales)) for record in dataset.records]
     return "\n".join(parts)
 

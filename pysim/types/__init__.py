@@ -33,13 +33,17 @@ from pysim.types.fit import (
 )
 from pysim.types.frequency_response import FrequencyResponse
 from pysim.types.model import Abilities, CoSimulation, Model, Variable
+from pysim.types.note import Note, NoteCode
 from pysim.types.port import Port
 from pysim.types.record import Outcome, Record, SimulationError
+from pysim.types.record_kind import KINDS, RecordKind
+from pysim.types.setting import setting
 from pysim.types.signal import Signal
 from pysim.types.sine_test import SineTest
 from pysim.types.units import SECONDS, SI, SYNONYMS, UNITS, conversion, in_si
 
 __all__ = [
+    "KINDS",
     "SECONDS",
     "SI",
     "SYNONYMS",
@@ -75,10 +79,13 @@ __all__ = [
     "Model",
     "MultisineTest",
     "NextTest",
+    "Note",
+    "NoteCode",
     "Outcome",
     "Port",
     "Record",
     "RecordFit",
+    "RecordKind",
     "ResponseComparison",
     "ResponseFit",
     "Sampling",
@@ -93,4 +100,5 @@ __all__ = [
     "conversion",
     "in_si",
     "sampling",
+    "setting",
 ]

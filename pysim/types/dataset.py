@@ -50,8 +50,7 @@ class MeasuredRecord:
 
     Args:
         source: where it came from, relative to the data set.
-        kind: "frequency-response" | "chirp" | "stochastic" | "step" | "multisine" | "other" |
-            "frequency-response-table".
+        kind: name of one of `KINDS`.
         use: "fit" | "validate".
         data: signals over time, or a response over frequency.
         offset: what the command was meant to swing around, in the input's unit, or None where not told.

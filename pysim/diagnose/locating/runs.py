@@ -17,6 +17,7 @@ from pysim.identify.greybox.sine_target import SineTarget
 from pysim.identify.greybox.target import Target
 from pysim.simulate import Esdirk, Rodas, simulate_many
 from pysim.types import Experiment
+from pysim.types.record_kind import STEPPED_SINE
 
 Array = NDArray[np.float64]
 
@@ -105,7 +106,7 @@ def _pieces(ruler: Ruler, residual: Array) -> Iterator[_Piece]:
                 part, own = own[: target.logs[log].harmonics.size], own[target.logs[log].harmonics.size :]
                 yield _Piece(float(part @ part) - part.size, time, number, (log,))
         elif isinstance(target, LogTarget):
-            over_time = target.kind != "frequency-response"  # a sine that had not settled is compared sample by sample
+            over_time = target.kind != STEPPED_SINE.name  # a sine that had not settled is compared sample by sample
             misfit = float(own @ own) - own.size if over_time else np.inf
             yield _Piece(misfit, times[0], number, (0,), over_time)
         else:

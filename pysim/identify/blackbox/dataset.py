@@ -16,8 +16,7 @@ from pysim.identify.frequency_response import THESIS_REFERENCE_HZ
 from pysim.identify.frf import measured_responses
 from pysim.io import shown_unit
 from pysim.types import BadInput, Dataset, Deviation, FrequencyResponse
-
-LOGS = "frequency-response"
+from pysim.types.record_kind import STEPPED_SINE
 
 Progress = Callable[[int, int], None]
 
@@ -135,7 +134,7 @@ def _chosen(dataset: Dataset, output: str | None, tests: Sequence[tuple[float, f
         for data, use in tables
         if isinstance(data, FrequencyResponse) and output in (None, data.test.output)
     ]
-    if any(record.kind == LOGS for record in dataset.records):
+    if any(record.kind == STEPPED_SINE.name for record in dataset.records):
         there += [found(one.response, one.use, one.remarks) for one in measured_responses(dataset, output=output)]
     if not there:
         of = f" of {output}" if output else ""

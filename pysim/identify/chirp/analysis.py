@@ -10,8 +10,9 @@ from pysim.identify.chirp._extremes import apart_ones, extremes, paired_ones, sa
 from pysim.identify.chirp.branch import Branch, mean_branch
 from pysim.identify.chirp.cycle_fit import Extreme, Samples
 from pysim.identify.chirp.result import ChirpAnalysis
-from pysim.identify.logged import CHIRP, LoggedWave, logged_wave
+from pysim.identify.logged import LoggedWave, logged_wave
 from pysim.types import BadInput, Dataset, MeasuredRecord, Record
+from pysim.types.record_kind import CHIRP
 
 Array = NDArray[np.float64]
 
@@ -36,8 +37,8 @@ def analyse_chirp(
     Source: thesis Section 2.5. Differs: the level is taken off (Eq. 2.15 and 2.16 forget the offset); extremes of
     fitted curves in place of highest samples.
     """
-    if record.kind != CHIRP:
-        raise BadInput(f'{record.source}: its kind is "{record.kind}"; chirp analysis needs a "{CHIRP}"')
+    if record.kind != CHIRP.name:
+        raise BadInput(f'{record.source}: its kind is "{record.kind}"; chirp analysis needs a "{CHIRP.name}"')
     command = logged_wave(record, input_)
     assert isinstance(record.data, Record)  # logged_wave has refused anything else
     level = _level(record.data, command, input_, output) if level is None else level
@@ -87,12 +88,12 @@ def chirp_responses(
     """
     found = []
     for record in dataset.records:
-        if record.kind == CHIRP and isinstance(record.data, Record):
+        if record.kind == CHIRP.name and isinstance(record.data, Record):
             input_, name = the_column(dataset, record, "input"), the_column(dataset, record, "output", output)
             noise = declared_noise(dataset, name)
             found.append(analyse_chirp(record, input_, name, level=level, noise=noise))
     if not found:
-        raise BadInput(f'data set {dataset.name!r} has no log of kind "{CHIRP}"; give its chirps that kind')
+        raise BadInput(f'data set {dataset.name!r} has no log of kind "{CHIRP.name}"; give its chirps that kind')
     return tuple(found)
 
 

@@ -13,6 +13,7 @@ from pysim.identify.data_check.folding import share_near_nyquist
 from pysim.identify.data_check.swing import swing
 from pysim.identify.logged import logged_wave
 from pysim.types import BadInput, Dataset, FrequencyResponse, MeasuredRecord, MeasuredSignal, Record
+from pysim.types.record_kind import CHIRP, KINDS
 
 _PERIODS = 2.0  # whole ones that a sine fit needs after the transients are cut off
 _DRIFT = 0.02  # periods that command and told frequency may come apart over a log
@@ -112,7 +113,7 @@ def _warnings(
     inside = _wave_inside(record, log)
     if record.frequency is not None and record.command and record.command not in still:
         yield from _of_sine(record, log, inside, base, dataset.signal(record.command))
-    elif record.kind == "chirp" and record.command:
+    elif record.kind == CHIRP.name and record.command:
         values = log[record.command][inside]
         middle, half = 0.5 * float(values.max() + values.min()), 0.5 * float(np.ptp(values))
         yield from _of_level(record, dataset.signal(record.command), middle, half)
@@ -123,8 +124,7 @@ def _warnings(
             low, high = limits[name]
             ends = f"({low:g}, {high:g} {signal.unit})"
             yield f"{count} samples of {name} stand at its smallest or largest value {ends}: clipped?"
-        broad = record.kind in ("chirp", "stochastic", "multisine")
-        share = share_near_nyquist(log[name], signal.deviation) if broad else 0.0
+        share = share_near_nyquist(log[name], signal.deviation) if KINDS[record.kind].broad else 0.0
         if share > _FOLDED:
             yield (
                 f"{100 * share:.0f} percent of the variance of {name} lie above 80 percent of half the sampling rate: "

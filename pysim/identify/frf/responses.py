@@ -10,8 +10,8 @@ import numpy as np
 
 from pysim.identify._columns import declared_noise, the_column
 from pysim.identify.frf.sine_point import SinePoint, Window, sine_point
-from pysim.identify.logged import STEPPED_SINE
 from pysim.types import BadInput, Dataset, FrequencyResponse, Record, SineTest
+from pysim.types.record_kind import STEPPED_SINE
 
 
 @dataclass(frozen=True)
@@ -62,7 +62,7 @@ def measured_responses(
     output: str | None = None,
     window: Window | None = None,
 ) -> tuple[MeasuredResponse, ...]:
-    """Analyse every log of kind "frequency-response".
+    """Analyse every stepped sine.
 
     Records of one nominal offset, amplitude and use form a response; where a frequency was tested again, the second
     logs form a second one.
@@ -79,7 +79,7 @@ def measured_responses(
     groups: dict[tuple[_Test, int], dict[float, SinePoint]] = {}
     seen: Counter[tuple[_Test, float]] = Counter()
     for record in dataset.records:
-        if record.kind != STEPPED_SINE or not isinstance(record.data, Record):
+        if record.kind != STEPPED_SINE.name or not isinstance(record.data, Record):
             continue
         names = the_column(dataset, record, "input"), the_column(dataset, record, "output", output)
         point = sine_point(record, *names, window=window, noise=declared_noise(dataset, names[1]))
@@ -90,7 +90,7 @@ def measured_responses(
         seen[test, point.frequency] += 1
     if not groups:
         raise BadInput(
-            f'data set {dataset.name!r} has no log of kind "{STEPPED_SINE}"; give its stepped sines that kind'
+            f'data set {dataset.name!r} has no log of kind "{STEPPED_SINE.name}"; give its stepped sines that kind'
         )
     return tuple(_response(dataset, test, again, points) for (test, again), points in groups.items())
 

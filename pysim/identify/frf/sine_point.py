@@ -92,7 +92,7 @@ def sine_point(
     the sine itself.
 
     Args:
-        record: of kind "frequency-response", with its frequency; a log over time.
+        record: a stepped sine, with its frequency; a log over time.
         input_, output: names of the columns.
         window: which periods are fitted.
         noise: standard deviation of the output's noise, in its unit, where it is known.

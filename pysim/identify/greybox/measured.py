@@ -34,6 +34,7 @@ from pysim.types import (
     Signal,
     SineTest,
 )
+from pysim.types.record_kind import STEPPED_SINE
 
 Array = NDArray[np.float64]
 
@@ -116,7 +117,7 @@ def build_targets(
                 targets.append(_table(setting, record, record.data))
         elif not setting.columns(record)[1]:
             notes.append(f"{record.source}: no column of it is compared")
-        elif record.kind == "frequency-response":
+        elif record.kind == STEPPED_SINE.name:
             test = (record.use, record.offset, record.amplitude, *setting.columns(record))
             sines.setdefault(test, []).append(_swing(setting, record, record.data, index))
         else:

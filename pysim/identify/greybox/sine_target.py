@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from pysim.identify.greybox.response import LogResponse, log_response, thesis_deviation
 from pysim.identify.greybox.sine_log import SineLog
 from pysim.identify.greybox.target import Residual, Run, Simulated, stacked
+from pysim.types.record_kind import STEPPED_SINE
 
 Array = NDArray[np.float64]
 
@@ -32,7 +33,7 @@ class SineTarget:
     logs: tuple[SineLog, ...]
     runs: tuple[Run, ...]
     reference: int | None
-    kind: str = "frequency-response"
+    kind: str = STEPPED_SINE.name
     domain: str = "frequency"
 
     def without(self, sources: Collection[str]) -> SineTarget:

@@ -18,6 +18,7 @@ from pysim.identify.greybox.response import (
 )
 from pysim.identify.greybox.target import Residual, Run, Simulated, stacked
 from pysim.types import FrequencyResponse
+from pysim.types.record_kind import RESPONSE_TABLE
 
 Array = NDArray[np.float64]
 
@@ -43,7 +44,7 @@ class TableTarget:
     measured: FrequencyResponse
     runs: tuple[Run, ...]
     reference: int | None
-    kind: str = "frequency-response-table"
+    kind: str = RESPONSE_TABLE.name
     domain: str = "frequency"
 
     @property

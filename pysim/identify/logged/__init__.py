@@ -1,6 +1,6 @@
 """What a bench commanded, found again in the column in which it was logged."""
 
 from pysim.identify.logged.command import logged_command
-from pysim.identify.logged.wave import CHIRP, STEPPED_SINE, LoggedWave, logged_wave
+from pysim.identify.logged.wave import LoggedWave, logged_wave
 
-__all__ = ["CHIRP", "STEPPED_SINE", "LoggedWave", "logged_command", "logged_wave"]
+__all__ = ["LoggedWave", "logged_command", "logged_wave"]

@@ -10,10 +10,10 @@ from numpy.typing import NDArray
 from pysim.identify.logged.stretch import Log, Stretch, grow, wander
 from pysim.identify.logged.wave_fit import chirp_start, fit_chirp, fit_sine, sine_start
 from pysim.types import BadInput, MeasuredRecord, Record
+from pysim.types.record_kind import CHIRP, STEPPED_SINE
 
 Array = NDArray[np.float64]
 
-STEPPED_SINE, CHIRP = "frequency-response", "chirp"
 # What is left of a fit may be structured up to this share of the amplitude: ten bits of a converter show no more.
 _HARMLESS = 1e-3
 # Noise on the logged command, as a share of the amplitude; more is no command.
@@ -74,7 +74,7 @@ def logged_wave(record: MeasuredRecord, column: str) -> LoggedWave:
     the record's frequency; a chirp's start frequency and rate are fitted.
 
     Args:
-        record: of kind "frequency-response", with its frequency, or "chirp".
+        record: a stepped sine with its frequency, or a chirp.
         column: name of the logged command.
     Raises:
         BadInput: another kind, no frequency, a column that does not swing as the kind says, or one whose fit leaves
@@ -82,13 +82,13 @@ def logged_wave(record: MeasuredRecord, column: str) -> LoggedWave:
     """
     log = Log.of(_data(record), column)
     where, lost = f"{record.source}, {column}", ""
-    if record.kind == STEPPED_SINE:
+    if record.kind == STEPPED_SINE.name:
         if record.frequency is None:
             raise BadInput(f"{record.source}: a stepped sine needs its frequency; give it in the record")
         omega = 2 * np.pi * record.frequency
         what = f"a sine of {record.frequency:g} Hz"
         stretch = grow(log, sine_start(log.time, log.values, omega, log.step), lambda t, y, w: fit_sine(t, y, omega))
-    elif record.kind == CHIRP:
+    elif record.kind == CHIRP.name:
         what, lost = "a chirp", _lost(log)
         start = chirp_start(log.time, log.values)
         if start is None:
