@@ -239,10 +239,8 @@ def _record(found: Draft, source: str, *, first: bool) -> str:
         lines.append(f"time = {_toml(found.called[source])}" + "    # what this log calls it" * first)
     sine = found.sines.get(source)
     if sine is None:
-        others = (
-            "    # " + " | ".join(kind.name for kind in reversed(LOGS) if kind is not OTHER) + "; the last two say more"
-        )
-        lines.append(f'kind = "{OTHER.name}"' + others * first)
+        others = " | ".join(kind.name for kind in reversed(LOGS) if kind is not OTHER)
+        lines.append(f'kind = "{OTHER.name}"' + f"    # {others}; the last two say more" * first)
     else:
         lines.append(f'kind = "{STEPPED_SINE.name}"')
         lines += [f"{key} = {getattr(sine, key)!r}" for key in ("offset", "amplitude", "frequency")]

@@ -203,7 +203,7 @@ def finish(
     """
     import json
 
-    from pysim.cli._answer_folder import answer_folder
+    from pysim.cli._answer_folder import answer_folder, results_beside
     from pysim.cli._diagnosis_report import write_diagnosis
     from pysim.cli._extended import relative_files
     from pysim.cli._outputs import repeating
@@ -226,11 +226,6 @@ def finish(
         write_file(args.json, json.dumps(diagnosis_data(found, relative), indent=1, allow_nan=False) + "\n")
     if args.output:  # nothing is left to go on with; the next question may use the folder
         (args.output / JOURNAL).unlink(missing_ok=True)
-
-
-def results_beside(args: argparse.Namespace) -> list[Path | None]:
-    """What a step writes beside the folder of its answer."""
-    return [args.json, args.records, args.story]
 
 
 def _conditions(given: Given, args: argparse.Namespace, redo: str) -> dict[str, str]:

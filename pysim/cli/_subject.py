@@ -87,9 +87,8 @@ def prepare_results(args: argparse.Namespace) -> None:
     Raises:
         BadInput: they cannot.
     """
-    from pysim.cli._answer_folder import prepare_answer
+    from pysim.cli._answer_folder import prepare_answer, results_beside
     from pysim.cli._outputs import JSON, prepare_file
-    from pysim.cli._story import results_beside
 
     for option, suffixes in (("json", JSON), ("records", (".npz",)), ("story", (".jsonl", ".json"))):
         if getattr(args, option):

@@ -120,10 +120,9 @@ def _responses(args: argparse.Namespace, dataset: Dataset) -> int:
 
 
 def _write_report(args: argparse.Namespace, comparison: Comparison) -> None:
-    from pysim.cli._answer_folder import answer_folder
+    from pysim.cli._answer_folder import answer_folder, results_beside
     from pysim.cli._outputs import repeating
     from pysim.cli._pictures import write_pictures
-    from pysim.cli._story import results_beside
     from pysim.io import write_file
     from pysim.report import comparison_page
 

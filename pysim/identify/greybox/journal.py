@@ -69,7 +69,7 @@ class Journal:
         if head["token"] != self._token:
             raise BadInput(
                 f"{path} belongs to another fit: other model, data, parameters, objective, optimiser, solver or start; "
-                "resume with the same ones, or begin anew, without resume or in another folder"
+                "repeat the command that was stopped, or delete this folder to begin anew"
             )
         self._forget_after(head["tried"])
         states, slopes = (_unpacked(arrays[name], arrays["known"]) for name in ("states", "state_slopes"))

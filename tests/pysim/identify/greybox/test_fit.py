@@ -291,7 +291,7 @@ OTHER: dict[str, Callable[[Model], Problem]] = {
 def test_a_fit_is_not_resumed_on_other_data(lag: Model, tmp_path: Path, other: Callable[[Model], Problem]) -> None:
     with pytest.raises(Killed):
         fit(logged(lag, measured()), effort=Effort(log=tmp_path), progress=killing(0))
-    with pytest.raises(BadInput, match=r"another fit: other .*data.*; resume with the same.*, or begin anew"):
+    with pytest.raises(BadInput, match=r"another fit: other .*data.*; repeat the command that was stopped, or delete"):
         fit(other(lag), effort=Effort(log=tmp_path, resume=True))
 
 
