@@ -35,11 +35,7 @@ def test_from_logs_to_an_extended_fmu_that_agrees_with_the_machine(tmp_path: Pat
     # Fit: the model as designed cannot follow, whatever its parameters.
     fitted = _run(
         "fit",
-        case.plant.model,
-        "--data",
-        data,
-        "--library",
-        library,
+        *asked,
         "--free",
         "m,d,k",
         "--json",

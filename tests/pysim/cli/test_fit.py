@@ -50,7 +50,7 @@ def test_a_stopped_fit_goes_on_with_the_same_command(
     words = [*fitted.words, "--output", str(out)]
     assert main(words) == 2
     assert "the same command goes on" in capsys.readouterr().err
-    refused([*words, "--start", "K=1.2"], capsys, str(out / "log"), "another folder")
+    refused([*words, "--start", "K=1.2"], capsys, str(out / "log"), "delete this folder")
     assert len(points) == 2
     assert main([*words, "--json", str(tmp_path / "resumed.json")]) == 0
     assert len(points) == len(set(points))

@@ -77,6 +77,6 @@ def test_a_log_of_another_fit_is_refused(tmp_path: Path) -> None:
     s = space([-1.2, 1.0])
     evaluate = evaluating(rosenbrock, rosenbrock_slopes)
     search(evaluate, GaussNewton(), s, s.start, squares=True, journal=Journal(tmp_path, "a"))
-    with pytest.raises(BadInput, match=r"state\.npz belongs to another fit: other .*; resume with the same"):
+    with pytest.raises(BadInput, match=r"state\.npz belongs to another fit: other .*; repeat the command"):
         search(evaluate, GaussNewton(), s, s.start, squares=True, journal=Journal(tmp_path, "b"), resume=True)
     assert (tmp_path / STATE).is_file()

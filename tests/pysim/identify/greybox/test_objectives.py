@@ -22,7 +22,8 @@ def answer(*columns: np.ndarray) -> Simulated:
 def log() -> LogTarget:
     """50 and 40 percent were measured; 100 percent of this signal are 50 of its units, its noise is 0.5 of them."""
     record = Record(SECONDS, np.array([[50.0], [40.0]]), ("y",), ("mm",), origin="measured")
-    return LogTarget("by hand", "log", "step", "fit", record, (0.5,), (50.0,), Run("log", Experiment(SECONDS, ("y",))))
+    run = Run("log", Experiment(SECONDS, ("y",)))
+    return LogTarget("by hand", "log", "step", "fit", record, (0.5,), (50.0,), run, index=0)
 
 
 def table(reference: int | None) -> TableTarget:
