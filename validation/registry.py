@@ -118,6 +118,7 @@ CASES: Mapping[str, Case] = MappingProxyType(
             "the test bench's missing friction is named and added, and nothing where nothing is missing",
             "diagnosis",
         ),
+        "known-answers": Case("validation.known_answers.case", "pump and test bench, answers known", "diagnosis"),
         "tuning": Case(
             "validation.tuning.case", "gains of thesis Table 6.1 back from their margins", "circuits", quick=True
         ),

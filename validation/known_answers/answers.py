@@ -1,0 +1,72 @@
+"""What the diagnosis answers to each machine: asked through the command, kept by the code that answered."""
+
+from __future__ import annotations
+
+import contextlib
+import hashlib
+import io
+import json
+import tempfile
+import time
+from collections.abc import Mapping
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+from pysim.cli import main
+from pysim.io import cache_folder, write_dataset, write_file
+from validation.known_answers.machines import MACHINES
+
+TODAY = Path(__file__).parent / "today.json"
+_ROOT = Path(__file__).parents[2]
+_SOURCES = (("pysim", "*.py"), ("fmu_build", "*.py"), ("fmu_build", "*.[ch]"), ("modelica", "*.mo"))
+
+
+@cache
+def code() -> str:
+    """Twelve characters that change with what a diagnosis and its models are made of, as it was when it was asked."""
+    digest = hashlib.sha256((Path(__file__).parent / "machines.py").read_bytes())
+    for folder, pattern in _SOURCES:
+        for path in sorted((_ROOT / folder).rglob(pattern)):
+            digest.update(path.relative_to(_ROOT).as_posix().encode() + path.read_bytes())
+    return digest.hexdigest()[:12]
+
+
+def answer(name: str) -> Mapping[str, Any]:
+    """The answer of this code, `cpu` s with it: from the last run where that has come so far, so that one goes on.
+
+    Raises:
+        RuntimeError: the diagnosis ended without a verdict.
+    """
+    found = kept(name)
+    if found is None:
+        found, path = _asked(name), _path(name)
+        path.parent.mkdir(parents=True, exist_ok=True)
+        write_file(path, json.dumps(found, indent=1) + "\n")
+    return found
+
+
+def kept(name: str) -> Mapping[str, Any] | None:
+    """The answer that this code has given, None where it has given none yet."""
+    path = _path(name)
+    found: dict[str, Any] | None = json.loads(path.read_text(encoding="utf-8")) if path.is_file() else None
+    return found
+
+
+def _path(name: str) -> Path:
+    return cache_folder("known-answers") / code() / f"{name}.json"
+
+
+def _asked(name: str) -> dict[str, Any]:
+    machine, said = MACHINES[name], io.StringIO()
+    with tempfile.TemporaryDirectory(prefix="known-answers-") as text:
+        folder = Path(text)
+        write_dataset(folder / "data", machine.dataset())
+        begun = time.process_time()
+        with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):
+            words = ["diagnose", str(folder / "data"), "--model", machine.model, "--json", str(folder / "answer.json")]
+            status = main(words)
+        if status != 0:
+            raise RuntimeError(f"{name}: {said.getvalue().splitlines()[-1]}")
+        found: dict[str, Any] = json.loads((folder / "answer.json").read_text(encoding="utf-8"))
+    return {**found, "cpu": time.process_time() - begun}
