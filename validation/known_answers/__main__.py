@@ -1,12 +1,12 @@
-"""Store what this code has answered so far, with its commit: `python -m validation.known_answers COMMIT`."""
+"""Store in today.json what this commit has answered so far: `python -m validation.known_answers`."""
 
 from __future__ import annotations
 
 import json
-import sys
 from typing import Any
 
 from pysim.io import write_file
+from validation.commit import this_commit
 from validation.known_answers.answers import TODAY, kept
 from validation.known_answers.case import findings
 from validation.known_answers.machines import MACHINES
@@ -41,8 +41,6 @@ def _short(value: Any) -> Any:
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 2:
-        sys.exit("name the commit of this code")
-    found = stored(sys.argv[1])
+    found = stored(this_commit())
     rows = ",\n".join(f"  {json.dumps(name)}: {json.dumps(row)}" for name, row in found.pop("answers").items())
     write_file(TODAY, f'{json.dumps(found)[:-1]},\n "answers": {{\n{rows}\n }}}}\n')

@@ -1,35 +1,23 @@
-"""What the diagnosis answers to each machine: asked through the command, kept by the code that answered."""
+"""What the diagnosis answers to each machine: asked through the command, kept by the commit that answered."""
 
 from __future__ import annotations
 
 import contextlib
-import hashlib
 import io
 import json
 import tempfile
 import time
 from collections.abc import Mapping
-from functools import cache
 from pathlib import Path
 from typing import Any
 
 from pysim.cli import main
-from pysim.io import cache_folder, write_dataset, write_file
+from pysim.io import write_dataset, write_file
+from validation.commit import this_commit
 from validation.known_answers.machines import MACHINES
 
 TODAY = Path(__file__).parent / "today.json"
 _ROOT = Path(__file__).parents[2]
-_SOURCES = (("pysim", "*.py"), ("fmu_build", "*.py"), ("fmu_build", "*.[ch]"), ("modelica", "*.mo"))
-
-
-@cache
-def code() -> str:
-    """Twelve characters that change with what a diagnosis and its models are made of, as it was when it was asked."""
-    digest = hashlib.sha256((Path(__file__).parent / "machines.py").read_bytes())
-    for folder, pattern in _SOURCES:
-        for path in sorted((_ROOT / folder).rglob(pattern)):
-            digest.update(path.relative_to(_ROOT).as_posix().encode() + path.read_bytes())
-    return digest.hexdigest()[:12]
 
 
 def answer(name: str) -> Mapping[str, Any]:
@@ -54,7 +42,7 @@ def kept(name: str) -> Mapping[str, Any] | None:
 
 
 def _path(name: str) -> Path:
-    return cache_folder("known-answers") / code() / f"{name}.json"
+    return _ROOT / "results" / "known-answers" / this_commit() / f"{name}.json"
 
 
 def _asked(name: str) -> dict[str, Any]:
