@@ -10,6 +10,7 @@ import traceback
 from collections.abc import Iterator
 from importlib import import_module
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -122,7 +123,13 @@ def page_name(page: Path) -> str:
     return page.name
 
 
-@pytest.mark.parametrize("page", PAGES, ids=page_name)
+def pages_to_run() -> list[Any]:
+    """Those that fit and diagnose take their time, and run where slow tests are asked for."""
+    long = ("diagnosis.md", "from_logs_to_fmu.md", "own_model.md")
+    return [pytest.param(page, marks=[pytest.mark.slow] * (page.name in long)) for page in PAGES]
+
+
+@pytest.mark.parametrize("page", pages_to_run(), ids=page_name)
 def test_what_it_shows_runs(page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     run_page(page)

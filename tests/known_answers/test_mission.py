@@ -3,6 +3,7 @@
 import contextlib
 import io
 import json
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -13,7 +14,7 @@ import pytest
 from fmu_build import build
 from pysim.cli import main
 from pysim.effects import read_catalogue, variant
-from tests.known_answers.case import CASES, read_case
+from tests.known_answers.case import CASES, Case, read_case
 from tests.known_answers.contract import broken
 from tests.known_answers.plants import simulate
 
@@ -27,42 +28,61 @@ def _run(*words: str | Path) -> Any:
     return json.loads(Path(words[-1]).read_text(encoding="utf-8"))
 
 
-def test_from_logs_to_an_extended_fmu_that_agrees_with_the_machine(tmp_path: Path) -> None:
-    case = read_case(CASES / "one_effect" / "friction.toml")
-    data, library = case.write(tmp_path / "data"), case.plant.library
-    asked = (data, "--model", case.plant.model, "--library", library)
+@dataclass(frozen=True)
+class Mission:
+    """The machine, how the product is asked about it, and what it said of the model as designed.
 
-    # Fit: the model as designed cannot follow, whatever its parameters.
-    fitted = _run(
-        "fit",
-        *asked,
-        "--free",
-        "m,d,k",
-        "--json",
-        tmp_path / "fit.json",
-    )
-    assert fitted["misfit"] > 4
-    refitted = {name: fitted["estimates"][name]["value"] for name in ("m", "d", "k")}
-    before = case.unseen(refitted, {})
-    assert before > 4
+    Args:
+        case: the machine, its truth, and logs that are in no data set.
+        asked: words that every command takes.
+        fitted, found: answers of `fit` and `diagnose`.
+    """
 
-    # Diagnose: where it fails, what it lacks, how large that is.
-    found = _run("diagnose", *asked, "--json", tmp_path / "answer.json")
-    worst = found["where"][0]
+    case: Case
+    asked: tuple[str | Path, ...]
+    fitted: Any
+    found: Any
+
+    @property
+    def before(self) -> float:
+        """Error over noise of the refitted model on logs that nobody has given to the product."""
+        return self.case.unseen({name: self.fitted["estimates"][name]["value"] for name in ("m", "d", "k")}, {})
+
+
+@pytest.fixture(scope="module")
+def mission(tmp_path_factory: pytest.TempPathFactory) -> Mission:
+    case, folder = read_case(CASES / "one_effect" / "friction.toml"), tmp_path_factory.mktemp("mission")
+    asked = (case.write(folder / "data"), "--model", case.plant.model, "--library", case.plant.library)
+    fitted = _run("fit", *asked, "--free", "m,d,k", "--json", folder / "fit.json")
+    return Mission(case, asked, fitted, _run("diagnose", *asked, "--json", folder / "answer.json"))
+
+
+def test_the_model_as_designed_cannot_follow_whatever_its_parameters(mission: Mission) -> None:
+    assert mission.fitted["misfit"] > 4
+    assert mission.before > 4
+    worst = mission.found["where"][0]
     assert worst["error"] > 4
     assert worst["signal"] == "x"
+
+
+def test_the_diagnosis_names_what_it_lacks_and_how_large_that_is(mission: Mission) -> None:
+    found = mission.found
     assert (found["verdict"], [one["effect"] for one in found["added"]]) == ("mass.friction", ["mass.friction"])
     low, high = found["added"][0]["intervals"]["F_c"]
-    assert low < case.effects["mass.friction"]["F_c"] < high
+    assert low < mission.case.effects["mass.friction"]["F_c"] < high
+
+
+def test_with_it_the_error_falls_and_its_fmu_does_what_the_machine_does(mission: Mission, tmp_path: Path) -> None:
+    case, library = mission.case, mission.case.plant.library
 
     # Add: the model with it is as good as the noise allows on logs that nobody has given to the product.
-    added = _run("add", *asked, "--effect", "mass.friction", "--json", tmp_path / "added.json")
+    added = _run("add", *mission.asked, "--effect", "mass.friction", "--json", tmp_path / "added.json")
     values = {name: one["value"] for name, one in added["parameters"].items()}
     own = {name: values[name] for name in ("m", "d", "k")}
     assert not list(broken(added, tmp_path))
     after = case.unseen(own, {"mass.friction": added["added"][0]["parameters"]})
     assert after < 1.02
-    assert before > 4 * after
+    assert mission.before > 4 * after
 
     # The extended model as an FMU does, in an importer that is not ours, what the machine does.
     chosen = [effect for effect in read_catalogue(library) if effect.name == "mass.friction"]
