@@ -1,5 +1,6 @@
 """Illegal calls end in an error and a message, never in a crash."""
 
+import ctypes
 from collections.abc import Callable
 
 import pytest
@@ -118,6 +119,20 @@ def test_null_pointers(fmu: Fmu, case: Case) -> None:
             instance.start(case.settings)
             function = getattr(instance.raw, f"{prefix}{verb}{kind}")
             refused(instance, lambda f=function, i=instance: f(i.raw.component, None, 1, None, *extra))
+
+
+@one_model
+@pytest.mark.parametrize("missing", range(4))
+def test_a_step_needs_a_place_for_each_of_its_answers(fmu: Fmu, case: Case, missing: int) -> None:
+    if fmu.fmi == 2:
+        pytest.skip("a step of FMI 2 answers by its status alone")
+    answers: list[object] = [ctypes.byref(ctypes.c_bool()) for _ in range(3)] + [ctypes.byref(ctypes.c_double())]
+    with fmu.open("cs") as instance:
+        instance.start(case.settings)
+        step = instance.raw.fmi3DoStep
+        step(instance.raw.component, 0.0, 0.01, True, *answers)
+        answers[missing] = None
+        refused(instance, lambda: step(instance.raw.component, 0.01, 0.01, True, *answers))
 
 
 @one_model

@@ -215,10 +215,14 @@ class Isolated:
         """How the process went, as the end of a sentence."""
         process, self._process = self._process, None
         assert process is not None
-        code = process.wait()
-        if code < 0:
-            return f"crashed ({signal.Signals(-code).name})"
-        return f"ended by itself with code {code:#x}" if code > 255 else f"ended by itself with code {code}"
+        return how_it_ended(process.wait())
+
+
+def how_it_ended(code: int) -> str:
+    """The exit status of a process as the end of a sentence; Windows' crashes are known by their hex digits."""
+    if code < 0:
+        return f"crashed ({signal.Signals(-code).name})"
+    return f"ended by itself with code {code:#x}" if code > 255 else f"ended by itself with code {code}"
 
 
 def _unsendable(name: str, why: object) -> str:

@@ -5,6 +5,7 @@ from pathlib import Path
 import pytest
 
 from pysim.effects import Pair, read_catalogue, read_pairs
+from pysim.effects._library import Libraries
 from pysim.types import BadInput
 from tests.modelica.library import LIBRARY
 
@@ -65,6 +66,14 @@ def test_a_users_library_in_one_file(tmp_path: Path) -> None:
     assert on.off == 1.0  # start says it
     assert unused.off is None
     assert effect.strengths == (torque, on)
+
+
+def test_a_file_that_does_not_say_where_it_belongs_belongs_to_its_folder(tmp_path: Path) -> None:
+    (tmp_path / "Lib" / "Sub").mkdir(parents=True)
+    (tmp_path / "Lib" / "package.mo").write_text("package Lib\nend Lib;\n")
+    (tmp_path / "Lib" / "Sub" / "package.mo").write_text("package Sub\nend Sub;\n")
+    (tmp_path / "Lib" / "Sub" / "Drag.mo").write_text("model Drag\nend Drag;\n")
+    assert sorted(Libraries([tmp_path / "Lib"]).classes) == ["Lib", "Lib.Sub", "Lib.Sub.Drag"]
 
 
 def test_pairs(tmp_path: Path) -> None:

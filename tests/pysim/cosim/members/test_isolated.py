@@ -9,6 +9,7 @@ import pytest
 
 from pysim.cosim import MemberFailed, System, cosimulate
 from pysim.cosim.members import Fmu, Isolated
+from pysim.cosim.members.isolated import how_it_ended
 from pysim.io import read_model
 from pysim.types import BadInput, Experiment, Model, Outcome, Port
 from tests.cosim_parts import Linear
@@ -90,6 +91,12 @@ def test_a_closed_one_starts_anew_and_what_it_says_of_itself_comes_through(membe
         run.go()
         with pytest.raises(MemberFailed, match="root of a negative number"):
             _go_twice(run)
+
+
+def test_the_exit_status_of_a_process_is_read_as_its_system_means_it() -> None:
+    assert how_it_ended(-11) == "crashed (SIGSEGV)"
+    assert how_it_ended(3) == "ended by itself with code 3"
+    assert how_it_ended(0xC0000005) == "ended by itself with code 0xc0000005"
 
 
 def test_what_cannot_be_isolated(fragile: Model) -> None:

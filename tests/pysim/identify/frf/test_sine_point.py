@@ -53,6 +53,16 @@ def test_intervals_cover_the_truth(
     check_coverage(hits, runs)
 
 
+def test_noise_of_the_logged_command_counts_in_the_gain() -> None:
+    """An amplitude A of n samples with noise s has the variance 2 s^2/n; the answer has none."""
+    record, s = log(5.0, periods=100), 0.3
+    assert isinstance(record.data, Record)
+    values = record.data.values + s * np.random.default_rng(7).standard_normal((record.data.time.size, 1)) * [1, 0]
+    point = sine_point(replace(record, data=replace(record.data, values=values)), "cmd", "y")
+    variance = abs(response(5.0)) ** 2 / 10.0**2 * 2 * s**2 / record.data.time.size
+    assert point.covariance[0, 0] == pytest.approx(variance, rel=0.1)  # s is estimated: 2 percent
+
+
 def without(record: MeasuredRecord, begin: float, end: float) -> MeasuredRecord:
     """The same log with the samples between two times lost."""
     data = record.data

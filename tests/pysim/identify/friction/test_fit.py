@@ -36,6 +36,16 @@ def test_exact_samples_give_exact_parameters() -> None:
     assert fit.at_bound == ()
 
 
+def test_what_a_bound_stops_is_named() -> None:
+    """With one parameter held at most at half of its true value the fit wants more of it than it may have."""
+    speed = np.concatenate([-np.geomspace(0.01, 60, 60), np.geomspace(0.01, 60, 60)])
+    place = FRICTION_NAMES.index("tau_c")
+    bounds = {**FRICTION_BOUNDS, "tau_c": (0.0, 0.5 * TRUTH[place])}
+    fit = fit_friction([samples(speed, 0.5)], bounds=bounds)
+    assert "tau_c" in fit.at_bound
+    assert fit.vector[place] == pytest.approx(bounds["tau_c"][1])
+
+
 def test_intervals_cover_where_everything_is_seen() -> None:
     """30 draws of four 95 percent intervals: fewer than 23 of one parameter's 30 has a chance of 1e-4."""
     hits = np.zeros(4, int)
