@@ -7,7 +7,7 @@ import zlib
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath, PureWindowsPath
 
-from pysim.types import BadInput
+from pysim.types import BadInput, setting
 
 # What zipfile raises for a damaged archive, for a compression it does not know, and for one with a password
 DAMAGED = (zipfile.BadZipFile, zlib.error, EOFError, NotImplementedError, RuntimeError)
@@ -17,23 +17,32 @@ _METHODS = (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED)
 
 @dataclass(frozen=True)
 class ArchiveLimits:
-    """How much an archive may unpack to.
+    """How much an archive may unpack to."""
 
-    `files` and `size` are those of the secure example of Sonar's rule S5042, "Expanding archive files without
-    controlling resource consumption". Its ratio of 10 would refuse honest FMUs, whose XML and C text alone shrinks to
-    a twentieth; Deflate reaches 1032 (zlib, "Technical Details").
-
-    Args:
-        files: number of files and folders.
-        size: sum of the unpacked files, bytes.
-        ratio: the same over the size of the archive.
-        small: sum of the unpacked files up to which the ratio does not matter, bytes.
-    """
-
-    files: int = 10_000
-    size: int = 1_000_000_000
-    ratio: float = 100.0
-    small: int = 20_000_000
+    files: int = setting(
+        10_000,
+        unit="files",
+        meaning="files and folders in the archive",
+        source="the secure example of Sonar's rule S5042 (archives and resource consumption)",
+    )
+    size: int = setting(
+        1_000_000_000,
+        unit="bytes",
+        meaning="sum of the unpacked files",
+        source="the same",
+    )
+    ratio: float = setting(
+        100.0,
+        unit="1",
+        meaning="that sum over the size of the archive",
+        source="text of honest FMUs shrinks to a twentieth; Deflate reaches 1032 (zlib, Technical Details)",
+    )
+    small: int = setting(
+        20_000_000,
+        unit="bytes",
+        meaning="sum of the unpacked files up to which the ratio does not matter",
+        source="no computer is harmed by it",
+    )
 
 
 LIMITS = ArchiveLimits()

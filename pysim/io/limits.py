@@ -2,38 +2,34 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-from typing import Any
+from dataclasses import dataclass
 
-
-def limit(default: int, *, unit: str, meaning: str, source: str) -> Any:
-    """A field of a dataclass of limits, with what a reader must know of its number."""
-    return field(default=default, metadata={"unit": unit, "meaning": meaning, "source": source})
+from pysim.types import setting
 
 
 @dataclass(frozen=True)
 class ReadLimits:
-    """Of logs; each field has its unit, meaning and source as metadata."""
+    """Of logs."""
 
-    file_numbers: int = limit(
+    file_numbers: int = setting(
         60_000_000,
         unit="numbers",
         meaning="rows times named columns of one Parquet or TDMS file",
         source="a log of 10 million rows with a time, a command and four signals; measured: 1.5 GB while it is read",
     )
-    file_bytes: int = limit(
+    file_bytes: int = setting(
         1_000_000_000,
         unit="bytes",
         meaning="the named columns of one Parquet file once unpacked, as its directory gives them",
         source="16 bytes for each of these numbers, as a text of 16 digits takes",
     )
-    dataset_numbers: int = limit(
+    dataset_numbers: int = setting(
         120_000_000,
         unit="numbers",
         meaning="times and values of all logs of a data set",
         source="two of the largest logs: 1 GB as float64, an eighth of a small computer's memory",
     )
-    batch_rows: int = limit(
+    batch_rows: int = setting(
         65_536,
         unit="rows",
         meaning="of a Parquet file that are unpacked at a time",
