@@ -212,7 +212,7 @@ def _routes(desk: Desk) -> None:
         x, y, exact = overlay.samples(begin, end, min(max(most, 4), 20000))
         return Response(json.dumps({"x": x, "y": y, "exact": exact}), media_type="application/json")
 
-    @app.get("/result/{name}/{file}")
+    @app.get("/result/{name}/{file:path}")
     def result(name: str, file: str) -> Response:
         path = (desk.project.folder / "results" / name / file).resolve()
         if not path.is_relative_to((desk.project.folder / "results").resolve()) or not path.is_file():

@@ -204,3 +204,16 @@ def status(address: str, **headers: str) -> int:
     connection = http.client.HTTPConnection(parts.hostname or "", parts.port, timeout=60)
     connection.request("GET", f"{parts.path}?{parts.query}", headers=headers)
     return connection.getresponse().status
+
+
+def test_a_file_of_a_result_is_given_from_any_depth_of_its_folder_and_from_nowhere_else(
+    show: Show, tmp_path: Path
+) -> None:
+    address = show(tmp_path / "project")
+    place = tmp_path / "project" / "results" / "add" / "report"
+    place.mkdir(parents=True)
+    (place / "Better.fmu").write_bytes(b"an FMU")
+    (tmp_path / "project" / "secret.txt").write_text("not a result")
+    assert asked(address, "GET", "/result/add/report/Better.fmu") == (200, "an FMU")
+    for path in ("/result/add/report/none.fmu", "/result/add/report", "/result/add/..%2F..%2Fsecret.txt"):
+        assert asked(address, "GET", path)[0] == 404
