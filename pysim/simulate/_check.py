@@ -50,6 +50,9 @@ def check_experiment(model: Model, experiment: Experiment) -> None:
     """
     if not isinstance(experiment, Experiment):
         raise BadInput(f"experiment: got {experiment!r}; give Experiment(...)")
+    count = len(model.abilities.states)
+    if experiment.offset.size not in (0, count):
+        raise BadInput(f"{model.label}: an offset of {experiment.offset.size} numbers for {count} continuous states")
     for name in (*experiment.inputs, *experiment.rates):
         _check_input(model, model[name])
     for name, value in experiment.overrides.items():

@@ -33,7 +33,7 @@ _FIELDS = {section: JOB[section].names or () for section in JOB.names or ()}
 
 _FRESH = np.zeros((), dtype=RUN)  # a run that has not begun
 _FRESH["segment"], _FRESH["jacobian_at"], _FRESH["inputs_at"] = -1, np.nan, np.nan
-_FRESH["leaves"] = np.inf
+_FRESH["leaves"], _FRESH["offset_at"] = np.inf, np.nan
 
 
 class Job:

@@ -13,7 +13,7 @@ from pysim.simulate._check import check_arguments, check_experiment
 from pysim.simulate._job import Job
 from pysim.simulate._library import CallFailed, Instance, Library, open_library
 from pysim.simulate.native.fmu_calls import DISCARD, ERROR, FATAL
-from pysim.simulate.native.inputs import break_arrays, input_arrays
+from pysim.simulate.native.inputs import break_arrays, input_arrays, offset_arrays
 from pysim.simulate.native.loop import integrate
 from pysim.simulate.native.method import ExplicitMethod, method_arrays
 from pysim.simulate.native.state import RUNNING, work_arrays
@@ -131,6 +131,7 @@ def prepare(instance: Instance, experiment: Experiment, solver: Solver) -> Job:
     job, names, times = instance.job, experiment.record, experiment.times
     values = np.zeros((times.size, len(names)))
     job.restart(experiment.start, float(times[-1]))
+    job.change("run", offset_arrays(experiment))
     job.keep("fmu", instance.addresses())
     job.keep("inputs", input_arrays(instance.model, experiment))
     job.put("breaks", break_arrays(experiment))

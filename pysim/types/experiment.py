@@ -29,6 +29,9 @@ class Experiment:
         overrides: parameter or start value -> number, in the variable's unit; set before initialisation.
         start: s, not after times[0].
         rates: input -> another input that is driven: the first carries the exact derivative, per s, of the second.
+        offset: (n_x,) added to the model's continuous states, in its order, at `offset_at`; nothing where empty.
+            An initial state that is not the one the model comes to by itself.
+        offset_at: s, between start and times[-1]; the start where None. A row at that time is recorded behind it.
     Raises:
         BadInput: times that do not increase, nothing to record, an input that is no Signal, an override that is no
             number, or the rate of an input that is not driven.
@@ -40,6 +43,8 @@ class Experiment:
     overrides: Mapping[str, float] = field(default_factory=dict)
     start: float = 0.0
     rates: Mapping[str, str] = field(default_factory=dict)
+    offset: Array = field(default_factory=lambda: np.zeros(0))
+    offset_at: float | None = None
 
     def __post_init__(self) -> None:
         if isinstance(self.record, str):
@@ -49,8 +54,10 @@ class Experiment:
         if not isinstance(self.record, Iterable) or not all(isinstance(name, str) for name in self.record):
             raise BadInput(f"experiment: record is {self.record!r}; write a tuple of the names of variables")
         times = _times(self.times)
-        times.setflags(write=False)
-        object.__setattr__(self, "times", times)
+        offset = np.array(self.offset, dtype=np.float64)
+        for name, array in (("times", times), ("offset", offset)):
+            array.setflags(write=False)
+            object.__setattr__(self, name, array)
         object.__setattr__(self, "record", tuple(self.record))
         for name in ("inputs", "overrides", "rates"):
             object.__setattr__(self, name, FrozenMapping(getattr(self, name)))
@@ -65,6 +72,12 @@ class Experiment:
             raise BadInput(f"experiment: the start is {self.start!r} s; give a finite time")
         if times[0] < self.start:
             raise BadInput(f"experiment: the first time {times[0]} s lies before the start {self.start} s")
+        if self.offset_at is not None and not self.start <= self.offset_at <= times[-1]:
+            raise BadInput(
+                f"experiment: offset_at = {self.offset_at} s lies outside the run, {self.start} to {times[-1]} s"
+            )
+        if self.offset.ndim != 1 or not np.isfinite(self.offset).all():
+            raise BadInput("experiment: the offset is a row of finite numbers, one per state of the model, or empty")
 
     def _check_names(self) -> None:
         if not self.record:

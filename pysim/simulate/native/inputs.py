@@ -74,10 +74,12 @@ def break_arrays(experiment: Experiment) -> dict[str, Any]:
 
     Where one jumps at the very end, a segment of no length lies behind it: the last row is one of after the jump.
     """
-    end = float(experiment.times[-1])
-    if not experiment.inputs:
+    end, offset = float(experiment.times[-1]), offset_arrays(experiment).get("offset_at", experiment.start)
+    if not experiment.inputs and not experiment.start < offset:
         return {"count": 1, "times": np.array([end]), "jumps": _NO_JUMP}
     found: dict[float, int] = {end: 0}
+    if experiment.start < offset:
+        found[offset] = 0
     for name, signal in experiment.inputs.items():
         if not np.any((signal.starts > experiment.start) & (signal.starts <= end)):
             continue
@@ -87,10 +89,18 @@ def break_arrays(experiment: Experiment) -> dict[str, Any]:
         for t, jump, kink in zip(signal.starts.tolist(), jumps, kinks, strict=True):
             if experiment.start < t <= end and (jump or (kink and t < end)):
                 found[t] = max(found.get(t, 0), int(jump))
-    if found[end]:
+    if found[end] or offset == end:
         found[np.inf] = 0
     times = sorted(found)
     return {"count": len(times), "times": np.array(times), "jumps": np.array([found[t] for t in times], dtype=np.int64)}
+
+
+def offset_arrays(experiment: Experiment) -> dict[str, Any]:
+    """The fields of RUN that say what is added to the states, and when; none where nothing is."""
+    if not experiment.offset.size:
+        return {}
+    at = experiment.start if experiment.offset_at is None else experiment.offset_at
+    return {"offset_at": float(at), "offset": experiment.offset}
 
 
 @native

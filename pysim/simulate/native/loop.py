@@ -10,7 +10,7 @@ from pysim.simulate.native.compiled import doubles, entry, longs, native
 from pysim.simulate.native.events import crossed, handle_event, locate, settle
 from pysim.simulate.native.fmu_calls import WARNING, completed_step, get_indicators, get_nominals, get_states
 from pysim.simulate.native.method import dense_coefficients
-from pysim.simulate.native.passage import at_break, ended, next_segment
+from pysim.simulate.native.passage import at_break, ended, next_segment, offset_here
 from pysim.simulate.native.point import all_finite, copy, evaluate, set_point
 from pysim.simulate.native.recording import interpolate, record_here, record_inside
 from pysim.simulate.native.state import MODEL_ERROR, NOT_FINITE, RUNNING, TERMINATED
@@ -44,7 +44,9 @@ def _begin(job: Any) -> int:
         return code
     run.status = max(run.status, get_states(job.fmu, work.x, work.n))
     run.status = max(run.status, get_nominals(job.fmu, work.nominal, work.n))
-    if run.status <= WARNING:
+    if run.status <= WARNING and offset_here(job):
+        code = handle_event(job)
+    if run.status <= WARNING and code == RUNNING:
         code = resume(job)
     return _finish_point(job) if code == RUNNING else code
 
@@ -124,6 +126,7 @@ def _arrive(job: Any, t_new: float, event: bool) -> int:
     if at_break(job):
         restart, event = True, event or longs(job.breaks.jumps)[run.segment] != 0
         next_segment(job)
+    event = offset_here(job) or event
     code = handle_event(job) if event else RUNNING
     if code == RUNNING and (event or restart):
         code = resume(job)

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from pysim.simulate.native.compiled import doubles, native
+from pysim.simulate.native.point import set_point
 from pysim.simulate.native.state import DONE, RUNNING, TOO_MANY_STEPS
 
 
@@ -23,6 +24,20 @@ def next_segment(job: Any) -> None:
     run.segment += 1
     run.horizon = doubles(job.breaks.times)[run.segment]
     run.inputs_at = np.nan
+
+
+@native
+def offset_here(job: Any) -> bool:
+    """Add the offset to the states where its time has come; whether it had. The model takes it as an event."""
+    run = job.run
+    if not (run.t >= run.offset_at):
+        return False
+    run.offset_at = np.nan
+    x, more = doubles(job.work.x), doubles(run.offset)
+    for i in range(job.work.n):
+        x[i] += more[i]
+    run.status = max(run.status, set_point(job, run.t, job.work.x))
+    return True
 
 
 @native

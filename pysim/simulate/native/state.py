@@ -35,6 +35,8 @@ RUN = np.dtype(
         ("horizon", np.float64),  # s, time of that break: inputs are smooth up to here
         ("inputs_at", np.float64),  # s, of the values that the FMU has; NaN where it has none of this segment
         ("next_event", np.float64),  # s, the model's next time event
+        ("offset_at", np.float64),  # s, when the states are offset, at a break; NaN: never
+        ("offset", np.int64),  # (n,) what is added to them
         ("leaves", np.float64),  # s, time events from here on are left to who drives the run
         ("status", np.int64),  # worst status of an FMI function so far
         ("crowd", np.int64),  # events since time last moved on

@@ -11,7 +11,7 @@ from pysim.simulate.native.events import crossed, handle_event, settle
 from pysim.simulate.native.fmu_calls import WARNING, completed_step, get_indicators, get_nominals, get_states
 from pysim.simulate.native.loop import resume
 from pysim.simulate.native.method import dense_coefficients
-from pysim.simulate.native.passage import at_break, ended, next_segment
+from pysim.simulate.native.passage import at_break, ended, next_segment, offset_here
 from pysim.simulate.native.point import copy, set_point
 from pysim.simulate.native.recording import interpolate, read_row
 from pysim.simulate.native.state import MODEL_ERROR, NOT_FINITE, RUNNING, TERMINATED
@@ -61,8 +61,25 @@ def _begin(job: Any) -> int:
     copy(v.start_by, v.s, work.n * v.columns)
     if run.status > WARNING:
         return MODEL_ERROR
-    code = _restart(job)
+    if offset_here(job):
+        code = _offset(job)
+    if code == RUNNING:
+        code = _restart(job)
     return _finish_point(job) if code == RUNNING else code
+
+
+@native
+def _offset(job: Any) -> int:
+    """The states have been offset: S gets the derivatives by it, and the model looks for what changes with them."""
+    work, s, x = job.work, doubles(job.variation.s), doubles(job.work.x)
+    for i in range(job.variation.by_start):
+        s[i * job.variation.columns + i] += 1.0
+    copy(work.x, work.x_try, work.n)
+    code = handle_event(job)
+    for i in range(work.n):
+        if code == RUNNING and x[i] != doubles(work.x_try)[i]:
+            code = EVENT
+    return code
 
 
 @native
@@ -179,8 +196,11 @@ def _pass_break(job: Any) -> int:
         for i in range(work.n):
             if doubles(work.x)[i] != doubles(work.x_new)[i]:
                 return EVENT
-    code = _restart(job)
-    return EVENT if code == RUNNING and crossed(job, work.z, work.z_new) else code
+    offset = offset_here(job)
+    code = _offset(job) if offset else RUNNING
+    if code == RUNNING:
+        code = _restart(job)
+    return EVENT if code == RUNNING and not offset and crossed(job, work.z, work.z_new) else code
 
 
 @native

@@ -37,9 +37,9 @@ class Offer:
     starts: frozenset[str]
     outputs: bool
 
-    def directions(self, *, states: bool) -> Directions:
+    def directions(self, *, states: bool = False, offset: bool = False) -> Directions:
         """All of it as directions of a run."""
-        return Directions(self.parameters, self.starts, states, self.outputs)
+        return Directions(self.parameters, self.starts, states, self.outputs, offset)
 
 
 def check_names(function: str, parameters: Sequence[str]) -> tuple[str, ...]:
@@ -102,6 +102,11 @@ def both_sides(model: Model, experiment: Experiment, name: str, share: float) ->
     return experiment.override(**{name: up}), experiment.override(**{name: down}), up - down
 
 
+def at_rest(experiment: Experiment) -> Experiment:
+    """The experiment's start alone, before any offset of its states."""
+    return replace(experiment, times=np.array([experiment.start]), offset=np.zeros(0), offset_at=None)
+
+
 _NOTHING = Offer((), frozenset(), False)
 
 
@@ -114,7 +119,7 @@ def probe(library: Library, experiment: Experiment, solver: Esdirk, parameters: 
     model = library.model
     if not model.abilities.directional_derivatives:
         return _NOTHING
-    once = replace(experiment, times=np.array([experiment.start]))
+    once = at_rest(experiment)
     first = at_start(library, once, solver, Directions())
     if first is None:
         return None

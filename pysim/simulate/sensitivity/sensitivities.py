@@ -14,10 +14,11 @@ from pysim.simulate._library import CallFailed, Library, open_library
 from pysim.simulate._pool import Stopped, side_by_side, worker_count
 from pysim.simulate._run import initialise, run, values_at_start
 from pysim.simulate.esdirk import Esdirk
-from pysim.simulate.sensitivity.differences import run_differences
+from pysim.simulate.sensitivity.differences import offset_differences, run_differences
 from pysim.simulate.sensitivity.probe import (
     START_STEP,
     Offer,
+    at_rest,
     at_start,
     both_sides,
     check_names,
@@ -25,7 +26,7 @@ from pysim.simulate.sensitivity.probe import (
     probe_each,
 )
 from pysim.simulate.sensitivity.varied import Directions, Varied, vary
-from pysim.types import Experiment, Model, Outcome, Record, SimulationError
+from pysim.types import BadInput, Experiment, Model, Outcome, Record, SimulationError
 
 Array = NDArray[np.float64]
 
@@ -38,6 +39,7 @@ class Sensitivities:
         record: the run; one that stopped early ends there, and its outcome says why.
         parameters: (n_p) names.
         by_parameter: (n_t, n_y, n_p) derivative of each recorded value, its unit over the parameter's unit.
+        by_offset: (n_t, n_y, n_x) the same by the offset of the states; n_x = 0 where it was not asked for.
         exact: False if a column, or the way a start value moves, came from differences.
         message: why, where it did; and which derivative is not finite, if one is.
     """
@@ -47,11 +49,13 @@ class Sensitivities:
     by_parameter: Array = field(repr=False)
     exact: bool = True
     message: str = ""
+    by_offset: Array = field(default_factory=lambda: np.zeros((0, 0, 0)), repr=False)
 
     def __post_init__(self) -> None:
-        array = np.array(self.by_parameter, dtype=np.float64)
-        array.setflags(write=False)
-        object.__setattr__(self, "by_parameter", array)
+        for name in ("by_parameter", "by_offset"):
+            array = np.array(getattr(self, name), dtype=np.float64)
+            array.setflags(write=False)
+            object.__setattr__(self, name, array)
 
 
 def sensitivities(
@@ -90,6 +94,7 @@ def sensitivities_many(
     experiments: Sequence[Experiment],
     parameters: Sequence[str],
     *,
+    offset: bool = False,
     solver: Esdirk = Esdirk(),  # noqa: B008
     workers: int | None = None,
     progress: Callable[[int, int], None] | None = None,
@@ -99,6 +104,7 @@ def sensitivities_many(
     Args:
         model, parameters, solver: as for `sensitivities`.
         experiments: (n) with the same things recorded or not.
+        offset: differentiate by the offsets of the states too, which every experiment then has.
         workers: threads; all cores where None.
         progress: called with (runs done, runs in all) from the calling thread; what it raises stops everything.
     Returns:
@@ -111,6 +117,8 @@ def sensitivities_many(
     count = worker_count("sensitivities_many", model, workers)
     names = check_names("sensitivities_many", parameters)
     check_parameters("sensitivities_many", model, experiments, names)
+    if offset and any(e.offset.size != len(model.abilities.states) for e in experiments):
+        raise BadInput("sensitivities_many: a derivative by the offset needs experiments with one; give them zeros")
     if not experiments:
         return ()
     with open_library(model) as library:
@@ -118,7 +126,7 @@ def sensitivities_many(
         starts = [_start_of(e) for e in experiments]
         moved = _starts(library, dict(zip(starts, experiments, strict=True)), solver, offers, count)
         tasks = [
-            partial(_one, library, e, solver, names, offers[e.record], moved.get(start))
+            partial(_one, library, e, solver, names, offers[e.record], moved.get(start), offset)
             for e, start in zip(experiments, starts, strict=True)
         ]
         return side_by_side(tasks, count, progress)
@@ -131,26 +139,29 @@ def _one(
     names: tuple[str, ...],
     offer: Offer,
     start_by: Array | None,
+    offset: bool,
     stopped: Stopped,
 ) -> Sensitivities:
-    varied = None if start_by is None else _exact_part(library, experiment, solver, offer, start_by, stopped)
+    varied = None if start_by is None else _exact_part(library, experiment, solver, offer, start_by, offset, stopped)
     if varied is None or varied.event:
-        return _by_differences(library, experiment, solver, names, varied is not None, stopped)
+        return _by_differences(library, experiment, solver, names, varied is not None, offset, stopped)
     columns = np.full((len(varied.rows), len(experiment.record), len(names)), np.nan)
+    n = len(library.model.abilities.states) if offset else 0
     for column, name in enumerate(offer.parameters):
-        columns[:, :, names.index(name)] = varied.rows[:, :, column]
+        columns[:, :, names.index(name)] = varied.rows[:, :, n + column]
+    by_offset = varied.rows[:, :, :n]
     missing = [name for name in names if name not in offer.parameters]
     record = varied.record(library.model, experiment)
     if not missing or record.outcome is not Outcome.DONE:
         moved = start_by is not None and bool(start_by.any())
         messages = ["start values were differentiated by differences"] if moved else []
         messages += _not_finite(record, names, columns)
-        return Sensitivities(record, names, columns, not moved, "; ".join(messages))
+        return Sensitivities(record, names, columns, not moved, "; ".join(messages), by_offset)
     differences, failed = run_differences(library, experiment, solver, missing, stopped)
     for column, name in enumerate(missing):
         columns[:, :, names.index(name)] = differences[:, :, column]
     message = f"the FMU gives no derivative by {', '.join(missing)}"
-    return Sensitivities(_with_trouble(record, failed), names, columns, False, message)
+    return Sensitivities(_with_trouble(record, failed), names, columns, False, message, by_offset)
 
 
 def _not_finite(record: Record, names: tuple[str, ...], columns: Array) -> list[str]:
@@ -163,15 +174,20 @@ def _not_finite(record: Record, names: tuple[str, ...], columns: Array) -> list[
 
 
 def _exact_part(
-    library: Library, experiment: Experiment, solver: Esdirk, offer: Offer, start_by: Array, stopped: Stopped
+    library: Library,
+    experiment: Experiment,
+    solver: Esdirk,
+    offer: Offer,
+    start_by: Array,
+    offset: bool,
+    stopped: Stopped,
 ) -> Varied | None:
     """The run with the columns of the offer; None where the FMU refuses."""
     try:
         with library.instance() as instance:
             initialise(instance, experiment, solver)
-            return vary(
-                instance, experiment, solver, offer.directions(states=False), start_by=start_by, stopped=stopped
-            )
+            directions = offer.directions(offset=offset)
+            return vary(instance, experiment, solver, directions, start_by=start_by, stopped=stopped)
     except CallFailed:
         return None
 
@@ -203,7 +219,7 @@ def _start_by(library: Library, experiment: Experiment, solver: Esdirk, offer: O
 
     None where the FMU cannot be initialised beside the experiment's own values.
     """
-    once = replace(experiment, times=np.array([experiment.start]))
+    once = at_rest(experiment)
     result = np.zeros((len(library.model.abilities.states), len(offer.parameters)))
     for column, name in zip(result.T, offer.parameters, strict=True):
         up, down, distance = both_sides(library.model, once, name, START_STEP)
@@ -215,15 +231,25 @@ def _start_by(library: Library, experiment: Experiment, solver: Esdirk, offer: O
 
 
 def _by_differences(
-    library: Library, experiment: Experiment, solver: Esdirk, names: tuple[str, ...], event: bool, stopped: Stopped
+    library: Library,
+    experiment: Experiment,
+    solver: Esdirk,
+    names: tuple[str, ...],
+    event: bool,
+    offset: bool,
+    stopped: Stopped,
 ) -> Sensitivities:
     record = run(library, experiment, solver, stopped)
     shape = (len(record.values), len(experiment.record), len(names))
     if record.outcome is not Outcome.DONE:
         return Sensitivities(record, names, np.full(shape, np.nan), False, record.message)
     columns, failed = run_differences(library, experiment, solver, names, stopped)
+    by_offset = np.zeros((*shape[:2], 0))
+    if offset and failed is None:
+        by_offset, failed = offset_differences(library, experiment, solver, stopped)
     why = "the run has events" if event else "the FMU gives no derivatives"
-    return Sensitivities(_with_trouble(record, failed), names, columns, False, f"{why}: all columns are differences")
+    message = f"{why}: all columns are differences"
+    return Sensitivities(_with_trouble(record, failed), names, columns, False, message, by_offset)
 
 
 def _with_trouble(record: Record, failed: Record | None) -> Record:

@@ -33,12 +33,19 @@ class Directions:
         starts: those of them that no equation holds: start values of states.
         states: whether the states at the start are directions too; their columns come first.
         outputs: whether the derivatives of what is recorded are wanted.
+        offset: whether the offset of the states is a direction, in place of the states at the start.
     """
 
     parameters: tuple[str, ...] = ()
     starts: frozenset[str] = frozenset()
     states: bool = False
     outputs: bool = True
+    offset: bool = False
+
+    @property
+    def by_state(self) -> bool:
+        """Whether there is a column per state, ahead of those of the parameters."""
+        return self.states or self.offset
 
 
 class Varied(NamedTuple):
@@ -102,7 +109,7 @@ def vary(
         job.restart(experiment.start, float(experiment.times[-1]))
         job.change("rows", {"next": 0, "values": np.zeros((experiment.times.size, len(experiment.record)))})
     job.change("variation", {"tolerance": solver.derivative_tol})
-    job.change("variation", _of_this_run(job, experiment, start, start_by, rewind))
+    job.change("variation", _of_this_run(job, experiment, directions, start, start_by, rewind))
     code = go_on(integrate_variations, job, stopped)
     instance.status = int(job.number("run", "status"))
     return _result(instance, experiment, job, code, directions)
@@ -112,7 +119,7 @@ def _result(instance: Instance, experiment: Experiment, job: Job, code: int, dir
     event, run = code == EVENT, job.record["run"][0]
     outcome = Outcome.DONE if event else OUTCOMES[code]
     count, states = job.number("rows", "next"), job.array("work", "x").copy()
-    used = states.size * directions.states + len(directions.parameters)
+    used = states.size * directions.by_state + len(directions.parameters)
     return Varied(
         outcome,
         event,
@@ -131,7 +138,12 @@ def _result(instance: Instance, experiment: Experiment, job: Job, code: int, dir
 
 
 def _of_this_run(
-    job: Job, experiment: Experiment, start: Array | None, start_by: Array | None, rewind: bool
+    job: Job,
+    experiment: Experiment,
+    directions: Directions,
+    start: Array | None,
+    start_by: Array | None,
+    rewind: bool,
 ) -> dict[str, Any]:
     """The fields of VARIATION that are a run's own."""
     n, width, by_start = (
@@ -139,7 +151,7 @@ def _of_this_run(
         job.number("variation", "columns"),
         job.number("variation", "by_start"),
     )
-    first = np.eye(n, width) if by_start else np.zeros((n, width))
+    first = np.eye(n, width) if directions.states else np.zeros((n, width))
     if start_by is not None:
         first[:, by_start : by_start + start_by.shape[1]] = start_by
     return {
@@ -156,7 +168,7 @@ def _of_this_run(
 def _arrays(model: Model, record: tuple[str, ...], directions: Directions) -> dict[str, Any]:
     """What else VARIATION points to; the same for every run of a kind."""
     n, parameters = len(model.abilities.states), directions.parameters
-    by_start = n if directions.states else 0
+    by_start = n if directions.by_state else 0
     width = -(-(by_start + len(parameters)) // VECTOR) * VECTOR
     return {
         "columns": width,
