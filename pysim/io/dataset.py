@@ -19,8 +19,11 @@ _DATASET_KEYS = ("name", "description", "system", "time_unit")
 SIGNAL_KEYS = ("role", "unit", "quantity", "variable", "noise", "resolution", "hold")
 _SCALE_KEYS = ("factor", "offset")
 _TEST_KEYS = ("offset", "amplitude", "frequency", "input", "output")
-_RECORD_KEYS = ("file", "columns", TIME, "kind", "use", *_TEST_KEYS, "origin")
-_TABLE_ONLY, _LOG_ONLY = ("output",), ("frequency", TIME)  # a log has all its outputs, and a table its frequencies
+_RECORD_KEYS = ("file", "columns", TIME, "kind", "use", *_TEST_KEYS, "origin", "initial", "begin")
+_TABLE_ONLY, _LOG_ONLY = (
+    ("output",),
+    ("frequency", TIME, "initial", "begin"),
+)  # a log has all its outputs, and a table its frequencies
 
 
 def read_dataset(folder: Path | str) -> Dataset:

@@ -12,6 +12,7 @@ from pysim.io.text_fields import LEFT_OUT
 from pysim.io.toml_section import Section
 from pysim.io.units import Scale
 from pysim.types import BadInput, MeasuredRecord, MeasuredSignal, Record, sampling
+from pysim.types.dataset import INITIAL
 from pysim.types.record_kind import KINDS, STEPPED_SINE
 
 _ROUNDING = 1e-6  # of a sampling rate, even where its times are printed with all digits
@@ -49,7 +50,11 @@ def read_log(
     if test[2] is not None:
         refuse_fast_sine(section.place, columns, test[2])
     origin = section.text("origin", f"measured, {source}")
-    return MeasuredRecord(source, kind, use, in_si(columns, scales, origin), *test, command=command or "")
+    initial = section.text("initial", among=INITIAL) if "initial" in section.values else None
+    data = in_si(columns, scales, origin)
+    return MeasuredRecord(
+        source, kind, use, data, *test, command=command or "", initial=initial, begin=section.moment("begin")
+    )
 
 
 def in_si(columns: Columns, scales: Mapping[str, Scale], origin: str) -> Record:

@@ -6,6 +6,7 @@ import math
 import re
 import tomllib
 from dataclasses import dataclass
+from datetime import UTC, datetime
 from pathlib import Path, PureWindowsPath
 from typing import Any
 
@@ -67,6 +68,20 @@ class Section:
         if not _is_number(value):
             raise BadInput(f"{self.place}: {key} = {_short(value)} is no finite number; write {key} = and a number")
         return float(value)
+
+    def moment(self, key: str) -> float | None:
+        """A date and time, or a number of s, as s on one clock; None where the key is absent.
+
+        A date without a zone is taken as one of UTC: only differences count.
+        """
+        value = self.values.get(key)
+        if isinstance(value, datetime):
+            return (value if value.tzinfo else value.replace(tzinfo=UTC)).timestamp()
+        if value is not None and not _is_number(value):
+            raise BadInput(
+                f"{self.place}: {key} = {_short(value)} is no moment; write a number of s, or 2026-03-01T14:05:00"
+            )
+        return None if value is None else float(value)
 
     def positive(self, key: str) -> float | None:
         """A number above zero, or None where the key is absent."""

@@ -186,6 +186,7 @@ def _about(record: MeasuredRecord, dataset: Dataset, scales: Mapping[str, Scale]
     }
     about |= {"frequency": record.frequency, "use": record.use}
     usual = f"measured, {record.source}"
+    about |= {"initial": record.initial, "begin": record.begin}
     return about | {"origin": data.origin if data.origin not in ("", usual) else None}
 
 

@@ -44,6 +44,9 @@ class MeasuredSignal:
         return math.hypot(self.noise or 0.0, (self.resolution or 0.0) / math.sqrt(12))
 
 
+INITIAL = ("rest", "estimate")  # what a record may say of the plant at its first sample
+
+
 @dataclass(frozen=True)
 class MeasuredRecord:
     """One log or table.
@@ -57,6 +60,10 @@ class MeasuredRecord:
         amplitude: the same of its swing.
         frequency: Hz, of a stepped sine; None for all else.
         command: name of the input that the three speak of; empty where a log has several inputs and does not say.
+        initial: what is known of the plant at a log's first sample. "rest": it stood still at the first input.
+            "estimate": nothing. None: it was near rest, as far as the data do not say otherwise.
+        begin: s, of a log's first row on a clock that all records share, so that slow drift can be seen; None where
+            not known.
     """
 
     source: str
@@ -67,6 +74,8 @@ class MeasuredRecord:
     amplitude: float | None = None
     frequency: float | None = None
     command: str = ""
+    initial: str | None = None
+    begin: float | None = None
 
 
 @dataclass(frozen=True)

@@ -111,6 +111,7 @@ def test_reading_changes_nothing(folder: Path) -> None:
             "amplitude = 5.0\nfrequency = 1.0",
             'line 18: frequency means nothing where kind = "frequency-response-table"; remove it, or correct the kind',
         ),
+        ("amplitude = 5.0", "amplitude = 5.0\nbegin = 1.0", "line 18: begin means nothing where kind = "),
         ("amplitude = 5.0", 'amplitude = 5.0\ntime = "t"', "line 18: time means nothing where kind = "),
         ('use = "validate"', 'use = "test"', "line 26: use = 'test' is not known; use one of fit, validate"),
         (

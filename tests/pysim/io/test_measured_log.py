@@ -103,6 +103,17 @@ def test_a_record_tells_what_its_test_was_meant_to_be(tmp_path: Path) -> None:
     assert (sine.command, wave.command) == ("p", "p")
 
 
+@pytest.mark.parametrize(
+    ("begin", "seconds"),
+    [("86400.5", 86400.5), ("1970-01-02T00:00:01", 86401.0), ("1970-01-02T01:00:01+01:00", 86401.0)],
+)
+def test_how_and_when_a_log_begins(tmp_path: Path, begin: str, seconds: float) -> None:
+    toml = TOML.replace('kind = "stochastic"', f'kind = "stochastic"\ninitial = "estimate"\nbegin = {begin}')
+    sine, wave = read_dataset(files(tmp_path, toml)).records
+    assert (sine.initial, sine.begin) == (None, None)
+    assert (wave.initial, wave.begin) == ("estimate", seconds)
+
+
 def test_the_data_set_tells_inputs_from_outputs(tmp_path: Path) -> None:
     data = read_dataset(files(tmp_path))
     assert data.columns(data.records[1], "input") == ("p",)

@@ -29,7 +29,7 @@ def dataset(values: np.ndarray, time: np.ndarray) -> Dataset:
     )
     records = (
         MeasuredRecord("sub/log.txt", "frequency-response", "fit", log, 25.0, 0.1, 3.7),
-        MeasuredRecord("w.txt", "other", "validate", part),
+        MeasuredRecord("w.txt", "other", "validate", part, initial="estimate", begin=86400.5),
         MeasuredRecord("tables/one.csv", "frequency-response-table", "fit", response, 5.0, 2.0),
     )
     return Dataset("written", 'with "quotes" and °C', "pump", SIGNALS, records)
@@ -52,6 +52,7 @@ def test_everything_comes_back(tmp_path: Path) -> None:
         assert (new.noise, new.resolution) == (pytest.approx(old.noise), pytest.approx(old.resolution))
     for new, old in zip(back.records, data.records, strict=True):
         assert (new.source, new.kind, new.use, new.frequency) == (old.source, old.kind, old.use, old.frequency)
+        assert (new.initial, new.begin) == (old.initial, old.begin)
         assert (new.offset, new.amplitude) == (pytest.approx(old.offset), pytest.approx(old.amplitude))
     log, part, response = (record.data for record in back.records)
     assert (log.names, log.units, log.origin) == (("cmd", "p A", "w"), ("%", "Pa", "rad/s"), "measured, sub/log.txt")
