@@ -61,7 +61,7 @@ def run(args: argparse.Namespace) -> int:
         fit,
         profile,
     )
-    from pysim.identify.greybox.journal import STATE
+    from pysim.identify.greybox.checkpoint import STATE
     from pysim.io import in_model_units
     from pysim.report.fit import fit_text
 

@@ -19,7 +19,7 @@ from pysim.diagnose.screen import across, column_space
 from pysim.diagnose.secants import with_secants
 from pysim.diagnose.subject import Extended
 from pysim.diagnose.wrong_starts import answers, restless_beside, skips_beside, started
-from pysim.identify.greybox.evaluation import Evaluation
+from pysim.identify.greybox.residuals import Point
 
 Array = NDArray[np.float64]
 
@@ -55,7 +55,7 @@ class Nuisance:
     high: float
 
 
-def nuisances(ruler: Ruler, point: Evaluation) -> tuple[Nuisance, ...]:
+def nuisances(ruler: Ruler, point: Point) -> tuple[Nuisance, ...]:
     """Estimates of every nuisance that the ruler allows for, at a fitted point.
 
     The intervals allow for what the parameters of the model can take over.
@@ -76,7 +76,7 @@ def nuisances(ruler: Ruler, point: Evaluation) -> tuple[Nuisance, ...]:
     return tuple(Nuisance(suspect, value, value - half, value + half) for suspect, value, half in reached)
 
 
-def evidence(ruler: Ruler, point: Evaluation, changes: Sequence[Array] = ()) -> Evidence:
+def evidence(ruler: Ruler, point: Point, changes: Sequence[Array] = ()) -> Evidence:
     """What speaks for nuisances and effects at a fitted point.
 
     Args:
@@ -89,7 +89,7 @@ def evidence(ruler: Ruler, point: Evaluation, changes: Sequence[Array] = ()) -> 
     return Evidence.of(ruler.suspected, columns, rows[:, 0], both, column_space(rows[:, 1:]))
 
 
-def told_apart(ruler: Ruler, point: Evaluation) -> tuple[Ruler, Evaluation]:
+def told_apart(ruler: Ruler, point: Point) -> tuple[Ruler, Point]:
     """The ruler without suspects that the model's parameters can stand in for whole, and the point as it counts it.
 
     Such a suspect takes nothing from an effect's footprint that refitting does not take anyway, and would leave those
@@ -108,7 +108,7 @@ def _share(rest: Array, column: Array) -> float:
     return float(np.linalg.norm(rest) / max(float(np.linalg.norm(column)), np.finfo(float).tiny))
 
 
-def blamed(ruler: Ruler, point: Evaluation) -> Blame:
+def blamed(ruler: Ruler, point: Point) -> Blame:
     """Who is to blame at a fitted point; every suspect a little where the model is so far off that sizes tell nothing.
 
     Args:
@@ -119,18 +119,18 @@ def blamed(ruler: Ruler, point: Evaluation) -> Blame:
     return evidence(ruler, point).alone()
 
 
-def is_off(ruler: Ruler, point: Evaluation) -> bool:
+def is_off(ruler: Ruler, point: Point) -> bool:
     """Whether much more than noise is left with every suspect allowed for: straight lines do not reach the truth."""
     return point.cost > _OFF * ruler.freedom
 
 
-def as_noise(ruler: Ruler, point: Evaluation) -> bool:
+def as_noise(ruler: Ruler, point: Point) -> bool:
     """Whether no more is left than noise leaves in 999 of 1000 cases: no other start would end much lower."""
     freedom = ruler.freedom - point.x.size
     return point.cost < freedom + _RARE * math.sqrt(2 * freedom)
 
 
-def implausible(ruler: Ruler, point: Evaluation) -> tuple[Suspect, ...]:
+def implausible(ruler: Ruler, point: Point) -> tuple[Suspect, ...]:
     """Nuisances that a model far off bends to sizes that no sensor and no clock has, so as to hide what it lacks."""
     if not is_off(ruler, point):
         return ()

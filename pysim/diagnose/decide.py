@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import stats
 
-from pysim.identify.greybox.evaluation import Evaluation
+from pysim.identify.greybox.residuals import Point
 
 Array = NDArray[np.float64]
 
@@ -25,7 +25,7 @@ SURE, LEVEL = 1e-4, 2.0
 WHOLE = 0.998
 
 
-def inflation(point: Evaluation, cost: float | None = None) -> float:
+def inflation(point: Point, cost: float | None = None) -> float:
     """Variance of what noise leaves, in units of that stated: never below 1.
 
     Args:

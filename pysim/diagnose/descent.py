@@ -9,9 +9,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from pysim.identify.greybox.damped import damped_step
-from pysim.identify.greybox.evaluation import Evaluation
+from pysim.identify.greybox.least_squares import damped_step
 from pysim.identify.greybox.optimiser import Bounds
+from pysim.identify.greybox.residuals import Point
 
 Array = NDArray[np.float64]
 
@@ -47,7 +47,7 @@ class Bowl:
     unit: float = 1.0
 
     @classmethod
-    def around(cls, point: Evaluation, bounds: Bounds) -> Bowl:
+    def around(cls, point: Point, bounds: Bounds) -> Bowl:
         """From products of the slopes; their roundings stay far below the floor of the damping."""
         values, vectors = np.linalg.eigh(point.jacobian.T @ point.jacobian)
         roots = np.sqrt(np.clip(values, 0.0, None))
@@ -102,13 +102,13 @@ class Bowl:
 
 def descend(
     at: Callable[[Array], Array | None],
-    first: Evaluation,
+    first: Point,
     bounds: Bounds,
     *,
     steps: int,
     tolerance: float = 0.1,
     radius: float = RADIUS,
-) -> Evaluation:
+) -> Point:
     """Gauss-Newton steps within the bounds and a radius of trust; slopes are corrected by what each step shows.
 
     Args:
@@ -143,18 +143,18 @@ def descend(
         elif fall > 0.75 * promised and length > 0.8 * radius:
             radius *= 2
         if fall > 0:
-            best = Evaluation(x, best.cost - fall, residual, slopes)
+            best = Point(x, best.cost - fall, residual, slopes)
         else:
-            best = Evaluation(best.x, best.cost, best.residual, slopes)
+            best = Point(best.x, best.cost, best.residual, slopes)
     return best
 
 
-def mean_square(point: Evaluation) -> float:
+def mean_square(point: Point) -> float:
     """Of the residuals, or 1 where it is below."""
     return max(1.0, point.cost / max(point.residual.size, 1))
 
 
-def worth(point: Evaluation) -> float:
+def worth(point: Point) -> float:
     """The fall of a sum of squares that is worth new slopes: the mean square, and a share of what is beyond the noise.
 
     A model that leaves many times the noise lacks something, and what its parameters make of the rest to the last digit
@@ -163,7 +163,7 @@ def worth(point: Evaluation) -> float:
     return mean_square(point) + _SHARE * max(0.0, point.cost - _OFF * point.residual.size)
 
 
-def _corrected(best: Evaluation, x: Array, residual: Array) -> Array:
+def _corrected(best: Point, x: Array, residual: Array) -> Array:
     """Slopes (n_r, n) that agree with what the step to x showed and with the former ones across it."""
     step = x - best.x
     length = float(step @ step)

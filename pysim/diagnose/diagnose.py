@@ -239,7 +239,7 @@ def _prior(story: Story) -> Fitted:
     for line in story.counting():
         story.note(line)
     if not first.good:
-        why = story.ruler.failure(what, first.x) or first.trouble or "a number in its answer is not finite"
+        why = story.ruler.failure(what, first.x) or str(first.failure or "") or "a number in its answer is not finite"
         raise BadInput(
             f"{what.model.label} cannot be simulated through the tests at its own parameters, {why}; set others with "
             "--set, or leave that test out"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from pysim.diagnose.subject import Extended
-from pysim.identify.greybox.evaluation import Evaluation
+from pysim.identify.greybox.residuals import Point
 
 
 @dataclass(frozen=True)
@@ -19,7 +19,7 @@ class Fitted:
     """
 
     what: Extended
-    point: Evaluation
+    point: Point
     rough: float = 0.0
 
     @property

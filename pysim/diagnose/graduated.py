@@ -21,8 +21,8 @@ from pysim.diagnose.residuals import Ruler
 from pysim.diagnose.steps import with_tolerance
 from pysim.diagnose.subject import Extended
 from pysim.diagnose.whiten import Innovations
-from pysim.identify.greybox.evaluation import Evaluation
 from pysim.identify.greybox.optimiser import Bounds
+from pysim.identify.greybox.residuals import Point
 
 Array = NDArray[np.float64]
 
@@ -75,14 +75,14 @@ class Smoothing:
         return found
 
 
-def is_far(ruler: Ruler, point: Evaluation) -> bool:
+def is_far(ruler: Ruler, point: Point) -> bool:
     """Whether a point is so far off that smoothing is worth its runs: logs over time are most of what is counted."""
     return mean_square(point) > FAR and 2 * Smoothing.of(ruler, WIDTHS[0]).size > point.residual.size
 
 
 def graduated(
-    ruler: Ruler, what: Extended, first: Evaluation, *, widths: Sequence[float] = WIDTHS, rounds: int = _ROUNDS
-) -> Evaluation | None:
+    ruler: Ruler, what: Extended, first: Point, *, widths: Sequence[float] = WIDTHS, rounds: int = _ROUNDS
+) -> Point | None:
     """Refit on smoothed residuals, width by width.
 
     Args:
@@ -101,7 +101,7 @@ def graduated(
             if not point.good:
                 return None
             residual, slopes = smooth(point.residual), smooth(point.jacobian)
-            start = Evaluation(point.x, float(residual @ residual), residual, slopes)
+            start = Point(point.x, float(residual @ residual), residual, slopes)
             end = descend(lambda x, smooth=smooth: _smoothed(rough, what, smooth, x), start, bounds, steps=6)  # type: ignore[misc]
             point = rough.evaluation(what, end.x)
             if start.cost - end.cost < _WORTH * start.cost:

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from pysim.diagnose.subject import Subject
-from pysim.identify.greybox.digest import digest
+from pysim.identify.greybox.checkpoint import digest
 from pysim.io import write_file
 from pysim.types import BadInput
 

@@ -12,11 +12,11 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from pysim.diagnose.adapter import Target
 from pysim.diagnose.corrections import is_off
 from pysim.diagnose.fitted import Fitted
 from pysim.diagnose.residuals import Ruler
-from pysim.identify.greybox.sine_target import SineTarget
-from pysim.identify.greybox.target import Target
+from pysim.identify.greybox.stepped_sines import SteppedSines
 
 Array = NDArray[np.float64]
 
@@ -66,10 +66,10 @@ def jumping(ruler: Ruler, at: Fitted) -> list[str]:
 
 def without(targets: Sequence[Target], sources: Collection[str]) -> tuple[Target, ...]:
     """Targets without the logs of these sources."""
-    kept = (t.without(sources) if isinstance(t, SineTarget) else t for t in targets)
+    kept = (t.without(sources) if isinstance(t, SteppedSines) else t for t in targets)
     return tuple(t for t in kept if any(source not in sources for source in _sources(t)))
 
 
 def _sources(target: Target) -> list[str]:
     """Of a target's logs."""
-    return [log.source for log in target.logs] if isinstance(target, SineTarget) else [target.runs[0].record]
+    return [log.source for log in target.logs] if isinstance(target, SteppedSines) else [target.runs[0].record]

@@ -27,7 +27,7 @@ def beside(subject: Subject, what: Extended, x: Array, workers: int | None = Non
     """
     simulation = Simulation(Esdirk(rtol=1e-6, atol=1e-6), Threads(workers))
     held = ParameterSpace.held(what.space.values(x))
-    return compared(Problem(what.model, held, subject.targets), np.zeros(0), simulation)
+    return compared(Problem(what.model, held, subject.targets, subject.floors), np.zeros(0), simulation)
 
 
 def ledger_step(name: str, found: Compared, cost: float, skips: Mapping[str, float] | None = None) -> LedgerStep:

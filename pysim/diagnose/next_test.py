@@ -18,8 +18,8 @@ from pysim.diagnose.noise import estimated_noise
 from pysim.diagnose.residuals import Ruler
 from pysim.diagnose.separation import Evidence, Table, cheapest, evidence
 from pysim.diagnose.subject import Subject
-from pysim.identify.greybox.log_target import LogTarget
-from pysim.identify.greybox.target import Run
+from pysim.identify.greybox.observation import Run
+from pysim.identify.greybox.time_log import TimeLog
 from pysim.simulate import Rodas, simulate
 from pysim.types import BadInput, Dataset, Experiment, MeasuredSignal, NextTest, Outcome, Record
 
@@ -127,7 +127,7 @@ def _ruler(
         reading = Record(experiment.times, nothing, tuple(s.name for s in signals), tuple(s.unit for s in signals))
         noise = tuple(_noise(signal) for signal in signals)
         run = Run(str(number), experiment)
-        targets.append(LogTarget("next test", str(number), "other", "fit", reading, noise, noise, run, index=number))
+        targets.append(TimeLog("next test", str(number), "other", "fit", reading, noise, noise, run, index=number))
     return Ruler(tuple(targets), workers=workers)
 
 

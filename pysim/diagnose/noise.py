@@ -9,11 +9,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from pysim.diagnose.adapter import Target
 from pysim.identify.greybox.harmonics import regressors
-from pysim.identify.greybox.log_target import LogTarget
 from pysim.identify.greybox.sine_log import SineLog
-from pysim.identify.greybox.sine_target import SineTarget
-from pysim.identify.greybox.target import Target
+from pysim.identify.greybox.stepped_sines import SteppedSines
+from pysim.identify.greybox.time_log import TimeLog
 from pysim.types.record_kind import STEPPED_SINE
 
 Array = NDArray[np.float64]
@@ -149,17 +149,17 @@ def _columns(targets: Sequence[Target]) -> dict[Column, float]:
     """Every logged signal and the noise that the targets give it."""
     found: dict[Column, float] = {}
     for target in targets:
-        parts = [target] if isinstance(target, LogTarget) else target.logs if isinstance(target, SineTarget) else ()
+        parts = [target] if isinstance(target, TimeLog) else target.logs if isinstance(target, SteppedSines) else ()
         for part in parts:
             for name, size in zip(part.measured.names, part.noise, strict=True):
-                found.setdefault((target.dataset, name), size)  # type: ignore[attr-defined]
+                found.setdefault((target.dataset, name), size)
     return found
 
 
 def _repeated(targets: Sequence[Target], column: Column) -> Iterator[_Ordinates]:
     """Between the harmonics of stepped sines of two periods or more."""
     for target in targets:
-        if isinstance(target, SineTarget) and target.dataset == column[0]:
+        if isinstance(target, SteppedSines) and target.dataset == column[0]:
             for log in target.logs:
                 if column[1] in log.measured.names:
                     yield from _between(log, column[1])
@@ -184,7 +184,7 @@ def _between(log: SineLog, name: str) -> Iterator[_Ordinates]:
 def _tapered(targets: Sequence[Target], column: Column) -> Iterator[_Ordinates]:
     """Of logs over time, every second frequency, since a taper ties neighbours."""
     for target in targets:
-        if isinstance(target, LogTarget) and target.dataset == column[0] and column[1] in target.measured.names:
+        if isinstance(target, TimeLog) and target.dataset == column[0] and column[1] in target.measured.names:
             if target.kind == STEPPED_SINE.name:  # of lines at some of those frequencies
                 continue
             time, values = target.measured.time, target.measured[column[1]]

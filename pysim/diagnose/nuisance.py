@@ -9,10 +9,10 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from pysim.identify.greybox.log_target import LogTarget
+from pysim.diagnose.adapter import Target
 from pysim.identify.greybox.sine_log import SineLog
-from pysim.identify.greybox.sine_target import SineTarget
-from pysim.identify.greybox.target import Target
+from pysim.identify.greybox.stepped_sines import SteppedSines
+from pysim.identify.greybox.time_log import TimeLog
 
 Array = NDArray[np.float64]
 
@@ -110,9 +110,9 @@ def suspects(targets: Sequence[Target]) -> tuple[Suspect, ...]:
     """A gain and an offset of each logged output, and a shift of each data set's outputs against its commands."""
     found: dict[Suspect, float] = {}
     for target in targets:
-        parts = [target] if isinstance(target, LogTarget) else target.logs if isinstance(target, SineTarget) else ()
+        parts = [target] if isinstance(target, TimeLog) else target.logs if isinstance(target, SteppedSines) else ()
         for part in parts:
-            dataset, data = target.dataset, part.measured  # type: ignore[attr-defined]
+            dataset, data = target.dataset, part.measured
             for name, unit in zip(data.names, data.units, strict=True):
                 scale = 100.0 if unit == "%" else float(np.max(np.abs(data[name])))
                 usual = _OWN if unit == "1" else _OFFSET * scale
@@ -132,11 +132,11 @@ def columns(target: Target, simulated: Sequence[Array], suspected: Sequence[Susp
         simulated: (n_t, n_y) of each of the target's runs, by a model near the plant: the measured signals would bring
             their noise along, and noise explains itself.
     """
-    if isinstance(target, LogTarget):
+    if isinstance(target, TimeLog):
         level = simulated[0]
         one, rate = np.ones_like(level), _rate(target.measured.time, level)
         return _placed(target.dataset, target.measured.names, np.array(target.noise), suspected, (level, one, rate))
-    if isinstance(target, SineTarget):
+    if isinstance(target, SteppedSines):
         pairs = zip(target.logs, simulated, strict=True)
         return np.concatenate([_sine_columns(target.dataset, log, values, suspected) for log, values in pairs])
     # magnitudes and phases of a response that exists as a table only: it has lost its means and its clock
@@ -187,7 +187,7 @@ def undisturbed(targets: Sequence[Target], amounts: Mapping[Suspect, float]) -> 
 
 def _target(target: Target, amounts: Mapping[Suspect, float]) -> Target:
     """A target as it would have been measured without nuisances of these sizes."""
-    if isinstance(target, LogTarget):
+    if isinstance(target, TimeLog):
         late = amounts.get(Suspect(SHIFT, target.dataset, ""), 0.0)
         values, noise = _undone(target, target.dataset, amounts)
         run = target.run.experiment
@@ -195,7 +195,7 @@ def _target(target: Target, amounts: Mapping[Suspect, float]) -> Target:
         measured = replace(target.measured, values=values, time=target.measured.time + late)
         moved = replace(target.run, experiment=replace(run, times=times))
         return replace(target, measured=measured, noise=noise, run=moved)
-    if isinstance(target, SineTarget):
+    if isinstance(target, SteppedSines):
         late, logs = amounts.get(Suspect(SHIFT, target.dataset, ""), 0.0), []
         for log in target.logs:
             values, noise = _undone(log, target.dataset, amounts)
@@ -205,9 +205,7 @@ def _target(target: Target, amounts: Mapping[Suspect, float]) -> Target:
     return target
 
 
-def _undone(
-    log: LogTarget | SineLog, dataset: str, amounts: Mapping[Suspect, float]
-) -> tuple[Array, tuple[float, ...]]:
+def _undone(log: TimeLog | SineLog, dataset: str, amounts: Mapping[Suspect, float]) -> tuple[Array, tuple[float, ...]]:
     """Values and noise with gains and offsets taken off."""
     names = log.measured.names
     gains = np.array([1 + amounts.get(Suspect(GAIN, dataset, name), 0.0) for name in names])

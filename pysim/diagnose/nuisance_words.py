@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from pysim.diagnose.corrections import Nuisance
 from pysim.diagnose.nuisance import GAIN, OFFSET
 from pysim.diagnose.residuals import Ruler
-from pysim.identify.greybox.log_target import LogTarget
+from pysim.identify.greybox.time_log import TimeLog
 
 
 def in_words(seen: Sequence[Nuisance], units: Mapping[str, str]) -> list[str]:
@@ -50,7 +50,7 @@ def counting_in_words(ruler: Ruler, held: Ruler | None, units: Mapping[str, str]
             )
     for one in (ruler, *([held] if held else [])):
         for target, skip in zip(one.targets, one.skips, strict=True):
-            if skip and isinstance(target, LogTarget):
+            if skip and isinstance(target, TimeLog):
                 lines.append(
                     f"{target.source}: the plant still moved when the log began; the first {skip:g} s are left out"
                 )

@@ -16,9 +16,9 @@ from pysim.diagnose.noise import white
 from pysim.diagnose.residuals import Ruler
 from pysim.diagnose.screen import Footprint, column_space
 from pysim.diagnose.whiten import Innovations
-from pysim.identify.greybox.evaluation import Evaluation
-from pysim.identify.greybox.log_target import LogTarget
-from pysim.identify.greybox.sine_target import SineTarget
+from pysim.identify.greybox.residuals import Point
+from pysim.identify.greybox.stepped_sines import SteppedSines
+from pysim.identify.greybox.time_log import TimeLog
 
 Array = NDArray[np.float64]
 
@@ -95,7 +95,7 @@ class _Part:
     doubt: float
 
 
-def leftover(ruler: Ruler, point: Evaluation, *, seed: int = 0, draws: int = 2000) -> Leftover:
+def leftover(ruler: Ruler, point: Point, *, seed: int = 0, draws: int = 2000) -> Leftover:
     """Sums of squares by signal and band or harmonic, and products with the command, against what noise alone does.
 
     A misfit of a few among thousands of samples does not move their total. It does stick out where it sits: at low
@@ -180,19 +180,19 @@ def _turned(ruler: Ruler, rows: Array) -> tuple[list[_Part], Array]:
     for target, made in zip(ruler.targets, ruler.whitenings, strict=True):
         own = np.arange(place, place + made.size)
         place += made.size
-        if isinstance(target, LogTarget) and isinstance(made, Innovations):
+        if isinstance(target, TimeLog) and isinstance(made, Innovations):
             for j in range(made.scale.shape[1]):
                 rows_of = own[j :: made.scale.shape[1]]
                 found[rows_of] = dct(found[rows_of], type=2, norm="ortho", axis=0)
                 parts += _bands(ruler, target, made, j, rows_of)
-        elif isinstance(target, SineTarget):
+        elif isinstance(target, SteppedSines):
             parts += _orders(ruler, target, own)
         else:
             parts.append(_Part(("tables",), own, _WHITE_DOUBT))
     return parts, found
 
 
-def _bands(ruler: Ruler, target: LogTarget, made: Innovations, j: int, rows: NDArray[np.int64]) -> Iterator[_Part]:
+def _bands(ruler: Ruler, target: TimeLog, made: Innovations, j: int, rows: NDArray[np.int64]) -> Iterator[_Part]:
     interval = float(np.median(np.diff(target.measured.time)))
     frequency = np.arange(rows.size) / (2 * interval * rows.size)
     name = target.measured.names[j]
@@ -206,7 +206,7 @@ def _bands(ruler: Ruler, target: LogTarget, made: Innovations, j: int, rows: NDA
             yield _Part((band, f"{name} of logs over time"), rows[inside], _WHITE_DOUBT + _COLOURED_DOUBT * share)
 
 
-def _orders(ruler: Ruler, target: SineTarget, rows: NDArray[np.int64]) -> Iterator[_Part]:
+def _orders(ruler: Ruler, target: SteppedSines, rows: NDArray[np.int64]) -> Iterator[_Part]:
     """Mean and harmonics of the test at one offset and amplitude, over all frequencies."""
     collected: dict[tuple[str, int], list[int]] = {}
     place = 0
@@ -293,7 +293,7 @@ def _command_columns(ruler: Ruler) -> Iterator[tuple[NDArray[np.int64], Array]]:
     place = 0
     for target, made in zip(ruler.targets, ruler.whitenings, strict=True):
         begin, place = place, place + made.size
-        if not (isinstance(target, LogTarget) and isinstance(made, Innovations)):
+        if not (isinstance(target, TimeLog) and isinstance(made, Innovations)):
             continue
         shaped, signals = _lagged(target), made.scale.shape[1]
         if shaped.shape[1]:
@@ -302,7 +302,7 @@ def _command_columns(ruler: Ruler) -> Iterator[tuple[NDArray[np.int64], Array]]:
                 yield np.arange(begin + j, place, signals), rows[j::signals]
 
 
-def _lagged(target: LogTarget) -> Array:
+def _lagged(target: TimeLog) -> Array:
     """Commands at some lags over time, (n_t, n), of size one at most."""
     run, columns = target.run.experiment, []
     for signal in run.inputs.values():

@@ -12,7 +12,7 @@ from pysim.diagnose.fitted import Fitted
 from pysim.diagnose.refit import chord_refit, refit_from
 from pysim.diagnose.residuals import Ruler
 from pysim.diagnose.subject import Extended
-from pysim.identify.greybox.evaluation import Evaluation
+from pysim.identify.greybox.residuals import Point
 
 Array = NDArray[np.float64]
 
@@ -21,7 +21,7 @@ Array = NDArray[np.float64]
 _PRICES, _SHARE = 5.0, 0.5
 
 
-def reduced(ruler: Ruler, larger: Fitted, what: Extended, columns: Sequence[int]) -> tuple[Evaluation, Array] | None:
+def reduced(ruler: Ruler, larger: Fitted, what: Extended, columns: Sequence[int]) -> tuple[Point, Array] | None:
     """Refit from the larger model's numbers.
 
     Args:
@@ -35,7 +35,7 @@ def reduced(ruler: Ruler, larger: Fitted, what: Extended, columns: Sequence[int]
     residual = ruler.at(what, x)
     if residual is None:
         return None
-    start = Evaluation(x, float(residual @ residual), residual, larger.point.jacobian[:, list(columns)])
+    start = Point(x, float(residual @ residual), residual, larger.point.jacobian[:, list(columns)])
     end = chord_refit(ruler, what, start, steps=6)
     price = decide.price(larger.point.x.size - x.size, larger.point.residual.size)
     if end.cost - larger.point.cost > _PRICES * price + _SHARE * (start.cost - larger.point.cost):

@@ -12,8 +12,8 @@ from pysim.diagnose.descent import Bowl, descend, mean_square, worth
 from pysim.diagnose.graduated import WIDTHS, graduated, is_far
 from pysim.diagnose.residuals import Ruler
 from pysim.diagnose.subject import Extended
-from pysim.identify.greybox.evaluation import Evaluation
 from pysim.identify.greybox.optimiser import Bounds
+from pysim.identify.greybox.residuals import Point
 
 Array = NDArray[np.float64]
 
@@ -23,7 +23,7 @@ _NEAR = 1.0
 _BLUR = 0.5
 
 
-def refit(ruler: Ruler, what: Extended, first: Evaluation, *, rounds: int = 4, steps: int = 6) -> Evaluation:
+def refit(ruler: Ruler, what: Extended, first: Point, *, rounds: int = 4, steps: int = 6) -> Point:
     """Gauss-Newton within the bounds; slopes are run once a round and corrected by each step in between.
 
     Where that ends far from the measurements, what is slow is fitted first; the better end counts.
@@ -39,8 +39,8 @@ def refit(ruler: Ruler, what: Extended, first: Evaluation, *, rounds: int = 4, s
 
 
 def refit_from(
-    ruler: Ruler, what: Extended, first: Evaluation, *, rounds: int = 4, steps: int = 6, slow_first: bool = True
-) -> tuple[Evaluation, Array]:
+    ruler: Ruler, what: Extended, first: Point, *, rounds: int = 4, steps: int = 6, slow_first: bool = True
+) -> tuple[Point, Array]:
     """The same, and where the slopes were run, (n,).
 
     Args:
@@ -56,7 +56,7 @@ def refit_from(
     return (again, again_at) if again.cost < best.cost else (best, slopes_at)
 
 
-def _rounds(ruler: Ruler, what: Extended, first: Evaluation, rounds: int, steps: int) -> tuple[Evaluation, Array]:
+def _rounds(ruler: Ruler, what: Extended, first: Point, rounds: int, steps: int) -> tuple[Point, Array]:
     best = first
     for _ in range(rounds):
         end = _chord(ruler, what, best, steps)
@@ -69,9 +69,7 @@ def _rounds(ruler: Ruler, what: Extended, first: Evaluation, rounds: int, steps:
     return best, best.x
 
 
-def chord_refit(
-    ruler: Ruler, what: Extended, first: Evaluation, *, steps: int = 6, slow_first: bool = True
-) -> Evaluation:
+def chord_refit(ruler: Ruler, what: Extended, first: Point, *, steps: int = 6, slow_first: bool = True) -> Point:
     """The same with slopes that are not run again: a step costs one run of the tests instead of one per parameter.
 
     Args:
@@ -88,11 +86,11 @@ def chord_refit(
     return end if other is None or other.cost > end.cost else other
 
 
-def _chord(ruler: Ruler, what: Extended, first: Evaluation, steps: int) -> Evaluation:
+def _chord(ruler: Ruler, what: Extended, first: Point, steps: int) -> Point:
     return descend(partial(ruler.at, what), first, Bounds(*what.space.bounds()), steps=steps)
 
 
-def _polished(ruler: Ruler, what: Extended, best: Evaluation, end: Evaluation) -> Evaluation:
+def _polished(ruler: Ruler, what: Extended, best: Point, end: Point) -> Point:
     """The point where exact slopes see the least, unless it is seen to be worse; with those slopes.
 
     So near the end the error of the integration hides what a step gains, and the slopes are the better guide.

@@ -9,14 +9,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from pysim.diagnose.adapter import Target, bad_point, over_noise
 from pysim.diagnose.noise import Column, Noise, estimated_noise
 from pysim.diagnose.nuisance import NOTHING, Span, Suspect, columns, undisturbed
 from pysim.diagnose.subject import Extended
 from pysim.diagnose.whiten import Whitening, whitening
 from pysim.identify.greybox import Simulation, Threads
-from pysim.identify.greybox.evaluation import Evaluation, bad_point
-from pysim.identify.greybox.simulation import simulate_runs
-from pysim.identify.greybox.target import Simulated, Target
+from pysim.identify.greybox.observation import Simulated
+from pysim.identify.greybox.residuals import Point
+from pysim.identify.greybox.runs import simulate_runs
 from pysim.simulate import Esdirk, Rodas, Solver, simulate_many
 from pysim.types import Experiment, Model, Outcome, Record
 
@@ -147,7 +148,7 @@ class Ruler:
         rest, parts = list(simulated), []
         for target, made in zip(self.targets, self.whitenings, strict=True):
             own, rest = rest[: len(target.runs)], rest[len(target.runs) :]
-            residual = target.weighted(own)
+            residual = over_noise(target, own)
             parts.append(made.of(np.column_stack([residual.values, residual.slopes])))
         rows = np.concatenate(parts)
         rows[:, 0] += self.back if self.taken else 0.0
@@ -160,7 +161,7 @@ class Ruler:
     def _runs(self, what: Extended, x: Array) -> tuple[Record, ...]:
         return simulate_many(what.model, self.experiments(_values(what, x)), solver=self.solver, workers=self.workers)
 
-    def evaluation(self, what: Extended, x: Array) -> Evaluation:
+    def evaluation(self, what: Extended, x: Array) -> Point:
         """Residuals and their slopes: exact for a model without events, else by one-sided differences.
 
         So too where an exact slope is no number, as that of a root at nothing, or where its run chatters.
@@ -178,13 +179,13 @@ class Ruler:
             return bad_point(x, "the model could not be simulated beside this point")
         return self.counted(x, np.column_stack([residual, slopes]))
 
-    def counted(self, x: Array, rows: Array) -> Evaluation:
+    def counted(self, x: Array, rows: Array) -> Point:
         """A point from residuals and slopes (n_r, 1 + n) where no nuisance is allowed for."""
         across = self.span.across(rows)
         residual = across[:, 0].copy()
-        return Evaluation(x, float(residual @ residual), residual, across[:, 1:].copy())
+        return Point(x, float(residual @ residual), residual, across[:, 1:].copy())
 
-    def whole(self, point: Evaluation) -> Array:
+    def whole(self, point: Point) -> Array:
         """Residuals and slopes (n_r, 1 + n) of a point of this ruler where no nuisance is allowed for."""
         return self.span.undone(np.column_stack([point.residual, point.jacobian]))
 
@@ -203,8 +204,8 @@ class Ruler:
             known = self.solver
             solver = Esdirk(rtol=known.rtol, atol=known.atol, max_step=known.max_step, max_steps=max(most, 1))
             simulation = replace(simulation, solver=solver)
-        answer = simulate_runs(what.model, what.space, runs, x, [None] * len(runs), simulation)
-        if answer.trouble:
+        answer = simulate_runs(what.model, what.space, runs, x, [None] * len(runs), simulation, initial=False)
+        if answer.failure:
             return None
         return self.weighed(answer.simulated)[:, 1:]
 

@@ -28,7 +28,7 @@ from pysim.diagnose.story import Story
 from pysim.diagnose.strengths import translated
 from pysim.diagnose.subject import Extended, extended
 from pysim.diagnose.trials import finer, part_of, refitted, refitted_elsewhere, start_amount
-from pysim.identify.greybox.evaluation import Evaluation
+from pysim.identify.greybox.residuals import Point
 from pysim.types import BadInput, Candidate
 
 Array = NDArray[np.float64]
@@ -192,7 +192,7 @@ def _pair(story: Story, tried: Tried, pair: Pair, enough: float) -> Fitted | Non
         story.note(f"{one.name} and {other.name} could not be tried together: {error}")
         return None
 
-    def find() -> tuple[Evaluation, Array] | None:
+    def find() -> tuple[Point, Array] | None:
         amounts = [start_amount(part.effect, a) for part, a in zip(pair.parts, pair.amounts, strict=True)]
         start = start_at(contender.ruler, tried.current, contender.what, list(zip(pair.parts, amounts, strict=True)))
         if start is None:
@@ -226,7 +226,7 @@ def _without_the_needless(story: Story, found: Fitted) -> Fitted:
     return found
 
 
-def _without(story: Story, found: Fitted, what: Extended) -> tuple[Evaluation, Array] | None:
+def _without(story: Story, found: Fitted, what: Extended) -> tuple[Point, Array] | None:
     """A refit with an effect less."""
     ruler, names = story.ruler_of(what), translated(what, found.what, dict.fromkeys(what.space.keys, 0.0))
     return reduced(ruler, found, what, [found.what.space.keys.index(name) for name in names])

@@ -16,8 +16,8 @@ from pysim.diagnose.jumps import logs
 from pysim.diagnose.refit import refit_from
 from pysim.diagnose.residuals import Ruler
 from pysim.diagnose.subject import Extended
-from pysim.identify.greybox.evaluation import Evaluation
 from pysim.identify.greybox.optimiser import Bounds
+from pysim.identify.greybox.residuals import Point
 
 Array = NDArray[np.float64]
 
@@ -29,7 +29,7 @@ _FEW = 0.5
 _ROUNDS = 2
 
 
-def set_aside(ruler: Ruler, what: Extended, end: Evaluation) -> tuple[Evaluation, Array] | None:
+def set_aside(ruler: Ruler, what: Extended, end: Point) -> tuple[Point, Array] | None:
     """A refit of every log that starts where those fit best that agree with each other.
 
     Args:
@@ -51,7 +51,7 @@ def set_aside(ruler: Ruler, what: Extended, end: Evaluation) -> tuple[Evaluation
     return None if counts.all() else refit_from(ruler, what, point, rounds=2, slow_first=False)
 
 
-def _carrier(ruler: Ruler, point: Evaluation, counts: NDArray[np.bool_]) -> slice | None:
+def _carrier(ruler: Ruler, point: Point, counts: NDArray[np.bool_]) -> slice | None:
     """Rows of the log that leaves most, if it leaves much of all; those that do not count are left out."""
     squares = np.where(counts, point.residual**2 - 1.0, 0.0)
     small = [rows for _, rows in logs(ruler) if rows.stop - rows.start < _FEW * squares.size]
@@ -61,7 +61,7 @@ def _carrier(ruler: Ruler, point: Evaluation, counts: NDArray[np.bool_]) -> slic
     return worst
 
 
-def _fitted(ruler: Ruler, what: Extended, first: Evaluation, counts: NDArray[np.bool_]) -> Evaluation:
+def _fitted(ruler: Ruler, what: Extended, first: Point, counts: NDArray[np.bool_]) -> Point:
     """A refit of the rows that count; the point has all of them, and slopes of its own."""
     bounds, point = Bounds(*what.space.bounds()), first
 
@@ -78,7 +78,7 @@ def _fitted(ruler: Ruler, what: Extended, first: Evaluation, counts: NDArray[np.
     return point
 
 
-def _only(point: Evaluation, counts: NDArray[np.bool_]) -> Evaluation:
+def _only(point: Point, counts: NDArray[np.bool_]) -> Point:
     """The point where other rows are nothing."""
     residual = np.where(counts, point.residual, 0.0)
-    return Evaluation(point.x, float(residual @ residual), residual, np.where(counts[:, None], point.jacobian, 0.0))
+    return Point(point.x, float(residual @ residual), residual, np.where(counts[:, None], point.jacobian, 0.0))

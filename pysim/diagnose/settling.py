@@ -25,7 +25,7 @@ from pysim.diagnose.roughness import roughness
 from pysim.diagnose.steps import fine_enough
 from pysim.diagnose.story import Story
 from pysim.diagnose.wrong_starts import started
-from pysim.identify.greybox.evaluation import Evaluation
+from pysim.identify.greybox.residuals import Point
 
 Array = NDArray[np.float64]
 
@@ -46,7 +46,7 @@ def plausible(story: Story, at: Fitted, part: str, start: Fitted) -> Fitted:
         story.suspect([s for s in story.ruler.suspected if s not in absurd])
         ruler = story.ruler_of(what)
 
-        def found(ruler: Ruler = ruler) -> tuple[Evaluation, Array]:
+        def found(ruler: Ruler = ruler) -> tuple[Point, Array]:
             if not plain:
                 plain.append(Fitted(what, refit_from(ruler.plain, what, start.point, slow_first=False)[0]))
             first = recounted(ruler.plain, ruler, plain[0]).point

@@ -13,13 +13,13 @@ from pysim.diagnose.residuals import Ruler, steps_inside
 from pysim.diagnose.screen import Footprint
 from pysim.diagnose.strengths import amounted, translated
 from pysim.diagnose.subject import Extended
-from pysim.identify.greybox.evaluation import Evaluation
 from pysim.identify.greybox.optimiser import Bounds
+from pysim.identify.greybox.residuals import Point
 
 Array = NDArray[np.float64]
 
 
-def start_off(current: Fitted, what: Extended, found: Footprint) -> Evaluation | None:
+def start_off(current: Fitted, what: Extended, found: Footprint) -> Point | None:
     """The model so far with the effect off: no run is needed, and a refit cannot end worse.
 
     None where off is a limit that the effect's equations do not reach, or where a limit has no slope there.
@@ -33,12 +33,10 @@ def start_off(current: Fitted, what: Extended, found: Footprint) -> Evaluation |
         by_value = found.change / (found.values[p.name] - (p.off or 0.0)) / len(effect.strengths)
         j = what.space.keys.index(f"{what.places[effect.name]}.{p.name}")
         slopes[:, j] = by_value * what.space.slope(x)[j]
-    return Evaluation(x, current.point.cost, current.point.residual, slopes)
+    return Point(x, current.point.cost, current.point.residual, slopes)
 
 
-def start_at(
-    ruler: Ruler, current: Fitted, what: Extended, parts: Sequence[tuple[Footprint, float]]
-) -> Evaluation | None:
+def start_at(ruler: Ruler, current: Fitted, what: Extended, parts: Sequence[tuple[Footprint, float]]) -> Point | None:
     """Effects at so many times the strengths that were tried, the other parameters where they absorb them best.
 
     So a lag starts with the dead time shortened. Slopes by the effects' own parameters are run, the others are those
@@ -53,7 +51,7 @@ def start_at(
     for found, amount in parts:
         shifted = shifted + amount * found.change
     bounds = Bounds(*what.space.bounds())
-    x = np.clip(x + Bowl.around(Evaluation(x, float(shifted @ shifted), shifted, slopes), bounds).step(RADIUS), *bounds)
+    x = np.clip(x + Bowl.around(Point(x, float(shifted @ shifted), shifted, slopes), bounds).step(RADIUS), *bounds)
     own = [
         what.space.keys.index(f"{what.places[f.effect.name]}.{p.name}") for f, _ in parts for p in f.effect.parameters
     ]
@@ -65,7 +63,7 @@ def start_at(
     for j, step, other in zip(own, steps.tolist(), moved, strict=True):
         if other is not None:
             slopes[:, j] = (other - residual) / step
-    return Evaluation(x, float(residual @ residual), residual, slopes)
+    return Point(x, float(residual @ residual), residual, slopes)
 
 
 def _searched(current: Fitted, what: Extended, parts: Sequence[tuple[Footprint, float]]) -> Array:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from pysim.diagnose.fitted import Fitted
 from pysim.diagnose.residuals import Ruler
 from pysim.diagnose.subject import Extended
-from pysim.identify.greybox.evaluation import Evaluation
+from pysim.identify.greybox.residuals import Point
 from pysim.simulate import Esdirk, Rodas
 
 Array = NDArray[np.float64]
@@ -39,13 +39,13 @@ def integration_error(ruler: Ruler, what: Extended, x: Array, residual: Array) -
     return 0.0 if fine is None else float(np.linalg.norm(fine - residual))
 
 
-def run_again(ruler: Ruler, at: Fitted) -> Evaluation | None:
+def run_again(ruler: Ruler, at: Fitted) -> Point | None:
     """A model's point as another integration has it, with the slopes that it has; None where it cannot be run."""
     residual = ruler.at(at.what, at.point.x)
     return None if residual is None else replace(at.point, residual=residual, cost=float(residual @ residual))
 
 
-def fine_enough(ruler: Ruler, at: Fitted) -> tuple[Ruler, Evaluation, float]:
+def fine_enough(ruler: Ruler, at: Fitted) -> tuple[Ruler, Point, float]:
     """The ruler with tolerances at which the error of the integration is small beside the noise.
 
     Returns:

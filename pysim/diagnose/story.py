@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from pysim.diagnose.adapter import Target
 from pysim.diagnose.blame import Blame
 from pysim.diagnose.contenders import Contender, suited
 from pysim.diagnose.corrections import (
@@ -33,10 +34,8 @@ from pysim.diagnose.residuals import Ruler, rulers
 from pysim.diagnose.steps import as_fine, with_tolerance
 from pysim.diagnose.subject import Extended, Subject, extended
 from pysim.diagnose.where import failures
-from pysim.identify.greybox.evaluation import Evaluation
-from pysim.identify.greybox.log_target import LogTarget
-from pysim.identify.greybox.target import Target
-from pysim.identify.greybox.uncertainty import untold
+from pysim.identify.greybox.residuals import Point
+from pysim.identify.greybox.time_log import TimeLog
 from pysim.types import Candidate, Effect, LedgerStep, Stage, Told
 
 Array = NDArray[np.float64]
@@ -115,7 +114,7 @@ class Story:
     def without(self, sources: Sequence[str]) -> Story:
         """The same diagnosis begun again without these logs."""
         targets = without(self.measured, sources)
-        ruler, held = rulers(targets, self.ruler.workers, told=not untold(self.subject.notes))
+        ruler, held = rulers(targets, self.ruler.workers, told=self.subject.specified)
         self.journal.afresh()
         subject = replace(self.subject, targets=targets)
         return Story(
@@ -127,7 +126,7 @@ class Story:
         found = beside(self.subject, at.what, at.point.x, self.ruler.workers)
         counted = [self.ruler, *([self.held] if self.held else [])]
         each = [pair for one in counted for pair in zip(one.targets, one.skips, strict=True)]
-        skips = {target.source: skip for target, skip in each if isinstance(target, LogTarget)}
+        skips = {target.source: skip for target, skip in each if isinstance(target, TimeLog)}
         step = ledger_step(name, found, at.point.cost, skips)
         self.ledger.append(step)
         estimates, directions = ((), ()) if name == "prior" else held_still(self.subject, at)
@@ -161,7 +160,7 @@ class Story:
         self,
         what: Extended,
         part: str,
-        find: Callable[[], tuple[Evaluation, Array] | None],
+        find: Callable[[], tuple[Point, Array] | None],
         lean: Ruler | None = None,
     ) -> Fitted | None:
         """A refit that is done once, as the ruler of the model counts it; None where it came to nothing.
@@ -171,7 +170,7 @@ class Story:
             find: a point with slopes, and where these were run.
             lean: the ruler of that point where it is not the model's, because it allows for fewer nuisances.
         """
-        point: list[Evaluation] = []
+        point: list[Point] = []
         ruler = self.ruler_of(what)
 
         def found() -> Any:
@@ -190,7 +189,7 @@ class Story:
             point.append(_again(lean, what, np.array(kept["x"]), slopes_at=np.array(kept["slopes"])))
         return recounted(lean, ruler, Fitted(what, point[0]))
 
-    def allow(self, what: Extended, x: Array) -> Evaluation:
+    def allow(self, what: Extended, x: Array) -> Point:
         """From now on residuals are counted across nuisances, and without wrong starts.
 
         Args:
@@ -239,7 +238,7 @@ class Story:
 
     def counting(self) -> list[str]:
         """How residuals are counted, where that is not as told, in words."""
-        return counting_in_words(self.ruler, self.held, self._units, told=not untold(self.subject.notes))
+        return counting_in_words(self.ruler, self.held, self._units, told=self.subject.specified)
 
     @property
     def _units(self) -> dict[str, str]:
@@ -277,11 +276,11 @@ def begin(
         BadInput: the journal is that of another diagnosis.
     """
     kept = Journal(journal, identity(subject, {"seed": seed, **(settings or {})}))
-    ruler, held = rulers(subject.targets, workers, told=not untold(subject.notes))
+    ruler, held = rulers(subject.targets, workers, told=subject.specified)
     return Story(subject, progress or (lambda told: None), seed, ruler, held, kept, notes=list(subject.notes))
 
 
-def _again(ruler: Ruler, what: Extended, x: Array, *, slopes_at: Array) -> Evaluation:
+def _again(ruler: Ruler, what: Extended, x: Array, *, slopes_at: Array) -> Point:
     """A point of an earlier run, bit for bit, with slopes that were run at another (n,)."""
     near = ruler.evaluation(what, slopes_at)
     residual = near.residual if np.array_equal(x, slopes_at) else ruler.at(what, x)

@@ -6,15 +6,17 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
+from pysim.diagnose.adapter import Target
 from pysim.diagnose.adequacy import shortcomings
 from pysim.diagnose.locating.laws import Term
 from pysim.effects import Slot
 from pysim.identify import THESIS_REFERENCE_HZ
 from pysim.identify.greybox import Measurements, Parameter, Rest, Treatment, problem
 from pysim.identify.greybox.parameters import ParameterSpace, parameter_space
-from pysim.identify.greybox.target import Target
+from pysim.identify.greybox.residuals import Channel
 from pysim.types import BadInput, Dataset, Effect, Model
 from pysim.types._frozen import FrozenMapping
+from pysim.types.answer import NoiseFloor
 
 # Effects -> the model that has them, and effect name -> the name ahead of its parameters there.
 BuildVariant = Callable[[Sequence[Effect]], tuple[Model, Mapping[str, str]]]
@@ -47,6 +49,8 @@ class Subject:
         bounds: free parameter -> its bounds, where they are not the model's.
         dataset: the measurements as they were read.
         inside: to locate what is missing; None where only inputs and outputs can be looked at.
+        floors: least level of each channel, for the comparison of records.
+        specified: whether the data say how large the noise of everything is.
     """
 
     model: Model
@@ -58,6 +62,8 @@ class Subject:
     dataset: Dataset | None = field(default=None, repr=False)
     bounds: Mapping[str, tuple[float, float]] = field(default_factory=dict)
     inside: Inside | None = field(default=None, repr=False)
+    floors: Mapping[Channel, NoiseFloor] = field(default_factory=dict)
+    specified: bool = True
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "bounds", FrozenMapping(self.bounds))
@@ -126,10 +132,12 @@ def subject(
     given = Subject(model, (), names, tuple(catalogue), build_variant, dataset=dataset, bounds=bounds or {})
     given = replace(given, inside=inside)
     data = Measurements(dataset, overrides=overrides or {})
-    treatment = Treatment(steady="transient", rest=rest or Rest(), reference_hz=reference_hz)
+    treatment = Treatment(steady="transient", rest=rest or Rest(), reference_hz=reference_hz, initial="rest")
     checked = problem(model, [data], given.parameters, treatment=treatment)
     told = (*notes, *shortcomings(dataset, names), *_unbounded(checked.space), *checked.notes)
-    return replace(given, targets=checked.targets, notes=told)
+    return replace(
+        given, targets=checked.observations, floors=checked.floors, specified=checked.specified, notes=told
+    )
 
 
 def _unbounded(space: ParameterSpace) -> tuple[str, ...]:

@@ -28,7 +28,7 @@ from pysim.diagnose.steps import run_again
 from pysim.diagnose.story import Story
 from pysim.diagnose.strengths import limits
 from pysim.diagnose.unbent import best_of, unbent
-from pysim.identify.greybox.evaluation import Evaluation
+from pysim.identify.greybox.residuals import Point
 from pysim.simulate import Rodas
 from pysim.types import Effect
 
@@ -100,7 +100,7 @@ def _special_cases(story: Story, tried: Tried, found: dict[str, Fitted]) -> dict
     return ends
 
 
-def _specialised(story: Story, one: Contender, leader: Fitted) -> tuple[Evaluation, Array] | None:
+def _specialised(story: Story, one: Contender, leader: Fitted) -> tuple[Point, Array] | None:
     """A refit from the leader's numbers."""
     ours = zip(one.what.effects, leader.what.effects, strict=True)
     names = {
@@ -143,7 +143,7 @@ def part_of(tried: Tried, name: str, *, again: bool = False) -> str:
 
 
 def _on_probation(
-    story: Story, tried: Tried, one: Contender, find: Callable[[], Evaluation | None], *, again: bool = False
+    story: Story, tried: Tried, one: Contender, find: Callable[[], Point | None], *, again: bool = False
 ) -> Fitted | None:
     """A cheap refit, and the nuisances that it leaves to blame."""
     part = f"{part_of(tried, one.effect.name, again=again)} on probation"
@@ -151,7 +151,7 @@ def _on_probation(
     if kept is None:
         return None
     x, cost = np.array(kept["x"]), float(kept["cost"])
-    found = Fitted(one.what, Evaluation(x, cost, np.zeros(0), np.zeros((0, x.size))))
+    found = Fitted(one.what, Point(x, cost, np.zeros(0), np.zeros((0, x.size))))
     story.know(found, Blame(frozenset(Suspect(*s) for s in kept["blame"]), *kept["evidence"]))
     return found
 
@@ -162,7 +162,7 @@ def _worth_slopes(story: Story, tried: Tried, found: dict[str, Fitted], least: f
     return by_score(story, tried.current, found) if worth else []
 
 
-def _lowest(tried: Tried, one: Contender) -> Evaluation | None:
+def _lowest(tried: Tried, one: Contender) -> Point | None:
     """A cheap refit from the strength that is best after a few steps; None where the model so far is as good."""
     current, _ = tried.beside(one)
     ends = [_end(one, current, footprint, _LOOK, slow_first=False) for footprint in elsewhere(current, one)]
@@ -183,7 +183,7 @@ def promising(tried: Tried) -> list[Footprint]:
     return first + [f for f in heads if tried.bent and _is_limit(f.effect) and f.effect.name not in names]
 
 
-def _kept(tried: Tried, one: Contender, point: Evaluation | None) -> dict[str, Any] | None:
+def _kept(tried: Tried, one: Contender, point: Point | None) -> dict[str, Any] | None:
     if point is None:
         return None
     whole = replace(tried.ruler, solver=one.ruler.solver)
@@ -192,7 +192,7 @@ def _kept(tried: Tried, one: Contender, point: Evaluation | None) -> dict[str, A
     return {"x": point.x.tolist(), "cost": point.cost, "blame": suspects, "evidence": [blame.cost, blame.price]}
 
 
-def _probation(tried: Tried, one: Contender, nominal: Fitted | None) -> Evaluation | None:
+def _probation(tried: Tried, one: Contender, nominal: Fitted | None) -> Point | None:
     """The best end of a few cheap refits; None where nothing is better than the model so far."""
     current, own = tried.beside(one)
     if not own:
@@ -211,13 +211,11 @@ def _probation(tried: Tried, one: Contender, nominal: Fitted | None) -> Evaluati
     return min(_better(ends, before), key=_cost, default=None)
 
 
-def _better(ends: Sequence[Evaluation | None], before: float) -> list[Evaluation]:
+def _better(ends: Sequence[Point | None], before: float) -> list[Point]:
     return [end for end in ends if end is not None and end.cost < before]
 
 
-def _end(
-    one: Contender, current: Fitted, found: Footprint, steps: int, *, slow_first: bool = True
-) -> Evaluation | None:
+def _end(one: Contender, current: Fitted, found: Footprint, steps: int, *, slow_first: bool = True) -> Point | None:
     """A refit from the model so far, with the effect off where it can be."""
     start = start_off(current, one.what, found) if len(one.effect.parameters) == 1 else None
     if start is None:
@@ -226,7 +224,7 @@ def _end(
     return None if start is None else chord_refit(one.ruler, one.what, start, steps=steps, slow_first=slow_first)
 
 
-def _limited(one: Contender, nominal: Fitted) -> Evaluation | None:
+def _limited(one: Contender, nominal: Fitted) -> Point | None:
     """A refit from the model's own parameters, with the limit where it fits best beside them.
 
     Parameters that have been bent to hide a limit say little of where it lies.
@@ -235,7 +233,7 @@ def _limited(one: Contender, nominal: Fitted) -> Evaluation | None:
     return None if not largest else best_of(one, nominal, list(limits(one.effect, largest)))
 
 
-def _cost(end: Evaluation) -> float:
+def _cost(end: Point) -> float:
     return end.cost
 
 
@@ -255,7 +253,7 @@ def _with_slopes(
 ) -> Fitted | None:
     """With slopes of its own; where the leader leaves more than noise does, from other starts too."""
 
-    def find() -> tuple[Evaluation, Array] | None:
+    def find() -> tuple[Point, Array] | None:
         first = one.ruler.evaluation(one.what, at.point.x)
         end = refit_from(one.ruler, one.what, first, rounds=3 if tried.bent else 2) if first.good else None
         if leads and nominal is not None and not _does(one, end):
@@ -267,12 +265,12 @@ def _with_slopes(
     return story.fitted(one.what, part_of(tried, one.effect.name, again=again), find, one.ruler)
 
 
-def _does(one: Contender, end: tuple[Evaluation, Array] | None) -> bool:
+def _does(one: Contender, end: tuple[Point, Array] | None) -> bool:
     """Whether a refit leaves no more than noise."""
     return end is not None and as_noise(one.ruler, end[0])
 
 
-def _lower(*ends: tuple[Evaluation, Array] | None) -> tuple[Evaluation, Array] | None:
+def _lower(*ends: tuple[Point, Array] | None) -> tuple[Point, Array] | None:
     return min((end for end in ends if end is not None), key=lambda end: end[0].cost, default=None)
 
 

@@ -11,7 +11,7 @@ from pysim.diagnose.contenders import Contender
 from pysim.diagnose.fitted import Fitted
 from pysim.diagnose.refit import refit_from
 from pysim.diagnose.strengths import amounted, setting
-from pysim.identify.greybox.evaluation import Evaluation
+from pysim.identify.greybox.residuals import Point
 
 Array = NDArray[np.float64]
 
@@ -19,7 +19,7 @@ Array = NDArray[np.float64]
 _LOOKS = tuple(2.0**k for k in range(-3, 4))
 
 
-def unbent(one: Contender, at: Fitted, nominal: Fitted) -> tuple[Evaluation, Array] | None:
+def unbent(one: Contender, at: Fitted, nominal: Fitted) -> tuple[Point, Array] | None:
     """A refit with the effect about as strong as it was found beside others; None where it cannot be simulated.
 
     Args:
@@ -34,7 +34,7 @@ def unbent(one: Contender, at: Fitted, nominal: Fitted) -> tuple[Evaluation, Arr
     return None if first is None else refit_from(one.ruler, one.what, first, rounds=2, slow_first=False)
 
 
-def best_of(one: Contender, nominal: Fitted, grid: Sequence[dict[str, float]]) -> Evaluation | None:
+def best_of(one: Contender, nominal: Fitted, grid: Sequence[dict[str, float]]) -> Point | None:
     """A short refit with the strength of a grid that fits best beside these parameters; None as above."""
     settings = [setting(nominal.what, one.what, one.effect, nominal.point.x, values) for values in grid]
     costs = [np.inf if r is None else float(r @ r) for r in one.ruler.residuals(one.what.model, settings)]

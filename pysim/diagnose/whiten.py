@@ -11,11 +11,12 @@ import numba
 import numpy as np
 from numpy.typing import NDArray
 
+from pysim.diagnose.adapter import Residual, Target, over_noise
 from pysim.diagnose.noise import Column, Noise, white
-from pysim.identify.greybox.log_target import LogTarget
+from pysim.identify.greybox.observation import Simulated
 from pysim.identify.greybox.sine_log import SineLog
-from pysim.identify.greybox.sine_target import SineTarget
-from pysim.identify.greybox.target import Residual, Simulated, Target
+from pysim.identify.greybox.stepped_sines import SteppedSines
+from pysim.identify.greybox.time_log import TimeLog
 
 Array = NDArray[np.float64]
 
@@ -47,12 +48,12 @@ def whitening(target: Target, noise: Mapping[Column, Noise], skip: float = 0.0) 
         noise: of each signal; white as the target has it where it is not named.
         skip: s at the start of a log over time that do not count.
     """
-    if isinstance(target, LogTarget):
+    if isinstance(target, TimeLog):
         return _log(target, noise, skip)
-    if isinstance(target, SineTarget):
+    if isinstance(target, SteppedSines):
         sizes = tuple(2 * log.count + 1 for log in target.logs)
         return Harmonics(tuple(_harmonics(target.dataset, log, noise) for log in target.logs), sizes)
-    return Untouched(target.weighted(_swings(target)).values.size)
+    return Untouched(over_noise(target, _swings(target)).values.size)
 
 
 def whitened(whitening: Whitening, residual: Residual) -> Residual:
@@ -163,7 +164,7 @@ class Harmonics:
         return found
 
 
-def _log(target: LogTarget, noise: Mapping[Column, Noise], skip: float) -> Innovations:
+def _log(target: TimeLog, noise: Mapping[Column, Noise], skip: float) -> Innovations:
     time = target.measured.time
     first = int(np.searchsorted(time, time[0] + skip - 1e-9)) if skip > 0 else 0
     steps = np.diff(time[first:])

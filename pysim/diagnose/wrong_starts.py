@@ -11,8 +11,8 @@ from scipy import stats
 from pysim.diagnose.residuals import Ruler
 from pysim.diagnose.subject import Extended
 from pysim.diagnose.whiten import whitening
-from pysim.identify.greybox.evaluation import Evaluation
-from pysim.identify.greybox.log_target import LogTarget
+from pysim.identify.greybox.residuals import Point
+from pysim.identify.greybox.time_log import TimeLog
 from pysim.simulate import simulate_many
 from pysim.types import Outcome
 
@@ -39,7 +39,7 @@ def skips_beside(ruler: Ruler, near: Sequence[Array]) -> tuple[float, ...]:
         near: `answers` of a model.
     """
     return tuple(
-        _OVER if skip or (isinstance(t, LogTarget) and _wrong_start(ruler, t, near[place])) else 0.0
+        _OVER if skip or (isinstance(t, TimeLog) and _wrong_start(ruler, t, near[place])) else 0.0
         for t, skip, place in zip(ruler.targets, ruler.skips, _places(ruler), strict=True)
     )
 
@@ -57,7 +57,7 @@ def _places(ruler: Ruler) -> list[int]:
     return np.cumsum([0, *(len(t.runs) for t in ruler.targets)])[:-1].tolist()
 
 
-def restless_beside(ruler: Ruler, point: Evaluation) -> tuple[float, ...]:
+def restless_beside(ruler: Ruler, point: Point) -> tuple[float, ...]:
     """Skips with those logs that leave more at their very start than noise does, and than they leave after it.
 
     So beside a model that is near the plant even a little motion shows that was left when a log began.
@@ -65,7 +65,7 @@ def restless_beside(ruler: Ruler, point: Evaluation) -> tuple[float, ...]:
     rows = np.split(point.residual, np.cumsum([w.size for w in ruler.whitenings])[:-1])
     found = []
     for target, own, skip in zip(ruler.targets, rows, ruler.skips, strict=True):
-        if isinstance(target, LogTarget) and not skip and _length(target) >= _LEFT * _OVER:
+        if isinstance(target, TimeLog) and not skip and _length(target) >= _LEFT * _OVER:
             time = target.measured.time
             first = int(np.searchsorted(time, time[0] + _SHOWS)) * own.size // time.size
             level = max(1.0, float(np.mean(own[first:] ** 2))) if first < own.size else np.inf
@@ -75,12 +75,12 @@ def restless_beside(ruler: Ruler, point: Evaluation) -> tuple[float, ...]:
     return tuple(found)
 
 
-def _length(target: LogTarget) -> float:
+def _length(target: TimeLog) -> float:
     """Of a log, s."""
     return float(target.measured.time[-1] - target.measured.time[0])
 
 
-def _wrong_start(ruler: Ruler, target: LogTarget, simulated: Array) -> bool:
+def _wrong_start(ruler: Ruler, target: TimeLog, simulated: Array) -> bool:
     """Whether the log leaves a model that starts at rest at once, before the model's motion could explain it."""
     early = target.measured.time - target.measured.time[0] < _SHOWS
     if _length(target) < _MUCH_LEFT * _OVER or early.sum() < 3:

@@ -7,8 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from pysim.identify.greybox import FREQUENCY, NOISE, InteriorPoint, Objective, Parameter, Simulation, fit, problem
-from pysim.identify.greybox.evaluation import evaluator
+from pysim.identify.greybox import FREQUENCY, NOISE, InteriorPoint, Objective, Parameter, fit, problem
 from pysim.io import read_dataset
 from pysim.types import Dataset, Fit, FitOutcome
 from validation.findings import Finding
@@ -67,7 +66,7 @@ def redo(label: str, objective: Objective, dataset: Dataset) -> Redone:
     model = pump_model(label)
     free = [name for name in NAMES if label == "free" or name not in LOCKED]
     task = problem(model, [dataset], [Parameter(name) for name in free])
-    start = evaluator(task, objective, Simulation())(task.space.to_search(task.space.start), ())
+    start = task.residuals(objective).evaluate(model, task.space, task.space.to_search(task.space.start))
     optimiser = None if objective.squares else InteriorPoint(tolerance=1e-3)
     return Redone(label, objective.name, start.cost, fit(task, objective=objective, optimiser=optimiser))
 

@@ -13,8 +13,7 @@ from numpy.typing import NDArray
 
 import fmu_build
 from pysim.effects import STANDARD_LIBRARY, read_catalogue, variant
-from pysim.identify.greybox import NOISE, Parameter, Simulation, problem
-from pysim.identify.greybox.evaluation import evaluator
+from pysim.identify.greybox import Parameter, problem
 from pysim.io import read_model
 from pysim.types import Dataset, FrequencyResponse, Model
 from validation.pump import CLASSES
@@ -79,7 +78,7 @@ def couplings(differences: Sequence[LoadDifference]) -> tuple[Coupling, ...]:
     """What each quantity of the free model would explain alone, to first order, the best first."""
     model, names = _free_with_effects()
     task = problem(model, [_at_75()], [Parameter(name) for name in names])
-    point = evaluator(task, NOISE, Simulation())(task.space.to_search(task.space.start), ())
+    point = task.residuals().evaluate(model, task.space, task.space.to_search(task.space.start))
     d = np.concatenate([_weighted(one) for one in differences])
     values, slopes = task.space.values(point.x), task.space.slope(point.x)
     found = []

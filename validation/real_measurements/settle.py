@@ -9,8 +9,7 @@ from pysim.diagnose import subject
 from pysim.diagnose.fitted import Fitted
 from pysim.diagnose.next_test import next_test
 from pysim.diagnose.subject import Extended
-from pysim.identify.greybox import NOISE, Parameter, Simulation, problem
-from pysim.identify.greybox.evaluation import evaluator
+from pysim.identify.greybox import Parameter, problem
 from pysim.types import Dataset, NextTest
 from validation.pump import pump_model
 from validation.real_measurements.explain import Explained
@@ -36,4 +35,4 @@ def _fitted(explained: Explained, responses: Dataset) -> Fitted:
     parameters = [Parameter(e.name, e.value, e.lower, e.upper) for e in explained.fit.estimates]
     task = problem(model, [responses], parameters, ties=hypothesis.ties)
     x = task.space.to_search(np.array([e.value for e in explained.fit.estimates]))
-    return Fitted(Extended((), model, space=task.space), evaluator(task, NOISE, Simulation())(x, ()))
+    return Fitted(Extended((), model, space=task.space), task.residuals().evaluate(model, task.space, x))

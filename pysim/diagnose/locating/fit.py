@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import optimize
 
+from pysim.diagnose.adapter import bad_point
 from pysim.diagnose.fitted import Fitted
 from pysim.diagnose.locating.laws import KNOTS, UNIT, Law
 from pysim.diagnose.residuals import Ruler
@@ -16,9 +17,9 @@ from pysim.diagnose.screen import across, column_space
 from pysim.diagnose.strengths import translated
 from pysim.diagnose.subject import Extended
 from pysim.identify.greybox import GaussNewton
-from pysim.identify.greybox.evaluation import Evaluation, bad_point
 from pysim.identify.greybox.optimiser import Bounds
 from pysim.identify.greybox.parameters import ParameterSpace
+from pysim.identify.greybox.residuals import Point
 from pysim.types import Model
 
 Array = NDArray[np.float64]
@@ -187,7 +188,7 @@ class Estimate:
     """
 
     table: Table
-    point: Evaluation = field(repr=False)
+    point: Point = field(repr=False)
     solution: Solution = field(repr=False)
 
 
@@ -215,7 +216,7 @@ def first_order(ruler: Ruler, current: Fitted, span: Array, table: Table) -> Est
         return None
     factor = float(np.linalg.norm(left_over)) / size
     slopes = np.hstack([here.jacobian, point.jacobian * factor])
-    start = Evaluation(np.append(here.x, np.zeros(KNOTS)), here.cost, here.residual, slopes)
+    start = Point(np.append(here.x, np.zeros(KNOTS)), here.cost, here.residual, slopes)
     return Estimate(replace(table, unit=factor * table.unit), start, solve(left_over, columns * factor, table.knots))
 
 
@@ -275,7 +276,7 @@ def begun(ruler: Ruler, current: Fitted, near: Fitted, table: Table, values: Arr
     return _estimate(point, table, solve(without, columns, table.knots).smoothing)
 
 
-def _estimate(point: Evaluation, table: Table, before: Array) -> Estimate | None:
+def _estimate(point: Point, table: Table, before: Array) -> Estimate | None:
     """A point, with the weight of bends that suits the table there.
 
     Args:
@@ -312,14 +313,14 @@ def _penalty(table: Table, solution: Solution, size: int) -> Array:
     return np.hstack([np.zeros((own.shape[0], size - KNOTS)), own])
 
 
-def _penalised(point: Evaluation, penalty: Array) -> Evaluation:
+def _penalised(point: Point, penalty: Array) -> Point:
     residual = np.append(point.residual, penalty @ point.x)
-    return Evaluation(point.x, float(residual @ residual), residual, np.vstack([point.jacobian, penalty]))
+    return Point(point.x, 0.5 * float(residual @ residual), residual, np.vstack([point.jacobian, penalty]))
 
 
-def _trial(here: Evaluation, x: Array, residual: Array, penalty: Array) -> Evaluation:
+def _trial(here: Point, x: Array, residual: Array, penalty: Array) -> Point:
     """A point with the slopes of the last one, corrected along the step (Broyden 1965)."""
     full, step = np.append(residual, penalty @ x), x - here.x
     change = full - here.residual - here.jacobian @ step
     slopes = here.jacobian + np.outer(change, step) / max(float(step @ step), 1e-300)
-    return Evaluation(x, float(full @ full), full, slopes)
+    return Point(x, 0.5 * float(full @ full), full, slopes)

@@ -25,7 +25,7 @@ from pysim.diagnose.subject import Subject, extended
 from pysim.diagnose.trials import start_amount
 from pysim.diagnose.unbent import unbent
 from pysim.identify import HALF_95
-from pysim.identify.greybox.evaluation import Evaluation
+from pysim.identify.greybox.residuals import Point
 from pysim.types import BadInput, Effect
 
 Array = NDArray[np.float64]
@@ -160,13 +160,13 @@ def _refitted(start: _Start, footprints: Sequence[Footprint], contenders: dict[s
     return sorted(found, key=lambda one: -one.worth)
 
 
-def _known(one: Contender, end: Evaluation, at: Fitted) -> Known:
+def _known(one: Contender, end: Point, at: Fitted) -> Known:
     extra = end.x.size - at.point.x.size
     worth = at.point.cost - end.cost - price(extra, end.residual.size)
     return Known(one.effect, Fitted(one.what, end), worth, one.ruler)
 
 
-def _best_end(start: _Start, one: Contender, own: Sequence[Footprint]) -> Evaluation | None:
+def _best_end(start: _Start, one: Contender, own: Sequence[Footprint]) -> Point | None:
     """From the strength that promises most; then from the one that changes least, and from parameters far off."""
     at, before = start.at, start.at.point.cost
     ends = [_end(one, at, own[0], _STEPS)]
@@ -179,7 +179,7 @@ def _best_end(start: _Start, one: Contender, own: Sequence[Footprint]) -> Evalua
     return min(good, key=lambda end: end.cost, default=None)
 
 
-def _end(one: Contender, at: Fitted | None, found: Footprint, steps: int) -> Evaluation | None:
+def _end(one: Contender, at: Fitted | None, found: Footprint, steps: int) -> Point | None:
     if at is None:
         return None
     first = start_off(at, one.what, found) if len(one.effect.parameters) == 1 else None

@@ -18,8 +18,8 @@ from pysim.diagnose.locating.runs import thinned
 from pysim.diagnose.locating.shape import shape, told, units
 from pysim.diagnose.residuals import Ruler
 from pysim.diagnose.screen import across
-from pysim.identify.greybox.evaluation import Evaluation
-from pysim.identify.greybox.target import Simulated
+from pysim.identify.greybox.observation import Simulated
+from pysim.identify.greybox.residuals import Point
 from pysim.simulate import simulate_many
 from pysim.types import Experiment, Missing, Outcome, Record, Signal
 
@@ -180,7 +180,7 @@ def _found(base: Base, place: _Place, k: Array, columns: Array) -> Found | None:
     solution = solve(left_over, own * unit, k)
     table = Table(place.law, base.at.what.model, k, unit)
     slopes = np.hstack([point.jacobian, columns * unit])
-    whole = Evaluation(np.append(point.x, solution.values), point.cost, point.residual, slopes)
+    whole = Point(np.append(point.x, solution.values), point.cost, point.residual, slopes)
     return base.found(Estimate(table, whole, solution))
 
 

@@ -8,13 +8,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from pysim.diagnose.adapter import Target
 from pysim.diagnose.fitted import Fitted
 from pysim.diagnose.locating.laws import Law
 from pysim.diagnose.residuals import Ruler
-from pysim.identify.greybox.evaluation import Evaluation
-from pysim.identify.greybox.log_target import LogTarget
-from pysim.identify.greybox.sine_target import SineTarget
-from pysim.identify.greybox.target import Target
+from pysim.identify.greybox.residuals import Point
+from pysim.identify.greybox.stepped_sines import SteppedSines
+from pysim.identify.greybox.time_log import TimeLog
 from pysim.simulate import Esdirk, Rodas, simulate_many
 from pysim.types import Experiment
 from pysim.types.record_kind import STEPPED_SINE
@@ -55,7 +55,7 @@ class _Piece:
         return self.misfit / self.time**_POWER
 
 
-def thinned(ruler: Ruler, point: Evaluation) -> Ruler:
+def thinned(ruler: Ruler, point: Point) -> Ruler:
     """A ruler of those runs that show most of the misfit for their time, the best log over time always among them.
 
     Args:
@@ -101,11 +101,11 @@ def _pieces(ruler: Ruler, residual: Array) -> Iterator[_Piece]:
     for number, (target, whitening) in enumerate(zip(ruler.targets, ruler.whitenings, strict=True)):
         own, rest = rest[: whitening.size], rest[whitening.size :]
         times = [_duration(run.experiment) for run in target.runs]
-        if isinstance(target, SineTarget):
+        if isinstance(target, SteppedSines):
             for log, time in enumerate(times):
                 part, own = own[: target.logs[log].harmonics.size], own[target.logs[log].harmonics.size :]
                 yield _Piece(float(part @ part) - part.size, time, number, (log,))
-        elif isinstance(target, LogTarget):
+        elif isinstance(target, TimeLog):
             over_time = target.kind != STEPPED_SINE.name  # a sine that had not settled is compared sample by sample
             misfit = float(own @ own) - own.size if over_time else np.inf
             yield _Piece(misfit, times[0], number, (0,), over_time)
@@ -118,7 +118,7 @@ def _duration(experiment: Experiment) -> float:
 
 
 def _part(target: Target, logs: list[int]) -> Target:
-    if not isinstance(target, SineTarget):
+    if not isinstance(target, SteppedSines):
         return target
     runs = tuple(target.runs[i] for i in logs)
     return replace(target, logs=tuple(target.logs[i] for i in logs), runs=runs, reference=None)

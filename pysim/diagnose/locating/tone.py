@@ -16,8 +16,8 @@ from pysim.diagnose.residuals import Ruler
 from pysim.diagnose.screen import across, column_space
 from pysim.diagnose.where import tone
 from pysim.identify import HALF_95
-from pysim.identify.greybox.log_target import LogTarget
 from pysim.identify.greybox.parameters import ParameterSpace
+from pysim.identify.greybox.time_log import TimeLog
 from pysim.simulate import Rodas
 from pysim.types import BadInput, Effect, Missing, Model
 from pysim.types.diagnosis import Shape
@@ -135,11 +135,11 @@ def _strongest(ruler: Ruler, current: Fitted) -> tuple[int, float] | None:
     return None if best is None else (best[1], best[2])
 
 
-def _logs(ruler: Ruler, residual: Array) -> Iterator[tuple[int, Array, LogTarget]]:
+def _logs(ruler: Ruler, residual: Array) -> Iterator[tuple[int, Array, TimeLog]]:
     rest = residual
     for number, (target, whitening) in enumerate(zip(ruler.targets, ruler.whitenings, strict=True)):
         own, rest = rest[: whitening.size], rest[whitening.size :]
-        if isinstance(target, LogTarget):
+        if isinstance(target, TimeLog):
             yield number, own.reshape(-1, len(target.measured.names)), target
 
 

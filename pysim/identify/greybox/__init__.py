@@ -1,17 +1,19 @@
-"""Grey-box fitting: the parameters of a model from measurements, with their doubt (thesis Sections 2.6 and 4.4)."""
+"""Grey-box fitting: the parameters of a model from measurements, with their intervals (thesis Sections 2.6 and 4.4)."""
 
-from pysim.identify.greybox.command import Rest
 from pysim.identify.greybox.fit import Effort, fit
-from pysim.identify.greybox.gauss_newton import GaussNewton
 from pysim.identify.greybox.interior_point import InteriorPoint
+from pysim.identify.greybox.least_squares import GaussNewton
+from pysim.identify.greybox.nuisance import Nuisance, NuisanceKind
 from pysim.identify.greybox.objective import COMBINED, FREQUENCY, NOISE, OBJECTIVES, TIME, Objective
+from pysim.identify.greybox.observation import Measure, Observation
 from pysim.identify.greybox.parameters import Parameter, Tie
 from pysim.identify.greybox.problem import Problem, problem
 from pysim.identify.greybox.profile import Profile, profile
+from pysim.identify.greybox.residuals import Point, WeightedResiduals
+from pysim.identify.greybox.runs import Simulation
 from pysim.identify.greybox.search import Tried
-from pysim.identify.greybox.simulation import Simulation
-from pysim.identify.greybox.sine_log import SinePlan
-from pysim.identify.greybox.treatment import Measurements, Treatment
+from pysim.identify.greybox.settings import FitSettings, NoiseSettings
+from pysim.identify.greybox.treatment import Measurements, Rest, SinePlan, Treatment
 from pysim.identify.greybox.workers import Cluster, Processes, Threads
 
 __all__ = [
@@ -22,11 +24,18 @@ __all__ = [
     "TIME",
     "Cluster",
     "Effort",
+    "FitSettings",
     "GaussNewton",
     "InteriorPoint",
+    "Measure",
     "Measurements",
+    "NoiseSettings",
+    "Nuisance",
+    "NuisanceKind",
     "Objective",
+    "Observation",
     "Parameter",
+    "Point",
     "Problem",
     "Processes",
     "Profile",
@@ -37,6 +46,7 @@ __all__ = [
     "Tie",
     "Treatment",
     "Tried",
+    "WeightedResiduals",
     "fit",
     "problem",
     "profile",

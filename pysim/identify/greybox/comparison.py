@@ -2,33 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from pysim.identify.accuracy import frequency_deviations, time_deviations
-from pysim.identify.greybox.harmonics import interpolation
-from pysim.identify.greybox.log_target import LogTarget
+from pysim.identify.greybox.least_squares import GaussNewton
+from pysim.identify.greybox.observation import Observation, Simulated
+from pysim.identify.greybox.parameters import ParameterSpace
 from pysim.identify.greybox.problem import Problem
-from pysim.identify.greybox.response import LogResponse
-from pysim.identify.greybox.simulation import Simulation, simulate_runs
-from pysim.identify.greybox.sine_log import SineLog
-from pysim.identify.greybox.sine_target import SineTarget
-from pysim.identify.greybox.table_target import TableTarget
-from pysim.identify.greybox.target import Simulated, Target
-from pysim.types import (
-    Experiment,
-    FrequencyResponse,
-    Harmonics,
-    RecordFit,
-    ResponseComparison,
-    ResponseFit,
-    SineTest,
-)
+from pysim.identify.greybox.residuals import Carried, Point, WeightedResiduals
+from pysim.identify.greybox.runs import Failure, Simulation, simulate_runs
+from pysim.types import Experiment, Model, RecordFit, ResponseFit
 
 Array = NDArray[np.float64]
+
+_ROUNDS = 4  # steps of the initial states of a log that was not fitted
 
 
 @dataclass(frozen=True)
@@ -43,112 +33,88 @@ class Compared:
 
 
 def compared(
-    problem: Problem, x: Array, simulation: Simulation, known: Mapping[int, Simulated] | None = None
+    problem: Problem, x: Array, simulation: Simulation, carried: Mapping[int, Array | None] | None = None
 ) -> Compared:
-    """Simulate every target at x (n,); one that cannot be simulated is noted and left out.
+    """Simulate every observation at x (n,); one that cannot be simulated is noted and left out.
+
+    Initial states of logs that were not fitted are estimated from these logs themselves: they say where the plant
+    stood, and nothing of its parameters.
 
     Args:
-        known: id of a run -> its answer at x, where that is there already.
+        carried: id of a run -> where its orbit is sought or its log begins, of the runs that were fitted.
     """
+    known = dict(carried or {})
+    residuals = replace(problem.residuals(simulation=simulation, use="validate"), observations=problem.observations)
+    unknown = [o for o in problem.observations if any(run.free.size and id(run) not in known for run in o.runs)]
+    for one in unknown:
+        point = settled_initial_states(replace(residuals, observations=(one,)), problem.model, problem.space, x)
+        known |= dict(zip(map(id, one.runs), point.carried.states, strict=False))
     records: list[RecordFit] = []
     responses: list[ResponseFit] = []
-    notes: list[str] = []
-    experiments = []
-    lost = 0
-    for target, simulated, trouble in _simulated(problem, x, simulation, known or {}):
-        if isinstance(target, LogTarget):
-            run = target.run.experiment
-            overrides = {**run.overrides, **problem.space.overrides(x, target.run.record)}
-            experiments.append(replace(run, overrides=overrides))
-        if trouble:
-            notes.append(f"not simulated: {trouble}")
-            lost += len(target.logs) if isinstance(target, SineTarget) else 1
-        elif isinstance(target, LogTarget):
-            records.append(_log(target, simulated[0]))
-        elif isinstance(target, SineTarget):
-            records += [_sine(target, log, s) for log, s in zip(target.logs, simulated, strict=True)]
-            responses += [_responses(target, simulated, j) for j in range(len(target.logs[0].measured.names))]
-        elif isinstance(target, TableTarget):
-            responses.append(_table(target, simulated))
+    experiments, notes, lost = [], [], 0
+    for one, simulated, failure in _simulated(problem, x, simulation, known):
+        experiments += [_run(problem, run, x, known.get(id(run))) for run in one.runs if one.domain == "time"]
+        if failure is not None:
+            notes.append(f"not simulated: {failure}")
+            lost += len(one.sources)
+            continue
+        own = one.beside(simulated)
+        records, responses = [*records, *own[0]], [*responses, *own[1]]
     return Compared(tuple(records), tuple(responses), tuple(experiments), tuple(notes), lost)
 
 
+def settled_initial_states(residuals: WeightedResiduals, model: Model, space: ParameterSpace, x: Array) -> Point:
+    """The point at x (n,) with the initial states of its logs estimated, the parameters held."""
+    best = residuals.evaluate(model, space, x, jacobian=False)
+    share = 1.0
+    for _ in range(_ROUNDS):
+        if not best.good or best.gain < GaussNewton().tolerance:
+            break
+        trial = residuals.evaluate(model, space, x, _stepped(best, share), jacobian=False)
+        if trial.cost < best.cost:
+            best, share = trial, min(1.0, 2 * share)
+        else:
+            share *= 0.25
+    return best
+
+
+def _stepped(point: Point, share: float) -> Carried:
+    states = [
+        value if step is None or value is None else value + share * step[0]
+        for value, step in zip(point.carried.states, point.steps, strict=False)
+    ]
+    return Carried(tuple(states), point.carried.nuisances)
+
+
+def _run(problem: Problem, run, x: Array, offset: Array | None) -> Experiment:  # type: ignore[no-untyped-def]
+    """Exactly what is run for a log."""
+    experiment = run.experiment
+    overrides = {**experiment.overrides, **problem.space.overrides(x, run.record)}
+    if offset is None or not run.free.size:
+        return replace(experiment, overrides=overrides)
+    whole = np.zeros(run.initial.size)
+    whole[run.free] = offset
+    return replace(experiment, overrides=overrides, offset=whole, offset_at=run.begins)
+
+
 def _simulated(
-    problem: Problem, x: Array, simulation: Simulation, known: Mapping[int, Simulated]
-) -> Iterator[tuple[Target, tuple[Simulated, ...], str]]:
-    """What is not known of all targets at once; where that fails, one by one."""
-    left = [target for target in problem.targets if any(id(run) not in known for run in target.runs)]
-    answers, trouble = _answers(problem, x, simulation, left)
-    found, troubles = {**known, **answers}, dict.fromkeys(map(id, left), trouble)
-    for target in left if trouble else ():
-        answers, troubles[id(target)] = _answers(problem, x, simulation, [target])
-        found |= answers
-    for target in problem.targets:
-        why = troubles.get(id(target), "")
-        yield target, () if why else tuple(found[id(run)] for run in target.runs), why
+    problem: Problem, x: Array, simulation: Simulation, known: Mapping[int, Array | None]
+) -> list[tuple[Observation, tuple[Simulated, ...], Failure | None]]:
+    """All observations at once; where that fails, one by one."""
 
+    def answers(observations: Sequence[Observation]) -> tuple[list[Simulated], Failure | None]:
+        runs = [run for one in observations for run in one.runs]
+        guesses = [known.get(id(run)) for run in runs]
+        answer = simulate_runs(problem.model, problem.space, runs, x, guesses, simulation, slopes=False, initial=False)
+        return list(answer.simulated), answer.failure
 
-def _answers(
-    problem: Problem, x: Array, simulation: Simulation, targets: Sequence[Target]
-) -> tuple[dict[int, Simulated], str]:
-    """id of a run -> its answer, without slopes; and why there are none."""
-    runs = [run for target in targets for run in target.runs]
-    nothing = (None,) * len(runs)
-    answer = simulate_runs(problem.model, problem.space, runs, x, nothing, simulation, slopes=False)
-    return {} if answer.trouble else dict(zip(map(id, runs), answer.simulated, strict=True)), answer.trouble
-
-
-def _log(target: LogTarget, simulated: Simulated) -> RecordFit:
-    model = replace(target.measured, values=simulated.values, origin="simulated")
-    deviations = {
-        name: time_deviations(simulated.values[:, j], target.measured.values[:, j], target.full_scale[j])
-        for j, name in enumerate(target.measured.names)
-    }
-    return RecordFit(
-        target.dataset, target.source, target.kind, target.use, target.measured, model, target.noise, deviations,
-        index=target.index,
-    )  # fmt: skip
-
-
-def _sine(target: SineTarget, log: SineLog, simulated: Simulated) -> RecordFit:
-    values = interpolation(log.phase, log.points) @ simulated.values
-    measured, model = log.coefficients(log.harmonics), log.coefficients(log.onto @ simulated.values)
-    harmonics = tuple(
-        Harmonics(name, log.sine.frequency, measured[:, j], model[:, j], log.noise[j] * log.deviations())
-        for j, name in enumerate(log.measured.names)
-    )
-    beside = replace(log.measured, values=values, origin="simulated")
-    return RecordFit(
-        target.dataset, log.source, target.kind, target.use, log.measured, beside, log.noise, {}, harmonics,
-        index=log.index,
-    )  # fmt: skip
-
-
-def _responses(target: SineTarget, simulated: Sequence[Simulated], column: int) -> ResponseFit:
-    first = target.logs[0]
-    frequency = np.array([log.sine.frequency for log in target.logs])
-    test = SineTest(first.sine.offset, first.sine.amplitude, "command", first.measured.names[column])
-    logarithm = target.measured_gains[:, column]
-    measured = FrequencyResponse(
-        frequency, np.exp(logarithm.real), np.unwrap(logarithm.imag), test, "measured, stepped sines"
-    )
-    model = _beside(measured, target.response(simulated, column))
-    reference = None if target.reference is None else float(frequency[target.reference])
-    deviations = frequency_deviations(model, measured, reference_hz=reference)
-    return ResponseFit(target.dataset, target.use, ResponseComparison(measured, model, deviations))
-
-
-def _table(target: TableTarget, simulated: Sequence[Simulated]) -> ResponseFit:
-    model = _beside(target.measured, target.response(simulated))
-    reference = None if target.reference is None else float(target.measured.frequency[target.reference])
-    deviations = frequency_deviations(model, target.measured, reference_hz=reference)
-    return ResponseFit(target.dataset, target.use, ResponseComparison(target.measured, model, deviations))
-
-
-def _beside(measured: FrequencyResponse, simulated: LogResponse) -> FrequencyResponse:
-    """The model's response, its phase in the turn next to the measured one."""
-    gap = np.unwrap(simulated.values.imag - measured.phase)
-    phase = measured.phase + gap - 2 * np.pi * np.round(gap[0] / (2 * np.pi))
-    return replace(
-        measured, gain=np.exp(simulated.values.real), phase=phase, origin="simulated", mean=None, covariance=None
-    )
+    everything, failure = answers(problem.observations)
+    found = []
+    for one in problem.observations:
+        why: Failure | None = None
+        if failure is None:
+            own, everything = everything[: len(one.runs)], everything[len(one.runs) :]
+        else:
+            own, why = answers([one])
+        found.append((one, tuple(own), why))
+    return found

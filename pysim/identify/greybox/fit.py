@@ -10,27 +10,30 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from pysim.identify.greybox.comparison import compared
-from pysim.identify.greybox.digest import digest
-from pysim.identify.greybox.evaluation import Evaluation, LastLook, evaluator, last_look
-from pysim.identify.greybox.gauss_newton import GaussNewton
+from pysim.identify.greybox.checkpoint import Checkpoint, digest
+from pysim.identify.greybox.comparison import Compared, compared
 from pysim.identify.greybox.interior_point import InteriorPoint
-from pysim.identify.greybox.journal import Journal
+from pysim.identify.greybox.least_squares import GaussNewton
+from pysim.identify.greybox.noise import white_floor
 from pysim.identify.greybox.objective import NOISE, Objective
+from pysim.identify.greybox.observation import Measure
 from pysim.identify.greybox.optimiser import Optimiser, State
 from pysim.identify.greybox.problem import Problem
+from pysim.identify.greybox.residuals import Carried, Channel, Point
+from pysim.identify.greybox.runs import Simulation
 from pysim.identify.greybox.search import Progress, search
-from pysim.identify.greybox.simulation import Simulation
+from pysim.identify.greybox.settings import FitSettings
 from pysim.identify.greybox.starts import starts
-from pysim.identify.greybox.uncertainty import misfit, uncertainty, untold
-from pysim.types import BadInput, Fit, FitOutcome, Start
+from pysim.identify.greybox.uncertainty import Uncertainty, uncertainty
+from pysim.types import BadInput, Fit, FitOutcome, RecordFit, Start
+from pysim.types.answer import FloorSource
 
 Array = NDArray[np.float64]
 
 # Standard deviation of the median of normal errors over that of their mean: what sums of sizes cost.
 _SIZES = math.sqrt(math.pi / 2)
 
-# Share of the cost by which rough searches differ that may end at one optimum.
+# Share of the sum of squares by which rough searches differ that may end at one optimum.
 _ALIKE = 0.02
 
 
@@ -94,7 +97,7 @@ def fit(
             "values; choose the interior-point optimiser"
         )
     begun = starts(problem.model, problem.space, effort.starts, effort.seed, nominal=effort.nominal)
-    objective.chosen(problem.targets)  # what it refuses is refused before an earlier log is given up
+    objective.chosen(problem.observations)  # what it refuses is refused before an earlier log is given up
     _forget_earlier(effort, begun)
     states = _searched(problem, objective, optimiser, simulation, effort, begun, progress)
     good = {name: state for name, state in states.items() if state.best.good}
@@ -116,7 +119,7 @@ def _forget_earlier(effort: Effort, begun: Mapping[str, Array]) -> None:
         return
     for name in begun:
         for one in (name, _polish_of(name)):
-            Journal(effort.log / one, "").forget()
+            Checkpoint(effort.log / one, "").forget()
 
 
 def _polish_of(name: str) -> str:
@@ -147,9 +150,10 @@ def _worth_polishing(good: Mapping[str, State], best: str) -> list[str]:
     """The best search, and those that ended elsewhere at a cost that rough simulations do not tell from its own."""
     chosen = [best]
     for name, state in good.items():
-        cost, others = state.best.cost, [good[key].best.residual for key in chosen]
-        near = cost <= (1 + _ALIKE) * good[best].best.cost
-        if near and all(np.sum((state.best.residual - r) ** 2) > _ALIKE * cost for r in others):
+        here, there = state.best, good[best].best
+        near = here.cost - there.cost <= 0.5 * _ALIKE * there.square
+        others = [good[key].best.residual for key in chosen]
+        if near and all(np.sum((here.residual - r) ** 2) > _ALIKE * here.square for r in others):
             chosen.append(name)
     return chosen
 
@@ -168,7 +172,7 @@ def _polished(
     if optimiser.rough() is None:
         return best
     fine = _one_search(
-        problem, objective, optimiser, simulation.searching(), effort, _polish_of(name), best.best, progress
+        problem, objective, optimiser.finer(best), simulation.searching(), effort, _polish_of(name), best.best, progress
     )
     if not fine.best.good:
         return replace(best, outcome=FitOutcome.STALLED, message=f"the optimum is a rough one: {fine.message}")
@@ -182,32 +186,37 @@ def _one_search(
     simulation: Simulation,
     effort: Effort,
     name: str,
-    start: Array | Evaluation,
+    start: Array | Point,
     progress: Progress | None,
 ) -> State:
-    x = start.x if isinstance(start, Evaluation) else start
+    x = start.x if isinstance(start, Point) else start
     folder = None if effort.log is None else effort.log / name
+    residuals = problem.residuals(objective, simulation)
+
+    def evaluate(x: Array, carried: Carried) -> Point:
+        return residuals.evaluate(problem.model, problem.space, x, carried)
+
     return search(
-        evaluator(problem, objective, simulation),
+        evaluate,
         optimiser,
         problem.space,
         start,
         squares=objective.squares,
         name=name,
-        journal=None if folder is None else _journal(problem, objective, optimiser, simulation, folder, x),
+        checkpoint=None if folder is None else _checkpoint(problem, objective, optimiser, simulation, folder, x),
         resume=effort.resume,
         progress=progress,
     )
 
 
-def _journal(
+def _checkpoint(
     problem: Problem, objective: Objective, optimiser: Optimiser, simulation: Simulation, folder: Path, start: Array
-) -> Journal:
+) -> Checkpoint:
     """Of this search only: of no other data, however little they differ."""
-    contents = digest((problem.space, problem.targets))
+    contents = digest((problem.space, problem.observations, problem.floors, problem.settings))
     settings = (simulation.solver, simulation.mismatch)
     identity = repr((problem.model.token, contents, objective.name, optimiser, settings, start.tolist()))
-    return Journal(folder, identity)
+    return Checkpoint(folder, identity)
 
 
 def _result(
@@ -219,28 +228,29 @@ def _result(
     state: State,
     begun: Mapping[str, Array],
 ) -> Fit:
-    space = problem.space
-    look = _in_noise(problem, objective, simulation, state.best)
-    point = look.point
-    told = not untold(problem.notes)
-    size = misfit(point)
-    scale = (max(size, 1.0) if told else size) * (1.0 if objective.squares else _SIZES)
-    doubt = uncertainty(space, point, scale=scale, told=told)
-    beside = compared(problem, state.best.x, simulation, look.simulated)
+    space, best = problem.space, state.best
+    point = _at_levels(problem, objective, simulation, best)
+    doubt = uncertainty(space, point)
+    if not objective.squares:
+        doubt = _of_sizes(doubt)
+    runs = problem.residuals(replace(NOISE, domains=objective.domains)).runs
+    beside = compared(problem, best.x, simulation, dict(zip(map(id, runs), point.carried.states, strict=True)))
+    noise = _noise(problem, beside)
+    residuals = problem.residuals(replace(NOISE, domains=objective.domains), simulation)
     return Fit(
         model=problem.model.name,
         objective=objective.words,
         optimiser=optimiser.name,
         estimates=doubt.estimates,
         covariance=doubt.covariance,
-        values=space.values(state.best.x),
+        values=space.values(best.x),
         undetermined=doubt.known.directions,
         combinations=doubt.combinations,
-        records=beside.records,
+        records=tuple(_with_noise(record, noise) for record in beside.records),
         responses=beside.responses,
-        cost=point.cost if objective.weighted else state.best.cost,
+        cost=point.cost if objective.measure is Measure.SIGNAL else best.cost,
         start_cost=state.first_cost,
-        misfit=size,
+        misfit=residuals.misfit(point, noise) if point.good else math.nan,
         outcome=_outcome(state),
         message=state.message,
         iterations=state.tried,
@@ -248,9 +258,61 @@ def _result(
             Start(name, space.values(x), states[name].first_cost, states[name].best.cost, _outcome(states[name]))
             for name, x in begun.items()
         ),
-        notes=(*problem.notes, *beside.notes),
+        notes=(*problem.notes, *_interval_notes(doubt), *beside.notes),
         experiments=beside.experiments,
     )
+
+
+def _of_sizes(doubt: Uncertainty) -> Uncertainty:
+    """Intervals of the least sum of sizes, which knows less than that of squares."""
+    estimates = []
+    for one in doubt.estimates:
+        low, high = (one.value + _SIZES * (end - one.value) for end in one.interval)
+        interval = (max(low, one.lower), min(high, one.upper))
+        estimates.append(replace(one, std=_SIZES * one.std, interval=interval))
+    return replace(doubt, estimates=tuple(estimates), covariance=_SIZES**2 * doubt.covariance)
+
+
+def _interval_notes(doubt: Uncertainty) -> list[str]:
+    """What a reader must know of the intervals."""
+    apart, settings = [], FitSettings()
+    for one, ratio in zip(doubt.estimates, doubt.ratio.tolist(), strict=True):
+        if math.isfinite(ratio) and not 1 / settings.apart <= ratio <= settings.apart:
+            apart.append(f"{one.name} ({ratio:.2g})")
+    notes = []
+    if apart:
+        notes.append(
+            "intervals are not those of white residuals, so the model or the noise is not what it seems; "
+            f"they are so many times as wide: {', '.join(apart)}"
+        )
+    if not doubt.blocks:
+        notes.append(f"fewer than {settings.fewest_blocks} independent stretches of data: intervals assume their noise")
+    return notes
+
+
+def _noise(problem: Problem, beside: Compared) -> dict[Channel, float]:
+    """Per channel what its noise is: as specified, else the white part of what the fitted model leaves."""
+    rests: dict[Channel, list[Array]] = {}
+    noise: dict[Channel, float] = {}
+    for record in beside.records:
+        for j, name in enumerate(record.measured.names):
+            rest = record.measured.values[:, j] - record.simulated.values[:, j]
+            rests.setdefault((record.dataset, name), []).append(rest)
+            noise[record.dataset, name] = record.noise[j]
+    for channel, floor in problem.floors.items():
+        if floor.source is not FloorSource.SPECIFIED and channel in rests:
+            white = white_floor(rests[channel], problem.settings)
+            noise[channel] = max(white or noise[channel], floor.sd)
+    return {channel: noise.get(channel, floor.sd) for channel, floor in problem.floors.items()}
+
+
+def _with_noise(record: RecordFit, noise: Mapping[Channel, float]) -> RecordFit:
+    sizes = tuple(noise[record.dataset, name] for name in record.measured.names)
+    if sizes == record.noise:
+        return record
+    scale = {name: new / old for name, new, old in zip(record.measured.names, sizes, record.noise, strict=True)}
+    harmonics = tuple(replace(one, std=one.std * scale[one.signal]) for one in record.harmonics)
+    return replace(record, noise=sizes, harmonics=harmonics)
 
 
 def _outcome(state: State) -> FitOutcome:
@@ -258,7 +320,8 @@ def _outcome(state: State) -> FitOutcome:
     return state.outcome
 
 
-def _in_noise(problem: Problem, objective: Objective, simulation: Simulation, best: Evaluation) -> LastLook:
-    """The optimum's residuals in standard deviations, which the objective may count in another way."""
-    look = last_look(problem, replace(NOISE, domains=objective.domains), simulation, best)
-    return look if look.point.good or not objective.weighted else replace(look, point=best)
+def _at_levels(problem: Problem, objective: Objective, simulation: Simulation, best: Point) -> Point:
+    """The optimum simulated once more, as finely as intervals need it, and counted in the levels of its residuals."""
+    residuals = problem.residuals(replace(NOISE, domains=objective.domains), simulation)
+    point = residuals.evaluate(problem.model, problem.space, best.x, best.carried_to(best.x))
+    return point if point.good or objective.measure is not Measure.SIGNAL else best

@@ -8,8 +8,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from pysim.identify.greybox.evaluation import Evaluation
 from pysim.identify.greybox.optimiser import Bounds, Proposal, State
+from pysim.identify.greybox.residuals import Point
 from pysim.types import BadInput, FitOutcome
 
 Array = NDArray[np.float64]
@@ -55,15 +55,19 @@ class InteriorPoint:
     def rough(self) -> None:
         """Nothing: a search that goes on starts far from the bounds again."""
 
+    def finer(self, end: State) -> InteriorPoint:
+        """Never asked, for lack of a rough search."""
+        return self
+
     def first(self, x: Array, bounds: Bounds) -> Array:
         """Moved off the bounds, where the barrier is infinite."""
         width = bounds.upper - bounds.lower
         gap = _INSIDE * np.where(np.isfinite(width), width, 1.0)
         return np.clip(x, bounds.lower + gap, bounds.upper - gap)
 
-    def begin(self, start: Evaluation, bounds: Bounds, squares: bool) -> State:
+    def begin(self, start: Point, bounds: Bounds, squares: bool) -> State:
         """See Optimiser."""
-        mean = start.cost / start.residual.size
+        mean = _measure(start, squares) / start.residual.size
         memory = {"squares": float(squares), "mu": 0.1 * mean, "damping": 0.0, "growth": 2.0}
         return self._examined(State(start, memory=memory), bounds)
 
@@ -74,7 +78,7 @@ class InteriorPoint:
         change = barrier.linear(state.best, p) - barrier.value(state.best)
         return Proposal(state.best.x + p, max(-change, 0.0))
 
-    def tell(self, state: State, proposal: Proposal, trial: Evaluation, bounds: Bounds) -> State:
+    def tell(self, state: State, proposal: Proposal, trial: Point, bounds: Bounds) -> State:
         """See Optimiser."""
         barrier = _Barrier(bounds, state.memory["mu"], state.memory["squares"] > 0)
         actual = barrier.value(state.best) - barrier.value(trial) if trial.good else -math.inf
@@ -85,18 +89,20 @@ class InteriorPoint:
             damping = 0.0 if ratio > 0.9 and damping < 1e-6 * _size(trial) else damping
             state = replace(state, best=trial, memory={**state.memory, "damping": damping, "growth": 2.0})
             return self._examined(state, bounds)
-        if trial.good and proposal.predicted < self.tolerance * state.best.cost:
+        if trial.good and proposal.predicted < self.tolerance * _measure(state.best, state.memory["squares"] > 0):
             return self._examined(state, bounds, solved=True)
         damping = max(state.memory["damping"] * state.memory["growth"], 1e-3 * _size(state.best))
         growth = min(2 * state.memory["growth"], 1e4)
         if damping > 1e12 * _size(state.best):
-            return replace(state, outcome=FitOutcome.STALLED, message=trial.trouble or "no step lowers the barrier")
+            return replace(
+                state, outcome=FitOutcome.STALLED, message=str(trial.failure or "no step lowers the barrier")
+            )
         return self._counted(replace(state, memory={**state.memory, "damping": damping, "growth": growth}))
 
     def _examined(self, state: State, bounds: Bounds, *, solved: bool = False) -> State:
         """Lower mu as long as its problem is solved well enough; end where the gap is small enough."""
-        cost, n = max(state.best.cost, np.finfo(float).tiny), state.best.residual.size
         squares = state.memory["squares"] > 0
+        cost, n = max(_measure(state.best, squares), np.finfo(float).tiny), state.best.residual.size
         last = self.tolerance * cost / (2 * n)
         last = min(last, self.tolerance / n) if squares else last
         for _ in range(200):
@@ -123,7 +129,12 @@ class InteriorPoint:
         return replace(state, outcome=FitOutcome.ITERATION_LIMIT, message=f"{state.tried} points were tried")
 
 
-def _size(point: Evaluation) -> float:
+def _measure(point: Point, squares: bool) -> float:
+    """The sum that is minimised, levels held."""
+    return 0.5 * point.square if squares else point.cost
+
+
+def _size(point: Point) -> float:
     """What damping is measured by: the largest curvature of a sum of sizes near its start."""
     spread = float(np.mean(np.abs(point.residual))) or 1.0
     return float(np.max(np.sum(point.jacobian**2, axis=0))) / spread
@@ -137,15 +148,18 @@ class _Barrier:
     mu: float
     squares: bool
 
-    def value(self, point: Evaluation) -> float:
+    def value(self, point: Point) -> float:
         """At a point that was simulated."""
-        return self._sum(point.residual) + self._walls(point.x)
+        return (point.cost if self.squares else self._sum(point.residual)) + self._walls(point.x)
 
-    def linear(self, point: Evaluation, p: Array) -> float:
+    def linear(self, point: Point, p: Array) -> float:
         """At a step p (n,) from it, the residuals made linear."""
-        return self._sum(point.residual + point.jacobian @ p) + self._walls(point.x + p)
+        ahead = self._sum(point.residual + point.jacobian @ p)
+        if self.squares:
+            ahead += point.cost - self._sum(point.residual)
+        return ahead + self._walls(point.x + p)
 
-    def step(self, point: Evaluation, damping: float) -> Array:
+    def step(self, point: Point, damping: float) -> Array:
         """The minimum of `linear` + damping/2 |p|^2, by Newton's method; convex, so that there is one."""
         p = np.zeros(point.x.size)
         value = self.value(point)
@@ -166,7 +180,7 @@ class _Barrier:
                 return p
         return p
 
-    def _slopes(self, point: Evaluation, p: Array, damping: float) -> tuple[Array, Array]:
+    def _slopes(self, point: Point, p: Array, damping: float) -> tuple[Array, Array]:
         """Gradient (n,) and Hessian (n, n) of what `step` minimises."""
         r, x = point.residual + point.jacobian @ p, point.x + p
         first, second = self._weights(r)

@@ -1,26 +1,33 @@
-"""How much a measured signal trembles: told by the data set, or seen in the log itself."""
+"""How small a residual can be: specified by the data set, or seen in the logs."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
+from pysim.identify.greybox.settings import NoiseSettings
 from pysim.types import BadInput, MeasuredSignal
+from pysim.types.answer import FloorSource, NoiseFloor
 
 Array = NDArray[np.float64]
 
 # Fourth differences of white noise of variance 1 have the variance 1 + 16 + 36 + 16 + 1.
 _GAIN = 70.0
+# Variance of a Hann-tapered ordinate averaged over its neighbours, over that of independent ones.
+# Source: Percival and Walden 1993, Spectral Analysis for Physical Applications, Section 6.8.
+_TAPER = 1.9
+_LEVELS = 4  # steps between values, below which a column is one that is switched
+_ORDINATES = 8  # a band of fewer says nothing
 
 
-def told_noise(signal: MeasuredSignal) -> float | None:
-    """Standard deviation of noise and quantisation together, in the signal's unit; None where the noise is not told."""
+def specified_noise(signal: MeasuredSignal) -> float | None:
+    """Standard deviation of noise and quantisation together, in the signal's unit; None where it is not specified."""
     if signal.noise is None:
         return None
-    size = math.hypot(signal.noise, (signal.resolution or 0.0) / math.sqrt(12))
+    size = signal.deviation
     if not size > 0:
         raise BadInput(f"signal {signal.name!r}: a noise of {signal.noise} gives no weight; leave it out or correct it")
     return size
@@ -39,12 +46,14 @@ def seen_noise(values: Array) -> float:
 
 
 def signal_noise(signal: MeasuredSignal, logs: list[Array], given: Mapping[str, float]) -> tuple[float, str]:
-    """The noise of one signal, and a note where it had to be estimated; the caller's own number goes first.
+    """The noise of one signal before any model is known, and a note where it had to be estimated.
 
+    Args:
+        given: the caller's own numbers, which go first.
     Raises:
-        BadInput: neither told nor to be seen.
+        BadInput: neither specified nor to be seen.
     """
-    size = given.get(signal.name) or told_noise(signal)
+    size = given.get(signal.name) or specified_noise(signal)
     if size is not None:
         return size, ""
     seen = [value for log in logs if math.isfinite(value := seen_noise(log)) and value > 0]
@@ -52,3 +61,65 @@ def signal_noise(signal: MeasuredSignal, logs: list[Array], given: Mapping[str, 
         raise BadInput(f"signal {signal.name!r}: its noise is neither told nor seen in the logs; give noise = a number")
     size = float(np.median(seen))
     return size, f"noise of {signal.name} not told by the data set; {size:.3g} {signal.unit} seen in the logs"
+
+
+def noise_floor(
+    signal: MeasuredSignal,
+    logs: Sequence[Array],
+    given: Mapping[str, float],
+    settings: NoiseSettings,
+    integration: float = 0.0,
+) -> NoiseFloor:
+    """The least level of a signal's residual: a floor only, so that a wrong figure never becomes a weight.
+
+    Args:
+        logs: its columns, (n_t,) each.
+        given: the caller's own noise by the signal's name, in place of what the data set specifies.
+        integration: relative error of the simulation.
+    """
+    spread = max((float(np.ptp(log)) for log in logs), default=0.0)
+    size = max((float(np.abs(log).max()) for log in logs), default=0.0)
+    step = max((_step(log) for log in logs), default=0.0)
+    least = max(settings.least, integration) * (spread or size or 1.0)
+    resolution = max((signal.resolution or 0.0) / math.sqrt(12), step / math.sqrt(12), least)
+    specified = given.get(signal.name) or specified_noise(signal) or 0.0
+    if specified >= resolution:
+        return NoiseFloor(specified, FloorSource.SPECIFIED)
+    return NoiseFloor(resolution, FloorSource.SPECIFIED if specified else FloorSource.RESOLUTION)
+
+
+def _step(values: Array) -> float:
+    """The quantisation step that shows in a column (n_t,): the least difference of two of its values, if of many."""
+    gaps = np.diff(np.unique(values))
+    return float(gaps.min()) if gaps.size >= _LEVELS else 0.0
+
+
+def white_floor(residuals: Sequence[Array], settings: NoiseSettings) -> float | None:
+    """Standard deviation of the white part of residuals (n_t,) of one signal, one per log; None where all are short.
+
+    The lowest of equal bands of the periodogram, pooled with all bands that are as low within their scatter: slow and
+    structured misfit lies in the others. A lower bound where the sensor has a low pass.
+
+    Source: Welch 1967, IEEE Transactions on Audio and Electroacoustics 15:70.
+    """
+    bands = settings.bands
+    power, count = np.zeros(bands), np.zeros(bands)
+    for rest in residuals:
+        n = rest.size
+        if n < _ORDINATES * bands:
+            continue
+        taper = np.hanning(n)
+        ordinates = np.abs(np.fft.rfft((rest - rest.mean()) * taper)) ** 2 / float(taper @ taper)
+        band = np.minimum(np.arange(ordinates.size) * bands // ordinates.size, bands - 1)
+        power += np.bincount(band, ordinates, bands)
+        count += np.bincount(band, minlength=bands)
+    if not count.all():
+        return None
+    order = np.argsort(power / count)
+    total, weight = power[order[0]], count[order[0]]
+    for band in order[1:]:
+        scatter = math.sqrt(_TAPER * (1 / count[band] + 1 / weight))
+        if power[band] / count[band] > total / weight * (1 + settings.joined * scatter):
+            break
+        total, weight = total + power[band], weight + count[band]
+    return math.sqrt(total / weight)

@@ -10,7 +10,7 @@ from typing import NamedTuple, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from pysim.identify.greybox.evaluation import Evaluation
+from pysim.identify.greybox.residuals import Point
 from pysim.types import FitOutcome
 from pysim.types._frozen import FrozenMapping
 
@@ -25,10 +25,14 @@ class Bounds(NamedTuple):
 
 
 class Proposal(NamedTuple):
-    """A point to try, and by how much the optimiser's own measure is expected to fall there."""
+    """A point to try, by how much the optimiser's own measure is expected to fall there, and what goes along.
+
+    `share` of the step of what belongs to single logs, as their initial states.
+    """
 
     x: Array
     predicted: float
+    share: float = 1.0
 
 
 @dataclass(frozen=True)
@@ -44,7 +48,7 @@ class State:
         message: the same in words with numbers.
     """
 
-    best: Evaluation
+    best: Point
     tried: int = 0
     first_cost: float = math.inf
     memory: Mapping[str, float] = field(default_factory=dict)
@@ -72,11 +76,15 @@ class Optimiser(Protocol):
         """The same for a first search over rough simulations; None where a second search cannot go on from its end."""
         ...
 
+    def finer(self, end: State) -> Optimiser:
+        """The same for a search that goes on from the end of a rough one."""
+        ...
+
     def first(self, x: Array, bounds: Bounds) -> Array:
         """The start (n,), moved where the method cannot start from it."""
         ...
 
-    def begin(self, start: Evaluation, bounds: Bounds, squares: bool) -> State:
+    def begin(self, start: Point, bounds: Bounds, squares: bool) -> State:
         """The state at a start that could be simulated."""
         ...
 
@@ -84,6 +92,6 @@ class Optimiser(Protocol):
         """The next point to try; never asked once there is an outcome."""
         ...
 
-    def tell(self, state: State, proposal: Proposal, trial: Evaluation, bounds: Bounds) -> State:
+    def tell(self, state: State, proposal: Proposal, trial: Point, bounds: Bounds) -> State:
         """The state after that point; a bad point is a step that is not taken."""
         ...

@@ -2,14 +2,31 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass, field
+from types import MappingProxyType
 
-from pysim.identify.greybox.measured import build_targets
+import numpy as np
+from numpy.typing import NDArray
+
+from pysim.identify.greybox.context import Context
+from pysim.identify.greybox.noise import noise_floor, signal_noise
+from pysim.identify.greybox.objective import NOISE, Objective
+from pysim.identify.greybox.observation import Observation
 from pysim.identify.greybox.parameters import Parameter, ParameterSpace, Tie, parameter_space
-from pysim.identify.greybox.target import Target
+from pysim.identify.greybox.residuals import Channel, WeightedResiduals
+from pysim.identify.greybox.response_table import ResponseTable, response_table
+from pysim.identify.greybox.runs import Simulation
+from pysim.identify.greybox.settings import NoiseSettings
+from pysim.identify.greybox.stepped_sines import stepped_sines, swing
+from pysim.identify.greybox.time_log import time_logs
 from pysim.identify.greybox.treatment import Measurements, Treatment
-from pysim.types import BadInput, Dataset, Model
+from pysim.identify.greybox.unsettled import unsettled, unsettled_note
+from pysim.types import BadInput, Dataset, FrequencyResponse, MeasuredRecord, Model, Record
+from pysim.types.answer import FloorSource, NoiseFloor
+from pysim.types.record_kind import STEPPED_SINE
+
+Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -19,14 +36,41 @@ class Problem:
     Args:
         model: left unchanged.
         space: free, tied and fixed parameters.
-        targets: measurements to fit and to hold out.
+        observations: measurements to fit and to hold out.
+        floors: least level of each channel.
         notes: what was assumed on the way.
+        settings: what residuals are judged by.
+        specified: whether the data say how large the noise of everything is.
     """
 
     model: Model
     space: ParameterSpace
-    targets: tuple[Target, ...]
+    observations: tuple[Observation, ...]
+    floors: Mapping[Channel, NoiseFloor] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
+    settings: NoiseSettings = field(default_factory=NoiseSettings)
+    specified: bool = True
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "floors", MappingProxyType(dict(self.floors)))
+
+    def residuals(
+        self, objective: Objective = NOISE, simulation: Simulation | None = None, *, use: str = "fit"
+    ) -> WeightedResiduals:
+        """What an objective counts of the records of one use.
+
+        Raises:
+            BadInput: nothing counts, of the records to fit.
+        """
+        chosen = objective.chosen(self.observations) if use == "fit" else [o for o in self.observations if o.use == use]
+        return WeightedResiduals(
+            tuple(chosen),
+            self.floors,
+            simulation or Simulation(),
+            objective.measure,
+            not objective.squares,
+            settings=self.settings,
+        )
 
 
 def problem(
@@ -54,21 +98,91 @@ def problem(
     treatment = treatment or Treatment()
     parameters = [Parameter(p) if isinstance(p, str) else p for p in free]
     space = parameter_space(model, parameters, fixed=fixed, ties=ties)
-    targets: list[Target] = []
-    notes: list[str] = []
     if not data:
         raise BadInput("fit: give at least one data set")
+    observations: list[Observation] = []
+    floors: dict[Channel, NoiseFloor] = {}
+    notes: list[str] = []
+    specified = True
     for one in (d if isinstance(d, Measurements) else Measurements(d) for d in data):
         for name in one.overrides:
             if name in (*space.variables, *space.fixed, *(tie.name for tie in space.ties)):
                 raise BadInput(f"fit: data set {one.dataset.name!r} overrides {name}, which is free, tied or fixed")
-        found, said = build_targets(model, one, treatment, _started(model, space))
-        targets += found
-        notes += said
-    _check_records(space, targets)
-    if not any(target.use == "fit" for target in targets):
+        context, said = _context(model, one, treatment, _started(model, space))
+        found, more, stated = _observations(context)
+        own = _floors(context, one.noise)
+        observations, notes = [*observations, *found], [*notes, *said, *more]
+        specified = specified and stated and all(f.source is FloorSource.SPECIFIED for f in own.values())
+        floors |= own
+    _check_records(space, observations)
+    if not any(one.use == "fit" for one in observations):
         raise BadInput('fit: no record is for fitting; give at least one use = "fit" in dataset.toml')
-    return Problem(model, space, tuple(targets), tuple(dict.fromkeys(notes)))
+    return Problem(model, space, tuple(observations), floors, tuple(dict.fromkeys(notes)), treatment.noise, specified)
+
+
+def _context(
+    model: Model, data: Measurements, treatment: Treatment, started: Collection[str | None]
+) -> tuple[Context, list[str]]:
+    """A data set beside the model, and notes on the noise that was estimated."""
+    dataset = data.dataset
+    measured = tuple(signal.name for signal in dataset.signals if signal.role == "output")
+    for name in data.outputs or ():
+        if name not in measured:
+            raise BadInput(f"data set {dataset.name!r} measures no output {name!r}; it has {', '.join(measured)}")
+    for name in data.noise:
+        dataset.signal(name)
+    outputs = measured if data.outputs is None else tuple(data.outputs)
+    sizes, notes = {}, []
+    for name in outputs:
+        if logs := _columns(dataset, name):
+            sizes[name], note = signal_noise(dataset.signal(name), logs, data.noise)
+            notes += [note] if note else []
+    return Context(model, dataset, data.overrides, outputs, sizes, treatment, started), notes
+
+
+def _columns(dataset: Dataset, name: str) -> list[Array]:
+    return [r.data[name] for r in dataset.records if isinstance(r.data, Record) and name in r.data.names]
+
+
+def _floors(context: Context, given: Mapping[str, float]) -> dict[Channel, NoiseFloor]:
+    dataset, settings = context.dataset, context.treatment.noise
+    return {
+        (dataset.name, name): noise_floor(dataset.signal(name), _columns(dataset, name), given, settings)
+        for name in context.noise
+    }
+
+
+def _observations(context: Context) -> tuple[list[Observation], list[str], bool]:
+    """Of a data set, the stepped sines of a test together, notes on what was assumed, and whether tables state errors.
+
+    Raises:
+        BadInput: what cannot be compared, naming record or signal.
+    """
+    tables: list[ResponseTable] = []
+    logs: list[tuple[int, MeasuredRecord]] = []
+    swings, notes, index = [], [], -1
+    for record in context.dataset.records:
+        index += isinstance(record.data, Record)
+        if isinstance(record.data, FrequencyResponse):
+            if record.data.test.output in context.outputs:
+                tables.append(response_table(context, record, record.data))
+        elif not context.columns(record)[1]:
+            notes.append(f"{record.source}: no column of it is compared")
+        elif record.kind == STEPPED_SINE.name:
+            swings.append(swing(context, record, index))
+        else:
+            logs.append((index, record))
+    early = []
+    if context.treatment.steady == "transient":
+        late = unsettled([one.log for one in swings])
+        early = [one for one, is_late in zip(swings, late, strict=True) if is_late]
+        swings = [one for one, is_late in zip(swings, late, strict=True) if not is_late]
+    logs += [(one.log.index, one.record) for one in early]
+    notes += unsettled_note([one.record.source for one in early])
+    stated = all(table.specified for table in tables)
+    if not stated:
+        notes.append("tables without covariance: 20/90 dB and 1 degree are taken as standard deviations (Eq. 2.25)")
+    return [*tables, *time_logs(context, logs), *stepped_sines(context, swings)], notes, stated
 
 
 def _started(model: Model, space: ParameterSpace) -> set[str | None]:
@@ -77,8 +191,8 @@ def _started(model: Model, space: ParameterSpace) -> set[str | None]:
     return {record for name, record in zip(space.variables, space.records, strict=True) if name in states}
 
 
-def _check_records(space: ParameterSpace, targets: Sequence[Target]) -> None:
-    known = {run.record for target in targets for run in target.runs}
+def _check_records(space: ParameterSpace, observations: Sequence[Observation]) -> None:
+    known = {run.record for one in observations for run in one.runs}
     for record in space.records:
         if record is not None and record not in known:
             raise BadInput(f"fit: no compared record is called {record!r}; there are {', '.join(sorted(known))}")

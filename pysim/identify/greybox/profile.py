@@ -10,14 +10,13 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import chdtri
 
-from pysim.identify.greybox.evaluation import Evaluate, Evaluation, evaluator
-from pysim.identify.greybox.gauss_newton import GaussNewton
-from pysim.identify.greybox.objective import NOISE
+from pysim.identify.greybox.least_squares import GaussNewton
 from pysim.identify.greybox.parameters import ParameterSpace
 from pysim.identify.greybox.problem import Problem
-from pysim.identify.greybox.search import search
-from pysim.identify.greybox.simulation import Simulation
-from pysim.identify.greybox.uncertainty import LEVEL
+from pysim.identify.greybox.residuals import Carried, Point
+from pysim.identify.greybox.runs import Simulation
+from pysim.identify.greybox.search import Evaluate, search
+from pysim.identify.greybox.settings import FitSettings
 from pysim.types import BadInput, Fit
 
 Array = NDArray[np.float64]
@@ -29,8 +28,8 @@ class Profile:
 
     Args:
         name: of the parameter.
-        points: (n, 2) its value, and the smallest sum of squares over all other parameters, by increasing value.
-        interval: where that rises by the limit of the chi-squared distribution; a bound where it never does.
+        points: (n, 2) its value, and the least objective over all other parameters, nats, by increasing value.
+        interval: where that rises by half the limit of the chi-squared distribution; a bound where it never does.
     """
 
     name: str
@@ -44,7 +43,7 @@ def profile(
     name: str,
     *,
     simulation: Simulation | None = None,
-    level: float = LEVEL,
+    level: float = FitSettings().level,
     steps: int = 12,
 ) -> Profile:
     """Walk away from the optimum to both sides, with all other parameters fitted anew at every step.
@@ -59,7 +58,7 @@ def profile(
         BadInput: not a free parameter, or the only one.
     """
     place = _place(problem.space, name)
-    limit = float(chdtri(1, 1 - level)) * max(fit.misfit, 1.0) ** 2
+    limit = 0.5 * float(chdtri(1, 1 - level))
     walker = _Walker(problem, fit, place, simulation or Simulation())
     rows = {fit[name].value: walker.best}
     ends = tuple(_end(walker, fit, name, side, limit, steps, rows) for side in (-1, 1))
@@ -94,7 +93,7 @@ class _Walker:
         self.others = np.array([self.fit.values[key] for i, key in enumerate(space.keys) if i != self.place])
 
     def cost(self, value: float) -> float:
-        """The smallest sum of squares with the parameter held at value."""
+        """The least objective with the parameter held at value."""
         rest = self._rest()
         everywhere = self.problem.space.records[self.place] is None
         evaluate = self._fixed(rest, value) if everywhere else self._held(value)
@@ -116,7 +115,11 @@ class _Walker:
         space = self.problem.space
         tied = {tie.name: tie.factor * value for tie in space.ties if tie.of == space.keys[self.place]}
         fixed = {**space.fixed, space.variables[self.place]: value, **tied}
-        return evaluator(replace(self.problem, space=replace(rest, fixed=fixed)), NOISE, self.simulation)
+        return self._evaluate(replace(rest, fixed=fixed))
+
+    def _evaluate(self, space: ParameterSpace) -> Evaluate:
+        residuals, model = self.problem.residuals(simulation=self.simulation), self.problem.model
+        return lambda x, carried: residuals.evaluate(model, space, x, carried)
 
     def _held(self, value: float) -> Evaluate:
         """The objective with the parameter, of one log, held in that log.
@@ -124,13 +127,13 @@ class _Walker:
         What is fixed is so in all logs, so it stays in the space and only its slopes are left out.
         """
         space, place = self.problem.space, self.place
-        whole = evaluator(self.problem, NOISE, self.simulation)
+        whole = self._evaluate(space)
         held = space.to_search(np.insert(self.others, place, value))[place]
 
-        def evaluate(x: Array, states: tuple[Array | None, ...] = ()) -> Evaluation:
-            point = whole(np.insert(x, place, held), states)
-            slopes = tuple(None if by is None else np.delete(by, place, axis=1) for by in point.state_slopes)
-            return replace(point, x=x, jacobian=np.delete(point.jacobian, place, axis=1), state_slopes=slopes)
+        def evaluate(x: Array, carried: Carried) -> Point:
+            point = whole(np.insert(x, place, held), carried)
+            steps = tuple(None if one is None else (one[0], np.delete(one[1], place, axis=1)) for one in point.steps)
+            return replace(point, x=x, jacobian=np.delete(point.jacobian, place, axis=1), steps=steps)
 
         return evaluate
 

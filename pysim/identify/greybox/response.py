@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from pysim.identify.greybox.target import Residual
+from pysim.types import FrequencyResponse
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -35,23 +35,31 @@ def log_response(swing: Array, slopes: Array, amplitude: float) -> tuple[complex
         return complex(np.log(gain)), np.asarray((slopes[0] + 1j * slopes[1]) / (amplitude * gain))
 
 
-def differences(measured: Complex, simulated: LogResponse, reference: int | None) -> tuple[Residual, Residual]:
-    """Measured minus simulated: magnitudes in dB and phases in degrees, (n_f,) each.
+def differences(measured: Complex, simulated: LogResponse, reference: int | None) -> tuple[Array, Array]:
+    """Measured minus simulated, and its slopes: magnitudes in dB and phases in degrees, (n_f, 1 + n_x) each.
 
     Args:
         reference: place of the frequency whose gain counts as 0 dB on both sides (Eq. 2.12); None: as they are.
     """
     gap = measured - simulated.values
-    magnitude, slopes = DB * gap.real, -DB * simulated.slopes.real
+    magnitude = DB * np.column_stack([gap.real, -simulated.slopes.real])
     if reference is not None:
-        magnitude, slopes = magnitude - magnitude[reference], slopes - slopes[reference]
+        magnitude = magnitude - magnitude[reference]
     turned = np.unwrap(gap.imag)
-    phase = np.degrees(turned - 2 * np.pi * np.round(turned[0] / (2 * np.pi)))
-    return Residual(magnitude, slopes), Residual(phase, -np.degrees(simulated.slopes.imag))
+    phase = turned - 2 * np.pi * np.round(turned[0] / (2 * np.pi))
+    return magnitude, np.degrees(np.column_stack([phase, -simulated.slopes.imag]))
 
 
-def thesis_deviation(measured: Complex, simulated: LogResponse, reference: int | None) -> Residual:
-    """90/20 of the magnitudes in dB, then the phases in degrees, (2 n_f,). Source: thesis Eq. 2.25."""
+def thesis_deviation(measured: Complex, simulated: LogResponse, reference: int | None) -> Array:
+    """90/20 of the magnitudes in dB, then the phases in degrees, (2 n_f, 1 + n_x). Source: thesis Eq. 2.25."""
     magnitude, phase = differences(measured, simulated, reference)
-    values = np.concatenate([MAGNITUDE_WEIGHT * magnitude.values, phase.values])
-    return Residual(values, np.concatenate([MAGNITUDE_WEIGHT * magnitude.slopes, phase.slopes]))
+    return np.concatenate([MAGNITUDE_WEIGHT * magnitude, phase])
+
+
+def beside_measured(measured: FrequencyResponse, simulated: LogResponse) -> FrequencyResponse:
+    """The model's response, its phase in the turn next to the measured one."""
+    gap = np.unwrap(simulated.values.imag - measured.phase)
+    phase = measured.phase + gap - 2 * np.pi * np.round(gap[0] / (2 * np.pi))
+    return replace(
+        measured, gain=np.exp(simulated.values.real), phase=phase, origin="simulated", mean=None, covariance=None
+    )

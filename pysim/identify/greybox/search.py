@@ -9,10 +9,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from pysim.identify.greybox.evaluation import Evaluate, Evaluation
-from pysim.identify.greybox.journal import Journal
+from pysim.identify.greybox.checkpoint import Checkpoint
 from pysim.identify.greybox.optimiser import Bounds, Optimiser, State
 from pysim.identify.greybox.parameters import ParameterSpace
+from pysim.identify.greybox.residuals import Carried, Point
 from pysim.types import FitOutcome
 
 Array = NDArray[np.float64]
@@ -29,16 +29,19 @@ class Tried(NamedTuple):
 
 Progress = Callable[[Tried], None]
 
+# A point and what goes along with it -> the objective there.
+Evaluate = Callable[[Array, Carried], Point]
+
 
 def search(
     evaluate: Evaluate,
     optimiser: Optimiser,
     space: ParameterSpace,
-    start: Array | Evaluation,
+    start: Array | Point,
     *,
     squares: bool,
     name: str = "",
-    journal: Journal | None = None,
+    checkpoint: Checkpoint | None = None,
     resume: bool = False,
     progress: Progress | None = None,
 ) -> State:
@@ -46,43 +49,43 @@ def search(
 
     Args:
         start: (n,), or a point found before, perhaps by rougher simulations: orbits are sought from its own.
-        journal: where every point is written down, or None.
-        resume: go on from the journal where it holds a state; an outcome it holds is final.
+        checkpoint: where every point is written down, or None.
+        resume: go on from the checkpoint where it holds a state; an outcome it holds is final.
         progress: called after every point; what it raises ends the search, which can be resumed.
     Returns:
         the last state; outcome NO_START where the model could not be simulated at the start.
     """
     bounds = Bounds(*space.bounds())
-    state = journal.load() if journal is not None and resume else None
+    state = checkpoint.load() if checkpoint is not None and resume else None
     if state is None:
-        before = start if isinstance(start, Evaluation) else None
-        x = optimiser.first(start.x if isinstance(start, Evaluation) else start, bounds)
-        first = evaluate(x, () if before is None else before.guesses(x))
+        before = start if isinstance(start, Point) else None
+        x = optimiser.first(start.x if isinstance(start, Point) else start, bounds)
+        first = evaluate(x, Carried() if before is None else before.carried_to(x))
         state = _begun(optimiser, first, bounds, squares)
-        if journal is not None:
-            journal.begin()
-        _written(journal, space, state, first)
+        if checkpoint is not None:
+            checkpoint.begin()
+        _written(checkpoint, space, state, first)
         _told(progress, name, state, first)
     while state.outcome is None:
         proposal = optimiser.propose(state, bounds)
-        trial = evaluate(proposal.x, state.best.guesses(proposal.x))
+        trial = evaluate(proposal.x, state.best.carried_to(proposal.x, proposal.share))
         state = optimiser.tell(state, proposal, trial, bounds)
-        _written(journal, space, state, trial)
+        _written(checkpoint, space, state, trial)
         _told(progress, name, state, trial)
     return state
 
 
-def _begun(optimiser: Optimiser, first: Evaluation, bounds: Bounds, squares: bool) -> State:
+def _begun(optimiser: Optimiser, first: Point, bounds: Bounds, squares: bool) -> State:
     if first.good:
         return replace(optimiser.begin(first, bounds, squares), first_cost=first.cost)
-    return replace(State(first), outcome=FitOutcome.NO_START, message=first.trouble)
+    return replace(State(first), outcome=FitOutcome.NO_START, message=str(first.failure))
 
 
-def _written(journal: Journal | None, space: ParameterSpace, state: State, trial: Evaluation) -> None:
-    if journal is not None:
-        journal.write(state, trial, space.values(trial.x))
+def _written(checkpoint: Checkpoint | None, space: ParameterSpace, state: State, trial: Point) -> None:
+    if checkpoint is not None:
+        checkpoint.write(state, trial, space.values(trial.x))
 
 
-def _told(progress: Progress | None, name: str, state: State, trial: Evaluation) -> None:
+def _told(progress: Progress | None, name: str, state: State, trial: Point) -> None:
     if progress is not None:
         progress(Tried(name, state.tried, state.best.cost, trial.cost))

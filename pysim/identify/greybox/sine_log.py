@@ -9,38 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pysim.identify.greybox.harmonics import harmonic_count, interpolation, regressors, to_complex
+from pysim.identify.greybox.treatment import SinePlan
 from pysim.identify.logged import LoggedWave
 from pysim.types import BadInput, Record
 
 Array = NDArray[np.float64]
-
-
-@dataclass(frozen=True)
-class SinePlan:
-    """How a stepped-sine log is cut and compared.
-
-    Args:
-        settle_time: s of the sine that are left out, and
-        settle_periods: whole periods, whichever is longer.
-        harmonics: how many are compared, where the sampling tells them apart.
-        points: samples over one period of the model's orbit.
-    Raises:
-        BadInput: fewer than one harmonic, or too few points for the harmonics.
-    """
-
-    settle_time: float = 0.5
-    settle_periods: int = 1
-    harmonics: int = 5
-    points: int = 49
-
-    def __post_init__(self) -> None:
-        if self.harmonics < 1 or self.points < 4 * self.harmonics + 1:
-            raise BadInput(
-                f"sine plan: {self.harmonics} harmonics need at least one and {4 * self.harmonics + 1} points, "
-                f"got {self.points}"
-            )
-        if self.settle_time < 0 or self.settle_periods < 0:
-            raise BadInput("sine plan: what is left out for settling must not be negative")
 
 
 @dataclass(frozen=True)
@@ -99,6 +72,12 @@ class SineLog:
     def factors(self) -> tuple[Array, Array]:
         """Orthonormal columns (n_t, n_h) that span mean and harmonics, and the triangle (n_h, n_h) behind them."""
         return self._factors
+
+    @property
+    def periods(self) -> int:
+        """How many whole ones are compared."""
+        time = self.measured.time
+        return round(float(time[-1] - time[0]) * time.size / (time.size - 1) * self.sine.frequency)
 
     @property
     def phase(self) -> Array:
@@ -162,12 +141,13 @@ def sine_log(source: str, data: Record, sine: Sine, noise: tuple[float, ...], pl
     period = 1 / sine.frequency
     gap = float(np.median(np.diff(data.time))) if data.time.size > 1 else 0.0
     end, begin = min(data.time[-1], sine.end) + gap, max(sine.onset, data.time[0])
-    usable = end - begin - max(plan.settle_time, plan.settle_periods * period)
+    settling = max(plan.settle_time or 0.0, plan.settle_periods * period)
+    usable = end - begin - settling
     whole = int(np.floor(usable / period + 0.01))
     if whole < 1:
         raise BadInput(
             f"{source}: {end - begin:.3g} s of a sine of {sine.frequency:g} Hz leave no whole period after "
-            f"{max(plan.settle_time, plan.settle_periods * period):.3g} s of settling; record longer, or settle shorter"
+            f"{settling:.3g} s of settling; record longer, or settle shorter"
         )
     keep = (data.time > end - whole * period - 0.5 * gap) & (data.time < end - 0.5 * gap)
     cut = _kept(data, keep)

@@ -1,4 +1,10 @@
-"""How well the data determine the parameters: covariance, intervals, and combinations of what is not determined."""
+"""How well the data determine the parameters: intervals from blocks, and combinations of what is not determined.
+
+Residuals are neither independent nor white where a model is a little wrong. The blocks of the data are: the scatter of
+their scores gives an interval that holds for any colour (a sandwich), each block's own leverage taken off.
+
+Source: White 1980, Econometrica 48:817; Bell and McCaffrey 2002, Survey Methodology 28:169 (CR3, degrees of freedom).
+"""
 
 from __future__ import annotations
 
@@ -10,16 +16,16 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import ndtri, stdtrit
 
-from pysim.identify.greybox.evaluation import Evaluation
+from pysim.identify.greybox.effective_size import inflation
 from pysim.identify.greybox.identifiability import EXACT, Identifiability, identifiability, whole_exponents
 from pysim.identify.greybox.parameters import ParameterSpace
+from pysim.identify.greybox.residuals import Point
+from pysim.identify.greybox.settings import FitSettings
 from pysim.types import Combination, Estimate
 
 Array = NDArray[np.float64]
 
-LEVEL = 0.95
-# A parameter counts as undetermined when moving it alone moves along an exact direction by more than this share.
-_TOUCHED = 1e-2
+_SETTINGS = FitSettings()
 # Nearer than this share of its standard deviation, or of the bounds' distance, an estimate stands at its bound.
 _AT_BOUND = 1e-6
 # Half width, as a logarithm, beyond which numbers end: of a parameter's interval as of a combination's.
@@ -35,61 +41,62 @@ class Uncertainty:
         covariance: (n, n) in the parameters' units; not a number where not determined.
         known: directions the data leave open.
         combinations: what is determined of those.
+        ratio: (n,) interval from blocks over that of white residuals; not a number where there is none from blocks.
+        blocks: that gave the intervals; 0 where they were too few and colour was allowed for by lambda alone.
     """
 
     estimates: tuple[Estimate, ...]
     covariance: Array
     known: Identifiability
     combinations: tuple[Combination, ...]
+    ratio: Array
+    blocks: int
 
 
-def misfit(point: Evaluation) -> float:
-    """Root of the sum of squares over its degrees of freedom: 1 where only noise is left."""
-    freedom = max(point.residual.size - point.x.size, 1)
-    return math.sqrt(float(point.residual @ point.residual) / freedom)
-
-
-def uncertainty(space: ParameterSpace, point: Evaluation, *, scale: float, told: bool) -> Uncertainty:
+def uncertainty(space: ParameterSpace, point: Point) -> Uncertainty:
     """Intervals to first order around an optimum of a sum of squares.
 
     Parameters at a bound do not count as free for the others: their own interval reaches into the bounds from where
     they stand.
 
     Args:
-        point: residuals in standard deviations and their slopes.
-        scale: by which the standard deviations are multiplied: the misfit where it is above 1, or where the noise was
-            not told.
-        told: whether the noise was; where not, Student's distribution takes the place of the normal one.
+        point: residuals over their levels and their slopes.
     """
     value, slope = space.to_model(point.x), space.slope(point.x)
     at = _at_bounds(space, point)
     inner = np.array([not where for where in at])
     relative = np.where(value == 0, space.scale, np.abs(value))  # one unit of ln(p), or of the scale at zero
     slopes = point.jacobian / slope * relative
-    known = identifiability(space.keys, slopes, noise=scale)
-    logarithmic, alone = (scale**2 * _covariance(slopes, f) for f in (inner, np.ones(space.size, dtype=bool)))
+    known = identifiability(space.keys, slopes)
+    everyone = np.ones(space.size, dtype=bool)
+    found = [_covariance(slopes, point, free) for free in (inner, everyone)]
+    logarithmic, alone = (one.matrix for one in found)
     open_ = _open(known.exact)
     std = np.where(open_, np.inf, np.sqrt(np.diag(np.where(inner, logarithmic, alone))) * relative)
-    freedom = None if told else max(point.residual.size - point.x.size, 1)
+    freedom = np.where(inner, found[0].freedom, found[1].freedom)
     intervals = [
-        _interval(space, i, float(value[i]), _quantile(freedom, one_sided=bool(at[i])) * float(std[i]), at[i])
+        _interval(space, i, float(value[i]), _quantile(freedom[i], one_sided=bool(at[i])) * float(std[i]), at[i])
         for i in range(space.size)
     ]
     columns = (space.keys, space.units, *(a.tolist() for a in (value, space.start, space.lower, space.upper, std)))
     estimates = tuple(Estimate(*row) for row in zip(*columns, intervals, at, strict=True))
     covariance = logarithmic * np.outer(relative, relative)
     covariance[open_, :] = covariance[:, open_] = math.nan
-    inverse = np.asarray(scale * np.linalg.pinv(slopes, rcond=EXACT), dtype=np.float64)
-    return Uncertainty(estimates, covariance, known, _combinations(space, value, known, inverse, _quantile(freedom)))
+    half = [_quantile(f) for f in freedom]
+    white = np.sqrt(np.diag(np.where(inner, found[0].white, found[1].white))) * _quantile(math.inf)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        ratio = np.where(open_ | (white == 0), math.nan, half * std / relative / white)
+    combinations = _combinations(space, value, known, found[1].matrix, float(np.median(half)) if half else 0.0)
+    return Uncertainty(estimates, covariance, known, combinations, ratio, found[0].blocks)
 
 
-def _quantile(freedom: int | None, *, one_sided: bool = False) -> float:
-    """Standard deviations to the end of an interval: of the normal distribution, or of Student's with `freedom`."""
-    level = LEVEL if one_sided else 0.5 + LEVEL / 2
-    return float(ndtri(level) if freedom is None else stdtrit(freedom, level))
+def _quantile(freedom: float, *, one_sided: bool = False) -> float:
+    """Standard deviations to the end of an interval: Student's distribution, the normal one where that is infinite."""
+    level = _SETTINGS.level if one_sided else 0.5 + _SETTINGS.level / 2
+    return float(stdtrit(freedom, level) if math.isfinite(freedom) else ndtri(level))
 
 
-def _at_bounds(space: ParameterSpace, point: Evaluation) -> list[str]:
+def _at_bounds(space: ParameterSpace, point: Point) -> list[str]:
     """ "lower", "upper" or "" per parameter."""
     lower, upper = space.bounds()
     width = np.where(np.isfinite(upper - lower), upper - lower, 1.0)
@@ -98,18 +105,84 @@ def _at_bounds(space: ParameterSpace, point: Evaluation) -> list[str]:
     return ["lower" if below else "upper" if above else "" for below, above in zip(low, high, strict=True)]
 
 
-def _covariance(slopes: Array, free: NDArray[np.bool_]) -> Array:
-    """Pseudo-inverse of the information of the free ones, (n, n); zero for the others."""
-    full = np.zeros((slopes.shape[1], slopes.shape[1]))
-    if np.any(free):
-        inverse = np.linalg.pinv(slopes[:, free], rcond=EXACT)
-        full[np.ix_(free, free)] = inverse @ inverse.T
-    return full
+@dataclass(frozen=True)
+class _Covariance:
+    """Of the free parameters, (n, n) each, zero for the others; degrees of freedom (n,); blocks that gave it."""
+
+    matrix: Array
+    white: Array
+    freedom: Array
+    blocks: int
+
+
+def _covariance(slopes: Array, point: Point, free: NDArray[np.bool_]) -> _Covariance:
+    """From blocks where they are many enough; else that of white residuals, widened by their colour."""
+    n = slopes.shape[1]
+    full, white, freedom = np.zeros((n, n)), np.zeros((n, n)), np.full(n, math.inf)
+    places = np.ix_(free, free)
+    if not np.any(free):
+        return _Covariance(full, white, freedom, 0)
+    rows = slopes[:, free]
+    q, triangle = np.linalg.qr(rows)
+    u, sigma, vt = np.linalg.svd(triangle)
+    held = sigma > EXACT * max(sigma.max(initial=0.0), np.finfo(float).tiny)
+    back = vt[held].T / sigma[held]  # from directions that the data see equally well to the parameters
+    bread = back @ back.T
+    excess = point.residual.size / max(point.residual.size - n, 1)
+    white[places] = bread * excess
+    numbers = np.unique(point.blocks[np.any(rows != 0, axis=1)]) if point.blocks.size else np.zeros(0)
+    if len(numbers) >= _SETTINGS.fewest_blocks:
+        own = [point.blocks == number for number in numbers]
+        full[places], freedom[free] = _sandwich(q @ u[:, held], point.residual, back, own)
+        return _Covariance(full, white, freedom, len(own))
+    colour = np.array([_colour(point, rows[:, j]) for j in range(rows.shape[1])])
+    full[places] = bread * excess * np.sqrt(np.outer(colour, colour))
+    freedom[free] = np.maximum(point.residual.size / colour - n, 1.0)
+    return _Covariance(full, white, freedom, 0)
+
+
+def _sandwich(rows: Array, residual: Array, back: Array, blocks: Sequence[NDArray[np.bool_]]) -> tuple[Array, Array]:
+    """Covariance (n, n) by scores of blocks less their leverage (CR3), and degrees of freedom (n,) of each variance.
+
+    In directions of information one, with H_b and s_b the information and the score of block b, the estimate changes
+    by (I - H_b)^-1 s_b when that block is left out. The degrees are Satterthwaite's, of white residuals.
+
+    Args:
+        rows: (n_r, m) orthonormal slopes.
+        back: (n, m) from their directions to the parameters.
+    """
+    changes, pushes = [], []
+    for block in blocks:
+        part = rows[block]
+        own, directions = np.linalg.eigh(part.T @ part)
+        left = 1.0 - own
+        undone = (directions * np.where(left > EXACT, 1 / np.maximum(left, EXACT), 0.0)) @ directions.T
+        changes.append(back @ undone @ (part.T @ residual[block]))
+        pushes.append((undone @ back.T, part.T @ part))
+    count, moved = len(blocks), np.array(changes)
+    freedom = np.empty(len(back))
+    for c in range(len(back)):
+        w = np.array([push[:, c] for push, _ in pushes])
+        pushed = np.array([own @ one for (_, own), one in zip(pushes, w, strict=True)])
+        products = -pushed @ pushed.T
+        products[np.diag_indices(count)] += np.sum(w * pushed, axis=1)
+        square = float(np.sum(products**2))
+        freedom[c] = max(float(np.trace(products)) ** 2 / square, 1.0) if square > 0 else 1.0
+    return (count - 1) / count * moved.T @ moved, freedom
+
+
+def _colour(point: Point, column: Array) -> float:
+    """lambda of a parameter's score (n_r,) over all series."""
+    chosen = [point.series == number for number in np.unique(point.series) if number >= 0]
+    chosen = chosen or [np.ones(point.residual.size, dtype=bool)]
+    return inflation([point.residual[own, None] for own in chosen], [column[own, None] for own in chosen])
 
 
 def _open(exact: Array) -> NDArray[np.bool_]:
     """Which parameters have a part in an exact direction, (n,)."""
-    return np.asarray(np.any(np.abs(exact) > _TOUCHED * np.max(np.abs(exact), axis=0, initial=0.0), axis=1))
+    return np.asarray(
+        np.any(np.abs(exact) > _SETTINGS.undetermined * np.max(np.abs(exact), axis=0, initial=0.0), axis=1)
+    )
 
 
 def _interval(space: ParameterSpace, i: int, value: float, reach: float, at: str) -> tuple[float, float]:
@@ -127,7 +200,7 @@ def _interval(space: ParameterSpace, i: int, value: float, reach: float, at: str
 
 
 def _combinations(
-    space: ParameterSpace, value: Array, known: Identifiability, inverse: Array, factor: float
+    space: ParameterSpace, value: Array, known: Identifiability, covariance: Array, factor: float
 ) -> tuple[Combination, ...]:
     """For each exact direction, every other parameter in it times the power of a first one that makes it invariant."""
     if known.exact.shape[1] != 1 or np.any(value <= 0):
@@ -135,7 +208,6 @@ def _combinations(
     exponents = whole_exponents(space.keys, known.exact[:, 0])
     smallest = min(abs(e) for e in exponents.values())
     pivot = [name for name, e in exponents.items() if abs(e) == smallest][-1]
-    covariance = inverse @ inverse.T
     found = []
     for name, exponent in exponents.items():
         if name == pivot:
@@ -152,8 +224,3 @@ def _combinations(
 
 def _product(powers: dict[str, float]) -> str:
     return " ".join(name if e == 1 else f"{name}^{e:g}" for name, e in powers.items())
-
-
-def untold(notes: Sequence[str]) -> bool:
-    """Whether some noise had to be estimated."""
-    return any("not told" in note or "without covariance" in note for note in notes)

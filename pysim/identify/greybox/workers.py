@@ -30,6 +30,7 @@ class Job:
         slopes: (n_v, n_x) of those variables by the search's numbers.
         guess: state to start an orbit's search from, or None.
         mismatch: what of an orbit's correction is left to first order.
+        offset: whether slopes by the offset of the states are wanted.
     """
 
     place: int
@@ -38,6 +39,7 @@ class Job:
     slopes: Array
     guess: Array | None = None
     mismatch: float = 1e-5
+    offset: bool = False
 
 
 @dataclass(frozen=True)
@@ -139,7 +141,7 @@ class Cluster:
 def run_jobs(model: Model, jobs: Sequence[Job], solver: Esdirk, workers: int | None) -> list[Result]:
     """All jobs in threads of this process; jobs with the same variables go together."""
     results: dict[int, Result] = {}
-    for names, places in _grouped((job.names, isinstance(job.run, Periodic)) for job in jobs).items():
+    for names, places in _grouped((job.names, isinstance(job.run, Periodic), job.offset) for job in jobs).items():
         group = [jobs[i] for i in places]
         results |= zip(places, _run_group(model, group, names[0], solver, workers), strict=True)
     return [results[i] for i in range(len(jobs))]
@@ -154,7 +156,7 @@ def _run_group(
         left = min(job.mismatch for job in jobs)
         return periodic_many(model, orbits, names, guesses=guesses, solver=solver, mismatch=left, workers=workers)
     runs = [job.run for job in jobs if isinstance(job.run, Experiment)]
-    return sensitivities_many(model, runs, names, solver=solver, workers=workers)
+    return sensitivities_many(model, runs, names, offset=jobs[0].offset, solver=solver, workers=workers)
 
 
 def _run_share(share: tuple[Model, list[Job], Esdirk]) -> list[Result]:

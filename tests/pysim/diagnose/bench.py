@@ -15,6 +15,9 @@ from pysim.types import Dataset, Experiment, MeasuredRecord, MeasuredSignal, Mod
 
 Array = NDArray[np.float64]
 
+HOLD = 1.0  # s that a plant stands still before its log, and a model is given
+REST = Rest(ramp=0.5, hold=HOLD)
+
 
 @dataclass(frozen=True)
 class Bench:
@@ -63,9 +66,9 @@ class Bench:
             fine: tolerance of the plant's run.
             free: as `subject` takes it.
         """
-        run = Experiment(times, (self.sensor[0],), {self.command[0]: command}, truth or {}, start=-Rest().hold)
+        run = Experiment(times, (self.sensor[0],), {self.command[0]: command}, truth or {}, start=-HOLD)
         read = simulate(model, run, solver=Rodas(rtol=fine, atol=fine))[self.sensor[0]]
-        given = subject(model, self.dataset(self.log(times, command, read, rng)), (), None, **free)
+        given = subject(model, self.dataset(self.log(times, command, read, rng)), (), None, rest=REST, **free)
         return Ruler(given.targets), extended(given, ())
 
     def dataset(self, *logs: MeasuredRecord) -> Dataset:

@@ -6,10 +6,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.signal import lfilter
 
-from pysim.identify.greybox.log_target import LogTarget
+from pysim.identify.greybox.observation import Run
 from pysim.identify.greybox.sine_log import Sine, SinePlan, sine_log
-from pysim.identify.greybox.sine_target import SineTarget
-from pysim.identify.greybox.target import Run
+from pysim.identify.greybox.stepped_sines import SteppedSines
+from pysim.identify.greybox.time_log import TimeLog
 from pysim.types import Experiment, Record, Signal
 
 Array = NDArray[np.float64]
@@ -26,7 +26,7 @@ def noise(n: int, white: float, coloured: float, memory: float, rng: np.random.G
 
 def sines(
     added: Callable[[int], Array], told: float, frequencies: tuple[float, ...] = (0.5, 1, 2, 7, 13, 20)
-) -> SineTarget:
+) -> SteppedSines:
     """A swing with three harmonics in column "y", plus what `added` gives for so many samples."""
     logs, runs = [], []
     for f in frequencies:
@@ -38,12 +38,12 @@ def sines(
         times = 0.5 + np.arange(log.points) / log.points / f
         logs.append(log)
         runs.append(Run(log.source, Experiment(times, ("y",), {"u": Signal.constant(0.0)})))
-    return SineTarget("data", "fit", tuple(logs), tuple(runs), None)
+    return SteppedSines("data", "fit", tuple(logs), tuple(runs), None)
 
 
-def wave(values: Array, told: float, *, name: str = "y", use: str = "fit", interval: float = 1 / RATE) -> LogTarget:
+def wave(values: Array, told: float, *, name: str = "y", use: str = "fit", interval: float = 1 / RATE) -> TimeLog:
     """A log over time of one signal."""
     time = np.arange(values.shape[0]) * interval
     data = Record(time, values.reshape(time.size, -1), (name,), ("m",))
     run = Run(name, Experiment(time, (name,), {"u": Signal.through(time, np.sin(2 * np.pi * 0.7 * time))}))
-    return LogTarget("data", f"{name}.txt", "stochastic", use, data, (told,), (1.0,), run, index=0)
+    return TimeLog("data", f"{name}.txt", "stochastic", use, data, (told,), (1.0,), run, index=0)

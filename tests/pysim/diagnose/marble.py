@@ -13,7 +13,7 @@ from pysim.diagnose.subject import Extended, Subject, extended, subject
 from pysim.io import read_model
 from pysim.simulate import Rodas, simulate
 from pysim.types import Experiment, MeasuredRecord, Model, Signal
-from tests.pysim.diagnose.bench import Bench
+from tests.pysim.diagnose.bench import REST, Bench
 
 Array = NDArray[np.float64]
 
@@ -54,7 +54,7 @@ def measured(over: float, seed: int) -> Subject:
     knots, shape = np.array([0.0, 1.0, 1.1, 2.0, 2.1, 4.0]), np.array([0.0, 0.0, 1.0, 1.0, 0.0, 0.0])
     reach = float(_answer(knots, 0.5 * shape).max()) + 1.0
     logs.append(_log(LAST, knots, 0.5 * (1 + over) / reach * shape, rng))
-    return subject(marble(), BENCH.dataset(*logs), (), None)
+    return subject(marble(), BENCH.dataset(*logs), (), None, rest=REST)
 
 
 def _log(source: str, knots: Array, force: Array, rng: np.random.Generator) -> MeasuredRecord:

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from pysim.diagnose import decide
-from pysim.identify.greybox.evaluation import Evaluation
+from pysim.identify.greybox.residuals import Point
 
 
 def test_price_and_share() -> None:
@@ -18,5 +18,5 @@ def test_price_and_share() -> None:
 
 def test_inflation() -> None:
     residual = np.full(202, math.sqrt(1.2 * 200 / 202))
-    point = Evaluation(np.zeros(2), float(residual @ residual), residual, np.zeros((202, 2)))
+    point = Point(np.zeros(2), float(residual @ residual), residual, np.zeros((202, 2)))
     assert decide.inflation(point) == pytest.approx(1.2)

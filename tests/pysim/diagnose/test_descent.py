@@ -4,15 +4,15 @@ import numpy as np
 import pytest
 
 from pysim.diagnose.descent import Bowl, descend, mean_square
-from pysim.identify.greybox.evaluation import Evaluation
 from pysim.identify.greybox.optimiser import Bounds
+from pysim.identify.greybox.residuals import Point
 
 Array = np.ndarray
 FREE = Bounds(np.full(2, -10.0), np.full(2, 10.0))
 
 
-def at(residual: Array, slopes: Array, x: Array) -> Evaluation:
-    return Evaluation(x, float(residual @ residual), residual, slopes)
+def at(residual: Array, slopes: Array, x: Array) -> Point:
+    return Point(x, float(residual @ residual), residual, slopes)
 
 
 def test_a_straight_problem_ends_at_its_least_squares_solution() -> None:

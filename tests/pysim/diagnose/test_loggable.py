@@ -7,10 +7,10 @@ from pysim.diagnose.fitted import Fitted
 from pysim.diagnose.loggable import loggable
 from pysim.diagnose.residuals import Ruler
 from pysim.diagnose.subject import Subject, extended, subject
-from pysim.identify.greybox import Rest
 from pysim.io import read_model
 from pysim.simulate import Rodas, simulate
 from pysim.types import Dataset, Experiment, MeasuredSignal, Signal
+from tests.pysim.diagnose.bench import HOLD
 from tests.pysim.diagnose.toy import BENCH, NOISE
 
 PLANT = """
@@ -47,7 +47,7 @@ def own(tmp_path_factory: pytest.TempPathFactory) -> Subject:
     knots = np.arange(0.0, 6.01, 0.4)
     command = Signal.through(knots, np.r_[0.0, 6 * rng.standard_normal(knots.size - 1)])
     times = np.arange(0.0, 6.0, 0.02)
-    run = Experiment(times, ("x",), {"F": command}, start=-Rest().hold)
+    run = Experiment(times, ("x",), {"F": command}, start=-HOLD)
     clean = simulate(model, run, solver=Rodas(rtol=1e-8, atol=1e-8))["x"]
     data = BENCH.dataset(BENCH.log(times, command, clean, rng, source="a.txt", use="fit", noise=NOISE))
     return subject(model, data, [], None)

@@ -15,7 +15,6 @@ from pysim.diagnose.refit import refit
 from pysim.diagnose.residuals import Ruler, rulers
 from pysim.diagnose.subject import Subject, extended, subject
 from pysim.identify.greybox import Rest
-from pysim.identify.greybox.uncertainty import untold
 from pysim.types import BadInput, Dataset, Experiment, MeasuredSignal, Model, Outcome, Record
 from tests.pysim.diagnose.toy import CATALOGUE, NOISE, base, build_variant, measured
 
@@ -31,7 +30,7 @@ def fitted(own: Subject, ruler: Ruler, name: str, start: Fitted | None) -> Fitte
 
 def rivals(data: Dataset, *names: str, starts: Sequence[Fitted | None] = (None, None)) -> tuple[Subject, list[Fitted]]:
     own = subject(base(), data, [CATALOGUE[name] for name in names], build_variant, rest=Rest(hold=20.0))
-    ruler, _ = rulers(own.targets, told=not untold(own.notes))
+    ruler, _ = rulers(own.targets, told=own.specified)
     return own, [fitted(own, ruler, name, at) for name, at in zip(names, starts, strict=True)]
 
 

@@ -3,10 +3,11 @@
 import numpy as np
 import pytest
 
+from pysim.diagnose.adapter import over_noise
 from pysim.diagnose.nuisance import GAIN, OFFSET, SHIFT, Span, Suspect, columns, suspects
 from pysim.identify.greybox.harmonics import interpolation
-from pysim.identify.greybox.table_target import TableTarget
-from pysim.identify.greybox.target import Run, Simulated
+from pysim.identify.greybox.observation import Run, Simulated
+from pysim.identify.greybox.response_table import ResponseTable
 from pysim.types import Experiment, FrequencyResponse, SineTest
 from tests.pysim.diagnose.logs import sines, wave
 
@@ -28,7 +29,7 @@ def test_a_log_changes_as_its_columns_say() -> None:
     still = Simulated(near, np.zeros((500, 1, 0)))
     for k, changed in enumerate((1.01 * swing(time), swing(time) + 0.01, swing(time + 0.01 / 100))):
         size = 0.01 if k < 2 else 0.01 / 100
-        moved = wave(changed, 0.1).weighted([still]).values - plain.weighted([still]).values
+        moved = over_noise(wave(changed, 0.1), [still]).values - over_noise(plain, [still]).values
         assert moved / size == pytest.approx(found[:, k], rel=1e-2, abs=1e-2 * np.abs(found[:, k]).max())
 
 
@@ -58,11 +59,11 @@ def test_a_table_has_rows_that_no_nuisance_moves() -> None:
     frequency = np.array([0.1, 1.0, 5.0])
     response = FrequencyResponse(frequency, np.ones(3), np.zeros(3), SineTest(0.0, 1.0, "u", "y"), "a table")
     run = Run("table.csv", Experiment(np.linspace(0, 1, 9), ("y",)))
-    target = TableTarget("data", "table.csv", "fit", response, (run,) * 3, None)
+    target = ResponseTable("data", "table.csv", "fit", response, (run,) * 3, None)
     angle = 2 * np.pi * np.arange(9) / 9
     answers = [Simulated(np.sin(angle)[:, None], np.zeros((9, 1, 0)))] * 3
     found = columns(target, [answer.values for answer in answers], SUSPECTS)
-    assert found.shape == (target.weighted(answers).values.size, 3)
+    assert found.shape == (over_noise(target, answers).values.size, 3)
     assert not found.any()
 
 

@@ -10,7 +10,7 @@ from pysim.diagnose import null
 from pysim.diagnose.nuisance import GAIN, OFFSET, Suspect
 from pysim.diagnose.residuals import Ruler
 from pysim.diagnose.screen import Footprint
-from pysim.identify.greybox.evaluation import Evaluation
+from pysim.identify.greybox.residuals import Point
 from tests.pysim.diagnose.logs import sines, wave
 from tests.pysim.diagnose.toy import CATALOGUE
 
@@ -60,7 +60,7 @@ def linear() -> tuple[Ruler, np.ndarray]:
     return ruler, np.concatenate([rng.standard_normal((n_sines, 6)), slow])
 
 
-def refitted(ruler: Ruler, slopes: np.ndarray, values: np.ndarray) -> Evaluation:
+def refitted(ruler: Ruler, slopes: np.ndarray, values: np.ndarray) -> Point:
     """What a refit leaves of the residuals."""
     first = ruler.counted(np.zeros(6), np.column_stack([values, slopes]))
     step = np.linalg.lstsq(first.jacobian, -first.residual, rcond=None)[0]

@@ -9,11 +9,11 @@ from pysim.diagnose.reduced import reduced
 from pysim.diagnose.refit import refit
 from pysim.diagnose.residuals import rulers
 from pysim.diagnose.subject import extended
-from pysim.identify.greybox.evaluation import Evaluation
+from pysim.identify.greybox.residuals import Point
 from tests.pysim.diagnose.toy import CATALOGUE, measured, toy_subject
 
 
-def without(lost: str) -> tuple[Fitted, tuple[Evaluation, np.ndarray] | None]:
+def without(lost: str) -> tuple[Fitted, tuple[Point, np.ndarray] | None]:
     """A mass that rubs, fitted with dry friction and a constant force, and then without one of these."""
     subject = toy_subject(measured(6, "toy.friction", F_c=0.3))
     ruler, _ = rulers(subject.targets)

@@ -17,7 +17,7 @@ from pysim.diagnose.screen import Footprint
 from pysim.diagnose.story import Story, begin
 from pysim.diagnose.subject import extended
 from pysim.diagnose.trials import promising, refitted, refitted_elsewhere
-from pysim.identify.greybox.evaluation import Evaluation
+from pysim.identify.greybox.residuals import Point
 from pysim.types import Dataset
 from tests.pysim.diagnose.toy import CATALOGUE, measured, toy_subject
 
@@ -31,7 +31,7 @@ def tried(left: float, gains: dict[str, float]) -> Tried:
     footprints = tuple(
         Footprint(replace(kinds[name], name=name), {}, nothing, nothing, 1.0, gain, 1.0) for name, gain in gains.items()
     )
-    current: Any = type("Current", (), {"point": Evaluation(np.zeros(1), left, nothing, nothing[:, None])})
+    current: Any = type("Current", (), {"point": Point(np.zeros(1), left, nothing, nothing[:, None])})
     ruler: Any = None
     return Tried(current, ruler, {}, footprints, {}, 10.0, left)
 
@@ -67,7 +67,7 @@ def stalled(monkeypatch: pytest.MonkeyPatch, dataset: Dataset) -> tuple[Story, T
     story, tried = round_of(("toy.friction", "toy.falling"), dataset)
     cheap = trials._probation
 
-    def probation(tried: Tried, one: Contender, nominal: Fitted | None) -> Evaluation | None:
+    def probation(tried: Tried, one: Contender, nominal: Fitted | None) -> Point | None:
         return None if one.effect.name == "toy.friction" else cheap(tried, one, nominal)
 
     monkeypatch.setattr(trials, "_probation", probation)

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
+from pysim.diagnose.adapter import Residual
 from pysim.diagnose.noise import Noise
 from pysim.diagnose.whiten import whitened, whitening
 from pysim.identify.greybox.harmonics import regressors
-from pysim.identify.greybox.target import Residual
 from tests.pysim.diagnose.logs import RATE, sines, wave
 
 NOISE = Noise(0.4, 0.7, 0.03, 0.5)

@@ -10,11 +10,10 @@ import numpy as np
 from fmu_build import build
 from pysim.diagnose import Subject, subject
 from pysim.effects import read_catalogue, variant
-from pysim.identify.greybox import Rest
 from pysim.io import read_model
 from pysim.simulate import Rodas, simulate
 from pysim.types import Dataset, Effect, Experiment, Model, Signal
-from tests.pysim.diagnose.bench import Bench
+from tests.pysim.diagnose.bench import HOLD, REST, Bench
 
 TEXT = """
 package Toy
@@ -149,7 +148,7 @@ def measured(seed: int, *effects: str, noise: float = NOISE, seconds: float = 12
         push[0] = 0.0
         command = Signal.through(knots, push)
         times = np.arange(0.0, seconds, 0.02)
-        run = Experiment(times, ("x",), {"F": command}, start=-Rest().hold).override(m=1.05, d=0.75, k=21.0)
+        run = Experiment(times, ("x",), {"F": command}, start=-HOLD).override(m=1.05, d=0.75, k=21.0)
         for effect in (CATALOGUE[name] for name in effects):
             own = {p.name: values[p.name] for p in effect.parameters}
             run = effect.on(run, place=places[effect.name], **own)
@@ -160,4 +159,5 @@ def measured(seed: int, *effects: str, noise: float = NOISE, seconds: float = 12
 
 def toy_subject(dataset: Dataset, names: Sequence[str] = ("toy.friction", "toy.hardening", "toy.bias")) -> Subject:
     """With some effects of the catalogue."""
-    return subject(base(), dataset, [CATALOGUE[name] for name in names], build_variant)
+    catalogue = [CATALOGUE[name] for name in names]
+    return subject(base(), dataset, catalogue, build_variant, rest=REST)

@@ -14,12 +14,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pysim.identify.greybox import GaussNewton, Parameter, Simulation, Threads, Treatment, problem
-from pysim.identify.greybox.evaluation import Evaluation, bad_point
 from pysim.identify.greybox.identifiability import EXACT
+from pysim.identify.greybox.observation import Observation, Simulated
 from pysim.identify.greybox.optimiser import Bounds
 from pysim.identify.greybox.parameters import ParameterSpace, parameter_space
-from pysim.identify.greybox.simulation import simulate_runs
-from pysim.identify.greybox.target import Simulated, Target
+from pysim.identify.greybox.residuals import Point, failed_point
+from pysim.identify.greybox.runs import Failure, simulate_runs
 from pysim.simulate import Rodas, simulate_many
 from pysim.types import Dataset, Effect, Experiment, Model, Outcome, Record
 from validation.blind.benchmark.workshop import Workshop
@@ -35,7 +35,7 @@ _REFIT = GaussNewton(max_iterations=8, tolerance=0.25, share=1e-2)
 
 
 @dataclass(frozen=True)
-class Point:
+class Extension:
     """A model, its free numbers, and whether its runs have events, so that slopes have to be taken by differences."""
 
     model: Model
@@ -62,29 +62,29 @@ class Truth:
     shop: Workshop
 
     @cached_property
-    def targets(self) -> tuple[Target, ...]:
+    def targets(self) -> tuple[Observation, ...]:
         """Noise-free readings in the form in which models are compared with them."""
         data = noise_free(self.measured)
-        treatment = Treatment(steady="transient")
-        return problem(self.shop.model, [data], tuple(BOUNDS), treatment=treatment).targets
+        treatment = Treatment(steady="transient", initial="rest")
+        return problem(self.shop.model, [data], tuple(BOUNDS), treatment=treatment).observations
 
-    def of_use(self, use: str) -> tuple[Target, ...]:
+    def of_use(self, use: str) -> tuple[Observation, ...]:
         """Those to fit or to validate."""
         return tuple(target for target in self.targets if target.use == use)
 
-    def model(self, names: Sequence[str]) -> Point:
+    def model(self, names: Sequence[str]) -> Extension:
         """The pump with these effects, all at the truth."""
         effects = [self.shop.effect(name) for name in names]
         parameters = [_parameter(name, value, *BOUNDS[name]) for name, value in self.base.items()]
         if not effects:
-            return Point(self.shop.model, parameter_space(self.shop.model, parameters))
+            return Extension(self.shop.model, parameter_space(self.shop.model, parameters))
         built, places = self.shop.variant(effects)
         for effect in effects:
             own = self.strengths(effect)
             for p in effect.parameters:
                 log = None if p.off is None else False
                 parameters.append(_parameter(f"{places[effect.name]}.{p.name}", own[p.name], p.min, p.max, log))
-        still = Point(built, parameter_space(built, parameters))
+        still = Extension(built, parameter_space(built, parameters))
         return replace(still, events=_has_events(self.of_use("fit"), still))
 
     @cached_property
@@ -109,9 +109,9 @@ class Truth:
         while state.best.good and state.outcome is None:
             proposal = _REFIT.propose(state, bounds)
             state = _REFIT.tell(state, proposal, evaluation(targets, point, proposal.x), bounds)
-        return state.best.cost if state.best.good else None
+        return 2 * state.best.cost if state.best.good else None
 
-    def _first(self, point: Point, near: Mapping[str, float]) -> Evaluation:
+    def _first(self, point: Extension, near: Mapping[str, float]) -> Point:
         """The better of the truth and a point that may be nearer."""
         targets, space = self.of_use("fit"), point.space
         here = [near.get(name, value) for name, value in zip(space.keys, space.start.tolist(), strict=True)]
@@ -147,39 +147,40 @@ def _parameter(name: str, value: float, lower: float, upper: float, log: bool | 
     return Parameter(name, float(np.clip(value, lower, upper)), lower, upper, log=log)
 
 
-def evaluation(targets: Sequence[Target], point: Point, x: Array) -> Evaluation:
+def evaluation(targets: Sequence[Observation], point: Extension, x: Array) -> Point:
     """Residuals of targets and their slopes: exact for a run without events, else by one-sided differences."""
     model, space = point.model, point.space
     if not point.events:
         runs = [run for target in targets for run in target.runs]
-        answer = simulate_runs(model, space, runs, x, [None] * len(runs), Simulation(workers=Threads(1)))
-        return bad_point(x, answer.trouble) if answer.trouble else _counted(targets, x, answer.simulated)
+        answer = simulate_runs(model, space, runs, x, [None] * len(runs), Simulation(workers=Threads(1)), initial=False)
+        return failed_point(x, answer.failure) if answer.failure else _counted(targets, x, answer.simulated)
     low, high = space.bounds()
     steps = np.where(high - x >= x - low, _STEP, -_STEP)
     residual, *moved = (_residual(targets, model, space.values(p)) for p in (x, *(x + np.diag(steps))))
     if residual is None or any(r is None for r in moved):
-        return bad_point(x, "the model could not be simulated at this point or beside it")
+        why = "the model could not be simulated at this point or beside it"
+        return failed_point(x, Failure("", Outcome.MODEL_ERROR, why))
     columns = [(r - residual) / step for r, step in zip(moved, steps, strict=True) if r is not None]
-    return Evaluation(x, float(residual @ residual), residual, np.stack(columns, axis=1))
+    return Point(x, 0.5 * float(residual @ residual), residual, np.stack(columns, axis=1))
 
 
-def _counted(targets: Sequence[Target], x: Array, simulated: Sequence[Simulated]) -> Evaluation:
+def _counted(targets: Sequence[Observation], x: Array, simulated: Sequence[Simulated]) -> Point:
     rest, values, slopes = list(simulated), [], []
     for target in targets:
         own, rest = rest[: len(target.runs)], rest[len(target.runs) :]
-        found = target.weighted(own)
-        values.append(found.values)
-        slopes.append(found.slopes)
+        rows = target.residual(own) / np.array(target.noise)[target.channel_of_row][:, None]
+        values.append(rows[:, 0])
+        slopes.append(rows[:, 1:])
     residual = np.concatenate(values)
-    return Evaluation(x, float(residual @ residual), residual, np.concatenate(slopes))
+    return Point(x, 0.5 * float(residual @ residual), residual, np.concatenate(slopes))
 
 
-def _runs(targets: Sequence[Target], values: Mapping[str, float]) -> list[Experiment]:
+def _runs(targets: Sequence[Observation], values: Mapping[str, float]) -> list[Experiment]:
     runs = [run.experiment for target in targets for run in target.runs]
     return [replace(run, overrides={**run.overrides, **values}) for run in runs]
 
 
-def _residual(targets: Sequence[Target], model: Model, values: Mapping[str, float]) -> Array | None:
+def _residual(targets: Sequence[Observation], model: Model, values: Mapping[str, float]) -> Array | None:
     records = simulate_many(model, _runs(targets, values), solver=_SOLVER, workers=1)
     if any(r.outcome is not Outcome.DONE or not np.isfinite(r.values).all() for r in records):
         return None
@@ -187,7 +188,7 @@ def _residual(targets: Sequence[Target], model: Model, values: Mapping[str, floa
     return _counted(targets, np.zeros(0), simulated).residual
 
 
-def _has_events(targets: Sequence[Target], point: Point) -> bool:
+def _has_events(targets: Sequence[Observation], point: Extension) -> bool:
     """Whether the shortest run, a stepped sine, makes more events than its command has pieces."""
     shortest = min(_runs(targets, point.space.values(point.x)), key=lambda run: float(run.times[-1]) - run.start)
     record = simulate_many(point.model, [shortest], solver=_SOLVER, workers=1)[0]

@@ -11,9 +11,8 @@ import pytest
 from pysim.app.figures import bode_figure
 from pysim.app.figures.bode import reference_place
 from pysim.identify import frequency_deviations
-from pysim.identify.greybox import Measurements, Treatment
-from pysim.identify.greybox.measured import build_targets
-from pysim.identify.greybox.sine_target import SineTarget
+from pysim.identify.greybox import Measurements, SinePlan, Treatment, problem
+from pysim.identify.greybox.stepped_sines import SteppedSines
 from pysim.types import Abilities, FrequencyResponse, Model, SineTest, Variable
 from tests.pysim.app.figures.traces import trace
 from tests.pysim.identify.greybox import measurements
@@ -88,6 +87,8 @@ def judged(frequency: Sequence[float]) -> int | None:
     ]
     logs = [measurements.sine_log(1.5, 0.4, f, 1) for f in frequency]
     data = Measurements(measurements.dataset(logs))
-    (target,), _ = build_targets(Model(Path("m.fmu"), "m", "t", tuple(variables), abilities), data, Treatment())
-    assert isinstance(target, SineTarget)
-    return target.reference
+    model = Model(Path("m.fmu"), "m", "t", tuple(variables), abilities)
+    treatment = Treatment(rest=None, sine=SinePlan(settle_time=0.5))
+    (sines,) = problem(model, [data], [], treatment=treatment).observations
+    assert isinstance(sines, SteppedSines)
+    return sines.reference

@@ -8,14 +8,14 @@ import pytest
 
 from pysim.diagnose.fitted import Fitted
 from pysim.diagnose.locating.found import Base
-from pysim.identify.greybox.evaluation import Evaluation
+from pysim.identify.greybox.residuals import Point
 
 N = 4000
 
 
-def point(residual: np.ndarray, columns: int) -> Evaluation:
+def point(residual: np.ndarray, columns: int) -> Point:
     slopes = np.random.default_rng(3).standard_normal((residual.size, columns))
-    return Evaluation(np.zeros(columns), float(residual @ residual), residual, slopes)
+    return Point(np.zeros(columns), float(residual @ residual), residual, slopes)
 
 
 @pytest.fixture

@@ -16,6 +16,7 @@ from pysim.io import read_model
 from pysim.simulate import Rodas, simulate
 from pysim.types import Dataset, Experiment, Missing, Model, Signal
 from tests.foreign import made_foreign
+from tests.pysim.diagnose.bench import REST
 from tests.pysim.diagnose.toy import BENCH, library
 
 Bent = Callable[[np.ndarray], np.ndarray]
@@ -53,7 +54,7 @@ def measured(mass: Model, seed: int, actuator: Bent = straight, sensor: Bent = s
 
 
 def seen(mass: Model, data: Dataset) -> tuple[Missing, ...]:
-    given = subject(mass, data, (), None, free=tuple(BOUNDS), bounds=BOUNDS)
+    given = subject(mass, data, (), None, free=tuple(BOUNDS), bounds=BOUNDS, rest=REST)
     ruler, _ = rulers(given.targets)
     what = extended(given, ())
     return outside(

@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from pysim.diagnose.adapter import Target
 from pysim.diagnose.fitted import Fitted
 from pysim.diagnose.locating.laws import slot_laws
 from pysim.diagnose.locating.runs import patient, seen, thinned
@@ -12,11 +13,11 @@ from pysim.diagnose.nuisance import suspects
 from pysim.diagnose.residuals import Ruler, rulers
 from pysim.diagnose.subject import extended
 from pysim.effects import slots
-from pysim.identify.greybox import Rest
-from pysim.identify.greybox.evaluation import Evaluation
-from pysim.identify.greybox.table_target import TableTarget
-from pysim.identify.greybox.target import Run, Target
+from pysim.identify.greybox.observation import Run
+from pysim.identify.greybox.residuals import Point
+from pysim.identify.greybox.response_table import ResponseTable
 from pysim.types import Experiment, FrequencyResponse, SineTest
+from tests.pysim.diagnose.bench import HOLD
 from tests.pysim.diagnose.logs import RATE, sines, wave
 from tests.pysim.diagnose.toy import base, library, measured, toy_subject
 
@@ -46,7 +47,7 @@ def table() -> Target:
     frequency = np.array([1.0, 2.0, 3.0])
     response = FrequencyResponse(frequency, np.ones(3), np.zeros(3), SineTest(0.0, 1.0, "u", "y"), "a table")
     runs = tuple(Run(f"{f:g}Hz", Experiment(np.linspace(0, 1, 9), ("y",))) for f in frequency)
-    return TableTarget("data", "table.csv", "fit", response, runs, None)
+    return ResponseTable("data", "table.csv", "fit", response, runs, None)
 
 
 def kept(*shown: tuple[Target, float]) -> list[str]:
@@ -54,7 +55,7 @@ def kept(*shown: tuple[Target, float]) -> list[str]:
     ruler = Ruler(tuple(target for target, _ in shown))
     sizes = (w.size for w in ruler.whitenings)
     residual = np.concatenate([np.full(n, size) for n, (_, size) in zip(sizes, shown, strict=True)])
-    few = thinned(ruler, Evaluation(np.zeros(0), float(residual @ residual), residual, np.zeros((residual.size, 0))))
+    few = thinned(ruler, Point(np.zeros(0), float(residual @ residual), residual, np.zeros((residual.size, 0))))
     return [run.record for target in few.targets for run in target.runs]
 
 
@@ -100,7 +101,7 @@ def test_what_a_run_answers_near_the_plant_goes_with_it() -> None:
     near = tuple(np.full((run.experiment.times.size, 1), float(k)) for k, run in enumerate(runs))
     ruler = Ruler(targets, suspected=suspects(targets), near=near)
     residual = np.ones(sum(w.size for w in ruler.whitenings))
-    few = thinned(ruler, Evaluation(np.zeros(0), 0.0, residual, np.zeros((residual.size, 0))))
+    few = thinned(ruler, Point(np.zeros(0), 0.0, residual, np.zeros((residual.size, 0))))
     names, left = [run.record for run in runs], [run.record for target in few.targets for run in target.runs]
     assert left[:4] == ["1Hz", "2Hz", "3Hz", "a"]
     assert [names[int(answer[0, 0])] for answer in few.near] == left
@@ -115,7 +116,7 @@ def test_the_argument_is_seen_on_the_models_own_way() -> None:
     found = seen(ruler, current, laws)
     assert set(found) == {"force|force.x", "force|force.v"}
     x, v = found["force|force.x"], found["force|force.v"]
-    times = np.linspace(-Rest().hold, 11.98, x.size)
+    times = np.linspace(-HOLD, 11.98, x.size)
     np.testing.assert_allclose(np.gradient(x, times)[2:-2], v[2:-2], atol=0.02 * np.max(np.abs(v)))
 
 

@@ -4,11 +4,11 @@ from dataclasses import replace
 
 import numpy as np
 
+from pysim.diagnose.adapter import bad_point
 from pysim.diagnose.locating.fit import Estimate, Solution, Table
 from pysim.diagnose.locating.found import Found
 from pysim.diagnose.locating.laws import KNOTS, Copy, Law
 from pysim.diagnose.locating.same import alike, different, neighbours
-from pysim.identify.greybox.evaluation import bad_point
 from tests.pysim.diagnose.toy import base
 
 K = np.linspace(-1, 1, KNOTS)

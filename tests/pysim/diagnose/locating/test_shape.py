@@ -8,7 +8,7 @@ import pytest
 from pysim.diagnose.locating.fit import Estimate, Table, bends, knots, lines, solve
 from pysim.diagnose.locating.laws import KNOTS, Copy, Law
 from pysim.diagnose.locating.shape import Told, per_second, shape, told
-from pysim.identify.greybox.evaluation import Evaluation
+from pysim.identify.greybox.residuals import Point
 from tests.pysim.diagnose.toy import base
 
 LAW = Law("force", "force.v", (Copy("force.f", "force.v"),))
@@ -28,7 +28,7 @@ def estimate(seed: int, *, with_damping: bool) -> Estimate:
     found = solve(residual - span @ (span.T @ residual), cut, k)
     x = np.append(0.0, found.values)
     left = residual + hats @ found.values
-    return Estimate(table, Evaluation(x, float(left @ left), left, np.hstack([slopes, hats])), found)
+    return Estimate(table, Point(x, float(left @ left), left, np.hstack([slopes, hats])), found)
 
 
 def test_what_a_parameter_does_as_well_is_absorbed() -> None:

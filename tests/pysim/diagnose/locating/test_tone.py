@@ -13,9 +13,9 @@ from pysim.diagnose.refit import refit
 from pysim.diagnose.residuals import rulers
 from pysim.diagnose.subject import extended
 from pysim.effects import slots
-from pysim.identify.greybox import Rest
 from pysim.simulate import Rodas, simulate
 from pysim.types import Dataset, Experiment, Missing, Record, Signal
+from tests.pysim.diagnose.bench import HOLD
 from tests.pysim.diagnose.locating.test_locate import probed
 from tests.pysim.diagnose.toy import base, library, measured, toy_subject
 
@@ -24,7 +24,7 @@ FREQUENCY = 3.71  # Hz
 
 def with_tone(size: float) -> Dataset:
     """The toy is linear: what a force does besides adds to what was measured. It begins at its top, with few jolts."""
-    dataset, hold = measured(5), Rest().hold
+    dataset, hold = measured(5), HOLD
     sine = np.array([[[size, np.pi / 2, 2 * np.pi * FREQUENCY, 0.0]]])
     force = Signal(np.array([-hold]), np.zeros((1, 4)), sine)
     records = []
@@ -50,7 +50,7 @@ def test_a_force_of_its_own_frequency_has_its_size() -> None:
     (force,) = found(with_tone(0.6))
     assert (force.slot, force.depends_on, force.shape.unit) == ("force", "time", "N")
     assert force.share > 0.9
-    truth = 0.6 * np.sin(2 * np.pi * FREQUENCY * (force.shape.argument + Rest().hold) + np.pi / 2)
+    truth = 0.6 * np.sin(2 * np.pi * FREQUENCY * (force.shape.argument + HOLD) + np.pi / 2)
     assert np.mean((truth >= force.shape.low) & (truth <= force.shape.high)) > 0.9
     assert np.max(force.shape.value) == pytest.approx(0.6, rel=0.05)
     told = float(re.search(r"sin\(2 pi ([\d.]+) Hz", force.formula)[1])

@@ -7,8 +7,11 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
-from pysim.identify.greybox.evaluation import Evaluate, Evaluation, bad_point
 from pysim.identify.greybox.parameters import ParameterSpace
+from pysim.identify.greybox.residuals import Carried, Point, failed_point
+from pysim.identify.greybox.runs import Failure
+from pysim.identify.greybox.search import Evaluate
+from pysim.types import Outcome
 
 Array = NDArray[np.float64]
 
@@ -39,12 +42,12 @@ def evaluating(
 ) -> Evaluate:
     """An objective without a model; points where `bad` says so cannot be simulated."""
 
-    def evaluate(x: Array, states: tuple[Array | None, ...] = ()) -> Evaluation:
+    def evaluate(x: Array, carried: Carried) -> Point:
         if bad(x):
-            return bad_point(x, "does not run here")
+            return failed_point(x, Failure("run", Outcome.MODEL_ERROR, "does not run here"))
         r = residual(x)
-        cost = float(r @ r) if squares else float(np.sum(np.abs(r)))
-        return Evaluation(x, cost, r, jacobian(x))
+        cost = 0.5 * float(r @ r) if squares else float(np.sum(np.abs(r)))
+        return Point(x, cost, r, jacobian(x))
 
     return evaluate
 

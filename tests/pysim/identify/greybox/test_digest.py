@@ -3,7 +3,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from pysim.identify.greybox.digest import digest
+from pysim.identify.greybox.checkpoint import digest
 from pysim.types import Record
 from tests.pysim.identify.greybox.functions import space
 

@@ -33,15 +33,25 @@ TIGHT = Simulation(solver=Esdirk(rtol=1e-8, atol=1e-8))
 
 def test_a_log_over_time_gives_the_closed_form_least_squares_and_its_covariance(lag: Model) -> None:
     record = m.ramp_log(2.0, 0.7, seed=1)
-    found = fit(problem(lag, [m.dataset([record])], ["K", "T"]), simulation=TIGHT)
     t, y = record.data.time, record.data["y"]
-    oracle = least_squares(lambda p: (y - m.ramp_answer(t, *p)) / m.NOISE, [1.5, 0.4], xtol=1e-12, ftol=1e-12)
-    covariance = np.linalg.inv(oracle.jac.T @ oracle.jac) * max(1.0, found.misfit) ** 2
-    assert found.outcome is FitOutcome.CONVERGED
-    assert [e.value for e in found.estimates] == pytest.approx(oracle.x, rel=2e-4)
-    assert found.covariance == pytest.approx(covariance, rel=1e-2)
-    assert found.cost == pytest.approx(2 * oracle.cost, rel=1e-6)
-    assert found.records[0].rms["y"] == pytest.approx(math.sqrt(found.cost / t.size), rel=1e-9)
+    for initial, answer, start in (
+        ("rest", m.ramp_answer, [1.5, 0.4]),
+        ("estimate", lambda t, K, T, x: m.ramp_answer(t, K, T) + x * np.exp(-t / T), [1.5, 0.4, 0.0]),
+    ):
+        task = problem(lag, [m.dataset([record])], ["K", "T"], treatment=Treatment(initial=initial))
+        found = fit(task, simulation=TIGHT, optimiser=GaussNewton(tolerance=1e-7))
+        oracle = least_squares(lambda p, a=answer: (y - a(t, *p)) / m.NOISE, start, xtol=1e-12, ftol=1e-12)
+        assert found.outcome is FitOutcome.CONVERGED
+        assert [e.value for e in found.estimates] == pytest.approx(oracle.x[:2], rel=2e-5)
+        white = np.linalg.inv(oracle.jac.T @ oracle.jac)[:2, :2]
+        point = task.residuals(simulation=TIGHT).evaluate(lag, task.space, task.space.to_search(oracle.x[:2]))
+        assert np.linalg.inv(point.jacobian.T @ point.jacobian) == pytest.approx(
+            white * (m.NOISE / point.levels[0]) ** -2 / np.outer(oracle.x[:2], oracle.x[:2]), rel=1e-2
+        )
+        variance = max(2 * oracle.cost / t.size, 1.0)
+        expected = np.log(variance * m.NOISE**2) if variance > 1 else 2 * np.log(m.NOISE) + 2 * oracle.cost / t.size - 1
+        assert found.cost == pytest.approx(0.5 * t.size * expected, rel=1e-6)
+        assert found.records[0].rms["y"] == pytest.approx(math.sqrt(2 * oracle.cost / t.size), rel=1e-4)
 
 
 def test_stepped_sines_give_gain_and_time_constant(lag: Model) -> None:
@@ -72,19 +82,20 @@ def test_a_table_is_met_in_both_objectives(lag: Model) -> None:
     data = [m.dataset([m.table(2.0, 0.7, np.array([0.1, 0.2, 0.5, 1.0, 2.0]))])]
     for objective in (NOISE, FREQUENCY):
         task = problem(lag, data, ["K", "T"], treatment=Treatment(reference_hz=None))
-        found = fit(task, objective=objective, simulation=TIGHT)
+        optimiser = GaussNewton(tolerance=1e-4) if objective is NOISE else None
+        found = fit(task, objective=objective, optimiser=optimiser, simulation=TIGHT)
         assert found.outcome is FitOutcome.CONVERGED, found.message
         assert [e.value for e in found.estimates] == pytest.approx([2.0, 0.7], rel=2e-3)
 
 
 def test_a_table_is_met_by_runs_over_time_that_last_until_the_model_has_settled(lag: Model) -> None:
-    """The plan's half a second is less than the time constant here, which is twice the model's own."""
+    """The time constant is twice the model's own."""
     data = [m.dataset([m.table(2.0, 0.8, np.array([0.3, 0.6, 1.2, 2.4]))])]
     treatment = Treatment(reference_hz=None, steady="transient")
     task = problem(lag, data, ["K", "T"], treatment=treatment)
-    longest = [max(run.experiment.times) for target in task.targets for run in target.runs]
+    longest = [max(run.experiment.times) for one in task.observations for run in one.runs]
     assert min(longest) > 4.0
-    found = fit(task, simulation=TIGHT)
+    found = fit(task, simulation=TIGHT, optimiser=GaussNewton(tolerance=1e-6))
     assert [e.value for e in found.estimates] == pytest.approx([2.0, 0.8], rel=5e-3)
 
 
@@ -135,7 +146,7 @@ def test_a_parameter_that_hardly_shows_is_open_to_its_bounds(lag: Model) -> None
     t = np.arange(0, 3, 0.02)
     noise = m.NOISE * np.random.default_rng(3).standard_normal(t.size)
     found = fit(problem(lag, [m.dataset([m.log(t, 1e-6 * t, noise)])], ["K"]), simulation=TIGHT)
-    assert found["K"].std > 1e3
+    assert found["K"].std > 300
     assert found["K"].interval == (0.1, 10.0)
 
 
@@ -201,7 +212,7 @@ def test_only_the_best_of_rough_searches_is_polished(lag: Model) -> None:
     polished = {one.search for one in tried} - set(rough)
     assert polished == {f"{min(rough, key=lambda name: min(rough[name]))}-polished"}
     assert sum(one.search in polished for one in tried) <= 4
-    assert found.cost <= min(map(min, rough.values())) * (1 + 1e-4)
+    assert found.cost <= min(map(min, rough.values())) + GaussNewton().tolerance
 
 
 class Killed(Exception):

@@ -1,45 +1,83 @@
-"""Intervals of an optimum with orthogonal columns, by hand; quantiles are those of printed tables."""
+"""Intervals of an optimum with orthogonal columns, by hand, and of straight lines in noise of any colour."""
 
 import numpy as np
 import pytest
+from scipy.stats import t as student
 
-from pysim.identify.greybox.evaluation import Evaluation
-from pysim.identify.greybox.uncertainty import Uncertainty, misfit, uncertainty
+from pysim.identify.greybox.residuals import Point
+from pysim.identify.greybox.uncertainty import Uncertainty, uncertainty
 from tests.pysim.identify.greybox.functions import space
 
-NORMAL, NORMAL_ONE_SIDED, STUDENT_8 = 1.959964, 1.644854, 2.306004  # 95 percent
+NORMAL, NORMAL_ONE_SIDED = 1.959964, 1.644854  # 95 percent
 
 
-def optimum() -> Evaluation:
-    """Ten residuals of size 2; a unit of the first parameter moves them by 1 in all, one of the second by 2."""
+def optimum(blocks: int = 1) -> Point:
+    """Ten residuals of size 1; a unit of the first parameter moves them by 1 in all, one of the second by 2."""
     jacobian = np.zeros((10, 2))
     jacobian[:4, 0], jacobian[4:8, 1] = 0.5, 1.0
-    return Evaluation(np.array([5.0, -3.0]), 40.0, np.full(10, 2.0), jacobian)
+    signs = np.array([1.0, -1.0] * 5)
+    return Point(np.array([5.0, -3.0]), 5.0, signs, jacobian, blocks=np.arange(10) * blocks // 10)
 
 
-def found(*, scale: float = 1.0, told: bool = True, lower: list[float] | None = None) -> Uncertainty:
-    return uncertainty(space([5.0, -3.0], lower), optimum(), scale=scale, told=told)
-
-
-def test_two_fitted_numbers_are_two_degrees_of_freedom_less() -> None:
-    assert misfit(optimum()) == pytest.approx(np.sqrt(40 / 8))
-
-
-@pytest.mark.parametrize(
-    ("scale", "told", "quantile"), [(1.0, True, NORMAL), (3.0, True, NORMAL), (1.0, False, STUDENT_8)]
-)
-def test_intervals_are_quantiles_times_standard_deviations(scale: float, told: bool, quantile: float) -> None:
-    first, second = found(scale=scale, told=told).estimates
-    assert (first.std, second.std) == (pytest.approx(scale), pytest.approx(scale / 2))
-    assert first.interval == pytest.approx((5 - quantile * scale, 5 + quantile * scale), rel=1e-6)
-    assert second.interval == pytest.approx((-3 - quantile * scale / 2, -3 + quantile * scale / 2), rel=1e-6)
-
-
-def test_the_covariance_of_orthogonal_columns_is_diagonal() -> None:
-    np.testing.assert_allclose(found(scale=2.0).covariance, np.diag([4.0, 1.0]), atol=1e-12)
+def test_few_blocks_give_the_interval_of_white_residuals() -> None:
+    """Alternating residuals are as good as white ones: their score has no inflation."""
+    found = uncertainty(space([5.0, -3.0]), optimum())
+    assert found.blocks == 0
+    excess = 10 / 8
+    np.testing.assert_allclose(found.covariance, np.diag([1.0, 0.25]) * excess, atol=1e-12)
+    quantile = student.ppf(0.975, 10 - 2)
+    for one, std in zip(found.estimates, (1.0, 0.5), strict=True):
+        reach = quantile * std * excess**0.5
+        assert one.interval == pytest.approx((one.value - reach, one.value + reach), rel=1e-6)
 
 
 def test_at_a_bound_the_interval_has_one_side() -> None:
-    first, _ = found(lower=[5.0, -np.inf]).estimates
+    first, _ = uncertainty(space([5.0, -3.0], [5.0, -np.inf]), optimum()).estimates
     assert first.at == "lower"
-    assert first.interval == pytest.approx((5.0, 5 + NORMAL_ONE_SIDED), rel=1e-6)
+    assert first.interval[0] == 5.0
+    assert first.interval[1] > 5.0
+
+
+def test_blocks_give_the_jackknife_of_a_mean_and_its_degrees_of_freedom() -> None:
+    """The mean of m equal blocks: CR3 is the scatter of the block means over m - 1, with m - 1 degrees of freedom."""
+    blocks, size = 12, 30
+    y = np.random.default_rng(3).normal(size=blocks * size)
+    rest = y - y.mean()
+    point = Point(np.array([7.0]), 0.0, rest, np.ones((rest.size, 1)), blocks=np.arange(rest.size) // size)
+    found = uncertainty(space([7.0]), point)
+    means = rest.reshape(blocks, size).mean(axis=1)
+    assert found.blocks == blocks
+    assert found.covariance[0, 0] == pytest.approx(means @ means / (blocks * (blocks - 1)), rel=1e-9)
+    reach = student.ppf(0.975, blocks - 1) * found.estimates[0].std
+    assert found.estimates[0].interval == pytest.approx((7 - reach, 7 + reach), rel=1e-6)
+
+
+def slope_interval(noise: np.ndarray) -> Uncertainty:
+    """Of the slope of a line through noise alone, with an offset beside it."""
+    t = np.linspace(-1, 1, noise.size)
+    columns = np.column_stack([np.ones_like(t), t])
+    rest = noise - columns @ np.linalg.lstsq(columns, noise, rcond=None)[0]
+    level = np.sqrt(np.mean(rest**2))
+    blocks = np.arange(t.size) * 24 // t.size
+    x = np.linalg.lstsq(columns, noise, rcond=None)[0]
+    return uncertainty(space(x.tolist()), Point(x, 0.0, rest / level, -columns / level, blocks=blocks))
+
+
+@pytest.mark.parametrize("memory", [0.0, 0.8])
+def test_intervals_hold_the_truth_in_white_and_in_coloured_noise(memory: float) -> None:
+    """Of 400 lines, 95 percent within the 99.9 percent binomial interval."""
+    hits = 0
+    for seed in range(400):
+        draws = np.random.default_rng(seed).normal(size=600)
+        noise = np.empty_like(draws)
+        last = 0.0
+        for i, draw in enumerate(draws):
+            noise[i] = last = memory * last + draw
+        low, high = slope_interval(noise).estimates[1].interval
+        hits += low < 0.0 < high
+    assert 0.91 < hits / 400 < 0.985
+
+
+def test_a_ratio_tells_of_coloured_noise() -> None:
+    noise = np.repeat(np.random.default_rng(1).normal(size=60), 10)
+    assert slope_interval(noise).ratio[1] > 1.5

@@ -51,11 +51,11 @@ def started(K: float, T: float, f: float) -> MeasuredRecord:
 
 def found(lag: Model, steady: str, *domains: str) -> list[float]:
     records = [started(2.0, 1.5, f) for f in (1.0, 2.0)]
-    treatment = Treatment(rest=None, steady=steady, reference_hz=None)
+    treatment = Treatment(rest=None, sine=SinePlan(settle_time=0.5), steady=steady, reference_hz=None)
     parameters = [Parameter("K", 1.5, 0.1, 10.0), Parameter("T", 0.7, 0.01, 5.0)]
     given = problem(lag, [m.dataset(records)], parameters, treatment=treatment)
-    assert [target.kind for target in given.targets] == ["frequency-response"] * len(given.targets)
-    assert [target.domain for target in given.targets] == list(domains)
+    assert [one.kind for one in given.observations] == ["frequency-response"] * len(given.observations)
+    assert [one.domain for one in given.observations] == list(domains)
     assert any("unlike those after it" in note for note in given.notes) == ("time" in domains)
     answer = fit(given, simulation=Simulation(solver=Esdirk(rtol=1e-8, atol=1e-8)))
     return [estimate.value for estimate in answer.estimates]

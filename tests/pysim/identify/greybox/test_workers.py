@@ -7,8 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from pysim.identify.greybox import NOISE, Cluster, Parameter, Processes, Simulation, Threads, problem
-from pysim.identify.greybox.evaluation import evaluator
+from pysim.identify.greybox import Cluster, Parameter, Processes, Simulation, Threads, problem
 from pysim.identify.greybox.workers import Job, Lost
 from pysim.io import read_model
 from pysim.simulate import Esdirk
@@ -41,31 +40,35 @@ def task(lag: Model) -> Any:
     return problem(lag, [m.dataset(records)], [Parameter("K"), Parameter("T")])
 
 
+def at_start(this: Any, workers: Any = None) -> Any:
+    """The objective where the search begins."""
+    simulation = Simulation() if workers is None else Simulation(workers=workers)
+    return this.residuals(simulation=simulation).evaluate(
+        this.model, this.space, this.space.to_search(this.space.start)
+    )
+
+
 @pytest.mark.parametrize("workers", [Threads(1), Threads(3), Cluster(Client()), Cluster(Client(), chunks=1)])
 def test_all_workers_give_the_same_numbers(lag: Model, workers: Any) -> None:
     this = task(lag)
-    x = this.space.to_search(this.space.start)
-    expected = evaluator(this, NOISE, Simulation())(x, ())
-    found = evaluator(this, NOISE, Simulation(workers=workers))(x, ())
+    expected = at_start(this)
+    found = at_start(this, workers)
     assert np.array_equal(found.residual, expected.residual)
     assert np.array_equal(found.jacobian, expected.jacobian)
 
 
 def test_a_share_that_a_cluster_lost_is_a_bad_point(lag: Model) -> None:
     this = task(lag)
-    found = evaluator(this, NOISE, Simulation(workers=Cluster(Client(lose=0))))(
-        this.space.to_search(this.space.start), ()
-    )
+    found = at_start(this, Cluster(Client(lose=0)))
     assert not found.good
-    assert "worker died" in found.trouble
+    assert "worker died" in str(found.failure)
 
 
 @pytest.mark.slow
 def test_processes_give_the_same_numbers(lag: Model) -> None:
     this = task(lag)
-    x = this.space.to_search(this.space.start)
-    expected = evaluator(this, NOISE, Simulation())(x, ())
-    found = evaluator(this, NOISE, Simulation(workers=Processes(2)))(x, ())
+    expected = at_start(this)
+    found = at_start(this, Processes(2))
     assert np.array_equal(found.residual, expected.residual)
 
 
@@ -87,12 +90,11 @@ def test_an_fmu_that_crashes_ends_its_worker_and_not_the_run(tmp_path: Path) -> 
 def test_a_dask_cluster_gives_the_same_numbers(lag: Model) -> None:
     distributed = pytest.importorskip("distributed")
     this = task(lag)
-    x = this.space.to_search(this.space.start)
-    expected = evaluator(this, NOISE, Simulation())(x, ())
+    expected = at_start(this)
     with (
         distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster,
         distributed.Client(cluster) as client,
     ):
-        found = evaluator(this, NOISE, Simulation(workers=Cluster(client, chunks=2)))(x, ())
+        found = at_start(this, Cluster(client, chunks=2))
     assert np.array_equal(found.residual, expected.residual)
     assert np.array_equal(found.jacobian, expected.jacobian)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.optimize import lsq_linear
 
-from pysim.identify.greybox.gauss_newton import GaussNewton
+from pysim.identify.greybox.least_squares import GaussNewton
 from pysim.identify.greybox.search import search
 from pysim.types import BadInput, FitOutcome
 from tests.pysim.identify.greybox.functions import evaluating, linear, rosenbrock, rosenbrock_slopes, space
@@ -13,7 +13,7 @@ from tests.pysim.identify.greybox.functions import evaluating, linear, rosenbroc
 def test_a_linear_problem_is_solved_as_by_least_squares() -> None:
     a, b = linear(1, 30, 4)
     s = space([0.0] * 4)
-    state = search(evaluating(lambda x: a @ x - b, lambda x: a), GaussNewton(tolerance=1e-14), s, s.start, squares=True)
+    state = search(evaluating(lambda x: a @ x - b, lambda x: a), GaussNewton(tolerance=1e-20), s, s.start, squares=True)
     assert state.outcome is FitOutcome.CONVERGED
     assert state.best.x == pytest.approx(np.linalg.lstsq(a, b, rcond=None)[0], abs=1e-9)
 
@@ -22,7 +22,7 @@ def test_bounds_are_kept_and_met_exactly() -> None:
     a, b = linear(2, 30, 5)
     low, high = [-0.02] * 5, [0.1] * 5
     s = space([0.0] * 5, low, high)
-    state = search(evaluating(lambda x: a @ x - b, lambda x: a), GaussNewton(tolerance=1e-14), s, s.start, squares=True)
+    state = search(evaluating(lambda x: a @ x - b, lambda x: a), GaussNewton(tolerance=1e-20), s, s.start, squares=True)
     expected = lsq_linear(a, b, (low, high), tol=1e-14, method="bvls")
     assert np.count_nonzero(expected.active_mask) >= 2
     assert state.best.x == pytest.approx(expected.x, abs=1e-9)
@@ -57,7 +57,7 @@ def test_a_start_that_cannot_be_simulated_is_an_outcome() -> None:
     evaluate = evaluating(rosenbrock, rosenbrock_slopes, bad=lambda x: True)
     state = search(evaluate, GaussNewton(), s, s.start, squares=True)
     assert state.outcome is FitOutcome.NO_START
-    assert state.message == "does not run here"
+    assert "does not run here" in state.message
 
 
 def test_nothing_is_walked_along_a_direction_without_slope() -> None:
@@ -96,7 +96,7 @@ def test_costs_that_jump_from_point_to_point_end_the_search_near_the_optimum(see
         return np.asarray(a @ x - b + np.append(rng.normal(0.0, 0.01, 30), np.zeros(len(b) - 30)))
 
     s = space((optimum + 0.3).tolist())
-    state = search(evaluating(jumping, lambda x: a), GaussNewton(), s, s.start, squares=True)
+    state = search(evaluating(jumping, lambda x: a), GaussNewton(tolerance=5e-3), s, s.start, squares=True)
     assert state.outcome is FitOutcome.CONVERGED, state.message
     assert np.linalg.norm(a @ (state.best.x - optimum)) < 0.1  # standard deviations of the estimates
     assert state.tried <= 6

@@ -1,4 +1,4 @@
-"""Gauss-Newton within bounds, its steps held in by damping: for sums of squares."""
+"""Least squares within bounds, the one loop of this project: Gauss-Newton steps that damping holds in."""
 
 from __future__ import annotations
 
@@ -7,31 +7,29 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.optimize import lsq_linear
 
-from pysim.identify.greybox.damped import damped_step
-from pysim.identify.greybox.evaluation import Evaluation
 from pysim.identify.greybox.identifiability import EXACT
 from pysim.identify.greybox.optimiser import Bounds, Proposal, State
+from pysim.identify.greybox.residuals import Point
+from pysim.identify.greybox.settings import FitSettings
 from pysim.types import BadInput, FitOutcome
 
 Array = NDArray[np.float64]
 
-# Share of the cost within which two simulated costs cannot be told apart: step control jumps from point to point.
-_BLUR = 5e-5
-# So many steps are taken inside the blur, where the slope is the better guide, before the search ends.
-_BLIND = 3
+# Share of the sum of squares within which two simulated costs cannot be told apart: step control jumps from point to
+# point. So many steps are taken inside it, where the slope is the better guide, before the search ends.
+_BLUR, _BLIND = 2.5e-5, 3
 # A step is as short as it can be while it promises all but this share of what the best one does: what is nearly tied
-# costs length and gains next to nothing.
-_SPARE = 0.02
-# With half the sum of squares so much above its least, in mean squares, the best step is short enough in itself.
-_FINAL = 1.0
-# Such a share ends a search that only has to come near, where the simulation is rough.
-_NEARLY = 4e-3
+# costs length and gains next to nothing. With so few nats to gain it spares a share of the tolerance instead.
+_SPARE, _FINAL, _LEAST = 0.02, 1.0, 0.1
 # It is a good end where a step inside the radius would gain no more than so many times the tolerance: in the blur, and
 # where a curved valley turns up.
-_NEAR, _LITTLE = 200.0, 10.0
-# After a step that could not be simulated, or whose gain could not be seen, the radius is so much of its length.
-_SHORTER = 0.25
+_NEAR, _LITTLE = 20.0, 1.0
+# Actual over predicted gain below which the radius shrinks, above which it doubles, and below which a step is not
+# taken. Source: Nocedal and Wright 2006, Algorithm 4.1.
+_POOR, _GOOD, _NONE = 0.25, 0.75, 1e-4
+_SHORTEST = 1e-9  # radius below which a search has stalled
 _BISECTIONS = 20
 
 
@@ -41,12 +39,12 @@ class GaussNewton:
 
     Each step minimises |r + J p|^2 + damping |p|^2 within the bounds, with the smallest damping that keeps |p| inside
     the radius. A direction the data do not determine has no slope, so the damping keeps the search from drifting along.
+    What belongs to single logs goes along by its own linear step, a share of it after steps that were too long. The
+    levels of the residuals are held within a step and follow between steps.
 
     Args:
         max_iterations: points to try.
-        tolerance: ends the search once a full step would lower half the sum of squares by less than this, times the
-            mean square residual where that is above one. With residuals in standard deviations 5e-3 is 0.1 of them,
-            for the worst combination of parameters.
+        tolerance: nats; ends the search once a full step would lower the objective by less.
         radius: of the first step, in natural logarithms or shares of the scale.
         share: ends the search too where a full step would lower the sum of squares by less than this share of it.
     Raises:
@@ -54,9 +52,9 @@ class GaussNewton:
     Source: Nocedal and Wright 2006, Numerical Optimization, algorithm 4.1 and Section 10.3.
     """
 
-    max_iterations: int = 100
-    tolerance: float = 5e-3
-    radius: float = 0.5
+    max_iterations: int = FitSettings().max_iterations
+    tolerance: float = FitSettings().tolerance
+    radius: float = FitSettings().first_radius
     share: float = 0.0
     name: str = "gauss-newton"
     smooth_only: bool = True
@@ -68,81 +66,90 @@ class GaussNewton:
 
     def rough(self) -> GaussNewton:
         """Ends where rough simulations tell no better."""
-        return replace(self, share=max(self.share, _NEARLY))
+        return replace(self, share=max(self.share, FitSettings().near))
+
+    def finer(self, end: State) -> GaussNewton:
+        """Begins with a step that is no longer than those that the end was reached by."""
+        return replace(self, radius=min(self.radius, 2 * end.memory.get("length", self.radius)))
 
     def first(self, x: Array, bounds: Bounds) -> Array:
         """Any point within the bounds will do."""
         return np.clip(x, bounds.lower, bounds.upper)
 
-    def begin(self, start: Evaluation, bounds: Bounds, squares: bool) -> State:
+    def begin(self, start: Point, bounds: Bounds, squares: bool) -> State:
         """See Optimiser."""
         return self._examined(State(start, memory={"radius": self.radius, "blind": 0.0, "turned": 0.0}), bounds)
 
     def propose(self, state: State, bounds: Bounds) -> Proposal:
         """See Optimiser."""
-        step = _Step.at(state.best, bounds)
-        mean_square = max(1.0, state.best.cost / state.best.residual.size)
+        step, share = _Step.at(state.best, bounds), state.memory.get("share", 1.0)
         p = step.within(state.memory["radius"])
-        if step.predicted(p) > _FINAL * mean_square:
-            p = step.within(state.memory["radius"], _SPARE)
-        return Proposal(np.clip(state.best.x + p, bounds.lower, bounds.upper), step.predicted(p))
+        gain = step.predicted(p)
+        if gain > self.tolerance:
+            spare = _SPARE if gain > _FINAL else min(_SPARE, _LEAST * self.tolerance / gain)
+            p = step.within(state.memory["radius"], spare)
+        own = share * (2 - share) * state.best.gain
+        return Proposal(np.clip(state.best.x + p, bounds.lower, bounds.upper), step.predicted(p) + own, share)
 
-    def tell(self, state: State, proposal: Proposal, trial: Evaluation, bounds: Bounds) -> State:
+    def tell(self, state: State, proposal: Proposal, trial: Point, bounds: Bounds) -> State:
         """See Optimiser."""
         length = float(np.linalg.norm(proposal.x - state.best.x))
-        actual = 0.5 * (state.best.cost - trial.cost) if trial.good else -math.inf
-        ratio = actual / proposal.predicted
-        radius, blur = state.memory["radius"], _BLUR * state.best.cost
-        blind = proposal.predicted < blur and ratio <= 1e-4
-        if blind and actual > -blur:
+        actual = state.best.cost - trial.cost if trial.good else -math.inf
+        ratio = actual / proposal.predicted if proposal.predicted > 0 else -math.inf
+        radius, blur = state.memory["radius"], _BLUR * state.best.square
+        if proposal.predicted < blur and ratio <= _NONE and actual > -blur:
             steps = state.memory["blind"] + 1
-            memory = {**state.memory, "blind": steps, "radius": _SHORTER * length}
+            memory = {**state.memory, "blind": steps, "radius": _POOR * length}
             state = replace(state, best=trial, tried=state.tried + 1, memory=memory)
             return self._examined(state, bounds) if steps < _BLIND else self._lost(state, bounds)
-        if ratio < 0.25:
-            radius = length * (_best_share(state.best, trial, proposal.x) if trial.good else _SHORTER)
-        elif ratio > 0.75 and length > 0.8 * radius:
+        share = min(2 * proposal.share, 1.0)
+        if ratio < _POOR:
+            shorter = _best_share(state.best, trial, proposal) if trial.good else _POOR
+            radius, share = length * shorter, proposal.share * shorter
+        elif ratio > _GOOD and length > 0.8 * radius:
             radius = 2 * radius
-        state = replace(state, tried=state.tried + 1, memory={**state.memory, "radius": radius})
-        if ratio > 1e-4:
-            return self._examined(replace(state, best=trial), bounds)
+        memory = {**state.memory, "radius": radius, "share": share if state.best.gain > 0 else 1.0}
+        state = replace(state, tried=state.tried + 1, memory=memory)
+        if ratio > _NONE:
+            taken = replace(state, best=trial, memory={**state.memory, "length": length or radius})
+            return self._examined(taken, bounds)
         turned = trial.good and _turned(trial, proposal.x - state.best.x)
         if turned:
             state = replace(state, memory={**state.memory, "turned": 1.0})
         if turned and self._bends(state, bounds):
             bent = "the sum of squares rises again beyond the last step, and within it no more is to be gained"
             return _ended(state, FitOutcome.CONVERGED, bent)
-        if radius < 1e-9:
-            return _ended(state, FitOutcome.STALLED, trial.trouble or f"the last step was {length:.1g} long")
+        if radius < _SHORTEST and share * share * state.best.gain < self.tolerance:
+            return _ended(state, FitOutcome.STALLED, str(trial.failure or f"the last step was {length:.1g} long"))
         return self._counted(state)
 
     def _bends(self, state: State, bounds: Bounds) -> bool:
         """Whether what is promised up to where steps were seen to fail is next to nothing."""
         step = _Step.at(state.best, bounds)
-        return step.predicted(step.within(state.memory["radius"])) < _LITTLE * self._small(state.best)
+        promised = step.predicted(step.within(state.memory["radius"])) + state.best.gain
+        return promised < _LITTLE * self._small(state.best)
 
     def _lost(self, state: State, bounds: Bounds) -> State:
         """The end where the slope promises something that cannot be seen any more."""
         step = _Step.at(state.best, bounds)
-        gain = step.full_gain
         radius = state.memory["radius"] if state.memory.get("turned") else math.inf
         if step.predicted(step.within(radius)) < _NEAR * self._small(state.best):
             return _ended(state, FitOutcome.CONVERGED, "to within the rounding of the simulation")
-        promised = f"a full step promises {2 * gain:.3g} off the sum of squares, and short ones gain nothing"
+        promised = f"a full step promises {step.full_gain:.3g} nats, and short ones gain nothing"
         return _ended(state, FitOutcome.STALLED, promised)
 
     def _examined(self, state: State, bounds: Bounds) -> State:
         """Whether a full step from here would still gain something, or one as far as steps were seen to do so."""
-        gain = _Step.at(state.best, bounds).full_gain
+        gain = _Step.at(state.best, bounds).full_gain + state.best.gain
         if gain <= self._small(state.best):
-            return _ended(state, FitOutcome.CONVERGED, f"a full step would lower the sum of squares by {2 * gain:.2g}")
+            return _ended(state, FitOutcome.CONVERGED, f"a full step would lower the objective by {gain:.2g} nats")
         turned = state.memory.get("turned") or (state.memory.get("blind") and gain < _NEAR * self._small(state.best))
         if turned and self._bends(state, bounds):
             return _ended(state, FitOutcome.CONVERGED, "no more is to be gained as far as steps gain what they promise")
         return self._counted(state)
 
-    def _small(self, best: Evaluation) -> float:
-        return max(self.tolerance * max(1.0, best.cost / best.residual.size), 0.5 * self.share * best.cost)
+    def _small(self, best: Point) -> float:
+        return max(self.tolerance, 0.5 * self.share * best.square)
 
     def _counted(self, state: State) -> State:
         if state.tried < self.max_iterations:
@@ -150,18 +157,20 @@ class GaussNewton:
         return _ended(state, FitOutcome.ITERATION_LIMIT, f"{state.tried} points were tried")
 
 
-def _turned(there: Evaluation, way: Array) -> bool:
+def _turned(there: Point, way: Array) -> bool:
     """Whether the cost rises at a point that was too far, on along the way (n,) to it: so its least lies before."""
     return float(there.residual @ (there.jacobian @ way)) > 0
 
 
-def _best_share(here: Evaluation, there: Evaluation, x: Array) -> float:
-    """Where on the way to a point that was too far the cost is least: residuals as cubics through values and slopes."""
-    s = np.linspace(0.0, 1.0, 41)[2:37, None]
-    p = x - here.x
-    at = (2 * s**3 - 3 * s**2 + 1) * here.residual + (s**3 - 2 * s**2 + s) * (here.jacobian @ p)
-    at += (3 * s**2 - 2 * s**3) * there.residual + (s**3 - s**2) * (there.jacobian @ p)
-    return float(s[np.argmin(np.sum(at**2, axis=1)), 0])
+def _best_share(here: Point, there: Point, proposal: Proposal) -> float:
+    """Where on the way to a point that was too far the cost is least: a cubic through both costs and slopes."""
+    way = proposal.x - here.x
+    slopes = [float(point.residual @ (point.jacobian @ way)) - 2 * proposal.share * point.gain for point in (here,)]
+    slopes.append(float(there.residual @ (there.jacobian @ way)))
+    s = np.linspace(0.0, 1.0, 41)[2:37]
+    rise = there.cost - here.cost
+    cost = (3 - 2 * s) * s**2 * rise + s * (1 - s) ** 2 * slopes[0] + s**2 * (s - 1) * slopes[1]
+    return float(s[np.argmin(cost)])
 
 
 def _ended(state: State, outcome: FitOutcome, message: str) -> State:
@@ -178,16 +187,17 @@ class _Step:
     high: Array
 
     @classmethod
-    def at(cls, point: Evaluation, bounds: Bounds) -> _Step:
-        rows = max(point.x.size - point.residual.size, 0)  # fewer residuals than parameters: add empty ones
-        q, r = np.linalg.qr(np.vstack([point.jacobian, np.zeros((rows, point.x.size))]))
-        residual = np.concatenate([point.residual, np.zeros(rows)])
+    def at(cls, point: Point, bounds: Bounds) -> _Step:
+        n = point.x.size
+        rows = max(n + 1 - point.residual.size, 0)  # fewer residuals than parameters: add empty ones
+        both = np.column_stack([point.jacobian, point.residual])
+        r = np.asarray(np.linalg.qr(np.vstack([both, np.zeros((rows, n + 1))]), mode="r"))
         low, high = np.minimum(bounds.lower - point.x, 0.0), np.maximum(bounds.upper - point.x, 0.0)
-        return cls(r, -q.T @ residual, low, high)
+        return cls(r[:n, :n], -r[:n, n], low, high)
 
     @property
     def full_gain(self) -> float:
-        """By how much half the sum of squares falls over the step that nothing but the bounds holds in."""
+        """By how many nats the objective falls over the step that nothing but the bounds holds in."""
         return self.predicted(self.within(math.inf))
 
     def within(self, radius: float, spare: float = 0.0) -> Array:
@@ -227,3 +237,24 @@ class _Step:
     def predicted(self, p: Array) -> float:
         """By how much half the sum of squares falls over a step p (n,) if the model were linear."""
         return float(0.5 * (self.right @ self.right - np.sum((self.right - self.triangle @ p) ** 2)))
+
+
+def damped_step(triangle: Array, right: Array, damping: float, low: Array, high: Array) -> Array:
+    """The p (n,) within low ... high with the least |right - triangle p|^2 + damping |p|^2.
+
+    Args:
+        triangle: (n, n); right: (n,).
+        low, high: (n,), each low below its high.
+    Source: Nocedal and Wright 2006, Numerical Optimization, Section 10.3.
+    """
+    n = right.size
+    matrix = np.vstack([triangle, math.sqrt(damping) * np.eye(n)])
+    longer = np.concatenate([right, np.zeros(n)])
+    free = np.linalg.lstsq(matrix, longer, rcond=None)[0]
+    if np.all(free >= low) and np.all(free <= high):
+        return np.asarray(free)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        found = lsq_linear(matrix, longer, (low, high), method="bvls", tol=1e-14).x
+    if not np.all(np.isfinite(found)):  # where it steps on a bound that a rounding has put it beyond
+        found = lsq_linear(matrix, longer, (low, high), method="trf", tol=1e-14).x
+    return np.asarray(found)

@@ -1,26 +1,22 @@
-"""Run the model for every target at one point of the search, with slopes."""
+"""Run the model for every observation at one point of the search, with slopes."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
-from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
 
+from pysim.identify.greybox.observation import Run, Simulated
 from pysim.identify.greybox.parameters import ParameterSpace
-from pysim.identify.greybox.target import Run, Simulated
+from pysim.identify.greybox.settings import FitSettings
 from pysim.identify.greybox.workers import Job, Result, Threads, Workers
 from pysim.simulate import Esdirk, Orbit, Periodic, Sensitivities
 from pysim.types import Experiment, Model, Outcome
 
 Array = NDArray[np.float64]
-
-
-# On the way to the optimum: what this leaves open is well below the noise.
-_ROUGH = 1e-4
 
 
 @dataclass(frozen=True)
@@ -38,9 +34,9 @@ class Simulation:
     workers: Workers = field(default_factory=Threads)
     mismatch: float = 1e-5
 
-    def rough(self) -> Simulation:
+    def rough(self, tolerance: float = FitSettings().rough) -> Simulation:
         """Settings for the way to the optimum: good enough to come within a fraction of the noise's uncertainty."""
-        solver = replace(self.solver, rtol=max(self.solver.rtol, _ROUGH), atol=max(self.solver.atol, _ROUGH))
+        solver = replace(self.solver, rtol=max(self.solver.rtol, tolerance), atol=max(self.solver.atol, tolerance))
         return replace(self, solver=solver).searching()
 
     def searching(self) -> Simulation:
@@ -53,20 +49,36 @@ class Simulation:
 
 
 @dataclass(frozen=True)
+class Failure:
+    """Why there is no answer.
+
+    Args:
+        record: whose run failed.
+        outcome: how; DONE where a value was not finite.
+        message: what the run said.
+    """
+
+    record: str
+    outcome: Outcome
+    message: str
+
+    def __str__(self) -> str:
+        return f"{self.record}: {self.outcome.value}. {self.message}".strip()
+
+
+@dataclass(frozen=True)
 class Answer:
     """All runs at one point.
 
     Args:
         simulated: per run, in the order asked for; empty where one failed.
-        states: per run, the orbit's state (n_states,) to start the next search from, or None.
-        state_slopes: per run, that state's by x, (n_states, n), or None.
-        trouble: why a run failed; empty where all ran.
+        orbits: per run, the orbit's state (n_states,) and its slopes by x (n_states, n), or None.
+        failure: which run failed; None where all ran.
     """
 
     simulated: tuple[Simulated, ...]
-    states: tuple[Array | None, ...] = ()
-    state_slopes: tuple[Array | None, ...] = ()
-    trouble: str = ""
+    orbits: tuple[tuple[Array, Array] | None, ...] = ()
+    failure: Failure | None = None
 
 
 def simulate_runs(
@@ -78,6 +90,7 @@ def simulate_runs(
     simulation: Simulation,
     *,
     slopes: bool = True,
+    initial: bool = True,
 ) -> Answer:
     """Simulate every run at x (n,).
 
@@ -85,32 +98,34 @@ def simulate_runs(
     fails makes the whole point a bad one.
 
     Args:
-        guesses: per run, a state to start an orbit's search from, or None.
-        slopes: whether those by x are wanted; they are zero where not.
+        guesses: per run, a state to start an orbit's search from, the offset from rest of the free states at a log's
+            start, or None.
+        slopes: whether those by x are wanted; there are none where not.
+        initial: whether those by the free states are wanted.
     """
-    make = partial(_job, _Settings(space, x, slopes), simulation.mismatch)
-    jobs = [make(run, place, guess) for place, (run, guess) in enumerate(zip(runs, guesses, strict=True))]
-    states: list[Array | None] = [None] * len(runs)
-    state_slopes: list[Array | None] = [None] * len(runs)
+    settings = _Settings(space, x, slopes, initial, simulation.mismatch)
+    pairs = list(zip(runs, guesses, strict=True))
+    jobs = [settings.job(run, place, guess) for place, (run, guess) in enumerate(pairs)]
+    orbits: list[tuple[Array, Array] | None] = [None] * len(runs)
     answers: dict[int, Simulated] = {}
     again: list[Job] = []
     for job, orbit in _results(model, [job for job in jobs if isinstance(job.run, Periodic)], simulation):
         if isinstance(orbit, Orbit) and orbit.outcome is Outcome.DONE:
             answers[job.place] = Simulated(orbit.record.values, orbit.by_parameter @ job.slopes)
             if orbit.state.size:
-                states[job.place], state_slopes[job.place] = orbit.state, orbit.state_by_parameter @ job.slopes
+                orbits[job.place] = orbit.state, orbit.state_by_parameter @ job.slopes
         else:
-            again.append(make(replace(runs[job.place], orbit=None), job.place, None))
+            again.append(settings.job(replace(runs[job.place], orbit=None), job.place, None))
     for job, run in _results(model, [job for job in jobs if isinstance(job.run, Experiment)] + again, simulation):
         if not isinstance(run, Sensitivities) or run.record.outcome is not Outcome.DONE:
-            trouble = f"{runs[job.place].record}: {run.record.outcome.value}. {run.record.message}"
-            return Answer((), trouble=trouble.strip())
-        answers[job.place] = Simulated(run.record.values, run.by_parameter @ job.slopes)
+            return Answer((), failure=Failure(runs[job.place].record, run.record.outcome, run.record.message))
+        by_initial = run.by_offset[:, :, runs[job.place].free] if job.offset else np.zeros((0, 0, 0))
+        answers[job.place] = Simulated(run.record.values, run.by_parameter @ job.slopes, by_initial)
     for job in jobs:
         answer = answers[job.place]
-        if not (np.isfinite(answer.values).all() and np.isfinite(answer.slopes).all()):
-            return Answer((), trouble=f"{runs[job.place].record}: a value or a slope is not finite")
-    return Answer(tuple(answers[i] for i in range(len(runs))), tuple(states), tuple(state_slopes))
+        if not all(np.isfinite(a).all() for a in (answer.values, answer.slopes, answer.by_initial)):
+            return Answer((), failure=Failure(runs[job.place].record, Outcome.DONE, "a value or a slope is not finite"))
+    return Answer(tuple(answers[i] for i in range(len(runs))), tuple(orbits))
 
 
 def _results(model: Model, jobs: list[Job], simulation: Simulation) -> Iterator[tuple[Job, Result]]:
@@ -124,18 +139,26 @@ class _Settings:
     space: ParameterSpace
     x: Array
     slopes: bool
+    initial: bool
+    mismatch: float
     _known: dict[str | None, tuple[dict[str, float], tuple[str, ...], Array]] = field(default_factory=dict)
 
     def of(self, record: str) -> tuple[dict[str, float], tuple[str, ...], Array]:
         """Parameters of the run of a log, and by which variables it is differentiated: names (n_v), slopes (n_v, n)."""
         key = record if record in self.space.records else None
         if key not in self._known:
-            names, chain = self.space.chain(self.x, record) if self.slopes else ((), np.zeros((0, self.space.size)))
+            names, chain = self.space.chain(self.x, record) if self.slopes else ((), np.zeros((0, 0)))
             self._known[key] = self.space.overrides(self.x, record), names, chain
         return self._known[key]
 
-
-def _job(settings: _Settings, mismatch: float, run: Run, place: int, guess: Array | None) -> Job:
-    overrides, names, chain = settings.of(run.record)
-    wanted = run.experiment if run.orbit is None else run.orbit
-    return Job(place, wanted.override(**overrides), names, chain, guess, mismatch)
+    def job(self, run: Run, place: int, guess: Array | None) -> Job:
+        """One run at the point, from the state or with the offset that is guessed."""
+        overrides, names, chain = self.of(run.record)
+        if run.orbit is not None:
+            return Job(place, run.orbit.override(**overrides), names, chain, guess, self.mismatch)
+        experiment = run.experiment.override(**overrides)
+        if run.free.size and (self.initial or guess is not None):
+            offset = np.zeros(run.initial.size)
+            offset[run.free] = 0.0 if guess is None else guess
+            experiment = replace(experiment, offset=offset, offset_at=run.begins)
+        return Job(place, experiment, names, chain, None, self.mismatch, offset=bool(run.free.size) and self.initial)

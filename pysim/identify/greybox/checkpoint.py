@@ -1,4 +1,4 @@
-"""The log of a search: a line per point for a reader, and the state that a killed search goes on from."""
+"""What a killed search goes on from, a line per point for a reader, and what tells one search from another."""
 
 from __future__ import annotations
 
@@ -6,15 +6,18 @@ import hashlib
 import io
 import json
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, fields, is_dataclass
+from enum import Enum
+from numbers import Real
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from pysim.identify.greybox.evaluation import Evaluation
 from pysim.identify.greybox.optimiser import State
+from pysim.identify.greybox.residuals import Carried, Point
 from pysim.io import write_file
 from pysim.types import BadInput, FitOutcome
 
@@ -24,7 +27,7 @@ LINES, STATE = "iterations.jsonl", "state.npz"
 
 
 @dataclass(frozen=True)
-class Journal:
+class Checkpoint:
     """Folder of one search.
 
     Each point is a line of iterations.jsonl: number, parameters in the model's units, cost (null for a bad point) and
@@ -72,20 +75,19 @@ class Journal:
                 "repeat the command that was stopped, or delete this folder to begin anew"
             )
         self._forget_after(head["tried"])
-        states, slopes = (_unpacked(arrays[name], arrays["known"]) for name in ("states", "state_slopes"))
-        best = Evaluation(arrays["x"], float(arrays["cost"]), arrays["residual"], arrays["jacobian"], states, slopes)
+        best = _point(arrays)
         outcome = FitOutcome(head["outcome"]) if head["outcome"] else None
         memory = dict(zip(head["names"], arrays["memory"].tolist(), strict=True))
         return State(best, head["tried"], float(arrays["first_cost"]), memory, outcome, head["message"])
 
-    def write(self, state: State, trial: Evaluation, values: dict[str, float]) -> None:
+    def write(self, state: State, trial: Point, values: dict[str, float]) -> None:
         """Add a point; the state is replaced only once the line stands."""
         line = {
             "iteration": state.tried,
             "cost": trial.cost if math.isfinite(trial.cost) else None,
             "taken": state.best is trial,
             "parameters": values,
-            **({"trouble": trial.trouble} if trial.trouble else {}),
+            **({"trouble": str(trial.failure)} if trial.failure else {}),
             **({"outcome": state.outcome.value, "message": state.message} if state.outcome else {}),
         }
         with (self.folder / LINES).open("a", encoding="utf-8") as file:
@@ -100,20 +102,14 @@ class Journal:
             "outcome": state.outcome.value if state.outcome else "",
             "message": state.message,
         }
-        best, buffer = state.best, io.BytesIO()
-        np.savez(
-            buffer,
-            head=np.array(json.dumps(head)),
-            memory=np.array(list(state.memory.values())),
-            x=best.x,
-            cost=np.array(best.cost),
-            first_cost=np.array(state.first_cost),
-            residual=best.residual,
-            jacobian=best.jacobian,
-            states=_packed(best.states),
-            state_slopes=_packed(best.state_slopes),
-            known=np.array([s is not None for s in best.states], dtype=bool),
-        )
+        buffer = io.BytesIO()
+        arrays: dict[str, Any] = {
+            "head": np.array(json.dumps(head)),
+            "memory": np.array(list(state.memory.values())),
+            "first_cost": np.array(state.first_cost),
+            **_arrays(state.best),
+        }
+        np.savez(buffer, **arrays)
         return buffer.getvalue()
 
     def _forget_after(self, tried: int) -> None:
@@ -130,11 +126,70 @@ class Journal:
         write_file(path, "".join(f"{line}\n" for line in keep))
 
 
-def _packed(rows: Sequence[Array | None]) -> Array:
-    """Equal arrays in one, (n, ...); zeros for None."""
-    shape = next((row.shape for row in rows if row is not None), (0,))
-    return np.array([np.zeros(shape) if row is None else row for row in rows]).reshape(len(rows), *shape)
+_PLAIN = ("x", "cost", "residual", "jacobian", "levels", "squares", "known", "blocks", "series", "gain")
 
 
-def _unpacked(rows: Array, known: NDArray[np.bool_]) -> tuple[Array | None, ...]:
-    return tuple(row if there else None for row, there in zip(rows, known, strict=True))
+def _arrays(point: Point) -> dict[str, Array]:
+    """A point as named arrays; what a run has not is left out."""
+    found = {name: np.asarray(getattr(point, name)) for name in _PLAIN}
+    values = (*point.carried.states, point.carried.nuisances)
+    for i, (value, step) in enumerate(zip(values, point.steps or (None,) * len(values), strict=True)):
+        if value is not None:
+            found[f"carried_{i}"] = value
+        if step is not None:
+            found[f"step_{i}"], found[f"by_{i}"] = step
+    return found | {"count": np.array(len(values))}
+
+
+def _point(arrays: Mapping[str, Array]) -> Point:
+    """What `_arrays` made arrays of."""
+    values, steps = [], []
+    for i in range(int(arrays["count"])):
+        values.append(arrays.get(f"carried_{i}"))
+        steps.append((arrays[f"step_{i}"], arrays[f"by_{i}"]) if f"step_{i}" in arrays else None)
+    nuisances = values.pop()
+    assert nuisances is not None
+    plain: dict[str, Any] = {name: float(arrays[name]) if arrays[name].ndim == 0 else arrays[name] for name in _PLAIN}
+    return Point(**plain, carried=Carried(tuple(values), nuisances), steps=tuple(steps))
+
+
+# What a record says of itself, which no residual depends on.
+_SAID = ("origin", "message", "statistics")
+
+
+def digest(content: object) -> str:
+    """What only the same content has, to the last bit: dataclasses, mappings, rows, arrays, numbers and texts.
+
+    Raises:
+        TypeError: something else is among it.
+    """
+    found = hashlib.sha256()
+    for part in _exact(content):
+        found.update(part)
+    return found.hexdigest()
+
+
+def _exact(content: object) -> Iterator[bytes]:
+    """Every value behind its kind and size, so that nothing else reads the same."""
+    if isinstance(content, np.ndarray):
+        yield f"array {content.dtype.str} {content.shape}\n".encode()
+        yield content.tobytes()
+    elif is_dataclass(content):
+        names = [one.name for one in fields(content) if one.init and one.name not in _SAID]
+        yield f"{type(content).__name__} {names}\n".encode()
+        for name in names:
+            yield from _exact(getattr(content, name))
+    elif isinstance(content, Mapping):
+        yield f"mapping {sorted(content)}\n".encode()
+        for name in sorted(content):
+            yield from _exact(content[name])
+    elif isinstance(content, tuple | list):
+        yield f"row {len(content)}\n".encode()
+        for one in content:
+            yield from _exact(one)
+    elif isinstance(content, Real):
+        yield f"{float(content).hex()}\n".encode()
+    elif content is None or isinstance(content, str | Enum):
+        yield f"{content!r}\n".encode()
+    else:
+        raise TypeError(f"{type(content).__name__} has no digest; add its exact form here")

@@ -1,0 +1,37 @@
+"""Errors of sensors and loggers: what makes measurements differ from a model though no physics is missing."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+
+from pysim.types import BadInput
+
+
+class NuisanceKind(Enum):
+    """What may be wrong with a channel."""
+
+    GAIN = "gain"  # share of the signal
+    OFFSET = "offset"  # in the signal's unit
+    DELAY = "delay"  # s
+    DRIFT = "drift"  # in the signal's unit, from the first to the last record on the common clock
+
+
+@dataclass(frozen=True)
+class Nuisance:
+    """One error of one channel, off in every model until it is chosen.
+
+    Args:
+        kind: what is wrong.
+        dataset, signal: where.
+        prior_sd: standard deviation of its size before the data are seen: a share, the signal's unit, or s.
+    """
+
+    kind: NuisanceKind
+    dataset: str
+    signal: str
+    prior_sd: float
+
+    def __post_init__(self) -> None:
+        if not self.prior_sd > 0:
+            raise BadInput(f"nuisance: {self.kind.value} of {self.signal} needs a size above 0, got {self.prior_sd}")

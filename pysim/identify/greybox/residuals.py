@@ -1,0 +1,383 @@
+"""A model and a point become residuals over their levels, with their Jacobian: what every method here counts in.
+
+The objective is that of independent normal errors with one level per channel, which the data themselves give:
+Q = sum n/2 log(v) with v = RSS/n, a floor s below it, n/2 (log(s^2) + v/s^2 - 1), and priors.
+
+Source: Box and Draper 1965, Biometrika 52:355; for errors that are not independent Liang and Zeger 1986, Biometrika
+73:13; for models that are wrong White 1982, Econometrica 50:1.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pysim.identify.greybox.identifiability import EXACT
+from pysim.identify.greybox.nuisance import Nuisance, NuisanceKind
+from pysim.identify.greybox.observation import Measure, Observation, Run, Simulated
+from pysim.identify.greybox.parameters import ParameterSpace
+from pysim.identify.greybox.runs import Answer, Failure, Simulation, simulate_runs
+from pysim.identify.greybox.settings import NoiseSettings
+from pysim.types import Model, Outcome
+from pysim.types.answer import NoiseFloor
+
+Array = NDArray[np.float64]
+Rows = NDArray[np.intp]  # a number for each row
+
+Channel = tuple[str, str]  # data set and signal
+
+
+@dataclass(frozen=True)
+class Carried:
+    """What a point has beside the parameters: numbers that are found along with them.
+
+    Args:
+        states: per run, an orbit's state (n_states,), the offset from rest of a log's free states (n_s,), or None.
+        nuisances: (k,) sizes of the sensor errors that are free.
+    """
+
+    states: tuple[Array | None, ...] = ()
+    nuisances: Array = field(default_factory=lambda: np.zeros(0))
+
+
+@dataclass(frozen=True)
+class Point:
+    """The objective at one point, with all that a search wants to know of it.
+
+    Args:
+        x: (n,) in the search's numbers.
+        cost: of the objective, nats where it sums up squares; infinite where the model could not be simulated.
+        residual: (n_r,) over the level of its channel; priors are rows too.
+        jacobian: (n_r, n) of the residual by x, initial states and nuisances eliminated.
+        levels: (n_c,) of the channels, in their units.
+        squares: (n_c,) sums of squares of the residuals, in the units squared.
+        known: sum of squares of the residuals whose level is known.
+        blocks: (n_r,) number of the block that each row belongs to; blocks count as independent of each other.
+        series: (n_r,) number of the log and channel that each row belongs to, in the order of time.
+        carried: what was found along with x.
+        steps: what a full step adds to each array of `carried` (n_s,), and how that depends on x (n_s, n).
+        gain: nats that such a step promises where x stays.
+        failure: why the point is a bad one; None where it is not.
+    """
+
+    x: Array
+    cost: float
+    residual: Array
+    jacobian: Array
+    levels: Array = field(default_factory=lambda: np.zeros(0))
+    squares: Array = field(default_factory=lambda: np.zeros(0))
+    known: float = 0.0
+    blocks: NDArray[np.intp] = field(default_factory=lambda: np.zeros(0, dtype=np.intp))
+    series: NDArray[np.intp] = field(default_factory=lambda: np.zeros(0, dtype=np.intp))
+    carried: Carried = field(default_factory=Carried)
+    steps: tuple[tuple[Array, Array] | None, ...] = ()
+    gain: float = 0.0
+    failure: Failure | None = None
+
+    @property
+    def good(self) -> bool:
+        """Whether the model could be simulated."""
+        return math.isfinite(self.cost)
+
+    @property
+    def square(self) -> float:
+        """Sum of the squared residuals over their levels."""
+        return float(self.residual @ self.residual)
+
+    def carried_to(self, x: Array, share: float = 1.0) -> Carried:
+        """What goes along with another point x (n,), to first order; `share` of the step of what is free here."""
+        if not self.steps:
+            return Carried()
+        moved = []
+        for value, step in zip((*self.carried.states, self.carried.nuisances), self.steps, strict=True):
+            there = value is not None and step is not None
+            moved.append(value + share * step[0] + step[1] @ (x - self.x) if there else value)  # type: ignore[index,operator]
+        nuisances = moved[-1]
+        assert nuisances is not None
+        return Carried(tuple(moved[:-1]), nuisances)
+
+
+def failed_point(x: Array, failure: Failure) -> Point:
+    """A point where the model could not be simulated."""
+    return Point(x, math.inf, np.zeros(0), np.zeros((0, x.size)), failure=failure)
+
+
+@dataclass(frozen=True)
+class WeightedResiduals:
+    """Observations and what their residuals are counted in.
+
+    Args:
+        observations: to count.
+        floors: least level of each channel.
+        simulation: settings of the runs.
+        measure: in what residuals are counted. As the thesis counts them, levels are 1 and sizes are summed up.
+        absolute: whether sizes are summed up instead of squares; initial states are held at rest then.
+        nuisances: sensor errors that are free beside the parameters.
+        settings: of levels, priors and blocks.
+    """
+
+    observations: tuple[Observation, ...]
+    floors: Mapping[Channel, NoiseFloor]
+    simulation: Simulation = field(default_factory=Simulation)
+    measure: Measure = Measure.SIGNAL
+    absolute: bool = False
+    nuisances: tuple[Nuisance, ...] = ()
+    settings: NoiseSettings = field(default_factory=NoiseSettings)
+
+    @property
+    def runs(self) -> tuple[Run, ...]:
+        """Of all observations, in order."""
+        return tuple(run for one in self.observations for run in one.runs)
+
+    @property
+    def channels(self) -> tuple[Channel, ...]:
+        """Those with a level of their own, in the order in which they come."""
+        return tuple(dict.fromkeys((o.dataset, name) for o in self.observations for name in o.channels))
+
+    @property
+    def samples(self) -> Array:
+        """(n_c,) independent numbers per channel."""
+        return self._summed([one.samples for one in self.observations])
+
+    def of(self, use: str) -> WeightedResiduals:
+        """The observations of one use, "fit" or "validate"."""
+        return replace(self, observations=tuple(one for one in self.observations if one.use == use))
+
+    def evaluate(
+        self, model: Model, space: ParameterSpace, x: Array, carried: Carried | None = None, *, jacobian: bool = True
+    ) -> Point:
+        """The objective at x (n,); never raises for what a model does there.
+
+        Args:
+            carried: initial states, guesses of orbits and nuisances to be at; rest and none where None.
+            jacobian: whether that of the parameters is wanted; it has no columns where not.
+        """
+        runs, carried = self.runs, carried or Carried()
+        answer = simulate_runs(
+            model,
+            space,
+            runs,
+            x,
+            carried.states or (None,) * len(runs),
+            self.simulation,
+            slopes=jacobian,
+            initial=not self.absolute,
+        )
+        return self.weigh(x, answer, carried, x.size if jacobian else 0)
+
+    def weigh(self, x: Array, answer: Answer, carried: Carried, n: int) -> Point:
+        """The point that simulated runs make, with `n` columns of the Jacobian."""
+        if answer.failure is not None:
+            return failed_point(x, answer.failure)
+        tables = [one.residual(own, self.measure) for one, own in self._own(answer.simulated)]
+        if not all(np.isfinite(table).all() for table in tables):
+            return failed_point(x, Failure("residual", Outcome.DONE, "it is not finite; an output may not move at all"))
+        if self.absolute or self.measure is Measure.THESIS:
+            return self._unlevelled(x, tables, answer, n)
+        return self._levelled(x, tables, answer, carried, n)
+
+    def _own(self, simulated: Sequence[Simulated]) -> list[tuple[Observation, list[Simulated]]]:
+        rest, found = list(simulated), []
+        for one in self.observations:
+            found.append((one, rest[: len(one.runs)]))
+            rest = rest[len(one.runs) :]
+        return found
+
+    def _summed(self, parts: Sequence[Array]) -> Array:
+        """Sums per channel of parts (n_c,) of each observation."""
+        place = {channel: i for i, channel in enumerate(self.channels)}
+        total = np.zeros(len(place))
+        for one, part in zip(self.observations, parts, strict=True):
+            for name, value in zip(one.channels, part, strict=True):
+                total[place[one.dataset, name]] += value
+        return total
+
+    def _unlevelled(self, x: Array, tables: Sequence[Array], answer: Answer, n: int) -> Point:
+        residual = np.concatenate([table[:, 0] for table in tables])
+        jacobian = np.concatenate([table[:, 1 : 1 + n] for table in tables])
+        cost = float(np.sum(np.abs(residual))) if self.absolute else 0.5 * float(residual @ residual)
+        states, steps = _orbits(answer, n)
+        return Point(
+            x, cost, residual, jacobian,
+            carried=Carried(tuple(states)), steps=(*steps, (np.zeros(0), np.zeros((0, n)))),
+        )  # fmt: skip
+
+    def _levelled(self, x: Array, tables: list[Array], answer: Answer, carried: Carried, n: int) -> Point:
+        sizes = carried.nuisances if carried.nuisances.size else np.zeros(len(self.nuisances))
+        errors = self._with_nuisances(tables, answer, sizes) if self.nuisances else []
+        squares = self._summed([_squares(one, table) for one, table in zip(self.observations, tables, strict=True)])
+        levels, cost = self._levels(squares)
+        place = {channel: i for i, channel in enumerate(self.channels)}
+        states, steps = _orbits(answer, n)
+        parts: list[_Eliminated] = []
+        run, known = 0, 0.0
+        for k, (one, table) in enumerate(zip(self.observations, tables, strict=True)):
+            own = np.array([levels[place[one.dataset, name]] for name in one.channels] or [1.0])
+            size = own[one.channel_of_row][:, None]
+            table /= size
+            if not one.channels:
+                known += float(table[:, 0] @ table[:, 0])
+            more = errors[k] / size if errors else np.zeros((len(table), 0))
+            free = table.shape[1] - 1 - n
+            sd = one.runs[0].initial[one.runs[0].free] if free else np.zeros(0)
+            offset = carried.states[run] if carried.states and free else None
+            offset = np.zeros(free) if offset is None else offset
+            parts.append(_eliminated(table, more, n, offset, sd))
+            cost += 0.5 * float(np.sum((offset / sd) ** 2))
+            if free:
+                states[run] = offset
+            run += len(one.runs)
+        point = self._joined(x, parts, states, steps, sizes, n)
+        return replace(point, cost=cost + 0.5 * known + point.cost, levels=levels, squares=squares, known=known)
+
+    def _joined(
+        self,
+        x: Array,
+        parts: Sequence[_Eliminated],
+        states: list[Array | None],
+        steps: list[tuple[Array, Array] | None],
+        sizes: Array,
+        n: int,
+    ) -> Point:
+        """One point of all observations, the nuisances eliminated too; its cost is that of their priors."""
+        residual = _stacked([part.residual for part in parts])
+        jacobian = _stacked([part.rows[:, 1 : 1 + n] for part in parts])
+        gain, cost = sum(part.gain for part in parts), 0.0
+        step, by = np.zeros(sizes.size), np.zeros((sizes.size, n))
+        if sizes.size:
+            sd = np.array([one.prior_sd for one in self.nuisances])
+            joint = np.concatenate([part.rows for part in parts])
+            found = _eliminated(
+                np.column_stack([joint[:, : 1 + n], joint[:, 1 + n :]]), np.zeros((len(joint), 0)), n, sizes, sd
+            )
+            cost = 0.5 * float(np.sum((sizes / sd) ** 2))
+            residual = np.concatenate([-sizes / sd, residual])
+            jacobian, gain = found.rows[:, 1 : 1 + n], gain + found.gain
+            step, by = -found.solution[:, 0], -found.solution[:, 1 : 1 + n]
+        run = 0
+        for one, part in zip(self.observations, parts, strict=True):
+            if part.solution.size:
+                own, through = part.solution[:, : 1 + n], part.solution[:, 1 + n :]
+                steps[run] = -(own[:, 0] + through @ step), -(own[:, 1:] + through @ by)
+            run += len(one.runs)
+        blocks, series = self._blocks([part.residual for part in parts], [part.priors for part in parts], sizes.size)
+        return Point(
+            x, cost, residual, jacobian, blocks=blocks, series=series,
+            carried=Carried(tuple(states), sizes), steps=(*steps, (step, by)), gain=gain,
+        )  # fmt: skip
+
+    def _with_nuisances(self, tables: list[Array], answer: Answer, sizes: Array) -> list[Array]:
+        """Take the sensor errors off the residuals in place; slopes by their sizes, per observation (n, k)."""
+        found = []
+        for (one, own), table in zip(self._own(answer.simulated), tables, strict=True):
+            columns = one.nuisance_columns(own, self.nuisances)
+            table[:, 0] -= columns @ sizes
+            for error, size in zip(self.nuisances, sizes, strict=True):
+                if error.kind is NuisanceKind.GAIN and one.dataset == error.dataset and error.signal in one.channels:
+                    table[one.channel_of_row == one.channels.index(error.signal), 1:] *= 1 + size
+            found.append(-columns)
+        return found
+
+    def _levels(self, squares: Array) -> tuple[Array, float]:
+        """Of every channel, and what they cost, nats."""
+        floor = np.array([self.floors[channel].sd for channel in self.channels])
+        samples, least = self.samples, floor**2
+        variance = squares / np.maximum(samples, 1.0)
+        above = variance > least
+        cost = np.where(
+            above, np.log(np.where(above, variance, 1.0)), np.log(least) + variance / least - 1 if floor.size else 0.0
+        )
+        return np.sqrt(np.where(above, variance, least)), float(0.5 * np.sum(samples * cost))
+
+    def _blocks(
+        self, parts: Sequence[Array], priors: Sequence[int], ahead: int = 0
+    ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+        """Block and series of each row. Pieces are dealt out in turn, so that each block has some of every log.
+
+        Args:
+            parts: residual of each observation, its priors first; `priors` of them, and `ahead` before all.
+        """
+        blocks, series = [np.zeros(ahead, dtype=np.intp)], [np.full(ahead, -1, dtype=np.intp)]
+        dealt, number = 0, 0
+        for one, part, prior in zip(self.observations, parts, priors, strict=True):
+            pieces = one.pieces(part[prior:], self.settings.piece)
+            blocks += [np.full(prior, dealt % self.settings.blocks), (dealt + pieces) % self.settings.blocks]
+            series += [np.full(prior, -1), number + one.channel_of_row]
+            dealt += int(pieces[-1]) + 1
+            number += max(len(one.channels), 1)
+        return np.concatenate(blocks), np.concatenate(series)
+
+    def misfit(self, point: Point, noise: Mapping[Channel, float]) -> float:
+        """Root mean square residual over the noise, per degree of freedom: 1 where nothing but noise is left."""
+        size = np.array([noise[channel] for channel in self.channels])
+        rows = sum(one.channel_of_row.size for one in self.observations if not one.channels)
+        total = float(np.sum(point.squares / size**2)) + point.known
+        return math.sqrt(total / max(float(self.samples.sum()) + rows - point.x.size, 1.0))
+
+
+@dataclass(frozen=True)
+class _Eliminated:
+    """Rows of one observation once what belongs to it alone is eliminated.
+
+    Args:
+        residual: (n,) as simulated, priors first.
+        rows: (n, 1 + n_x + k) residual, Jacobian and nuisances, each less what the eliminated columns explain.
+        solution: (n_s, 1 + n_x + k) by which multiples of these.
+        gain: nats that the eliminated numbers would gain.
+        priors: rows that are priors.
+    """
+
+    residual: Array
+    rows: Array
+    solution: Array
+    gain: float
+    priors: int
+
+
+def _eliminated(table: Array, more: Array, n: int, values: Array, sd: Array) -> _Eliminated:
+    """Eliminate the last columns of table (n_r, 1 + n + n_s): numbers at `values` with priors of `sd` around 0.
+
+    Args:
+        more: (n_r, k) columns that stay beside the table's.
+    """
+    kept = np.column_stack([table[:, : 1 + n], more]) if more.size else table[:, : 1 + n]
+    if not values.size:
+        return _Eliminated(table[:, 0].copy(), kept, np.zeros((0, kept.shape[1])), 0.0, 0)
+    prior = np.zeros((values.size, kept.shape[1]))
+    prior[:, 0] = -values / sd
+    rows = np.concatenate([prior, kept])
+    columns = np.concatenate([np.diag(-1 / sd), table[:, 1 + n :]])
+    size = np.linalg.norm(columns, axis=0)
+    size[size == 0] = 1.0
+    q, triangle = np.linalg.qr(columns / size)
+    u, sigma, vt = np.linalg.svd(triangle)
+    held = sigma > EXACT * sigma[0]
+    base = q @ u[:, held]
+    inner = base.T @ rows
+    solution = (vt[held].T @ (inner / sigma[held, None])) / size[:, None]
+    residual = rows[:, 0].copy()
+    rows -= base @ inner
+    return _Eliminated(residual, rows, solution, 0.5 * float(inner[:, 0] @ inner[:, 0]), values.size)
+
+
+def _squares(one: Observation, table: Array) -> Array:
+    """Sum of squares per channel of an observation, those too that no model changes."""
+    count = len(one.channels)
+    return one.rest + np.bincount(one.channel_of_row, table[:, 0] ** 2, count)[:count] if count else np.zeros(0)
+
+
+def _stacked(parts: Sequence[Array]) -> Array:
+    return np.ascontiguousarray(parts[0]) if len(parts) == 1 else np.concatenate(parts)
+
+
+def _orbits(answer: Answer, n: int) -> tuple[list[Array | None], list[tuple[Array, Array] | None]]:
+    """States of the orbits, which need no step of their own, and how they move with x."""
+    states: list[Array | None] = [None if orbit is None else orbit[0] for orbit in answer.orbits]
+    steps: list[tuple[Array, Array] | None] = [
+        None if orbit is None else (np.zeros(orbit[0].size), orbit[1][:, :n]) for orbit in answer.orbits
+    ]
+    return states, steps

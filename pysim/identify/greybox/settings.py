@@ -1,0 +1,119 @@
+"""The numbers of a fit, each with its unit, its meaning and its source."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from pysim.types.setting import setting
+
+
+@dataclass(frozen=True)
+class FitSettings:
+    """How a least-squares search goes, and how its intervals are made."""
+
+    tolerance: float = setting(
+        0.05,
+        unit="nats",
+        meaning="a search ends where a full step would lower the objective by less: 0.3 standard deviations of the "
+        "worst combination of parameters at most, and less with every step that was taken",
+        source="measured: fit-speed, where five of eight points gained 6 of 23,685 below it",
+    )
+    max_iterations: int = setting(
+        100, unit="1", meaning="points that one search tries", source="measured: fit-thesis needs 40"
+    )
+    first_radius: float = setting(
+        0.5,
+        unit="1",
+        meaning="longest first step, in natural logarithms or shares of the scale",
+        source="Nocedal and Wright 2006, Algorithm 4.1; half of the linear range of a logarithm",
+    )
+    rough: float = setting(
+        1e-4,
+        unit="1",
+        meaning="tolerance of the integration on the way to the optimum",
+        source="measured: fit-speed; the optimum moves by less than a tenth of its interval",
+    )
+    near: float = setting(
+        4e-3,
+        unit="1",
+        meaning="share of the sum of squares by which a step must still lower it while the integration is rough",
+        source="measured: fit-speed",
+    )
+    level: float = setting(
+        0.95, unit="1", meaning="of intervals", source="convention of the field; ISO/IEC Guide 98-3:2008, 6.2"
+    )
+    undetermined: float = setting(
+        1e-2,
+        unit="1",
+        meaning="share of a direction without any slope from which on a parameter in it counts as not determined",
+        source="measured: sensitivity",
+    )
+    apart: float = setting(
+        1.5,
+        unit="1",
+        meaning="ratio of the interval from blocks to that from white noise from which on a note says so",
+        source="Freedman 2006, The American Statistician 60:299: such a gap tells of a model that is wrong",
+    )
+    fewest_blocks: int = setting(
+        8,
+        unit="1",
+        meaning="fewer blocks give no interval of their own",
+        source="Bell and McCaffrey 2002, Survey Methodology 28:169",
+    )
+
+
+@dataclass(frozen=True)
+class NoiseSettings:
+    """What residuals are measured against, and what is allowed for beside the model."""
+
+    blocks: int = setting(
+        24,
+        unit="1",
+        meaning="pieces of the data that count as independent of each other",
+        source="measured: fit-coverage",
+    )
+    piece: float = setting(
+        5.0,
+        unit="1",
+        meaning="length of a stretch of a log that counts as independent, in memories of its residual",
+        source="the correlation of neighbouring means is then below 1/5",
+    )
+    bands: int = setting(
+        10, unit="1", meaning="equal bands of a residual's periodogram", source="measured: known-answers"
+    )
+    joined: float = setting(
+        3.0,
+        unit="1",
+        meaning="standard deviations within which a band is as low as the lowest",
+        source="a chance of 0.1 % for each band",
+    )
+    least: float = setting(
+        1e-5,
+        unit="1",
+        meaning="share of a signal's range below which no residual counts",
+        source="the relative error of the finest integration of a fit",
+    )
+    initial: float = setting(
+        12**-0.5,
+        unit="1",
+        meaning="standard deviation of an initial state around rest, as a share of the state's range over its log",
+        source="of a value that lies anywhere in the range",
+    )
+    gain_sd: float = setting(
+        0.01, unit="1", meaning="expected error of a sensor's gain", source="IEC 60770-1: class 1 transmitters"
+    )
+    offset_sd: float = setting(
+        0.005,
+        unit="1",
+        meaning="expected offset of a sensor, as a share of its full scale",
+        source="IEC 60770-1: class 0.5 transmitters",
+    )
+    delay_sd: float = setting(
+        0.25, unit="1", meaning="expected delay of a channel, in samples", source="clocks that are read at any time"
+    )
+    drift_sd: float = setting(
+        0.005,
+        unit="1",
+        meaning="expected drift of a sensor from the first to the last record, as a share of its full scale",
+        source="IEC 60770-1: as its offset",
+    )

@@ -1,0 +1,236 @@
+"""The stepped sines of one test: their harmonics beside those of the model's periodic orbits."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pysim.identify.accuracy import frequency_deviations
+from pysim.identify.greybox.context import Context
+from pysim.identify.greybox.harmonics import interpolation
+from pysim.identify.greybox.nuisance import Nuisance, NuisanceKind
+from pysim.identify.greybox.observation import Measure, Run, Simulated
+from pysim.identify.greybox.response import LogResponse, beside_measured, log_response, thesis_deviation
+from pysim.identify.greybox.sine_log import Sine, SineLog, sine_log, steady_sine
+from pysim.identify.greybox.steady_run import steady_run
+from pysim.identify.greybox.time_log import kept_columns
+from pysim.identify.greybox.treatment import SinePlan
+from pysim.identify.greybox.unsettled import UNLIKE, unlike
+from pysim.identify.logged import logged_wave
+from pysim.types import (
+    FrequencyResponse,
+    Harmonics,
+    MeasuredRecord,
+    Record,
+    RecordFit,
+    ResponseComparison,
+    ResponseFit,
+    Signal,
+    SineTest,
+)
+from pysim.types.record_kind import STEPPED_SINE
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class SteppedSines:
+    """Logs at one offset and amplitude.
+
+    Args:
+        dataset, use: of the logs.
+        logs: by increasing frequency.
+        runs: one per log, recorded at equidistant points over one period.
+        reference: place of the log whose gain counts as 0 dB; None: gains as they are.
+    """
+
+    dataset: str
+    use: str
+    logs: tuple[SineLog, ...]
+    runs: tuple[Run, ...]
+    reference: int | None
+    kind: str = STEPPED_SINE.name
+    domain: str = "frequency"
+
+    @property
+    def sources(self) -> tuple[str, ...]:
+        """Of the logs."""
+        return tuple(log.source for log in self.logs)
+
+    @property
+    def channels(self) -> tuple[str, ...]:
+        """The compared columns."""
+        return self.logs[0].measured.names
+
+    @property
+    def noise(self) -> tuple[float, ...]:
+        """Of each column."""
+        return self.logs[0].noise
+
+    @property
+    def channel_of_row(self) -> NDArray[np.intp]:
+        """Log by log, harmonic by harmonic, signal by signal within each."""
+        return np.tile(np.arange(len(self.channels)), sum(log.harmonics.shape[0] for log in self.logs))
+
+    @property
+    def samples(self) -> Array:
+        """The compared samples of all logs."""
+        return np.full(len(self.channels), float(sum(log.measured.time.size for log in self.logs)))
+
+    @cached_property
+    def rest(self) -> Array:
+        """Squares of what mean and harmonics leave of the samples."""
+        return np.sum([log.measured.time.size * log.scatter**2 for log in self.logs], axis=0)
+
+    def without(self, sources: Collection[str]) -> SteppedSines:
+        """The same without the logs of these sources; gains are as they are where the reference is among them."""
+        kept = [i for i, log in enumerate(self.logs) if log.source not in sources]
+        logs, runs = tuple(self.logs[i] for i in kept), tuple(self.runs[i] for i in kept)
+        return replace(
+            self, logs=logs, runs=runs, reference=kept.index(self.reference) if self.reference in kept else None
+        )
+
+    def residual(self, answers: Sequence[Simulated], measure: Measure = Measure.SIGNAL) -> Array:
+        """Mean and harmonics, uncorrelated; or magnitudes and phases (thesis Eq. 2.11 to 2.13 and 2.25)."""
+        if measure is Measure.THESIS:
+            return np.concatenate([self._deviation(answers, j) for j in range(len(self.channels))])
+        parts = []
+        for log, answer in zip(self.logs, answers, strict=True):
+            values = log.harmonics - log.onto @ answer.values
+            slopes = -np.tensordot(log.onto, answer.slopes, axes=1)
+            parts.append(np.concatenate([values[:, :, None], slopes], axis=2).reshape(values.size, -1))
+        return np.concatenate(parts)
+
+    def _deviation(self, answers: Sequence[Simulated], column: int) -> Array:
+        measured = np.array([self.measured_gains[i, column] for i in range(len(self.logs))])
+        return thesis_deviation(measured, self.response(answers, column), self.reference)
+
+    def nuisance_columns(self, answers: Sequence[Simulated], nuisances: Sequence[Nuisance]) -> Array:
+        """See Observation. A drift is not seen within a sine that is steady."""
+        parts = []
+        for log, answer in zip(self.logs, answers, strict=True):
+            columns = np.zeros((*log.harmonics.shape, len(nuisances)))
+            for k, one in enumerate(nuisances):
+                if one.dataset == self.dataset and one.signal in self.channels and one.kind is not NuisanceKind.DRIFT:
+                    j = self.channels.index(one.signal)
+                    columns[:, j, k] = log.onto @ _effect(one.kind, answer.values[:, j], log.sine.frequency)
+            parts.append(columns.reshape(-1, len(nuisances)))
+        return np.concatenate(parts)
+
+    def pieces(self, residual: Array, shortest: float) -> NDArray[np.intp]:
+        """A steady sine is one cluster."""
+        return np.repeat(np.arange(len(self.logs)), [log.harmonics.size for log in self.logs])
+
+    @cached_property
+    def measured_gains(self) -> NDArray[np.complex128]:
+        """ln(gain) + j phase of every log and column, (n_f, n_y)."""
+        return np.array([np.log(log.coefficients(log.harmonics)[1] / log.sine.amplitude) for log in self.logs])
+
+    def response(self, answers: Sequence[Simulated], column: int) -> LogResponse:
+        """The model's response in one column."""
+        rows = []
+        for log, answer in zip(self.logs, answers, strict=True):
+            onto = log.fundamental() @ log.onto
+            rows.append(
+                log_response(onto @ answer.values[:, column], onto @ answer.slopes[:, column], log.sine.amplitude)
+            )
+        return LogResponse(np.array([row[0] for row in rows]), np.array([row[1] for row in rows]))
+
+    def beside(self, answers: Sequence[Simulated]) -> tuple[tuple[RecordFit, ...], tuple[ResponseFit, ...]]:
+        """Every log, and the response that they are together, with the criteria of thesis Table 1.3."""
+        records = tuple(self._record(log, answer) for log, answer in zip(self.logs, answers, strict=True))
+        return records, tuple(self._response(answers, j) for j in range(len(self.channels)))
+
+    def _record(self, log: SineLog, answer: Simulated) -> RecordFit:
+        values = interpolation(log.phase, log.points) @ answer.values
+        measured, model = log.coefficients(log.harmonics), log.coefficients(log.onto @ answer.values)
+        harmonics = tuple(
+            Harmonics(name, log.sine.frequency, measured[:, j], model[:, j], log.noise[j] * log.deviations())
+            for j, name in enumerate(log.measured.names)
+        )
+        beside = replace(log.measured, values=values, origin="simulated")
+        return RecordFit(
+            self.dataset, log.source, self.kind, self.use, log.measured, beside, log.noise, {}, harmonics,
+            index=log.index,
+        )  # fmt: skip
+
+    def _response(self, answers: Sequence[Simulated], column: int) -> ResponseFit:
+        first = self.logs[0]
+        frequency = np.array([log.sine.frequency for log in self.logs])
+        test = SineTest(first.sine.offset, first.sine.amplitude, "command", self.channels[column])
+        logarithm = self.measured_gains[:, column]
+        measured = FrequencyResponse(
+            frequency, np.exp(logarithm.real), np.unwrap(logarithm.imag), test, "measured, stepped sines"
+        )
+        model = beside_measured(measured, self.response(answers, column))
+        reference = None if self.reference is None else float(frequency[self.reference])
+        deviations = frequency_deviations(model, measured, reference_hz=reference)
+        return ResponseFit(self.dataset, self.use, ResponseComparison(measured, model, deviations))
+
+
+def _effect(kind: NuisanceKind, orbit: Array, frequency: float) -> Array:
+    """What one unit of a sensor's error adds to a period of an orbit (points,)."""
+    if kind is NuisanceKind.GAIN:
+        return orbit
+    if kind is NuisanceKind.OFFSET:
+        return np.ones_like(orbit)
+    order = np.fft.rfftfreq(orbit.size, 1 / orbit.size)
+    return -np.fft.irfft(2j * np.pi * frequency * order * np.fft.rfft(orbit), orbit.size)
+
+
+@dataclass(frozen=True, eq=False)
+class Swing:
+    """One stepped sine: its record, what of it is compared, and the model's run for that."""
+
+    record: MeasuredRecord
+    log: SineLog
+    run: Run
+
+
+def swing(context: Context, record: MeasuredRecord, index: int) -> Swing:
+    """One log of a stepped sine, with its number."""
+    columns, outputs = context.columns(record)
+    data = record.data
+    assert isinstance(data, Record)
+    swinging = max(columns, key=lambda column: float(np.std(data[column])))  # the others stand still
+    sine = steady_sine(logged_wave(record, swinging))
+    noise = tuple(context.noise[name] for name in outputs)
+    log = _settled(record.source, kept_columns(data, outputs), sine, noise, context.treatment.sine, index)
+    others = {c: Signal.constant(float(np.mean(data[c]))) for c in columns if c != swinging}
+    settle = float(log.measured.time[0]) - sine.onset
+    return Swing(record, log, steady_run(context, record.source, swinging, sine, outputs, others, settle))
+
+
+def _settled(source: str, data: Record, sine: Sine, noise: tuple[float, ...], plan: SinePlan, index: int) -> SineLog:
+    """The whole periods behind settling. Where the plan names no time for it, the log itself says how many are left
+    out: as long as the first that is compared is unlike those after it, and half of them at most.
+    """
+    log = sine_log(source, data, sine, noise, plan, index=index)
+    if plan.settle_time is not None:
+        return log
+    most = plan.settle_periods + log.periods // 2
+    while unlike(log) > UNLIKE and plan.settle_periods < most:
+        plan = replace(plan, settle_periods=min(plan.settle_periods + max(log.periods // 10, 1), most))
+        log = sine_log(source, data, sine, noise, plan, index=index)
+    return log
+
+
+def stepped_sines(context: Context, swings: Sequence[Swing]) -> list[SteppedSines]:
+    """Swings of one data set, those of one test together."""
+    tests: dict[tuple[object, ...], list[Swing]] = {}
+    for one in swings:
+        record = one.record
+        tests.setdefault((record.use, record.offset, record.amplitude, *context.columns(record)), []).append(one)
+    return [_test(context, group) for group in tests.values()]
+
+
+def _test(context: Context, group: Sequence[Swing]) -> SteppedSines:
+    swings = sorted(group, key=lambda one: one.log.sine.frequency)
+    logs, runs = tuple(one.log for one in swings), tuple(one.run for one in swings)
+    frequencies = np.array([log.sine.frequency for log in logs])
+    near = np.flatnonzero(np.isclose(frequencies, context.treatment.reference_hz or -1.0, rtol=1e-3))
+    return SteppedSines(context.dataset.name, group[0].record.use, logs, runs, int(near[0]) if near.size else None)

@@ -1,0 +1,243 @@
+"""A log over time: sample by sample beside the model driven by the logged command, from where the plant stood."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pysim.identify.accuracy import time_deviations
+from pysim.identify.greybox.context import Context
+from pysim.identify.greybox.effective_size import inflation
+from pysim.identify.greybox.nuisance import Nuisance, NuisanceKind
+from pysim.identify.greybox.observation import Measure, Run, Simulated
+from pysim.identify.logged import logged_command
+from pysim.simulate import Rodas, simulate_many
+from pysim.types import Experiment, MeasuredRecord, MeasuredSignal, Outcome, Record, RecordFit, ResponseFit, Signal
+
+Array = NDArray[np.float64]
+
+_WATCHED = 1000  # samples of a log at which the range of the model's states is looked at
+
+
+@dataclass(frozen=True)
+class TimeLog:
+    """Every sample of every compared signal.
+
+    Args:
+        dataset, source, kind, use: of the log.
+        measured: the compared columns.
+        noise: (n_y,) standard deviations, in the columns' units.
+        full_scale: (n_y,) what counts as 100 percent, in the columns' units.
+        run: the model's run, recorded at the log's times.
+        index: of the log, as in `RecordFit`.
+        begin: s, of the first sample on the clock of all records; None where not known.
+    """
+
+    dataset: str
+    source: str
+    kind: str
+    use: str
+    measured: Record
+    noise: tuple[float, ...]
+    full_scale: tuple[float, ...]
+    run: Run
+    domain: str = "time"
+    index: int = field(kw_only=True)
+    begin: float | None = None
+
+    @property
+    def sources(self) -> tuple[str, ...]:
+        """The one log."""
+        return (self.source,)
+
+    @property
+    def runs(self) -> tuple[Run, ...]:
+        """The one run."""
+        return (self.run,)
+
+    @property
+    def channels(self) -> tuple[str, ...]:
+        """The compared columns."""
+        return self.measured.names
+
+    @property
+    def channel_of_row(self) -> NDArray[np.intp]:
+        """Signal by signal within each sample."""
+        return np.tile(np.arange(len(self.channels)), self.measured.time.size)
+
+    @property
+    def samples(self) -> Array:
+        """All of them."""
+        return np.full(len(self.channels), float(self.measured.time.size))
+
+    @property
+    def rest(self) -> Array:
+        """Nothing is left out."""
+        return np.zeros(len(self.channels))
+
+    def residual(self, answers: Sequence[Simulated], measure: Measure = Measure.SIGNAL) -> Array:
+        """Per sample and signal; in percent of full scale as the thesis counts it (Eq. 2.24, Table 4.9)."""
+        (answer,) = answers
+        size = np.array(self.full_scale) / 100 if measure is Measure.THESIS else np.ones(len(self.channels))
+        free = answer.by_initial.shape[2]
+        n_x = answer.slopes.shape[2]
+        rows = np.empty((*self.measured.values.shape, 1 + n_x + free))
+        rows[:, :, 0] = (self.measured.values - answer.values) / size
+        np.divide(answer.slopes, -size[:, None], out=rows[:, :, 1 : 1 + n_x])
+        if free:
+            np.divide(answer.by_initial, -size[:, None], out=rows[:, :, 1 + n_x :])
+        return rows.reshape(-1, rows.shape[2])
+
+    def nuisance_columns(self, answers: Sequence[Simulated], nuisances: Sequence[Nuisance]) -> Array:
+        """See Observation. A drift is a straight line over the common clock, zero at its origin."""
+        (answer,) = answers
+        time, columns = self.measured.time, np.zeros((*self.measured.values.shape, len(nuisances)))
+        for k, one in enumerate(nuisances):
+            if one.dataset != self.dataset or one.signal not in self.channels:
+                continue
+            j = self.channels.index(one.signal)
+            values = answer.values[:, j]
+            columns[:, j, k] = {
+                NuisanceKind.GAIN: lambda v=values: v,
+                NuisanceKind.OFFSET: lambda v=values: np.ones_like(v),
+                NuisanceKind.DELAY: lambda v=values: -np.gradient(v, time),
+                NuisanceKind.DRIFT: lambda v=values: (self.begin or 0.0) + time - time[0] + 0.0 * v,
+            }[one.kind]()
+        return columns.reshape(-1, len(nuisances))
+
+    def pieces(self, residual: Array, shortest: float) -> NDArray[np.intp]:
+        """Contiguous stretches of whole samples, as long as the slowest channel needs them to be."""
+        rows = residual.reshape(-1, len(self.channels))
+        mean = [np.ones((len(rows), 1))]
+        length = shortest * max(inflation([column[:, None]], mean) for column in rows.T)
+        count = max(int(len(rows) / length), 1)
+        return np.repeat(np.arange(len(rows)) * count // len(rows), len(self.channels))
+
+    def beside(self, answers: Sequence[Simulated]) -> tuple[tuple[RecordFit, ...], tuple[ResponseFit, ...]]:
+        """The log with the criteria of thesis Table 1.4."""
+        (answer,) = answers
+        deviations = {
+            name: time_deviations(answer.values[:, j], self.measured.values[:, j], self.full_scale[j])
+            for j, name in enumerate(self.channels)
+        }
+        model = replace(self.measured, values=answer.values, origin="simulated")
+        fit = RecordFit(
+            self.dataset, self.source, self.kind, self.use, self.measured, model, self.noise, deviations,
+            index=self.index,
+        )  # fmt: skip
+        return (fit,), ()
+
+
+def time_logs(context: Context, records: Sequence[tuple[int, MeasuredRecord]]) -> list[TimeLog]:
+    """The logs over time among the records of a data set, each with its number."""
+    logs = [_log(context, record, index) for index, record in records]
+    ranges = _state_ranges(context, [log.run.experiment for log in logs])
+    return [
+        replace(log, run=replace(log.run, initial=_spread(context, record, spread)))
+        for log, (_, record), spread in zip(logs, records, ranges, strict=True)
+    ]
+
+
+def _log(context: Context, record: MeasuredRecord, index: int) -> TimeLog:
+    columns, outputs = context.columns(record)
+    data = record.data
+    assert isinstance(data, Record)
+    measured, start, rest = kept_columns(data, outputs), float(data.time[0]), context.treatment.rest
+    commands, begin = {}, start
+    started = record.source in context.started or None in context.started
+    own_start = context.first_value
+    for column in columns:
+        name, signal = context.variable(column), logged_command(record, column, context.dataset.signal(column).hold)
+        if rest is not None and not started and (context.still or signal.value(np.array(start)) != own_start(name)):
+            signal, first = from_rest(signal, start, own_start(name), rest.times(context.settling))
+            begin = min(begin, first)
+        commands[name] = signal
+    return TimeLog(
+        dataset=context.dataset.name,
+        source=record.source,
+        kind=record.kind,
+        use=record.use,
+        measured=measured,
+        noise=tuple(context.noise[name] for name in outputs),
+        full_scale=tuple(full_scale(context.dataset.signal(n), measured[n]) for n in outputs),
+        run=Run(record.source, context.experiment(data.time, outputs, commands, begin), begins=start),
+        index=index,
+        begin=record.begin,
+    )
+
+
+def _spread(context: Context, record: MeasuredRecord, ranges: Array) -> Array:
+    """Standard deviations of the initial states (n_x,); 0 where held, empty where all are."""
+    known = record.initial or context.treatment.initial
+    if known == "rest" or record.source in context.started or None in context.started:
+        return np.zeros(0)
+    return np.where(ranges > 0, math.inf if known == "estimate" else context.treatment.noise.initial * ranges, 0.0)
+
+
+def _state_ranges(context: Context, experiments: Sequence[Experiment]) -> list[Array]:
+    """How far each state moves over each log (n_x,) as the model stands; its nominal size where that cannot be run."""
+    states = context.model.abilities.states
+    if not states or not experiments:
+        return [np.zeros(0)] * len(experiments)
+    looks = [replace(one, record=states, times=one.times[:: -(-one.times.size // _WATCHED)]) for one in experiments]
+    found = []
+    for record in simulate_many(context.model, looks, solver=Rodas(1e-3, 1e-3)):
+        done = record.outcome is Outcome.DONE and bool(np.isfinite(record.values).all())
+        sizes = np.array([abs(context.model[name].nominal or 1.0) for name in states])
+        found.append(np.ptp(record.values, axis=0) if done else sizes)
+    return found
+
+
+def kept_columns(data: Record, names: tuple[str, ...]) -> Record:
+    """Some columns of a log."""
+    places = [data.names.index(name) for name in names]
+    units = tuple(data.units[i] for i in places)
+    return Record(data.time, data.values[:, places], names, units, origin=data.origin)
+
+
+def full_scale(signal: MeasuredSignal, values: Array) -> float:
+    """What counts as 100 percent: 100 %, 1, else the largest measured size."""
+    return {"%": 100.0, "1": 1.0}.get(signal.unit) or float(np.max(np.abs(values))) or 1.0
+
+
+def from_rest(signal: Signal, start: float, first: float, times: tuple[float, float]) -> tuple[Signal, float]:
+    """The command with its way from rest ahead of it.
+
+    Args:
+        signal: the command from `start` (s) on.
+        first: the input's start value, at which the model starts; in the signal's unit.
+        times: s of the ramp from there to the command's first value, and of that value.
+    Returns:
+        the whole command, and when its run has to start, s.
+    """
+    tail, (ramp, hold) = _cut(signal, start), times
+    if not (ramp > 0 and hold > 0):
+        return tail, start
+    value = float(signal.value(np.array(start)))
+    if value == first:
+        return tail, start - hold
+    begin = start - hold - ramp
+    starts = np.concatenate([[begin, start - hold], tail.starts])
+    cubics = np.vstack([[first, (value - first) / ramp, 0.0, 0.0], [value, 0.0, 0.0, 0.0], tail.cubics])
+    sines = np.concatenate([np.zeros((2, *tail.sines.shape[1:])), tail.sines])
+    return Signal(starts, cubics, sines), begin
+
+
+def _cut(signal: Signal, start: float) -> Signal:
+    """The same signal from `start` on, without what was before."""
+    k = max(int(np.searchsorted(signal.starts, start, side="right")) - 1, 0)
+    s = start - signal.starts[k]
+    if s <= 0:
+        return signal
+    c0, c1, c2, c3 = signal.cubics[k]
+    cubics, sines, starts = signal.cubics[k:].copy(), signal.sines[k:].copy(), signal.starts[k:].copy()
+    starts[0] = start
+    cubics[0] = c0 + s * (c1 + s * (c2 + s * c3)), c1 + s * (2 * c2 + 3 * s * c3), c2 + 3 * s * c3, c3
+    omega, kappa = sines[0, :, 2].copy(), sines[0, :, 3]
+    sines[0, :, 1] += s * (omega + 0.5 * kappa * s)
+    sines[0, :, 2] += kappa * s
+    return Signal(starts, cubics, sines)
