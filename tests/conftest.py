@@ -1,7 +1,7 @@
 """What holds for every test: one store of FMUs, no deadline, and a budget of processor time that is watched.
 
 A test may take 3 s of processor time and a file 15 s, on the computer that `REFERENCE` names and scaled to this one, so
-that a slow computer fails nothing. From twice that on the run fails. A test that built an FMU or compiled a loop for
+that a slow computer fails nothing. From twice that on the run fails. A test that built an FMU or the solver for
 those after it does not count. What needs more is marked `slow`.
 """
 
@@ -47,8 +47,8 @@ def calibration() -> float:
 
 
 def stored() -> int:
-    """How many FMUs and compiled loops are stored."""
-    return sum(1 for folder in ("fmu/*.fmu", "native/*/*/*.nb?", "numba/*/*.nb?") for _ in STORE.glob(folder))
+    """How many FMUs and compiled code are stored."""
+    return sum(1 for folder in ("fmu/*.fmu", "kernel/*", "numba/*/*.nb?") for _ in STORE.glob(folder))
 
 
 def measured(item: pytest.Item, phase: str) -> Iterator[None]:

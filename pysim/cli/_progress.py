@@ -10,15 +10,15 @@ from types import TracebackType
 from pysim.cli._terminal import draws_over
 
 _WIDTH = 30
-_COMPILING = "Compiling the simulation loop, once on this machine"
+_COMPILING = "Compiling the solver, once on this machine"
 _MOMENT, _TICK, _PAUSE = 0.4, 0.5, 10.0  # s: before the first line, between two on a terminal, and elsewhere
 
 
 def announce_compilation() -> None:
     """Say why the first run on a machine takes its time."""
-    from pysim.simulate import is_compiled
+    from pysim.simulate import kernel_is_built
 
-    if not is_compiled():
+    if not kernel_is_built():
         print(f"{_COMPILING} ...", file=sys.stderr)
 
 
@@ -59,10 +59,10 @@ class Working:
 
 
 def simulating() -> Working:
-    """What is said while a model runs; the first run on a machine compiles the loop of the solver."""
-    from pysim.simulate import is_compiled
+    """What is said while a model runs; the first run on a machine compiles the solver."""
+    from pysim.simulate import kernel_is_built
 
-    return Working("Simulating" if is_compiled() else _COMPILING)
+    return Working("Simulating" if kernel_is_built() else _COMPILING)
 
 
 class ProgressBar:

@@ -43,12 +43,12 @@ def run(args: argparse.Namespace) -> int:
 
     folder = prepare_folder(args.output)
     frequencies = QUICK_FREQUENCIES_HZ if args.quick else FREQUENCIES_HZ
-    # On two cores the loop is compiled while the models are built, and pictures are drawn while the models run.
+    # On two cores the solver is compiled while the models are built, and pictures are drawn while the models run.
     with ProcessPoolExecutor(2, mp_context=get_context("spawn")) as helpers:
-        compiled = helpers.submit(_compile_loop)
+        compiled = helpers.submit(_build_kernel)
         models = {label: _build(label, folder) for label in _TABLES}
         dataset = read_dataset(write_dataset(folder / "measurements", frequencies))
-        with Working("Compiling the simulation loop, once on this machine"):
+        with Working("Compiling the solver, once on this machine"):
             compiled.result()
         free = _compare("free", models["free"], dataset)
         early = helpers.submit(draw_picture, (free,), folder, "bode_O+50.png")  # something to look at
@@ -65,10 +65,10 @@ def run(args: argparse.Namespace) -> int:
     return 0
 
 
-def _compile_loop() -> None:
-    from pysim.simulate import compile_loop
+def _build_kernel() -> None:
+    from pysim.simulate import build_kernel
 
-    compile_loop()
+    build_kernel()
 
 
 def _build(label: str, folder: Path) -> Model:

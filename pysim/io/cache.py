@@ -1,4 +1,4 @@
-"""Where derived files are kept: machine code of the native loops, unpacked archives.
+"""Where derived files are kept: machine code of the kernel, unpacked archives.
 
 Such files are loaded as code, so a folder counts only if no other user could have written into it.
 """

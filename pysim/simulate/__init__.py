@@ -1,14 +1,14 @@
-"""Run FMUs fast: one compiled loop that calls the FMU's own functions."""
+"""Run FMUs fast: a kernel in C that calls the FMU's own functions."""
 
 from pysim.simulate._base import Solver
 from pysim.simulate._check import check_override, value_objection
 from pysim.simulate._many import simulate_many
 from pysim.simulate._messages import Mailbox
-from pysim.simulate._run import compile_loop, simulate
+from pysim.simulate._run import simulate
 from pysim.simulate.esdirk import Esdirk
 from pysim.simulate.fmu_states import FmuState, FmuStates
 from pysim.simulate.fmu_values import FmuValues, is_number
-from pysim.simulate.native.compiled import is_compiled
+from pysim.simulate.kernel.build import build_kernel, kernel_is_built
 from pysim.simulate.rk4 import Rk4
 from pysim.simulate.rk45 import Rk45
 from pysim.simulate.rodas import Rodas
@@ -43,12 +43,12 @@ __all__ = [
     "StepFailed",
     "Stepwise",
     "Wires",
+    "build_kernel",
     "can_be_saved",
     "check_override",
-    "compile_loop",
-    "is_compiled",
     "is_number",
     "is_smooth",
+    "kernel_is_built",
     "open_stepwise",
     "periodic_many",
     "rounding",

@@ -1,4 +1,4 @@
-"""What a solver is: a method, as data for the native loop, and a step rule."""
+"""What a solver is: a method, as data for the kernel, and a step rule."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass, fields
 from typing import NamedTuple, Protocol
 
-from pysim.simulate.native.method import Method
+from pysim.simulate.kernel.method import Method
 from pysim.types import BadInput
 
 

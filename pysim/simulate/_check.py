@@ -8,7 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from pysim.simulate._library import REALS, settable_types
-from pysim.simulate.native.recording import GETTERS
+from pysim.simulate.kernel.recording import GETTERS
 from pysim.types import BadInput, Experiment, Model, Variable
 
 

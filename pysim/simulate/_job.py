@@ -1,4 +1,4 @@
-"""The memory of one run: a record of numbers and addresses for native code, and the arrays the addresses point to."""
+"""The memory of one run: a record of numbers and addresses for the kernel, and the arrays the addresses point to."""
 
 from __future__ import annotations
 
@@ -8,36 +8,18 @@ from typing import Any
 import numpy as np
 
 from pysim.simulate._base import Solver
-from pysim.simulate.native.fmu_calls import FMU
-from pysim.simulate.native.inputs import BREAKS, INPUTS
-from pysim.simulate.native.method import METHOD
-from pysim.simulate.native.recording import ROWS
-from pysim.simulate.native.state import CONTROL, RUN, STATISTICS, WORK
-from pysim.simulate.native.variation import VARIATION
-
-JOB = np.dtype(
-    [
-        ("fmu", FMU),
-        ("method", METHOD),
-        ("control", CONTROL),
-        ("inputs", INPUTS),
-        ("breaks", BREAKS),
-        ("run", RUN),
-        ("work", WORK),
-        ("rows", ROWS),
-        ("variation", VARIATION),
-    ]
-)
+from pysim.simulate.kernel.layout import JOB, STATISTICS, structures
+from pysim.simulate.kernel.library import address
 
 _FIELDS = {section: JOB[section].names or () for section in JOB.names or ()}
 
-_FRESH = np.zeros((), dtype=RUN)  # a run that has not begun
+_FRESH = np.zeros((), dtype=structures()["Run"])  # a run that has not begun
 _FRESH["segment"], _FRESH["jacobian_at"], _FRESH["inputs_at"] = -1, np.nan, np.nan
 _FRESH["leaves"], _FRESH["offset_at"] = np.inf, np.nan
 
 
 class Job:
-    """One run, and then the next. Native code gets `record` (1,) of JOB."""
+    """One run, and then the next. The kernel gets the address of `record`, (1,) of JOB."""
 
     def __init__(self, solver: Solver) -> None:
         self.solver = solver
@@ -63,7 +45,7 @@ class Job:
         for name, value in values.items():
             if isinstance(value, np.ndarray):
                 self._arrays[section, name] = value
-                value = _address(value)
+                value = address(value)
             fields[name] = value
 
     def put(self, section: str, values: Mapping[str, Any]) -> None:
@@ -74,7 +56,7 @@ class Job:
             value = values.get(name, 0)
             if isinstance(value, np.ndarray):
                 self._arrays[section, name] = value
-                value = _address(value)
+                value = address(value)
             row.append(value)
         self.record[section] = tuple(row)
 
@@ -90,10 +72,3 @@ class Job:
         """Counts of the run so far."""
         run = self.record["run"][0]
         return {name: int(run[name]) for name in STATISTICS}
-
-
-def _address(array: np.ndarray) -> int:
-    if not array.flags.c_contiguous:
-        raise ValueError("native code reads arrays item after item: this one is not contiguous")
-    address: int = array.__array_interface__["data"][0]  # a fifth of the time of array.ctypes.data
-    return address

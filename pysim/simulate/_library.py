@@ -1,4 +1,4 @@
-"""An FMU's shared library and its instances: FMPy does the life cycle, native code gets the addresses."""
+"""An FMU's shared library and its instances: FMPy does the life cycle, the kernel gets the addresses."""
 
 from __future__ import annotations
 
@@ -8,7 +8,6 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from typing import Any
 
-import numpy as np
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Model
 from fmpy.fmi3 import FMU3Model
@@ -16,9 +15,10 @@ from fmpy.fmi3 import FMU3Model
 from pysim.io import load_library
 from pysim.simulate._job import Job
 from pysim.simulate._messages import Mailbox
-from pysim.simulate.native.fmu_calls import ERROR, FATAL, FUNCTIONS, OK
-from pysim.simulate.native.recording import row_layout
-from pysim.simulate.native.sparsity import jacobian_arrays
+from pysim.simulate.kernel.functions import FUNCTIONS
+from pysim.simulate.kernel.layout import ERROR, FATAL, OK
+from pysim.simulate.kernel.recording import row_layout
+from pysim.simulate.kernel.sparsity import jacobian_arrays
 from pysim.types import BadInput, Model
 
 # Setter of FMPy per type of variable, FMI 2 and FMI 3.
@@ -63,7 +63,6 @@ class Instance:
         self._addresses: dict[str, Any] = {
             "version": version,
             "needs_completed_step": self.model.abilities.needs_completed_step,
-            "answers": np.zeros(4),
             **{name: self.address(functions[version - 2]) for name, functions in FUNCTIONS.items()},
         }
 
@@ -72,13 +71,13 @@ class Instance:
         return ctypes.cast(getattr(self.fmu.dll, function), ctypes.c_void_p).value or 0
 
     def addresses(self) -> dict[str, Any]:
-        """What native code needs to call this instance; the same object as long as nothing changes."""
+        """What the kernel needs to call this instance; the same object as long as nothing changes."""
         if self._addresses.get("instance") != self.fmu.component:
             self._addresses = {**self._addresses, "instance": self.fmu.component}
         return self._addresses
 
     def rows(self, names: tuple[str, ...]) -> dict[str, Any]:
-        """What native code needs to read these variables."""
+        """What the kernel needs to read these variables."""
         if names not in self._rows:
             self._rows[names] = row_layout(self.model, names, self.address)
         return self._rows[names]

@@ -1,4 +1,4 @@
-"""Run one experiment: check, initialise, hand over to native code, hand back a Record."""
+"""Run one experiment: check, initialise, hand over to the kernel, hand back a Record."""
 
 from __future__ import annotations
 
@@ -6,32 +6,26 @@ from collections.abc import Callable
 from time import perf_counter
 
 import numpy as np
-from numba import typeof
 
 from pysim.simulate._base import Solver
 from pysim.simulate._check import check_arguments, check_experiment
 from pysim.simulate._job import Job
 from pysim.simulate._library import CallFailed, Instance, Library, open_library
-from pysim.simulate.native.fmu_calls import DISCARD, ERROR, FATAL
-from pysim.simulate.native.inputs import break_arrays, input_arrays, offset_arrays
-from pysim.simulate.native.loop import integrate
-from pysim.simulate.native.method import ExplicitMethod, method_arrays
-from pysim.simulate.native.state import RUNNING, work_arrays
+from pysim.simulate.kernel.layout import DISCARD, ERROR, FATAL, RUNNING
+from pysim.simulate.kernel.library import kernel
+from pysim.simulate.kernel.memory import work_arrays
+from pysim.simulate.kernel.method import ExplicitMethod, method_arrays
+from pysim.simulate.kernel.signals import break_arrays, input_arrays
 from pysim.simulate.rk45 import Rk45
 from pysim.types import Experiment, Model, Outcome, Record, SimulationError
 
-OUTCOMES = {RUNNING: Outcome.STOPPED, **dict(enumerate(Outcome))}  # by the codes of `native.state`, once nobody goes on
+OUTCOMES = {RUNNING: Outcome.STOPPED, **dict(enumerate(Outcome))}  # by the kernel's codes, once nobody goes on
 
 _FIRST_LOOK = 20  # steps until the first look at the world outside; then as many as take about
 _BETWEEN_LOOKS = 0.02  # s, whatever the model's own functions cost
 _LONGER = 10.0  # times the steps before, at most
 
 _STATUS = {DISCARD: "the model discards the point", ERROR: "an FMI function failed", FATAL: "a fatal FMI error"}
-
-
-def compile_loop() -> None:
-    """Compile the loop of `simulate` now where this machine does not hold it yet; a process may, while others work."""
-    integrate.compile((typeof(Job(Rk45()).record), typeof(_FIRST_LOOK)))  # type: ignore[attr-defined]
 
 
 def simulate(model: Model, experiment: Experiment, *, solver: Solver = Rk45(), check: bool = True) -> Record:  # noqa: B008
@@ -77,7 +71,7 @@ def run(
 def _run_instance(instance: Instance, experiment: Experiment, solver: Solver, stopped: Callable[[], bool]) -> Record:
     initialise(instance, experiment, solver)
     job = prepare(instance, experiment, solver)
-    code = go_on(integrate, job, stopped)
+    code = go_on(kernel().integrate, job, stopped)
     instance.status = int(job.number("run", "status"))
     outcome = OUTCOMES[code]
     message = "" if outcome is Outcome.DONE else explain(job, outcome) + instance.mailbox.text()
@@ -86,7 +80,7 @@ def _run_instance(instance: Instance, experiment: Experiment, solver: Solver, st
 
 
 def go_on(loop: Callable[[np.ndarray, int], int], job: Job, stopped: Callable[[], bool]) -> int:
-    """Call a native loop until its run has ended or is to stop; how it ended, or RUNNING.
+    """Call a loop of the kernel until its run has ended or is to stop; how it ended, or RUNNING.
 
     Only between two calls can an interrupt from the keyboard arrive.
     """
@@ -125,7 +119,7 @@ def values_at_start(experiment: Experiment) -> dict[str, float]:
 
 
 def prepare(instance: Instance, experiment: Experiment, solver: Solver) -> Job:
-    """Everything native code needs for this run; what depends on model and solver alone is still there."""
+    """Everything the kernel needs for this run; what depends on model and solver alone is still there."""
     if instance.job is None or instance.job.solver is not solver:
         instance.job = _new_job(instance, solver)
     job, names, times = instance.job, experiment.record, experiment.times

@@ -10,12 +10,12 @@ from numpy.typing import NDArray
 from pysim.simulate._base import Solver
 from pysim.simulate._job import Job
 from pysim.simulate._library import Instance
-from pysim.simulate.native.method import ExplicitMethod, method_arrays
-from pysim.simulate.native.state import work_arrays
+from pysim.simulate.kernel.memory import work_arrays
+from pysim.simulate.kernel.method import ExplicitMethod, method_arrays
 
 Array = NDArray[np.float64]
 
-_MEMORY = ("scratch", "nominal", "matrix", "pivots", "stages", "right", "factors", "pivot_values", "probe")
+_MEMORY = ("scratch", "nominal", "matrix", "pivots", "stages", "right", "factors")
 
 
 @dataclass(frozen=True)
@@ -86,7 +86,7 @@ class StepJob:
         self._row[0], self._next[0] = row, 0
 
     def begin_afresh(self, values: Array | None, rates: Array | None) -> None:
-        """Native code is to begin with an event at the present time, and with straight lines from there, if any."""
+        """The kernel is to begin with an event at the present time, and with straight lines from there, if any."""
         self._segment[0] = -1
         self._lines[0] = 0 if values is None else values.size
         if values is not None:

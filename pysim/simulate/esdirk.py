@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pysim.simulate._base import Adaptive
-from pysim.simulate.native.method import EsdirkMethod
+from pysim.simulate.kernel.method import EsdirkMethod
 
 Array = NDArray[np.float64]
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from pysim.simulate._base import Control, fixed
-from pysim.simulate.native.method import ExplicitMethod
+from pysim.simulate.kernel.method import ExplicitMethod
 
 
 def _hermite(b: np.ndarray) -> np.ndarray:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from pysim.simulate._base import Adaptive
-from pysim.simulate.native.method import ExplicitMethod
+from pysim.simulate.kernel.method import ExplicitMethod
 
 # Tsitouras 2011, Runge-Kutta pairs of order 5(4) satisfying only the first column simplifying assumption, Table 1 and
 # Section 3; the seventh stage is the derivative at the end of the step.

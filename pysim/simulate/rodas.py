@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pysim.simulate._base import Adaptive
-from pysim.simulate.native.method import RosenbrockMethod
+from pysim.simulate.kernel.method import RosenbrockMethod
 
 # Rodas5P: Steinebach 2023, Construction of Rosenbrock-Wanner method Rodas5P, BIT Numerical Mathematics 63:27. Rows of
 # the strict lower triangles; the last stages only add up those before them, which makes the method stiffly accurate.

@@ -17,9 +17,8 @@ from pysim.simulate._run import OUTCOMES, explain
 from pysim.simulate._step_job import SavedJob, StepJob
 from pysim.simulate.fmu_states import FmuState, FmuStates
 from pysim.simulate.fmu_values import FmuValues, pointer
-from pysim.simulate.native.fmu_calls import FATAL, WARNING
-from pysim.simulate.native.loop import integrate
-from pysim.simulate.native.state import DONE, RUNNING
+from pysim.simulate.kernel.layout import DONE, FATAL, RUNNING, WARNING
+from pysim.simulate.kernel.library import kernel
 from pysim.simulate.rounding import rounding
 from pysim.types import Model, Outcome
 
@@ -159,7 +158,7 @@ class Stepwise:
         self._job.aim(end, end, end - near)
         code = RUNNING
         while code == RUNNING:
-            code = integrate(self._job.record, _BUDGET)
+            code = kernel().integrate(self._job.record, _BUDGET)
         if code != DONE:
             self._fail(code)
         self.event = self._job.next_event <= end + near
@@ -179,7 +178,7 @@ class Stepwise:
     def _settle(self) -> None:
         """Handle the event at the present time and read the outputs; no step yet."""
         self._job.aim(self._stop if self._stop > self.time else self.time + 1.0, self.time)
-        code = integrate(self._job.record, 0)
+        code = kernel().integrate(self._job.record, 0)
         if code not in (RUNNING, DONE):
             self._fail(code)
 

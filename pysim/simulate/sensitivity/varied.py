@@ -1,4 +1,4 @@
-"""One run with its derivatives, in an instance: what native code is given, and what it leaves."""
+"""One run with its derivatives, in an instance: what the kernel is given, and what it leaves."""
 
 from __future__ import annotations
 
@@ -13,9 +13,8 @@ from pysim.simulate._job import Job
 from pysim.simulate._library import Instance
 from pysim.simulate._run import OUTCOMES, explain, go_on, make_record, prepare
 from pysim.simulate.esdirk import Esdirk
-from pysim.simulate.native.blocks import VECTOR
-from pysim.simulate.native.variation import ASKED, FIXED
-from pysim.simulate.native.variation_loop import EVENT, integrate_variations
+from pysim.simulate.kernel.layout import ASKED, COLUMNS, EVENT, FIXED
+from pysim.simulate.kernel.library import kernel
 from pysim.types import Experiment, Model, Outcome, Record
 
 Array = NDArray[np.float64]
@@ -109,8 +108,8 @@ def vary(
         job.restart(experiment.start, float(experiment.times[-1]))
         job.change("rows", {"next": 0, "values": np.zeros((experiment.times.size, len(experiment.record)))})
     job.change("variation", {"tolerance": solver.derivative_tol})
-    job.change("variation", _of_this_run(job, experiment, directions, start, start_by, rewind))
-    code = go_on(integrate_variations, job, stopped)
+    job.change("variation", _of_this_run(job, experiment, start, start_by, rewind))
+    code = go_on(kernel().integrate_variations, job, stopped)
     instance.status = int(job.number("run", "status"))
     return _result(instance, experiment, job, code, directions)
 
@@ -145,7 +144,7 @@ def _of_this_run(
     start_by: Array | None,
     rewind: bool,
 ) -> dict[str, Any]:
-    """The fields of VARIATION that are a run's own."""
+    """The fields of `Variation` that are a run's own."""
     n, width, by_start = (
         job.array("work", "x").size,
         job.number("variation", "columns"),
@@ -166,10 +165,10 @@ def _of_this_run(
 
 
 def _arrays(model: Model, record: tuple[str, ...], directions: Directions) -> dict[str, Any]:
-    """What else VARIATION points to; the same for every run of a kind."""
+    """What else `Variation` points to; the same for every run of a kind."""
     n, parameters = len(model.abilities.states), directions.parameters
-    by_start = n if directions.by_state else 0
-    width = -(-(by_start + len(parameters)) // VECTOR) * VECTOR
+    by_start = n if directions.states else 0
+    width = -(-(by_start + len(parameters)) // COLUMNS) * COLUMNS
     return {
         "columns": width,
         "by_start": by_start,

@@ -1,6 +1,7 @@
 """Nothing that lasts stands silent, and nothing is said of what is quick."""
 
 import io
+import shutil
 import sys
 import threading
 from pathlib import Path
@@ -9,8 +10,8 @@ import pytest
 
 from pysim.cli import _progress
 from pysim.cli._progress import ProgressBar, Working, announce_compilation
-from pysim.simulate import is_compiled
-from pysim.simulate.native import compiled
+from pysim.simulate import build_kernel, kernel_is_built
+from pysim.simulate.kernel import build
 
 
 class Stream(io.StringIO):
@@ -52,16 +53,16 @@ def test_what_is_quick_is_not(monkeypatch: pytest.MonkeyPatch, capsys: pytest.Ca
     assert capsys.readouterr().err == ""
 
 
-def test_compilation_is_announced_where_there_is_no_machine_code(
+def test_compilation_is_announced_where_there_is_no_library(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr(compiled, "cache_folder", lambda purpose: tmp_path / purpose)
+    library = build_kernel()
+    monkeypatch.setattr(build, "cache_folder", lambda purpose: tmp_path)
+    monkeypatch.setattr(build, "PREBUILT", tmp_path)
     announce_compilation()
     assert capsys.readouterr().err
-    folder = tmp_path / "native" / compiled._source_key() / "loop"  # where Numba keeps an index per function
-    folder.mkdir(parents=True)
-    (folder / "integrate.nbi").touch()
-    assert is_compiled()
+    shutil.copy(library, tmp_path / library.name)
+    assert kernel_is_built()
     announce_compilation()
     assert capsys.readouterr().err == ""
 

@@ -11,7 +11,7 @@ from pysim.simulate import Rk4, Rk45, Rodas, simulate, simulate_many
 from pysim.simulate._library import open_library
 from pysim.simulate._messages import _mailboxes
 from pysim.simulate._run import run
-from pysim.simulate.native.fmu_calls import ERROR, FATAL, OK
+from pysim.simulate.kernel.layout import ERROR, FATAL, OK
 from pysim.types import BadInput, Experiment, Outcome
 from tests.pysim.simulate.fixture_fmus import BALL, CLOCK, FRAGILE, OSCILLATOR, STIFF
 

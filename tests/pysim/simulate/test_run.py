@@ -11,7 +11,7 @@ import pytest
 from pysim.simulate import Rk45, Rodas, simulate
 from pysim.simulate._library import open_library
 from pysim.simulate._run import go_on, run
-from pysim.simulate.native.state import RUNNING
+from pysim.simulate.kernel.layout import RUNNING
 from pysim.types import BadInput, Experiment, Outcome, Signal
 from tests.pysim.simulate.fixture_fmus import FOLLOWER, OSCILLATOR
 

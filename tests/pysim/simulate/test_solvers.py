@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from pysim.simulate import Solver, simulate
-from pysim.simulate.native.method import ExplicitMethod
+from pysim.simulate.kernel.method import ExplicitMethod
 from pysim.types import BadInput, Experiment, Model, Signal
 from tests.pysim.simulate.fixture_fmus import BALL, OSCILLATOR, STIFF, Fixture
 from tests.pysim.simulate.solver_cases import SOLVERS, SolverCase

@@ -1,0 +1,76 @@
+"""The kernel's functions, for Python. Each is called without the lock of the interpreter."""
+
+from __future__ import annotations
+
+import ctypes
+from collections.abc import Callable
+from functools import cache
+from typing import Any, cast
+
+from numpy.typing import NDArray
+
+from pysim.simulate.kernel.build import build_kernel
+from pysim.simulate.kernel.layout import JOB
+
+Array = NDArray[Any]
+
+_P, _N, _D = ctypes.c_void_p, ctypes.c_int64, ctypes.c_double
+
+
+class Kernel:
+    """The loaded library. A job is given as its record, (1,) of JOB."""
+
+    def __init__(self, path: str) -> None:
+        self.dll = ctypes.CDLL(path)
+        self.dll.kernel_job_size.restype = _N
+        if self.dll.kernel_job_size() != JOB.itemsize:
+            raise RuntimeError("the kernel's structures are not those of its header")
+        self._integrate = self._function("kernel_integrate", ctypes.c_int, _P, _N)
+        self._integrate_variations = self._function("kernel_integrate_variations", ctypes.c_int, _P, _N)
+        self._factorise = self._function("kernel_factorise", ctypes.c_int, _P, _D)
+        self._solve = self._function("kernel_solve", None, _P, _P)
+        self._solve_rows = self._function("kernel_solve_rows", None, _P, _P, _N)
+        self.row_sums: int = self._function("kernel_row_sums", _P)()  # address
+        self.plain_row_sums: int = self._function("kernel_plain_row_sums", _P)()
+
+    def _function(self, name: str, result: Any, *arguments: Any) -> Callable[..., Any]:
+        function = getattr(self.dll, name)
+        function.restype, function.argtypes = result, arguments
+        return cast(Callable[..., Any], function)
+
+    def integrate(self, job: Array, budget: int) -> int:
+        """Go on with a run for at most `budget` accepted steps; RUNNING or how it ended."""
+        return int(self._integrate(address(job), budget))
+
+    def integrate_variations(self, job: Array, budget: int) -> int:
+        """The same for a run with its derivatives; RUNNING, EVENT or how it ended."""
+        return int(self._integrate_variations(address(job), budget))
+
+    def factorise(self, job: Array, shift: float) -> bool:
+        """Factorise shift I - J, J in work.jacobian; False if it is singular or not finite."""
+        return bool(self._factorise(address(job), shift))
+
+    def solve(self, job: Array, right: Array) -> None:
+        """Replace the right-hand sides, (n,) or (n, multiple of COLUMNS), by the solutions."""
+        if right.ndim == 1:
+            self._solve(address(job), address(right))
+        else:
+            self._solve_rows(address(job), address(right), right.shape[1])
+
+
+def address(array: Array) -> int:
+    """Where a contiguous array lies in memory."""
+    if not array.flags.c_contiguous:
+        raise ValueError("the kernel reads arrays item after item: this one is not contiguous")
+    place: int = array.__array_interface__["data"][0]  # a fifth of the time of array.ctypes.data
+    return place
+
+
+@cache
+def kernel() -> Kernel:
+    """The library for this machine, built if it has to be.
+
+    Raises:
+        BadInput: it cannot be built.
+    """
+    return Kernel(str(build_kernel()))

@@ -1,0 +1,49 @@
+"""The memory that a solver works in."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from pysim.simulate.kernel.library import kernel
+
+
+def work_arrays(n: int, m: int, stages: int, terms: int, implicit: bool) -> dict[str, Any]:
+    """What `Work` of the kernel points to, for n states and m event indicators."""
+    square = (n, n) if implicit else (0, 0)
+    scratch = _scratch(
+        {
+            **dict.fromkeys(("x", "dx", "x_new", "x_try", "error", "slope"), (n,)),
+            "k": (stages + 1, n),
+            "dense": (terms, n),
+            **dict.fromkeys(("z", "z_new", "z_try", "z_low"), (m,)),
+            "jacobian": square,
+        }
+    )
+    return {
+        "n": n,
+        "m": m,
+        "sums": kernel().row_sums,
+        **scratch,
+        "dx_new": scratch["k"][stages],
+        "nominal": np.ones(n),
+        "matrix": np.zeros(square),
+        "pivots": np.zeros(n, dtype=np.int64),
+        "stages": np.zeros((stages, n)),
+        "right": np.zeros(n),
+        **{name: np.zeros(n) for name in ("pivot_values", "probe", "magnitude")},
+        "factors": np.zeros(square),
+        "ones": np.ones(n),
+    }
+
+
+def _scratch(shapes: dict[str, tuple[int, ...]]) -> dict[str, Any]:
+    """Arrays of these shapes, zero, one after the other in `scratch`, which clears them all at once."""
+    ends = np.cumsum([0, *(int(np.prod(shape)) for shape in shapes.values())])
+    scratch = np.zeros(ends[-1])
+    views = {
+        name: scratch[first:last].reshape(shape)
+        for (name, shape), first, last in zip(shapes.items(), ends[:-1], ends[1:], strict=True)
+    }
+    return {"scratch": scratch, **views}

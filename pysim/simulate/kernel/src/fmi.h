@@ -1,0 +1,35 @@
+/* The FMI functions of one instance, FMI 2 and FMI 3 alike. Each returns the FMU's status; a vector of no numbers is
+   not asked for. */
+#ifndef FMI_H
+#define FMI_H
+
+#include "job.h"
+
+int fmi_set_time(const Fmu *fmu, double t);
+int fmi_set_states(const Fmu *fmu, const double *x, int64_t n);
+int fmi_get_states(const Fmu *fmu, double *x, int64_t n);
+int fmi_get_derivatives(const Fmu *fmu, double *dx, int64_t n);
+int fmi_get_indicators(const Fmu *fmu, double *z, int64_t n);
+
+/* Sizes (n,) of the states, all positive: the sign says nothing, and 1 stands for a size that cannot be one. */
+int fmi_get_nominals(const Fmu *fmu, double *nominal, int64_t n);
+
+int fmi_set_reals(const Fmu *fmu, const uint32_t *references, const double *values, int64_t n);
+
+/* n variables of one type; `values` holds as many items of that type. */
+int fmi_get_values(const Fmu *fmu, Function *getter, const uint32_t *references, void *values, int64_t n);
+
+/* result (n_unknowns,) = d unknowns / d knowns times seed (n_knowns,), at the point last set. */
+int fmi_get_directional(const Fmu *fmu, const uint32_t *unknowns, int64_t n_unknowns, const uint32_t *knowns,
+                        int64_t n_knowns, const double *seed, double *result);
+
+/* Tells the FMU that it stands at an accepted point; fills `event` and `terminate`. */
+int fmi_completed_step(Fmu *fmu);
+
+int fmi_enter_event_mode(const Fmu *fmu);
+int fmi_enter_continuous_mode(const Fmu *fmu);
+
+/* One round of the event iteration; fills what the FMU asks for. */
+int fmi_update_discrete(Fmu *fmu);
+
+#endif

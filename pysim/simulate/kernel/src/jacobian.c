@@ -1,0 +1,49 @@
+/* Derivatives of dx by the states at any point: exact where the FMU offers them, else by differences. */
+#include "kernel.h"
+
+static const double root_eps = 1.4901161193847656e-08;
+static const double small = 1e-3; /* of a nominal value: a state below it is moved as if it were that large */
+
+/* One directional derivative per group of states. Of a group's derivatives only those are asked for that depend on one
+   of its states; the rest of the Jacobian is zero from the start of the run. */
+static int jacobian_here(Job *job) {
+    Work *w = &job->work;
+    int status = OK;
+    for (int64_t g = 0; g < w->groups; g++) {
+        const int64_t start = w->entry_first[g], size = w->entry_first[g + 1] - start;
+        const int64_t first = w->group_first[g], count = w->group_first[g + 1] - first;
+        if (size == 0) continue;
+        status = worse(status, fmi_get_directional(&job->fmu, w->entry_references + start, size,
+                                                   w->group_references + first, count, w->ones, w->error));
+        if (status > WARNING) return status;
+        for (int64_t i = 0; i < size; i++) w->jacobian[w->entry_places[start + i]] = w->error[i];
+    }
+    return status;
+}
+
+/* One-sided differences, each state moved by the root of the rounding error. They start from the model's own derivative
+   at x: that of an implicit stage is off by what Newton left of it, which the small steps would enlarge to the size of
+   the Jacobian. */
+static int by_differences(Job *job, double t, const double *x) {
+    Work *w = &job->work;
+    const int64_t n = w->n;
+    double *moved = w->slope, *rate = w->error;
+    copy(moved, x, n);
+    int status = evaluate(job, t, moved, rate);
+    for (int64_t j = 0; j < n && status <= WARNING; j++) {
+        const double before = moved[j];
+        double *column = w->jacobian + n * j;
+        moved[j] = before + root_eps * larger(fabs(before), small * w->nominal[j]);
+        status = worse(status, evaluate(job, t, moved, column));
+        for (int64_t i = 0; i < n; i++) column[i] = (column[i] - rate[i]) / (moved[j] - before);
+        moved[j] = before;
+    }
+    return status;
+}
+
+int take_jacobian(Job *job, double t, const double *x) {
+    job->run.jacobians++;
+    if (!job->work.has_directional) return by_differences(job, t, x);
+    const int status = set_point(job, t, x);
+    return status > WARNING ? status : worse(status, jacobian_here(job));
+}

@@ -1,0 +1,240 @@
+/* What a run is, as data. Python reads this file too (layout.py): every field is 8 bytes wide, one on a line, and an
+   address is that of the first of the items that the comment counts. All memory belongs to whoever made the job.
+
+   n states, m event indicators, s stages of the method, d coefficients of its interpolant, c columns of derivatives. */
+#ifndef JOB_H
+#define JOB_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "rows.h"
+
+typedef void Function(void); /* a function of the FMU; fmi.c knows how each is called */
+
+/* The numbers of fmi2Status and fmi3Status, as far as they agree and matter. */
+enum { OK, WARNING, DISCARD, ERROR, FATAL };
+
+/* How a run stands: in the order of pysim.types.Outcome, or still running, or at an event that is not differentiated. */
+enum { RUNNING = -1, DONE, STEP_TOO_SMALL, NOT_FINITE, MODEL_ERROR, TERMINATED, TOO_MANY_STEPS, TOO_MANY_EVENTS, EVENT = 100 };
+
+enum { EXPLICIT, ROSENBROCK, ESDIRK };
+
+/* How a variable lies in memory. */
+enum { KIND_DOUBLE, KIND_SINGLE, KIND_INT, KIND_LONG, KIND_OCTET };
+
+/* How a recorded variable depends on the states, where it is none of them. */
+enum { ASKED = -1, FIXED = -2 }; /* the FMU is asked; it does not */
+
+/* The FMI functions of one instance. */
+typedef struct {
+    int64_t version; /* 2 | 3 */
+    void *instance;
+    int64_t needs_completed_step;
+    Function *set_time;
+    Function *set_states;
+    Function *get_states;
+    Function *get_nominals;
+    Function *get_derivatives;
+    Function *get_indicators;
+    Function *set_reals;
+    Function *get_directional;
+    Function *completed_step;
+    Function *enter_event_mode;
+    Function *update_discrete;
+    Function *enter_continuous_mode;
+    /* What the FMU asked for after the last step or event. */
+    int64_t again; /* another round of the event iteration */
+    int64_t event; /* event mode */
+    int64_t terminate;
+    int64_t nominals_changed;
+    int64_t states_changed;
+    double next_time; /* of its next time event, s; infinite where there is none */
+} Fmu;
+
+/* Coefficients of a method; method.py says what they mean. */
+typedef struct {
+    int64_t family;
+    int64_t stages;
+    int64_t terms; /* d */
+    double error_order;
+    int64_t end_in_error; /* 1: an attempt fills dx_new itself */
+    double gamma;
+    const double *a;        /* (s, s) */
+    const double *b;        /* (s,) */
+    const double *c;        /* (s,) */
+    const double *error;    /* (s + 1,) */
+    const double *dense;    /* (s + 1, d) */
+    const double *coupling; /* (s, s) */
+    const double *slope;    /* (s,) */
+    const double *predict;  /* (s, s) */
+} Method;
+
+/* Step rule: the part of a solver's settings that every method shares. */
+typedef struct {
+    double step; /* s, fixed step; 0 where the error rules */
+    double rtol; /* tolerated error of a step, of a state's magnitude */
+    double atol; /* the same, of a state's nominal value */
+    double max_step; /* s */
+    int64_t max_steps;
+} Control;
+
+/* Input i follows signal i, or its rate. Piece k of a signal is a cubic and some sines of the time since it began. */
+typedef struct {
+    int64_t count; /* n_u */
+    const uint32_t *references; /* (n_u,) */
+    const int64_t *rate;   /* (n_u,) 1 for the rate */
+    const int64_t *pieces; /* (n_u + 1,) signal i owns the pieces pieces[i] to pieces[i + 1] - 1 */
+    const double *starts;  /* (n_k,) s */
+    const double *cubics;  /* (n_k, 4) */
+    const int64_t *waves;  /* (n_k + 1,) piece k owns the sines waves[k] to waves[k + 1] - 1 */
+    const double *sines;   /* (n_s, 4) amplitude, phase, angular frequency, its rate */
+    int64_t *cursor;       /* (n_u,) piece in force */
+    double *values;        /* (n_u,) */
+} Inputs;
+
+/* Where integration restarts because an input is not smooth. */
+typedef struct {
+    int64_t count; /* n_b */
+    const double *times;  /* (n_b,) s, increasing; the last one is the end of the run */
+    const int64_t *jumps; /* (n_b,) 1 where a value jumps, which is an event */
+} Breaks;
+
+/* Where a run stands. */
+typedef struct {
+    double start; /* s */
+    double end;   /* s */
+    double t;     /* s, last accepted point */
+    double h;     /* s, step to try next */
+    double error_before; /* norm of the last accepted step */
+    int64_t grid;    /* fixed step: number of the last grid point reached */
+    int64_t segment; /* number of the next break; -1 before the run has begun */
+    double horizon;  /* s, time of that break: inputs are smooth up to here */
+    double inputs_at;  /* s, of the values that the FMU has; NaN where it has none of this segment */
+    double next_event; /* s, the model's next time event */
+    double leaves;     /* s, time events from here on are left to who drives the run */
+    int64_t status;    /* worst status of an FMI function so far */
+    int64_t crowd;     /* events since time last moved on */
+    double jacobian_at; /* s, where the Jacobian was taken; NaN where it was not */
+    double matrix_step; /* s, step for which it was factorised; 0 where it was not */
+    int64_t is_sparse;  /* 1: the factors last made are the sparse ones */
+    int64_t steps;
+    int64_t rejected;
+    int64_t derivatives;
+    int64_t jacobians;
+    int64_t events;
+} Run;
+
+/* Memory of the solver, and the structure of the Jacobian. */
+typedef struct {
+    int64_t n;
+    int64_t m;
+    const RowSums *sums; /* as this processor does them best */
+    double *scratch; /* what must not tell a run of the one before, in one piece */
+    double *x;       /* (n,) at run.t */
+    double *dx;      /* (n,) derivative there */
+    double *x_new;   /* (n,) at the end of the step */
+    double *dx_new;  /* (n,) derivative there: the last row of k */
+    double *x_try;   /* (n,) where a stage or an interpolation looks */
+    double *k;       /* (s + 1, n) stages */
+    double *error;   /* (n,) */
+    double *dense;   /* (d, n) coefficients of theta, theta^2, ... */
+    double *nominal; /* (n,) */
+    double *z;       /* (m,) event indicators at run.t */
+    double *z_new;   /* (m,) at the end of the step */
+    double *z_try;   /* (m,) */
+    double *z_low;   /* (m,) at the lower end of a search */
+    double *jacobian; /* (n, n) row j: derivatives by state j */
+    double *matrix;   /* (n, n) factorised */
+    int64_t *pivots;  /* (n,) */
+    double *slope;    /* (n,) partial derivative of dx by time */
+    double *stages;   /* (s, n) states of the stages, where those are unknowns */
+    double *right;    /* (n,) what is known of such a stage */
+    int64_t has_directional;
+    const double *ones; /* (n,) seed of a directional derivative */
+    const uint32_t *derivative_references; /* (n,) */
+    int64_t groups; /* of states whose columns one directional derivative yields */
+    const int64_t *group_first;       /* (groups + 1,) group g owns the members group_first[g] to group_first[g + 1] - 1 */
+    const int64_t *group_members;     /* (n,) numbers of states */
+    const uint32_t *group_references; /* (n,) of the members */
+    /* Group g yields the entries entry_first[g] to entry_first[g + 1] - 1, those that may differ from zero. */
+    const int64_t *entry_first;       /* (groups + 1,) */
+    const uint32_t *entry_references; /* of the derivatives */
+    const int64_t *entry_places;      /* in `jacobian` */
+    /* Sparse elimination: entries (n_e,) row after row, rows and columns in the order of elimination. */
+    int64_t sparse;  /* 0: dense elimination only, and nothing of what follows */
+    int64_t entries; /* n_e */
+    const int64_t *sources;   /* (n_e,) place in `jacobian` */
+    const int64_t *states;    /* (n,) state of a row */
+    const int64_t *row_first; /* (n + 1,) row r owns the entries row_first[r] to row_first[r + 1] - 1 */
+    const int64_t *diagonal;  /* (n,) entry on the diagonal */
+    const int64_t *places;    /* (n_e,) column */
+    const int64_t *columns;   /* (n_e,) state of the column */
+    const int64_t *targets;   /* entries that elimination changes, one after the other */
+    double *factors;      /* (n, n), of which the first n_e are used */
+    double *pivot_values; /* (n,) */
+    double *probe;        /* (n,) */
+    double *magnitude;    /* (n,) */
+} Work;
+
+/* What is recorded. Variables are read in groups of one type, in one call each. */
+typedef struct {
+    int64_t count; /* n_t */
+    int64_t next;  /* row to record next */
+    const double *times; /* (n_t,) s */
+    double *values;      /* (n_t, n_y) */
+    int64_t columns;     /* n_y */
+    int64_t groups;      /* n_g */
+    Function **getters;  /* (n_g,) */
+    const int64_t *kinds; /* (n_g,) */
+    const int64_t *first; /* (n_g + 1,) group g owns the entries first[g] to first[g + 1] - 1 of the next two */
+    const uint32_t *references; /* (n_y,) */
+    const int64_t *places; /* (n_y,) column */
+    void *buffer; /* (n_y,) of 8 bytes */
+} Rows;
+
+/* Derivatives: c columns, first those of the start states (n or none), then one per parameter, then zeros up to a
+   multiple of COLUMNS. */
+enum { COLUMNS = 4 };
+typedef struct {
+    int64_t columns;    /* c */
+    int64_t by_start;   /* columns of start states: n or 0 */
+    int64_t parameters; /* n_p */
+    int64_t rewind;     /* 1: the FMU is in continuous-time mode already */
+    const double *start;    /* (n,) states to start from; null: those of the FMU */
+    const double *start_by; /* (n, c) their derivatives */
+    const uint32_t *seeds;  /* (n_p,) references */
+    const int64_t *seeded;  /* (n_p,) 0: a start value, which no equation holds */
+    double *s;      /* (n, c) at run.t */
+    double *k;      /* (s, n, c) */
+    double *right;  /* (n, c) */
+    double *inside; /* (n, c) within a step */
+    double *weights; /* (s,) */
+    double tolerance; /* tolerated error of a step in a column of S, of the column's largest size so far */
+    double *error;   /* (n, c) */
+    double *sizes;   /* (c,) those sizes */
+    double *forcing; /* (n_p, n) F */
+    double *rows;    /* (n_t, n_y, c) derivatives of what is recorded */
+    const int64_t *kinds; /* (n_y,) number of the state that a variable is, or ASKED or FIXED */
+    const double *fixed;  /* (n_y, c) derivatives of those that no state moves */
+    int64_t unknowns; /* of the others */
+    const uint32_t *unknown_references; /* (unknowns,) */
+    const uint32_t *state_references;   /* (n,) */
+    double *gradient; /* (unknowns,) their derivatives by one state or parameter */
+    double *low;  /* (n,) least and */
+    double *high; /* (n,) largest value of each state so far */
+} Variation;
+
+typedef struct {
+    Fmu fmu;
+    Method method;
+    Control control;
+    Inputs inputs;
+    Breaks breaks;
+    Run run;
+    Work work;
+    Rows rows;
+    Variation variation;
+} Job;
+
+#endif

@@ -1,0 +1,47 @@
+/* Recording: rows of variables at the requested times. */
+#include "kernel.h"
+
+static double converted(int64_t kind, const void *buffer, int64_t i) {
+    switch (kind) {
+        case KIND_SINGLE: return (double)((const float *)buffer)[i];
+        case KIND_INT: return (double)((const int32_t *)buffer)[i];
+        case KIND_LONG: return (double)((const int64_t *)buffer)[i];
+        case KIND_OCTET: return (double)((const uint8_t *)buffer)[i];
+        default: return ((const double *)buffer)[i];
+    }
+}
+
+/* One row, at the point last set. */
+int read_row(Job *job) {
+    Rows *rows = &job->rows;
+    double *row = rows->values + rows->next * rows->columns;
+    for (int64_t g = 0; g < rows->groups; g++) {
+        const int64_t first = rows->first[g], count = rows->first[g + 1] - first;
+        const int status = fmi_get_values(&job->fmu, rows->getters[g], rows->references + first, rows->buffer, count);
+        if (status > WARNING) return status;
+        for (int64_t i = 0; i < count; i++) row[rows->places[first + i]] = converted(rows->kinds[g], rows->buffer, i);
+    }
+    rows->next++;
+    return OK;
+}
+
+/* Every row before t_end (s) in the step of length h from run.t; work.dense is filled. */
+int record_inside(Job *job, double h, double t_end) {
+    Rows *rows = &job->rows;
+    while (rows->next < rows->count && rows->times[rows->next] < t_end) {
+        const double t = rows->times[rows->next];
+        interpolate(job, (t - job->run.t) / h);
+        int status = set_point(job, t, job->work.x_try);
+        if (status <= WARNING) status = read_row(job);
+        if (status > WARNING) return status;
+    }
+    return OK;
+}
+
+/* The row that falls on run.t, if there is one. */
+int record_here(Job *job) {
+    const Rows *rows = &job->rows;
+    if (rows->next >= rows->count || rows->times[rows->next] > job->run.t) return OK;
+    const int status = set_point(job, job->run.t, job->work.x);
+    return status > WARNING ? status : read_row(job);
+}

@@ -1,0 +1,3 @@
+/* For every processor of this kind. */
+#define PREFIX plain_
+#include "rows_body.h"

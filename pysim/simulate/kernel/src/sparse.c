@@ -1,0 +1,107 @@
+/* Systems shift I - J by a list of indices that was made once per model (elimination.py): entries that are zero whatever
+   the point are never touched. Pivots stay on the diagonal, which may be a bad choice; so every factorisation is tried
+   on one vector, and where it fails, the dense one with row pivoting takes over. */
+#include "kernel.h"
+
+static const double loss = 1e-12; /* of a row's size: what rounding may change in it */
+
+/* Factors L D U of shift I - J; the diagonals of L and U are one, that of D is kept inverted. */
+static void eliminate(Work *w, double shift) {
+    double *v = w->factors;
+    const int64_t *first = w->row_first, *diagonal = w->diagonal, *target = w->targets;
+    for (int64_t q = 0; q < w->entries; q++) v[q] = -w->jacobian[w->sources[q]];
+    for (int64_t r = 0; r < w->n; r++) {
+        const int64_t middle = diagonal[r];
+        v[middle] += shift;
+        for (int64_t q = first[r]; q < middle; q++) {
+            const int64_t c = w->places[q], end = first[c + 1];
+            const double weight = v[q];
+            for (int64_t u = diagonal[c] + 1; u < end; u++) v[*target++] -= weight * v[u];
+            v[q] = weight * v[diagonal[c]];
+        }
+        w->pivot_values[r] = v[middle];
+        const double inverse = 1.0 / v[middle];
+        v[middle] = inverse;
+        for (int64_t u = middle + 1; u < first[r + 1]; u++) v[u] *= inverse;
+    }
+}
+
+/* Whether the factors give back the matrix, applied to a vector of the size of the states. */
+static bool reproduces(const Work *w, double shift) {
+    const double *v = w->factors, *x = w->x, *nominal = w->nominal, *jacobian = w->jacobian;
+    const int64_t *first = w->row_first, *diagonal = w->diagonal;
+    double *probe = w->probe, *size_of = w->magnitude;
+    for (int64_t i = 0; i < w->n; i++) size_of[i] = nominal[i] + fabs(x[i]);
+    for (int64_t r = 0; r < w->n; r++) { /* D U times the vector */
+        double y = size_of[w->states[r]];
+        for (int64_t u = diagonal[r] + 1; u < first[r + 1]; u++) y += v[u] * size_of[w->columns[u]];
+        probe[r] = y * w->pivot_values[r];
+    }
+    bool good = true;
+    for (int64_t r = 0; r < w->n; r++) {
+        const double own = shift * size_of[w->states[r]];
+        double size = fabs(own), rest = probe[r] - own;
+        for (int64_t q = first[r]; q < diagonal[r]; q++) rest += v[q] * probe[w->places[q]];
+        for (int64_t q = first[r]; q < first[r + 1]; q++) {
+            const double change = jacobian[w->sources[q]] * size_of[w->columns[q]];
+            rest += change;
+            size += fabs(change);
+        }
+        good = good && fabs(rest) <= loss * size;
+    }
+    return good;
+}
+
+bool factorise_shifted(Job *job, double shift) {
+    Work *w = &job->work;
+    if (w->sparse) {
+        eliminate(w, shift);
+        job->run.is_sparse = reproduces(w, shift);
+        if (job->run.is_sparse) return true;
+    }
+    job->run.is_sparse = 0;
+    const int64_t n = w->n;
+    for (int64_t i = 0; i < n * n; i++) w->matrix[i] = -w->jacobian[i];
+    for (int64_t i = 0; i < n; i++) w->matrix[i * n + i] += shift;
+    return dense_factorise(w->matrix, w->pivots, n);
+}
+
+static void substitute(const Work *w, double *b) {
+    const double *v = w->factors;
+    const int64_t *first = w->row_first, *diagonal = w->diagonal, *states = w->states, *columns = w->columns;
+    for (int64_t r = 0; r < w->n; r++) {
+        double y = b[states[r]];
+        for (int64_t q = first[r]; q < diagonal[r]; q++) y -= v[q] * b[columns[q]];
+        b[states[r]] = y;
+    }
+    for (int64_t r = w->n - 1; r >= 0; r--) {
+        double y = b[states[r]] * v[diagonal[r]];
+        for (int64_t u = diagonal[r] + 1; u < first[r + 1]; u++) y -= v[u] * b[columns[u]];
+        b[states[r]] = y;
+    }
+}
+
+static void substitute_rows(const Work *w, double *right, int64_t width) {
+    const double *v = w->factors;
+    const int64_t *first = w->row_first, *diagonal = w->diagonal, *states = w->states, *columns = w->columns;
+    for (int64_t r = 0; r < w->n; r++) {
+        const int64_t q = first[r];
+        if (diagonal[r] > q)
+            w->sums->reduce_row(right + width * states[r], 1.0, v + q, columns + q, diagonal[r] - q, right, width);
+    }
+    for (int64_t r = w->n - 1; r >= 0; r--) {
+        const int64_t u = diagonal[r] + 1;
+        w->sums->reduce_row(right + width * states[r], v[u - 1], v + u, columns + u, first[r + 1] - u, right, width);
+    }
+}
+
+void solve_shifted(Job *job, double *right) {
+    if (job->run.is_sparse) substitute(&job->work, right);
+    else dense_solve(job->work.matrix, job->work.pivots, right, job->work.n);
+}
+
+void solve_shifted_rows(Job *job, double *right, int64_t width) {
+    const Work *w = &job->work;
+    if (job->run.is_sparse) substitute_rows(w, right, width);
+    else dense_solve_rows(w->matrix, w->pivots, right, w->n, width, w->sums);
+}

@@ -1,0 +1,145 @@
+/* A run with its derivatives. It stops where an event would make them jump. */
+#include "kernel.h"
+
+/* Starts afresh at run.t: derivatives, first step, K. */
+static int restart(Job *job) {
+    int code = resume(job);
+    if (code == RUNNING && job->variation.columns > 0) {
+        job->run.status = worse((int)job->run.status, begin_variation(job));
+        code = job->run.status <= WARNING ? RUNNING : MODEL_ERROR;
+    }
+    return code;
+}
+
+/* The next row at the point last set, with S in s. */
+static int record(Job *job, const double *s) {
+    const int64_t row = job->rows.next;
+    const int status = read_row(job);
+    return status > WARNING ? status : worse(status, record_variation(job, row, s));
+}
+
+/* Records the point reached, and sees whether it is the last one. */
+static int finish_point(Job *job) {
+    Run *run = &job->run;
+    const Rows *rows = &job->rows;
+    if (rows->next < rows->count && rows->times[rows->next] <= run->t) {
+        int status = set_point(job, run->t, job->work.x);
+        if (status <= WARNING) status = worse(status, record(job, job->variation.s));
+        run->status = worse((int)run->status, status);
+        if (status > WARNING) return MODEL_ERROR;
+    }
+    note_range(job);
+    if (!all_finite(job->variation.s, job->work.n * job->variation.columns)) return NOT_FINITE;
+    return ended(job);
+}
+
+/* First event iteration unless the FMU is past it, states, derivatives, and S. */
+static int begin(Job *job) {
+    Run *run = &job->run;
+    Work *w = &job->work;
+    const Variation *v = &job->variation;
+    int code = RUNNING;
+    next_segment(job);
+    if (v->rewind) run->next_event = INFINITY;
+    else code = settle(job);
+    if (code != RUNNING) return code;
+    if (v->start) copy(w->x, v->start, w->n);
+    else run->status = worse((int)run->status, fmi_get_states(&job->fmu, w->x, w->n));
+    run->status = worse((int)run->status, fmi_get_nominals(&job->fmu, w->nominal, w->n));
+    copy(v->s, v->start_by, w->n * v->columns);
+    if (run->status > WARNING) return MODEL_ERROR;
+    code = restart(job);
+    return code == RUNNING ? finish_point(job) : code;
+}
+
+/* Goes on behind a break of the inputs. A jump is an event for the model, harmless where nothing of it changes. */
+static int pass_break(Job *job) {
+    const Work *w = &job->work;
+    const bool jump = job->breaks.jumps[job->run.segment] != 0;
+    next_segment(job);
+    if (jump) {
+        const int code = handle_event(job);
+        if (code != RUNNING) return code;
+        for (int64_t i = 0; i < w->n; i++)
+            if (w->x[i] != w->x_new[i]) return EVENT;
+    }
+    const int code = restart(job);
+    return code == RUNNING && crossed(job, w->z, w->z_new) ? EVENT : code;
+}
+
+/* Makes the end of the step the current point, passes a break of the inputs there, records. */
+static int arrive(Job *job, double t_new) {
+    Run *run = &job->run;
+    Work *w = &job->work;
+    run->t = t_new;
+    copy(w->x, w->x_new, w->n);
+    copy(w->dx, w->dx_new, w->n);
+    copy(w->z, w->z_new, w->m);
+    if (job->variation.columns > 0) end_variation(job);
+    if (job->fmu.terminate) return TERMINATED;
+    if (job->fmu.event || run->t >= run->next_event) return EVENT;
+    const int code = at_break(job) ? pass_break(job) : RUNNING;
+    return code == RUNNING ? finish_point(job) : code;
+}
+
+/* Every row before t_end (s), with its derivatives, in the step of length h from run.t. */
+static int record_rows_inside(Job *job, double h, double t_end) {
+    Rows *rows = &job->rows;
+    double *s = job->variation.right;
+    if (rows->next >= rows->count || rows->times[rows->next] >= t_end) return OK;
+    dense_coefficients(job, h);
+    while (rows->next < rows->count && rows->times[rows->next] < t_end) {
+        const double t = rows->times[rows->next], theta = (t - job->run.t) / h;
+        interpolate(job, theta);
+        vary_inside(job, theta, h, s);
+        int status = set_point(job, t, job->work.x_try);
+        if (status <= WARNING) status = record(job, s);
+        if (status > WARNING) return status;
+    }
+    return OK;
+}
+
+/* Whether the step has to be taken again because a derivative is too far off; sets the length to try next. */
+static bool shortened(Job *job, double h) {
+    Run *run = &job->run;
+    const Variation *v = &job->variation;
+    if (!(v->columns > 0 && v->tolerance < INFINITY)) return false;
+    const double error = variation_error(job, h);
+    const double wanted = h * larger(0.9 * pow(larger(error, 1e-6), -1.0 / job->method.error_order), 0.2);
+    if (error <= 1.0 || !(wanted > 1e-12 * (run->end - run->start))) {
+        run->h = smaller(run->h, wanted);
+        return false;
+    }
+    run->rejected++;
+    run->h = wanted;
+    run->jacobian_at = NAN; /* what is there belongs to the end of the step */
+    return true;
+}
+
+/* One accepted step, its derivative, and what is recorded in it. */
+static int advance(Job *job) {
+    Run *run = &job->run;
+    Work *w = &job->work;
+    double h = 0.0, t_new = 0.0;
+    int status;
+    do {
+        const int code = accepted_step(job, next_target(job), &h, &t_new);
+        if (code != RUNNING) return code;
+        run->status = run->status > WARNING ? WARNING : run->status; /* what was rejected is forgiven */
+        status = fmi_get_indicators(&job->fmu, w->z_new, w->m);
+        if (status <= WARNING && crossed(job, w->z, w->z_new)) return EVENT;
+        if (status <= WARNING && job->variation.columns > 0) status = vary_step(job, h);
+    } while (status <= WARNING && shortened(job, h));
+    run->steps++;
+    if (status <= WARNING) status = record_rows_inside(job, h, t_new);
+    if (status <= WARNING) status = set_point(job, t_new, w->x_new);
+    if (status <= WARNING) status = fmi_completed_step(&job->fmu);
+    run->status = worse((int)run->status, status);
+    return status <= WARNING ? arrive(job, t_new) : MODEL_ERROR;
+}
+
+int integrate_variations(Job *job, int64_t budget) {
+    int code = job->run.segment < 0 ? begin(job) : RUNNING;
+    for (; code == RUNNING && budget > 0; budget--) code = advance(job);
+    return code;
+}
