@@ -119,6 +119,8 @@ def _abilities(d: ModelDescription, path: Path, states: tuple[str, ...]) -> Abil
         needs_completed_step=getattr(kind, "needsCompletedIntegratorStep", False),
         single_instance=kind.canBeInstantiatedOnlyOncePerProcess,
         dependencies=tuple(_dependencies(u) for u in d.derivatives),
+        output_dependencies=tuple((u.variable.name, _dependencies(u)) for u in d.outputs),
+        initial_dependencies=tuple((u.variable.name, _dependencies(u)) for u in d.initialUnknowns),
         feedthrough=tuple((u.variable.name, _inputs(u)) for u in d.outputs),
         stepping=_stepping(d),
     )

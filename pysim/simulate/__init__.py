@@ -2,9 +2,8 @@
 
 from pysim.simulate._base import Solver
 from pysim.simulate._check import check_override, value_objection
-from pysim.simulate._many import simulate_many
 from pysim.simulate._messages import Mailbox
-from pysim.simulate._run import simulate
+from pysim.simulate._run import simulate, simulate_many
 from pysim.simulate.esdirk import Esdirk
 from pysim.simulate.fmu_states import FmuState, FmuStates
 from pysim.simulate.fmu_values import FmuValues, is_number

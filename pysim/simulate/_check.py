@@ -8,7 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from pysim.simulate._library import REALS, settable_types
-from pysim.simulate.kernel.recording import GETTERS
+from pysim.simulate.kernel.functions import TYPES
 from pysim.types import BadInput, Experiment, Model, Variable
 
 
@@ -60,11 +60,31 @@ def check_experiment(model: Model, experiment: Experiment) -> None:
             raise BadInput(f"experiment: {name} has a signal and an override; remove one of them")
         check_override(model, name, value)
     for name in experiment.record:
-        if model[name].type not in GETTERS[model.abilities.fmi]:
+        if model[name].type not in TYPES[model.abilities.fmi]:
             raise BadInput(f"{model.label}: {name} is {model[name].type} and cannot be recorded; record a number")
     for name in model.abilities.states:
         if model[name].type not in ("Real", "Float64"):
             raise BadInput(f"{model.label}: state {name} is {model[name].type}; only scalar states can be simulated")
+
+
+def check_experiments(model: Model, experiments: Sequence[Experiment]) -> None:
+    """Check many; of those that name the same things, the names once.
+
+    Raises:
+        BadInput: as `check_experiment`.
+    """
+    known: set[object] = set()
+    real: dict[str, bool] = {}
+    for experiment in experiments:
+        if isinstance(experiment, Experiment):
+            names = experiment.record, *(tuple(getattr(experiment, kind)) for kind in ("inputs", "rates", "overrides"))
+            if names in known and all(
+                math.isfinite(value) and real.setdefault(name, model[name].type in REALS)
+                for name, value in experiment.overrides.items()
+            ):
+                continue
+            known.add(names)
+        check_experiment(model, experiment)
 
 
 def _check_input(model: Model, variable: Variable) -> None:

@@ -1,45 +1,48 @@
-"""An FMU's shared library and its instances: FMPy does the life cycle, the kernel gets the addresses."""
+"""An FMU's shared library and its instances."""
 
 from __future__ import annotations
 
 import ctypes
+import os
 from collections import deque
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
+from pathlib import Path
 from typing import Any
 
-from fmpy.fmi1 import FMICallException
+import numpy as np
 from fmpy.fmi2 import FMU2Model
 from fmpy.fmi3 import FMU3Model
 
 from pysim.io import load_library
 from pysim.simulate._job import Job
 from pysim.simulate._messages import Mailbox
-from pysim.simulate.kernel.functions import FUNCTIONS
-from pysim.simulate.kernel.layout import ERROR, FATAL, OK
-from pysim.simulate.kernel.recording import row_layout
+from pysim.simulate._structure import Structure
+from pysim.simulate.kernel.functions import FUNCTIONS, SETUP, TYPES, access
+from pysim.simulate.kernel.layout import ERROR, FATAL, PART_ENTER, PART_EXIT, PART_INSTANTIATE, PART_SET, WARNING
+from pysim.simulate.kernel.library import kernel
 from pysim.simulate.kernel.sparsity import jacobian_arrays
 from pysim.types import BadInput, Model
-
-# Setter of FMPy per type of variable, FMI 2 and FMI 3.
-_SETTERS = {
-    2: {"Real": "setReal", "Integer": "setInteger", "Enumeration": "setInteger", "Boolean": "setBoolean"},
-    3: {
-        "Float64": "setFloat64",
-        "Float32": "setFloat32",
-        "Int32": "setInt32",
-        "Int64": "setInt64",
-        "Enumeration": "setInt64",
-        "Boolean": "setBoolean",
-    },
-}
 
 REALS = frozenset({"Real", "Float32", "Float64"})
 
 
 def settable_types(model: Model) -> frozenset[str]:
     """Types of variables that can be set to a number."""
-    return frozenset(_SETTERS[model.abilities.fmi])
+    return frozenset(TYPES[model.abilities.fmi])
+
+
+_PARTS = {
+    PART_INSTANTIATE: "the FMU could not be instantiated",
+    PART_SET: "a start value could not be set",
+    PART_ENTER: "the FMU could not be initialised",
+    PART_EXIT: "the FMU could not be initialised",
+}
+
+
+def failure(part: int) -> str:
+    """What went wrong ahead of a run, by the kernel's number of the part."""
+    return _PARTS[part]
 
 
 class CallFailed(RuntimeError):
@@ -51,36 +54,59 @@ class Instance:
 
     Between runs it is reset, which the standard defines to give what a new instance is. An FMU that refuses to be
     reset, or that reported an error, is instantiated anew.
+
+    Args:
+        fmu: as FMPy loaded it; its functions are called by the kernel.
     """
 
-    def __init__(self, library: Library, fmu: Any, mailbox: Mailbox) -> None:
-        self.model, self.jacobian, self.fmu, self.mailbox = library.model, library.jacobian, fmu, mailbox
-        self.status = OK  # worst one of the run; after a fatal error nothing may be called any more
+    def __init__(self, library: Library, fmu: Any) -> None:
+        self.model, self.dll = library.model, fmu.dll
+        self.jacobian = jacobian_arrays(library.model)
+        self.mailbox = Mailbox(self.model.abilities.fmi)
         self.job: Job | None = None  # memory of the run before
-        self.is_alive, self._can_reset = False, True  # alive: between instantiation and release
-        self._rows: dict[tuple[str, ...], dict[str, Any]] = {}
-        version = self.model.abilities.fmi
-        self._addresses: dict[str, Any] = {
+        self._free_library = fmu.freeLibrary
+        self._access: dict[tuple[str, tuple[str, ...]], Structure] = {}
+        self.record = Structure("Fmu", self._functions(fmu))
+
+    def _functions(self, fmu: Any) -> dict[str, Any]:
+        version, folder = self.model.abilities.fmi, Path(fmu.unzipDirectory, "resources")
+        found: dict[str, Any] = {
             "version": version,
             "needs_completed_step": self.model.abilities.needs_completed_step,
+            "name": _text(self.model.name),
+            "token": _text(self.model.token),
+            "resources": _text(folder.as_uri() if version == 2 else f"{folder}{os.sep}"),
+            "log": self.mailbox.log,
             **{name: self.address(functions[version - 2]) for name, functions in FUNCTIONS.items()},
         }
+        if version == 2:
+            found["callbacks"] = ctypes.addressof(self.mailbox.callbacks["callbacks"])
+            found["setup_experiment"] = self.address(SETUP)
+        return found
 
     def address(self, function: str) -> int:
         """Address of one of the library's functions."""
-        return ctypes.cast(getattr(self.fmu.dll, function), ctypes.c_void_p).value or 0
+        return ctypes.cast(getattr(self.dll, function), ctypes.c_void_p).value or 0
 
-    def addresses(self) -> dict[str, Any]:
-        """What the kernel needs to call this instance; the same object as long as nothing changes."""
-        if self._addresses.get("instance") != self.fmu.component:
-            self._addresses = {**self._addresses, "instance": self.fmu.component}
-        return self._addresses
+    @property
+    def component(self) -> int:
+        """The instance, as the FMU's functions want it; 0 where there is none."""
+        return int(self.record.record["instance"][0])
 
-    def rows(self, names: tuple[str, ...]) -> dict[str, Any]:
-        """What the kernel needs to read these variables."""
-        if names not in self._rows:
-            self._rows[names] = row_layout(self.model, names, self.address)
-        return self._rows[names]
+    @property
+    def status(self) -> int:
+        """The worst one of the run; after a fatal error nothing may be called any more."""
+        return int(self.record.record["status"][0])
+
+    @status.setter
+    def status(self, status: int) -> None:
+        self.record.change({"status": status})
+
+    def access(self, names: tuple[str, ...], verb: str) -> Structure:
+        """What the kernel needs to read ("Get") or to set ("Set") these variables."""
+        if (verb, names) not in self._access:
+            self._access[verb, names] = Structure("Access", access(self.model, names, verb, self.address))
+        return self._access[verb, names]
 
     def renew(self) -> None:
         """Be as new, whatever the run before did.
@@ -89,40 +115,7 @@ class Instance:
             CallFailed: the FMU could not be instantiated.
         """
         self.mailbox.empty()
-        self.status = OK
-        if self.is_alive and self._can_reset and self._reset():
-            return
-        self.release()
-        self.mailbox.empty()
-        try:
-            self.fmu.instantiate(**self.mailbox.callbacks)
-        except Exception as error:  # FMPy raises a bare Exception
-            raise CallFailed("the FMU could not be instantiated" + self.mailbox.text()) from error
-        self.is_alive = True
-
-    def _reset(self) -> bool:
-        try:
-            self.fmu.reset()
-        except FMICallException:
-            self._can_reset = False
-        return self._can_reset
-
-    def release(self) -> None:
-        """Free the instance; the library stays loaded."""
-        if self.is_alive:
-            (self.fmu.fmi2FreeInstance if self.model.abilities.fmi == 2 else self.fmu.fmi3FreeInstance)(
-                self.fmu.component
-            )
-        self.is_alive = False
-
-    def initialise(self, values: Mapping[str, float], start: float, stop: float, tolerance: float | None) -> None:
-        """Set start values, go through initialisation mode, arrive in event mode.
-
-        Raises:
-            CallFailed: the FMU refused; its own words are in the mailbox.
-        """
-        self.enter_initialisation(values, start, stop, tolerance)
-        self.exit_initialisation()
+        self._check(PART_INSTANTIATE, kernel().renew(self.record.record))
 
     def enter_initialisation(
         self, values: Mapping[str, float], start: float, stop: float, tolerance: float | None
@@ -130,43 +123,38 @@ class Instance:
         """Set start values, enter initialisation mode.
 
         Raises:
-            CallFailed: the FMU refused; its own words are in the mailbox.
+            CallFailed: the FMU refused.
         """
-        with self._refusal():
-            self._set(values)
-            if self.model.abilities.fmi == 2:
-                self.fmu.setupExperiment(tolerance=tolerance, startTime=start, stopTime=stop)
-                self.fmu.enterInitializationMode()
-            else:
-                self.fmu.enterInitializationMode(tolerance=tolerance, startTime=start, stopTime=stop)
+        numbers, buffer = np.array([*values.values()], dtype=np.float64), np.zeros(len(values))
+        setters, record = self.access(tuple(values), "Set").record, self.record.record
+        self._check(PART_SET, kernel().set_values(record, setters, numbers, buffer))
+        self._check(PART_ENTER, kernel().enter_initialisation(record, tolerance or 0.0, start, stop))
 
     def exit_initialisation(self) -> None:
         """Go on to event mode.
 
         Raises:
-            CallFailed: the FMU refused; its own words are in the mailbox.
+            CallFailed: the FMU refused.
         """
-        with self._refusal():
-            self.fmu.exitInitializationMode()
+        self._check(PART_EXIT, kernel().exit_initialisation(self.record.record))
 
-    @contextmanager
-    def _refusal(self) -> Iterator[None]:
-        try:
-            yield
-        except FMICallException as error:
-            self.status = max(self.status, error.status)
-            raise CallFailed(str(error)) from error
+    def _check(self, part: int, status: int) -> None:
+        if status > WARNING:
+            self.status = max(self.status, status)
+            raise CallFailed(failure(part) + self.mailbox.text())
 
-    def _set(self, values: Mapping[str, float]) -> None:
-        """Set variables, in one call for each type."""
-        groups: dict[str, tuple[list[int], list[float]]] = {}
-        for name, value in values.items():
-            variable = self.model[name]
-            references, numbers = groups.setdefault(variable.type, ([], []))
-            references.append(variable.reference)
-            numbers.append(float(value) if variable.type in REALS else int(value))
-        for kind, (references, numbers) in groups.items():
-            getattr(self.fmu, _SETTERS[self.model.abilities.fmi][kind])(references, numbers)
+    def release(self) -> None:
+        """Free the instance; the library stays loaded."""
+        kernel().release(self.record.record)
+
+    def unload(self) -> None:
+        """Unload the shared library."""
+        self._free_library()
+
+
+def _text(text: str) -> np.ndarray:
+    """A text as C has it."""
+    return np.frombuffer(text.encode() + b"\0", dtype=np.uint8)
 
 
 class Library:
@@ -174,15 +162,33 @@ class Library:
 
     def __init__(self, model: Model) -> None:
         self.model = model
-        self.jacobian = jacobian_arrays(model)
         self._idle: deque[Instance] = deque()
         if not model.abilities.model_exchange:
             raise BadInput(f"{model.label} is for co-simulation only; export it for model exchange as well")
 
     def _load(self) -> Instance:
         kind = FMU2Model if self.model.abilities.fmi == 2 else FMU3Model
-        fmu = load_library(kind, self.model, self.model.abilities.library, self.model.name)
-        return Instance(self, fmu, Mailbox(self.model.abilities.fmi))
+        return Instance(self, load_library(kind, self.model, self.model.abilities.library, self.model.name))
+
+    @contextmanager
+    def lent(self) -> Iterator[Instance]:
+        """An instance in whatever state the run before left it, for the length of the block."""
+        try:
+            instance = self._idle.pop()
+        except IndexError:
+            instance = self._load()
+        try:
+            yield instance
+        finally:
+            self._take_back(instance)
+
+    def _take_back(self, instance: Instance) -> None:
+        """Keep it for a later run, unless after a fatal error, when nothing of an FMU may be called any more."""
+        if instance.status >= FATAL:
+            return
+        if instance.status >= ERROR:
+            instance.release()
+        self._idle.append(instance)
 
     @contextmanager
     def instance(self) -> Iterator[Instance]:
@@ -191,36 +197,16 @@ class Library:
         Raises:
             CallFailed: the FMU could not be instantiated.
         """
-        try:
-            instance = self._idle.pop()
-        except IndexError:
-            instance = self._load()
-        try:
+        with self.lent() as instance:
             instance.renew()
             yield instance
-        finally:
-            self._take_back(instance)
-
-    def _take_back(self, instance: Instance) -> None:
-        """Keep it for a later run, or unload it where it can never be used again.
-
-        After a fatal error nothing of an FMU may be called any more, what it does when it is unloaded included.
-        """
-        if instance.status >= FATAL:
-            return
-        if not instance.is_alive:
-            instance.fmu.freeLibrary()
-            return
-        if instance.status >= ERROR:
-            instance.release()
-        self._idle.append(instance)
 
     def close(self) -> None:
         """Free the instances and unload the shared library."""
         while self._idle:
             instance = self._idle.pop()
             instance.release()
-            instance.fmu.freeLibrary()
+            instance.unload()
 
 
 @contextmanager

@@ -10,8 +10,6 @@ from numpy.typing import NDArray
 from pysim.simulate._base import Solver
 from pysim.simulate._job import Job
 from pysim.simulate._library import Instance
-from pysim.simulate.kernel.memory import work_arrays
-from pysim.simulate.kernel.method import ExplicitMethod, method_arrays
 
 Array = NDArray[np.float64]
 
@@ -47,25 +45,21 @@ class StepJob:
         self.job, n_u = Job(solver), references.size
         self.record = self.job.record
         self._break, self._row, self._starts, self._cubics = np.zeros(1), np.zeros(1), np.zeros(n_u), np.zeros((n_u, 4))
-        self._put_solver(instance, solver)
+        self._put_solver(instance)
         self._put_lines(references)
         self.job.put("breaks", {"count": 1, "times": self._break, "jumps": np.zeros(1, dtype=np.int64)})
-        self.job.put("rows", instance.rows(outputs))
-        self.job.change("rows", {"count": 1, "times": self._row, "values": results})
+        rows = {"columns": len(outputs), "access": instance.access(outputs, "Get"), "buffer": np.zeros(len(outputs))}
+        self.job.put("rows", {**rows, "count": 1, "times": self._row, "values": results})
         self.job.restart(time, time)
         run = self.record["run"]
         self.t, self._end, self._horizon, self._segment = (run[name] for name in ("t", "end", "horizon", "segment"))
         self._leaves, self._next_event = run["leaves"], run["next_event"]
         self._next, self._lines = self.record["rows"]["next"], self.record["inputs"]["count"]
 
-    def _put_solver(self, instance: Instance, solver: Solver) -> None:
-        abilities, method = instance.model.abilities, solver.method()
-        n, m, terms = len(abilities.states), abilities.event_indicators, method.dense.shape[1]
-        implicit = not isinstance(method, ExplicitMethod)
-        self.job.put("fmu", instance.addresses())
-        self.job.put("method", method_arrays(method))
-        self.job.put("control", {**solver.control()._asdict(), "max_steps": np.iinfo(np.int64).max})
-        self.job.put("work", {**work_arrays(n, m, method.b.size, terms, implicit), **instance.jacobian})
+    def _put_solver(self, instance: Instance) -> None:
+        abilities = instance.model.abilities
+        self.job.put_model(instance.record, instance.jacobian, len(abilities.states), abilities.event_indicators)
+        self.job.change("control", {"max_steps": np.iinfo(np.int64).max})
 
     def _put_lines(self, references: NDArray[np.uint32]) -> None:
         n_u = references.size

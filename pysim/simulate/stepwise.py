@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 from pysim.simulate._base import Solver
 from pysim.simulate._check import check_arguments
 from pysim.simulate._library import CallFailed, Instance, open_library
-from pysim.simulate._run import OUTCOMES, explain
 from pysim.simulate._step_job import SavedJob, StepJob
+from pysim.simulate._tasks import OUTCOMES, explain
 from pysim.simulate.fmu_states import FmuState, FmuStates
 from pysim.simulate.fmu_values import FmuValues, pointer
 from pysim.simulate.kernel.layout import DONE, FATAL, RUNNING, WARNING
@@ -105,7 +105,7 @@ class Stepwise:
         self._smooth = np.array([i for i, name in enumerate(wires.inputs) if is_smooth(model, name)], dtype=np.intp)
         self._enter_event_mode = _ENTER(instance.address(f"fmi{fmi}EnterEventMode"))
         has_states = model.abilities.state_handling
-        self._states = FmuStates(fmi, instance.fmu.component, instance.address) if has_states else None
+        self._states = FmuStates(fmi, instance.component, instance.address) if has_states else None
         self._still = bytes(wires.rates.nbytes)
         self._held, self._sloped, self._begun, self.event = b"", False, False, False
         self._stop, self._job = 0.0, self._new_job(0.0)
@@ -121,7 +121,7 @@ class Stepwise:
         try:
             self._instance.enter_initialisation(overrides, time, stop, control.rtol if control.step == 0.0 else None)
         except CallFailed as error:
-            raise StepFailed(f"{error}{self._instance.mailbox.text()}") from error
+            raise StepFailed(str(error)) from error
         self._begun, self._stop, self._job, self.event = False, stop, self._new_job(time), False
         self.update()
 
@@ -130,7 +130,7 @@ class Stepwise:
         try:
             self._instance.exit_initialisation()
         except CallFailed as error:
-            raise StepFailed(f"{error}{self._instance.mailbox.text()}") from error
+            raise StepFailed(str(error)) from error
         self._begun, self._held, self._sloped = True, self._wires.values.tobytes(), False
         self._settle()
 
@@ -140,7 +140,7 @@ class Stepwise:
             self._change(False)
             self._settle()
             return
-        component = self._instance.fmu.component
+        component = self._instance.component
         self._check(self._in.write(component), "an input could not be set")
         self._check(self._out.read(component), "an output could not be read")
 
@@ -166,7 +166,7 @@ class Stepwise:
     def _change(self, sloped: bool) -> None:
         """Other inputs from the time reached on, or an event that is due there: both are handled by what follows."""
         self.event = False
-        component = self._instance.fmu.component
+        component = self._instance.component
         self._check(self._enter_event_mode(component), "event mode could not be entered")
         self._check(self._in.write(component), "an input could not be set")
         self._held, self._sloped = self._wires.values.tobytes(), sloped
@@ -185,7 +185,8 @@ class Stepwise:
     def _fail(self, code: int) -> None:
         job, outcome = self._job.job, OUTCOMES[code]
         self._instance.status = int(job.number("run", "status"))
-        raise StepFailed(explain(job, outcome) + self._instance.mailbox.text(), outcome)
+        said = explain(outcome, float(job.number("run", "t")), self._instance.status)
+        raise StepFailed(said + self._instance.mailbox.text(), outcome)
 
     def _new_job(self, time: float) -> StepJob:
         names, wires = self._wires.inputs, self._wires
@@ -214,7 +215,7 @@ class Stepwise:
     def _stand(self) -> int:
         """Move an FMU that is nothing but its states to the point reached, with the inputs held there; the status."""
         instance, fmi, x = self._instance, self.model.abilities.fmi, self._job.states()
-        component, wanted = instance.fmu.component, self._wires.values.copy()
+        component, wanted = instance.component, self._wires.values.copy()
         status = _SET_TIME(instance.address(f"fmi{fmi}SetTime"))(component, self.time)
         if x.size:
             set_states = _SET_STATES(instance.address(f"fmi{fmi}SetContinuousStates"))

@@ -65,6 +65,10 @@ class Abilities:
     needs_completed_step: bool = True  # wants to be told of every accepted step
     single_instance: bool = False  # at most one instance per process
     dependencies: tuple[frozenset[str] | None, ...] = ()  # per derivative, names of what it depends on; None: unknown
+    # Per output, names of the states and inputs it depends on; and per variable of the initial problem, names of the
+    # parameters and start values behind it. None: unknown.
+    output_dependencies: tuple[tuple[str, frozenset[str] | None], ...] = ()
+    initial_dependencies: tuple[tuple[str, frozenset[str] | None], ...] = ()
     feedthrough: tuple[tuple[str, frozenset[str] | None], ...] = ()  # output and inputs it depends on; None: unknown
     stepping: CoSimulation | None = None  # None: model exchange only
 

@@ -1,9 +1,22 @@
-"""The FMI functions that the kernel calls."""
+"""The FMI functions that the kernel calls: by the fields of its structure `Fmu`, and by the types of variables."""
 
 from __future__ import annotations
 
-# Field of the table below -> function, FMI 2 and FMI 3.
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import numpy as np
+
+from pysim.simulate.kernel.layout import KIND_DOUBLE, KIND_INT, KIND_LONG, KIND_OCTET, KIND_SINGLE
+from pysim.types import Model
+
+# Field -> function, FMI 2 and FMI 3.
 FUNCTIONS = {
+    "free_instance": ("fmi2FreeInstance", "fmi3FreeInstance"),
+    "instantiate": ("fmi2Instantiate", "fmi3InstantiateModelExchange"),
+    "reset": ("fmi2Reset", "fmi3Reset"),
+    "enter_initialisation": ("fmi2EnterInitializationMode", "fmi3EnterInitializationMode"),
+    "exit_initialisation": ("fmi2ExitInitializationMode", "fmi3ExitInitializationMode"),
     "set_time": ("fmi2SetTime", "fmi3SetTime"),
     "set_states": ("fmi2SetContinuousStates", "fmi3SetContinuousStates"),
     "get_states": ("fmi2GetContinuousStates", "fmi3GetContinuousStates"),
@@ -17,3 +30,44 @@ FUNCTIONS = {
     "update_discrete": ("fmi2NewDiscreteStates", "fmi3UpdateDiscreteStates"),
     "enter_continuous_mode": ("fmi2EnterContinuousTimeMode", "fmi3EnterContinuousTimeMode"),
 }
+SETUP = "fmi2SetupExperiment"
+
+# Type of variable -> the end of its functions' names, and how it lies in memory; FMI 2 and FMI 3.
+TYPES: dict[int, dict[str, tuple[str, int]]] = {
+    2: {
+        "Real": ("Real", KIND_DOUBLE),
+        "Integer": ("Integer", KIND_INT),
+        "Enumeration": ("Integer", KIND_INT),
+        "Boolean": ("Boolean", KIND_INT),
+    },
+    3: {
+        "Float64": ("Float64", KIND_DOUBLE),
+        "Float32": ("Float32", KIND_SINGLE),
+        "Int32": ("Int32", KIND_INT),
+        "Int64": ("Int64", KIND_LONG),
+        "Enumeration": ("Int64", KIND_LONG),
+        "Boolean": ("Boolean", KIND_OCTET),
+    },
+}
+
+
+def access(model: Model, names: Sequence[str], verb: str, address: Callable[[str], int]) -> dict[str, Any]:
+    """What `Access` of the kernel points to, to read or set these variables.
+
+    Args:
+        verb: "Get" or "Set".
+        address: of a function of the FMU, by its name.
+    """
+    fmi = model.abilities.fmi
+    groups: dict[tuple[str, int], list[int]] = {}
+    for place, name in enumerate(names):
+        groups.setdefault(TYPES[fmi][model[name].type], []).append(place)
+    places = [place for members in groups.values() for place in members]
+    return {
+        "groups": len(groups),
+        "functions": np.array([address(f"fmi{fmi}{verb}{ending}") for ending, _ in groups], dtype=np.int64),
+        "kinds": np.array([kind for _, kind in groups], dtype=np.int64),
+        "first": np.cumsum([0, *map(len, groups.values())], dtype=np.int64),
+        "references": np.array([model[names[place]].reference for place in places], dtype=np.uint32),
+        "places": np.array(places, dtype=np.int64),
+    }

@@ -27,16 +27,20 @@ def structures() -> dict[str, np.dtype[Any]]:
     return found
 
 
-JOB = structures()["Job"]
+JOB, TASK, PASS, FMU = (structures()[name] for name in ("Job", "Task", "Pass", "Fmu"))
 
 STATISTICS = ("steps", "rejected", "derivatives", "jacobians", "events")
 
-# How a run stands, and a few more constants of job.h.
+# How a run stands, and the other constants of job.h.
 RUNNING = -1
 DONE, STEP_TOO_SMALL, NOT_FINITE, MODEL_ERROR, TERMINATED, TOO_MANY_STEPS, TOO_MANY_EVENTS = range(7)
 EVENT = 100
+PART_NONE, PART_INSTANTIATE, PART_SET, PART_ENTER, PART_EXIT = range(5)
+FOUND, STOPPED_SEARCH, MET_EVENT, RUN_FAILED, NOT_CONVERGED, DRIFTS = range(6)
 OK, WARNING, DISCARD, ERROR, FATAL = range(5)
 EXPLICIT, ROSENBROCK, ESDIRK = range(3)
+PLAIN, VARIED, ORBIT = range(3)
 KIND_DOUBLE, KIND_SINGLE, KIND_INT, KIND_LONG, KIND_OCTET = range(5)
 ASKED, FIXED = -1, -2
 COLUMNS = 4
+LINES, LINE_LENGTH = 20, 1024

@@ -27,6 +27,13 @@ class Kernel:
             raise RuntimeError("the kernel's structures are not those of its header")
         self._integrate = self._function("kernel_integrate", ctypes.c_int, _P, _N)
         self._integrate_variations = self._function("kernel_integrate_variations", ctypes.c_int, _P, _N)
+        self._work = self._function("kernel_work", None, _P, _P)
+        self._renew = self._function("kernel_renew", ctypes.c_int, _P)
+        self._release = self._function("kernel_release", None, _P)
+        self._set_values = self._function("kernel_set_values", ctypes.c_int, _P, _P, _P, _P)
+        self._enter = self._function("kernel_enter_initialisation", ctypes.c_int, _P, _D, _D, _D)
+        self._exit = self._function("kernel_exit_initialisation", ctypes.c_int, _P)
+        self.log_2: int = self._function("kernel_log_2", _P)()  # address of FMI 2's logger
         self._factorise = self._function("kernel_factorise", ctypes.c_int, _P, _D)
         self._solve = self._function("kernel_solve", None, _P, _P)
         self._solve_rows = self._function("kernel_solve_rows", None, _P, _P, _N)
@@ -45,6 +52,30 @@ class Kernel:
     def integrate_variations(self, job: Array, budget: int) -> int:
         """The same for a run with its derivatives; RUNNING, EVENT or how it ended."""
         return int(self._integrate_variations(address(job), budget))
+
+    def work(self, tasks: Array, job: Array) -> None:
+        """Run the tasks that are left of a pass, (1,) of PASS."""
+        self._work(address(tasks), address(job))
+
+    def renew(self, fmu: Array) -> int:
+        """Make an instance, (1,) of FMU, as new; the status."""
+        return int(self._renew(address(fmu)))
+
+    def release(self, fmu: Array) -> None:
+        """Free an instance if there is one."""
+        self._release(address(fmu))
+
+    def set_values(self, fmu: Array, access: Array, values: Array, buffer: Array) -> int:
+        """Set variables ahead of initialisation; `buffer` has 8 bytes for each. The status."""
+        return int(self._set_values(address(fmu), address(access), address(values), address(buffer)))
+
+    def enter_initialisation(self, fmu: Array, tolerance: float, start: float, stop: float) -> int:
+        """Enter initialisation mode, without a tolerance where it is 0; times in s. The status."""
+        return int(self._enter(address(fmu), tolerance, start, stop))
+
+    def exit_initialisation(self, fmu: Array) -> int:
+        """Go on to event mode; the status."""
+        return int(self._exit(address(fmu)))
 
     def factorise(self, job: Array, shift: float) -> bool:
         """Factorise shift I - J, J in work.jacobian; False if it is singular or not finite."""

@@ -26,6 +26,7 @@ def work_arrays(n: int, m: int, stages: int, terms: int, implicit: bool) -> dict
         "m": m,
         "sums": kernel().row_sums,
         **scratch,
+        "scratch_size": scratch["scratch"].size,
         "dx_new": scratch["k"][stages],
         "nominal": np.ones(n),
         "matrix": np.zeros(square),
@@ -34,7 +35,6 @@ def work_arrays(n: int, m: int, stages: int, terms: int, implicit: bool) -> dict
         "right": np.zeros(n),
         **{name: np.zeros(n) for name in ("pivot_values", "probe", "magnitude")},
         "factors": np.zeros(square),
-        "ones": np.ones(n),
     }
 
 

@@ -1,55 +1,99 @@
-"""Inputs: Signals packed into arrays that the kernel evaluates, and the times at which they are not smooth."""
+"""Inputs of many experiments, packed for the kernel, and the times at which they are not smooth."""
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from pysim.types import Experiment, Model
+from pysim.simulate.kernel.layout import structures
+from pysim.simulate.kernel.library import address
+from pysim.types import Experiment, Model, Signal
 
-_NONE: dict[str, Any] = {"count": 0}
-_NO_JUMP = np.zeros(1, dtype=np.int64)
+
+class Packed(NamedTuple):
+    """Structures of the kernel, one per experiment, and the arrays that they point to."""
+
+    structures: NDArray[Any]
+    kept: tuple[Any, ...]
 
 
-def input_arrays(model: Model, experiment: Experiment) -> dict[str, Any]:
-    """What `Inputs` of the kernel points to."""
-    driven = [(name, signal, 0) for name, signal in experiment.inputs.items()]
-    driven += [(name, experiment.inputs[of], 1) for name, of in experiment.rates.items()]
-    if not driven:
-        return _NONE
-    signals = [signal for _, signal, _ in driven]
-    present = [signal.sines[..., 0] != 0 for signal in signals]
+def pack_inputs(model: Model, experiments: Sequence[Experiment]) -> Packed:
+    """`Inputs` of each experiment: driven inputs, then those that carry a rate; all signals one behind the other."""
+    signals: list[Signal] = []
+    names: list[str] = []
+    rates: list[int] = []
+    ends = [0]
+    for experiment in experiments:
+        inputs = experiment.inputs
+        names += inputs
+        names += experiment.rates
+        signals += inputs.values()
+        signals += [inputs[of] for of in experiment.rates.values()]
+        rates += [0] * len(inputs) + [1] * len(experiment.rates)
+        ends.append(len(signals))
+    found = np.zeros(len(experiments), dtype=structures()["Inputs"])
+    if not signals:
+        return Packed(found, ())
+    known = {name: model[name].reference for name in set(names)}
+    references = np.array([known[name] for name in names], dtype=np.uint32)
+    sines = [signal.sines for signal in signals]
+    rows = np.concatenate([s.reshape(-1, 4) for s in sines])
+    used = rows[:, 0] != 0
+    owner = np.repeat(
+        np.arange(sum(s.shape[0] for s in sines)), np.concatenate([np.full(s.shape[0], s.shape[1]) for s in sines])
+    )
     pieces = _offsets([signal.starts.size for signal in signals])
-    return {
-        "count": len(driven),
-        "references": np.array([model[name].reference for name, _, _ in driven], dtype=np.uint32),
-        "rate": np.array([rate for _, _, rate in driven], dtype=np.int64),
+    arrays: dict[str, NDArray[Any]] = {
+        "references": references,
+        "rate": np.array(rates, dtype=np.int64),
         "pieces": pieces,
-        "starts": np.concatenate([s.starts for s in signals]),
-        "cubics": np.concatenate([s.cubics for s in signals]),
-        "waves": _offsets(np.concatenate([p.sum(axis=1) for p in present])),
-        "sines": np.concatenate([s.sines[p] for s, p in zip(signals, present, strict=True)]),
         "cursor": pieces[:-1].copy(),
-        "values": np.zeros(len(driven)),
+        "values": np.zeros(len(signals)),
     }
+    shared: dict[str, NDArray[Any]] = {
+        "starts": np.concatenate([signal.starts for signal in signals]),
+        "cubics": np.concatenate([signal.cubics for signal in signals]),
+        "waves": _offsets(np.bincount(owner[used], minlength=pieces[-1])),
+        "sines": rows[used],
+    }
+    first = np.array(ends[:-1])
+    found["count"] = np.diff(ends)
+    for name, array in arrays.items():
+        found[name] = address(array) + first * array.itemsize
+    for name, array in shared.items():
+        found[name] = address(array)
+    return Packed(found, (arrays, shared))
 
 
 def _offsets(sizes: Any) -> NDArray[np.int64]:
     return np.concatenate([[0], np.cumsum(sizes)]).astype(np.int64)
 
 
-def break_arrays(experiment: Experiment) -> dict[str, Any]:
-    """What `Breaks` of the kernel points to: times after the start at which an input jumps or kinks, up to the end.
+def pack_breaks(experiments: Sequence[Experiment], ends: Sequence[float]) -> Packed:
+    """`Breaks` of each experiment, were it to end at that time (s)."""
+    found = [breaks(experiment, end) for experiment, end in zip(experiments, ends, strict=True)]
+    sizes = [len(times) for times, _ in found]
+    times = np.array([time for row, _ in found for time in row], dtype=np.float64)
+    jumps = np.array([jump for _, row in found for jump in row], dtype=np.int64)
+    packed = np.zeros(len(found), dtype=structures()["Breaks"])
+    packed["count"] = sizes
+    first = np.cumsum([0, *sizes[:-1]]) * times.itemsize
+    packed["times"], packed["jumps"] = address(times) + first, address(jumps) + first
+    return Packed(packed, (times, jumps))
+
+
+def breaks(experiment: Experiment, end: float) -> tuple[list[float], list[int]]:
+    """Times (s) after the start at which an input jumps or kinks, up to the end; 1 for each at which one jumps.
 
     Where one jumps at the very end, a segment of no length lies behind it: the last row is one of after the jump.
     """
-    end = float(experiment.times[-1])
-    if not experiment.inputs:
-        return {"count": 1, "times": np.array([end]), "jumps": _NO_JUMP}
     found: dict[float, int] = {end: 0}
     for name, signal in experiment.inputs.items():
+        if signal.starts.size == 1 and signal.starts[0] <= experiment.start:
+            continue
         if not np.any((signal.starts > experiment.start) & (signal.starts <= end)):
             continue
         jumps, kinks = signal.breaks()
@@ -61,4 +105,4 @@ def break_arrays(experiment: Experiment) -> dict[str, Any]:
     if found[end]:
         found[np.inf] = 0
     times = sorted(found)
-    return {"count": len(times), "times": np.array(times), "jumps": np.array([found[t] for t in times], dtype=np.int64)}
+    return times, [found[t] for t in times]

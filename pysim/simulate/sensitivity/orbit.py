@@ -1,29 +1,32 @@
-"""One periodic steady state: shooting, and what to do where it fails."""
+"""Periodic steady states: what the kernel finds by shooting, and what to do where it finds none."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from pysim.simulate._library import CallFailed, Library
+from pysim.simulate._library import Library
 from pysim.simulate._pool import Stopped
-from pysim.simulate._run import initialise, make_record
+from pysim.simulate._run import make_record
+from pysim.simulate._tasks import Found, Kind, Request, run_tasks
+from pysim.simulate._variation import Directions
 from pysim.simulate.esdirk import Esdirk
+from pysim.simulate.kernel.layout import ORBIT, VARIED
 from pysim.simulate.sensitivity.differences import DIFFERENCE_STEP, tight
 from pysim.simulate.sensitivity.probe import Offer, both_sides
-from pysim.simulate.sensitivity.shooting import Found, Shot, repeats, shoot
 from pysim.simulate.sensitivity.transient import Settled, after, settle_down
-from pysim.simulate.sensitivity.varied import Directions, vary
 from pysim.types import Experiment, Outcome, Record
 
 Array = NDArray[np.float64]
 
-_SETTLING = 4  # periods from the model's own start that make a guess; half as many cost the pump three times the time
 _FORGOTTEN = 10.0  # mismatches: two periods of an orbit may end that far apart,
 _MOST_FORGOTTEN = 1e-2  # amplitudes: but no further
+_JUMPY = 30.0  # tolerated errors of a step: so far the end of a period with kinks jumps as the steps fall otherwise
 _TIGHT = 1e-8  # tolerance of orbits between which a difference is taken
 _TIGHT_MISMATCH = 1e-5
 
@@ -83,71 +86,85 @@ class Plan:
         given = self.offer.parameters if self.offer.outputs else ()
         return tuple(name for name in self.parameters if name not in given)
 
+    @property
+    def kind(self) -> Kind:
+        """What the kernel is asked for."""
+        return Kind(ORBIT, self.solver, self.directions, self.mismatch)
+
 
 def remembers(plan: Plan, experiment: Experiment, guess: Array | None) -> bool:
-    """Whether the model remembers more than its states, so that a period cannot be started from them."""
-    try:
-        found = _shoot(plan, experiment, guess, lambda: False)
-        if found.shot is None:
-            return False
-        state = found.shot.start + found.shot.step
-        allowed = min(_FORGOTTEN * plan.mismatch, _MOST_FORGOTTEN)
-        return not repeats(plan.library, experiment, plan.solver, state, allowed)
-    except CallFailed:
+    """Whether the model remembers more than its states, so that a period cannot be started from them.
+
+    If not, a second period of an orbit ends where the first one did, but for what the choice of the steps may move.
+    """
+    (found,) = run_tasks(plan.library, plan.kind, [Request(experiment, guess)])
+    if not found.done:
         return False
+    twice = replace(experiment, times=np.append(experiment.times, experiment.times[-1] * 2))
+    requests = [Request(run, found.array("state")) for run in (experiment, twice)]
+    once, again = run_tasks(plan.library, Kind(VARIED, plan.solver), requests)
+    if once.failed_to_start or again.failed_to_start:
+        return False
+    if not (once.done and again.done):
+        return True
+    low, high = once.array("low"), once.array("high")
+    size = np.maximum(np.abs(high), np.abs(low))
+    jumps = 3 * _JUMPY * (plan.solver.rtol * size + plan.solver.atol * once.array("nominal"))
+    allowed = min(_FORGOTTEN * plan.mismatch, _MOST_FORGOTTEN) * 0.5 * (high - low)
+    return bool(np.any(np.abs(again.array("state") - once.array("state")) > np.maximum(allowed, jumps)))
 
 
-def find_orbit(plan: Plan, experiment: Experiment, guess: Array | None, long_way: bool, stopped: Stopped) -> Orbit:
+def find_orbits(plan: Plan, tests: Sequence[tuple[Experiment, Array | None]], **watched: Any) -> list[Found]:
+    """What the kernel finds for tests, each with a guess or none; where a guess leads nowhere, the model's own start.
+
+    Args:
+        watched: workers, progress and stopped, as of `run_tasks`.
+    """
+    found = run_tasks(plan.library, plan.kind, [Request(*test) for test in tests], **watched)
+    again = [i for i, one in enumerate(found) if not one.done and not one.event and tests[i][1] is not None]
+    if again:
+        requests = [Request(tests[i][0]) for i in again]
+        watched.pop("progress", None)
+        for i, one in zip(again, run_tasks(plan.library, plan.kind, requests, **watched), strict=True):
+            found[i] = one
+    return found
+
+
+def is_settled(plan: Plan, found: Found) -> bool:
+    """Whether what the kernel found is all there is to an orbit."""
+    exact = plan.offer.outputs or float(found.task["correction"]) <= _TIGHT_MISMATCH
+    return found.done and exact and not plan.missing
+
+
+def orbit_of(plan: Plan, experiment: Experiment, found: Found | None, stopped: Stopped) -> Orbit:
     """The orbit of one test; a failure is an outcome.
 
     Args:
         experiment: one period from time 0, its end included.
-        guess: (n_x,) states at phase zero.
-        long_way: do not try shooting.
+        found: by the kernel; None for a model that remembers more than its states.
     """
-    found = Found(None, 0, "the model remembers more than its states")
-    try:
-        if not long_way:
-            found = _shoot(plan, experiment, guess, stopped)
-            if found.shot is None and guess is not None and not found.event and not stopped():
-                found = _shoot(plan, experiment, None, stopped)
-        if found.shot is not None:
-            return _from_shot(plan, experiment, found.shot, found.iterations, stopped)
+    if found is None:
+        return _the_long_way(plan, experiment, "the model remembers more than its states", stopped)
+    if found.failed_to_start:
+        return _failed(plan, experiment, Outcome.MODEL_ERROR, found.message)
+    if not found.done:
         return _the_long_way(plan, experiment, found.trouble, stopped)
-    except CallFailed as error:
-        return _failed(plan, experiment, Outcome.MODEL_ERROR, str(error))
-
-
-def _shoot(plan: Plan, experiment: Experiment, guess: Array | None, stopped: Stopped) -> Found:
-    with plan.library.instance() as instance:
-        initialise(instance, experiment, plan.solver)
-        if guess is None:
-            times = np.array([_SETTLING * experiment.times[-1]])
-            settling = replace(experiment, times=times)
-            varied = vary(instance, settling, plan.solver, Directions(outputs=False), stopped=stopped)
-            if not varied.done:
-                trouble = "an event happened" if varied.event else varied.message
-                return Found(None, 0, trouble, varied.event)
-            guess = varied.states
-            instance.renew()
-            initialise(instance, experiment, plan.solver)
-        return shoot(instance, experiment, plan.solver, plan.directions, guess, plan.mismatch, stopped)
-
-
-def _from_shot(plan: Plan, experiment: Experiment, shot: Shot, iterations: int, stopped: Stopped) -> Orbit:
-    """Apply what is left of the correction, and put the columns together."""
-    varied, n, points = shot.varied, shot.start.size, experiment.times.size - 1
-    rows = varied.rows[:points]
-    if not plan.offer.outputs and shot.mismatch > _TIGHT_MISMATCH:
-        return _again(plan, experiment, shot, stopped)
-    values = varied.values[:points] + rows[:, :, :n] @ shot.step
-    record = varied._replace(values=values).record(plan.library.model, experiment)
-    columns, by = rows[:, :, n:] + rows[:, :, :n] @ shot.by, shot.by
+    if not plan.offer.outputs and float(found.task["correction"]) > _TIGHT_MISMATCH:
+        return _again(plan, experiment, found, stopped)
+    values = found.values
+    record = make_record(plan.library.model, experiment, values, Outcome.DONE, "", found.statistics())
+    columns, by = found.slopes, found.array("state_by")
     if plan.missing:
         places = [plan.parameters.index(name) for name in plan.directions.parameters]
         columns, by = _spread(columns, places, len(plan.parameters)), _spread(by, places, len(plan.parameters))
-    orbit = Orbit(record, plan.parameters, columns, shot.start + shot.step, by, iterations)
+    iterations = int(found.task["iterations"])
+    orbit = Orbit(record, plan.parameters, columns, found.array("state"), by, iterations)
     return _with_differences(plan, experiment, orbit, stopped) if plan.missing else orbit
+
+
+def _find_orbit(plan: Plan, experiment: Experiment, guess: Array | None, stopped: Stopped) -> Orbit:
+    (found,) = find_orbits(plan, [(experiment, guess)], stopped=stopped)
+    return orbit_of(plan, experiment, found, stopped)
 
 
 def _spread(columns: Array, places: list[int], count: int) -> Array:
@@ -157,13 +174,11 @@ def _spread(columns: Array, places: list[int], count: int) -> Array:
     return spread
 
 
-def _again(plan: Plan, experiment: Experiment, shot: Shot, stopped: Stopped) -> Orbit:
+def _again(plan: Plan, experiment: Experiment, found: Found, stopped: Stopped) -> Orbit:
     """Without derivatives of the outputs a correction needs one more integration."""
-    finer = replace(plan, mismatch=_TIGHT_MISMATCH)
-    found = _shoot(finer, experiment, shot.start + shot.step, stopped)
-    if found.shot is None:
-        return _the_long_way(plan, experiment, found.trouble, stopped)
-    return _from_shot(finer, experiment, found.shot, found.iterations + 1, stopped)
+    orbit = _find_orbit(replace(plan, mismatch=_TIGHT_MISMATCH), experiment, found.array("state"), stopped)
+    more = int(found.task["iterations"]) if orbit.iterations else 0
+    return replace(orbit, iterations=orbit.iterations + more)
 
 
 def _with_differences(plan: Plan, experiment: Experiment, orbit: Orbit, stopped: Stopped) -> Orbit:
@@ -176,7 +191,7 @@ def _with_differences(plan: Plan, experiment: Experiment, orbit: Orbit, stopped:
     columns, by = orbit.by_parameter.copy(), orbit.state_by_parameter.copy()
     for name in plan.missing:
         up, down, distance = both_sides(plan.library.model, experiment, name, DIFFERENCE_STEP)
-        ends = [find_orbit(bare, side, orbit.state, False, stopped) for side in (up, down)]
+        ends = [_find_orbit(bare, side, orbit.state, stopped) for side in (up, down)]
         for end in ends:
             if end.outcome is not Outcome.DONE or not end.state.size:
                 message = f"with {name} moved a little: {end.message}"

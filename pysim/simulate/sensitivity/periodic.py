@@ -15,8 +15,9 @@ from numpy.typing import NDArray
 from pysim.simulate._check import check_arguments, check_list
 from pysim.simulate._library import open_library
 from pysim.simulate._pool import side_by_side, worker_count
+from pysim.simulate._tasks import Found, later
 from pysim.simulate.esdirk import Esdirk
-from pysim.simulate.sensitivity.orbit import Orbit, Plan, find_orbit, remembers
+from pysim.simulate.sensitivity.orbit import Orbit, Plan, find_orbits, is_settled, orbit_of, remembers
 from pysim.simulate.sensitivity.probe import check_names, check_parameters, probe_each
 from pysim.types import BadInput, Experiment, Model, Signal
 
@@ -136,11 +137,19 @@ def periodic_many(
         plans = {record: Plan(library, solver, names, offer, mismatch) for record, offer in offers.items()}
         quick = min(range(len(tests)), key=lambda i: tests[i].period)
         long_way = remembers(plans[tests[quick].record], experiments[quick], starts[quick])
-        tasks = [
-            partial(find_orbit, plans[experiment.record], experiment, start, long_way)
-            for experiment, start in zip(experiments, starts, strict=True)
-        ]
-        return side_by_side(tasks, count, progress)
+        found: dict[int, Found] = {}
+        settled = 0
+        for record, plan in plans.items():
+            numbers = [i for i, experiment in enumerate(experiments) if experiment.record == record and not long_way]
+            pairs, watch = [(experiments[i], starts[i]) for i in numbers], later(progress, settled, len(tests))
+            watch = None if plan.missing or not plan.offer.outputs else watch
+            found |= zip(numbers, find_orbits(plan, pairs, workers=count, progress=watch), strict=True)
+            settled = sum(is_settled(plans[experiments[i].record], one) for i, one in found.items())
+        tasks = [partial(orbit_of, plans[e.record], e, found.get(i)) for i, e in enumerate(experiments)]
+        left = [i for i, e in enumerate(experiments) if i not in found or not is_settled(plans[e.record], found[i])]
+        others = side_by_side([tasks[i] for i in left], count, later(progress, settled, len(tests)))
+        results = dict(zip(left, others, strict=True))
+        return tuple(results[i] if i in results else task(lambda: False) for i, task in enumerate(tasks))
 
 
 def _check_guesses(model: Model, tests: Sequence[Periodic], guesses: Sequence[Array | None]) -> list[Array | None]:

@@ -8,12 +8,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from pysim.simulate._check import check_experiment
-from pysim.simulate._library import CallFailed, Instance, Library
-from pysim.simulate._run import initialise
+from pysim.simulate._check import check_experiment, check_experiments
+from pysim.simulate._library import Library
+from pysim.simulate._tasks import Found, Kind, Request, run_tasks
+from pysim.simulate._variation import Directions
 from pysim.simulate.esdirk import Esdirk
-from pysim.simulate.sensitivity.varied import Directions, Varied, vary
-from pysim.types import BadInput, Experiment, Model, Outcome, Variable
+from pysim.simulate.kernel.layout import VARIED
+from pysim.types import BadInput, Experiment, Model, Variable
 
 Array = NDArray[np.float64]
 
@@ -66,9 +67,10 @@ def check_parameters(function: str, model: Model, experiments: Sequence[Experime
     for name in names:
         if model[name].type not in ("Real", "Float64"):
             raise BadInput(f"{function}: {name} is {model[name].type}; a derivative needs a real parameter")
+    check_experiments(model, experiments)
     for count, experiment in enumerate(experiments):
-        check_experiment(model, experiment)
-        values = {name: value_of(model, experiment, name) for name in names}
+        if count == 0 or any(name not in experiment.overrides for name in names):
+            values = {name: value_of(model, experiment, name) for name in names}
         if count == 0 or any(name in experiment.inputs or name in experiment.rates for name in names):
             check_experiment(model, experiment.override(**values))
 
@@ -119,17 +121,29 @@ def probe(library: Library, experiment: Experiment, solver: Esdirk, parameters: 
     model = library.model
     if not model.abilities.directional_derivatives:
         return _NOTHING
-    once = at_rest(experiment)
-    first = at_start(library, once, solver, Directions())
-    if first is None:
+    once = replace(experiment, times=np.array([experiment.start]))
+    (first,) = points(library, solver, Directions(outputs=False), [Request(once)])
+    if not first.done:
         return None
     starts = frozenset(n for n in parameters if n in model.abilities.states or _is_start(model[n]))
-    sizes = np.maximum(np.abs(first.states), first.nominal)
-    point = first.states + _ASIDE * sizes
-    if not _states_agree(library, once, solver, point, sizes):
+    sizes = np.maximum(np.abs(first.array("state")), first.array("nominal"))
+    point = first.array("state") + _ASIDE * sizes
+    wanted = tuple(name for name in parameters if name not in starts)
+    sides = [both_sides(model, once, name, START_STEP) for name in wanted]
+    moves = (START_STEP * sizes, -START_STEP * sizes)
+    asked = [Request(once, point + move) for move in moves]
+    asked += [Request(side, point) for up, down, _ in sides for side in (up, down)]
+    given, *found = points(library, solver, Directions(states=True, outputs=False), [Request(once, point), *asked])
+    if given.done and not _states_agree(given, found[0], found[1], sizes):
         return _NOTHING
-    given = tuple(n for n in parameters if n in starts or _agrees(library, once, solver, n, point))
-    return Offer(given, starts & set(given), True)
+    columns = _columns(library, solver, wanted, Request(once, point))
+    agreeing = {
+        name
+        for k, (name, column) in enumerate(zip(wanted, columns, strict=True))
+        if column is not None and _agrees(column, found[2 + 2 * k], found[3 + 2 * k], sides[k][2])
+    }
+    offered = tuple(name for name in parameters if name in starts or name in agreeing)
+    return Offer(offered, starts & set(offered), True)
 
 
 def probe_each(
@@ -147,59 +161,45 @@ def _is_start(variable: Variable) -> bool:
     return variable.causality not in ("parameter", "input")
 
 
-def at_start(
-    library: Library, experiment: Experiment, solver: Esdirk, directions: Directions, start: Array | None = None
-) -> Varied | None:
-    """The run's first point; None where the FMU refuses."""
-    try:
-        with library.instance() as instance:
-            return _begin(instance, experiment, solver, directions, start)
-    except CallFailed:
-        return None
+def points(
+    library: Library, solver: Esdirk, directions: Directions, requests: Sequence[Request], workers: int = 1
+) -> list[Found]:
+    """The first points of runs that end where they begin, with all derivatives there."""
+    return run_tasks(library, Kind(VARIED, solver, directions, point=True), requests, workers=workers)
 
 
-def _begin(
-    instance: Instance, experiment: Experiment, solver: Esdirk, directions: Directions, start: Array | None
-) -> Varied | None:
-    initialise(instance, experiment, solver)
-    varied = vary(instance, experiment, solver, directions, start=start)
-    return varied if varied.outcome is Outcome.DONE else None
+def _columns(library: Library, solver: Esdirk, names: tuple[str, ...], request: Request) -> list[Array | None]:
+    """Derivatives (n_x,) of the states' by each parameter; None where the FMU refuses."""
+    (found,) = points(library, solver, Directions(names, outputs=False), [request])
+    if found.done:
+        return [*found.array("forcing")]
+    if len(names) <= 1:
+        return [None] * len(names)
+    return [_columns(library, solver, (name,), request)[0] for name in names]
 
 
-def _derivatives(library: Library, experiment: Experiment, solver: Esdirk, point: Array) -> tuple[Array, Array] | None:
-    """Derivatives (n_x,) of the states at the start, were they at that point, and the size of what adds up to them."""
-    varied = at_start(library, experiment, solver, Directions(states=True, outputs=False), point)
-    if varied is None:
-        return None
-    rates = varied.job.array("work", "dx").copy()
-    return rates, np.abs(rates) + np.abs(varied.job.array("work", "jacobian").T) @ np.abs(varied.states)
+def _derivatives(found: Found) -> tuple[Array, Array]:
+    """Derivatives (n_x,) of the states at a point, and the size of what adds up to them."""
+    rates, jacobian = found.array("rates"), found.array("jacobian")
+    return rates, np.abs(rates) + np.abs(jacobian.T) @ np.abs(found.array("state"))
 
 
-def _states_agree(library: Library, experiment: Experiment, solver: Esdirk, point: Array, sizes: Array) -> bool:
+def _states_agree(given: Found, up: Found, down: Found, sizes: Array) -> bool:
     """Whether the FMU's derivatives by the states, all moved at once by their sizes, are what a difference shows."""
-    given = at_start(library, experiment, solver, Directions(states=True, outputs=False), point)
-    if given is None:
+    if not (up.done and down.done):
         return True  # nothing to compare with
-    jacobian = given.job.array("work", "jacobian").T.copy()
-    moves = (START_STEP * sizes, -START_STEP * sizes)
-    sides = [_derivatives(library, experiment, solver, point + move) for move in moves]
-    if sides[0] is None or sides[1] is None:
-        return True
-    numeric, noise = (sides[0][0] - sides[1][0]) / (2 * START_STEP), _NOISE * sides[0][1] / START_STEP
+    jacobian = given.array("jacobian").T
+    (high, noise), (low, _) = _derivatives(up), _derivatives(down)
+    numeric = (high - low) / (2 * START_STEP)
     size = np.maximum(np.abs(jacobian) @ sizes, np.abs(numeric))
-    return bool(np.all(np.abs(numeric - jacobian @ sizes) <= _WRONG * size + noise))
+    return bool(np.all(np.abs(numeric - jacobian @ sizes) <= _WRONG * size + _NOISE * noise / START_STEP))
 
 
-def _agrees(library: Library, experiment: Experiment, solver: Esdirk, name: str, point: Array) -> bool:
+def _agrees(exact: Array, up: Found, down: Found, distance: float) -> bool:
     """Whether the FMU's derivative by a parameter is the one that a central difference shows, at those states."""
-    given = at_start(library, experiment, solver, Directions((name,), outputs=False), point)
-    if given is None:
-        return False
-    exact = given.job.array("variation", "forcing")[0].copy()
-    up, down, distance = both_sides(library.model, experiment, name, START_STEP)
-    sides = [_derivatives(library, side, solver, point) for side in (up, down)]
-    if sides[0] is None or sides[1] is None:
+    if not (up.done and down.done):
         return True  # nothing to compare with
-    numeric, noise = (sides[0][0] - sides[1][0]) / distance, _NOISE * sides[0][1] / distance
+    (high, noise), (low, _) = _derivatives(up), _derivatives(down)
+    numeric = (high - low) / distance
     size = np.maximum(np.abs(numeric), np.abs(exact))
-    return bool(np.all(np.abs(numeric - exact) <= _WRONG * size + noise))
+    return bool(np.all(np.abs(numeric - exact) <= _WRONG * size + _NOISE * noise / distance))

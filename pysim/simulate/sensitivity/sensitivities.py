@@ -10,23 +10,24 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pysim.simulate._check import check_arguments, check_list
-from pysim.simulate._library import CallFailed, Library, open_library
+from pysim.simulate._library import Library, open_library
 from pysim.simulate._pool import Stopped, side_by_side, worker_count
-from pysim.simulate._run import initialise, run, values_at_start
+from pysim.simulate._run import record_of, run
+from pysim.simulate._tasks import Found, Kind, Request, later, run_tasks
+from pysim.simulate._variation import Directions
 from pysim.simulate.esdirk import Esdirk
-from pysim.simulate.sensitivity.differences import offset_differences, run_differences
+from pysim.simulate.kernel.layout import VARIED
+from pysim.simulate.sensitivity.differences import run_differences
 from pysim.simulate.sensitivity.probe import (
     START_STEP,
     Offer,
-    at_rest,
-    at_start,
     both_sides,
     check_names,
     check_parameters,
+    points,
     probe_each,
 )
-from pysim.simulate.sensitivity.varied import Directions, Varied, vary
-from pysim.types import BadInput, Experiment, Model, Outcome, Record, SimulationError
+from pysim.types import Experiment, Model, Outcome, Record, SimulationError
 
 Array = NDArray[np.float64]
 
@@ -123,13 +124,23 @@ def sensitivities_many(
         return ()
     with open_library(model) as library:
         offers = probe_each(library, experiments, solver, names)
-        starts = [_start_of(e) for e in experiments]
-        moved = _starts(library, dict(zip(starts, experiments, strict=True)), solver, offers, count)
+        starts = _starts(library, experiments, solver, offers, count)
+        found: dict[int, Found] = {}
+        clean = 0
+        for record, offer in offers.items():
+            numbers = [i for i, e in enumerate(experiments) if e.record == record and starts[i] is not None]
+            requests = [Request(experiments[i], start_by=starts[i]) for i in numbers]
+            kind, watch = Kind(VARIED, solver, offer.directions(states=False)), later(progress, clean, len(experiments))
+            found |= zip(numbers, run_tasks(library, kind, requests, workers=count, progress=watch), strict=True)
+            clean = sum(one.done for one in found.values())
         tasks = [
-            partial(_one, library, e, solver, names, offers[e.record], moved.get(start), offset)
-            for e, start in zip(experiments, starts, strict=True)
+            partial(_one, library, e, solver, names, offers[e.record], starts[i], found.get(i))
+            for i, e in enumerate(experiments)
         ]
-        return side_by_side(tasks, count, progress)
+        left = [i for i in range(len(experiments)) if i not in found or not found[i].done]
+        others = side_by_side([tasks[i] for i in left], count, later(progress, clean, len(experiments)))
+        results = dict(zip(left, others, strict=True))
+        return tuple(results[i] if i in results else task(lambda: False) for i, task in enumerate(tasks))
 
 
 def _one(
@@ -139,19 +150,16 @@ def _one(
     names: tuple[str, ...],
     offer: Offer,
     start_by: Array | None,
-    offset: bool,
+    varied: Found | None,
     stopped: Stopped,
 ) -> Sensitivities:
-    varied = None if start_by is None else _exact_part(library, experiment, solver, offer, start_by, offset, stopped)
-    if varied is None or varied.event:
-        return _by_differences(library, experiment, solver, names, varied is not None, offset, stopped)
-    columns = np.full((len(varied.rows), len(experiment.record), len(names)), np.nan)
-    n = len(library.model.abilities.states) if offset else 0
-    for column, name in enumerate(offer.parameters):
-        columns[:, :, names.index(name)] = varied.rows[:, :, n + column]
-    by_offset = varied.rows[:, :, :n]
+    """What the kernel found, with the columns that it could not give."""
+    if varied is None or varied.event or varied.failed_to_start:
+        return _by_differences(library, experiment, solver, names, varied is not None and varied.event, stopped)
+    columns = np.full((len(varied.values), len(experiment.record), len(names)), np.nan)
+    columns[:, :, [names.index(name) for name in offer.parameters]] = varied.slopes
     missing = [name for name in names if name not in offer.parameters]
-    record = varied.record(library.model, experiment)
+    record = record_of(library.model, experiment, varied)
     if not missing or record.outcome is not Outcome.DONE:
         moved = start_by is not None and bool(start_by.any())
         messages = ["start values were differentiated by differences"] if moved else []
@@ -173,61 +181,56 @@ def _not_finite(record: Record, names: tuple[str, ...], columns: Array) -> list[
     return [f"the derivative of {record.names[y]} by {names[p]} is {columns[row, y, p]:g} at {record.time[row]:g} s"]
 
 
-def _exact_part(
-    library: Library,
-    experiment: Experiment,
-    solver: Esdirk,
-    offer: Offer,
-    start_by: Array,
-    offset: bool,
-    stopped: Stopped,
-) -> Varied | None:
-    """The run with the columns of the offer; None where the FMU refuses."""
-    try:
-        with library.instance() as instance:
-            initialise(instance, experiment, solver)
-            directions = offer.directions(offset=offset)
-            return vary(instance, experiment, solver, directions, start_by=start_by, stopped=stopped)
-    except CallFailed:
-        return None
-
-
-# What is recorded, what is set, and when.
-_Start = tuple[tuple[str, ...], tuple[tuple[str, float], ...], float]
-
-
-def _start_of(experiment: Experiment) -> _Start:
-    return experiment.record, tuple(sorted(values_at_start(experiment).items())), experiment.start
-
-
 def _starts(
     library: Library,
-    experiments: dict[_Start, Experiment],
+    experiments: Sequence[Experiment],
     solver: Esdirk,
     offers: dict[tuple[str, ...], Offer],
     count: int,
-) -> dict[_Start, Array]:
-    """By the start how parameters move its states: runs of a test that begin alike share it."""
-    first = {start: e for start, e in experiments.items() if offers[e.record].outputs}
-    tasks = [partial(_start_by, library, e, solver, offers[e.record]) for e in first.values()]
-    found = zip(first, side_by_side(tasks, count, None), strict=True)
-    return {start: by for start, by in found if by is not None}
+) -> list[Array | None]:
+    """Per experiment d x / d p (n_x, n_p) at the start, by differences of initialisations; zero where nothing moves.
 
-
-def _start_by(library: Library, experiment: Experiment, solver: Esdirk, offer: Offer, stopped: Stopped) -> Array | None:
-    """d x / d p (n_x, n_p) at the start, by differences of initialisations; exactly zero where nothing moves.
-
-    None where the FMU cannot be initialised beside the experiment's own values.
+    None where the FMU offers no derivatives, or cannot be initialised beside the experiment's own values. Experiments
+    that begin alike share it.
     """
-    once = at_rest(experiment)
-    result = np.zeros((len(library.model.abilities.states), len(offer.parameters)))
-    for column, name in zip(result.T, offer.parameters, strict=True):
-        up, down, distance = both_sides(library.model, once, name, START_STEP)
-        ends = [at_start(library, side, solver, Directions(outputs=False)) for side in (up, down)]
-        if ends[0] is None or ends[1] is None or stopped():
-            return None
-        column[:] = (ends[0].states - ends[1].states) / distance
+    first: dict[_Start, int] = {}
+    own = [first.setdefault(_start_of(e), i) for i, e in enumerate(experiments)]
+    leading = [i for i in first.values() if offers[experiments[i].record].outputs]
+    requests: list[Request] = []
+    distances: list[float] = []
+    for i in leading:
+        once = replace(experiments[i], times=np.array([experiments[i].start]))
+        for name in offers[once.record].parameters:
+            up, down, distance = both_sides(library.model, once, name, START_STEP)
+            requests += [Request(up), Request(down)]
+            distances.append(distance)
+    ends = points(library, solver, Directions(outputs=False), requests, workers=count)
+    by: dict[int, Array | None] = {}
+    for i in leading:
+        columns = len(offers[experiments[i].record].parameters)
+        pairs, ends = ends[: 2 * columns], ends[2 * columns :]
+        steps, distances = distances[:columns], distances[columns:]
+        by[i] = _start_by(pairs, steps, len(library.model.abilities.states))
+    return [by.get(i) for i in own]
+
+
+def _start_by(ends: Sequence[Found], distances: Sequence[float], n: int) -> Array | None:
+    if not all(end.done for end in ends):
+        return None
+    result = np.zeros((n, len(distances)))
+    for p, distance in enumerate(distances):
+        result[:, p] = (ends[2 * p].array("state") - ends[2 * p + 1].array("state")) / distance
     return result
+
+
+# What is recorded, what is set, and how the inputs begin.
+_Start = tuple[tuple[str, ...], tuple[tuple[str, float], ...], float, tuple[tuple[str, float, float], ...]]
+
+
+def _start_of(experiment: Experiment) -> _Start:
+    t = np.array(experiment.start)
+    begun = [(name, float(s.value(t)), float(s.derivative(t))) for name, s in sorted(experiment.inputs.items())]
+    return experiment.record, tuple(sorted(experiment.overrides.items())), experiment.start, tuple(begun)
 
 
 def _by_differences(

@@ -14,7 +14,7 @@ def test_states_come_back_and_their_memory_is_used_again(tmp_path: Path, fmi: in
     model, number = text_model(LAG, tmp_path, fmi=fmi), np.array([0.0])
     with open_library(model) as library, library.instance() as instance:
         instance.enter_initialisation({}, 0.0, 1.0, None)
-        component = instance.fmu.component
+        component = instance.component
         states = FmuStates(fmi, component, instance.address)
         u = FmuValues(fmi, [model["u"]], number, instance.address)
 

@@ -43,7 +43,7 @@ def test_numbers_of_every_type_go_in_and_out_in_the_order_asked_for(mixed: Model
     with initialising(mixed) as instance:
         ins, outs = values(instance, INPUTS, given), values(instance, OUTPUTS, found)
         assert not ins.is_plain
-        component = instance.fmu.component
+        component = instance.component
         assert ins.write(component) == 0
         assert outs.read(component) == 0
         assert found.tolist() == [0.0, 2.5, 42.0]
@@ -58,14 +58,14 @@ def test_reals_alone_need_no_memory_in_between(mixed: Model) -> None:
     with initialising(mixed) as instance:
         ins, outs = values(instance, ("r",), given), values(instance, ("twice",), found)
         assert ins.is_plain
-        assert ins.write(instance.fmu.component) == 0
-        assert outs.read(instance.fmu.component) == 0
+        assert ins.write(instance.component) == 0
+        assert outs.read(instance.component) == 0
     assert found[0] == 6.0
 
 
 def test_no_variables_are_no_call(mixed: Model) -> None:
     with initialising(mixed) as instance:
-        assert values(instance, (), np.zeros(0)).write(instance.fmu.component) == 0
+        assert values(instance, (), np.zeros(0)).write(instance.component) == 0
 
 
 def test_an_array_or_a_text_is_no_number() -> None:

@@ -37,7 +37,7 @@ int locate(Job *job, double h, double *theta) {
         double share = count % 3 == 2 ? 0.5 * (low + high) : first_secant(job, low, high);
         share = smaller(larger(share, low + 0.5 * width), high - 0.5 * width);
         interpolate(job, share);
-        const int status = worse(set_point(job, run->t + share * h, w->x_try), fmi_get_indicators(&job->fmu, w->z_try, w->m));
+        const int status = worse(set_point(job, run->t + share * h, w->x_try), fmi_get_indicators(job->fmu, w->z_try, w->m));
         if (status > WARNING) return *theta = high, status;
         if (crossed(job, w->z, w->z_try)) {
             high = share;
@@ -52,7 +52,7 @@ int locate(Job *job, double h, double *theta) {
 
 /* Event iteration, from event mode to continuous-time mode. */
 int settle(Job *job) {
-    Fmu *fmu = &job->fmu;
+    Fmu *fmu = job->fmu;
     Run *run = &job->run;
     Work *w = &job->work;
     bool states = false, nominals = false;
@@ -79,7 +79,7 @@ int handle_event(Job *job) {
     run->events++;
     run->crowd++;
     if (run->crowd > CROWD) return TOO_MANY_EVENTS;
-    int status = fmi_enter_event_mode(&job->fmu);
+    int status = fmi_enter_event_mode(job->fmu);
     if (status <= WARNING) status = worse(status, set_inputs(job, run->t));
     run->status = worse((int)run->status, status);
     return status <= WARNING ? settle(job) : MODEL_ERROR;

@@ -5,6 +5,23 @@
 
 #include "job.h"
 
+/* Makes the instance as new: reset, which the standard defines to give what a new one is, or instantiated anew where it
+   refuses that or reported an error. */
+int fmi_renew(Fmu *fmu);
+void fmi_release(Fmu *fmu);
+
+/* n values of one type, as many items of it. */
+int fmi_set_values(const Fmu *fmu, Function *setter, const uint32_t *references, const void *values, int64_t n);
+
+/* Times in s; no tolerance (0) where the steps are fixed. */
+int fmi_setup(const Fmu *fmu, double tolerance, double start, double stop);
+int fmi_enter_initialisation(const Fmu *fmu, double tolerance, double start, double stop);
+int fmi_exit_initialisation(const Fmu *fmu);
+
+/* The logger's two faces; `environment` is a Log. */
+void fmi_log_2(void *environment, const char *instance, int status, const char *category, const char *format, ...);
+void fmi_log_3(void *environment, int status, const char *category, const char *message);
+
 int fmi_set_time(const Fmu *fmu, double t);
 int fmi_set_states(const Fmu *fmu, const double *x, int64_t n);
 int fmi_get_states(const Fmu *fmu, double *x, int64_t n);

@@ -40,7 +40,7 @@ int set_inputs(Job *job, double t) {
         if (inputs->rate[i]) inputs->values[i] = s >= 0.0 ? rate_of(inputs, k, s) : 0.0;
         else inputs->values[i] = value_of(inputs, k, larger(s, 0.0));
     }
-    const int status = fmi_set_reals(&job->fmu, inputs->references, inputs->values, inputs->count);
+    const int status = fmi_set_reals(job->fmu, inputs->references, inputs->values, inputs->count);
     job->run.inputs_at = status <= WARNING ? t : NAN;
     return status;
 }

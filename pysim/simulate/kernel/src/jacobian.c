@@ -4,19 +4,16 @@
 static const double root_eps = 1.4901161193847656e-08;
 static const double small = 1e-3; /* of a nominal value: a state below it is moved as if it were that large */
 
-/* One directional derivative per group of states. Of a group's derivatives only those are asked for that depend on one
-   of its states; the rest of the Jacobian is zero from the start of the run. */
-static int jacobian_here(Job *job) {
-    Work *w = &job->work;
+/* Those entries that may differ from zero, into the matrix, at the point last set. */
+int take_partials(const Job *job, const Partials *p, double *matrix) {
     int status = OK;
-    for (int64_t g = 0; g < w->groups; g++) {
-        const int64_t start = w->entry_first[g], size = w->entry_first[g + 1] - start;
-        const int64_t first = w->group_first[g], count = w->group_first[g + 1] - first;
+    for (int64_t g = 0; g < p->groups; g++) {
+        const int64_t first = p->first_entry[g], size = p->first_entry[g + 1] - first, known = p->first_known[g];
         if (size == 0) continue;
-        status = worse(status, fmi_get_directional(&job->fmu, w->entry_references + start, size,
-                                                   w->group_references + first, count, w->ones, w->error));
+        status = worse(status, fmi_get_directional(job->fmu, p->unknowns + first, size, p->knowns + known,
+                                                   p->first_known[g + 1] - known, p->ones, p->column));
         if (status > WARNING) return status;
-        for (int64_t i = 0; i < size; i++) w->jacobian[w->entry_places[start + i]] = w->error[i];
+        for (int64_t i = 0; i < size; i++) matrix[p->places[first + i]] = p->column[i];
     }
     return status;
 }
@@ -45,5 +42,5 @@ int take_jacobian(Job *job, double t, const double *x) {
     job->run.jacobians++;
     if (!job->work.has_directional) return by_differences(job, t, x);
     const int status = set_point(job, t, x);
-    return status > WARNING ? status : worse(status, jacobian_here(job));
+    return status > WARNING ? status : worse(status, take_partials(job, job->work.by_states, job->work.jacobian));
 }

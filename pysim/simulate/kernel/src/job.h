@@ -18,6 +18,12 @@ enum { OK, WARNING, DISCARD, ERROR, FATAL };
 /* How a run stands: in the order of pysim.types.Outcome, or still running, or at an event that is not differentiated. */
 enum { RUNNING = -1, DONE, STEP_TOO_SMALL, NOT_FINITE, MODEL_ERROR, TERMINATED, TOO_MANY_STEPS, TOO_MANY_EVENTS, EVENT = 100 };
 
+/* Parts of a run's life ahead of its first step, for a message. */
+enum { PART_NONE, PART_INSTANTIATE, PART_SET, PART_ENTER, PART_EXIT };
+
+/* How a search for a periodic orbit ended. */
+enum { FOUND, STOPPED_SEARCH, MET_EVENT, RUN_FAILED, NOT_CONVERGED, DRIFTS };
+
 enum { EXPLICIT, ROSENBROCK, ESDIRK };
 
 /* How a variable lies in memory. */
@@ -26,11 +32,31 @@ enum { KIND_DOUBLE, KIND_SINGLE, KIND_INT, KIND_LONG, KIND_OCTET };
 /* How a recorded variable depends on the states, where it is none of them. */
 enum { ASKED = -1, FIXED = -2 }; /* the FMU is asked; it does not */
 
-/* The FMI functions of one instance. */
+/* What an FMU says through its logger: the last LINES messages that do not say that all is well. */
+enum { LINES = 20, LINE_LENGTH = 1024 };
+typedef struct {
+    int64_t count; /* of messages since the log was emptied */
+    char *lines;   /* (LINES, LINE_LENGTH) each ends with a zero; message i is line i modulo LINES */
+} Log;
+
+/* The functions of one instance, and how to make another in its place. */
 typedef struct {
     int64_t version; /* 2 | 3 */
-    void *instance;
+    void *instance;  /* null where there is none */
     int64_t needs_completed_step;
+    int64_t status;       /* worst of the run; after FATAL nothing of the instance may be called any more */
+    int64_t refuses_reset; /* 1: it has to be instantiated anew for each run */
+    const char *name;
+    const char *token;
+    const char *resources;
+    void *callbacks; /* FMI 2: fmi2CallbackFunctions, of which this is the address */
+    Log *log;
+    Function *instantiate;
+    Function *free_instance;
+    Function *reset;
+    Function *setup_experiment; /* FMI 2 */
+    Function *enter_initialisation;
+    Function *exit_initialisation;
     Function *set_time;
     Function *set_states;
     Function *get_states;
@@ -125,12 +151,26 @@ typedef struct {
     int64_t events;
 } Run;
 
+/* Partial derivatives of unknowns by knowns, a directional derivative for each group of knowns of which no unknown depends
+   on two (Curtis, Powell, Reid 1974). */
+typedef struct {
+    int64_t groups;
+    const int64_t *first_known; /* (groups + 1,) group g seeds the knowns first_known[g] to first_known[g + 1] - 1 */
+    const uint32_t *knowns;     /* references */
+    const int64_t *first_entry; /* (groups + 1,) and yields the entries first_entry[g] to first_entry[g + 1] - 1 */
+    const uint32_t *unknowns;   /* references, one per entry */
+    const int64_t *places;      /* in the matrix, one per entry */
+    double *column;             /* the entries of a group */
+    const double *ones;         /* seeds, as many as any group has */
+} Partials;
+
 /* Memory of the solver, and the structure of the Jacobian. */
 typedef struct {
     int64_t n;
     int64_t m;
     const RowSums *sums; /* as this processor does them best */
-    double *scratch; /* what must not tell a run of the one before, in one piece */
+    double *scratch; /* (scratch_size,) what must not tell a run of the one before, in one piece */
+    int64_t scratch_size;
     double *x;       /* (n,) at run.t */
     double *dx;      /* (n,) derivative there */
     double *x_new;   /* (n,) at the end of the step */
@@ -151,16 +191,7 @@ typedef struct {
     double *stages;   /* (s, n) states of the stages, where those are unknowns */
     double *right;    /* (n,) what is known of such a stage */
     int64_t has_directional;
-    const double *ones; /* (n,) seed of a directional derivative */
-    const uint32_t *derivative_references; /* (n,) */
-    int64_t groups; /* of states whose columns one directional derivative yields */
-    const int64_t *group_first;       /* (groups + 1,) group g owns the members group_first[g] to group_first[g + 1] - 1 */
-    const int64_t *group_members;     /* (n,) numbers of states */
-    const uint32_t *group_references; /* (n,) of the members */
-    /* Group g yields the entries entry_first[g] to entry_first[g + 1] - 1, those that may differ from zero. */
-    const int64_t *entry_first;       /* (groups + 1,) */
-    const uint32_t *entry_references; /* of the derivatives */
-    const int64_t *entry_places;      /* in `jacobian` */
+    const Partials *by_states; /* of the derivatives, into `jacobian` */
     /* Sparse elimination: entries (n_e,) row after row, rows and columns in the order of elimination. */
     int64_t sparse;  /* 0: dense elimination only, and nothing of what follows */
     int64_t entries; /* n_e */
@@ -177,20 +208,26 @@ typedef struct {
     double *magnitude;    /* (n,) */
 } Work;
 
-/* What is recorded. Variables are read in groups of one type, in one call each. */
+/* Variables that are read or set together: in groups of one type, in one call each. */
+typedef struct {
+    int64_t groups; /* n_g */
+    Function **functions; /* (n_g,) getters or setters */
+    const int64_t *kinds; /* (n_g,) */
+    const int64_t *first; /* (n_g + 1,) group g owns the entries first[g] to first[g + 1] - 1 of the next two */
+    const uint32_t *references; /* (n_y,) */
+    const int64_t *places; /* (n_y,) place among the values */
+} Access;
+
+/* What is recorded. */
 typedef struct {
     int64_t count; /* n_t */
     int64_t next;  /* row to record next */
     const double *times; /* (n_t,) s */
     double *values;      /* (n_t, n_y) */
     int64_t columns;     /* n_y */
-    int64_t groups;      /* n_g */
-    Function **getters;  /* (n_g,) */
-    const int64_t *kinds; /* (n_g,) */
-    const int64_t *first; /* (n_g + 1,) group g owns the entries first[g] to first[g + 1] - 1 of the next two */
-    const uint32_t *references; /* (n_y,) */
-    const int64_t *places; /* (n_y,) column */
-    void *buffer; /* (n_y,) of 8 bytes */
+    const Access *access;
+    const Access *set; /* start values, ahead of initialisation */
+    void *buffer; /* of 8 bytes for each recorded variable and for each start value */
 } Rows;
 
 /* Derivatives: c columns, first those of the start states (n or none), then one per parameter, then zeros up to a
@@ -202,9 +239,8 @@ typedef struct {
     int64_t parameters; /* n_p */
     int64_t rewind;     /* 1: the FMU is in continuous-time mode already */
     const double *start;    /* (n,) states to start from; null: those of the FMU */
-    const double *start_by; /* (n, c) their derivatives */
-    const uint32_t *seeds;  /* (n_p,) references */
-    const int64_t *seeded;  /* (n_p,) 0: a start value, which no equation holds */
+    double *start_by;       /* (n, c) their derivatives */
+    const Partials *by_parameters; /* of the derivatives, into `forcing`; a start value is in no equation */
     double *s;      /* (n, c) at run.t */
     double *k;      /* (s, n, c) */
     double *right;  /* (n, c) */
@@ -217,16 +253,99 @@ typedef struct {
     double *rows;    /* (n_t, n_y, c) derivatives of what is recorded */
     const int64_t *kinds; /* (n_y,) number of the state that a variable is, or ASKED or FIXED */
     const double *fixed;  /* (n_y, c) derivatives of those that no state moves */
-    int64_t unknowns; /* of the others */
-    const uint32_t *unknown_references; /* (unknowns,) */
-    const uint32_t *state_references;   /* (n,) */
-    double *gradient; /* (unknowns,) their derivatives by one state or parameter */
+    const Partials *of_outputs; /* of the others, into `gradient` */
+    int64_t slopes;             /* entries of that */
+    const int64_t *slope_rows;    /* (slopes,) number of the recorded variable */
+    const int64_t *slope_columns; /* (slopes,) number of the state, or n + that of the parameter */
+    double *gradient;             /* (slopes,) */
     double *low;  /* (n,) least and */
     double *high; /* (n,) largest value of each state so far */
 } Variation;
 
+/* One period from some states, and what brings them back to themselves. */
 typedef struct {
-    Fmu fmu;
+    double *values; /* (n_t, n_y) */
+    double *rows;   /* (n_t, n_y, c) */
+    double *start;  /* (n,) where it began */
+    double *solved; /* (n, 1 + n_p) Newton correction of the start; derivative of the periodic states by the parameters */
+    double *jumps;  /* (n,) by how much the choice of the integration's steps may move `step`, at least */
+    double mismatch; /* largest entry of `step`, in amplitudes of the orbit */
+    double drift;    /* largest mismatch, in amplitudes, that no correction can remove */
+    int64_t steps;
+    int64_t rejected;
+    int64_t derivatives;
+    int64_t jacobians;
+    int64_t events;
+} Shot;
+
+/* Memory of a search for a periodic orbit. */
+typedef struct {
+    Shot now;
+    Shot before;
+    double *guess;   /* (n,) */
+    double *scale;   /* (n,) amplitudes, but no less than what the integration leaves open */
+    double *matrix;  /* (n, n) */
+    double *factors; /* (n, n) */
+    double *inverse; /* (n, n) */
+    double *right;   /* (n, 1 + n_p) */
+    double *sum;     /* (1 + n_p,) */
+    int64_t *pivots; /* (n,) */
+} Shooting;
+
+/* What is to be run, and what comes of it. */
+enum { PLAIN, VARIED, ORBIT };
+typedef struct {
+    int64_t kind;
+    double start; /* s */
+    double end;   /* s */
+    const double *set_values; /* start values, ahead of initialisation */
+    Inputs inputs;
+    Breaks breaks;
+    const double *times; /* (n_t,) s */
+    int64_t count;       /* n_t */
+    const double *states;   /* (n,) to start from, for an orbit a guess; null: those of the FMU */
+    const double *start_by; /* (n, n_p) derivatives of the start; null: none */
+    double settling;        /* s, end of the run that makes a guess ... */
+    Breaks settling_breaks; /* ... and the breaks of its inputs */
+    double mismatch;        /* largest correction of an orbit, in amplitudes, that is left to first order */
+    /* Found. */
+    double *values;   /* (n_t, n_y) */
+    double *slopes;   /* (n_t, n_y, n_p) */
+    double *state;    /* (n,) at the end, or at phase zero of the orbit */
+    double *state_by; /* (n, n_p) */
+    double *rates;    /* (n,) derivative at the end, or null, as the next two */
+    double *jacobian; /* (n, n) row j: by state j */
+    double *forcing;  /* (n_p, n) */
+    double *low;      /* (n,) least and */
+    double *high;     /* (n,) largest value of each state */
+    double *nominal;  /* (n,) */
+    int64_t code;  /* how the run ended */
+    int64_t part;  /* what failed ahead of it */
+    int64_t trouble; /* how the search for an orbit ended */
+    int64_t iterations; /* periods of an orbit */
+    double correction;  /* of an orbit, in amplitudes */
+    int64_t rows;   /* recorded */
+    int64_t status; /* worst of the run */
+    double reached; /* s */
+    int64_t steps;
+    int64_t rejected;
+    int64_t derivatives;
+    int64_t jacobians;
+    int64_t events;
+    char *text; /* (LINES, LINE_LENGTH) what the FMU said, where the run failed; null: not wanted */
+} Task;
+
+/* Tasks that threads share. */
+typedef struct {
+    Task *tasks; /* (count,) */
+    int64_t count;
+    int64_t next; /* to be begun; threads count it up */
+    int64_t done; /* the same; with derivatives only what came to its end */
+    int64_t stop; /* 1: no more steps */
+} Pass;
+
+typedef struct {
+    Fmu *fmu;
     Method method;
     Control control;
     Inputs inputs;
@@ -235,6 +354,7 @@ typedef struct {
     Work work;
     Rows rows;
     Variation variation;
+    Shooting shooting;
 } Job;
 
 #endif

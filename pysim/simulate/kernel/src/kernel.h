@@ -27,9 +27,11 @@ bool factorise_shifted(Job *job, double shift);
 void solve_shifted(Job *job, double *right);                   /* (n,) becomes the solution */
 void solve_shifted_rows(Job *job, double *right, int64_t width); /* (n, width), a multiple of COLUMNS */
 
-/* jacobian.c: fills work.jacobian at t (s) and the states x. The FMU is left at that point only where it offers
-   directional derivatives; work.error, and without them slope, change. */
+/* jacobian.c: fills work.jacobian at t (s) and the states x; the FMU is left at that point only where it offers
+   directional derivatives, and without them work.error and slope change. Other partials are those at the point last
+   set. */
 int take_jacobian(Job *job, double t, const double *x);
+int take_partials(const Job *job, const Partials *partials, double *matrix);
 
 /* explicit.c, rosenbrock.c, esdirk.c: one step of length h (s) from run.t fills k and x_new; the norm of its error. */
 int attempt_explicit(Job *job, double h, double *error);
@@ -75,6 +77,29 @@ void note_range(Job *job);
 void end_variation(Job *job);
 void vary_inside(Job *job, double theta, double h, double *target);
 int record_variation(Job *job, int64_t row, const double *s);
+
+/* start.c: values ahead of initialisation, with a buffer of 8 bytes for each; initialisation mode, without a tolerance
+   where that is 0. */
+int set_values(const Fmu *fmu, const Access *access, const double *values, void *buffer);
+int enter_initialisation(Fmu *fmu, double tolerance, double start, double stop);
+
+/* An instance as new, set and initialised, in event mode; 0 or the part that failed. Then a run that has not
+   begun, from start to end (s). */
+int start_instance(Job *job, const Task *task, double end);
+void fresh_run(Job *job, double start, double end);
+
+/* small.c: the solution (n, m) of A y = right (n, m), A column after column in work space that it uses up. A direction
+   that A shortens to less than `least`, of the longest or of 1, counts as lost: the solution has no part in it, and
+   `left` is the largest entry of the first column that is left over. */
+void solve_least(Shooting *s, double *solved, int64_t n, int64_t m, double least, double *left, const RowSums *sums);
+
+/* shooting.c: a periodic orbit. tasks.c: runs a task, all that are left of a pass; and one run to its end, with or
+   without derivatives, unless the pass is to stop. */
+void find_orbit(Job *job, Task *task, const Pass *pass);
+int run_to_end(Job *job, const Pass *pass, int loop(Job *, int64_t));
+bool stopped(const Pass *pass);
+void note_run(Job *job, Task *task, int code);
+void work(Pass *pass, Job *job);
 
 /* variation_run.c: the same run with its derivatives; RUNNING, EVENT or how it ended. */
 int integrate_variations(Job *job, int64_t budget);

@@ -15,11 +15,12 @@ static double converted(int64_t kind, const void *buffer, int64_t i) {
 int read_row(Job *job) {
     Rows *rows = &job->rows;
     double *row = rows->values + rows->next * rows->columns;
-    for (int64_t g = 0; g < rows->groups; g++) {
-        const int64_t first = rows->first[g], count = rows->first[g + 1] - first;
-        const int status = fmi_get_values(&job->fmu, rows->getters[g], rows->references + first, rows->buffer, count);
+    const Access *a = rows->access;
+    for (int64_t g = 0; g < a->groups; g++) {
+        const int64_t first = a->first[g], count = a->first[g + 1] - first;
+        const int status = fmi_get_values(job->fmu, a->functions[g], a->references + first, rows->buffer, count);
         if (status > WARNING) return status;
-        for (int64_t i = 0; i < count; i++) row[rows->places[first + i]] = converted(rows->kinds[g], rows->buffer, i);
+        for (int64_t i = 0; i < count; i++) row[a->places[first + i]] = converted(a->kinds[g], rows->buffer, i);
     }
     rows->next++;
     return OK;

@@ -27,7 +27,7 @@ int resume(Job *job) {
     Run *run = &job->run;
     Work *w = &job->work;
     int status = evaluate(job, run->t, w->x, w->dx);
-    if (status <= WARNING) status = worse(status, fmi_get_indicators(&job->fmu, w->z, w->m));
+    if (status <= WARNING) status = worse(status, fmi_get_indicators(job->fmu, w->z, w->m));
     run->status = worse((int)run->status, status);
     if (status > WARNING) return MODEL_ERROR;
     if (!(all_finite(w->x, w->n) && all_finite(w->dx, w->n))) return NOT_FINITE;
@@ -52,8 +52,8 @@ static int begin(Job *job) {
     next_segment(job);
     int code = settle(job);
     if (code != RUNNING) return code;
-    run->status = worse((int)run->status, fmi_get_states(&job->fmu, w->x, w->n));
-    run->status = worse((int)run->status, fmi_get_nominals(&job->fmu, w->nominal, w->n));
+    run->status = worse((int)run->status, fmi_get_states(job->fmu, w->x, w->n));
+    run->status = worse((int)run->status, fmi_get_nominals(job->fmu, w->nominal, w->n));
     if (run->status > WARNING) return MODEL_ERROR;
     code = resume(job);
     return code == RUNNING ? finish_point(job) : code;
@@ -61,7 +61,7 @@ static int begin(Job *job) {
 
 /* Makes the end of the step the current point; handles what is due there; records it. */
 static int arrive(Job *job, double t_new, bool event) {
-    Fmu *fmu = &job->fmu;
+    Fmu *fmu = job->fmu;
     Run *run = &job->run;
     Work *w = &job->work;
     if (t_new - run->t > standstill * larger(fabs(t_new), run->end - run->start)) run->crowd = 0;
@@ -91,7 +91,7 @@ static int advance(Job *job) {
     if (code != RUNNING) return code;
     run->steps++;
     run->status = run->status > WARNING ? WARNING : run->status; /* what was rejected is forgiven */
-    int status = fmi_get_indicators(&job->fmu, w->z_new, w->m);
+    int status = fmi_get_indicators(job->fmu, w->z_new, w->m);
     const bool event = crossed(job, w->z, w->z_new);
     const bool inside = job->rows.next < job->rows.count && job->rows.times[job->rows.next] < t_new;
     if (event || inside) dense_coefficients(job, h);
@@ -106,7 +106,7 @@ static int advance(Job *job) {
     }
     if (inside && status <= WARNING) status = record_inside(job, h, t_new);
     if ((event || inside) && status <= WARNING) status = set_point(job, t_new, w->x_new);
-    if (status <= WARNING) status = fmi_completed_step(&job->fmu);
+    if (status <= WARNING) status = fmi_completed_step(job->fmu);
     run->status = worse((int)run->status, status);
     return status <= WARNING ? arrive(job, t_new, event) : MODEL_ERROR;
 }

@@ -9,18 +9,6 @@
    The lengths of the steps are taken as they are (internal numerical differentiation, Bock 1981). */
 #include "kernel.h"
 
-/* F at the point last set: a directional derivative per parameter. */
-static int take_forcing(Job *job) {
-    Variation *v = &job->variation;
-    const Work *w = &job->work;
-    int status = OK;
-    for (int64_t p = 0; p < v->parameters; p++)
-        if (v->seeded[p])
-            status = worse(status, fmi_get_directional(&job->fmu, w->derivative_references, w->n, v->seeds + p, 1, w->ones,
-                                                       v->forcing + w->n * p));
-    return status;
-}
-
 /* Adds F to the columns of the parameters in target (n, c). */
 static void add_forcing(const Job *job, double *target) {
     const Variation *v = &job->variation;
@@ -37,7 +25,7 @@ int begin_variation(Job *job) {
     int status = take_jacobian(job, job->run.t, w->x);
     if (status > WARNING) return status;
     job->run.jacobian_at = job->run.t, job->run.matrix_step = 0.0;
-    status = worse(status, take_forcing(job));
+    status = worse(status, take_partials(job, v->by_parameters, v->forcing));
     fill(v->k, 0.0, n * width);
     add_forcing(job, v->k);
     for (int64_t i = 0; i < n; i++)
@@ -55,7 +43,7 @@ static int vary_stage(Job *job, int64_t i, double h) {
     const int64_t size = w->n * v->columns;
     const double shift = 1.0 / (h * method->gamma);
     int status = take_jacobian(job, job->run.t + method->c[i] * h, w->stages + w->n * i);
-    if (status <= WARNING) status = worse(status, take_forcing(job));
+    if (status <= WARNING) status = worse(status, take_partials(job, v->by_parameters, v->forcing));
     if (status > WARNING) return status;
     if (!factorise_shifted(job, shift)) return ERROR;
     double *known = v->right, *solved = v->inside, *k = v->k + size * i;
@@ -132,19 +120,6 @@ void vary_inside(Job *job, double theta, double h, double *target) {
     job->work.sums->add_rows(v->s, v->k, v->weights, method->stages, h, target, job->work.n * v->columns);
 }
 
-/* Adds what state j, or parameter j - n, does to the variables that the FMU was asked for. */
-static void add_gradient(const Job *job, double *place, int64_t j, const double *s) {
-    const Variation *v = &job->variation;
-    const int64_t n = job->work.n, width = v->columns;
-    for (int64_t y = 0, u = 0; y < job->rows.columns; y++) {
-        if (v->kinds[y] != ASKED) continue;
-        const double slope = v->gradient[u++];
-        if (slope == 0.0) continue;
-        if (j < n) job->work.sums->add_row(place + width * y, s + width * j, slope, width);
-        else place[width * y + v->by_start + j - n] += slope;
-    }
-}
-
 /* Derivatives of what is recorded, at the point last set with S in s (n, c), as that row. */
 int record_variation(Job *job, int64_t row, const double *s) {
     const Variation *v = &job->variation;
@@ -152,15 +127,12 @@ int record_variation(Job *job, int64_t row, const double *s) {
     double *place = v->rows + row * columns * width;
     for (int64_t y = 0; y < columns; y++)
         copy(place + width * y, v->kinds[y] >= 0 ? s + width * v->kinds[y] : v->fixed + width * y, width);
-    if (v->unknowns == 0) return OK;
-    int status = OK;
-    for (int64_t j = 0; j < n + v->parameters; j++) {
-        if (j >= n && !v->seeded[j - n]) continue;
-        const uint32_t *known = j < n ? v->state_references + j : v->seeds + (j - n);
-        status = worse(status, fmi_get_directional(&job->fmu, v->unknown_references, v->unknowns, known, 1,
-                                                   job->work.ones, v->gradient));
-        if (status > WARNING) return status;
-        add_gradient(job, place, j, s);
+    const int status = take_partials(job, v->of_outputs, v->gradient);
+    for (int64_t e = 0; e < v->slopes && status <= WARNING; e++) {
+        const int64_t j = v->slope_columns[e];
+        double *target = place + width * v->slope_rows[e];
+        if (j >= n) target[v->by_start + j - n] += v->gradient[e];
+        else if (v->gradient[e] != 0.0) job->work.sums->add_row(target, s + width * j, v->gradient[e], width);
     }
     return status;
 }

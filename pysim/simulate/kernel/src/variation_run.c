@@ -44,8 +44,8 @@ static int begin(Job *job) {
     else code = settle(job);
     if (code != RUNNING) return code;
     if (v->start) copy(w->x, v->start, w->n);
-    else run->status = worse((int)run->status, fmi_get_states(&job->fmu, w->x, w->n));
-    run->status = worse((int)run->status, fmi_get_nominals(&job->fmu, w->nominal, w->n));
+    else run->status = worse((int)run->status, fmi_get_states(job->fmu, w->x, w->n));
+    run->status = worse((int)run->status, fmi_get_nominals(job->fmu, w->nominal, w->n));
     copy(v->s, v->start_by, w->n * v->columns);
     if (run->status > WARNING) return MODEL_ERROR;
     code = restart(job);
@@ -76,8 +76,8 @@ static int arrive(Job *job, double t_new) {
     copy(w->dx, w->dx_new, w->n);
     copy(w->z, w->z_new, w->m);
     if (job->variation.columns > 0) end_variation(job);
-    if (job->fmu.terminate) return TERMINATED;
-    if (job->fmu.event || run->t >= run->next_event) return EVENT;
+    if (job->fmu->terminate) return TERMINATED;
+    if (job->fmu->event || run->t >= run->next_event) return EVENT;
     const int code = at_break(job) ? pass_break(job) : RUNNING;
     return code == RUNNING ? finish_point(job) : code;
 }
@@ -126,14 +126,14 @@ static int advance(Job *job) {
         const int code = accepted_step(job, next_target(job), &h, &t_new);
         if (code != RUNNING) return code;
         run->status = run->status > WARNING ? WARNING : run->status; /* what was rejected is forgiven */
-        status = fmi_get_indicators(&job->fmu, w->z_new, w->m);
+        status = fmi_get_indicators(job->fmu, w->z_new, w->m);
         if (status <= WARNING && crossed(job, w->z, w->z_new)) return EVENT;
         if (status <= WARNING && job->variation.columns > 0) status = vary_step(job, h);
     } while (status <= WARNING && shortened(job, h));
     run->steps++;
     if (status <= WARNING) status = record_rows_inside(job, h, t_new);
     if (status <= WARNING) status = set_point(job, t_new, w->x_new);
-    if (status <= WARNING) status = fmi_completed_step(&job->fmu);
+    if (status <= WARNING) status = fmi_completed_step(job->fmu);
     run->status = worse((int)run->status, status);
     return status <= WARNING ? arrive(job, t_new) : MODEL_ERROR;
 }

@@ -1,20 +1,24 @@
 """A run with its derivatives, taken by itself."""
 
+from collections.abc import Callable
+
 import numpy as np
 
 from pysim.simulate import Esdirk
 from pysim.simulate._library import open_library
-from pysim.simulate._run import initialise
-from pysim.simulate.sensitivity.varied import Directions, vary
-from pysim.types import Experiment, Outcome
+from pysim.simulate._run import record_of
+from pysim.simulate._tasks import Kind, Request, run_tasks
+from pysim.simulate._variation import Directions
+from pysim.simulate.kernel.layout import VARIED
+from pysim.types import Experiment, Model, Outcome
 from tests.pysim.simulate.fixture_fmus import OSCILLATOR
 
 
-def test_a_run_that_was_stopped_is_not_done(fixture_model):
-    experiment, solver = Experiment(np.array([0.0, 1.0]), ("x",)), Esdirk()
-    with open_library(fixture_model(OSCILLATOR)) as library, library.instance() as instance:
-        initialise(instance, experiment, solver)
-        varied = vary(instance, experiment, solver, Directions(), stopped=lambda: True)
+def test_a_run_that_was_stopped_is_not_done(fixture_model: Callable[..., Model]) -> None:
+    experiment = Experiment(np.array([0.0, 1e7]), ("x",), overrides={"D": 0.0, "x": 1.0})
+    with open_library(fixture_model(OSCILLATOR)) as library:
+        kind = Kind(VARIED, Esdirk(), Directions(("w",), outputs=False))
+        (varied,) = run_tasks(library, kind, [Request(experiment)], stopped=lambda: True)
     assert varied.outcome is Outcome.STOPPED
     assert not varied.done
-    assert varied.record(library.model, experiment).outcome is Outcome.STOPPED
+    assert record_of(library.model, experiment, varied).outcome is Outcome.STOPPED
