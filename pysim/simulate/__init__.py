@@ -12,6 +12,7 @@ from pysim.simulate.rk4 import Rk4
 from pysim.simulate.rk45 import Rk45
 from pysim.simulate.rodas import Rodas
 from pysim.simulate.rounding import rounding
+from pysim.simulate.runs import Runs, open_runs
 from pysim.simulate.sensitivity.orbit import Orbit
 from pysim.simulate.sensitivity.periodic import Periodic, periodic_many
 from pysim.simulate.sensitivity.sensitivities import Sensitivities, sensitivities, sensitivities_many
@@ -36,6 +37,7 @@ __all__ = [
     "Rk4",
     "Rk45",
     "Rodas",
+    "Runs",
     "SavedStep",
     "Sensitivities",
     "Solver",
@@ -48,6 +50,7 @@ __all__ = [
     "is_number",
     "is_smooth",
     "kernel_is_built",
+    "open_runs",
     "open_stepwise",
     "periodic_many",
     "rounding",

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ctypes
 import os
 from collections import deque
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -18,7 +18,7 @@ from pysim.io import load_library
 from pysim.simulate._job import Job
 from pysim.simulate._messages import Mailbox
 from pysim.simulate._structure import Structure
-from pysim.simulate.kernel.functions import FUNCTIONS, SETUP, TYPES, access
+from pysim.simulate.kernel.functions import FUNCTIONS, MATRICES, PARAMETER_COLUMN, SETUP, TYPES, access
 from pysim.simulate.kernel.layout import ERROR, FATAL, PART_ENTER, PART_EXIT, PART_INSTANTIATE, PART_SET, WARNING
 from pysim.simulate.kernel.library import kernel
 from pysim.simulate.kernel.sparsity import jacobian_arrays
@@ -79,6 +79,8 @@ class Instance:
             "log": self.mailbox.log,
             **{name: self.address(functions[version - 2]) for name, functions in FUNCTIONS.items()},
         }
+        if self._own_functions:
+            found["get_matrices"] = self.address(MATRICES)
         if version == 2:
             found["callbacks"] = ctypes.addressof(self.mailbox.callbacks["callbacks"])
             found["setup_experiment"] = self.address(SETUP)
@@ -87,6 +89,18 @@ class Instance:
     def address(self, function: str) -> int:
         """Address of one of the library's functions."""
         return ctypes.cast(getattr(self.dll, function), ctypes.c_void_p).value or 0
+
+    @property
+    def _own_functions(self) -> bool:
+        """Whether the FMU is one of ours, which gives more than the standard asks for."""
+        return hasattr(self.dll, MATRICES) and hasattr(self.dll, PARAMETER_COLUMN)
+
+    def column_of(self) -> Callable[[int], int] | None:
+        """Which column of an FMU of ours belongs to a parameter, by its reference; None for one of others."""
+        if not (self._own_functions and self.component):
+            return None
+        function = ctypes.CFUNCTYPE(ctypes.c_int64, ctypes.c_void_p, ctypes.c_uint32)(self.address(PARAMETER_COLUMN))
+        return lambda reference: int(function(self.component, reference))
 
     @property
     def component(self) -> int:
@@ -162,6 +176,7 @@ class Library:
 
     def __init__(self, model: Model) -> None:
         self.model = model
+        self.known: dict[Any, Any] = {}  # what was found out about the FMU and need not be asked again
         self._idle: deque[Instance] = deque()
         if not model.abilities.model_exchange:
             raise BadInput(f"{model.label} is for co-simulation only; export it for model exchange as well")

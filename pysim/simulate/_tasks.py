@@ -246,7 +246,7 @@ class Tasks:
         rows = {"columns": len(self.record), "access": getters, "set": setters, "buffer": np.zeros(width)}
         job.put("rows", rows)
         if self.kind.kind != PLAIN:
-            arrays = variation_arrays(instance.model, self.record, self.kind.directions, solver)
+            arrays = variation_arrays(instance.model, self.record, self.kind.directions, solver, instance.column_of())
             job.put("variation", arrays)
             sizes = len(abilities.states), self.parameters, self.most_rows, len(self.record), arrays["columns"]
             job.put_shots(*sizes, orbit=self.kind.kind == ORBIT)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -33,8 +33,18 @@ class Directions:
     outputs: bool = True
 
 
-def variation_arrays(model: Model, record: tuple[str, ...], directions: Directions, solver: Solver) -> dict[str, Any]:
-    """What `Variation` of the kernel points to."""
+def variation_arrays(
+    model: Model,
+    record: tuple[str, ...],
+    directions: Directions,
+    solver: Solver,
+    column_of: Callable[[int], int] | None = None,
+) -> dict[str, Any]:
+    """What `Variation` of the kernel points to.
+
+    Args:
+        column_of: of a parameter, by its reference, in the matrix that an FMU of ours keeps; -1 for none.
+    """
     n, parameters, stages = len(model.abilities.states), directions.parameters, solver.method().b.size
     by_start = n if directions.states else 0
     width = -(-(by_start + len(parameters)) // COLUMNS) * COLUMNS
@@ -52,11 +62,21 @@ def variation_arrays(model: Model, record: tuple[str, ...], directions: Directio
         "sizes": np.zeros(width),
         "weights": np.zeros(stages),
         "forcing": np.zeros((len(parameters), n)),
-        "by_parameters": _forcing(model, directions),
+        **_forcing(model, directions, by_start, width),
         "low": np.zeros(n),
         "high": np.zeros(n),
         **_recorded(model, record, directions, by_start, width),
+        **_columns(model, directions, column_of),
     }
+
+
+def _columns(model: Model, directions: Directions, column_of: Callable[[int], int] | None) -> dict[str, Any]:
+    """Where an FMU of ours keeps the parameters' derivatives; nothing where it lacks one of them."""
+    seeded, columns = _seeded(directions), np.full(max(1, len(directions.parameters)), -1, dtype=np.int64)
+    if column_of is None:
+        return {}
+    columns[seeded] = [column_of(model[directions.parameters[p]].reference) for p in seeded]
+    return {} if np.any(columns[seeded] < 0) else {"columns_of": columns}
 
 
 def _seeded(directions: Directions) -> list[int]:
@@ -64,13 +84,16 @@ def _seeded(directions: Directions) -> list[int]:
     return [p for p, name in enumerate(directions.parameters) if name not in directions.starts]
 
 
-def _forcing(model: Model, directions: Directions) -> Any:
+def _forcing(model: Model, directions: Directions, by_start: int, width: int) -> dict[str, Any]:
+    """Partial derivatives of the states' by the parameters, and where they go in (n, width)."""
     rates, n = model.abilities.derivatives, len(model.abilities.states)
     seeded = _seeded(directions)
     names = [directions.parameters[p] for p in seeded]
     places = np.array(seeded, dtype=np.int64)[None, :] * n + np.arange(n)[:, None]
     pattern = parameter_pattern(model.abilities, rates, names)
-    return partials(pattern, references(model, rates), references(model, names), places)
+    found = partials(pattern, references(model, rates), references(model, names), places)
+    parameters, rows = np.divmod(found.arrays["places"], max(n, 1))
+    return {"by_parameters": found, "entries": rows.size, "forcing_targets": rows * width + by_start + parameters}
 
 
 def _recorded(model: Model, names: Sequence[str], directions: Directions, by_start: int, width: int) -> dict[str, Any]:

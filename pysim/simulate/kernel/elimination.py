@@ -20,7 +20,8 @@ def elimination_arrays(pattern: Pattern) -> dict[str, Any]:
     """What `Work` of the kernel needs to solve with d I - J, J of this (n, n) pattern; the same for every run.
 
     Entries lie row after row in the order of elimination, so that a row is: left of the diagonal, diagonal, right of
-    it. `targets` names the entries that elimination changes, in the order in which it does.
+    it. An operation takes from the entry `target` the product of `weight`, left of the diagonal, and of `source`, in
+    the row that is eliminated there.
     """
     n = len(pattern)
     order = elimination_order(pattern)
@@ -30,11 +31,13 @@ def elimination_arrays(pattern: Pattern) -> dict[str, Any]:
     rows, columns = np.nonzero(filled)  # by row, then by column
     number = np.full((n, n), -1)
     number[rows, columns] = np.arange(rows.size)
-    targets = [
-        number[row, after]
+    operations = [
+        [
+            (number[row, after], number[row, column], number[column, after], 0)
+            for column in np.flatnonzero(filled[row, :row])
+            for after in np.flatnonzero(filled[column, column + 1 :]) + column + 1
+        ]
         for row in range(n)
-        for column in np.flatnonzero(filled[row, :row])
-        for after in np.flatnonzero(filled[column, column + 1 :]) + column + 1
     ]
     return {
         "sparse": 1,
@@ -45,7 +48,8 @@ def elimination_arrays(pattern: Pattern) -> dict[str, Any]:
         "diagonal": _longs(np.diag(number)),
         "places": _longs(columns),
         "columns": _longs(order[columns]),
-        "targets": _longs(targets),
+        "operation_first": _longs([0, *np.cumsum([len(row) for row in operations])]),
+        "operations": np.array([one for row in operations for one in row], dtype=np.uint32).reshape(-1, 4),
     }
 
 

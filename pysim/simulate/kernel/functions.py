@@ -31,6 +31,7 @@ FUNCTIONS = {
     "enter_continuous_mode": ("fmi2EnterContinuousTimeMode", "fmi3EnterContinuousTimeMode"),
 }
 SETUP = "fmi2SetupExperiment"
+MATRICES, PARAMETER_COLUMN = "htbMatrices", "htbParameterColumn"  # of our own FMUs, not of the standard
 
 # Type of variable -> the end of its functions' names, and how it lies in memory; FMI 2 and FMI 3.
 TYPES: dict[int, dict[str, tuple[str, int]]] = {

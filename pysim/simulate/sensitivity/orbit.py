@@ -95,8 +95,11 @@ class Plan:
 def remembers(plan: Plan, experiment: Experiment, guess: Array | None) -> bool:
     """Whether the model remembers more than its states, so that a period cannot be started from them.
 
-    If not, a second period of an orbit ends where the first one did, but for what the choice of the steps may move.
+    If not, a second period of an orbit ends where the first one did, but for what the choice of the steps may move. As
+    long as a library is open, a model that was found to remember no more is not asked again.
     """
+    if plan.library.known.get("remembers") is False:
+        return False
     (found,) = run_tasks(plan.library, plan.kind, [Request(experiment, guess)])
     if not found.done:
         return False
@@ -111,7 +114,9 @@ def remembers(plan: Plan, experiment: Experiment, guess: Array | None) -> bool:
     size = np.maximum(np.abs(high), np.abs(low))
     jumps = 3 * _JUMPY * (plan.solver.rtol * size + plan.solver.atol * once.array("nominal"))
     allowed = min(_FORGOTTEN * plan.mismatch, _MOST_FORGOTTEN) * 0.5 * (high - low)
-    return bool(np.any(np.abs(again.array("state") - once.array("state")) > np.maximum(allowed, jumps)))
+    apart = np.abs(again.array("state") - once.array("state"))
+    found_out = plan.library.known["remembers"] = bool(np.any(apart > np.maximum(allowed, jumps)))
+    return found_out
 
 
 def find_orbits(plan: Plan, tests: Sequence[tuple[Experiment, Array | None]], **watched: Any) -> list[Found]:

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pysim.simulate._check import check_arguments, check_list
-from pysim.simulate._library import open_library
+from pysim.simulate._library import Library, open_library
 from pysim.simulate._pool import side_by_side, worker_count
 from pysim.simulate._tasks import Found, later
 from pysim.simulate.esdirk import Esdirk
@@ -122,34 +122,70 @@ def periodic_many(
         BadInput: as `sensitivities`, before anything runs.
     """
     check_arguments("periodic_many", model, solver, Esdirk)
+    ask = check_periodic(model, tests, parameters, guesses, solver, mismatch, workers)
+    if not tests:
+        return ()
+    with open_library(model) as library:
+        return find_in(library, ask, progress)
+
+
+@dataclass(frozen=True)
+class Ask:
+    """Checked arguments of `periodic_many`."""
+
+    experiments: tuple[Experiment, ...]
+    names: tuple[str, ...]
+    guesses: tuple[Array | None, ...]
+    solver: Esdirk
+    mismatch: float
+    workers: int
+
+
+def check_periodic(
+    model: Model,
+    tests: Sequence[Periodic],
+    parameters: Sequence[str],
+    guesses: Sequence[Array | None],
+    solver: Esdirk,
+    mismatch: float,
+    workers: int | None,
+) -> Ask:
+    """Check what `periodic_many` is given.
+
+    Raises:
+        BadInput: as there.
+    """
     check_list("periodic_many", "tests", tests, Periodic)
     count = worker_count("periodic_many", model, workers)
     names = check_names("periodic_many", parameters)
     starts = _check_guesses(model, tests, guesses)
     if not mismatch > 0:
         raise BadInput(f"periodic_many: mismatch must be positive, got {mismatch}")
-    experiments = [test.experiment() for test in tests]
+    experiments = tuple(test.experiment() for test in tests)
     check_parameters("periodic_many", model, experiments, names)
-    if not tests:
-        return ()
-    with open_library(model) as library:
-        offers = probe_each(library, experiments, solver, names)
-        plans = {record: Plan(library, solver, names, offer, mismatch) for record, offer in offers.items()}
-        quick = min(range(len(tests)), key=lambda i: tests[i].period)
-        long_way = remembers(plans[tests[quick].record], experiments[quick], starts[quick])
-        found: dict[int, Found] = {}
-        settled = 0
-        for record, plan in plans.items():
-            numbers = [i for i, experiment in enumerate(experiments) if experiment.record == record and not long_way]
-            pairs, watch = [(experiments[i], starts[i]) for i in numbers], later(progress, settled, len(tests))
-            watch = None if plan.missing or not plan.offer.outputs else watch
-            found |= zip(numbers, find_orbits(plan, pairs, workers=count, progress=watch), strict=True)
-            settled = sum(is_settled(plans[experiments[i].record], one) for i, one in found.items())
-        tasks = [partial(orbit_of, plans[e.record], e, found.get(i)) for i, e in enumerate(experiments)]
-        left = [i for i, e in enumerate(experiments) if i not in found or not is_settled(plans[e.record], found[i])]
-        others = side_by_side([tasks[i] for i in left], count, later(progress, settled, len(tests)))
-        results = dict(zip(left, others, strict=True))
-        return tuple(results[i] if i in results else task(lambda: False) for i, task in enumerate(tasks))
+    return Ask(experiments, names, tuple(starts), solver, mismatch, count)
+
+
+def find_in(library: Library, ask: Ask, progress: Callable[[int, int], None] | None) -> tuple[Orbit, ...]:
+    """As `periodic_many`, with a library that is open already."""
+    experiments, starts, count = ask.experiments, ask.guesses, ask.workers
+    offers = probe_each(library, experiments, ask.solver, ask.names)
+    plans = {record: Plan(library, ask.solver, ask.names, offer, ask.mismatch) for record, offer in offers.items()}
+    quick = min(range(len(experiments)), key=lambda i: float(experiments[i].times[-1]))
+    long_way = remembers(plans[experiments[quick].record], experiments[quick], starts[quick])
+    found: dict[int, Found] = {}
+    settled = 0
+    for record, plan in plans.items():
+        numbers = [i for i, experiment in enumerate(experiments) if experiment.record == record and not long_way]
+        pairs, watch = [(experiments[i], starts[i]) for i in numbers], later(progress, settled, len(experiments))
+        watch = None if plan.missing or not plan.offer.outputs else watch
+        found |= zip(numbers, find_orbits(plan, pairs, workers=count, progress=watch), strict=True)
+        settled = sum(is_settled(plans[experiments[i].record], one) for i, one in found.items())
+    tasks = [partial(orbit_of, plans[e.record], e, found.get(i)) for i, e in enumerate(experiments)]
+    left = [i for i, e in enumerate(experiments) if i not in found or not is_settled(plans[e.record], found[i])]
+    others = side_by_side([tasks[i] for i in left], count, later(progress, settled, len(experiments)))
+    results = dict(zip(left, others, strict=True))
+    return tuple(results[i] if i in results else task(lambda: False) for i, task in enumerate(tasks))
 
 
 def _check_guesses(model: Model, tests: Sequence[Periodic], guesses: Sequence[Array | None]) -> list[Array | None]:

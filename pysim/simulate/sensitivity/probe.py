@@ -68,11 +68,13 @@ def check_parameters(function: str, model: Model, experiments: Sequence[Experime
         if model[name].type not in ("Real", "Float64"):
             raise BadInput(f"{function}: {name} is {model[name].type}; a derivative needs a real parameter")
     check_experiments(model, experiments)
-    for count, experiment in enumerate(experiments):
-        if count == 0 or any(name not in experiment.overrides for name in names):
+    known: set[object] = set()
+    for experiment in experiments:
+        used = tuple(tuple(getattr(experiment, kind)) for kind in ("inputs", "rates", "overrides"))
+        if used not in known:
             values = {name: value_of(model, experiment, name) for name in names}
-        if count == 0 or any(name in experiment.inputs or name in experiment.rates for name in names):
             check_experiment(model, experiment.override(**values))
+            known.add(used)
 
 
 def size_of(variable: Variable, value: float) -> float:
@@ -129,6 +131,7 @@ def probe(library: Library, experiment: Experiment, solver: Esdirk, parameters: 
     sizes = np.maximum(np.abs(first.array("state")), first.array("nominal"))
     point = first.array("state") + _ASIDE * sizes
     wanted = tuple(name for name in parameters if name not in starts)
+    once = once.override(**{name: value_of(model, once, name) for name in wanted})  # all sides set the same names
     sides = [both_sides(model, once, name, START_STEP) for name in wanted]
     moves = (START_STEP * sizes, -START_STEP * sizes)
     asked = [Request(once, point + move) for move in moves]
@@ -149,11 +152,16 @@ def probe(library: Library, experiment: Experiment, solver: Esdirk, parameters: 
 def probe_each(
     library: Library, experiments: Sequence[Experiment], solver: Esdirk, parameters: Sequence[str]
 ) -> dict[tuple[str, ...], Offer]:
-    """The offer for each choice of variables to record, from the first of the experiments that can be started."""
+    """The offer for each choice of variables to record, from the first of the experiments that can be started.
+
+    As long as a library is open it is asked once.
+    """
     offers: dict[tuple[str, ...], Offer | None] = {}
     for experiment in experiments:
+        key = experiment.record, tuple(parameters)
         if offers.get(experiment.record) is None:
-            offers[experiment.record] = probe(library, experiment, solver, parameters)
+            offers[experiment.record] = library.known.get(key) or probe(library, experiment, solver, parameters)
+            library.known[key] = offers[experiment.record]
     return {record: offer or _NOTHING for record, offer in offers.items()}
 
 

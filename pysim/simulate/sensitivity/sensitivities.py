@@ -13,7 +13,7 @@ from pysim.simulate._check import check_arguments, check_list
 from pysim.simulate._library import Library, open_library
 from pysim.simulate._pool import Stopped, side_by_side, worker_count
 from pysim.simulate._run import record_of, run
-from pysim.simulate._tasks import Found, Kind, Request, later, run_tasks
+from pysim.simulate._tasks import Found, Kind, Progress, Request, later, run_tasks
 from pysim.simulate._variation import Directions
 from pysim.simulate.esdirk import Esdirk
 from pysim.simulate.kernel.layout import VARIED
@@ -26,6 +26,7 @@ from pysim.simulate.sensitivity.probe import (
     check_parameters,
     points,
     probe_each,
+    value_of,
 )
 from pysim.types import Experiment, Model, Outcome, Record, SimulationError
 
@@ -114,33 +115,57 @@ def sensitivities_many(
         BadInput: as `sensitivities`, before the first run starts.
     """
     check_arguments("sensitivities_many", model, solver, Esdirk)
+    names, count = check_sensitivities(model, experiments, parameters, workers)
+    if not experiments:
+        return ()
+    with open_library(model) as library:
+        return run_in(library, experiments, names, solver, count, progress)
+
+
+def check_sensitivities(
+    model: Model, experiments: Sequence[Experiment], parameters: Sequence[str], workers: int | None
+) -> tuple[tuple[str, ...], int]:
+    """Check what `sensitivities_many` is given; the names and how many threads.
+
+    Raises:
+        BadInput: as there.
+    """
     check_list("sensitivities_many", "experiments", experiments, Experiment)
     count = worker_count("sensitivities_many", model, workers)
     names = check_names("sensitivities_many", parameters)
     check_parameters("sensitivities_many", model, experiments, names)
-    if offset and any(e.offset.size != len(model.abilities.states) for e in experiments):
-        raise BadInput("sensitivities_many: a derivative by the offset needs experiments with one; give them zeros")
-    if not experiments:
-        return ()
-    with open_library(model) as library:
-        offers = probe_each(library, experiments, solver, names)
-        starts = _starts(library, experiments, solver, offers, count)
-        found: dict[int, Found] = {}
-        clean = 0
-        for record, offer in offers.items():
-            numbers = [i for i, e in enumerate(experiments) if e.record == record and starts[i] is not None]
-            requests = [Request(experiments[i], start_by=starts[i]) for i in numbers]
-            kind, watch = Kind(VARIED, solver, offer.directions(states=False)), later(progress, clean, len(experiments))
-            found |= zip(numbers, run_tasks(library, kind, requests, workers=count, progress=watch), strict=True)
-            clean = sum(one.done for one in found.values())
-        tasks = [
-            partial(_one, library, e, solver, names, offers[e.record], starts[i], found.get(i))
-            for i, e in enumerate(experiments)
-        ]
-        left = [i for i in range(len(experiments)) if i not in found or not found[i].done]
-        others = side_by_side([tasks[i] for i in left], count, later(progress, clean, len(experiments)))
-        results = dict(zip(left, others, strict=True))
-        return tuple(results[i] if i in results else task(lambda: False) for i, task in enumerate(tasks))
+    return names, count
+
+
+def run_in(
+    library: Library,
+    experiments: Sequence[Experiment],
+    names: tuple[str, ...],
+    solver: Esdirk,
+    count: int,
+    progress: Progress | None,
+) -> tuple[Sensitivities, ...]:
+    """As `sensitivities_many`, checked, with a library that is open already."""
+    offers = probe_each(library, experiments, solver, names)
+    whole = {record for record, offer in offers.items() if len(offer.parameters) == len(names)}
+    starts = _starts(library, experiments, solver, offers, count)
+    found: dict[int, Found] = {}
+    ready: list[int] = []  # those that need nothing more
+    for record, offer in offers.items():
+        numbers = [i for i, e in enumerate(experiments) if e.record == record and starts[i] is not None]
+        requests = [Request(experiments[i], start_by=starts[i]) for i in numbers]
+        kind = Kind(VARIED, solver, offer.directions(states=False))
+        watch = later(progress, len(ready), len(experiments)) if record in whole else None
+        found |= zip(numbers, run_tasks(library, kind, requests, workers=count, progress=watch), strict=True)
+        ready += [i for i in numbers if record in whole and found[i].done]
+    tasks = [
+        partial(_one, library, e, solver, names, offers[e.record], starts[i], found.get(i))
+        for i, e in enumerate(experiments)
+    ]
+    left = sorted(set(range(len(experiments))) - set(ready))
+    others = side_by_side([tasks[i] for i in left], count, later(progress, len(ready), len(experiments)))
+    results = dict(zip(left, others, strict=True))
+    return tuple(results[i] if i in results else task(lambda: False) for i, task in enumerate(tasks))
 
 
 def _one(
@@ -200,6 +225,9 @@ def _starts(
     distances: list[float] = []
     for i in leading:
         once = replace(experiments[i], times=np.array([experiments[i].start]))
+        offer = offers[once.record]
+        fixed = (name for name in offer.parameters if name not in offer.starts)
+        once = once.override(**{name: value_of(library.model, once, name) for name in fixed})
         for name in offers[once.record].parameters:
             up, down, distance = both_sides(library.model, once, name, START_STEP)
             requests += [Request(up), Request(down)]

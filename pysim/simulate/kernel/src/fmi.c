@@ -15,6 +15,7 @@ typedef int Get3(void *, const uint32_t *, size_t, void *, size_t);
 typedef int Directional2(void *, const uint32_t *, size_t, const uint32_t *, size_t, const double *, double *);
 typedef int Directional3(void *, const uint32_t *, size_t, const uint32_t *, size_t, const double *, size_t, double *,
                          size_t);
+typedef int Matrices(void *, const double **, const double **);
 typedef int Completed2(void *, int, int *, int *);
 typedef int Completed3(void *, bool, bool *, bool *);
 typedef struct {
@@ -67,6 +68,10 @@ int fmi_get_directional(const Fmu *fmu, const uint32_t *unknowns, int64_t n_unkn
     if (fmu->version == 2)
         return ((Directional2 *)fmu->get_directional)(fmu->instance, unknowns, n_u, knowns, n_k, seed, result);
     return ((Directional3 *)fmu->get_directional)(fmu->instance, unknowns, n_u, knowns, n_k, seed, n_k, result, n_u);
+}
+
+int fmi_get_matrices(const Fmu *fmu, const double **by_states, const double **by_parameters) {
+    return ((Matrices *)fmu->get_matrices)(fmu->instance, by_states, by_parameters);
 }
 
 int fmi_completed_step(Fmu *fmu) {

@@ -40,6 +40,9 @@ int fmi_get_values(const Fmu *fmu, Function *getter, const uint32_t *references,
 int fmi_get_directional(const Fmu *fmu, const uint32_t *unknowns, int64_t n_unknowns, const uint32_t *knowns,
                         int64_t n_knowns, const double *seed, double *result);
 
+/* Where an FMU of ours keeps the derivatives by the states and by all parameters, column after column. */
+int fmi_get_matrices(const Fmu *fmu, const double **by_states, const double **by_parameters);
+
 /* Tells the FMU that it stands at an accepted point; fills `event` and `terminate`. */
 int fmi_completed_step(Fmu *fmu);
 

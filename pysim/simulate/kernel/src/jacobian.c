@@ -38,9 +38,35 @@ static int by_differences(Job *job, double t, const double *x) {
     return status;
 }
 
+/* Jacobian and, where wanted, F at the point last set, from the matrices that an FMU of ours keeps. */
+static int take_matrices(Job *job, bool with_forcing) {
+    Work *w = &job->work;
+    Variation *v = &job->variation;
+    const double *by_states = NULL, *by_parameters = NULL;
+    const int status = fmi_get_matrices(job->fmu, &by_states, with_forcing ? &by_parameters : NULL);
+    if (status > WARNING) return status;
+    copy(w->jacobian, by_states, w->n * w->n);
+    for (int64_t p = 0; with_forcing && p < v->parameters; p++)
+        if (v->columns_of[p] >= 0) copy(v->forcing + w->n * p, by_parameters + w->n * v->columns_of[p], w->n);
+    return status;
+}
+
 int take_jacobian(Job *job, double t, const double *x) {
     job->run.jacobians++;
     if (!job->work.has_directional) return by_differences(job, t, x);
     const int status = set_point(job, t, x);
-    return status > WARNING ? status : worse(status, take_partials(job, job->work.by_states, job->work.jacobian));
+    if (status > WARNING) return status;
+    if (job->fmu->get_matrices) return worse(status, take_matrices(job, false));
+    return worse(status, take_partials(job, job->work.by_states, job->work.jacobian));
+}
+
+int take_jacobian_and_forcing(Job *job, double t, const double *x) {
+    Variation *v = &job->variation;
+    if (job->fmu->get_matrices && v->columns_of && job->work.has_directional) {
+        job->run.jacobians++;
+        const int status = set_point(job, t, x);
+        return status > WARNING ? status : worse(status, take_matrices(job, true));
+    }
+    const int status = take_jacobian(job, t, x);
+    return status > WARNING ? status : worse(status, take_partials(job, v->by_parameters, v->forcing));
 }

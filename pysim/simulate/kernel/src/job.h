@@ -65,6 +65,7 @@ typedef struct {
     Function *get_indicators;
     Function *set_reals;
     Function *get_directional;
+    Function *get_matrices; /* of our own FMUs, not of the standard: all partial derivatives at once; else null */
     Function *completed_step;
     Function *enter_event_mode;
     Function *update_discrete;
@@ -164,6 +165,11 @@ typedef struct {
     const double *ones;         /* seeds, as many as any group has */
 } Partials;
 
+/* Entry `target` loses the product of two others. */
+typedef struct {
+    uint32_t target, weight, source, unused;
+} Operation;
+
 /* Memory of the solver, and the structure of the Jacobian. */
 typedef struct {
     int64_t n;
@@ -201,7 +207,8 @@ typedef struct {
     const int64_t *diagonal;  /* (n,) entry on the diagonal */
     const int64_t *places;    /* (n_e,) column */
     const int64_t *columns;   /* (n_e,) state of the column */
-    const int64_t *targets;   /* entries that elimination changes, one after the other */
+    const int64_t *operation_first; /* (n + 1,) row r is made by the operations operation_first[r] to ...[r + 1] - 1 */
+    const Operation *operations;
     double *factors;      /* (n, n), of which the first n_e are used */
     double *pivot_values; /* (n,) */
     double *probe;        /* (n,) */
@@ -241,6 +248,9 @@ typedef struct {
     const double *start;    /* (n,) states to start from; null: those of the FMU */
     double *start_by;       /* (n, c) their derivatives */
     const Partials *by_parameters; /* of the derivatives, into `forcing`; a start value is in no equation */
+    int64_t entries;               /* of those that may differ from zero */
+    const int64_t *forcing_targets; /* (entries,) place of each in (n, c) */
+    const int64_t *columns_of;      /* (n_p,) column of get_matrices, -1 for a start value; null: the FMU is asked */
     double *s;      /* (n, c) at run.t */
     double *k;      /* (s, n, c) */
     double *right;  /* (n, c) */

@@ -31,6 +31,7 @@ void solve_shifted_rows(Job *job, double *right, int64_t width); /* (n, width), 
    directional derivatives, and without them work.error and slope change. Other partials are those at the point last
    set. */
 int take_jacobian(Job *job, double t, const double *x);
+int take_jacobian_and_forcing(Job *job, double t, const double *x); /* F = df/dp into variation.forcing as well */
 int take_partials(const Job *job, const Partials *partials, double *matrix);
 
 /* explicit.c, rosenbrock.c, esdirk.c: one step of length h (s) from run.t fills k and x_new; the norm of its error. */

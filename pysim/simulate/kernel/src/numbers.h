@@ -13,9 +13,13 @@ static inline int worse(int a, int b) { return a > b ? a : b; }
 static inline double larger(double a, double b) { return a > b ? a : b; }
 static inline double smaller(double a, double b) { return a < b ? a : b; }
 
-/* to = from. */
-static inline void copy(double *to, const double *from, int64_t n) {
-    if (n > 0) memmove(to, from, (size_t)n * sizeof *to);
+/* to = from; they do not overlap. Most are a dozen numbers, too few for a call. */
+static inline void copy(double *restrict to, const double *restrict from, int64_t n) {
+    if (n > 64) {
+        memcpy(to, from, (size_t)n * sizeof *to);
+        return;
+    }
+    for (int64_t i = 0; i < n; i++) to[i] = from[i];
 }
 
 static inline void fill(double *x, double value, int64_t n) {

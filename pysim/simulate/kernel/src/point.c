@@ -14,12 +14,7 @@ int evaluate(Job *job, double t, const double *x, double *dx) {
 }
 
 double error_norm(const Job *job, const double *values, const double *x, const double *y) {
-    const double rtol = job->control.rtol, atol = job->control.atol, *nominal = job->work.nominal;
-    const int64_t n = job->work.n;
-    double total = 0.0;
-    for (int64_t i = 0; i < n; i++) {
-        const double ratio = values[i] / (atol * nominal[i] + rtol * larger(fabs(x[i]), fabs(y[i])));
-        total += ratio * ratio;
-    }
-    return sqrt(total / (double)(n > 0 ? n : 1));
+    const Work *w = &job->work;
+    const double sum = w->sums->weighted_square(values, w->nominal, x, y, job->control.atol, job->control.rtol, w->n);
+    return sqrt(sum / (double)(w->n > 0 ? w->n : 1));
 }

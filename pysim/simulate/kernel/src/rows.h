@@ -11,6 +11,17 @@ typedef struct {
     void (*add_rows)(const double *base, const double *rows, const double *weights, int64_t count, double scale,
                      double *result, int64_t n);
 
+    /* The same, and scaled = factor result. */
+    void (*add_rows_and_scale)(const double *base, const double *rows, const double *weights, int64_t count, double scale,
+                               double *result, double factor, double *scaled, int64_t n);
+
+    /* result = factor (a - b), n numbers. */
+    void (*scale_difference)(const double *a, const double *b, double factor, double *result, int64_t n);
+
+    /* sum_i (values_i / (absolute nominal_i + relative max(|x_i|, |y_i|)))^2 over n numbers. */
+    double (*weighted_square)(const double *values, const double *nominal, const double *x, const double *y,
+                              double absolute, double relative, int64_t n);
+
     /* target += factor source, n numbers. */
     void (*add_row)(double *target, const double *source, double factor, int64_t n);
 

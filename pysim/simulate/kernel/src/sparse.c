@@ -5,20 +5,20 @@
 
 static const double loss = 1e-12; /* of a row's size: what rounding may change in it */
 
-/* Factors L D U of shift I - J; the diagonals of L and U are one, that of D is kept inverted. */
+/* Factors L D U of shift I - J; the diagonals of L and U are one, that of D is kept inverted. For each row the list of
+   operations comes first, then what is left of the diagonal is scaled, then what is right of it. */
 static void eliminate(Work *w, double shift) {
-    double *v = w->factors;
-    const int64_t *first = w->row_first, *diagonal = w->diagonal, *target = w->targets;
-    for (int64_t q = 0; q < w->entries; q++) v[q] = -w->jacobian[w->sources[q]];
+    double *restrict v = w->factors;
+    const double *restrict jacobian = w->jacobian;
+    const int64_t *first = w->row_first, *diagonal = w->diagonal;
+    const Operation *operation = w->operations;
+    for (int64_t q = 0; q < w->entries; q++) v[q] = -jacobian[w->sources[q]];
     for (int64_t r = 0; r < w->n; r++) {
         const int64_t middle = diagonal[r];
+        const Operation *end = w->operations + w->operation_first[r + 1];
         v[middle] += shift;
-        for (int64_t q = first[r]; q < middle; q++) {
-            const int64_t c = w->places[q], end = first[c + 1];
-            const double weight = v[q];
-            for (int64_t u = diagonal[c] + 1; u < end; u++) v[*target++] -= weight * v[u];
-            v[q] = weight * v[diagonal[c]];
-        }
+        for (; operation < end; operation++) v[operation->target] -= v[operation->weight] * v[operation->source];
+        for (int64_t q = first[r]; q < middle; q++) v[q] *= v[diagonal[w->places[q]]];
         w->pivot_values[r] = v[middle];
         const double inverse = 1.0 / v[middle];
         v[middle] = inverse;

@@ -12,9 +12,7 @@
 /* Adds F to the columns of the parameters in target (n, c). */
 static void add_forcing(const Job *job, double *target) {
     const Variation *v = &job->variation;
-    const int64_t n = job->work.n;
-    for (int64_t p = 0; p < v->parameters; p++)
-        for (int64_t i = 0; i < n; i++) target[i * v->columns + v->by_start + p] += v->forcing[p * n + i];
+    for (int64_t e = 0; e < v->entries; e++) target[v->forcing_targets[e]] += v->forcing[v->by_parameters->places[e]];
 }
 
 /* K at run.t, where the derivatives jump: at the start and behind every break of an input. */
@@ -22,10 +20,9 @@ int begin_variation(Job *job) {
     Variation *v = &job->variation;
     Work *w = &job->work;
     const int64_t n = w->n, width = v->columns;
-    int status = take_jacobian(job, job->run.t, w->x);
+    const int status = take_jacobian_and_forcing(job, job->run.t, w->x);
     if (status > WARNING) return status;
     job->run.jacobian_at = job->run.t, job->run.matrix_step = 0.0;
-    status = worse(status, take_partials(job, v->by_parameters, v->forcing));
     fill(v->k, 0.0, n * width);
     add_forcing(job, v->k);
     for (int64_t i = 0; i < n; i++)
@@ -42,16 +39,14 @@ static int vary_stage(Job *job, int64_t i, double h) {
     Work *w = &job->work;
     const int64_t size = w->n * v->columns;
     const double shift = 1.0 / (h * method->gamma);
-    int status = take_jacobian(job, job->run.t + method->c[i] * h, w->stages + w->n * i);
-    if (status <= WARNING) status = worse(status, take_partials(job, v->by_parameters, v->forcing));
+    const int status = take_jacobian_and_forcing(job, job->run.t + method->c[i] * h, w->stages + w->n * i);
     if (status > WARNING) return status;
     if (!factorise_shifted(job, shift)) return ERROR;
     double *known = v->right, *solved = v->inside, *k = v->k + size * i;
-    w->sums->add_rows(v->s, v->k, method->a + method->stages * i, i, h, known, size);
-    for (int64_t r = 0; r < size; r++) solved[r] = shift * known[r];
+    w->sums->add_rows_and_scale(v->s, v->k, method->a + method->stages * i, i, h, known, shift, solved, size);
     add_forcing(job, solved);
     solve_shifted_rows(job, solved, v->columns);
-    for (int64_t r = 0; r < size; r++) k[r] = (solved[r] - known[r]) * shift;
+    w->sums->scale_difference(solved, known, shift, k, size);
     return status;
 }
 

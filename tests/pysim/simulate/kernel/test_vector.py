@@ -2,6 +2,7 @@
 
 import ctypes
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 import pytest
@@ -14,12 +15,15 @@ Array = NDArray[np.float64]
 _P, _N, _D = ctypes.c_void_p, ctypes.c_int64, ctypes.c_double
 _SIGNATURES = {
     "add_rows": ctypes.CFUNCTYPE(None, _P, _P, _P, _N, _D, _P, _N),
+    "add_rows_and_scale": ctypes.CFUNCTYPE(None, _P, _P, _P, _N, _D, _P, _D, _P, _N),
+    "scale_difference": ctypes.CFUNCTYPE(None, _P, _P, _D, _P, _N),
+    "weighted_square": ctypes.CFUNCTYPE(_D, _P, _P, _P, _P, _D, _D, _N),
     "add_row": ctypes.CFUNCTYPE(None, _P, _P, _D, _N),
     "reduce_row": ctypes.CFUNCTYPE(None, _P, _D, _P, _P, _N, _P, _N),
 }
 
 
-def functions(table: int) -> dict[str, Callable[..., None]]:
+def functions(table: int) -> dict[str, Callable[..., Any]]:
     """The functions of a RowSums at that address."""
     places = (ctypes.c_void_p * len(_SIGNATURES)).from_address(table)
     return {name: kind(place) for (name, kind), place in zip(_SIGNATURES.items(), places, strict=True)}
@@ -65,3 +69,35 @@ def test_row_less_others_and_the_same_bits_without_avx2(width: int) -> None:
     np.testing.assert_allclose(best[1], expected, rtol=1e-13, atol=1e-14)
     np.testing.assert_allclose(best[4], own[4] + 1.5 * own[0], rtol=1e-14)
     np.testing.assert_array_equal(plain, best)
+
+
+@pytest.mark.parametrize("n", [0, 1, 4, 7, 16, 37])
+def test_sums_of_rows_with_multiples_and_the_same_bits_without_avx2(n: int) -> None:
+    rng = np.random.default_rng(n)
+    base, rows, weights = rng.normal(size=n), rng.normal(size=(3, n)), rng.normal(size=3)
+    expected = base + 0.3 * weights @ rows
+    both = []
+    for table in (BEST, PLAIN):
+        total, scaled, apart = np.zeros(n), np.zeros(n), np.zeros(n)
+        table["add_rows_and_scale"](
+            address(base), address(rows), address(weights), 3, 0.3, address(total), -2.0, address(scaled), n
+        )
+        table["scale_difference"](address(scaled), address(base), 0.5, address(apart), n)
+        both.append((total, scaled, apart))
+    for found, wanted in zip(both[0], (expected, -2.0 * expected, -expected - 0.5 * base), strict=True):
+        np.testing.assert_allclose(found, wanted, rtol=1e-13, atol=1e-13)
+    np.testing.assert_array_equal(*both)
+
+
+@pytest.mark.parametrize("n", [0, 1, 4, 6, 13])
+def test_weighted_square_and_the_same_bits_without_avx2(n: int) -> None:
+    values, nominal, x, y = np.random.default_rng(n).normal(size=(4, n))
+    nominal = np.abs(nominal) + 0.1
+    expected = np.sum((values / (1e-3 * nominal + 1e-2 * np.maximum(np.abs(x), np.abs(y)))) ** 2)
+    arguments = *(address(array) for array in (values, nominal, x, y)), 1e-3, 1e-2, n
+    found = [table["weighted_square"](*arguments) for table in (BEST, PLAIN)]
+    assert found[0] == pytest.approx(expected, rel=1e-13)
+    assert found[0] == found[1]
+    if n:
+        values[-1] = np.nan
+        assert np.isnan(BEST["weighted_square"](*arguments))

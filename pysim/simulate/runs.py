@@ -1,0 +1,74 @@
+"""A model kept open for run after run, as a fit wants it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pysim.simulate._check import check_arguments
+from pysim.simulate._library import Library, open_library
+from pysim.simulate.esdirk import Esdirk
+from pysim.simulate.sensitivity.orbit import Orbit
+from pysim.simulate.sensitivity.periodic import Periodic, check_periodic, find_in
+from pysim.simulate.sensitivity.sensitivities import Sensitivities, check_sensitivities, run_in
+from pysim.types import Experiment, Model
+
+Array = NDArray[np.float64]
+
+
+class Runs:
+    """What `sensitivities_many` and `periodic_many` do, with a library that stays open, asked once for what it offers.
+
+    Made by `open_runs`. The results are those of the functions; arguments and errors are the same, too.
+
+    Attributes:
+        model: the one that is open.
+    """
+
+    def __init__(self, library: Library) -> None:
+        self.model, self._library = library.model, library
+
+    def sensitivities(
+        self,
+        experiments: Sequence[Experiment],
+        parameters: Sequence[str],
+        *,
+        solver: Esdirk = Esdirk(),  # noqa: B008
+        workers: int | None = None,
+        progress: Callable[[int, int], None] | None = None,
+    ) -> tuple[Sensitivities, ...]:
+        """Runs with their derivatives, as `sensitivities_many`."""
+        check_arguments("sensitivities", self.model, solver, Esdirk)
+        names, count = check_sensitivities(self.model, experiments, parameters, workers)
+        return run_in(self._library, experiments, names, solver, count, progress) if experiments else ()
+
+    def orbits(
+        self,
+        tests: Sequence[Periodic],
+        parameters: Sequence[str] = (),
+        *,
+        guesses: Sequence[Array | None] = (),
+        solver: Esdirk = Esdirk(),  # noqa: B008
+        mismatch: float = 1e-3,
+        workers: int | None = None,
+        progress: Callable[[int, int], None] | None = None,
+    ) -> tuple[Orbit, ...]:
+        """Periodic steady states, as `periodic_many`."""
+        check_arguments("orbits", self.model, solver, Esdirk)
+        ask = check_periodic(self.model, tests, parameters, guesses, solver, mismatch, workers)
+        return find_in(self._library, ask, progress) if tests else ()
+
+
+@contextmanager
+def open_runs(model: Model) -> Iterator[Runs]:
+    """A model-exchange FMU, open for the length of the block; for one thread at a time.
+
+    Raises:
+        BadInput: no model exchange, no binary for this machine, or an FMU that cannot be instantiated.
+    """
+    check_arguments("open_runs", model, Esdirk())
+    with open_library(model) as library:
+        yield Runs(library)
