@@ -37,7 +37,8 @@ int locate(Job *job, double h, double *theta) {
         double share = count % 3 == 2 ? 0.5 * (low + high) : first_secant(job, low, high);
         share = smaller(larger(share, low + 0.5 * width), high - 0.5 * width);
         interpolate(job, share);
-        const int status = worse(set_point(job, run->t + share * h, w->x_try), fmi_get_indicators(job->fmu, w->z_try, w->m));
+        int status = set_point(job, run->t + share * h, w->x_try);
+        if (status <= WARNING) status = worse(status, fmi_get_indicators(job->fmu, w->z_try, w->m));
         if (status > WARNING) return *theta = high, status;
         if (crossed(job, w->z, w->z_try)) {
             high = share;
