@@ -43,11 +43,10 @@ def run(args: argparse.Namespace) -> int:
     from pysim.cli._any_model import read_fmu_or_class
     from pysim.cli._inputs import input_files
     from pysim.cli._outputs import JSON, prepare_file
-    from pysim.cli._progress import Working, simulating
+    from pysim.cli._progress import simulating
+    from pysim.simulate import Rk45, Rodas, simulate
     from pysim.types import Outcome
 
-    with Working("Loading the simulation"):  # Numba takes its seconds
-        from pysim.simulate import Rk45, Rodas, simulate
     model = read_fmu_or_class(args.model, args.library)
     experiment = _experiment(args, model)
     if args.output:

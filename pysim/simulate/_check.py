@@ -77,7 +77,11 @@ def check_experiments(model: Model, experiments: Sequence[Experiment]) -> None:
     real: dict[str, bool] = {}
     for experiment in experiments:
         if isinstance(experiment, Experiment):
-            names = experiment.record, *(tuple(getattr(experiment, kind)) for kind in ("inputs", "rates", "overrides"))
+            names = (
+                experiment.record,
+                experiment.offset.size,
+                *(tuple(getattr(experiment, kind)) for kind in ("inputs", "rates", "overrides")),
+            )
             if names in known and all(
                 math.isfinite(value) and real.setdefault(name, model[name].type in REALS)
                 for name, value in experiment.overrides.items()

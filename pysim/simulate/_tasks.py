@@ -33,7 +33,7 @@ from pysim.simulate.kernel.layout import (
     TASK,
 )
 from pysim.simulate.kernel.library import address, kernel
-from pysim.simulate.kernel.signals import pack_breaks, pack_inputs
+from pysim.simulate.kernel.signals import offset_time, pack_breaks, pack_inputs
 from pysim.types import Experiment, Outcome
 
 Array = NDArray[np.float64]
@@ -140,7 +140,12 @@ class Found:
     @property
     def slopes(self) -> Array:
         """(n_t, n_y, n_p) derivatives of that by the parameters of the directions."""
-        return self._tasks.rows("slopes", self._number)
+        return self._tasks.rows("slopes", self._number)[:, :, self._tasks.by_offset :]
+
+    @property
+    def by_offset(self) -> Array:
+        """(n_t, n_y, n_x) the same by the offset of the states; n_x = 0 where it is no direction."""
+        return self._tasks.rows("slopes", self._number)[:, :, : self._tasks.by_offset]
 
     def statistics(self) -> dict[str, int]:
         """Counts of the run, or of the last period."""
@@ -160,6 +165,7 @@ class Tasks:
         self.record, self.set_names = experiments[0].record, tuple(experiments[0].overrides)
         count, n = len(requests), len(library.model.abilities.states)
         self.parameters = len(kind.directions.parameters)
+        self.by_offset = n if kind.directions.offset else 0
         self.table = np.zeros(count, dtype=TASK)
         self._kept: list[Any] = [experiments]
         self.texts = np.zeros((count, LINES, LINE_LENGTH), dtype=np.uint8)
@@ -175,6 +181,8 @@ class Tasks:
         self._rows_of("set_values", numbers)
         self._put("states", [self._address(r.states) for r in requests])
         self._put("start_by", [self._address(r.start_by) for r in requests])
+        self._put("offset_at", [offset_time(e) for e in experiments])
+        self._put("offset", [self._address(e.offset if e.offset.size else None) for e in experiments])
         self._pack("inputs", pack_inputs(library.model, experiments))
         self._pack("breaks", pack_breaks(experiments, ends))
         if kind.kind == ORBIT:
@@ -191,7 +199,7 @@ class Tasks:
         if self.kind.kind == PLAIN:
             own: dict[str, Any] = {}
         else:
-            sampled["slopes"] = np.zeros((rows, n_y, n_p))
+            sampled["slopes"] = np.zeros((rows, n_y, self.by_offset + n_p))
             own = {name: np.zeros((count, n)) for name in ("state", "low", "high", "nominal")}
             own["state_by"] = np.zeros((count, n, n_p))
         if self.kind.point:

@@ -25,12 +25,14 @@ class Directions:
         starts: those of them that no equation holds: start values of states.
         states: whether the states at the start are directions too; their columns come first.
         outputs: whether the derivatives of what is recorded are wanted.
+        offset: whether the offset of the states is a direction, in place of the states at the start.
     """
 
     parameters: tuple[str, ...] = ()
     starts: frozenset[str] = frozenset()
     states: bool = False
     outputs: bool = True
+    offset: bool = False
 
 
 def variation_arrays(
@@ -46,11 +48,12 @@ def variation_arrays(
         column_of: of a parameter, by its reference, in the matrix that an FMU of ours keeps; -1 for none.
     """
     n, parameters, stages = len(model.abilities.states), directions.parameters, solver.method().b.size
-    by_start = n if directions.states else 0
+    by_start = n if directions.states or directions.offset else 0
     width = -(-(by_start + len(parameters)) // COLUMNS) * COLUMNS
     return {
         "columns": width,
         "by_start": by_start,
+        "from_start": int(directions.states),
         "parameters": len(parameters),
         "tolerance": getattr(solver, "derivative_tol", np.inf),
         "start_by": np.zeros((n, width)),

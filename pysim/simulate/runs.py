@@ -36,14 +36,15 @@ class Runs:
         experiments: Sequence[Experiment],
         parameters: Sequence[str],
         *,
+        offset: bool = False,
         solver: Esdirk = Esdirk(),  # noqa: B008
         workers: int | None = None,
         progress: Callable[[int, int], None] | None = None,
     ) -> tuple[Sensitivities, ...]:
         """Runs with their derivatives, as `sensitivities_many`."""
         check_arguments("sensitivities", self.model, solver, Esdirk)
-        names, count = check_sensitivities(self.model, experiments, parameters, workers)
-        return run_in(self._library, experiments, names, solver, count, progress) if experiments else ()
+        ask = check_sensitivities(self.model, experiments, parameters, offset, solver, workers)
+        return run_in(self._library, ask, progress) if experiments else ()
 
     def orbits(
         self,

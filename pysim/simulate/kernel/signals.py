@@ -85,12 +85,22 @@ def pack_breaks(experiments: Sequence[Experiment], ends: Sequence[float]) -> Pac
     return Packed(packed, (times, jumps))
 
 
+def offset_time(experiment: Experiment) -> float:
+    """When the states are offset (s); NaN where they are not."""
+    if not experiment.offset.size:
+        return np.nan
+    return float(experiment.start if experiment.offset_at is None else experiment.offset_at)
+
+
 def breaks(experiment: Experiment, end: float) -> tuple[list[float], list[int]]:
-    """Times (s) after the start at which an input jumps or kinks, up to the end; 1 for each at which one jumps.
+    """Times (s) after the start at which an input jumps or kinks, or the states are offset; 1 where an input jumps.
 
     Where one jumps at the very end, a segment of no length lies behind it: the last row is one of after the jump.
     """
     found: dict[float, int] = {end: 0}
+    offset = offset_time(experiment)
+    if experiment.start < offset <= end:
+        found[offset] = 0
     for name, signal in experiment.inputs.items():
         if signal.starts.size == 1 and signal.starts[0] <= experiment.start:
             continue
@@ -102,7 +112,7 @@ def breaks(experiment: Experiment, end: float) -> tuple[list[float], list[int]]:
         for t, jump, kink in zip(signal.starts.tolist(), jumps, kinks, strict=True):
             if experiment.start < t <= end and (jump or (kink and t < end)):
                 found[t] = max(found.get(t, 0), int(jump))
-    if found[end]:
+    if found[end] or offset == end:
         found[np.inf] = 0
     times = sorted(found)
     return times, [found[t] for t in times]

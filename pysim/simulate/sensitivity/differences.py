@@ -32,8 +32,33 @@ def run_differences(
     library: Library, experiment: Experiment, solver: Solver, names: Sequence[str], stopped: Callable[[], bool]
 ) -> tuple[Array, Record | None]:
     """Central differences of a run's values (n_t, n_y, n_p), and the record of a run that failed if one did."""
-    columns = np.full((experiment.times.size, len(experiment.record), len(names)), np.nan)
     sides = [both_sides(library.model, experiment, name, DIFFERENCE_STEP) for name in names]
+    return _differences(library, experiment, solver, sides, stopped)
+
+
+def offset_differences(
+    library: Library, experiment: Experiment, solver: Solver, stopped: Callable[[], bool]
+) -> tuple[Array, Record | None]:
+    """The same by the offset of each state, (n_t, n_y, n_x)."""
+    sides = []
+    for i, name in enumerate(library.model.abilities.states):
+        variable = library.model[name]
+        step = np.zeros(experiment.offset.size)
+        step[i] = DIFFERENCE_STEP * size_of(variable, variable.start or 0.0)
+        ends = [replace(experiment, offset=experiment.offset + sign * step) for sign in (1.0, -1.0)]
+        sides.append((ends[0], ends[1], float(2 * step[i])))
+    return _differences(library, experiment, solver, sides, stopped)
+
+
+def _differences(
+    library: Library,
+    experiment: Experiment,
+    solver: Solver,
+    sides: Sequence[tuple[Experiment, Experiment, float]],
+    stopped: Callable[[], bool],
+) -> tuple[Array, Record | None]:
+    """A column of slopes for each pair of experiments and their distance."""
+    columns = np.full((experiment.times.size, len(experiment.record), len(sides)), np.nan)
     for p, (up, down, distance) in enumerate(sides):
         records = run_many(library, [up, down], tight(solver), stopped=stopped)
         for record in records:

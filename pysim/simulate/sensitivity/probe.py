@@ -123,7 +123,7 @@ def probe(library: Library, experiment: Experiment, solver: Esdirk, parameters: 
     model = library.model
     if not model.abilities.directional_derivatives:
         return _NOTHING
-    once = replace(experiment, times=np.array([experiment.start]))
+    once = at_rest(experiment)
     (first,) = points(library, solver, Directions(outputs=False), [Request(once)])
     if not first.done:
         return None

@@ -17,10 +17,11 @@ from pysim.simulate._tasks import Found, Kind, Progress, Request, later, run_tas
 from pysim.simulate._variation import Directions
 from pysim.simulate.esdirk import Esdirk
 from pysim.simulate.kernel.layout import VARIED
-from pysim.simulate.sensitivity.differences import run_differences
+from pysim.simulate.sensitivity.differences import offset_differences, run_differences
 from pysim.simulate.sensitivity.probe import (
     START_STEP,
     Offer,
+    at_rest,
     both_sides,
     check_names,
     check_parameters,
@@ -28,7 +29,7 @@ from pysim.simulate.sensitivity.probe import (
     probe_each,
     value_of,
 )
-from pysim.types import Experiment, Model, Outcome, Record, SimulationError
+from pysim.types import BadInput, Experiment, Model, Outcome, Record, SimulationError
 
 Array = NDArray[np.float64]
 
@@ -115,17 +116,33 @@ def sensitivities_many(
         BadInput: as `sensitivities`, before the first run starts.
     """
     check_arguments("sensitivities_many", model, solver, Esdirk)
-    names, count = check_sensitivities(model, experiments, parameters, workers)
+    ask = check_sensitivities(model, experiments, parameters, offset, solver, workers)
     if not experiments:
         return ()
     with open_library(model) as library:
-        return run_in(library, experiments, names, solver, count, progress)
+        return run_in(library, ask, progress)
+
+
+@dataclass(frozen=True)
+class Ask:
+    """Checked arguments of `sensitivities_many`."""
+
+    experiments: tuple[Experiment, ...]
+    names: tuple[str, ...]
+    offset: bool
+    solver: Esdirk
+    workers: int
 
 
 def check_sensitivities(
-    model: Model, experiments: Sequence[Experiment], parameters: Sequence[str], workers: int | None
-) -> tuple[tuple[str, ...], int]:
-    """Check what `sensitivities_many` is given; the names and how many threads.
+    model: Model,
+    experiments: Sequence[Experiment],
+    parameters: Sequence[str],
+    offset: bool,
+    solver: Esdirk,
+    workers: int | None,
+) -> Ask:
+    """Check what `sensitivities_many` is given.
 
     Raises:
         BadInput: as there.
@@ -134,18 +151,14 @@ def check_sensitivities(
     count = worker_count("sensitivities_many", model, workers)
     names = check_names("sensitivities_many", parameters)
     check_parameters("sensitivities_many", model, experiments, names)
-    return names, count
+    if offset and any(e.offset.size != len(model.abilities.states) for e in experiments):
+        raise BadInput("sensitivities_many: a derivative by the offset needs experiments with one; give them zeros")
+    return Ask(tuple(experiments), names, offset, solver, count)
 
 
-def run_in(
-    library: Library,
-    experiments: Sequence[Experiment],
-    names: tuple[str, ...],
-    solver: Esdirk,
-    count: int,
-    progress: Progress | None,
-) -> tuple[Sensitivities, ...]:
-    """As `sensitivities_many`, checked, with a library that is open already."""
+def run_in(library: Library, ask: Ask, progress: Progress | None) -> tuple[Sensitivities, ...]:
+    """As `sensitivities_many`, with a library that is open already."""
+    experiments, names, solver, count = ask.experiments, ask.names, ask.solver, ask.workers
     offers = probe_each(library, experiments, solver, names)
     whole = {record for record, offer in offers.items() if len(offer.parameters) == len(names)}
     starts = _starts(library, experiments, solver, offers, count)
@@ -154,13 +167,12 @@ def run_in(
     for record, offer in offers.items():
         numbers = [i for i, e in enumerate(experiments) if e.record == record and starts[i] is not None]
         requests = [Request(experiments[i], start_by=starts[i]) for i in numbers]
-        kind = Kind(VARIED, solver, offer.directions(states=False))
+        kind = Kind(VARIED, solver, offer.directions(offset=ask.offset))
         watch = later(progress, len(ready), len(experiments)) if record in whole else None
         found |= zip(numbers, run_tasks(library, kind, requests, workers=count, progress=watch), strict=True)
         ready += [i for i in numbers if record in whole and found[i].done]
     tasks = [
-        partial(_one, library, e, solver, names, offers[e.record], starts[i], found.get(i))
-        for i, e in enumerate(experiments)
+        partial(_one, library, ask, e, offers[e.record], starts[i], found.get(i)) for i, e in enumerate(experiments)
     ]
     left = sorted(set(range(len(experiments))) - set(ready))
     others = side_by_side([tasks[i] for i in left], count, later(progress, len(ready), len(experiments)))
@@ -170,17 +182,17 @@ def run_in(
 
 def _one(
     library: Library,
+    ask: Ask,
     experiment: Experiment,
-    solver: Esdirk,
-    names: tuple[str, ...],
     offer: Offer,
     start_by: Array | None,
     varied: Found | None,
     stopped: Stopped,
 ) -> Sensitivities:
     """What the kernel found, with the columns that it could not give."""
+    names = ask.names
     if varied is None or varied.event or varied.failed_to_start:
-        return _by_differences(library, experiment, solver, names, varied is not None and varied.event, stopped)
+        return _by_differences(library, ask, experiment, varied is not None and varied.event, stopped)
     columns = np.full((len(varied.values), len(experiment.record), len(names)), np.nan)
     columns[:, :, [names.index(name) for name in offer.parameters]] = varied.slopes
     missing = [name for name in names if name not in offer.parameters]
@@ -189,12 +201,12 @@ def _one(
         moved = start_by is not None and bool(start_by.any())
         messages = ["start values were differentiated by differences"] if moved else []
         messages += _not_finite(record, names, columns)
-        return Sensitivities(record, names, columns, not moved, "; ".join(messages), by_offset)
-    differences, failed = run_differences(library, experiment, solver, missing, stopped)
+        return Sensitivities(record, names, columns, not moved, "; ".join(messages), varied.by_offset)
+    differences, failed = run_differences(library, experiment, ask.solver, missing, stopped)
     for column, name in enumerate(missing):
         columns[:, :, names.index(name)] = differences[:, :, column]
     message = f"the FMU gives no derivative by {', '.join(missing)}"
-    return Sensitivities(_with_trouble(record, failed), names, columns, False, message, by_offset)
+    return Sensitivities(_with_trouble(record, failed), names, columns, False, message, varied.by_offset)
 
 
 def _not_finite(record: Record, names: tuple[str, ...], columns: Array) -> list[str]:
@@ -224,7 +236,7 @@ def _starts(
     requests: list[Request] = []
     distances: list[float] = []
     for i in leading:
-        once = replace(experiments[i], times=np.array([experiments[i].start]))
+        once = at_rest(experiments[i])
         offer = offers[once.record]
         fixed = (name for name in offer.parameters if name not in offer.starts)
         once = once.override(**{name: value_of(library.model, once, name) for name in fixed})
@@ -261,22 +273,15 @@ def _start_of(experiment: Experiment) -> _Start:
     return experiment.record, tuple(sorted(experiment.overrides.items())), experiment.start, tuple(begun)
 
 
-def _by_differences(
-    library: Library,
-    experiment: Experiment,
-    solver: Esdirk,
-    names: tuple[str, ...],
-    event: bool,
-    offset: bool,
-    stopped: Stopped,
-) -> Sensitivities:
+def _by_differences(library: Library, ask: Ask, experiment: Experiment, event: bool, stopped: Stopped) -> Sensitivities:
+    names, solver = ask.names, ask.solver
     record = run(library, experiment, solver, stopped)
     shape = (len(record.values), len(experiment.record), len(names))
     if record.outcome is not Outcome.DONE:
         return Sensitivities(record, names, np.full(shape, np.nan), False, record.message)
     columns, failed = run_differences(library, experiment, solver, names, stopped)
     by_offset = np.zeros((*shape[:2], 0))
-    if offset and failed is None:
+    if ask.offset and failed is None:
         by_offset, failed = offset_differences(library, experiment, solver, stopped)
     why = "the run has events" if event else "the FMU gives no derivatives"
     message = f"{why}: all columns are differences"

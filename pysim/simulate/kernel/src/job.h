@@ -139,6 +139,8 @@ typedef struct {
     double horizon;  /* s, time of that break: inputs are smooth up to here */
     double inputs_at;  /* s, of the values that the FMU has; NaN where it has none of this segment */
     double next_event; /* s, the model's next time event */
+    double offset_at;  /* s, when the states are offset, at a break; NaN: never */
+    const double *offset; /* (n,) what is added to them */
     double leaves;     /* s, time events from here on are left to who drives the run */
     int64_t status;    /* worst status of an FMI function so far */
     int64_t crowd;     /* events since time last moved on */
@@ -242,7 +244,8 @@ typedef struct {
 enum { COLUMNS = 4 };
 typedef struct {
     int64_t columns;    /* c */
-    int64_t by_start;   /* columns of start states: n or 0 */
+    int64_t by_start;   /* columns of start states, or of the offset of the states: n or 0 */
+    int64_t from_start; /* 1: those of start states */
     int64_t parameters; /* n_p */
     int64_t rewind;     /* 1: the FMU is in continuous-time mode already */
     const double *start;    /* (n,) states to start from; null: those of the FMU */
@@ -315,12 +318,14 @@ typedef struct {
     int64_t count;       /* n_t */
     const double *states;   /* (n,) to start from, for an orbit a guess; null: those of the FMU */
     const double *start_by; /* (n, n_p) derivatives of the start; null: none */
+    double offset_at;       /* s, when the states are offset; NaN: never */
+    const double *offset;   /* (n,) */
     double settling;        /* s, end of the run that makes a guess ... */
     Breaks settling_breaks; /* ... and the breaks of its inputs */
     double mismatch;        /* largest correction of an orbit, in amplitudes, that is left to first order */
     /* Found. */
     double *values;   /* (n_t, n_y) */
-    double *slopes;   /* (n_t, n_y, n_p) */
+    double *slopes;   /* (n_t, n_y, n_p), ahead of them n columns of an offset if that is a direction */
     double *state;    /* (n,) at the end, or at phase zero of the orbit */
     double *state_by; /* (n, n_p) */
     double *rates;    /* (n,) derivative at the end, or null, as the next two */

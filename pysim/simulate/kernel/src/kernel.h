@@ -65,6 +65,8 @@ int handle_event(Job *job);
 bool at_break(const Job *job);
 void next_segment(Job *job);
 int ended(const Job *job);
+/* Adds the offset to the states where its time has come; whether it had. The model takes it as an event. */
+bool offset_here(Job *job);
 
 /* At most `budget` accepted steps of a run; RUNNING or how it ended. */
 int integrate(Job *job, int64_t budget);

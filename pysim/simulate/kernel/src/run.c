@@ -16,6 +16,15 @@ void next_segment(Job *job) {
     run->inputs_at = NAN;
 }
 
+bool offset_here(Job *job) {
+    Run *run = &job->run;
+    if (!(run->t >= run->offset_at)) return false;
+    run->offset_at = NAN;
+    for (int64_t i = 0; i < job->work.n; i++) job->work.x[i] += run->offset[i];
+    run->status = worse((int)run->status, set_point(job, run->t, job->work.x));
+    return true;
+}
+
 /* Whether the point reached is the last one: DONE, TOO_MANY_STEPS or RUNNING. */
 int ended(const Job *job) {
     if (job->run.t >= job->run.end) return DONE;
@@ -55,7 +64,8 @@ static int begin(Job *job) {
     run->status = worse((int)run->status, fmi_get_states(job->fmu, w->x, w->n));
     run->status = worse((int)run->status, fmi_get_nominals(job->fmu, w->nominal, w->n));
     if (run->status > WARNING) return MODEL_ERROR;
-    code = resume(job);
+    if (offset_here(job)) code = run->status <= WARNING ? handle_event(job) : MODEL_ERROR;
+    if (code == RUNNING) code = resume(job);
     return code == RUNNING ? finish_point(job) : code;
 }
 
@@ -76,6 +86,10 @@ static int arrive(Job *job, double t_new, bool event) {
         restart = true;
         event = event || job->breaks.jumps[run->segment];
         next_segment(job);
+    }
+    if (offset_here(job)) {
+        if (run->status > WARNING) return MODEL_ERROR;
+        event = true;
     }
     int code = event ? handle_event(job) : RUNNING;
     if (code == RUNNING && (event || restart)) code = resume(job);

@@ -30,6 +30,7 @@ static void run_plain(Job *job, Task *task, const Pass *pass) {
     job->breaks = task->breaks;
     job->rows.next = 0, job->rows.count = task->count, job->rows.times = task->times, job->rows.values = task->values;
     fresh_run(job, task->start, task->end);
+    job->run.offset_at = task->offset_at, job->run.offset = task->offset;
     note_run(job, task, run_to_end(job, pass, integrate));
     task->rows = job->rows.next;
 }
@@ -53,9 +54,10 @@ static void run_varied(Job *job, Task *task, const Pass *pass) {
     job->breaks = task->breaks;
     job->rows.next = 0, job->rows.count = task->count, job->rows.times = task->times, job->rows.values = task->values;
     fresh_run(job, task->start, task->end);
+    job->run.offset_at = task->offset_at, job->run.offset = task->offset;
     v->rewind = 0, v->start = task->states;
     fill(v->start_by, 0.0, n * c);
-    for (int64_t i = 0; i < v->by_start; i++) v->start_by[i * c + i] = 1.0;
+    for (int64_t i = 0; v->from_start && i < v->by_start; i++) v->start_by[i * c + i] = 1.0;
     for (int64_t i = 0; task->start_by && i < n; i++) copy(v->start_by + i * c + v->by_start, task->start_by + i * n_p, n_p);
     fill(v->sizes, 0.0, c);
     fill(v->low, INFINITY, n);
@@ -63,7 +65,8 @@ static void run_varied(Job *job, Task *task, const Pass *pass) {
     v->rows = job->shooting.now.rows;
     note_run(job, task, run_to_end(job, pass, integrate_variations));
     task->rows = job->rows.next;
-    for (int64_t r = 0; r < task->rows * n_y; r++) copy(task->slopes + r * n_p, v->rows + r * c + v->by_start, n_p);
+    const int64_t first = v->from_start ? v->by_start : 0, kept = v->by_start - first + n_p; /* those of an offset stay */
+    for (int64_t r = 0; r < task->rows * n_y; r++) copy(task->slopes + r * kept, v->rows + r * c + first, kept);
     keep_point(job, task);
 }
 

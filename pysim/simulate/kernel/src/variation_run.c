@@ -33,6 +33,19 @@ static int finish_point(Job *job) {
     return ended(job);
 }
 
+/* The states have been offset: S gets the derivatives by it, and the model looks for what changes with them. */
+static int offset(Job *job) {
+    const Work *w = &job->work;
+    const Variation *v = &job->variation;
+    if (job->run.status > WARNING) return MODEL_ERROR;
+    for (int64_t i = 0; i < v->by_start; i++) v->s[i * v->columns + i] += 1.0;
+    copy(w->x_try, w->x, w->n);
+    const int code = handle_event(job);
+    for (int64_t i = 0; code == RUNNING && i < w->n; i++)
+        if (w->x[i] != w->x_try[i]) return EVENT;
+    return code;
+}
+
 /* First event iteration unless the FMU is past it, states, derivatives, and S. */
 static int begin(Job *job) {
     Run *run = &job->run;
@@ -48,7 +61,8 @@ static int begin(Job *job) {
     run->status = worse((int)run->status, fmi_get_nominals(job->fmu, w->nominal, w->n));
     copy(v->s, v->start_by, w->n * v->columns);
     if (run->status > WARNING) return MODEL_ERROR;
-    code = restart(job);
+    if (offset_here(job)) code = offset(job);
+    if (code == RUNNING) code = restart(job);
     return code == RUNNING ? finish_point(job) : code;
 }
 
@@ -63,8 +77,10 @@ static int pass_break(Job *job) {
         for (int64_t i = 0; i < w->n; i++)
             if (w->x[i] != w->x_new[i]) return EVENT;
     }
-    const int code = restart(job);
-    return code == RUNNING && crossed(job, w->z, w->z_new) ? EVENT : code;
+    const bool is_offset = offset_here(job);
+    int code = is_offset ? offset(job) : RUNNING;
+    if (code == RUNNING) code = restart(job);
+    return code == RUNNING && !is_offset && crossed(job, w->z, w->z_new) ? EVENT : code;
 }
 
 /* Makes the end of the step the current point, passes a break of the inputs there, records. */
