@@ -13,7 +13,7 @@ from pysim.simulate._library import Instance
 
 Array = NDArray[np.float64]
 
-_MEMORY = ("scratch", "nominal", "matrix", "pivots", "stages", "right", "factors")
+_MEMORY = ("scratch", "nominal", "matrix", "pivots", "stages", "right", "factors", "tried_pivots")
 
 
 @dataclass(frozen=True)

@@ -33,7 +33,7 @@ def work_arrays(n: int, m: int, stages: int, terms: int, implicit: bool) -> dict
         "pivots": np.zeros(n, dtype=np.int64),
         "stages": np.zeros((stages, n)),
         "right": np.zeros(n),
-        **{name: np.zeros(n) for name in ("pivot_values", "probe", "magnitude")},
+        **{name: np.zeros(n) for name in ("pivot_values", "tried_pivots", "probe", "magnitude")},
         "factors": np.zeros(square),
     }
 

@@ -147,6 +147,7 @@ typedef struct {
     double jacobian_at; /* s, where the Jacobian was taken; NaN where it was not */
     double matrix_step; /* s, step for which it was factorised; 0 where it was not */
     int64_t is_sparse;  /* 1: the factors last made are the sparse ones */
+    int64_t has_tried;  /* 1: sparse factors were tried and found good */
     int64_t steps;
     int64_t rejected;
     int64_t derivatives;
@@ -213,6 +214,7 @@ typedef struct {
     const Operation *operations;
     double *factors;      /* (n, n), of which the first n_e are used */
     double *pivot_values; /* (n,) */
+    double *tried_pivots; /* (n,) of the factors last tried */
     double *probe;        /* (n,) */
     double *magnitude;    /* (n,) */
 } Work;

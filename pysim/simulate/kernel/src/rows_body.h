@@ -1,6 +1,4 @@
 /* The sums of rows.h; included once for each kind of processor, which names them by PREFIX. */
-#include <string.h>
-
 #include "rows.h"
 
 typedef double Four __attribute__((vector_size(32)));
@@ -11,11 +9,11 @@ typedef double Four __attribute__((vector_size(32)));
 
 static inline Four load(const double *p) {
     Four v;
-    memcpy(&v, p, sizeof v);
+    __builtin_memcpy(&v, p, sizeof v);
     return v;
 }
 
-static inline void store(double *p, Four v) { memcpy(p, &v, sizeof v); }
+static inline void store(double *p, Four v) { __builtin_memcpy(p, &v, sizeof v); }
 
 static inline Four spread(double x) { return (Four){x, x, x, x}; }
 

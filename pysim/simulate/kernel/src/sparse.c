@@ -4,6 +4,7 @@
 #include "kernel.h"
 
 static const double loss = 1e-12; /* of a row's size: what rounding may change in it */
+static const double alike = 10.0; /* times: so much may two pivots differ and be as good as each other */
 
 /* Factors L D U of shift I - J; the diagonals of L and U are one, that of D is kept inverted. For each row the list of
    operations comes first, then what is left of the diagonal is scaled, then what is right of it. */
@@ -52,11 +53,30 @@ static bool reproduces(const Work *w, double shift) {
     return good;
 }
 
+/* Whether every pivot is about as large as when the factors were last tried: rounding grows by the pivots' decline. */
+static bool pivots_are_alike(const Work *w) {
+    bool alike_all = true;
+    for (int64_t r = 0; r < w->n; r++) {
+        const double now = fabs(w->pivot_values[r]), then = fabs(w->tried_pivots[r]);
+        alike_all &= now * alike >= then && now <= alike * then;
+    }
+    return alike_all;
+}
+
+/* Whether the factors are good; tried only where they may be worse than those last tried. */
+static bool factors_are_good(Job *job, double shift) {
+    const Work *w = &job->work;
+    if (job->run.has_tried && pivots_are_alike(w)) return true;
+    job->run.has_tried = reproduces(w, shift);
+    copy(w->tried_pivots, w->pivot_values, w->n);
+    return job->run.has_tried;
+}
+
 bool factorise_shifted(Job *job, double shift) {
     Work *w = &job->work;
     if (w->sparse) {
         eliminate(w, shift);
-        job->run.is_sparse = reproduces(w, shift);
+        job->run.is_sparse = factors_are_good(job, shift);
         if (job->run.is_sparse) return true;
     }
     job->run.is_sparse = 0;
