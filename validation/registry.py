@@ -153,8 +153,10 @@ CASES: Mapping[str, Case] = MappingProxyType(
         "fit-bench-01": Case(
             "validation.fit_bench.case", "an independent plant's logs fitted to their noise", "methods"
         ),
-        "fit-speed": Case(
-            "validation.fit_speed.case", "13 parameters, 342 sines and two waves, from 30 percent off", "speed"
+        "fit-cost": Case(
+            "validation.benchmarks.case",
+            "a fit of 342 sines and two waves, and one of many rows: ratios to plain ways, memory, two cores, Dask",
+            "speed",
         ),
         "fit-thesis": Case("validation.fit_thesis.case", "the fits of thesis Section 4.4 done again", "thesis"),
         "accuracy": Case(

@@ -1,0 +1,93 @@
+"""One log of many rows: the time of a pass over it, and the memory that a fit of it takes at most.
+
+`python -m validation.benchmarks.long_log ROWS` fits one log of so many rows and prints what it took as JSON.
+"""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+import time
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from pysim.identify.greybox import Effort, Parameter, Tried, fit, problem
+from pysim.types import Dataset, Model
+from validation.initial_states.mass import TRUTH, force, logged, mass_model, measured, motion
+
+RATE, NOISE, OFF, SEED = 1000.0, 1e-3, 1.2, 3  # Hz, m, factor of the start off the truth, of the noise
+GIB = 2.0**30
+_PIECE = 100_000  # rows for which the force is made at a time
+
+
+@dataclass(frozen=True)
+class Cost:
+    """What a fit of one log took in a process of its own.
+
+    Args:
+        rows: of the log.
+        passes: CPU seconds between the points of the search, (n_points - 1,).
+        before, peak: bytes of resident memory, with everything imported and the log in it, and at most.
+        error: largest difference from the truth over its value.
+    """
+
+    rows: int
+    passes: tuple[float, ...]
+    before: int
+    peak: int
+    error: float
+
+
+def cost(rows: int) -> Cost:
+    """Fit a log of so many rows in a process of its own.
+
+    Raises:
+        RuntimeError: it ended before its time, for lack of memory perhaps.
+    """
+    words = [sys.executable, "-m", "validation.benchmarks.long_log", str(rows)]
+    done = subprocess.run(words, capture_output=True, text=True, check=False)
+    if done.returncode:
+        raise RuntimeError(f"a fit of {rows} rows ended with {done.returncode}: {done.stderr[-300:]}")
+    data = json.loads(done.stdout)
+    return Cost(rows, tuple(data["passes"]), data["before"], data["peak"], data["error"])
+
+
+def dataset(rows: int) -> Dataset:
+    """One log at 1 kHz with white noise on the position, begun at rest."""
+    time_s = np.arange(rows) / RATE
+    pushed = np.concatenate([force(part, SEED) for part in np.array_split(time_s, rows // _PIECE + 1)])
+    pushed *= np.minimum(time_s, 1.0)
+    states = motion(time_s, pushed, (0.0, 0.0))
+    states[:, 0] += NOISE * np.random.default_rng(SEED).standard_normal(rows)
+    return measured("long", (logged("long.txt", time_s, pushed, states, ("x",)),), {"x": NOISE})
+
+
+def main(rows: int) -> None:
+    """Print what the fit took."""
+    from resource import RUSAGE_SELF, getrusage
+
+    model = mass_model()
+    _fitted(model, dataset(2000), [])  # what is compiled or loaded once
+    data = dataset(rows)
+    times: list[float] = []
+    before = getrusage(RUSAGE_SELF).ru_maxrss * 1024
+    found = _fitted(model, data, times)
+    peak = getrusage(RUSAGE_SELF).ru_maxrss * 1024
+    error = max(abs(found[name] / value - 1) for name, value in TRUTH.items())
+    print(json.dumps({"passes": np.diff(times).tolist(), "before": before, "peak": peak, "error": error}))
+
+
+def _fitted(model: Model, data: Dataset, times: list[float]) -> Mapping[str, float]:
+    free = [Parameter(name, start=OFF * value) for name, value in TRUTH.items()]
+
+    def note(tried: Tried) -> None:
+        times.append(time.process_time())
+
+    return fit(problem(model, [data], free), effort=Effort(nominal=False), progress=note).values
+
+
+if __name__ == "__main__":
+    main(int(sys.argv[1]))

@@ -1,0 +1,1 @@
+"""Fits of logs that do not begin at rest, whose truth is known in closed form."""
