@@ -147,6 +147,11 @@ CASES: Mapping[str, Case] = MappingProxyType(
             "circuits",
             quick=True,
         ),
+        "kernel": Case(
+            "validation.kernel.case",
+            "runs and slopes of every model that runs by itself, and of FMUs of others, against FMPy's CVODE",
+            "fmus",
+        ),
         "every-class": Case(
             "validation.examples.every_class", "every model and block of the library compiles", "circuits"
         ),
