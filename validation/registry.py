@@ -172,6 +172,16 @@ CASES: Mapping[str, Case] = MappingProxyType(
         "fit-coverage": Case(
             "validation.fit_coverage.case", "95 percent intervals hold the truth; held-out error", "methods"
         ),
+        "interval-coverage": Case(
+            "validation.fit_coverage.mass",
+            "95 percent intervals of 1600 fits of a fast model: white and coloured noise, from rest and in motion",
+            "methods",
+        ),
+        "initial-states": Case(
+            "validation.initial_states.case",
+            "logs that begin in motion: mass, pump, an FMU of which only outputs are known",
+            "methods",
+        ),
         "sensitivity": Case(
             "validation.sensitivity.case", "exact derivatives of a whole fit against differences", "methods"
         ),
