@@ -1,6 +1,6 @@
 """One log of many rows: the time of a pass over it, and the memory that a fit of it takes at most.
 
-`python -m validation.benchmarks.long_log ROWS` fits one log of so many rows and prints what it took as JSON.
+`python -m validation.benchmarks.long_log FILE.npy` fits the log in that file and prints what it took as JSON.
 """
 
 from __future__ import annotations
@@ -8,15 +8,20 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
+import tempfile
 import time
 from collections.abc import Mapping
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
 from pysim.identify.greybox import Effort, Parameter, Tried, fit, problem
-from pysim.types import Dataset, Model
-from validation.initial_states.mass import TRUTH, force, logged, mass_model, measured, motion
+from pysim.types import Dataset, MeasuredRecord, Model, Record
+from validation.initial_states.mass import TRUTH, force, mass_model, measured, motion
+
+Array = NDArray[np.float64]
 
 RATE, NOISE, OFF, SEED = 1000.0, 1e-3, 1.2, 3  # Hz, m, factor of the start off the truth, of the noise
 GIB = 2.0**30
@@ -42,36 +47,44 @@ class Cost:
 
 
 def cost(rows: int) -> Cost:
-    """Fit a log of so many rows in a process of its own.
+    """Fit a log of so many rows in a process of its own, which finds the data in a file.
 
     Raises:
         RuntimeError: it ended before its time, for lack of memory perhaps.
     """
-    words = [sys.executable, "-m", "validation.benchmarks.long_log", str(rows)]
-    done = subprocess.run(words, capture_output=True, text=True, check=False)
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / "log.npy"
+        np.save(file, columns(rows))
+        words = [sys.executable, "-m", "validation.benchmarks.long_log", str(file)]
+        done = subprocess.run(words, capture_output=True, text=True, check=False)
     if done.returncode:
         raise RuntimeError(f"a fit of {rows} rows ended with {done.returncode}: {done.stderr[-300:]}")
     data = json.loads(done.stdout)
     return Cost(rows, tuple(data["passes"]), data["before"], data["peak"], data["error"])
 
 
-def dataset(rows: int) -> Dataset:
-    """One log at 1 kHz with white noise on the position, begun at rest."""
+def columns(rows: int) -> Array:
+    """Time, force and measured position (rows, 3) of one log at 1 kHz, begun at rest; white noise on the position."""
     time_s = np.arange(rows) / RATE
     pushed = np.concatenate([force(part, SEED) for part in np.array_split(time_s, rows // _PIECE + 1)])
     pushed *= np.minimum(time_s, 1.0)
-    states = motion(time_s, pushed, (0.0, 0.0))
-    states[:, 0] += NOISE * np.random.default_rng(SEED).standard_normal(rows)
-    return measured("long", (logged("long.txt", time_s, pushed, states, ("x",)),), {"x": NOISE})
+    position = motion(time_s, pushed, (0.0, 0.0))[:, 0]
+    return np.column_stack([time_s, pushed, position + NOISE * np.random.default_rng(SEED).standard_normal(rows)])
 
 
-def main(rows: int) -> None:
-    """Print what the fit took."""
+def dataset(table: Array) -> Dataset:
+    """The log as a data set; `table` as `columns` makes it."""
+    log = Record(table[:, 0], table[:, 1:], ("F", "x"), ("N", "m"), origin="virtual")
+    return measured("long", (MeasuredRecord("long.txt", "stochastic", "fit", log),), {"x": NOISE})
+
+
+def main(file: Path) -> None:
+    """Print what the fit of the log in the file took."""
     from resource import RUSAGE_SELF, getrusage
 
     model = mass_model()
-    _fitted(model, dataset(2000), [])  # what is compiled or loaded once
-    data = dataset(rows)
+    _fitted(model, dataset(columns(2000)), [])  # what is compiled or loaded once
+    data = dataset(np.load(file, mmap_mode="r"))
     times: list[float] = []
     before = getrusage(RUSAGE_SELF).ru_maxrss * 1024
     found = _fitted(model, data, times)
@@ -90,4 +103,4 @@ def _fitted(model: Model, data: Dataset, times: list[float]) -> Mapping[str, flo
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[1]))
+    main(Path(sys.argv[1]))

@@ -17,7 +17,6 @@ from numpy.typing import NDArray
 from scipy.signal import lfilter
 from scipy.stats import binomtest
 
-import pysim
 from pysim.identify.greybox import Effort, Parameter, fit, problem
 from pysim.types import FitOutcome, Model
 from validation import initial_states
@@ -117,7 +116,7 @@ def coloured(rng: np.random.Generator, count: int, memory: float) -> Array:
 def code() -> str:
     """Eight digits that change with the code of the fit and of the data, so that counts of two are never mixed."""
     digest = hashlib.sha256(repr((TRUTH, NOISE, FURTHEST, VARIANTS)).encode())
-    root = Path(str(pysim.__file__)).parent
+    root = Path(__file__).parents[2] / "pysim"
     files = [file for folder in _CODE for file in (root / folder).rglob("*") if file.suffix in (".py", ".c")]
     files += [Path(initial_states.__file__).with_name(name) for name in ("mass.py", "Mass.mo", "way.py")]
     for file in sorted(files):

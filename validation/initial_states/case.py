@@ -107,7 +107,8 @@ def _closed(model: Model) -> Iterator[Finding]:
 def _cut_pump() -> Iterator[Finding]:
     """A wave of an independent author's plant, from where it moves."""
     model, data = pump_model("free"), read_dataset(MEASUREMENTS / "bench-01")
-    truth = _pump_truth()
+    values = json.loads((MEASUREMENTS / "bench-01.truth.json").read_text(encoding="utf-8"))["parameters"]
+    truth = {("K_D" if name == "K_d" else name): float(value) for name, value in values.items()}
     records = (_cut(next(record for record in data.records if record.source == LOG)),)
     rng, free = np.random.default_rng(1), []
     for name in PUMP:
@@ -116,11 +117,6 @@ def _cut_pump() -> Iterator[Finding]:
     way = freed(model, records, PUMP_STATES)
     found = fitted(model, data, free, way, {name: truth[name] for name in HELD})
     yield from _judged("a pump's log cut in mid-motion", found, truth)
-
-
-def _pump_truth() -> dict[str, float]:
-    values = json.loads((MEASUREMENTS / "bench-01.truth.json").read_text(encoding="utf-8"))["parameters"]
-    return {("K_D" if name == "K_d" else name): float(value) for name, value in values.items()}
 
 
 def _cut(record: MeasuredRecord) -> MeasuredRecord:
