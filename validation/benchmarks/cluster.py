@@ -8,13 +8,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from importlib.util import find_spec
+from statistics import median
 
 import numpy as np
 
 from pysim.identify.greybox import Cluster, Simulation, Threads
 from pysim.types import Fit
 from validation.benchmarks import pump_fit
-from validation.benchmarks.measurement import Measurement, in_turn, load, ratio, times_of
+from validation.benchmarks.measurement import Measurement, in_turn, load, ratio
 from validation.benchmarks.pump_fit import TESTS
 
 AIM, SAME, WORKERS = 1.3, 1e-9, 2
@@ -43,12 +44,9 @@ def measure(pairs: int) -> Iterator[Measurement]:
         fitted("cluster")  # each worker loads what it needs once
         fitted("threads")
         both = in_turn(lambda: fitted("cluster"), lambda: fitted("threads"), pairs)
-    walls = [[one[k].wall for one in both] for k in (0, 1)]
-    yield Measurement(
-        f"{words}: {np.median(walls[0]):.1f} s over {np.median(walls[1]):.1f} s, {load(list(times_of(both)))}",
-        ratio(both, "wall"),
-        AIM,
-    )
+    one, two = (median(pair[k].wall for pair in both) for k in (0, 1))
+    busy = load([threads for _, threads in both])
+    yield Measurement(f"{words}: {one:.1f} s over {two:.1f} s, when {busy}", ratio(both, "wall"), AIM)
     yield Measurement(
         "largest difference of a number of both fits, of its size", _apart(found["cluster"], found["threads"]), SAME
     )

@@ -1,6 +1,7 @@
 """The instruments that measure what a fit costs."""
 
 import math
+import os
 import sys
 from collections import Counter
 
@@ -9,6 +10,7 @@ import pytest
 from validation.benchmarks import python_share
 from validation.benchmarks.__main__ import row
 from validation.benchmarks.measurement import Measurement, Timed, in_turn, middle, ratio
+from validation.benchmarks.runnable import on_free_cores, watched
 from validation.benchmarks.sampler import sampled
 
 
@@ -52,3 +54,19 @@ def test_a_row_shows_value_and_aim_and_why_something_was_skipped() -> None:
     words = row("a", Measurement("ratio", math.nan, 0.5, skipped="no Dask"))
     assert "skipped" in words
     assert "no Dask" in words
+
+
+def test_time_on_free_cores_is_that_of_threads_that_could_run_at_a_time() -> None:
+    assert on_free_cores(cpu=0.6, waited=0.0, interval=1.0) == 0.6  # one thread, alone
+    assert on_free_cores(cpu=0.5, waited=0.5, interval=1.0) == 0.5  # one thread, which shared its core
+    assert on_free_cores(cpu=2.0, waited=0.0, interval=1.0) == 1.0  # two threads, alone
+    assert on_free_cores(cpu=1.0, waited=1.0, interval=1.0) == 0.5  # two threads that had one core for both
+    assert on_free_cores(cpu=1.0, waited=3.0, interval=1.0) == 0.5  # four threads have two cores at most
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="the watcher reads /proc")
+def test_one_thread_takes_as_long_on_free_cores_as_it_computes() -> None:
+    with watched(os.getpid()) as seen:
+        sum(k * k for k in range(3_000_000))
+    assert seen.free == pytest.approx(seen.cpu, rel=0.05)
+    assert seen.cpu > 0
