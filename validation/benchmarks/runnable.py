@@ -1,4 +1,4 @@
-"""How many threads of a process could run at a time, watched by another process: what a machine without load would give.
+"""How many threads of a process could run at a time, watched by another process: what a machine without load gives.
 
 `python -m validation.benchmarks.runnable PID` watches until its input ends, then prints two numbers of seconds: the
 processor time of the process, and the time by the clock that it takes where two cores are free. Linux only.
