@@ -13,7 +13,7 @@ from validation.kernel.compared import Compared, compared
 from validation.kernel.subjects import FOLDER, Subject, foreign, own
 
 TIMES, SLOPES = 10.0, 0.01  # tolerances, or errors of CVODE; of the largest slope of a signal by a parameter
-HEAD = ("model", "Rodas", "Esdirk", "CVODE", "slopes", "exact", "events", "calls", "signal", "by")
+HEAD = ("model", "Rodas", "Esdirk", "tighter", "CVODE", "slopes", "exact", "events", "calls", "signal", "by")
 
 
 def notes() -> Sequence[str]:
@@ -23,7 +23,7 @@ def notes() -> Sequence[str]:
 
 
 def run() -> Iterator[Finding]:
-    """Three claims a subject: by the solver of plain runs, by that of runs with slopes, and the slopes."""
+    """Claims about each subject: by the solver of plain runs, by that of runs with slopes, tighter, and the slopes."""
     for subject in subjects():
         yield from findings(subject)
     if not foreign():
@@ -39,7 +39,7 @@ def findings(subject: Subject) -> Iterator[Finding]:
         return
     own_error = f"CVODE at our tolerance: {found.cvode:.3g}"
     limit = TIMES * max(1.0, found.cvode)
-    for name, value in (("Rodas", found.rodas), ("Esdirk", found.esdirk)):
+    for name, value in (("Rodas", found.rodas), ("Esdirk", found.esdirk), ("both, tighter", found.tight)):
         yield Finding(f"{claim} by {name} ({own_error}), worst {found.worst}", value, limit, "tolerances")
     if found.by:
         yield Finding(f"{claim}: slopes by {', '.join(found.by)}", found.slopes, SLOPES, "of the largest")
@@ -69,6 +69,6 @@ def result(subject: Subject) -> Compared | str:
 
 def row(found: Compared) -> tuple[str, ...]:
     """A line of the table."""
-    numbers = (f"{value:.3g}" for value in (found.rodas, found.esdirk, found.cvode, found.slopes))
+    numbers = (f"{value:.3g}" for value in (found.rodas, found.esdirk, found.tight, found.cvode, found.slopes))
     counts = ("yes" if found.exact else "no", str(found.events), str(found.derivatives))
     return (found.name, *numbers, *counts, found.worst, ", ".join(found.by))
