@@ -15,7 +15,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 CORES = 2
-_LOOK = 0.005  # s between two looks
+_LOOK = 0.2  # s between two looks: the system counts a wait once it is over, some milliseconds late
 
 
 class Watched:
@@ -57,11 +57,12 @@ def _times(tasks: Path) -> dict[str, tuple[float, float]]:
 
 
 def main(pid: int) -> None:
-    """Watch; what a thread does in its last few milliseconds goes unseen."""
+    """Watch until the input ends."""
     tasks, cpu, free = Path(f"/proc/{pid}/task"), 0.0, 0.0
-    before, at = _times(tasks), time.perf_counter()
+    before, at, ended = _times(tasks), time.perf_counter(), False
     print("begun", flush=True)
-    while not select.select([sys.stdin], [], [], _LOOK)[0]:
+    while not ended:
+        ended = bool(select.select([sys.stdin], [], [], _LOOK)[0])
         now, then = _times(tasks), time.perf_counter()
         changes = [(a - b, c - d) for (a, c), (b, d) in ((now[k], before.get(k, (0.0, 0.0))) for k in now)]
         ran, waited = (sum(column) for column in zip(*changes, strict=True))

