@@ -19,7 +19,7 @@ Array = NDArray[np.float64]
 
 # Share of the sum of squares within which two simulated costs cannot be told apart: step control jumps from point to
 # point. So many steps are taken inside it, where the slope is the better guide, before the search ends.
-_BLUR, _BLIND = 2.5e-5, 3
+_BLUR, _BLIND = 2.5e-5, 1
 # A step is as short as it can be while it promises all but this share of what the best one does: what is nearly tied
 # costs length and gains next to nothing. With so few nats to gain it spares a share of the tolerance instead.
 _SPARE, _FINAL, _LEAST = 0.02, 1.0, 0.1

@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
+import atexit
 import multiprocessing
 import os
-from collections.abc import Iterable, Sequence
+import threading
+from collections.abc import Iterable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
-from pysim.simulate import Esdirk, Orbit, Periodic, Sensitivities, periodic_many, sensitivities_many
+from pysim.simulate import Esdirk, Orbit, Periodic, Runs, Sensitivities, open_runs
 from pysim.types import BadInput, Experiment, Model, Outcome
 
 Array = NDArray[np.float64]
@@ -117,15 +120,15 @@ class Cluster:
 
     Args:
         client: the client.
-        chunks: shares the jobs are cut into.
+        chunks: shares the jobs are cut into; two for each worker where None.
     """
 
     client: Any
-    chunks: int = 64
+    chunks: int | None = None
 
     def run(self, model: Model, jobs: Sequence[Job], solver: Esdirk) -> Sequence[Result]:
         """Share the jobs out; a share whose worker died is a row of failed runs."""
-        chunks = _chunks(len(jobs), self.chunks)
+        chunks = _chunks(len(jobs), self.chunks or 2 * _count(self.client))
         shares = [(model, [jobs[i] for i in chunk], solver) for chunk in chunks]
         results: dict[int, Result] = {}
         for chunk, future in zip(chunks, self.client.map(_run_share, shares, pure=False), strict=True):
@@ -141,22 +144,73 @@ class Cluster:
 def run_jobs(model: Model, jobs: Sequence[Job], solver: Esdirk, workers: int | None) -> list[Result]:
     """All jobs in threads of this process; jobs with the same variables go together."""
     results: dict[int, Result] = {}
-    for names, places in _grouped((job.names, isinstance(job.run, Periodic), job.offset) for job in jobs).items():
-        group = [jobs[i] for i in places]
-        results |= zip(places, _run_group(model, group, names[0], solver, workers), strict=True)
+    groups = _grouped((job.names, isinstance(job.run, Periodic), job.offset) for job in jobs)
+    with _KEPT.use(model) as runs:
+        for names, places in groups.items():
+            group = [jobs[i] for i in places]
+            results |= zip(places, _run_group(runs, group, names[0], solver, workers), strict=True)
     return [results[i] for i in range(len(jobs))]
 
 
 def _run_group(
-    model: Model, jobs: Sequence[Job], names: tuple[str, ...], solver: Esdirk, workers: int | None
+    runs: Runs, jobs: Sequence[Job], names: tuple[str, ...], solver: Esdirk, workers: int | None
 ) -> Sequence[Result]:
     orbits = [job.run for job in jobs if isinstance(job.run, Periodic)]
     if orbits:
         guesses = [job.guess for job in jobs]
         left = min(job.mismatch for job in jobs)
-        return periodic_many(model, orbits, names, guesses=guesses, solver=solver, mismatch=left, workers=workers)
-    runs = [job.run for job in jobs if isinstance(job.run, Experiment)]
-    return sensitivities_many(model, runs, names, offset=jobs[0].offset, solver=solver, workers=workers)
+        return runs.orbits(orbits, names, guesses=guesses, solver=solver, mismatch=left, workers=workers)
+    own = [job.run for job in jobs if isinstance(job.run, Experiment)]
+    return runs.sensitivities(own, names, offset=jobs[0].offset, solver=solver, workers=workers)
+
+
+class _Kept:
+    """Models that stay open from pass to pass of a search, the last few; each is used by one thread at a time."""
+
+    _MOST = 2  # a base model and the one beside it
+
+    def __init__(self) -> None:
+        self._lock = threading.Lock()
+        self._open: list[tuple[Model, Runs, ExitStack]] = []
+        atexit.register(self.close)
+
+    @contextmanager
+    def use(self, model: Model) -> Iterator[Runs]:
+        """The model, opened where it is not; given back in the end, and closed where something was raised."""
+        with self._lock:
+            place = next((i for i, (kept, _, _) in enumerate(self._open) if kept == model), None)
+            found = None if place is None else self._open.pop(place)
+        if found is None:
+            stack = ExitStack()
+            found = model, stack.enter_context(open_runs(model)), stack
+        try:
+            yield found[1]
+        except BaseException:
+            found[2].close()
+            raise
+        with self._lock:
+            self._open.append(found)
+            old = [self._open.pop(0) for _ in range(len(self._open) - self._MOST)]
+        for _, _, stack in old:
+            stack.close()
+
+    def close(self) -> None:
+        """Close all that nobody uses."""
+        with self._lock:
+            old, self._open = self._open, []
+        for _, _, stack in old:
+            stack.close()
+
+
+_KEPT = _Kept()
+
+
+def _count(client: Any) -> int:
+    """Workers of a cluster; as many as a large one has where it does not say."""
+    try:
+        return max(len(client.nthreads()), 1)
+    except AttributeError:
+        return 32
 
 
 def _run_share(share: tuple[Model, list[Job], Esdirk]) -> list[Result]:
