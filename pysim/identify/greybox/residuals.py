@@ -22,6 +22,7 @@ from pysim.identify.greybox.observation import Measure, Observation, Run, Simula
 from pysim.identify.greybox.parameters import ParameterSpace
 from pysim.identify.greybox.runs import Answer, Failure, Simulation, simulate_runs
 from pysim.identify.greybox.settings import NoiseSettings
+from pysim.identify.greybox.triangle import ROWS, triangle
 from pysim.types import Model, Outcome
 from pysim.types.answer import NoiseFloor
 
@@ -174,7 +175,7 @@ class WeightedResiduals:
         if answer.failure is not None:
             return failed_point(x, answer.failure)
         tables = [one.residual(own, self.measure) for one, own in self._own(answer.simulated)]
-        if not all(np.isfinite(table).all() for table in tables):
+        if not all(_finite(table) for table in tables):
             return failed_point(x, Failure("residual", Outcome.DONE, "it is not finite; an output may not move at all"))
         if self.absolute or self.measure is Measure.THESIS:
             return self._unlevelled(x, tables, answer, n)
@@ -227,6 +228,7 @@ class WeightedResiduals:
             offset = carried.states[run] if carried.states and free else None
             offset = np.zeros(free) if offset is None else offset
             parts.append(_eliminated(table, more, n, offset, sd))
+            tables[k] = table = np.zeros((0, 0))  # a long log's rows are large
             cost += 0.5 * float(np.sum((offset / sd) ** 2))
             if free:
                 states[run] = offset
@@ -346,28 +348,39 @@ def _eliminated(table: Array, more: Array, n: int, values: Array, sd: Array) -> 
     """
     kept = np.column_stack([table[:, : 1 + n], more]) if more.size else table[:, : 1 + n]
     if not values.size:
-        return _Eliminated(table[:, 0].copy(), kept, np.zeros((0, kept.shape[1])), 0.0, 0)
-    prior = np.zeros((values.size, kept.shape[1]))
-    prior[:, 0] = -values / sd
-    rows = np.concatenate([prior, kept])
-    columns = np.concatenate([np.diag(-1 / sd), table[:, 1 + n :]])
-    size = np.linalg.norm(columns, axis=0)
+        return _Eliminated(np.ascontiguousarray(table[:, 0]), kept, np.zeros((0, kept.shape[1])), 0.0, 0)
+    count = values.size
+    rows = np.zeros((count + len(kept), kept.shape[1]))
+    rows[:count, 0], rows[count:] = -values / sd, kept
+    priors, columns = np.diag(-1 / sd), table[:, 1 + n :]
+    slices = [slice(first, first + ROWS) for first in range(0, len(table), ROWS)]
+    ahead = np.column_stack([priors, rows[:count]])
+    whole = triangle([ahead, *(np.column_stack([columns[own], kept[own]]) for own in slices)])
+    own, others = whole[:count, :count], whole[:count, count:]
+    size = np.linalg.norm(own, axis=0)
     size[size == 0] = 1.0
-    q, triangle = np.linalg.qr(columns / size)
-    u, sigma, vt = np.linalg.svd(triangle)
+    u, sigma, vt = np.linalg.svd(own / size)
     held = sigma > EXACT * sigma[0]
-    base = q @ u[:, held]
-    inner = base.T @ rows
+    inner = u[:, held].T @ others
     solution = (vt[held].T @ (inner / sigma[held, None])) / size[:, None]
     residual = rows[:, 0].copy()
-    rows -= base @ inner
-    return _Eliminated(residual, rows, solution, 0.5 * float(inner[:, 0] @ inner[:, 0]), values.size)
+    rows[:count] -= priors @ solution
+    for part in slices:
+        rows[count:][part] -= columns[part] @ solution
+    return _Eliminated(residual, rows, solution, 0.5 * float(inner[:, 0] @ inner[:, 0]), count)
 
 
 def _squares(one: Observation, table: Array) -> Array:
     """Sum of squares per channel of an observation, those too that no model changes."""
     count = len(one.channels)
-    return one.rest + np.bincount(one.channel_of_row, table[:, 0] ** 2, count)[:count] if count else np.zeros(0)
+    if not count:
+        return np.zeros(0)
+    return one.rest + np.bincount(one.channel_of_row, table[:, 0] ** 2, count)[:count]
+
+
+def _finite(table: Array) -> bool:
+    """Whether all numbers of a table (n, m) are finite, without a copy of it."""
+    return math.isfinite(float(sum(table[first : first + ROWS].sum() for first in range(0, len(table), ROWS))))
 
 
 def _stacked(parts: Sequence[Array]) -> Array:
