@@ -135,9 +135,7 @@ def subject(
     treatment = Treatment(steady="transient", rest=rest or Rest(), reference_hz=reference_hz, initial="rest")
     checked = problem(model, [data], given.parameters, treatment=treatment)
     told = (*notes, *shortcomings(dataset, names), *_unbounded(checked.space), *checked.notes)
-    return replace(
-        given, targets=checked.observations, floors=checked.floors, specified=checked.specified, notes=told
-    )
+    return replace(given, targets=checked.observations, floors=checked.floors, specified=checked.specified, notes=told)
 
 
 def _unbounded(space: ParameterSpace) -> tuple[str, ...]:
