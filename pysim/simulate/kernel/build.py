@@ -89,7 +89,7 @@ def _place(folder: Path, content: bytes, suffix: str) -> Path:
 def source_key() -> str:
     """Digest of the sources and of how they are compiled."""
     digest = hashlib.sha256(repr((FLAGS, TARGETS)).encode())
-    for path in sorted(SOURCES.iterdir()):
+    for path in sorted(SOURCES.glob("*.[ch]")):
         digest.update(path.name.encode() + path.read_bytes())
     return digest.hexdigest()[:16]
 

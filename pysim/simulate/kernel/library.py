@@ -34,6 +34,7 @@ class Kernel:
         self._enter = self._function("kernel_enter_initialisation", ctypes.c_int, _P, _D, _D, _D)
         self._exit = self._function("kernel_exit_initialisation", ctypes.c_int, _P)
         self.log_2: int = self._function("kernel_log_2", _P)()  # address of FMI 2's logger
+        self._solve_least = self._function("kernel_solve_least", _D, _P, _P, _N, _D)
         self._factorise = self._function("kernel_factorise", ctypes.c_int, _P, _D)
         self._solve = self._function("kernel_solve", None, _P, _P)
         self._solve_rows = self._function("kernel_solve_rows", None, _P, _P, _N)
@@ -87,6 +88,13 @@ class Kernel:
             self._solve(address(job), address(right))
         else:
             self._solve_rows(address(job), address(right), right.shape[1])
+
+    def solve_least(self, job: Array, solved: Array, least: float) -> float:
+        """Solve shooting.matrix y = shooting.right, (n, m), with no part in directions that the matrix loses.
+
+        The largest entry of the first column that is left over.
+        """
+        return float(self._solve_least(address(job), address(solved), solved.shape[1], least))
 
 
 def address(array: Array) -> int:

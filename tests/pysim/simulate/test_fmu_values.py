@@ -7,17 +7,8 @@ import pytest
 from pysim.simulate import FmuValues, is_number
 from pysim.simulate._library import Instance, open_library
 from pysim.types import BadInput, Model, Variable
-from tests.pysim.simulate.text_models import text_model
+from tests.pysim.simulate.text_models import MIXED, text_model
 
-MIXED = """model Mixed "A number of each type in and out"
-  input Real r(start=0.5);
-  input Integer i(start=2);
-  input Boolean b(start=false);
-  output Real twice = 2*r;
-  output Integer next = i + 1;
-  output Boolean opposite = not b;
-end Mixed;
-"""
 INPUTS, OUTPUTS = ("i", "r", "b"), ("opposite", "twice", "next")
 
 

@@ -34,6 +34,18 @@ def test_failed_run_does_not_touch_the_others(fixture_model):
     np.testing.assert_allclose(records[2].values[:10], records[0].values[:10], rtol=1e-4)
 
 
+@pytest.mark.parametrize("fmi", [2, 3])
+@pytest.mark.parametrize("workers", [1, 2])
+def test_after_a_fatal_error_the_rest_runs_in_another_instance(fixture_model, fmi, workers):
+    good, fatal = Experiment(np.array([1.0]), ("x",)), Experiment(np.array([3.0]), ("x",), overrides={"manner": 6.0})
+    records = simulate_many(fixture_model(FRAGILE, fmi), [good, fatal, good, fatal, good, good], workers=workers)
+    outcomes = [Outcome.DONE, Outcome.MODEL_ERROR]
+    assert [r.outcome for r in records] == [outcomes[i] for i in (0, 1, 0, 1, 0, 0)]
+    assert "a fatal FMI error" in records[1].message
+    assert "root of a negative number" in records[1].message
+    np.testing.assert_array_equal(records[4].values, records[0].values)
+
+
 def test_progress_counts_up_in_the_calling_thread(fixture_model):
     seen = []
     simulate_many(

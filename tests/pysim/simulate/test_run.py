@@ -12,6 +12,7 @@ from pysim.simulate._library import open_library
 from pysim.simulate._run import run
 from pysim.types import BadInput, Experiment, Outcome, Signal
 from tests.pysim.simulate.fixture_fmus import FOLLOWER, OSCILLATOR
+from tests.pysim.simulate.text_models import MIXED, text_model
 
 _NONE = Signal.constant(0.0)
 _TIMES = np.array([0.0, 1.0])
@@ -31,6 +32,15 @@ def test_overrides_and_start_values_take_effect(fixture_model, fmi):
     end = Experiment(np.array([math.pi]), ("x", "w"), overrides={"x": 0.7, "w": 0.5, "D": 0.0})
     record = simulate(fixture_model(OSCILLATOR, fmi), end)
     np.testing.assert_allclose(record.values, [[0.7 * math.cos(0.5 * math.pi), 0.5]], atol=1e-6)
+
+
+@pytest.mark.parametrize("fmi", [2, 3])
+def test_numbers_of_every_type_are_set_and_recorded(tmp_path, fmi):
+    model = text_model(MIXED, tmp_path, fmi=fmi)
+    given = {"b": 1.0, "r": 1.25, "i": 41.0}
+    record = simulate(model, Experiment(_TIMES, ("next", "twice", "opposite", "i", "b"), overrides=given))
+    np.testing.assert_array_equal(record.values, [[42.0, 2.5, 0.0, 41.0, 1.0]] * 2)
+    np.testing.assert_array_equal(simulate(model, Experiment(_TIMES, ("next", "opposite"))).values, [[3.0, 1.0]] * 2)
 
 
 def test_undriven_input_is_constant_and_can_be_overridden(fixture_model):

@@ -53,6 +53,16 @@ equation
 end Peaks;
 """
 
+MIXED = """model Mixed "A number of each type in and out"
+  input Real r(start=0.5);
+  input Integer i(start=2);
+  input Boolean b(start=false);
+  output Real twice = 2*r;
+  output Integer next = i + 1;
+  output Boolean opposite = not b;
+end Mixed;
+"""
+
 LATE = """model Late "Feeds back what it was a while ago"
   input Real u(start=0);
   output Real x(start=0, fixed=true);

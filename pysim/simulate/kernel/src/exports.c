@@ -23,6 +23,11 @@ EXPORT int kernel_enter_initialisation(Fmu *fmu, double tolerance, double start,
 EXPORT int kernel_exit_initialisation(const Fmu *fmu) { return fmi_exit_initialisation(fmu); }
 EXPORT void kernel_release(Fmu *fmu) { fmi_release(fmu); }
 EXPORT Function *kernel_log_2(void) { return (Function *)fmi_log_2; }
+EXPORT double kernel_solve_least(Job *job, double *solved, int64_t m, double least) {
+    double left = 0.0;
+    solve_least(&job->shooting, solved, job->work.n, m, least, &left, job->work.sums);
+    return left;
+}
 EXPORT int kernel_factorise(Job *job, double shift) { return factorise_shifted(job, shift); }
 EXPORT void kernel_solve(Job *job, double *right) { solve_shifted(job, right); }
 EXPORT void kernel_solve_rows(Job *job, double *right, int64_t width) { solve_shifted_rows(job, right, width); }
