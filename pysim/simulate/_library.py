@@ -97,7 +97,9 @@ class Instance:
 
     def column_of(self) -> Callable[[int], int] | None:
         """Which column of an FMU of ours belongs to a parameter, by its reference; None for one of others."""
-        if not (self._own_functions and self.component):
+        if not self._own_functions:
+            return None
+        if not self.component and kernel().renew(self.record.record) > WARNING:
             return None
         function = ctypes.CFUNCTYPE(ctypes.c_int64, ctypes.c_void_p, ctypes.c_uint32)(self.address(PARAMETER_COLUMN))
         return lambda reference: int(function(self.component, reference))

@@ -8,9 +8,11 @@ import numpy as np
 
 from pysim.simulate._base import Solver
 from pysim.simulate._check import check_arguments, check_experiment, check_experiments, check_list
+from pysim.simulate._found import Found
 from pysim.simulate._library import Library, open_library
+from pysim.simulate._pass import Progress, run_tasks
 from pysim.simulate._pool import Stopped, worker_count
-from pysim.simulate._tasks import Found, Kind, Progress, Request, run_tasks
+from pysim.simulate._request import Kind, Request
 from pysim.simulate.kernel.layout import PLAIN
 from pysim.simulate.rk45 import Rk45
 from pysim.types import Experiment, Model, Outcome, Record, SimulationError

@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 
 from pysim.simulate._base import Solver
 from pysim.simulate._check import check_arguments
+from pysim.simulate._found import OUTCOMES, explain
 from pysim.simulate._library import CallFailed, Instance, open_library
 from pysim.simulate._step_job import SavedJob, StepJob
-from pysim.simulate._tasks import OUTCOMES, explain
 from pysim.simulate.fmu_states import FmuState, FmuStates
 from pysim.simulate.fmu_values import FmuValues, pointer
 from pysim.simulate.kernel.layout import DONE, FATAL, RUNNING, WARNING

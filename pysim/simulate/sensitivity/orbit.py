@@ -10,10 +10,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from pysim.simulate._found import Found
 from pysim.simulate._library import Library
+from pysim.simulate._pass import run_tasks
 from pysim.simulate._pool import Stopped
+from pysim.simulate._request import Kind, Request
 from pysim.simulate._run import make_record
-from pysim.simulate._tasks import Found, Kind, Request, run_tasks
 from pysim.simulate._variation import Directions
 from pysim.simulate.esdirk import Esdirk
 from pysim.simulate.kernel.layout import ORBIT, VARIED

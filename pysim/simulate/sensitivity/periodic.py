@@ -13,9 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pysim.simulate._check import check_arguments, check_list
+from pysim.simulate._found import Found
 from pysim.simulate._library import Library, open_library
+from pysim.simulate._pass import later
 from pysim.simulate._pool import side_by_side, worker_count
-from pysim.simulate._tasks import Found, later
 from pysim.simulate.esdirk import Esdirk
 from pysim.simulate.sensitivity.orbit import Orbit, Plan, find_orbits, is_settled, orbit_of, remembers
 from pysim.simulate.sensitivity.probe import check_names, check_parameters, probe_each

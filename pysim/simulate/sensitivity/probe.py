@@ -9,8 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pysim.simulate._check import check_experiment, check_experiments
+from pysim.simulate._found import Found
 from pysim.simulate._library import Library
-from pysim.simulate._tasks import Found, Kind, Request, run_tasks
+from pysim.simulate._pass import run_tasks
+from pysim.simulate._request import Kind, Request
 from pysim.simulate._variation import Directions
 from pysim.simulate.esdirk import Esdirk
 from pysim.simulate.kernel.layout import VARIED

@@ -10,25 +10,22 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pysim.simulate._check import check_arguments, check_list
+from pysim.simulate._found import Found
 from pysim.simulate._library import Library, open_library
+from pysim.simulate._pass import Progress, later, run_tasks
 from pysim.simulate._pool import Stopped, side_by_side, worker_count
+from pysim.simulate._request import Kind, Request
 from pysim.simulate._run import record_of, run
-from pysim.simulate._tasks import Found, Kind, Progress, Request, later, run_tasks
-from pysim.simulate._variation import Directions
 from pysim.simulate.esdirk import Esdirk
 from pysim.simulate.kernel.layout import VARIED
 from pysim.simulate.sensitivity.differences import offset_differences, run_differences
 from pysim.simulate.sensitivity.probe import (
-    START_STEP,
     Offer,
-    at_rest,
-    both_sides,
     check_names,
     check_parameters,
-    points,
     probe_each,
-    value_of,
 )
+from pysim.simulate.sensitivity.starts import start_slopes
 from pysim.types import BadInput, Experiment, Model, Outcome, Record, SimulationError
 
 Array = NDArray[np.float64]
@@ -161,7 +158,7 @@ def run_in(library: Library, ask: Ask, progress: Progress | None) -> tuple[Sensi
     experiments, names, solver, count = ask.experiments, ask.names, ask.solver, ask.workers
     offers = probe_each(library, experiments, solver, names)
     whole = {record for record, offer in offers.items() if len(offer.parameters) == len(names)}
-    starts = _starts(library, experiments, solver, offers, count)
+    starts = start_slopes(library, experiments, solver, offers, count)
     found: dict[int, Found] = {}
     ready: list[int] = []  # those that need nothing more
     for record, offer in offers.items():
@@ -216,61 +213,6 @@ def _not_finite(record: Record, names: tuple[str, ...], columns: Array) -> list[
         return []
     row, y, p = wrong[0]
     return [f"the derivative of {record.names[y]} by {names[p]} is {columns[row, y, p]:g} at {record.time[row]:g} s"]
-
-
-def _starts(
-    library: Library,
-    experiments: Sequence[Experiment],
-    solver: Esdirk,
-    offers: dict[tuple[str, ...], Offer],
-    count: int,
-) -> list[Array | None]:
-    """Per experiment d x / d p (n_x, n_p) at the start, by differences of initialisations; zero where nothing moves.
-
-    None where the FMU offers no derivatives, or cannot be initialised beside the experiment's own values. Experiments
-    that begin alike share it.
-    """
-    first: dict[_Start, int] = {}
-    own = [first.setdefault(_start_of(e), i) for i, e in enumerate(experiments)]
-    leading = [i for i in first.values() if offers[experiments[i].record].outputs]
-    requests: list[Request] = []
-    distances: list[float] = []
-    for i in leading:
-        once = at_rest(experiments[i])
-        offer = offers[once.record]
-        fixed = (name for name in offer.parameters if name not in offer.starts)
-        once = once.override(**{name: value_of(library.model, once, name) for name in fixed})
-        for name in offers[once.record].parameters:
-            up, down, distance = both_sides(library.model, once, name, START_STEP)
-            requests += [Request(up), Request(down)]
-            distances.append(distance)
-    ends = points(library, solver, Directions(outputs=False), requests, workers=count)
-    by: dict[int, Array | None] = {}
-    for i in leading:
-        columns = len(offers[experiments[i].record].parameters)
-        pairs, ends = ends[: 2 * columns], ends[2 * columns :]
-        steps, distances = distances[:columns], distances[columns:]
-        by[i] = _start_by(pairs, steps, len(library.model.abilities.states))
-    return [by.get(i) for i in own]
-
-
-def _start_by(ends: Sequence[Found], distances: Sequence[float], n: int) -> Array | None:
-    if not all(end.done for end in ends):
-        return None
-    result = np.zeros((n, len(distances)))
-    for p, distance in enumerate(distances):
-        result[:, p] = (ends[2 * p].array("state") - ends[2 * p + 1].array("state")) / distance
-    return result
-
-
-# What is recorded, what is set, and how the inputs begin.
-_Start = tuple[tuple[str, ...], tuple[tuple[str, float], ...], float, tuple[tuple[str, float, float], ...]]
-
-
-def _start_of(experiment: Experiment) -> _Start:
-    t = np.array(experiment.start)
-    begun = [(name, float(s.value(t)), float(s.derivative(t))) for name, s in sorted(experiment.inputs.items())]
-    return experiment.record, tuple(sorted(experiment.overrides.items())), experiment.start, tuple(begun)
 
 
 def _by_differences(library: Library, ask: Ask, experiment: Experiment, event: bool, stopped: Stopped) -> Sensitivities:

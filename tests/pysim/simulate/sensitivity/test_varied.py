@@ -6,8 +6,9 @@ import numpy as np
 
 from pysim.simulate import Esdirk
 from pysim.simulate._library import open_library
+from pysim.simulate._pass import run_tasks
+from pysim.simulate._request import Kind, Request
 from pysim.simulate._run import record_of
-from pysim.simulate._tasks import Kind, Request, run_tasks
 from pysim.simulate._variation import Directions
 from pysim.simulate.kernel.layout import VARIED
 from pysim.types import Experiment, Model, Outcome

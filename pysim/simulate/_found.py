@@ -1,0 +1,94 @@
+"""What the kernel found, and how a run ended in words."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pysim.simulate._library import failure
+from pysim.simulate._messages import joined, line_texts
+from pysim.simulate._tasks import Tasks
+from pysim.simulate.kernel.layout import DISCARD, DONE, ERROR, EVENT, FATAL, FOUND, RUNNING, STATISTICS
+from pysim.types import Outcome
+
+Array = NDArray[np.float64]
+
+OUTCOMES = {RUNNING: Outcome.STOPPED, EVENT: Outcome.DONE, **dict(enumerate(Outcome))}  # by the kernel's codes
+_STATUS = {DISCARD: "the model discards the point", ERROR: "an FMI function failed", FATAL: "a fatal FMI error"}
+_TROUBLE = ("", "stopped", "an event happened", "", "the corrections do not converge", "")
+_DRIFT = "a state drifts from period to period, and nothing holds it"
+
+
+class Found:
+    """What came of a request."""
+
+    def __init__(self, tasks: Tasks, number: int) -> None:
+        self._tasks, self._number, self.task = tasks, number, tasks.table[number]
+
+    @property
+    def outcome(self) -> Outcome:
+        """How the run ended; DONE also at an event that is not differentiated."""
+        return OUTCOMES[int(self.task["code"])]
+
+    @property
+    def event(self) -> bool:
+        """Whether the run ended at an event, or the search for an orbit met one."""
+        return int(self.task["code"]) == EVENT
+
+    @property
+    def failed_to_start(self) -> bool:
+        """Whether the FMU refused ahead of the run."""
+        return bool(self.task["part"])
+
+    @property
+    def done(self) -> bool:
+        """Whether the run came to its end, or the orbit was found."""
+        return int(self.task["code"]) == DONE and int(self.task["trouble"]) == FOUND
+
+    @property
+    def message(self) -> str:
+        """How the run ended, where, and what the FMU said; empty where it came to its end."""
+        task = self.task
+        if task["part"]:
+            return failure(int(task["part"])) + self._said()
+        if self.outcome is Outcome.DONE:
+            return ""
+        return explain(self.outcome, float(task["reached"]), int(task["status"])) + self._said()
+
+    @property
+    def trouble(self) -> str:
+        """Why there is no orbit; empty if there is one."""
+        number = int(self.task["trouble"])
+        return "" if number == FOUND else _TROUBLE[number] or self.message or _DRIFT
+
+    def _said(self) -> str:
+        return joined(line_texts(self._tasks.texts[self._number]))
+
+    def array(self, name: str) -> Array:
+        """An array of the request's own, by the name of the field."""
+        return self._tasks.array(name, self._number)
+
+    @property
+    def values(self) -> Array:
+        """(n_t, n_y) what was recorded, as far as the run came."""
+        return self._tasks.rows("values", self._number)
+
+    @property
+    def slopes(self) -> Array:
+        """(n_t, n_y, n_p) derivatives of that by the parameters of the directions."""
+        return self._tasks.rows("slopes", self._number)[:, :, self._tasks.by_offset :]
+
+    @property
+    def by_offset(self) -> Array:
+        """(n_t, n_y, n_x) the same by the offset of the states; n_x = 0 where it is no direction."""
+        return self._tasks.rows("slopes", self._number)[:, :, : self._tasks.by_offset]
+
+    def statistics(self) -> dict[str, int]:
+        """Counts of the run, or of the last period."""
+        return {name: int(self.task[name]) for name in STATISTICS}
+
+
+def explain(outcome: Outcome, reached: float, status: int) -> str:
+    """How a run ended, where (s), and what the FMU returned there."""
+    said = _STATUS.get(status)
+    return f"{outcome.value} at {reached:g} s" + (f" ({said})" if said else "")

@@ -1,0 +1,50 @@
+"""What the kernel is asked for: one run or orbit, and what all of a pass have in common."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pysim.simulate._base import Solver
+from pysim.simulate._variation import Directions
+from pysim.types import Experiment
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Request:
+    """One run, or the search for one orbit.
+
+    Args:
+        experiment: checked; for an orbit one period from time 0, its end included.
+        states: (n,) to start from, for an orbit a guess; those of the FMU where None.
+        start_by: (n, n_p) how they depend on the parameters; not at all where None.
+        settling: periods from the model's own start that make a guess, where there is none; half of four cost the
+            pump three times the time.
+    """
+
+    experiment: Experiment
+    states: Array | None = None
+    start_by: Array | None = None
+    settling: int = 4
+
+
+@dataclass(frozen=True)
+class Kind:
+    """What all requests of a pass have in common.
+
+    Args:
+        kind: PLAIN, VARIED or ORBIT.
+        directions: of the derivatives.
+        mismatch: largest correction of an orbit, in amplitudes, that is left to first order.
+        point: whether the derivatives at the last point are wanted: `rates`, `jacobian` and `forcing`.
+    """
+
+    kind: int
+    solver: Solver
+    directions: Directions = Directions(outputs=False)  # noqa: RUF009
+    mismatch: float = 0.0
+    point: bool = False
