@@ -178,11 +178,11 @@ def _openmodelica(fmi: int, systems: Sequence[Platform], probes: Sequence[str]) 
 
 
 def _is_there(class_name: str, libraries: Sequence[Path]) -> bool:
-    from fmu_build.front.source import find_class
+    from fmu_build.text import Libraries, TextError
 
     try:
-        find_class(class_name, libraries)
-    except BuildError:
+        Libraries(libraries).find(class_name)
+    except TextError:
         return False
     return True
 

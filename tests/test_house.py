@@ -48,7 +48,7 @@ class Source:
     def package(self) -> str:
         """`pysim.io` of pysim/io/records.py; the first word of all others, and of the files right below `pysim`."""
         parts = self.path.parts
-        return ".".join(parts[:2]) if parts[0] == "pysim" and len(parts) > 2 else parts[0]
+        return package_of(".".join(parts)) if len(parts) > 2 else parts[0]
 
     @cached_property
     def nodes(self) -> list[ast.AST]:
@@ -91,7 +91,8 @@ def imported(nodes: Iterable[ast.AST]) -> Iterator[str]:
 
 def package_of(name: str) -> str:
     words = name.split(".")
-    return ".".join(words[:2]) if words[0] == "pysim" and len(words) > 1 else words[0]
+    has_parts = words[0] == "pysim" or words[:2] == ["fmu_build", "text"]
+    return ".".join(words[:2]) if has_parts and len(words) > 1 else words[0]
 
 
 def foreign(source: Source) -> list[str]:
@@ -119,6 +120,10 @@ def test_imports_point_one_way() -> None:
         ("pysim/io/x.py", "from pysim import simulate", ["pysim.simulate"]),
         ("pysim/simulate/x.py", "def f():\n    from pysim.identify import g", ["pysim.identify"]),
         ("fmu_build/emit/x.py", "if True:\n    import pysim.types", ["pysim.types"]),
+        ("fmu_build/emit/x.py", "from fmu_build.text import tokenise", []),
+        ("fmu_build/text/x.py", "from fmu_build.errors import BuildError\nimport numpy", ["fmu_build", "numpy"]),
+        ("pysim/io/x.py", "import fmu_build.text.tokens", ["fmu_build.text"]),
+        ("pysim/effects/x.py", "import fmu_build.text.tokens, fmu_build.build", ["fmu_build"]),
         ("pysim/cli/x.py", "import fmu_build, pysim.identify, json", []),
     ],
 )

@@ -1,17 +1,22 @@
 """Front end: Modelica text -> FlatModel."""
 
 import difflib
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from fmu_build.errors import BuildError, WrongCall
-from fmu_build.front.class_lookup import ClassLookup, FoundClass
-from fmu_build.front.flat_model import FlatModel, Role, Scalar
+from fmu_build.front.expression import Span
+from fmu_build.front.flat_model import Experiment, FlatModel, Role, Scalar
 from fmu_build.front.lost_actions import refuse_lost_actions
 from fmu_build.front.package_constants import refuse_mixed_constants
 from fmu_build.front.redeclaration import refuse_lost_redeclarations
 from fmu_build.front.session import compile_class
-from fmu_build.front.source import find_class
+from fmu_build.text.classes import ClassText
+from fmu_build.text.declarations import Modifier, modifiers
+from fmu_build.text.expressions import literal
+from fmu_build.text.lookup import Libraries
+from fmu_build.text.tokens import TextError, Tokens, string_value
 
 __all__ = ["FlatModel", "load"]
 
@@ -28,39 +33,71 @@ def load(class_name: str, libraries: Sequence[Path], overrides: Mapping[str, flo
     Raises:
         BuildError: the class is unknown, wrong, unbalanced, or outside the supported subset (SUBSET.md).
     """
+    with _as_build_errors():
+        return _loaded(class_name, Libraries(libraries), overrides)
+
+
+@contextmanager
+def _as_build_errors() -> Iterator[None]:
+    try:
+        yield
+    except TextError as failure:
+        raise BuildError(failure.message, failure.file, failure.line) from failure
+
+
+def _loaded(class_name: str, classes: Libraries, overrides: Mapping[str, float | str]) -> FlatModel:
     from fmu_build.front.rumoca_form import to_flat_model
 
-    paths = [Path(library) for library in libraries]
-    source = find_class(class_name, paths)
-    classes = ClassLookup(paths)
-    written = classes.full(class_name)
-    if written is not None:
-        _check_is_model(written)
-        refuse_lost_redeclarations(written, classes)
-        refuse_mixed_constants(written, classes)
-    dae, flat = compile_class(source, paths, overrides)
+    source = classes.find(class_name)
+    _check_is_model(source)
+    refuse_lost_redeclarations(source, classes)
+    refuse_mixed_constants(source, classes)
+    dae, flat = compile_class(source, classes.places, overrides)
     model = to_flat_model(
         dae,
         flat,
         name=class_name,
-        span=source.span,
-        experiment=source.experiment,
-        documentation=source.documentation,
+        span=Span(*source.place(source.start)),
+        experiment=_experiment(source),
+        documentation=_documentation(source),
         description=source.description,
     )
     _check_overrides(model, overrides)
-    if written is not None:
-        refuse_lost_actions(written, classes, model)
+    refuse_lost_actions(source, classes, model)
     _check_no_texts(model)
     return model
 
 
-def _check_is_model(found: FoundClass) -> None:
-    written = found.text
-    what = "partial " if "partial" in written.prefixes else ""
-    if what or written.kind not in ("model", "block", "class"):
-        wrong = found.error(f"{found.full_name} is a {what}{written.kind}; name a model or a block", written.offset)
-        raise WrongCall(wrong.message, wrong.file, wrong.line)
+def _experiment(source: ClassText) -> Experiment:
+    said, numbers = _annotated(source, "experiment"), dict[str, float]()
+    for name, modifier in said.items():
+        with suppress(ValueError):
+            numbers[name] = literal(source.text(modifier.value))
+    return Experiment(
+        start=numbers.get("StartTime"),
+        stop=numbers.get("StopTime"),
+        tolerance=numbers.get("Tolerance"),
+        interval=numbers.get("Interval"),
+    )
+
+
+def _documentation(source: ClassText) -> str:
+    """HTML of the Documentation annotation, empty where there is none."""
+    said = _annotated(source, "Documentation")
+    return string_value(said["info"].value) if "info" in said else ""
+
+
+def _annotated(source: ClassText, name: str) -> dict[str, Modifier]:
+    said = modifiers(source.annotation)
+    inside: Tokens = said[name].inside if name in said else ()
+    return modifiers(inside)
+
+
+def _check_is_model(found: ClassText) -> None:
+    what = "partial " if "partial" in found.prefixes else ""
+    if what or found.kind not in ("model", "block", "class"):
+        message = f"{found.full_name} is a {what}{found.kind}; name a model or a block"
+        raise WrongCall(message, *found.place(found.start))
 
 
 def _check_overrides(model: FlatModel, overrides: Mapping[str, float | str]) -> None:

@@ -5,7 +5,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from fmu_build.front.source import ClassSource, read_text
+from fmu_build.text.classes import ClassText
+from fmu_build.text.libraries import read_text
 
 
 @dataclass(frozen=True)
@@ -22,10 +23,11 @@ class JoinedText:
         return self.parts[k], line - self.starts[k] + 1
 
 
-def join(source: ClassSource, libraries: Sequence[Path]) -> JoinedText:
+def join(source: ClassText, libraries: Sequence[Path]) -> JoinedText:
     """The class's own file first, where it is a single one, then every other single file of the libraries."""
-    texts = [(source.file, source.text)] if source.is_single_file else []
-    texts += [(library, read_text(library)) for library in libraries if library.is_file() and library != source.file]
+    file = source.source.file
+    texts = [(file, source.source.text)] if file in libraries else []
+    texts += [(library, read_text(library)) for library in libraries if library.is_file() and library != file]
     starts, line = [], 1
     for _, text in texts:
         starts.append(line)

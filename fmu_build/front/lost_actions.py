@@ -6,30 +6,30 @@ which only the equations are left.
 """
 
 import re
-from collections.abc import Iterator, Sequence, Set
+from collections.abc import Iterator, Set
 from itertools import pairwise
 
-from fmu_build.front.class_lookup import ClassLookup, FoundClass
-from fmu_build.front.declarations import Declaration, Kind, behind_brackets, is_name
 from fmu_build.front.expression import Span
 from fmu_build.front.flat_model import FlatModel, FlatVariable, Role
-from fmu_build.front.statements import Statement, statements
-from fmu_build.front.tokens import Token
-from fmu_build.front.used_classes import used_classes
+from fmu_build.text.classes import ClassText
+from fmu_build.text.declarations import Declaration, Kind
+from fmu_build.text.lookup import Libraries
+from fmu_build.text.statements import Statement, statements
+from fmu_build.text.tokens import Tokens, behind_brackets, is_name
 
 _INDEX = re.compile(r"\[[^\]]*\]")
 _ACTIONS = ("when", "assert", "terminate")
 _VARYING = ("time", "initial", "terminal")
 
 
-def refuse_lost_actions(source: FoundClass, classes: ClassLookup, model: FlatModel) -> None:
+def refuse_lost_actions(source: ClassText, classes: Libraries, model: FlatModel) -> None:
     """Look through the class and all classes that make it up.
 
     Raises:
         BuildError: an if-equation would lose what it does; says what to write instead.
     """
-    for here in used_classes(source, classes):
-        for outer in statements(here.text.own_tokens):
+    for here in classes.used(source):
+        for outer in statements(here.own_tokens):
             iterators = set(_iterators(outer))
             for statement in _acting_ifs((outer,)):
                 free = _free_name(statement, iterators, here, classes, model)
@@ -60,7 +60,7 @@ def _always_acts(statement: Statement) -> bool:
     return len(statement.branches) > len(statement.conditions) and all(_acts(branch) for branch in statement.branches)
 
 
-def _is_kept(statement: Statement, here: FoundClass, model: FlatModel) -> bool:
+def _is_kept(statement: Statement, here: ClassText, model: FlatModel) -> bool:
     first, last = here.source.line(statement.start), here.source.line(statement.end)
     spans = [a.span for a in model.assertions] + [t.span for t in model.terminations] + [c.span for c in model.clauses]
     return any(s.file == here.source.file and s.line is not None and first <= s.line <= last for s in spans)
@@ -73,11 +73,9 @@ def _iterators(outer: Statement) -> Iterator[str]:
             yield from (name for name, behind in pairwise(words) if behind == "in")
 
 
-def _free_name(
-    statement: Statement, iterators: Set[str], here: FoundClass, classes: ClassLookup, model: FlatModel
-) -> str:
+def _free_name(statement: Statement, iterators: Set[str], here: ClassText, classes: Libraries, model: FlatModel) -> str:
     """A name in the conditions without a fixed value, somewhere in the model; empty where there is none."""
-    for name in _names([token for condition in statement.conditions for token in condition]):
+    for name in _names(tuple(token for condition in statement.conditions for token in condition)):
         if name in _VARYING:
             return name
         first, *rest = name.split(".")
@@ -90,7 +88,7 @@ def _free_name(
     return ""
 
 
-def _names(tokens: Sequence[Token]) -> Iterator[str]:
+def _names(tokens: Tokens) -> Iterator[str]:
     """Dotted names without their indices, and words: `a[2].b and not c` -> a.b, and, not, c."""
     name, is_part, at = "", False, 0
     while at < len(tokens):
@@ -101,7 +99,7 @@ def _names(tokens: Sequence[Token]) -> Iterator[str]:
         elif is_name(word):
             name += f".{word}"
         is_part = word == "."
-        at = behind_brackets(tuple(tokens), at) if word == "[" else at + 1
+        at = behind_brackets(tokens, at) if word == "[" else at + 1
     yield name
 
 
@@ -109,9 +107,9 @@ def _is_named(variable: FlatVariable, name: str) -> bool:
     return f".{_INDEX.sub('', variable.name)}".endswith(f".{name}")
 
 
-def _is_of(span: Span, owner: FoundClass, declaration: Declaration) -> bool:
+def _is_of(span: Span, owner: ClassText, declaration: Declaration) -> bool:
     """Whether a variable comes from this declaration; one that is `outer` is declared elsewhere too."""
-    first, last = (owner.source.line(offset) for offset in (declaration.offset, declaration.modification[-1][1]))
+    first, last = (owner.source.line(offset) for offset in (declaration.start, declaration.end))
     is_there = span.file == owner.source.file and span.line is not None and first <= span.line <= last
     return is_there or "outer" in declaration.prefixes
 

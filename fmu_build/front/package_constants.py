@@ -11,10 +11,11 @@ the package it is written in.
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
-from fmu_build.front.class_lookup import ClassLookup, FoundClass, split_name
-from fmu_build.front.declarations import PREFIXES, Declaration, Kind, is_name
-from fmu_build.front.tokens import Token
-from fmu_build.front.used_classes import redeclarations
+from fmu_build.text.classes import ClassText
+from fmu_build.text.declarations import Declaration, Kind
+from fmu_build.text.lookup import Libraries
+from fmu_build.text.modify import redeclarations
+from fmu_build.text.tokens import is_name, split_name
 
 _Constant = tuple[str, str]  # the package that declares it, and its name
 
@@ -23,7 +24,7 @@ _Constant = tuple[str, str]  # the package that declares it, and its name
 class _Package:
     """`changed` gives the packages that change a constant, from the outermost to the one nearest its declaration."""
 
-    found: FoundClass
+    found: ClassText
     bases: frozenset[str]  # with itself
     changed: Mapping[_Constant, tuple[str, ...]]
 
@@ -31,14 +32,14 @@ class _Package:
 @dataclass(frozen=True)
 class _Use:
     package: _Package
-    here: FoundClass
+    here: ClassText
     offset: int
 
 
 _Packages = Mapping[str, _Package]  # what the replaceable packages of a class are
 
 
-def refuse_mixed_constants(source: FoundClass, classes: ClassLookup) -> None:
+def refuse_mixed_constants(source: ClassText, classes: Libraries) -> None:
     """Look through the class and all classes that it uses.
 
     Raises:
@@ -68,17 +69,17 @@ def _check_together(uses: Mapping[str, _Use]) -> None:
 class _Walk:
     """From class to class; a class is looked at once for each choice of its packages."""
 
-    def __init__(self, classes: ClassLookup) -> None:
+    def __init__(self, classes: Libraries) -> None:
         self._classes = classes
         self._packages: dict[str, _Package] = {}
         self._uses: dict[str, _Use] = {}
-        self._waiting: list[tuple[FoundClass, _Packages]] = []
+        self._waiting: list[tuple[ClassText, _Packages]] = []
 
-    def uses(self, source: FoundClass) -> Mapping[str, _Use]:
+    def uses(self, source: ClassText) -> Mapping[str, _Use]:
         """The packages used, by full name."""
         for enclosing in self._on_the_way(source.full_name, source, {}):
-            if enclosing.text.kind == "package":
-                self._use(self._package(enclosing), source, source.text.offset)
+            if enclosing.kind == "package":
+                self._use(self._package(enclosing), source, source.start)
         seen = set()
         self._waiting = [(source, {})]
         while self._waiting:
@@ -89,42 +90,42 @@ class _Walk:
                 self._look_through(here, self._bound(here, given, set()))
         return self._uses
 
-    def _look_through(self, here: FoundClass, bound: _Packages) -> None:
-        for declaration in here.text.declarations:
+    def _look_through(self, here: ClassText, bound: _Packages) -> None:
+        for declaration in here.declarations:
             if declaration.kind in (Kind.EXTENDS, Kind.COMPONENT):
                 self._follow(declaration, here, bound)
             elif "redeclare" in declaration.prefixes and declaration.class_name in bound:
                 package = bound[declaration.class_name]
-                self._use(package, here, declaration.offset)
-                self._refuse_inherited_functions({declaration.class_name: package}, here, declaration.offset)
-        for name in names_used(here.text.words):
-            last = self._last(name, here, bound, here.text.offset)
-            if last is not None and last.text.kind in ("function", "record"):
+                self._use(package, here, declaration.start)
+                self._refuse_inherited_functions({declaration.class_name: package}, here, declaration.start)
+        for name in names_used(here.words):
+            last = self._last(name, here, bound, here.start)
+            if last is not None and last.kind in ("function", "record"):
                 self._waiting.append((last, {}))
 
-    def _follow(self, declaration: Declaration, here: FoundClass, bound: _Packages) -> None:
+    def _follow(self, declaration: Declaration, here: ClassText, bound: _Packages) -> None:
         chosen = self._chosen(declaration, here, bound)
         if declaration.kind is Kind.EXTENDS:
-            self._refuse_inherited_functions(chosen, here, declaration.offset)
+            self._refuse_inherited_functions(chosen, here, declaration.start)
             chosen = {**chosen, **bound}
-        self._visit(declaration.class_name, here, bound, chosen, declaration.offset)
+        self._visit(declaration.class_name, here, bound, chosen, declaration.start)
         for found in redeclarations(declaration.modification):
-            self._visit(found.class_name, here, bound, {}, found.offset)
+            self._visit(found.class_name, here, bound, {}, found.start)
 
-    def _visit(self, name: str, here: FoundClass, bound: _Packages, given: _Packages, offset: int) -> None:
+    def _visit(self, name: str, here: ClassText, bound: _Packages, given: _Packages, offset: int) -> None:
         last = self._last(name, here, bound, offset)
         if last is not None:
             self._waiting.append((last, given))
 
-    def _last(self, name: str, here: FoundClass, bound: _Packages, offset: int) -> FoundClass | None:
+    def _last(self, name: str, here: ClassText, bound: _Packages, offset: int) -> ClassText | None:
         """Note the packages in a dotted name; the class behind them, if it names one."""
         for found in self._on_the_way(name, here, bound):
-            if found.text.kind != "package":
+            if found.kind != "package":
                 return found
             self._use(self._package(found), here, offset)
         return None
 
-    def _on_the_way(self, name: str, here: FoundClass, bound: _Packages) -> Iterator[FoundClass]:
+    def _on_the_way(self, name: str, here: ClassText, bound: _Packages) -> Iterator[ClassText]:
         """`A.B.C` -> the classes A, A.B and A.B.C, as far as they are classes."""
         dot = "." if name.startswith(".") else ""
         parts = split_name(name.removeprefix("."))
@@ -138,17 +139,17 @@ class _Walk:
                 return
             yield found
 
-    def _use(self, package: _Package, here: FoundClass, offset: int) -> None:
+    def _use(self, package: _Package, here: ClassText, offset: int) -> None:
         self._uses.setdefault(package.found.full_name, _Use(package, here, offset))
 
-    def _bound(self, here: FoundClass, given: _Packages, inside: set[str]) -> _Packages:
+    def _bound(self, here: ClassText, given: _Packages, inside: set[str]) -> _Packages:
         """The replaceable packages of a class and its bases: as given, as redeclared on the way, or their own."""
         bound = dict(given)
         if here.full_name in inside:
             return bound
-        for declaration in here.text.declarations:
-            name = declaration.declared[0] if declaration.kind is Kind.CLASS else ""
-            own = here.text.classes.get(name)
+        for declaration in here.declarations:
+            name = declaration.name if declaration.kind is Kind.CLASS else ""
+            own = here.classes.get(name)
             if own is not None and own.kind == "package" and {"replaceable", "redeclare"} & declaration.prefixes:
                 found = self._classes.full(f"{here.full_name}.{name}")
                 if found is not None:
@@ -160,7 +161,7 @@ class _Walk:
                 bound = dict(self._bound(base, {**chosen, **bound}, inside | {here.full_name}))
         return bound
 
-    def _chosen(self, declaration: Declaration, here: FoundClass, bound: _Packages) -> dict[str, _Package]:
+    def _chosen(self, declaration: Declaration, here: ClassText, bound: _Packages) -> dict[str, _Package]:
         """The packages that a modification redeclares."""
         chosen = {}
         for found in redeclarations(declaration.modification):
@@ -169,41 +170,41 @@ class _Walk:
                 chosen[found.part] = self._meant(last)
         return chosen
 
-    def _meant(self, found: FoundClass) -> _Package:
+    def _meant(self, found: ClassText) -> _Package:
         """Of `package Medium = Oil` without modification it is Oil."""
         bases = list(found.of_kind(Kind.EXTENDS))
-        if len(found.text.declarations) == len(bases) == 1 and not bases[0].modification:
+        if len(found.declarations) == len(bases) == 1 and not bases[0].modification:
             base = self._classes.resolve(bases[0].class_name, found)
             if base is not None and base.full_name != found.full_name:
                 return self._meant(base)
         return self._package(found)
 
-    def _package(self, found: FoundClass) -> _Package:
+    def _package(self, found: ClassText) -> _Package:
         if found.full_name not in self._packages:
             self._packages[found.full_name] = _Package(found, frozenset((found.full_name,)), {})  # ends a cycle
             bases = {found.full_name}
             changed: dict[_Constant, tuple[str, ...]] = {}
             for declaration in found.of_kind(Kind.EXTENDS):
                 base = self._classes.resolve(declaration.class_name, found)
-                if base is None or base.text.kind != "package":
+                if base is None or base.kind != "package":
                     continue
                 package = self._package(base)
                 bases |= package.bases
                 changed |= package.changed
-                for name in _modified(declaration.modification):
+                for name in _modified(declaration):
                     constant = self._owner(name, base), name
                     changed[constant] = (found.full_name, *changed.get(constant, ()))
             self._packages[found.full_name] = _Package(found, frozenset(bases), changed)
         return self._packages[found.full_name]
 
-    def _owner(self, constant: str, package: FoundClass) -> str:
+    def _owner(self, constant: str, package: ClassText) -> str:
         for name in sorted(self._package(package).bases):
             found = self._classes.full(name)
-            if found is not None and any(constant in d.declared for d in found.of_kind(Kind.COMPONENT)):
+            if found is not None and any(constant == d.name for d in found.of_kind(Kind.COMPONENT)):
                 return name
         return package.full_name
 
-    def _refuse_inherited_functions(self, chosen: _Packages, here: FoundClass, offset: int) -> None:
+    def _refuse_inherited_functions(self, chosen: _Packages, here: ClassText, offset: int) -> None:
         for part, package in chosen.items():
             function = self._inherited_function(package)
             if package.changed and function:
@@ -214,10 +215,10 @@ class _Walk:
                 )
 
     def _inherited_function(self, package: _Package) -> str:
-        own = package.found.text.classes
+        own = package.found.classes
         for name in sorted(package.bases - {package.found.full_name}):
             base = self._classes.full(name)
-            for function in base.text.classes.values() if base is not None else ():
+            for function in base.classes.values() if base is not None else ():
                 if function.kind == "function" and function.name not in own:
                     return f"{name}.{function.name}"
         return ""
@@ -243,12 +244,7 @@ def names_used(words: tuple[str, ...]) -> set[str]:
     return names
 
 
-def _modified(tokens: tuple[Token, ...]) -> list[str]:
+def _modified(declaration: Declaration) -> list[str]:
     """`(a = 1, final b(min = 0) = 2, redeclare package M = N)` -> a, b."""
-    names, depth, is_expected = [], 0, False
-    for token, _ in tokens:
-        if is_expected and depth == 1 and is_name(token) and token not in PREFIXES:
-            names.append(token)
-        is_expected = token in ("(", ",") or (is_expected and token in PREFIXES and token != "redeclare")
-        depth += (token in "([{") - (token in ")]}")
-    return names
+    redeclared = {found.part for found in redeclarations(declaration.modification) if not found.is_nested}
+    return [name for name in declaration.modifiers if name not in redeclared]

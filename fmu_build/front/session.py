@@ -13,13 +13,14 @@ from pathlib import Path
 from typing import Any
 
 from fmu_build.errors import BuildError, WrongCall
-from fmu_build.front.class_lookup import ClassLookup
 from fmu_build.front.joined import JoinedText, join
 from fmu_build.front.misread import misread
 from fmu_build.front.plain_words import in_plain_words
-from fmu_build.front.source import ClassSource, read_text
-from fmu_build.front.tokens import tokenise
 from fmu_build.front.unresolved import unresolved
+from fmu_build.text.classes import ClassText
+from fmu_build.text.libraries import read_text
+from fmu_build.text.lookup import Libraries
+from fmu_build.text.tokens import depth_change, tokenise
 
 WRAPPER = "OverridesOfThisBuild"
 Override = float | str  # a number, or Modelica text
@@ -31,7 +32,7 @@ PLACE = re.compile(r"\[([^\[\]\n]+?\.mo):(\d+):\d+\]")
 
 
 def compile_class(
-    source: ClassSource, libraries: Sequence[Path], overrides: Mapping[str, Override]
+    source: ClassText, libraries: Sequence[Path], overrides: Mapping[str, Override]
 ) -> tuple[dict[str, Any], dict[str, Any]]:
     """rumoca's DAE form and flat form of the class, with `overrides` as modifications.
 
@@ -45,18 +46,20 @@ def compile_class(
         if not overrides:
             raise
         _compile(source, libraries, "")  # where this fails too, the model is at fault
-        raise BuildError(f"{source.name} does not compile with the values set, {modified}: {failure.message}") from None
+        raise BuildError(
+            f"{source.full_name} does not compile with the values set, {modified}: {failure.message}"
+        ) from None
 
 
-def _compile(source: ClassSource, libraries: Sequence[Path], modified: str) -> tuple[dict[str, Any], dict[str, Any]]:
+def _compile(source: ClassText, libraries: Sequence[Path], modified: str) -> tuple[dict[str, Any], dict[str, Any]]:
     roots = [str(library) for library in libraries if library.is_dir()]
     joined = join(source, libraries)
     text = joined.text
-    name = source.name
-    if modified or not source.is_single_file:
+    name, is_single = source.full_name, source.source.file in libraries
+    if modified or not is_single:
         name = WRAPPER
-        named = "" if source.is_single_file else _imports(libraries)
-        text += f"\nmodel {WRAPPER}\n{named}  extends {source.name}{modified};\nend {WRAPPER};\n"
+        named = "" if is_single else _imports(libraries)
+        text += f"\nmodel {WRAPPER}\n{named}  extends {source.full_name}{modified};\nend {WRAPPER};\n"
     file_name = _stand_in(source) if joined.parts else f"{WRAPPER}.mo"
     files = [str(file) for file in (*joined.parts, *_library_files(libraries))]
     request = {"roots": roots, "text": text, "name": name, "file_name": file_name, "files": files}
@@ -76,16 +79,16 @@ def _imports(libraries: Sequence[Path]) -> str:
     return "".join(f"  import {name};\n" for name in names)
 
 
-def _stand_in(source: ClassSource) -> str:
+def _stand_in(source: ClassText) -> str:
     """A name in a folder that does not exist: rumoca also reads all other .mo files of a real one."""
-    return f"FolderOfThisBuild/{source.file.name}"
+    return f"FolderOfThisBuild/{source.source.file.name}"
 
 
 def _library_files(libraries: Sequence[Path]) -> list[Path]:
     return [file for library in libraries if library.is_dir() for file in sorted(library.rglob("*.mo"))]
 
 
-def _ask_rumoca(request: Mapping[str, Any], source: ClassSource) -> dict[str, Any]:
+def _ask_rumoca(request: Mapping[str, Any], source: ClassText) -> dict[str, Any]:
     """What the worker answers. It costs 0.1 s to start; without it, an abort in the parser would end this process."""
     if importlib.util.find_spec("rumoca") is None:
         raise BuildError("building from Modelica needs rumoca 0.10.2; install it with: pip install rumoca==0.10.2")
@@ -100,21 +103,20 @@ def _ask_rumoca(request: Mapping[str, Any], source: ClassSource) -> dict[str, An
         )
     except subprocess.TimeoutExpired:
         raise BuildError(
-            f"the Modelica compiler was not done with {source.name} within {_LONGEST_S:g} s and was ended; leave out "
-            "parts of the class to find what it cannot take",
-            source.file,
-            source.line,
+            f"the Modelica compiler was not done with {source.full_name} within {_LONGEST_S:g} s and was ended; "
+            "leave out parts of the class to find what it cannot take",
+            *source.place(source.start),
         ) from None
     try:
         answer: dict[str, Any] = json.loads(done.stdout)
         return answer
     except ValueError:
         last = done.stderr.decode(errors="replace").strip().splitlines()[-1:]
+        said = "; ".join([f"exit code {done.returncode}", *last])
         raise BuildError(
-            f"the Modelica compiler crashed on {source.name} ({'; '.join([f'exit code {done.returncode}', *last])}); "
+            f"the Modelica compiler crashed on {source.full_name} ({said}); "
             "leave out parts of the class to find what it cannot take",
-            source.file,
-            source.line,
+            *source.place(source.start),
         ) from None
 
 
@@ -151,8 +153,8 @@ def _value_text(name: str, value: Override) -> str:
     if isinstance(value, bool):
         return str(value).lower()
     if isinstance(value, str):
-        words = [word for word, _ in tokenise(value)]
-        depths = [0, *accumulate((word in "([{") - (word in ")]}") for word in words)]
+        words = [token.text for token in tokenise(value)]
+        depths = [0, *accumulate(depth_change(token) for token in tokenise(value))]
         is_balanced = min(depths) == depths[-1] == 0
         is_cut = any(word in ";\"'" or (word == "," and depth == 0) for word, depth in zip(words, depths, strict=False))
         has_comment = "".join("".join(words).split()) != "".join(value.split())
@@ -164,14 +166,12 @@ def _value_text(name: str, value: Override) -> str:
     return str(value) if isinstance(value, int) else repr(float(value))
 
 
-def _explain(
-    answer: Mapping[str, Any], source: ClassSource, joined: JoinedText, libraries: Sequence[Path]
-) -> BuildError:
+def _explain(answer: Mapping[str, Any], source: ClassText, joined: JoinedText, libraries: Sequence[Path]) -> BuildError:
     text = str(answer["failure"])
     if answer["syntax"] is not None:
         return _syntax_error(*answer["syntax"])
     message = _NOISE.sub("", " ".join(text.split("\nRelated failures")[0].split()))
-    message = message.replace(WRAPPER, source.name)
+    message = message.replace(WRAPPER, source.full_name)
     if answer["panic"]:
         detail = re.search(r'detail: "([^"]*)"', text)
         message = detail.group(1) if detail else f"the Modelica compiler failed: {message}"
@@ -183,8 +183,8 @@ def _explain(
         if place.group(1) == _stand_in(source):
             file, line = joined.place(line)
         return BuildError(message, file, line)
-    nameless = BuildError(message, *(_place_of_bytes(text, joined, libraries) or (source.file, source.line)))
-    classes = ClassLookup(libraries)
+    nameless = BuildError(message, *(_place_of_bytes(text, joined, libraries) or source.place(source.start)))
+    classes = Libraries(libraries)
     return unresolved(message, source, classes) or misread(message, source, classes) or nameless
 
 

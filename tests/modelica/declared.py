@@ -1,9 +1,11 @@
 """Declarations of a class that say nothing of what they declare."""
 
+import re
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from fmu_build.front.declarations import read_declarations
+from fmu_build.text.classes import read_classes
+from fmu_build.text.declarations import Source
 
 _SECTIONS = {"equation", "algorithm", "external"}
 _NO_DECLARATIONS = {"extends", "import", "annotation", "connector", "type", "function", "model", "block", "package"}
@@ -11,9 +13,10 @@ _NO_DECLARATIONS = {"extends", "import", "annotation", "connector", "type", "fun
 
 def without_description(file: Path, text: str) -> list[str]:
     """First words of each component declaration without a description; those of short classes have none to give."""
+    within = re.match(r"within ([\w.]+);", text)
     found = []
-    for written in read_declarations(file, text).classes.values():
-        if written.words[:1] != ("=",):
+    for written in read_classes(Source(file, text), within[1] if within else "").values():
+        if not written.is_short:
             found += [" ".join(words) for words in _statements(written.words) if _is_silent(words)]
     return found
 

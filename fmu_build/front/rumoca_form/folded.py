@@ -11,8 +11,8 @@ from typing import Any
 
 from fmu_build.errors import BuildError
 from fmu_build.front.rumoca_form.places import Places
-from fmu_build.front.statements import statements
-from fmu_build.front.tokens import tokenise
+from fmu_build.text.statements import statements
+from fmu_build.text.tokens import tokenise
 
 
 @dataclass(frozen=True)
@@ -65,5 +65,4 @@ def conditions_in_clauses(text: str) -> Iterator[Condition]:
         for clause in (outer, *outer.inside()):
             for inner in clause.inside() if clause.word == "when" else ():
                 for condition in inner.conditions if inner.word == "if" else ():
-                    last, offset = condition[-1]
-                    yield Condition((clause.start, clause.end), condition[0][1], offset + len(last))
+                    yield Condition((clause.start, clause.end), condition[0].start, condition[-1].end)

@@ -11,7 +11,6 @@ from fmu_build.front import load
 from fmu_build.front.flat_model import Experiment, Role
 from fmu_build.front.rumoca_form import to_flat_model
 from fmu_build.front.rumoca_form.folded import conditions_in_clauses
-from fmu_build.front.source import find_class
 
 
 @pytest.fixture
@@ -193,28 +192,6 @@ def test_single_files_see_each_other(write) -> None:
     with pytest.raises(BuildError, match="syntax error") as caught:
         load("Uses", [user, parts])
     assert (caught.value.file, caught.value.line) == (parts, 5)
-
-
-def test_a_class_says_what_it_is_wherever_its_annotation_stands(write):
-    file = write(
-        """
-        package P "All"
-          partial model A "a \\"quoted\\" word"
-            model Inner "inside" annotation(experiment(StopTime = 3)); end Inner;
-            Real x annotation(Dialog(enable = false));
-            annotation(experiment(StopTime = 2, Tolerance = 1e-4));
-          equation
-            x = time;
-          end A;
-          model B annotation(Documentation(info = "<html>b</html>")); end B;
-        end P;
-        """
-    )
-    outer, inner, other = (find_class(name, [file]) for name in ("P.A", "P.A.Inner", "P.B"))
-    assert (outer.description, outer.line, inner.description, other.description) == ('a "quoted" word', 2, "inside", "")
-    assert (inner.experiment.stop, other.documentation) == (3.0, "<html>b</html>")
-    with pytest.raises(BuildError, match="there is no Nothing"):
-        find_class("P.A.Nothing", [file])
 
 
 def test_a_library_may_use_another(tmp_path):

@@ -9,11 +9,11 @@ from typing import Any
 
 from fmu_build.front import FlatModel, load
 from fmu_build.front.rumoca_worker import answer, written
-from fmu_build.front.source import ClassSource
 from fmu_build.lower import OdeModel, lower
+from fmu_build.text import ClassText
 
 
-def ask_in_this_process(request: Mapping[str, Any], source: ClassSource) -> dict[str, Any]:
+def ask_in_this_process(request: Mapping[str, Any], source: ClassText) -> dict[str, Any]:
     """What the compiler's own process would answer, without starting one for each text."""
     found: dict[str, Any] = json.loads(written(answer(dict(request))))
     return found

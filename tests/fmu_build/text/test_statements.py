@@ -1,7 +1,7 @@
 """Statements as a tree."""
 
-from fmu_build.front.statements import Statement, statements
-from fmu_build.front.tokens import tokenise
+from fmu_build.text.statements import Statement, statements
+from fmu_build.text.tokens import tokenise
 
 TEXT = """
   Real x = if a then 1 else 2;
@@ -28,8 +28,8 @@ def shape(statement: Statement) -> str:
 def test_branches_hold_their_statements() -> None:
     found = list(statements(tokenise(TEXT)))
     assert [shape(s) for s in found] == ["x", "if [connect] [for [when [f] [f]]] []", "assert"]
-    assert [" ".join(word for word, _ in c) for c in found[1].conditions] == ["if a then b else c", "d"]
-    assert TEXT[found[1].start : found[1].end].split()[-1] == "else"
+    assert [" ".join(token.text for token in c) for c in found[1].conditions] == ["if a then b else c", "d"]
+    assert TEXT[found[1].start : found[1].end].split()[-3:] == ["else", "end", "if;"]
 
 
 def test_text_that_ends_too_early_is_read_to_its_end() -> None:
