@@ -215,12 +215,12 @@ def effects_of(names: Sequence[str], given: Given, option: str = "--effects") ->
 def _model(text: str, libraries: Sequence[Path]) -> tuple[Model, str, list[str]]:
     """The base model, its class where that is known, and notes."""
     from pysim.cli._any_model import is_fmu, read_fmu_or_class
-    from pysim.effects._library import Libraries
+    from pysim.effects import declares
 
     model = read_fmu_or_class(text, libraries)
     if not is_fmu(text):
         return model, text, []
-    if model.name in Libraries(libraries).classes:
+    if declares(model.name, libraries):
         return model, model.name, []
     return model, "", _out_of_sight(model)
 

@@ -92,16 +92,9 @@ def _effect(effect: Effect) -> dict[str, Any]:
 
 def _constants(effects: tuple[Effect, ...], libraries: list[Path]) -> dict[str, dict[str, str]]:
     """Effect -> what else its law names: values, as written, of constants and of parameters that nobody sets."""
-    from pysim.effects import STANDARD_LIBRARY
-    from pysim.effects._library import Libraries
+    from pysim.effects import STANDARD_LIBRARY, law_constants
 
-    classes = Libraries([STANDARD_LIBRARY, *libraries]).classes
-    found = {}
-    for effect in effects:
-        own = {parameter.name for parameter in effect.parameters}
-        declared = [d for d in classes[effect.class_name].declarations if d.prefixes & {"constant", "parameter"}]
-        found[effect.name] = {d.name: d.value for d in declared if d.value and d.name not in own}
-    return found
+    return {effect.name: law_constants(effect, [STANDARD_LIBRARY, *libraries]) for effect in effects}
 
 
 def _of(model: Model, causality: str) -> list[Variable]:

@@ -1,6 +1,7 @@
 """What can be put into a model's slots: the catalogue of effects, and the class of a model that has some of them."""
 
-from pysim.effects.catalogue import STANDARD_LIBRARY, VENDOR, Pair, read_catalogue, read_pairs
+from pysim.effects._text import declares
+from pysim.effects.catalogue import STANDARD_LIBRARY, VENDOR, Pair, law_constants, read_catalogue, read_pairs
 from pysim.effects.slots import Slot, fitting, slots
 from pysim.effects.variant import Variant, variant, variant_text
 
@@ -10,7 +11,9 @@ __all__ = [
     "Pair",
     "Slot",
     "Variant",
+    "declares",
     "fitting",
+    "law_constants",
     "read_catalogue",
     "read_pairs",
     "slots",

@@ -2,17 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
+from textwrap import dedent
+from typing import Any
 
-from pysim.effects._classes import ClassText, Declaration, arguments
-from pysim.effects._library import Libraries
-from pysim.effects._numbers import number
+from fmu_build.text import ClassText, Declaration, Libraries
+from fmu_build.text.declarations import Kind, Modifier, modifiers
+from fmu_build.text.expressions import literal
+from fmu_build.text.tokens import string_value
+from pysim.effects._text import as_bad_input, known_class
 from pysim.types import BadInput, Effect, EffectParameter
 
 VENDOR = "__HydraulicTestBench"  # the annotation's name
 STANDARD_LIBRARY = Path(__file__).resolve().parents[2] / "modelica" / "HydraulicTestBench"  # the one that comes along
+_Said = Mapping[str, Modifier]
 
 
 @dataclass(frozen=True)
@@ -36,7 +42,7 @@ def read_catalogue(*libraries: Path) -> tuple[Effect, ...]:
 
     A class is an effect when its annotation says `__HydraulicTestBench(effect="...", slot="...")`. Of its parameters
     those with the declared value 0 are strengths, with 0 for off (another off value is stated by `start`); `min`, `max`
-    and `nominal` are bounds and size.
+    and `nominal` are bounds and size. Of an array each element is a parameter, `c[1]`, `c[2]`, ...
 
     Args:
         libraries: folders with a package.mo, or .mo files. A user's own go behind ours.
@@ -46,58 +52,88 @@ def read_catalogue(*libraries: Path) -> tuple[Effect, ...]:
     library = Libraries(libraries)
     found: dict[str, ClassText] = {}
     effects = []
-    for text, said in _annotated(library):
-        if "effect" not in said:
-            continue
-        name = _text(said["effect"])
-        if name in found:
-            raise BadInput(f"{text.file}: the effect {name} is also in {found[name].file}; rename one of the two")
-        found[name] = text
-        effects.append(_effect(name, text, said, library))
+    with as_bad_input():
+        for text, said in _annotated(library):
+            if "effect" not in said:
+                continue
+            name = _string(said, "effect")
+            if name in found:
+                other = found[name].source.file
+                raise BadInput(f"{text.source.file}: the effect {name} is also in {other}; rename one of the two")
+            found[name] = text
+            effects.append(_effect(name, text, said, library))
     return tuple(effects)
 
 
 def read_pairs(*libraries: Path) -> tuple[Pair, ...]:
-    """Every class that puts two effects into one slot, annotated with `pair="slot"`."""
-    return tuple(
-        Pair(_text(said["pair"]), text.full_name, tuple(_text(part) for part in _list(said.get("of", ""))))
-        for text, said in _annotated(Libraries(libraries))
-        if "pair" in said
-    )
+    """Every class that puts two effects into one slot, annotated with `pair="slot"`.
+
+    Raises:
+        BadInput: a library cannot be read.
+    """
+    with as_bad_input():
+        return tuple(
+            Pair(_string(said, "pair"), text.full_name, _strings(said, "of"))
+            for text, said in _annotated(Libraries(libraries))
+            if "pair" in said
+        )
 
 
-def _annotated(library: Libraries) -> Iterator[tuple[ClassText, dict[str, str]]]:
+def law_constants(effect: Effect, libraries: Sequence[Path]) -> dict[str, str]:
+    """What else the law of an effect names: values, as written, of constants and of parameters that nobody sets.
+
+    Raises:
+        BadInput: the effect's class is in none of the libraries.
+    """
+    own = {parameter.name for parameter in effect.parameters}
+    with as_bad_input():
+        text = known_class(effect.class_name, Libraries(libraries))
+    declared = [d for d in text.declarations if d.prefixes & {"constant", "parameter"}]
+    return {d.name: d.text(d.value) for d in declared if d.value and d.name not in own and f"{d.name}[1]" not in own}
+
+
+def _annotated(library: Libraries) -> Iterator[tuple[ClassText, _Said]]:
     """Classes with the annotation, and what it says."""
-    for text in library.classes.values():
-        said = arguments(text.annotation).get(VENDOR)
+    for text in library.classes(VENDOR):
+        said = modifiers(text.annotation).get(VENDOR)
         if said is not None:
-            yield text, arguments(said)
+            yield text, modifiers(said.inside)
 
 
-def _effect(name: str, text: ClassText, said: dict[str, str], library: Libraries) -> Effect:
+def _effect(name: str, text: ClassText, said: _Said, library: Libraries) -> Effect:
+    file = text.source.file
     if "slot" not in said:
-        raise BadInput(f'{text.file}: the effect {name} fills no slot; write slot="..." into its annotation')
-    parameters = [
-        _parameter(declaration, text, library)
-        for declaration in text.declarations
-        if "parameter" in declaration.prefixes and "final" not in declaration.prefixes
-    ]
+        raise BadInput(f'{file}: the effect {name} fills no slot; write slot="..." into its annotation')
+    parameters: list[EffectParameter] = []
+    for declaration in text.of_kind(Kind.COMPONENT):
+        if "parameter" in declaration.prefixes and "final" not in declaration.prefixes:
+            parameters += _parameters(declaration, text, library)
     try:
         return Effect(
             name,
-            _text(said["slot"]),
+            _string(said, "slot"),
             text.full_name,
             tuple(parameters),
-            text.description,
-            said.get("bypass", "false") == "true",
-            "\n".join(text.equations),
+            _on_one_line(text.description),
+            "bypass" in said and text.text(said["bypass"].value) == "true",
+            _law(text),
         )
     except BadInput as error:
-        raise BadInput(f"{text.file}: {error}") from error
+        raise BadInput(f"{file}: {error}") from error
 
 
-def _parameter(declaration: Declaration, text: ClassText, library: Libraries) -> EffectParameter:
-    where = f"{text.file}: {declaration.name}"
+def _law(text: ClassText) -> str:
+    """Its equations as written, each from the first column on."""
+    found = []
+    for statement in text.equations:
+        column = statement.start - text.source.text.rfind("\n", 0, statement.start) - 1
+        found.append(dedent(" " * column + text.text(statement.tokens)))
+    return "\n".join(found)
+
+
+def _parameters(declaration: Declaration, text: ClassText, library: Libraries) -> Iterator[EffectParameter]:
+    """A parameter, or each element of a vector of them."""
+    where = f"{text.source.file}: {declaration.name}"
     attributes = _attributes(declaration, text, library)
     for attribute in ("min", "max", "unit"):
         if attribute not in attributes:
@@ -106,44 +142,111 @@ def _parameter(declaration: Declaration, text: ClassText, library: Libraries) ->
             )
     if not declaration.value:
         raise BadInput(f"{where} has no value; declare it with = 0 for off, or with a usual size")
-    low, high, default = (number(t, where) for t in (attributes["min"], attributes["max"], declaration.value))
-    off = number(attributes["start"], where) if "start" in attributes else 0.0 if default == 0 else None
-    said = arguments(arguments(declaration.annotation).get(VENDOR, ""))
+    known = _integers(text)
+    default = _number(declaration.text(declaration.value), where, known)
+    numbers = {name: _number(value, where, known) for name, value in attributes.items() if name in _NUMBERS}
+    count = _size(declaration, where, known)
+    if count is None:
+        yield _parameter(declaration.name, default, numbers, attributes["unit"], declaration, where)
+        return
+    for k in range(count):
+        own = {name: _element(value, k, count, where) for name, value in numbers.items()}
+        name, value = f"{declaration.name}[{k + 1}]", _element(default, k, count, where, of_value=True)
+        yield _parameter(name, value, own, attributes["unit"], declaration, where)
+
+
+_NUMBERS = ("min", "max", "nominal", "start")
+
+
+def _parameter(
+    name: str, default: Any, numbers: Mapping[str, Any], unit: str, declaration: Declaration, where: str
+) -> EffectParameter:
+    if any(isinstance(value, tuple) for value in (default, *numbers.values())):
+        raise BadInput(f"{where} has an array where a number is meant; write a number, or declare it as an array")
+    low, high = numbers["min"], numbers["max"]
+    off = numbers.get("start", 0.0 if default == 0 else None)
+    said = modifiers(declaration.annotation).get(VENDOR)
+    inside = modifiers(said.inside) if said else {}
     try:
         return EffectParameter(
-            declaration.name,
-            _text(attributes["unit"]),
+            name,
+            unit.strip().strip('"'),
             low,
             high,
-            number(attributes["nominal"], where) if "nominal" in attributes else max(abs(low), abs(high)) / 10,
+            numbers.get("nominal", max(abs(low), abs(high)) / 10),
             default,
             off,
-            declaration.description,
-            _text(said.get("inverse", '""')),
-            _text(said.get("limits", '""')),
+            _on_one_line(declaration.description),
+            _string(inside, "inverse"),
+            _string(inside, "limits"),
         )
     except BadInput as error:
-        raise BadInput(f"{text.file}: {error}") from error
+        raise BadInput(f"{declaration.source.file}: {error}") from error
+
+
+def _integers(text: ClassText) -> dict[str, float]:
+    """The class' Integer constants and parameters with their values, for sizes of arrays."""
+    found: dict[str, float] = {}
+    for declaration in text.of_kind(Kind.COMPONENT):
+        if declaration.class_name == "Integer" and declaration.prefixes & {"constant", "parameter"}:
+            with suppress(ValueError):  # one that is calculated is no size that can be known here
+                found[declaration.name] = literal(declaration.text(declaration.value), found)
+    return found
+
+
+def _size(declaration: Declaration, where: str, known: Mapping[str, float]) -> int | None:
+    """The number of elements of a vector; None for what is no array."""
+    if not declaration.dimensions:
+        return None
+    size = _number(declaration.text(declaration.dimensions[1:-1]), where, known)
+    if isinstance(size, tuple) or size != int(size) or size < 1:
+        raise BadInput(f"{where} has the size {size}; give one whole number, as in {declaration.name}[9]")
+    return int(size)
+
+
+def _element(value: Any, k: int, count: int, where: str, *, of_value: bool = False) -> Any:
+    """Of an array its element; of an attribute that is one number, this for each element."""
+    if not isinstance(value, tuple) and not of_value:
+        return value
+    if not isinstance(value, tuple) or len(value) != count:
+        raise BadInput(f"{where} has {count} elements; give as many values, as in zeros({count})")
+    return value[k]
+
+
+def _number(text: str, where: str, known: Mapping[str, float]) -> Any:
+    """A number, or a tuple of numbers, from an expression of literals such as `50e-3`, `2*Constants.pi*5`, `zeros(9)`.
+
+    Raises:
+        BadInput: anything else; says where.
+    """
+    try:
+        return literal(text, known)
+    except ValueError as error:
+        raise BadInput(f"{where}: {text.strip()!r} must be a number; write it out, such as 5e-3") from error
 
 
 def _attributes(declaration: Declaration, text: ClassText, library: Libraries) -> dict[str, str]:
     """Attributes of the declaration, and those of its type where it has none of its own."""
-    found, name, scope = dict(declaration.modifiers), declaration.type_name, text.full_name
-    for _ in range(20):  # aliases of aliases; a ring would not compile
-        base = library.resolve(name, scope)
-        if base is None:
-            return found
-        found = {**base.modifiers, **found}
-        if not base.bases:
-            return found
-        name, scope = base.bases[0].class_name, base.full_name
+    found = _written(declaration)
+    base = library.resolve(declaration.class_name, text)
+    for one in library.ancestry(base) if base is not None else ():
+        for extended in one.of_kind(Kind.EXTENDS):
+            found = {**_written(extended), **found}
     return found
 
 
-def _text(written: str) -> str:
-    return written.strip().strip('"')
+def _written(declaration: Declaration) -> dict[str, str]:
+    return {name: declaration.text(modifier.value) for name, modifier in declaration.modifiers.items()}
 
 
-def _list(written: str) -> Sequence[str]:
-    inside = written.strip().removeprefix("{").removesuffix("}")
-    return [part for part in inside.split(",") if part.strip()]
+def _string(said: _Said, name: str) -> str:
+    return _on_one_line(string_value(said[name].value)) if name in said else ""
+
+
+def _strings(said: _Said, name: str) -> tuple[str, ...]:
+    """Of `{"a", "b"}` both."""
+    return tuple(string_value((token,)) for token in said[name].value if token.is_string) if name in said else ()
+
+
+def _on_one_line(text: str) -> str:
+    return " ".join(text.split())

@@ -7,9 +7,10 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from pysim.effects._classes import ClassText, Declaration
-from pysim.effects._library import Libraries
-from pysim.types import BadInput, Effect
+from fmu_build.text import ClassText, Declaration, Libraries
+from fmu_build.text.declarations import Kind
+from pysim.effects._text import as_bad_input, changes, is_input, known_class
+from pysim.types import Effect
 
 _GIVEN = re.compile(r"(?:der\s*\(\s*(\w+)\s*\)|(\w+))\s*=")
 
@@ -48,16 +49,14 @@ def slots(class_name: str, libraries: Sequence[Path]) -> tuple[Slot, ...]:
         BadInput: no such class.
     """
     library = Libraries(libraries)
-    text = library.classes.get(class_name)
-    if text is None:
-        raise BadInput(f"no class {class_name} in the libraries; check its full name, and name its library")
     found: dict[str, Slot] = {}
-    for own in _ancestry(text, library):
-        for declaration in own.declarations:
-            if "replaceable" in declaration.prefixes:
-                slot = _slot(declaration, own, library)
-                if slot is not None:
-                    found.setdefault(slot.name, slot)
+    with as_bad_input():
+        for own in library.ancestry(known_class(class_name, library)):
+            for declaration in own.of_kind(Kind.COMPONENT):
+                if "replaceable" in declaration.prefixes:
+                    slot = _slot(declaration, own, library)
+                    if slot is not None:
+                        found.setdefault(slot.name, slot)
     return tuple(found.values())
 
 
@@ -71,62 +70,38 @@ def fitting(effects: Sequence[Effect], class_name: str, libraries: Sequence[Path
     library = Libraries(libraries)
 
     def fits(effect: Effect) -> bool:
-        text = library.classes.get(effect.class_name)
-        return text is not None and any(one.full_name == takes.get(effect.slot) for one in _ancestry(text, library))
+        text = library.full(effect.class_name)
+        return text is not None and any(one.full_name == takes.get(effect.slot) for one in library.ancestry(text))
 
-    return tuple(effect for effect in effects if fits(effect))
+    with as_bad_input():
+        return tuple(effect for effect in effects if fits(effect))
 
 
 def _slot(declaration: Declaration, owner: ClassText, library: Libraries) -> Slot | None:
     """None for what is replaceable but no component of a class in the libraries."""
-    filling = library.resolve(declaration.type_name, owner.full_name)
+    filling = library.resolve(declaration.class_name, owner)
     if filling is None:
         return None
-    takes = library.resolve(declaration.constraint, owner.full_name) if declaration.constraint else None
+    takes = library.resolve(declaration.constraining, owner) if declaration.constraint else None
     if takes is None:  # Modelica's rule is the declared class itself; a filling without a law extends what is meant
-        base = filling.bases[0].class_name if filling.bases else ""
-        takes = (library.resolve(base, filling.full_name) if base else None) or filling
-    owned = list(_ancestry(takes, library))
-    declared = {d.name: d for text in owned for d in text.declarations}
-    laws = [text for text in _ancestry(filling, library) if filling is takes or text not in owned]
-    names = [name for name in _given(laws) if name in declared and not _is_input(declared[name])]
+        base = next(filling.of_kind(Kind.EXTENDS), None)
+        takes = (library.resolve(base.class_name, filling) if base else None) or filling
+    owned = list(library.ancestry(takes))
+    declared = {d.name: d for text in owned for d in text.of_kind(Kind.COMPONENT)}
+    laws = [text for text in library.ancestry(filling) if filling is takes or text not in owned]
+    names = [name for name in _given(laws) if name in declared and not is_input(declared[name])]
     gives = tuple(dict.fromkeys(names))
-    others = {d.name: _is_input(d) for text in owned for d in text.declarations if _changes(d, text, library)}
+    others = {d.name: is_input(d) for text in owned for d in text.of_kind(Kind.COMPONENT) if changes(d, text, library)}
     sees = tuple(name for name in others if name not in gives)
     nodes = tuple(name for name in sees if not others[name])
-    return Slot(declaration.name, filling.full_name, takes.full_name, gives, declaration.description, sees, nodes)
-
-
-def _changes(declaration: Declaration, owner: ClassText, library: Libraries) -> bool:
-    """Whether it is a real number that is no parameter."""
-    if declaration.prefixes & {"parameter", "constant"}:
-        return False
-    resolved = library.resolve(declaration.type_name, owner.full_name)
-    if resolved is None:
-        return declaration.type_name == "Real"
-    return resolved.kind == "type" or resolved.full_name.endswith((".RealInput", ".RealOutput"))
+    about = " ".join(declaration.description.split())
+    return Slot(declaration.name, filling.full_name, takes.full_name, gives, about, sees, nodes)
 
 
 def _given(laws: Sequence[ClassText]) -> Iterator[str]:
     for text in laws:
-        for equation in text.equations:
-            match = _GIVEN.match(equation)
-            if match:
-                yield match[1] or match[2]
-
-
-def _is_input(declaration: Declaration) -> bool:
-    return "input" in declaration.prefixes or declaration.type_name.endswith("RealInput")
-
-
-def _ancestry(text: ClassText, library: Libraries) -> Iterator[ClassText]:
-    """The class, then all it extends, nearest first."""
-    seen, queue = set(), [text]
-    while queue:
-        current = queue.pop(0)
-        if current.full_name in seen:
-            continue
-        seen.add(current.full_name)
-        yield current
-        bases = (library.resolve(base.class_name, current.full_name) for base in current.bases)
-        queue += [base for base in bases if base is not None]
+        for outer in text.equations:
+            for equation in (outer, *outer.inside()):
+                match = _GIVEN.match(text.text(equation.tokens))
+                if match:
+                    yield match[1] or match[2]

@@ -7,8 +7,9 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from pysim.effects._classes import ClassText, Declaration
-from pysim.effects._library import Libraries
+from fmu_build.text import ClassText, Declaration, Libraries
+from fmu_build.text.declarations import Kind
+from pysim.effects._text import as_bad_input, known_class
 
 SLOT, PART, INPUT, OUTPUT, PORT, TERM = "slot", "part", "input", "output", "port", "term"
 TO, BOTH, JOINT = "to", "both", "joint"  # one way, both ways, a connection of ports that has no direction
@@ -66,14 +67,17 @@ def structure(class_name: str, libraries: Sequence[Path]) -> Structure:
     Args:
         class_name: full name.
         libraries: where it and its parts are.
+    Raises:
+        BadInput: no such class.
     """
     library = Libraries(libraries)
-    texts = list(_ancestry(library.classes[class_name], library))
     reader = _Reader(library, {})
-    for text in texts:
-        for declaration in text.declarations:
-            reader.declare(declaration, text)
-    arrows = [arrow for text in texts for arrow in reader.arrows(text)]
+    with as_bad_input():
+        texts = list(library.ancestry(known_class(class_name, library)))
+        for text in texts:
+            for declaration in text.of_kind(Kind.COMPONENT):
+                reader.declare(declaration, text)
+        arrows = [arrow for text in texts for arrow in reader.arrows(text)]
     arrows = [replace(arrow, joint=reader.net(arrow.joint)) for arrow in arrows]
     return _drawn([node for node, _ in reader.known.values()], arrows, reader.states, class_name)
 
@@ -101,16 +105,17 @@ class _Reader:
         """Take a declaration that the drawing shows."""
         kind, of = _kind(declaration, owner, self._library)
         if kind:
-            node = Node(declaration.name, kind, declaration.description, _place(declaration.annotation))
+            about = " ".join(declaration.description.split())
+            node = Node(declaration.name, kind, about, _place(declaration.text(declaration.annotation)))
             self.known.setdefault(declaration.name, (node, of))
 
     def arrows(self, text: ClassText) -> Iterator[_Arrow]:
         """What depends on what, by equations, connections, and values of declarations."""
-        for declaration in text.declarations:
+        for declaration in text.of_kind(Kind.COMPONENT):
             if declaration.value and declaration.name in self.known:
-                yield from self._equation(declaration.name, declaration.value)
-        for statement in text.equations:
-            words = re.sub(r'"[^"]*"', "", statement).strip().rstrip(";")
+                yield from self._equation(declaration.name, declaration.text(declaration.value))
+        for statement in (one for outer in text.equations for one in (outer, *outer.inside()) if not one.branches):
+            words = re.sub(r'"[^"]*"', "", text.text(statement.tokens)).strip().rstrip(";")
             connected = re.fullmatch(r"connect\s*\(([^,]*),([^,]*)\)", words, re.S)
             if connected:
                 yield from self._connection(connected[1].strip(), connected[2].strip())
@@ -142,8 +147,8 @@ class _Reader:
         node, of = self.known.get(head, (Node(head, PORT), None))
         if not inner:
             return {INPUT: 1, OUTPUT: -1}.get(node.kind, 0)
-        for text in _ancestry(of, self._library) if of is not None else ():
-            for declaration in text.declarations:
+        for text in self._library.ancestry(of) if of is not None else ():
+            for declaration in text.of_kind(Kind.COMPONENT):
                 if declaration.name == inner.partition(".")[0]:
                     return {INPUT: -1, OUTPUT: 1}.get(_signal(declaration), 0)
         return 0
@@ -175,9 +180,9 @@ def _kind(declaration: Declaration, owner: ClassText, library: Libraries) -> tup
         return "", None
     if signal := _signal(declaration):
         return signal, None
-    of = library.resolve(declaration.type_name, owner.full_name)
+    of = library.resolve(declaration.class_name, owner)
     if of is None:
-        return {"Real": TERM, "Integer": "", "Boolean": "", "String": ""}.get(declaration.type_name, PART), None
+        return {"Real": TERM, "Integer": "", "Boolean": "", "String": ""}.get(declaration.class_name, PART), None
     if of.kind in ("model", "block", "class"):
         return SLOT if "replaceable" in declaration.prefixes else PART, of
     return {"type": TERM, "connector": PORT}.get(of.kind, ""), None
@@ -186,7 +191,7 @@ def _kind(declaration: Declaration, owner: ClassText, library: Libraries) -> tup
 def _signal(declaration: Declaration) -> str:
     """INPUT, OUTPUT, or "" for anything else."""
     for kind in (INPUT, OUTPUT):
-        if kind in declaration.prefixes or declaration.type_name.endswith(f"Real{kind.capitalize()}"):
+        if kind in declaration.prefixes or declaration.class_name.endswith(f"Real{kind.capitalize()}"):
             return kind
     return ""
 
@@ -250,15 +255,3 @@ def _links(arrows: Sequence[_Arrow]) -> Iterator[Link]:
         both = any(arrow.source != first.source for arrow in own)
         joint = next((arrow.joint for arrow in own if arrow.joint), "")
         yield Link(first.source, first.target, JOINT if joint else BOTH if both else TO, joint or first.source)
-
-
-def _ancestry(text: ClassText, library: Libraries) -> Iterator[ClassText]:
-    """The class, then all it extends, nearest first."""
-    seen, queue = set(), [text]
-    while queue:
-        current = queue.pop(0)
-        if current.full_name not in seen:
-            seen.add(current.full_name)
-            yield current
-            bases = (library.resolve(base.class_name, current.full_name) for base in current.bases)
-            queue += [base for base in bases if base is not None]

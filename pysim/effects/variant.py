@@ -6,10 +6,10 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from pysim.effects._classes import ClassText
-from pysim.effects._library import Libraries
-from pysim.effects._modifications import with_values
-from pysim.effects._tokens import tokenise
+from fmu_build.text import ClassText, Libraries, class_text, tokenise, with_values
+from fmu_build.text.declarations import Kind
+from fmu_build.text.tokens import is_name, split
+from pysim.effects._text import as_bad_input, known_class
 from pysim.effects.catalogue import Pair, read_pairs
 from pysim.types import BadInput, Effect
 
@@ -62,20 +62,20 @@ def variant(
     if len(set(names)) < len(names):
         raise BadInput(f"variant of {base_class}: an effect is named twice among {', '.join(names)}; name each once")
     slots = list(dict.fromkeys(effect.slot for effect in effects))
-    base, modifications = _unrolled(base_class, slots, Libraries(libraries))
+    with as_bad_input():
+        base, modifications = _unrolled(base_class, slots, Libraries(libraries))
     pairs = read_pairs(*libraries) if len(slots) < len(effects) else ()
     inner: list[str] = []
     places: dict[str, str] = {}
     for slot in slots:
         filling = _filling(slot, [effect for effect in effects if effect.slot == slot], pairs, inner, places)
         modifications = [*modifications, f"redeclare {filling} {slot}"]
-    modifications = with_values(modifications, values or {})
-    bracket = "(\n    " + ",\n    ".join(modifications) + ")" if modifications else ""
-    about = ", ".join(names) or "no effect"
-    short = base_class.rpartition(".")[2]
-    above = [f"// {line}".rstrip() for line in comment.splitlines()]
-    lines = [*above, f'model {name} "{short} with {about}"', *inner, f"  extends {base}{bracket};", f"end {name};", ""]
-    return Variant(name, "\n".join(lines), places)
+    with as_bad_input():
+        modifications = with_values(modifications, values or {})
+    about = f"{base_class.rpartition('.')[2]} with {', '.join(names) or 'no effect'}"
+    extends = [(base, modifications)]
+    text = class_text(name, description=about, comment=comment, classes=inner, extends=extends)
+    return Variant(name, text, places)
 
 
 def variant_text(base_class: str, effects: Sequence[Effect], libraries: Sequence[Path]) -> str:
@@ -103,13 +103,9 @@ def _filling(
     first, place = effects[0].class_name, ""
     for k, effect in enumerate(effects[1:], start=1):
         name = f"{slot[0].upper()}{slot[1:]}{k}"
-        inner += [
-            f'  model {name} "{effects[k - 1].name if k == 1 else "the former"} and {effect.name}"',
-            f"    extends {pair.class_name}(",
-            f"      redeclare {first} first,",
-            f"      redeclare {effect.class_name} second);",
-            f"  end {name};",
-        ]
+        about = f"{effects[k - 1].name if k == 1 else 'the former'} and {effect.name}"
+        parts = (f"redeclare {first} first", f"redeclare {effect.class_name} second")
+        inner.append(class_text(name, description=about, extends=[(pair.class_name, parts)]))
         first = name
     for k, effect in enumerate(reversed(effects)):
         last = k == len(effects) - 1
@@ -120,19 +116,18 @@ def _filling(
 
 def _unrolled(base_class: str, slots: Sequence[str], library: Libraries) -> tuple[str, list[str]]:
     """The class that declares the slots, and the modifications on the way to it with full names."""
-    text = library.classes.get(base_class)
-    if text is None:
-        raise BadInput(f"no class {base_class} in the libraries; check its full name")
+    text = known_class(base_class, library)
     modifications: list[str] = []
     while not all(_declares(text, slot) for slot in slots):
         missing = next(slot for slot in slots if not _declares(text, slot))
-        parent = library.resolve(text.bases[0].class_name, text.full_name) if len(text.bases) == 1 else None
-        if parent is None or not text.plain:
+        bases = list(text.of_kind(Kind.EXTENDS))
+        parent = library.resolve(bases[0].class_name, text) if len(bases) == 1 else None
+        if parent is None or not text.is_plain:
             raise BadInput(
                 f"{base_class} has no replaceable part {missing}, or {text.full_name} declares more beside the class "
                 "that has it; name a class that declares its slots itself"
             )
-        here = [part.strip() for part in _parts(text.bases[0].modifications)]
+        here = [text.text(part) for part in split(bases[0].arguments, ",")]
         modifications = [_with_full_names(part, text, library) for part in here] + modifications
         text = parent
     return text.full_name, modifications
@@ -142,21 +137,14 @@ def _declares(text: ClassText, slot: str) -> bool:
     return any(d.name == slot and "replaceable" in d.prefixes for d in text.declarations)
 
 
-def _parts(bracket: str) -> list[str]:
-    from pysim.effects._tokens import split, written
-
-    tokens = tokenise(bracket)
-    return [written(bracket, part) for part in split(tokens, ",") if part]
-
-
 def _with_full_names(part: str, text: ClassText, library: Libraries) -> str:
     """A modification with the names of classes written in full, so that it means the same elsewhere."""
     tokens = tokenise(part)
     replaced, end = "", 0
     for k, token in enumerate(tokens):
-        begins = token.text[0].isidentifier() and (k == 0 or tokens[k - 1].text != ".")
+        begins = is_name(token.text) and (k == 0 or tokens[k - 1].text != ".")
         if begins and k + 1 < len(tokens) and tokens[k + 1].text == ".":
-            found = library.resolve(token.text, text.full_name)
+            found = library.resolve(token.text, text)
             if found is not None:
                 replaced += part[end : token.start] + found.full_name
                 end = token.end

@@ -4,8 +4,10 @@ from pathlib import Path
 
 import pytest
 
-from pysim.effects import Pair, read_catalogue, read_pairs
-from pysim.effects._library import Libraries
+from fmu_build import build
+from fmu_build.text import Libraries
+from pysim.effects import Pair, law_constants, read_catalogue, read_pairs, variant
+from pysim.io import read_model
 from pysim.types import BadInput
 from tests.modelica.library import LIBRARY
 
@@ -56,7 +58,7 @@ def test_a_users_library_in_one_file(tmp_path: Path) -> None:
     assert effect.description == 'Dry friction of the "bearing"'
     assert effect.bypass
     assert effect.law.startswith("tau = -T_c*tanh(s*w);\nif w > 0 then\n")
-    assert effect.law.endswith("end if;")
+    assert effect.law.endswith("\n  z = {1, 2};\nend if;")
     torque, steepness, on, unused = effect.parameters
     assert (torque.name, torque.unit, torque.min, torque.max, torque.nominal) == ("T_c", "N.m", 0.0, 50.0, 2.0)
     assert (torque.default, torque.off, torque.inverse, torque.description) == (0.0, 0.0, "G", "Torque, 0 = off")
@@ -73,7 +75,62 @@ def test_a_file_that_does_not_say_where_it_belongs_belongs_to_its_folder(tmp_pat
     (tmp_path / "Lib" / "package.mo").write_text("package Lib\nend Lib;\n")
     (tmp_path / "Lib" / "Sub" / "package.mo").write_text("package Sub\nend Sub;\n")
     (tmp_path / "Lib" / "Sub" / "Drag.mo").write_text("model Drag\nend Drag;\n")
-    assert sorted(Libraries([tmp_path / "Lib"]).classes) == ["Lib", "Lib.Sub", "Lib.Sub.Drag"]
+    assert sorted(one.full_name for one in Libraries([tmp_path / "Lib"]).classes()) == [
+        "Lib",
+        "Lib.Sub",
+        "Lib.Sub.Drag",
+    ]
+
+
+VECTORS = """
+package Drive
+  partial model PartialTorque input Real w(unit="rad/s"); output Real tau(unit="N.m"); end PartialTorque;
+  type Torque = Real(unit="N.m", min=-5, max=5);
+  model Learned "A law between knots"
+    import Own = Drive.Torque;
+    extends PartialTorque;
+    constant Integer n = 3 "Knots";
+    constant Real knot[n] = linspace(-1, 1, n);
+    parameter Own c[n](nominal={1, 2, 3}) = zeros(n) "Values";
+    parameter Real[2] d(each unit="1", each min=0, max=fill(2, 2)) = {0.5, 1}, e(unit="1", min=0, max=1) = {1, 1};
+  equation
+    tau = c[1]*w;
+    annotation(__HydraulicTestBench(effect="drive.learned", slot="friction"));
+  end Learned;
+end Drive;
+"""
+
+
+def test_each_element_of_an_array_is_a_parameter(tmp_path: Path) -> None:
+    path = library(tmp_path, VECTORS)
+    (effect,) = read_catalogue(path)
+    assert [p.name for p in effect.parameters] == ["c[1]", "c[2]", "c[3]", "d[1]", "d[2]", "e[1]", "e[2]"]
+    assert [p.nominal for p in effect.parameters[:3]] == [1.0, 2.0, 3.0]
+    assert {(p.unit, p.min, p.max, p.default, p.off) for p in effect.strengths} == {("N.m", -5.0, 5.0, 0.0, 0.0)}
+    assert [(p.max, p.default) for p in effect.parameters[3:5]] == [(2.0, 0.5), (2.0, 1.0)]
+    assert law_constants(effect, [path]) == {"n": "3", "knot": "linspace(-1, 1, n)"}
+
+
+def test_a_learned_class_compiles_with_its_elements_set(tmp_path: Path) -> None:
+    own = VECTORS.replace(
+        "end Drive;",
+        """  model Rig
+    replaceable Learned friction constrainedby PartialTorque;
+    Real w(start=1, fixed=true);
+  equation
+    friction.w = w;
+    der(w) = friction.tau;
+  end Rig;
+end Drive;""",
+    )
+    path = library(tmp_path, own)
+    (effect,) = read_catalogue(path)
+    values = {f"friction.c[{k}]": 0.5 * k for k in (1, 2, 3)}
+    made = variant("Drive.Rig", [effect], [path], name="Learnt", values=values)
+    (tmp_path / "Learnt.mo").write_text(made.text)
+    model = read_model(build("Learnt", tmp_path / "a.fmu", libraries=[path, tmp_path / "Learnt.mo"]))
+    assert {name: model[name].start for name in values} == values
+    assert model[made.parameter("drive.learned", "c[3]")].max == 5
 
 
 def test_pairs(tmp_path: Path) -> None:
@@ -85,6 +142,24 @@ def test_several_libraries_together(tmp_path: Path) -> None:
     assert names[-1] == "drive.bearing"
     assert len(names) == 25
     assert len(read_catalogue(LIBRARY)) == 24  # 18 of the pump, 6 of the test bench
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ("= zeros(n)", "= zeros(2)", r"c has 3 elements; give as many values, as in zeros\(3\)"),
+        ("= zeros(n)", "= 0", "c has 3 elements"),
+        ("={1, 2, 3}", "={1, 2}", "c has 3 elements"),
+        ("c[n]", "c[m]", "'m' must be a number"),
+        ("c[n]", "c[0]", "give one whole number"),
+        ("c[n]", "c", "c has an array where a number is meant"),
+        ("zeros(n)", "fill(0, 1000000, 1000000)", "must be a number"),
+    ],
+)
+def test_refuses_arrays_that_do_not_agree(tmp_path: Path, old: str, new: str, message: str) -> None:
+    assert old in VECTORS
+    with pytest.raises(BadInput, match=message):
+        read_catalogue(library(tmp_path, VECTORS.replace(old, new, 1)))
 
 
 @pytest.mark.parametrize(

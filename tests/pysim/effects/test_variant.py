@@ -6,9 +6,12 @@ from pathlib import Path
 
 import pytest
 
+from fmu_build import build
 from pysim.effects import fitting, read_catalogue, variant, variant_text
+from pysim.io import read_model
 from pysim.types import BadInput
 from tests.modelica.library import LIBRARY
+from tests.pysim.diagnose import toy
 from tests.pysim.effects.test_catalogue import library
 
 EFFECTS = {effect.name: effect for effect in read_catalogue(LIBRARY)}
@@ -103,3 +106,16 @@ def test_refuses(tmp_path: Path) -> None:
     ):
         with pytest.raises(BadInput, match=message):
             variant(base, effects, places)
+
+
+def test_the_fmu_of_a_class_with_values_starts_from_them(tmp_path: Path) -> None:
+    (effect,) = (e for e in read_catalogue(toy.library()) if e.name == "toy.friction")
+    mine = tmp_path / "Mine.mo"
+    mine.write_text('model Mine "A heavier mass"\n  extends Toy.Mass(m=3, d=0.5);\nend Mine;\n')
+    values = {"m": 4.0, "k": 12.5, "force.F_c": 0.3}
+    made = variant("Mine", [effect], [toy.library(), mine], name="MineFitted", values=values, comment="Said\n\nabove.")
+    assert made.text.startswith("// Said\n//\n// above.\nmodel MineFitted")
+    (tmp_path / "MineFitted.mo").write_text(made.text)
+    model = read_model(build("MineFitted", tmp_path / "a.fmu", libraries=[toy.library(), tmp_path / "MineFitted.mo"]))
+    assert {name: model[name].start for name in (*values, "d")} == {**values, "d": 0.5}
+    assert (model["m"].max, model["force.F_c"].max) == (5, 5)  # bounds stay
