@@ -1,17 +1,12 @@
 """Front end: Modelica text -> FlatModel."""
 
-import difflib
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from fmu_build.errors import BuildError, WrongCall
-from fmu_build.front.expression import Span
 from fmu_build.front.flat_model import Experiment, FlatModel, Role, Scalar
-from fmu_build.front.lost_actions import refuse_lost_actions
-from fmu_build.front.package_constants import refuse_mixed_constants
-from fmu_build.front.redeclaration import refuse_lost_redeclarations
-from fmu_build.front.session import compile_class
+from fmu_build.front.rumoca import compiled
 from fmu_build.text.classes import ClassText
 from fmu_build.text.declarations import Modifier, modifiers
 from fmu_build.text.expressions import literal
@@ -46,24 +41,9 @@ def _as_build_errors() -> Iterator[None]:
 
 
 def _loaded(class_name: str, classes: Libraries, overrides: Mapping[str, float | str]) -> FlatModel:
-    from fmu_build.front.rumoca_form import to_flat_model
-
     source = classes.find(class_name)
     _check_is_model(source)
-    refuse_lost_redeclarations(source, classes)
-    refuse_mixed_constants(source, classes)
-    dae, flat = compile_class(source, classes.places, overrides)
-    model = to_flat_model(
-        dae,
-        flat,
-        name=class_name,
-        span=Span(*source.place(source.start)),
-        experiment=_experiment(source),
-        documentation=_documentation(source),
-        description=source.description,
-    )
-    _check_overrides(model, overrides)
-    refuse_lost_actions(source, classes, model)
+    model = compiled(source, classes, overrides, experiment=_experiment(source), documentation=_documentation(source))
     _check_no_texts(model)
     return model
 
@@ -98,18 +78,6 @@ def _check_is_model(found: ClassText) -> None:
     if what or found.kind not in ("model", "block", "class"):
         message = f"{found.full_name} is a {what}{found.kind}; name a model or a block"
         raise WrongCall(message, *found.place(found.start))
-
-
-def _check_overrides(model: FlatModel, overrides: Mapping[str, float | str]) -> None:
-    """rumoca takes a modification of what does not exist without a word."""
-    parameters = {v.name for v in model.variables if v.role in (Role.PARAMETER, Role.STRUCTURAL)}
-    for name in overrides:
-        if name not in parameters:
-            near = difflib.get_close_matches(name, sorted(parameters), n=3)
-            hint = f"; near it: {', '.join(near)}" if near else ""
-            raise WrongCall(
-                f"{model.name} has no parameter {name} that could be set{hint}", model.span.file, model.span.line
-            )
 
 
 def _check_no_texts(model: FlatModel) -> None:

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from fmu_build.emit import model_identifier
 from fmu_build.errors import BuildError
-from fmu_build.front.session import Override, modification
+from fmu_build.front.overrides import Override, modification
 from fmu_build.openmodelica.gates import accept
 from fmu_build.openmodelica.session import Session, open_session, quoted
 

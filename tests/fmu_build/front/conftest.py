@@ -2,7 +2,7 @@
 
 import pytest
 
-from fmu_build.front import session
+from fmu_build.front.rumoca import session
 from tests.fmu_build.lower.compiling import ask_in_this_process
 
 

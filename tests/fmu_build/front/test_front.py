@@ -9,8 +9,8 @@ from fmu_build.errors import BuildError
 from fmu_build.front import expression as ex
 from fmu_build.front import load
 from fmu_build.front.flat_model import Experiment, Role
-from fmu_build.front.rumoca_form import to_flat_model
-from fmu_build.front.rumoca_form.folded import conditions_in_clauses
+from fmu_build.front.rumoca.form import to_flat_model
+from fmu_build.front.rumoca.refused.conditions import conditions_in_clauses
 
 
 @pytest.fixture

@@ -5,7 +5,7 @@ import re
 import pytest
 
 from fmu_build.errors import BuildError
-from fmu_build.front.unresolved import UnresolvedName
+from fmu_build.front.rumoca.failures import UnresolvedName
 from tests.fmu_build.lower.compiling import loaded
 
 Row = tuple[str, int, str]

@@ -5,7 +5,8 @@ import sys
 import pytest
 
 from fmu_build.errors import BuildError
-from fmu_build.front import load, session
+from fmu_build.front import load
+from fmu_build.front.rumoca import session
 
 MODEL = "model M\n  Real x(start = 1, fixed = true);\nequation\n  der(x) = -x;\nend M;\n"
 

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from fmu_build.front import load
-from fmu_build.front.unresolved import UnresolvedName
+from fmu_build.front.rumoca.failures import UnresolvedName
 
 
 def test_a_part_inside_a_part_whose_library_is_not_named(tmp_path: Path) -> None:

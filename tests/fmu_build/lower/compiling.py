@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from fmu_build.front import FlatModel, load
-from fmu_build.front.rumoca_worker import answer, written
+from fmu_build.front.rumoca.worker import answer, written
 from fmu_build.lower import OdeModel, lower
 from fmu_build.text import ClassText
 

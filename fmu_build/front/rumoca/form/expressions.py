@@ -5,7 +5,7 @@ from typing import Any
 
 from fmu_build.errors import BuildError
 from fmu_build.front import expression as ex
-from fmu_build.front.rumoca_form.places import Places
+from fmu_build.front.rumoca.form.places import Places
 
 Node = Mapping[str, Any]
 

@@ -7,8 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from fmu_build.front.expression import Span
-from fmu_build.front.joined import JoinedText
-from fmu_build.front.session import WRAPPER
+from fmu_build.front.rumoca.joined import WRAPPER, JoinedText
 
 
 class Places:

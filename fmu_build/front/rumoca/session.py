@@ -7,26 +7,22 @@ import re
 import subprocess
 import sys
 from collections.abc import Mapping, Sequence
-from itertools import accumulate
-from math import isfinite
 from pathlib import Path
 from typing import Any
 
-from fmu_build.errors import BuildError, WrongCall
-from fmu_build.front.joined import JoinedText, join
-from fmu_build.front.misread import misread
-from fmu_build.front.plain_words import in_plain_words
-from fmu_build.front.unresolved import unresolved
+from fmu_build.errors import BuildError
+from fmu_build.front.overrides import Override, modification
+from fmu_build.front.rumoca.failures import unresolved
+from fmu_build.front.rumoca.joined import WRAPPER, JoinedText, join
+from fmu_build.front.rumoca.refusals import FAILED
+from fmu_build.front.rumoca.words import in_plain_words
 from fmu_build.text.classes import ClassText
 from fmu_build.text.libraries import read_text
 from fmu_build.text.lookup import Libraries
-from fmu_build.text.tokens import depth_change, tokenise
 
-WRAPPER = "OverridesOfThisBuild"
-Override = float | str  # a number, or Modelica text
 _NOISE = re.compile(r"^(?:[a-z]+ failed: )?(?:\S+ (?:could not be compiled|failed in \w+): )?")
 _BYTES = re.compile(r"start: BytePos\((\d+)\), end: BytePos\((\d+)\)")
-_WORKER = Path(__file__).with_name("rumoca_worker.py")
+_WORKER = Path(__file__).with_name("worker.py")
 _LONGEST_S = 900.0  # a compiler that hangs is ended; a large library on a slow machine is not
 PLACE = re.compile(r"\[([^\[\]\n]+?\.mo):(\d+):\d+\]")
 
@@ -126,46 +122,6 @@ def _surroundings() -> dict[str, str]:
     return {**kept, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
 
 
-def modification(overrides: Mapping[str, Override]) -> str:
-    """`{"a.b": 1}` -> `(a(b = 1))`; nothing where there are none. Raises WrongCall for what is no value."""
-    parts = []
-    for name, value in overrides.items():
-        _refuse_element(name)
-        *outer, last = name.split(".")
-        inner = f"{last} = {_value_text(name, value)}"
-        for part in reversed(outer):
-            inner = f"{part}({inner})"
-        parts.append(inner)
-    return f"({', '.join(parts)})" if parts else ""
-
-
-def _refuse_element(name: str) -> None:
-    array, is_element, behind = name.partition("[")
-    if is_element and "'" not in name:
-        cure = f"give all of {array}, as in {array}={{1, 5}}"
-        if "." in behind:
-            cure = "give it in a class that extends this one, in the modification of the whole array"
-        raise WrongCall(f"{name} is a single element of an array, which cannot be set; {cure}")
-
-
-def _value_text(name: str, value: Override) -> str:
-    """A value as Modelica text; a text has to be one expression, so that it cannot change more than the value."""
-    if isinstance(value, bool):
-        return str(value).lower()
-    if isinstance(value, str):
-        words = [token.text for token in tokenise(value)]
-        depths = [0, *accumulate(depth_change(token) for token in tokenise(value))]
-        is_balanced = min(depths) == depths[-1] == 0
-        is_cut = any(word in ";\"'" or (word == "," and depth == 0) for word, depth in zip(words, depths, strict=False))
-        has_comment = "".join("".join(words).split()) != "".join(value.split())
-        if not words or not is_balanced or is_cut or has_comment:
-            raise WrongCall(f"the value set for {name}, {value}, is no single Modelica expression")
-        return value
-    if not isfinite(value):
-        raise WrongCall(f"the value set for {name} is {value}; give a finite number")
-    return str(value) if isinstance(value, int) else repr(float(value))
-
-
 def _explain(answer: Mapping[str, Any], source: ClassText, joined: JoinedText, libraries: Sequence[Path]) -> BuildError:
     text = str(answer["failure"])
     if answer["syntax"] is not None:
@@ -185,7 +141,8 @@ def _explain(answer: Mapping[str, Any], source: ClassText, joined: JoinedText, l
         return BuildError(message, file, line)
     nameless = BuildError(message, *(_place_of_bytes(text, joined, libraries) or source.place(source.start)))
     classes = Libraries(libraries)
-    return unresolved(message, source, classes) or misread(message, source, classes) or nameless
+    miscounted = (refusal.check(message, source, classes) for refusal in FAILED)
+    return unresolved(message, source, classes) or next(filter(None, miscounted), nameless)
 
 
 def _place_of_bytes(text: str, joined: JoinedText, libraries: Sequence[Path]) -> tuple[Path, int] | None:

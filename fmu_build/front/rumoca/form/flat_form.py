@@ -7,7 +7,7 @@ from typing import Any
 
 from fmu_build.errors import BuildError
 from fmu_build.front import expression as ex
-from fmu_build.front.rumoca_form.places import Places, span_key
+from fmu_build.front.rumoca.form.places import Places, span_key
 
 Place = tuple[int, int, int]
 Arguments = tuple[ex.Expression, ex.Expression]  # start and interval

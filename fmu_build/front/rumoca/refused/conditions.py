@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from fmu_build.errors import BuildError
-from fmu_build.front.rumoca_form.places import Places
+from fmu_build.front.rumoca.form.places import Places
 from fmu_build.text.statements import statements
 from fmu_build.text.tokens import tokenise
 

@@ -5,8 +5,8 @@ from typing import Any
 
 from fmu_build.errors import BuildError
 from fmu_build.front.flat_model import Assignment, ForStatement, Function
-from fmu_build.front.rumoca_form.expressions import Arena
-from fmu_build.front.rumoca_form.places import Places
+from fmu_build.front.rumoca.form.expressions import Arena
+from fmu_build.front.rumoca.form.places import Places
 
 
 def convert_function(form: Mapping[str, Any], storage: Mapping[str, Any], arena: Arena, places: Places) -> Function:

@@ -6,7 +6,7 @@ which only the equations are left.
 """
 
 import re
-from collections.abc import Iterator, Set
+from collections.abc import Iterator, Mapping, Set
 from itertools import pairwise
 
 from fmu_build.front.expression import Span
@@ -22,7 +22,9 @@ _ACTIONS = ("when", "assert", "terminate")
 _VARYING = ("time", "initial", "terminal")
 
 
-def refuse_lost_actions(source: ClassText, classes: Libraries, model: FlatModel) -> None:
+def refuse_lost_actions(
+    source: ClassText, classes: Libraries, model: FlatModel, overrides: Mapping[str, float | str]
+) -> None:
     """Look through the class and all classes that make it up.
 
     Raises:

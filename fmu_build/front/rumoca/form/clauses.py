@@ -6,9 +6,9 @@ from typing import Any
 from fmu_build.errors import BuildError
 from fmu_build.front import expression as ex
 from fmu_build.front.flat_model import Activation, WhenClause
-from fmu_build.front.rumoca_form.expressions import Arena
-from fmu_build.front.rumoca_form.flat_form import FlatForm
-from fmu_build.front.rumoca_form.places import Places
+from fmu_build.front.rumoca.form.expressions import Arena
+from fmu_build.front.rumoca.form.flat_form import FlatForm
+from fmu_build.front.rumoca.form.places import Places
 
 
 class Clauses:

@@ -5,8 +5,8 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from fmu_build.errors import BuildError, WrongCall
-from fmu_build.front.misread import PREDEFINED
-from fmu_build.front.package_constants import names_used
+from fmu_build.front.rumoca.refused.constants import names_used
+from fmu_build.front.rumoca.refused.miscounted import PREDEFINED
 from fmu_build.text.classes import ClassText
 from fmu_build.text.declarations import Kind
 from fmu_build.text.lookup import Libraries

@@ -8,6 +8,8 @@ from pathlib import Path
 from fmu_build.text.classes import ClassText
 from fmu_build.text.libraries import read_text
 
+WRAPPER = "OverridesOfThisBuild"  # the class that sets values, or names a class of a library
+
 
 @dataclass(frozen=True)
 class JoinedText:

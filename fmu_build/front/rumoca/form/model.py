@@ -1,6 +1,6 @@
 """rumoca's model storage -> `FlatModel`; refuses whatever it does not know."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from fmu_build.errors import BuildError
@@ -16,13 +16,12 @@ from fmu_build.front.flat_model import (
     Reinit,
     Termination,
 )
-from fmu_build.front.rumoca_form.clauses import Clauses
-from fmu_build.front.rumoca_form.expressions import Node
-from fmu_build.front.rumoca_form.flat_form import FlatForm
-from fmu_build.front.rumoca_form.folded import refuse_folded_conditions
-from fmu_build.front.rumoca_form.functions import convert_function
-from fmu_build.front.rumoca_form.places import Places
-from fmu_build.front.rumoca_form.variables import convert_variable
+from fmu_build.front.rumoca.form.clauses import Clauses
+from fmu_build.front.rumoca.form.expressions import Node
+from fmu_build.front.rumoca.form.flat_form import FlatForm
+from fmu_build.front.rumoca.form.functions import convert_function
+from fmu_build.front.rumoca.form.places import Places
+from fmu_build.front.rumoca.form.variables import convert_variable
 
 SCHEMA_VERSION = 43
 
@@ -45,6 +44,9 @@ MEANT = {
 }
 
 
+Check = Callable[[Mapping[str, Any], Places], None]
+
+
 def to_flat_model(
     dae: Mapping[str, Any],
     flat: Mapping[str, Any],
@@ -54,9 +56,12 @@ def to_flat_model(
     experiment: Experiment,
     documentation: str,
     description: str,
+    checks: Sequence[Check] = (),
 ) -> FlatModel:
     """Convert one compiled class.
 
+    Args:
+        checks: of the form, ahead of its conversion; they raise a BuildError.
     Raises:
         BuildError: another rumoca schema, or a construct outside the supported subset.
     """
@@ -68,7 +73,8 @@ def to_flat_model(
         what = MEANT.get(unknown[0], f"what the compiler calls '{unknown[0]}', which is not supported")
         raise BuildError(f"{name} uses {what}", span.file, span.line)
     places = Places(dae["source_map"])
-    refuse_folded_conditions(dae, places)
+    for check in checks:
+        check(dae, places)
     try:
         converter = _Converter(storage, FlatForm(flat, places), places)
         return converter.model(name, span, experiment, documentation, description)

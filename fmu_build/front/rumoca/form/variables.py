@@ -6,9 +6,9 @@ from typing import Any
 from fmu_build.errors import BuildError
 from fmu_build.front.expression import Expression
 from fmu_build.front.flat_model import FlatVariable, Role, Scalar, StateSelect
-from fmu_build.front.rumoca_form.expressions import Arena
-from fmu_build.front.rumoca_form.flat_form import FlatForm
-from fmu_build.front.rumoca_form.places import Places
+from fmu_build.front.rumoca.form.expressions import Arena
+from fmu_build.front.rumoca.form.flat_form import FlatForm
+from fmu_build.front.rumoca.form.places import Places
 
 ROLES = {
     "constant": Role.CONSTANT,

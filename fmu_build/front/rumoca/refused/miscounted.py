@@ -13,7 +13,7 @@ PREDEFINED = ("Real", "Integer", "Boolean", "String")
 _FAILURES = ("unbalanced model", "types or sizes do not agree")
 
 
-def misread(message: str, source: ClassText, classes: Libraries) -> BuildError | None:
+def miscounted(message: str, source: ClassText, classes: Libraries) -> BuildError | None:
     """The error at the declaration to blame; None where the message is of another kind, or none is found."""
     written = classes.full(source.full_name)
     if written is None or not message.startswith(_FAILURES):

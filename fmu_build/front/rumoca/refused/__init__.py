@@ -1,0 +1,1 @@
+"""What rumoca would drop or mix up without a word, a file for each kind; `refusals.py` lists them."""
