@@ -25,6 +25,7 @@ def run(args: argparse.Namespace) -> int:
     """Print what it holds; 0."""
     from pysim.cli._outputs import JSON, prepare_file
     from pysim.cli._subject import read_inside
+    from pysim.effects import STANDARD_LIBRARY, law_constants
     from pysim.io import write_file
 
     if args.json:
@@ -32,9 +33,9 @@ def run(args: argparse.Namespace) -> int:
     model, class_name, slots, effects = read_inside(args)
     print(_text(model, slots, effects))
     if args.json:
-        found = _data(model, class_name, slots, effects) | {"structure": _structure(class_name, args.library)}
-        constants = _constants(effects, args.library)
-        found["effects"] = [one | {"constants": constants[one["name"]]} for one in found["effects"]]
+        found = _data(model, class_name, slots) | {"structure": _structure(class_name, args.library)}
+        libraries = [STANDARD_LIBRARY, *args.library]
+        found["effects"] = [_effect(effect) | {"constants": law_constants(effect, libraries)} for effect in effects]
         write_file(args.json, json.dumps(found, indent=1, allow_nan=False) + "\n")
     return 0
 
@@ -51,7 +52,7 @@ def _text(model: Model, slots: tuple[Slot, ...], effects: tuple[Effect, ...]) ->
     return "\n".join(lines)
 
 
-def _data(model: Model, class_name: str, slots: tuple[Slot, ...], effects: tuple[Effect, ...]) -> dict[str, Any]:
+def _data(model: Model, class_name: str, slots: tuple[Slot, ...]) -> dict[str, Any]:
     variables = [v for v in model.variables if v.causality in ("input", "output", "local") and v.type == "Real"]
     if model.abilities.fmi == 3:
         variables = [v for v in model.variables if v.causality in ("input", "output", "local")]
@@ -67,7 +68,6 @@ def _data(model: Model, class_name: str, slots: tuple[Slot, ...], effects: tuple
             for v in _of(model, "parameter")
         ],
         "slots": [{"name": s.name, "about": s.description, "sees": s.sees, "gives": s.gives} for s in slots],
-        "effects": [_effect(effect) for effect in effects],
     }
 
 
@@ -88,13 +88,6 @@ def _effect(effect: Effect) -> dict[str, Any]:
     ]
     about = {"name": effect.name, "slot": effect.slot, "class": effect.class_name, "about": effect.description}
     return {**about, "law": effect.law, "parameters": parameters}
-
-
-def _constants(effects: tuple[Effect, ...], libraries: list[Path]) -> dict[str, dict[str, str]]:
-    """Effect -> what else its law names: values, as written, of constants and of parameters that nobody sets."""
-    from pysim.effects import STANDARD_LIBRARY, law_constants
-
-    return {effect.name: law_constants(effect, [STANDARD_LIBRARY, *libraries]) for effect in effects}
 
 
 def _of(model: Model, causality: str) -> list[Variable]:
