@@ -27,7 +27,7 @@ class Number:
 
 @dataclass(frozen=True)
 class Name:
-    """A name with its dots."""
+    """A name with its dots and indices, as written without blanks: `a[2].b`."""
 
     name: str
 
@@ -184,9 +184,17 @@ class _Reader:
     def _name(self) -> str:
         parts = [self._peek()]
         self._at += 1
-        while self._took("."):
-            parts.append(self._peek())
-            self._at += 1
+        while self._peek() in (".", "["):
+            if self._took("["):
+                parts[-1] += f"[{self._peek()}]"
+                if not self._peek().isdigit():
+                    raise ValueError(f"{parts[-1]}: an index that is no number is not known here")
+                self._at += 1
+                self.expect("]")
+            else:
+                self._at += 1
+                parts.append(self._peek())
+                self._at += 1
         return ".".join(parts)
 
     def _list(self, last: str) -> tuple[Tree, ...]:

@@ -14,7 +14,6 @@ from pysim.app.jobs import DONE, FAILED, STOPPED, Job, Runner, Work, adding, rea
 from pysim.app.layout import Layout
 from pysim.app.model_build import Built, build_model
 from pysim.app.project import Project
-from pysim.app.sketch import Sketch
 from pysim.app.upload import Batch, Limits
 from pysim.identify.data_check import DataCheck, check_dataset
 from pysim.io import read_dataset_partly
@@ -59,7 +58,7 @@ class Desk:
     loaded: Loaded | None = None
     model: Mapping[str, Any] | None = None
     drawing: Layout | None = None
-    sketches: Mapping[str, Sketch | None] = field(default_factory=dict)
+    sketches: Mapping[str, Mapping[str, Any] | None] = field(default_factory=dict)
     model_trouble: str = ""
     model_busy: bool = False
     last: Job | None = None

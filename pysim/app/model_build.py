@@ -16,7 +16,6 @@ from nicegui import run
 from pysim.app.layout import Layout, layout
 from pysim.app.processes import end, last_words, run_pysim
 from pysim.app.project import Project
-from pysim.app.sketch import Sketch, sketches
 
 _LIMIT = 1200.0  # s: the 900 that fmu_build.pack.compiler grants the first compilation, and more than any model takes
 _NAP = 0.1  # s
@@ -39,7 +38,7 @@ class Built:
 
     model: Mapping[str, Any] | None = None
     drawing: Layout | None = None
-    sketches: Mapping[str, Sketch | None] = field(default_factory=dict)
+    sketches: Mapping[str, Mapping[str, Any] | None] = field(default_factory=dict)
     trouble: str = ""
 
 
@@ -71,4 +70,4 @@ async def build_model(project: Project, wanted: Callable[[], bool], *, limit: fl
         model = json.loads(path.read_text(encoding="utf-8"))
     parts = model["structure"]
     drawing = None if parts is None else await run.io_bound(layout, parts["nodes"], parts["links"])
-    return Built(model, drawing, await run.io_bound(sketches, model) or {})
+    return Built(model, drawing, {str(one["name"]): one["sketch"] for one in model["effects"]})

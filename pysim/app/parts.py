@@ -11,7 +11,6 @@ from nicegui import ui
 from nicegui.element import Element
 from nicegui.elements.mixins.text_element import TextElement
 
-from pysim.app.sketch import Sketch
 from pysim.app.upload import Limits
 from pysim.io import shown_value
 
@@ -239,15 +238,19 @@ def live(key: Callable[[], object], build: Callable[[], Any], kind: str = "") ->
     return place
 
 
-def curve(shown: Sketch | None) -> None:
-    """A sketch of a law; only numbers go into the drawing, and what is drawn over what is told as text."""
-    curves, over_time = (shown.curves, shown.over_time) if shown is not None else ((), False)
+def curve(shown: Mapping[str, Any] | None) -> None:
+    """A sketch of a law; only numbers go into the drawing, and what is drawn over what is a text.
+
+    Args:
+        shown: `curves`: x and y between -1 and 1, `words`, and `over_time`, as `pysim model --json` writes them.
+    """
+    curves, over_time = (shown["curves"], shown["over_time"]) if shown is not None else ((), False)
     main = len(curves) - 1 if over_time else len(curves) // 2
     lines = [f'<path class="axes" d="{"M4,26 H68" if over_time else "M4,26 H68 M36,4 V48"}"/>']
     for k, (xs, ys) in enumerate(curves):
-        path = " L".join(f"{36 + 31 * x:.1f},{26 - 20 * y:.1f}" for x, y in zip(xs, ys, strict=True))
+        path = " L".join(f"{36 + 31 * float(x):.1f},{26 - 20 * float(y):.1f}" for x, y in zip(xs, ys, strict=True))
         lines.append(f'<path class="law{"" if k == main else " beside"}" d="M{path}"/>')
     svg = f'<svg viewBox="0 0 72 52" aria-hidden="true">{"".join(lines)}</svg>'
     place = ui.html(svg, sanitize=False).classes("sketch")
     if shown is not None:
-        place._props["title"] = shown.words
+        place._props["title"] = str(shown["words"])

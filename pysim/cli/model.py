@@ -25,7 +25,6 @@ def run(args: argparse.Namespace) -> int:
     """Print what it holds; 0."""
     from pysim.cli._outputs import JSON, prepare_file
     from pysim.cli._subject import read_inside
-    from pysim.effects import STANDARD_LIBRARY, law_constants
     from pysim.io import write_file
 
     if args.json:
@@ -34,8 +33,7 @@ def run(args: argparse.Namespace) -> int:
     print(_text(model, slots, effects))
     if args.json:
         found = _data(model, class_name, slots) | {"structure": _structure(class_name, args.library)}
-        libraries = [STANDARD_LIBRARY, *args.library]
-        found["effects"] = [_effect(effect) | {"constants": law_constants(effect, libraries)} for effect in effects]
+        found["effects"] = [_effect(effect, model, slots, args.library) for effect in effects]
         write_file(args.json, json.dumps(found, indent=1, allow_nan=False) + "\n")
     return 0
 
@@ -81,13 +79,23 @@ def _structure(class_name: str, libraries: list[Path]) -> dict[str, Any] | None:
     return asdict(structure(class_name, [STANDARD_LIBRARY, *libraries])) if class_name else None
 
 
-def _effect(effect: Effect) -> dict[str, Any]:
+def _effect(effect: Effect, model: Model, slots: tuple[Slot, ...], libraries: list[Path]) -> dict[str, Any]:
+    """What an effect is, with a picture of its law where a few strokes show it."""
+    from dataclasses import asdict
+
+    from pysim.effects import STANDARD_LIBRARY, law_constants, law_sketch
+
+    slot = next(slot for slot in slots if slot.name == effect.slot)
+    around = {v.name: (v.start, v.unit) for v in _of(model, "parameter") if v.start is not None}
+    constants = law_constants(effect, [STANDARD_LIBRARY, *libraries])
+    drawn = law_sketch(effect, slot, constants, around)
     parameters = [
         {"name": p.name, "unit": p.unit, "nominal": p.nominal, "default": p.default, "about": p.description}
         for p in effect.parameters
     ]
     about = {"name": effect.name, "slot": effect.slot, "class": effect.class_name, "about": effect.description}
-    return {**about, "law": effect.law, "parameters": parameters}
+    picture = None if drawn is None else asdict(drawn)
+    return {**about, "law": effect.law, "parameters": parameters, "constants": constants, "sketch": picture}
 
 
 def _of(model: Model, causality: str) -> list[Variable]:

@@ -2,6 +2,7 @@
 
 from pysim.effects._text import declares
 from pysim.effects.catalogue import STANDARD_LIBRARY, VENDOR, Pair, law_constants, read_catalogue, read_pairs
+from pysim.effects.sketch import Sketch, law_sketch
 from pysim.effects.slots import Slot, fitting, slots
 from pysim.effects.variant import Variant, variant, variant_text
 
@@ -9,11 +10,13 @@ __all__ = [
     "STANDARD_LIBRARY",
     "VENDOR",
     "Pair",
+    "Sketch",
     "Slot",
     "Variant",
     "declares",
     "fitting",
     "law_constants",
+    "law_sketch",
     "read_catalogue",
     "read_pairs",
     "slots",

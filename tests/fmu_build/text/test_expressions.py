@@ -34,7 +34,7 @@ def test_literals(text: str, value: object) -> None:
 @pytest.mark.parametrize(
     "text",
     ["", "x", "1 +", "(1", "1)", "1 2", "{1, 2", "{1} + {1, 2}", "1/0", "(-8)^0.5", "9e99^9", "zeros(1e9)", "zeros(-1)",
-     "zeros()", "open(1)", '"a"', "__import__(1)", "(" * 5000, "1 if 2", "linspace(0, 1, 1)", "1_000"],
+     "zeros()", "open(1)", '"a"', "__import__(1)", "(" * 5000, "1 if 2", "linspace(0, 1, 1)", "1_000", "c[n]", "c[1"],
 )  # fmt: skip
 def test_what_is_no_literal_is_refused(text: str) -> None:
     with pytest.raises(ValueError):  # noqa: PT011
@@ -44,6 +44,7 @@ def test_what_is_no_literal_is_refused(text: str) -> None:
 def test_conditions_and_calls() -> None:
     tree = parse("if not a.b >= 1 and c <> 2 then f(x, 1) elseif true then 2 else -y")
     assert list(names_in(tree)) == ["a.b", "c", "x", "y"]
+    assert list(names_in(parse("c[1]*a[ 2 ].b + f(c[12])"))) == ["c[1]", "a[2].b", "c[12]"]
     assert parse("a or b and c") == Call("or", (Name("a"), Call("and", (Name("b"), Name("c")))))
     assert parse("-a*b^2") == Call("negate", (Call("*", (Name("a"), Call("^", (Name("b"), Number(2.0))))),))
 

@@ -4,9 +4,8 @@ import math
 
 import pytest
 
-pytest.importorskip("nicegui", reason="the extra app is not installed")
-
-from pysim.app.sketch import Sizes, Sketch, constants, sketch, sketches
+from pysim.effects import STANDARD_LIBRARY, Sketch, fitting, law_constants, law_sketch, read_catalogue, slots
+from pysim.effects.sketch import Sizes, constants, sketch
 
 
 def drawn(law: str, sees: list[str], gives: str = "y", **parameters: tuple[float, str]) -> Sketch | None:
@@ -113,24 +112,14 @@ def test_what_cannot_be_drawn_is_not_drawn(law: str) -> None:
 
 
 def test_every_effect_of_the_pump_has_its_sketch() -> None:
-    from pysim.cli.model import _constants
-    from pysim.effects import STANDARD_LIBRARY, fitting, read_catalogue, slots
-
     name = "HydraulicTestBench.Pump.FreeGreyBox"
-    fits = fitting(read_catalogue(STANDARD_LIBRARY), name, [STANDARD_LIBRARY])
-    written = _constants(fits, [])
-    effects = [
-        {"name": e.name, "slot": e.slot, "law": e.law, "constants": written[e.name]}
-        | {
-            "parameters": [
-                {"name": p.name, "nominal": p.nominal, "default": p.default, "unit": p.unit} for p in e.parameters
-            ]
-        }
-        for e in fits
-    ]
-    own = [{"name": "omega_v", "start": 150.0, "unit": "rad/s"}, {"name": "zeta_v", "start": 0.8, "unit": "1"}]
-    places = [{"name": s.name, "sees": s.sees, "gives": s.gives} for s in slots(name, [STANDARD_LIBRARY])]
-    found = sketches({"parameters": own, "slots": places, "effects": effects})
+    around = {"omega_v": (150.0, "rad/s"), "zeta_v": (0.8, "1")}
+    places = {slot.name: slot for slot in slots(name, [STANDARD_LIBRARY])}
+    found = {
+        effect.name: law_sketch(effect, places[effect.slot], law_constants(effect, [STANDARD_LIBRARY]), around)
+        for effect in fitting(read_catalogue(STANDARD_LIBRARY), name, [STANDARD_LIBRARY])
+    }
+    assert len(found) == 18
     assert [name for name, one in found.items() if one is None] == []
     assert {name for name, one in found.items() if one is not None and one.over_time} == {
         "card.sampling", "linkage.backlash", "sensor.lag", "supply.droop", "valve.hysteresis", "valve.rate_limit",

@@ -1,4 +1,4 @@
-"""A small picture of an effect's law: a curve, a family of curves, or an answer to a wave where it has a memory."""
+"""An effect's law as a few strokes: a curve, a family of curves, or an answer to a wave where it has a memory."""
 
 from __future__ import annotations
 
@@ -7,12 +7,13 @@ import math
 import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from pysim.app.law import FAILED, Law, Moment, read_law
+from pysim.effects.law import Law, Moment, read_law
+from pysim.effects.slots import Slot
+from pysim.types import Effect
 
 _POINTS, _STEEP, _STEPS = 81, 25.0, 240
 _PERIODS, _SLOW = 1.5, 10.0  # of the wave that is answered; its period over the law's shortest time
@@ -81,36 +82,32 @@ def sketch(law: str, sees: Sequence[str], gives: Sequence[str], sizes: Sizes) ->
         if read.remembers(target):
             return _answer(read, law, target, arguments, sizes)
         return _curves(read, law, target, arguments, sizes)
-    except (*FAILED, StopIteration, np.linalg.LinAlgError):
+    except (ValueError, StopIteration, np.linalg.LinAlgError):
         return None
-
-
-def sketches(model: Mapping[str, Any]) -> dict[str, Sketch | None]:
-    """Of every effect that a model's slots take.
-
-    Args:
-        model: as `pysim model --json` writes it.
-    """
-    around = {p["name"]: (p["start"], p["unit"]) for p in model["parameters"] if p["start"] is not None}
-    slots = {slot["name"]: slot for slot in model["slots"]}
-    found = {}
-    for one in model["effects"]:
-        own = {p["name"]: (p["nominal"] or p["default"], p["unit"]) for p in one["parameters"]}
-        fixed = constants(one["constants"], {name: value for name, (value, _) in (around | own).items()})
-        slot = slots[one["slot"]]
-        found[one["name"]] = sketch(
-            one["law"], slot["sees"], slot["gives"], Sizes(own, fixed, around, " ".join(one["constants"].values()))
-        )
-    return found
 
 
 def constants(written: Mapping[str, str], known: Mapping[str, float]) -> dict[str, float]:
     """Values of constants that are numbers, or a few functions of numbers and parameters."""
     found: dict[str, float] = {}
     for name, text in written.items():
-        with contextlib.suppress(*FAILED):
-            found[name] = Moment(read_law(f"{name} = {text}"), {**known, **found}, {})[name]
+        with contextlib.suppress(ValueError):
+            found[name] = float(Moment(read_law(f"{name} = {text}"), {**known, **found})[name])
     return found
+
+
+def law_sketch(
+    effect: Effect, slot: Slot, constants_written: Mapping[str, str], around: Mapping[str, tuple[float, str]]
+) -> Sketch | None:
+    """The picture of an effect's law in a slot of a model, at its parameters' usual sizes.
+
+    Args:
+        constants_written: what else the law names, as its class writes it.
+        around: the model's parameters with their units.
+    """
+    own = {p.name: (p.nominal or p.default, p.unit) for p in effect.parameters}
+    known = {name: value for name, (value, _) in {**around, **own}.items()}
+    sizes = Sizes(own, constants(constants_written, known), around, " ".join(constants_written.values()))
+    return sketch(effect.law, slot.sees, slot.gives, sizes)
 
 
 def _curves(read: Law, law: str, target: str, arguments: Sequence[str], sizes: Sizes) -> Sketch | None:
@@ -119,25 +116,25 @@ def _curves(read: Law, law: str, target: str, arguments: Sequence[str], sizes: S
         return None
     spans = {name: _span(law, name, sizes) for name in arguments}
     known = sizes.numbers() | _widths(law, spans)
-    shares = [2 * k / (_POINTS - 1) - 1 for k in range(_POINTS)]
+    shares = np.linspace(-1.0, 1.0, _POINTS)
     over, other = arguments[0] if arguments else "", arguments[1] if len(arguments) > 1 else ""
 
-    def value(share: float, held: float) -> float:
-        at = {name: spans[name] * where for name, where in ((over, share), (other, held)) if name}
-        return Moment(read, known | at, {})[target]
+    def row(held: float) -> Array:
+        at = {name: spans[name] * where for name, where in ((over, shares), (other, held)) if name}
+        return np.broadcast_to(np.asarray(Moment(read, known | at)[target], float), shares.shape)
 
-    rows = [[value(share, held) for share in shares] for held in (_FAMILY if other else (0.0,))]
-    if len({tuple(row) for row in rows}) == 1:
+    rows = np.array([row(held) for held in (_FAMILY if other else (0.0,))])
+    if np.all(rows == rows[0]):
         rows = rows[:1]
-    low, high = (max(map(abs, half)) for half in (rows[0][: _POINTS // 2], rows[0][_POINTS // 2 + 1 :]))
-    if low > 20 * high:  # a floor that only keeps a quotient finite: a pressure is not below zero
-        rows, shares = [row[_POINTS // 2 :] for row in rows], [2 * s - 1 for s in shares[_POINTS // 2 :]]
-    size = max(abs(v) for row in rows for v in row)
+    half = _POINTS // 2
+    if np.max(np.abs(rows[0, :half])) > 20 * np.max(np.abs(rows[0, half + 1 :])):
+        rows, shares = rows[:, half:], 2 * shares[half:] - 1  # a floor that only keeps a quotient finite is left out
+    size = float(np.max(np.abs(rows)))
     if not (math.isfinite(size) and size > 0):
         return None
     words = f"{target} over {over}" if over else target
     words += f", for three values of {other}" if len(rows) > 1 else ""
-    return Sketch(tuple((shares, [v / size for v in row]) for row in rows), words)
+    return Sketch(tuple((shares.tolist(), (one / size).tolist()) for one in rows), words)
 
 
 def _answer(read: Law, law: str, target: str, arguments: Sequence[str], sizes: Sizes) -> Sketch | None:
@@ -190,7 +187,7 @@ class _Course:
         for name, (what, conditions) in self._law.resets.items():
             if name in self._states and any(after.value(c) and not now.value(c) for c in conditions):
                 self._values[list(self._states).index(name)] = after.value(what)
-        self._before = {name: after[name] for name in _remembered(self._law)}
+        self._before = {name: after[name] for name in self._law.looks_back()}
         return now
 
 
@@ -209,12 +206,6 @@ def _stepped(
     nudge = 1e-6 * size
     slope = np.column_stack([(rate(values + nudge * unit) - first) / nudge for unit in np.eye(len(states))])
     return np.asarray(values + np.linalg.solve(np.eye(len(states)) - step * slope, step * first))
-
-
-def _remembered(read: Law) -> list[str]:
-    """Names that stand in a `pre` somewhere."""
-    used = {name for one in read.values for name in read.needs(one)}
-    return [name.removeprefix("pre ") for name in used if name.startswith("pre ")]
 
 
 def _drawn_over_time(ins: list[float], outs: list[float], words: str) -> Sketch | None:
