@@ -14,7 +14,7 @@ from typing import Any
 
 import pytest
 
-from pysim.cli._main import argument_parser
+from pysim.cli.main import argument_parser
 
 ROOT = Path(__file__).parents[1]
 PAGES = sorted((ROOT / "docs").glob("*.md"))
@@ -264,4 +264,4 @@ def test_the_guard_sees_what_it_is_to_see(
         parse([*RUNNER, "nonsense"])
     assert dead_links(page) == ["other.md", "#nowhere"]
     assert "unrecognized arguments" in capsys.readouterr().err
-    assert "pysim.cli._main" in sys.modules
+    assert "pysim.cli.main" in sys.modules

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from matplotlib.figure import Figure
 
 from pysim.plot import render
-from pysim.report.page import cell, commands, heading, items, page, paragraph, picture, statement, table
+from pysim.present.page import cell, commands, heading, items, page, paragraph, picture, statement, table
 from validation.findings import Finding
 from validation.registry import CASES, GROUPS
 from validation.results import FAILS, HOLDS, SKIPPED, CaseResult, verdict_of

@@ -1,5 +1,5 @@
 """The command line: `pysim COMMAND`, a file per command."""
 
-from pysim.cli._main import main
+from pysim.cli.main import main
 
 __all__ = ["main"]

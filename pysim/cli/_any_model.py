@@ -54,7 +54,7 @@ def read_fmu_or_class(text: str, libraries: Sequence[Path]) -> Model:
 
     if is_fmu(text):
         return read_model(Path(text))
-    from pysim.cli._progress import Working
+    from pysim.cli.progress import Working
 
     with Working(f"Building {text}"):
         import fmu_build

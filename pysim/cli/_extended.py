@@ -25,7 +25,7 @@ def write_extended(found: Diagnosis, given: Given, folder: Path, *, place: Path 
     Raises:
         BadInput: the folder cannot be written.
     """
-    from pysim.cli._outputs import PARAMETERS
+    from pysim.cli.outputs import PARAMETERS
     from pysim.io import write_file
 
     fitted = {e.name: e.value for e in found.parameters if "@" not in e.name}
@@ -69,7 +69,7 @@ def _last(name: str) -> str:
 
 def _comment(found: Diagnosis, given: Given, folder: Path, name: str) -> str:
     """What it is, from which data, and when not to trust it."""
-    from pysim.cli._outputs import command_line
+    from pysim.cli.outputs import command_line
 
     libraries = [folder / f"{name}.mo", *given.libraries]
     own = [word for library in libraries for word in ("--library", str(library.resolve()))]

@@ -43,7 +43,7 @@ def input_files(args: argparse.Namespace) -> list[Path]:
 
 
 def _signal(text: str, value: str) -> Signal:
-    from pysim.cli._options import point_in_place
+    from pysim.cli.options import point_in_place
     from pysim.io import read_signal
     from pysim.types import BadInput, Signal
 

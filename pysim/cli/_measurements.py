@@ -15,7 +15,7 @@ def read_measurements(place: Path) -> Dataset:
     Raises:
         BadInput: it cannot be read; of a folder without a description also how to come to one.
     """
-    from pysim.cli._outputs import command_line
+    from pysim.cli.outputs import command_line
     from pysim.io import read_dataset
     from pysim.types import BadInput
 

@@ -13,7 +13,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import TYPE_CHECKING
 
-from pysim.cli._terminal import draws_over
+from pysim.cli.terminal import draws_over
 from pysim.types.diagnosis import standing
 
 if TYPE_CHECKING:
@@ -203,10 +203,9 @@ def finish(
     """
     import json
 
-    from pysim.cli._answer_folder import answer_folder, results_beside
     from pysim.cli._diagnosis_report import write_diagnosis
     from pysim.cli._extended import relative_files
-    from pysim.cli._outputs import repeating
+    from pysim.cli.outputs import answer_folder, repeating, results_beside
     from pysim.io import write_file, write_stages
     from pysim.report.diagnosis import diagnosis_data
 

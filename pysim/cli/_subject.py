@@ -42,7 +42,7 @@ class Given:
 def add_subject(parser: argparse.ArgumentParser) -> None:
     """`DATASET --model MODEL` and what goes with them."""
     from pysim.cli._any_model import add_data_and_model
-    from pysim.cli._options import add_parameters, add_reference
+    from pysim.cli.options import add_parameters, add_reference
 
     add_data_and_model(parser, "a Modelica class with slots, or its .fmu")
     add_fitted(parser)
@@ -53,7 +53,7 @@ def add_subject(parser: argparse.ArgumentParser) -> None:
 def add_fitted(parser: argparse.ArgumentParser) -> None:
     """`--library`, and what may be refitted."""
     from pysim.cli._any_model import add_library
-    from pysim.cli._options import add_names
+    from pysim.cli.options import add_names
 
     add_library(parser, "the model or your effects")
     add_names(parser, "--free", what="parameters to refit (all with min, max and nominal that are not set)")
@@ -68,7 +68,7 @@ def add_fitted(parser: argparse.ArgumentParser) -> None:
 
 def add_effects(parser: argparse.ArgumentParser) -> None:
     """`--effects`."""
-    from pysim.cli._options import add_names
+    from pysim.cli.options import add_names
 
     add_names(parser, "--effects", what="consider only these of the catalogue")
 
@@ -87,8 +87,7 @@ def prepare_results(args: argparse.Namespace) -> None:
     Raises:
         BadInput: they cannot.
     """
-    from pysim.cli._answer_folder import prepare_answer, results_beside
-    from pysim.cli._outputs import JSON, prepare_file
+    from pysim.cli.outputs import JSON, prepare_answer, prepare_file, results_beside
 
     for option, suffixes in (("json", JSON), ("records", (".npz",)), ("story", (".jsonl", ".json"))):
         if getattr(args, option):
@@ -111,8 +110,8 @@ def read_subject(args: argparse.Namespace, *, refits: bool = True, only: Sequenc
     from pysim.cli._built_in import built_in
     from pysim.cli._free import begun_at, free_parameters, held_as_set
     from pysim.cli._measurements import read_measurements
-    from pysim.cli._options import bounded, chosen_reference, names_of, read_parameters
     from pysim.cli._variants import Variants
+    from pysim.cli.options import bounded, chosen_reference, names_of, read_parameters
     from pysim.diagnose import Inside, subject
     from pysim.effects import STANDARD_LIBRARY, slots
     from pysim.io import in_model_units

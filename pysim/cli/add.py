@@ -7,8 +7,8 @@ import argparse
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The words behind `pysim add`."""
-    from pysim.cli._options import add_names
     from pysim.cli._subject import add_results, add_subject
+    from pysim.cli.options import add_names
 
     add_subject(parser)
     add_names(parser, "--effects", what="to add, by their standard names, in order", required=True)
@@ -17,10 +17,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Print what each effect does to the error, on fitted and held-out data; 0."""
-    from pysim.cli._options import names_of
-    from pysim.cli._progress import announce_compilation
     from pysim.cli._story import finish, unfold
     from pysim.cli._subject import effects_of, prepare_results, read_subject
+    from pysim.cli.options import names_of
+    from pysim.cli.progress import announce_compilation
     from pysim.diagnose import add
     from pysim.report.diagnosis import evidence_text
     from pysim.report.diagnosis_words import added_sentence

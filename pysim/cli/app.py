@@ -22,7 +22,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Serve until Ctrl-C; 0."""
-    from pysim.cli._outputs import command_line
+    from pysim.cli.outputs import command_line
     from pysim.types import BadInput
 
     try:

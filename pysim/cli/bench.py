@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The words behind `pysim bench`."""
     from pysim.cli._any_model import WHAT, add_library
-    from pysim.cli._options import add_parameters
+    from pysim.cli.options import add_parameters
 
     parser.add_argument("model", metavar="MODEL", help=WHAT)
     add_library(parser)
@@ -45,9 +45,9 @@ def run(args: argparse.Namespace) -> int:
     """Write the data set; 1 when a run stops early, with nothing written."""
     from pysim.bench import read_plan, run_plan, truth_data
     from pysim.cli._any_model import read_fmu_or_class
-    from pysim.cli._options import assigned, read_parameters
-    from pysim.cli._outputs import prepare_file, prepare_folder
-    from pysim.cli._progress import ProgressBar, announce_compilation
+    from pysim.cli.options import assigned, read_parameters
+    from pysim.cli.outputs import prepare_file, prepare_folder
+    from pysim.cli.progress import ProgressBar, announce_compilation
     from pysim.io import write_dataset, write_file
 
     plan, model = read_plan(args.plan), read_fmu_or_class(args.model, args.library)

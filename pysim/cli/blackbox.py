@@ -58,8 +58,8 @@ def _test(text: str) -> tuple[float, float]:
 def run(args: argparse.Namespace) -> int:
     """Print every fit; 0 when all searches came to an end, 1 when one gave up."""
     from pysim.cli._measurements import read_measurements
-    from pysim.cli._outputs import JSON, prepare_file, prepare_folder
-    from pysim.cli._progress import ProgressBar
+    from pysim.cli.outputs import JSON, prepare_file, prepare_folder
+    from pysim.cli.progress import ProgressBar
     from pysim.identify.blackbox import Structure, fit_dataset
     from pysim.io import write_file
     from pysim.report.blackbox import blackbox_data, blackbox_text
@@ -102,7 +102,7 @@ def _refuse_contradictions(args: argparse.Namespace, structure: Structure) -> No
 
 
 def _write_report(args: argparse.Namespace, name: str, fitted: Sequence[FittedResponse]) -> None:
-    from pysim.cli._outputs import repeating
+    from pysim.cli.outputs import repeating
     from pysim.io import write_file
     from pysim.plot import blackbox_figure, render
     from pysim.report.blackbox import blackbox_page

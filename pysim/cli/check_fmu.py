@@ -17,12 +17,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Print the findings; 0 when nothing fails, and with --strict nothing is doubtful either; 1 otherwise."""
-    from pysim.cli._outputs import JSON, prepare_file, prepare_folder
-    from pysim.cli._progress import ProgressBar
+    from pysim.cli.outputs import JSON, prepare_file, prepare_folder
+    from pysim.cli.progress import ProgressBar
     from pysim.fmu_check import DOUBTFUL, check_fmu
     from pysim.io import check_binary, read_model, write_file
+    from pysim.present.page import page
     from pysim.report.fmu_check import fmu_check_data, fmu_check_parts, fmu_check_text
-    from pysim.report.page import page
 
     if args.output:
         prepare_folder(args.output)

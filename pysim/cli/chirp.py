@@ -32,7 +32,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Print a table per chirp."""
-    from pysim.cli._outputs import JSON, prepare_file, prepare_folder
+    from pysim.cli.outputs import JSON, prepare_file, prepare_folder
     from pysim.identify.chirp import chirp_responses
     from pysim.io import write_file
     from pysim.report.chirp import chirp_data, chirp_text
@@ -86,7 +86,7 @@ def _stepped(dataset: Dataset, analysis: ChirpAnalysis) -> FrequencyResponse | N
 
 
 def _write_report(args: argparse.Namespace, dataset: Dataset, analyses: Sequence[ChirpAnalysis]) -> None:
-    from pysim.cli._outputs import repeating
+    from pysim.cli.outputs import repeating
     from pysim.io import write_file
     from pysim.plot import chirp_figure, render
     from pysim.report.chirp import chirp_page

@@ -14,8 +14,8 @@ if TYPE_CHECKING:
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The words behind `pysim compare`."""
     from pysim.cli._any_model import add_data_and_model
-    from pysim.cli._options import add_parameters, add_reference
     from pysim.cli._subject import add_fitted, add_results
+    from pysim.cli.options import add_parameters, add_reference
 
     add_data_and_model(parser)
     parser.add_argument("--refit", action="store_true", help="refit within the bounds too, and say where it fails")
@@ -64,9 +64,9 @@ def _refuse_idle(args: argparse.Namespace) -> None:
 
 def _story(args: argparse.Namespace) -> int:
     """Every record beside the model as it is, and refitted where that is asked for."""
-    from pysim.cli._progress import announce_compilation
     from pysim.cli._story import finish, unfold
     from pysim.cli._subject import read_subject
+    from pysim.cli.progress import announce_compilation
     from pysim.diagnose import against
     from pysim.report.diagnosis import evidence_text
     from pysim.report.diagnosis_words import comparison_sentence
@@ -91,9 +91,9 @@ def _story(args: argparse.Namespace) -> int:
 
 
 def _responses(args: argparse.Namespace, dataset: Dataset) -> int:
-    from pysim.cli._options import chosen_reference, read_parameters
-    from pysim.cli._progress import ProgressBar, announce_compilation
     from pysim.cli._subject import read_base
+    from pysim.cli.options import chosen_reference, read_parameters
+    from pysim.cli.progress import ProgressBar, announce_compilation
     from pysim.diagnose import compare
     from pysim.io import in_model_units, write_file
     from pysim.report import comparison_data, comparison_text
@@ -120,9 +120,8 @@ def _responses(args: argparse.Namespace, dataset: Dataset) -> int:
 
 
 def _write_report(args: argparse.Namespace, comparison: Comparison) -> None:
-    from pysim.cli._answer_folder import answer_folder, results_beside
-    from pysim.cli._outputs import repeating
     from pysim.cli._pictures import write_pictures
+    from pysim.cli.outputs import answer_folder, repeating, results_beside
     from pysim.io import write_file
     from pysim.report import comparison_page
 

@@ -29,7 +29,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Run the system, print where each signal went; 1 when the run stops early, with what was reached written."""
-    from pysim.cli._outputs import JSON, prepare_file, prepare_folder
+    from pysim.cli.outputs import JSON, prepare_file, prepare_folder
     from pysim.types import BadInput, Outcome
 
     for option in ("stop", "step"):
@@ -57,7 +57,7 @@ def _read(args: argparse.Namespace) -> SystemFile:
 
 
 def _export(args: argparse.Namespace, file: SystemFile) -> int:
-    from pysim.cli._outputs import prepare_file
+    from pysim.cli.outputs import prepare_file
     from pysim.cosim.ssp import write_ssp
 
     package = [args.system] if args.system.suffix.lower() == ".ssp" else []
@@ -72,7 +72,7 @@ def _export(args: argparse.Namespace, file: SystemFile) -> int:
 def _simulated(path: Path, file: SystemFile) -> tuple[Record, float]:
     import time
 
-    from pysim.cli._progress import ProgressBar, announce_compilation
+    from pysim.cli.progress import ProgressBar, announce_compilation
     from pysim.cosim import cosimulate
     from pysim.types import BadInput
 
@@ -108,7 +108,7 @@ def _write(args: argparse.Namespace, file: SystemFile, record: Record, seconds: 
 
 
 def _write_report(args: argparse.Namespace, file: SystemFile, record: Record, seconds: float) -> None:
-    from pysim.cli._outputs import repeating
+    from pysim.cli.outputs import repeating
     from pysim.io import write_file
     from pysim.plot import cosim_figure, render
     from pysim.report.cosim import cosim_page

@@ -44,7 +44,7 @@ def run(args: argparse.Namespace) -> int:
 def _describe(args: argparse.Namespace) -> int:
     """Write the draft; never over a description that is there."""
     from pysim.cli._describe import draft, draft_text, open_ends
-    from pysim.cli._outputs import command_line
+    from pysim.cli.outputs import command_line
     from pysim.io import write_file
     from pysim.types import BadInput
 
@@ -68,7 +68,7 @@ def _describe(args: argparse.Namespace) -> int:
 
 def _units(texts: list[str]) -> dict[str, str]:
     """Signal -> unit in the files."""
-    from pysim.cli._options import names_of
+    from pysim.cli.options import names_of
     from pysim.io.units import unit_cure
     from pysim.types import UNITS, BadInput
 
@@ -80,7 +80,7 @@ def _units(texts: list[str]) -> dict[str, str]:
 
 
 def _check(args: argparse.Namespace) -> int:
-    from pysim.cli._outputs import JSON, prepare_file, prepare_folder
+    from pysim.cli.outputs import JSON, prepare_file, prepare_folder
     from pysim.identify.data_check import check_dataset
     from pysim.io import write_file
     from pysim.report.data_check import data_check_data, data_check_text
@@ -100,7 +100,7 @@ def _check(args: argparse.Namespace) -> int:
 
 def _read(args: argparse.Namespace) -> Dataset:
     from pysim.cli._measurements import read_measurements
-    from pysim.cli._options import names_of
+    from pysim.cli.options import names_of
     from pysim.io import read_thesis_folder
     from pysim.types import BadInput
 
@@ -123,7 +123,7 @@ def _signal(role: str, text: str) -> MeasuredSignal:
 
 
 def _write_report(args: argparse.Namespace, check: DataCheck) -> None:
-    from pysim.cli._outputs import repeating
+    from pysim.cli.outputs import repeating
     from pysim.io import write_file
     from pysim.plot import render
     from pysim.plot.data_check import coverage_figure, sine_logs_figure, time_logs_figure

@@ -34,9 +34,9 @@ def run(args: argparse.Namespace) -> int:
     from concurrent.futures import ProcessPoolExecutor
     from multiprocessing import get_context
 
-    from pysim.cli._outputs import prepare_folder
     from pysim.cli._pictures import draw_picture, write_pictures
-    from pysim.cli._progress import Working
+    from pysim.cli.outputs import prepare_folder
+    from pysim.cli.progress import Working
     from pysim.io import read_dataset, write_file
     from pysim.report import comparison_data, comparison_text
     from validation.thesis import FREQUENCIES_HZ, write_dataset
@@ -73,7 +73,7 @@ def _build_kernel() -> None:
 
 def _build(label: str, folder: Path) -> Model:
     """One parameter set's FMU."""
-    from pysim.cli._progress import Working
+    from pysim.cli.progress import Working
     from validation.pump import CLASSES, pump_model
 
     with Working(f"Building {CLASSES[label]}"):
@@ -82,7 +82,7 @@ def _build(label: str, folder: Path) -> Model:
 
 def _compare(label: str, model: Model, dataset: Dataset) -> Comparison:
     """Run all tests through one model."""
-    from pysim.cli._progress import ProgressBar
+    from pysim.cli.progress import ProgressBar
     from pysim.diagnose import compare
     from validation.pump import SOURCES
 
@@ -91,7 +91,7 @@ def _compare(label: str, model: Model, dataset: Dataset) -> Comparison:
 
 
 def _report(comparisons: Sequence[Comparison], args: argparse.Namespace, pictures: dict[str, bytes]) -> str:
-    from pysim.cli._outputs import repeating
+    from pysim.cli.outputs import repeating
     from pysim.report import comparison_page
 
     # with fewer frequencies the largest deviations are others, and the thesis' tables cannot be held against them

@@ -11,8 +11,8 @@ if TYPE_CHECKING:
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The words behind `pysim diagnose`."""
-    from pysim.cli._options import SEED
     from pysim.cli._subject import add_effects, add_results, add_subject
+    from pysim.cli.options import SEED
 
     add_subject(parser)
     add_effects(parser)
@@ -25,10 +25,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Show the story as it unfolds; 0 with a verdict, whatever it is."""
-    from pysim.cli._options import names_of
-    from pysim.cli._progress import announce_compilation
     from pysim.cli._story import finish, unfold
     from pysim.cli._subject import prepare_results, read_subject
+    from pysim.cli.options import names_of
+    from pysim.cli.progress import announce_compilation
     from pysim.diagnose import diagnose
     from pysim.report.diagnosis import diagnosis_text
     from pysim.types import BadInput

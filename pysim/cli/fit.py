@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The words behind `pysim fit`."""
     from pysim.cli._any_model import add_data_and_model, add_library
-    from pysim.cli._options import add_names, add_parameters, add_reference
+    from pysim.cli.options import add_names, add_parameters, add_reference
 
     add_data_and_model(parser, several=True)
     add_library(parser)
@@ -45,12 +45,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Print the estimates; 0 when the search converged, 1 when it did not."""
-    from pysim.cli._answer_folder import prepare_answer
     from pysim.cli._any_model import read_fmu_or_class
     from pysim.cli._measurements import read_measurements
-    from pysim.cli._options import names_of
-    from pysim.cli._outputs import JSON, prepare_file
-    from pysim.cli._progress import announce_compilation
+    from pysim.cli.options import names_of
+    from pysim.cli.outputs import JSON, prepare_answer, prepare_file
+    from pysim.cli.progress import announce_compilation
     from pysim.identify.greybox import (
         OBJECTIVES,
         Effort,
@@ -139,7 +138,7 @@ def _write_numbers(args: argparse.Namespace, result: Fit, profiles: Sequence[Pro
 
 
 def _problem(args: argparse.Namespace, model: Model, datasets: Sequence[Dataset]) -> Problem:
-    from pysim.cli._options import bounded, chosen_reference, names_of
+    from pysim.cli.options import bounded, chosen_reference, names_of
     from pysim.identify.greybox import Measurements, Parameter, Tie, Treatment, problem
 
     names, bounds = names_of(args.free), bounded(args.bounds)
@@ -159,7 +158,7 @@ def _values(
     args: argparse.Namespace, model: Model, free: Sequence[str], tied: Sequence[str]
 ) -> tuple[dict[str, float], dict[str, float]]:
     """Where free parameters begin and what others are set to: from the file, and from the options that go before it."""
-    from pysim.cli._options import assigned, parameters_of, settable
+    from pysim.cli.options import assigned, parameters_of, settable
 
     told = settable(parameters_of(args.parameters), model) if args.parameters else {}
     starts = {name: value for name, value in told.items() if name in free}
@@ -210,9 +209,8 @@ def _tie(text: str) -> tuple[str, str, float]:
 
 
 def _write_report(args: argparse.Namespace, result: Fit, datasets: Sequence[Dataset]) -> None:
-    from pysim.cli._answer_folder import answer_folder
     from pysim.cli._fit_pictures import fit_pictures
-    from pysim.cli._outputs import PARAMETERS, repeating
+    from pysim.cli.outputs import PARAMETERS, answer_folder, repeating
     from pysim.io import write_file
     from pysim.report.fit import fit_page
 

@@ -7,8 +7,8 @@ import argparse
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The words behind `pysim locate`."""
-    from pysim.cli._options import add_names
     from pysim.cli._subject import add_results, add_subject
+    from pysim.cli.options import add_names
 
     add_subject(parser)
     add_names(parser, "--with", what="effects that the model is to have already")
@@ -17,10 +17,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Print the places with the term that each would need; 0."""
-    from pysim.cli._options import names_of
-    from pysim.cli._progress import announce_compilation
     from pysim.cli._story import finish, unfold
     from pysim.cli._subject import effects_of, prepare_results, read_subject
+    from pysim.cli.options import names_of
+    from pysim.cli.progress import announce_compilation
     from pysim.diagnose import located
     from pysim.report.diagnosis import evidence_text
     from pysim.report.diagnosis_words import missing_sentence

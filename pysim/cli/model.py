@@ -23,8 +23,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Print what it holds; 0."""
-    from pysim.cli._outputs import JSON, prepare_file
     from pysim.cli._subject import read_inside
+    from pysim.cli.outputs import JSON, prepare_file
     from pysim.io import write_file
 
     if args.json:

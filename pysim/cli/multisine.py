@@ -46,7 +46,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Print what was found for each test."""
-    from pysim.cli._outputs import JSON, prepare_file, prepare_folder
+    from pysim.cli.outputs import JSON, prepare_file, prepare_folder
     from pysim.io import write_file
     from pysim.report.multisine import multisine_data, multisine_text
 
@@ -199,7 +199,7 @@ def _arbitrary(args: argparse.Namespace, record: Record, columns: tuple[str, ...
 
 
 def _write_report(args: argparse.Namespace, found: Sequence[tuple[str, BestLinearApproximation]]) -> None:
-    from pysim.cli._outputs import repeating
+    from pysim.cli.outputs import repeating
     from pysim.io import write_file
     from pysim.plot import multisine_figure, render
     from pysim.report.multisine import multisine_page

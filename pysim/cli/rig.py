@@ -40,8 +40,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Print a table of what the answers are worth."""
-    from pysim.cli._outputs import JSON, prepare_file, prepare_folder
-    from pysim.cli._progress import announce_compilation
+    from pysim.cli.outputs import JSON, prepare_file, prepare_folder
+    from pysim.cli.progress import announce_compilation
     from pysim.types import BadInput
 
     if not 0 < args.dt < _COARSEST:
@@ -123,7 +123,7 @@ def _run(
     title: str,
 ) -> Record:
     import fmu_build
-    from pysim.cli._progress import ProgressBar, Working
+    from pysim.cli.progress import ProgressBar, Working
     from pysim.cosim import cosimulate
     from pysim.cosim.members import Fmu
     from pysim.io import read_model
@@ -143,9 +143,9 @@ def _run(
 
 def _write(args: argparse.Namespace, data: Any, figures: Mapping[str, tuple[str, Figure]], make_page: Any) -> None:
     """Numbers, pictures and the page, where they were asked for."""
-    from pysim.cli._outputs import repeating
+    from pysim.cli.outputs import repeating
     from pysim.io import write_file
-    from pysim.plot.render import render
+    from pysim.present.render import render
 
     if args.json:
         write_file(args.json, json.dumps(data, indent=1, allow_nan=False))

@@ -106,7 +106,7 @@ def _choose_file(args: argparse.Namespace) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Write the file, and say what is in it."""
-    from pysim.cli._outputs import prepare_file, prepare_folder
+    from pysim.cli.outputs import prepare_file, prepare_folder
     from pysim.io import write_signal
 
     _choose_file(args)

@@ -20,7 +20,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The words behind `pysim simulate`."""
     from pysim.cli._any_model import WHAT, add_library
     from pysim.cli._inputs import add_inputs
-    from pysim.cli._options import add_names, add_parameters
+    from pysim.cli.options import add_names, add_parameters
 
     parser.add_argument("model", metavar="MODEL", help=WHAT)
     add_library(parser)
@@ -42,8 +42,8 @@ def run(args: argparse.Namespace) -> int:
     """Simulate; 1 when the run stops early, with what was reached written all the same."""
     from pysim.cli._any_model import read_fmu_or_class
     from pysim.cli._inputs import input_files
-    from pysim.cli._outputs import JSON, prepare_file
-    from pysim.cli._progress import simulating
+    from pysim.cli.outputs import JSON, prepare_file
+    from pysim.cli.progress import simulating
     from pysim.simulate import Rk45, Rodas, simulate
     from pysim.types import Outcome
 
@@ -66,7 +66,7 @@ def _experiment(args: argparse.Namespace, model: Model) -> Experiment:
     import numpy as np
 
     from pysim.cli._inputs import read_inputs
-    from pysim.cli._options import names_of, read_parameters
+    from pysim.cli.options import names_of, read_parameters
     from pysim.types import BadInput, Experiment
 
     stop = model.stop_time or _STOP if args.stop is None else args.stop

@@ -30,7 +30,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Print a table; 1 where the loop that was asked for is not stable."""
-    from pysim.cli._outputs import JSON, prepare_file, prepare_folder
+    from pysim.cli.outputs import JSON, prepare_file, prepare_folder
     from pysim.control.tuning import TABLE_6_1, known_pi
     from pysim.io import write_file
     from pysim.report.tuning import tuning_data, tuning_text
@@ -96,10 +96,10 @@ def _numbers(text: str, option: str, count: int | None = None) -> tuple[float, .
 
 
 def _write_report(args: argparse.Namespace, loops: dict[str, Gains]) -> None:
-    from pysim.cli._outputs import repeating
+    from pysim.cli.outputs import repeating
     from pysim.io import write_file
-    from pysim.plot.render import render
     from pysim.plot.tuning import tuning_figure
+    from pysim.present.render import render
     from pysim.report.tuning import tuning_page
 
     figure = tuning_figure(loops, dt=args.dt)

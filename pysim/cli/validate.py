@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
     from matplotlib.figure import Figure
 
-    from pysim.cli._progress import ProgressBar
+    from pysim.cli.progress import ProgressBar
     from validation.findings import Finding
     from validation.results import CaseResult
 
@@ -33,7 +33,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """0 when every claim that could be tried holds, 1 when one fails."""
-    from pysim.cli._outputs import prepare_file, prepare_folder
+    from pysim.cli.outputs import prepare_file, prepare_folder
     from validation.registry import CASES
     from validation.results import FAILS, append_results
     from validation.suite import chosen, run_cases
@@ -68,13 +68,13 @@ class _Show:
     """What is seen while cases run: findings as they come, and a bar of the cases done."""
 
     def __init__(self, total: int) -> None:
-        from pysim.cli._progress import ProgressBar
+        from pysim.cli.progress import ProgressBar
 
         self._bar: ProgressBar = ProgressBar("validate")
         self._done, self._total = 0, total
 
     def __call__(self, name: str, finding: Finding | None) -> None:
-        from pysim.cli._terminal import draws_over
+        from pysim.cli.terminal import draws_over
         from validation.registry import CASES
 
         clear = "\r\033[K" if draws_over(sys.stderr) else ""

@@ -17,12 +17,10 @@ from pysim.plot.fit import (
     fit_parameters_figure,
     fit_record_figure,
 )
-from pysim.plot.frf import frf_figure
-from pysim.plot.friction import friction_figure
 from pysim.plot.missing import missing_figure
 from pysim.plot.multisine import multisine_figure
-from pysim.plot.render import render
 from pysim.plot.time_response import time_response_figure
+from pysim.present.render import render
 
 __all__ = [
     "blackbox_figure",
@@ -42,8 +40,6 @@ __all__ = [
     "fit_harmonics_figure",
     "fit_parameters_figure",
     "fit_record_figure",
-    "frf_figure",
-    "friction_figure",
     "missing_figure",
     "multisine_figure",
     "render",

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from pysim.identify import HALF_95
 from pysim.identify.blackbox import FittedResponse, Root, TransferFunctionFit
-from pysim.plot.style import (
+from pysim.present.style import (
     COLOURS,
     LIMIT,
     MEASURED,

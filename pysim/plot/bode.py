@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from pysim.identify import FREQUENCY_CRITERIA, magnitude_db
 from pysim.io import shown_point
-from pysim.plot.style import (
+from pysim.present.style import (
     BAND,
     COLOURS,
     DASHES,

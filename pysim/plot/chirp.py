@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from pysim.identify import HALF_95, magnitude_db
 from pysim.identify.chirp import Branch, ChirpAnalysis
-from pysim.plot.style import COLOURS, MEASURED, TEXT, frequency_axis, legend_above, new_figure, phase_axis, quiet
+from pysim.present.style import COLOURS, MEASURED, TEXT, frequency_axis, legend_above, new_figure, phase_axis, quiet
 from pysim.types import FrequencyResponse
 
 _LOOKS: dict[str, dict[str, Any]] = {

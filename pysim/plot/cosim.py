@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from pysim.io import shown_unit
-from pysim.plot.style import COLOURS, DASHES, SMALL, TEXT, new_figure, quiet
+from pysim.present.style import COLOURS, DASHES, SMALL, TEXT, new_figure, quiet
 from pysim.types import BadInput, Record
 
 _MOST = len(COLOURS)  # lines of a panel; more cannot be told apart

@@ -13,7 +13,7 @@ from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
 from pysim.io import shown_unit
-from pysim.plot.style import COLOURS, DASHES, MEASURED, SMALL, TEXT, frequency_axis, legend_above, new_figure, quiet
+from pysim.present.style import COLOURS, DASHES, MEASURED, SMALL, TEXT, frequency_axis, legend_above, new_figure, quiet
 from pysim.types import BadInput, Dataset, MeasuredRecord, Record
 
 _T = TypeVar("_T")

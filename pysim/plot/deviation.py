@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from pysim.identify import FREQUENCY_CRITERIA
 from pysim.io import shown_unit
-from pysim.plot.style import COLOURS, LIMIT, MARKERS, SMALL, TEXT, legend_above, new_figure, quiet
+from pysim.present.style import COLOURS, LIMIT, MARKERS, SMALL, TEXT, legend_above, new_figure, quiet
 from pysim.types import Comparison, Criterion
 
 

@@ -13,7 +13,7 @@ from matplotlib.patches import Patch
 from matplotlib.ticker import FixedLocator, NullLocator, StrMethodFormatter
 
 from pysim.identify.accuracy import FREQUENCY_CRITERIA, TIME_CRITERIA
-from pysim.plot.style import (
+from pysim.present.style import (
     BAND,
     COLOURS,
     DASHES,

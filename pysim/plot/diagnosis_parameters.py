@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from pysim.plot.style import BAND, COLOURS, LIMIT, SMALL, TEXT, legend_above, new_figure, quiet
+from pysim.present.style import BAND, COLOURS, LIMIT, SMALL, TEXT, legend_above, new_figure, quiet
 from pysim.types import BadInput, Estimate, Stage
 
 _LEAST = 0.1  # half widths of an interval at which the axis of the moves begins

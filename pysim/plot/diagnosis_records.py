@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 
 from pysim.identify import HALF_95
 from pysim.io import shown_unit
-from pysim.plot.style import BAND, COLOURS, DASHES, LIMIT, MEASURED, SMALL, TEXT, legend_above, new_figure, quiet
+from pysim.present.style import BAND, COLOURS, DASHES, LIMIT, MEASURED, SMALL, TEXT, legend_above, new_figure, quiet
 from pysim.types import BadInput, Diagnosis, RecordFit, Stage
 
 _PERIODS = 2.0  # of a stepped sine that are shown

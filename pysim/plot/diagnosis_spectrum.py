@@ -14,7 +14,7 @@ from scipy.special import chdtri
 
 from pysim.identify.residual_spectrum import FEWEST, residual_spectrum
 from pysim.plot.diagnosis_records import same_record, stages_compared
-from pysim.plot.style import (
+from pysim.present.style import (
     BAND,
     COLOURS,
     DASHES,

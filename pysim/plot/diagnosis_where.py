@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from pysim.io import shown_point
 from pysim.plot.diagnosis_records import base_of, stages_compared
-from pysim.plot.style import BAND, COLOURS, LIMIT, SMALL, TEXT, legend_above, new_figure, quiet
+from pysim.present.style import BAND, COLOURS, LIMIT, SMALL, TEXT, legend_above, new_figure, quiet
 from pysim.types import BadInput, Dataset, Diagnosis, MeasuredRecord, RecordFit, Stage
 
 Array = NDArray[np.float64]

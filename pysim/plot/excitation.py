@@ -9,7 +9,17 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from pysim.excitation import Excitation, Multisine, StochasticWave
-from pysim.plot.style import BAND, COLOURS, MEASURED, TEXT, frequency_axis, legend_above, new_figure, quiet, size_axis
+from pysim.present.style import (
+    BAND,
+    COLOURS,
+    MEASURED,
+    TEXT,
+    frequency_axis,
+    legend_above,
+    new_figure,
+    quiet,
+    size_axis,
+)
 from pysim.types import Signal
 
 Array = NDArray[np.float64]

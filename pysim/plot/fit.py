@@ -11,7 +11,7 @@ from matplotlib.patches import Patch
 
 from pysim.identify import HALF_95
 from pysim.io import shown_unit
-from pysim.plot.style import (
+from pysim.present.style import (
     BAND,
     COLOURS,
     LIMIT,

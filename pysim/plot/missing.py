@@ -5,7 +5,7 @@ from __future__ import annotations
 from matplotlib.figure import Figure
 
 from pysim.io import shown_unit
-from pysim.plot.style import COLOURS, LIMIT, SMALL, TEXT, legend_above, new_figure, quiet
+from pysim.present.style import COLOURS, LIMIT, SMALL, TEXT, legend_above, new_figure, quiet
 from pysim.types import BadInput, Missing
 
 _KINDS = {"N": "force", "m3/s": "flow", "Pa": "pressure", "N.m": "torque", "m": "position", "rad": "angle"}

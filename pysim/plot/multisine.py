@@ -11,7 +11,17 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from pysim.identify.multisine import gain_interval, gain_radius, pooled
-from pysim.plot.style import COLOURS, LIMIT, MEASURED, TEXT, frequency_axis, legend_above, new_figure, phase_axis, quiet
+from pysim.present.style import (
+    COLOURS,
+    LIMIT,
+    MEASURED,
+    TEXT,
+    frequency_axis,
+    legend_above,
+    new_figure,
+    phase_axis,
+    quiet,
+)
 from pysim.types import BadInput, BestLinearApproximation, Distortion, Level
 
 Array = NDArray[np.float64]

@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from pysim.plot.style import BAND, COLOURS, DASHES, LIMIT, MEASURED, TEXT, legend_above, new_figure, quiet
+from pysim.present.style import BAND, COLOURS, DASHES, LIMIT, MEASURED, TEXT, legend_above, new_figure, quiet
 from pysim.rig import HeaveTest, StepTest, standstills
 from pysim.rig.heave_test import slow_part
 from pysim.types import BadInput, Record

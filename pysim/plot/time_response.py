@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from matplotlib.figure import Figure
 
 from pysim.io import shown_unit
-from pysim.plot.style import COLOURS, DASHES, MEASURED, TEXT, legend_above, new_figure, quiet
+from pysim.present.style import COLOURS, DASHES, MEASURED, TEXT, legend_above, new_figure, quiet
 from pysim.types import BadInput, Record
 
 

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from pysim.control.tuning import Gains, loop_response
 from pysim.control.tuning.margins import open_loop
-from pysim.plot.style import (
+from pysim.present.style import (
     COLOURS,
     DASHES,
     LIMIT,

@@ -1,9 +1,8 @@
 """Comparisons as text, as data and as one self-contained HTML page."""
 
+from pysim.present.page import cell, commands, heading, items, page, paragraph, picture, table
 from pysim.report.comparison import comparison_page, comparison_table
 from pysim.report.data import comparison_data
-from pysim.report.friction import friction_data, friction_page, friction_table, friction_text
-from pysim.report.page import cell, commands, heading, items, page, paragraph, picture, table
 from pysim.report.text import comparison_text, verdict_text
 
 __all__ = [
@@ -13,10 +12,6 @@ __all__ = [
     "comparison_page",
     "comparison_table",
     "comparison_text",
-    "friction_data",
-    "friction_page",
-    "friction_table",
-    "friction_text",
     "heading",
     "items",
     "page",

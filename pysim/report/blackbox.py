@@ -11,7 +11,7 @@ import numpy as np
 from pysim.identify import FREQUENCY_CRITERIA, magnitude_db
 from pysim.identify.blackbox import FittedNumber, FittedResponse, OrderSuggestion, Root
 from pysim.io import json_number
-from pysim.report.page import cell, commands, heading, items, page, paragraph, picture, table
+from pysim.present.page import cell, commands, heading, items, page, paragraph, picture, table
 from pysim.types import Deviation
 
 _WIDTH = 96

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from pysim.identify import HALF_95
 from pysim.identify.chirp import Branch, ChirpAnalysis
 from pysim.io import shown_value
-from pysim.report.page import cell, commands, heading, items, page, picture, table
+from pysim.present.page import cell, commands, heading, items, page, picture, table
 
 Array = NDArray[np.float64]
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from pysim.identify import FREQUENCY_CRITERIA
-from pysim.report.page import cell, commands, heading, items, page, paragraph, picture, table
+from pysim.present.page import cell, commands, heading, items, page, paragraph, picture, table
 from pysim.report.text import note_text, verdict_text
 from pysim.types import Comparison, ResponseComparison
 

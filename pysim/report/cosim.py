@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from pysim.report.page import cell, commands, heading, page, paragraph, picture, table
+from pysim.present.page import cell, commands, heading, page, paragraph, picture, table
 from pysim.types import Outcome, Record
 
 # Name, what it is, inputs and outputs of a member; source, target, factor and offset of a connection.

@@ -8,7 +8,7 @@ from typing import Any
 
 from pysim.identify.data_check import DataCheck, RecordCheck
 from pysim.io import counted, shown_point
-from pysim.report.page import cell, commands, heading, items, page, paragraph, picture, table
+from pysim.present.page import cell, commands, heading, items, page, paragraph, picture, table
 
 _UNTOLD = "-"  # a description or a system that dataset.toml leaves out
 _WIDTH = 100

@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from pysim.io import json_number, shown_value
-from pysim.report.page import cell, commands, heading, items, page, paragraph, picture, table
+from pysim.present.page import cell, commands, heading, items, page, paragraph, picture, table
 from pysim.types import Estimate, Fit, FitOutcome, RecordFit, ResponseFit
 
 _WIDTH = 100

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from pysim.fmu_check import FmuReport
-from pysim.report.page import cell, heading, paragraph, statement, table
+from pysim.present.page import cell, heading, paragraph, statement, table
 
 _KIND = {"holds": "pass", "fails": "fail", "doubtful": "beyond", "skipped": ""}
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from pysim.identify.multisine import distortion_p_value, gain_interval, pooled
 from pysim.io import json_number, shown_value
-from pysim.report.page import cell, commands, heading, items, page, paragraph, picture, table
+from pysim.present.page import cell, commands, heading, items, page, paragraph, picture, table
 from pysim.types import BestLinearApproximation, Distortion, Level
 
 Array = NDArray[np.float64]

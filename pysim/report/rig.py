@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from pysim.io import json_number
-from pysim.report.page import cell, commands, heading, items, page, picture, table
+from pysim.present.page import cell, commands, heading, items, page, picture, table
 from pysim.rig import HeaveFigures, HeaveTest, StepFigures, StepTest
 
 _BAR = 1e-5

@@ -8,7 +8,7 @@ from typing import Any
 
 from pysim.control.tuning import Gains
 from pysim.io import json_number
-from pysim.report.page import cell, commands, heading, items, page, picture, table
+from pysim.present.page import cell, commands, heading, items, page, picture, table
 
 _METHOD = (
     "The controller is K_p (1 + 1/(T_i s)), thesis Eq. 5.32. Phase margin and crossover fix both of its numbers.",

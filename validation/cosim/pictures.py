@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.figure import Figure
 
-from pysim.plot.style import COLOURS, DASHES, MARKERS, TEXT, legend_above, new_figure, quiet
+from pysim.present.style import COLOURS, DASHES, MARKERS, TEXT, legend_above, new_figure, quiet
 from validation.cosim.bench import TIMES, coupled, monolithic
 from validation.cosim.oscillators import STEPS, errors
 

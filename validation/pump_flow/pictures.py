@@ -9,8 +9,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from pysim.plot.render import render
-from pysim.plot.style import COLOURS, DASHES, LIMIT, SMALL, TEXT, new_figure, quiet
+from pysim.present.render import render
+from pysim.present.style import COLOURS, DASHES, LIMIT, SMALL, TEXT, new_figure, quiet
 from validation.pump_flow.case import swept, turned
 from validation.pump_flow.kinematics import LITRES, Geometry
 

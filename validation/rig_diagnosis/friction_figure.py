@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from pysim.plot.style import BAND, COLOURS, DASHES, LIMIT, TEXT, legend_above, new_figure, quiet
+from pysim.present.style import BAND, COLOURS, DASHES, LIMIT, TEXT, legend_above, new_figure, quiet
 from pysim.types import Diagnosis
 from validation.rig_diagnosis.machines import truth
 

@@ -9,8 +9,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from pysim.plot.render import render
-from pysim.plot.style import COLOURS, DASHES, LIMIT, MARKERS, SMALL, TEXT, new_figure, quiet
+from pysim.present.render import render
+from pysim.present.style import COLOURS, DASHES, LIMIT, MARKERS, SMALL, TEXT, new_figure, quiet
 from pysim.types import Record
 from validation.ripple import hose, relief
 from validation.ripple.line import Hose

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MultipleLocator
 
 from pysim.identify import magnitude_db
-from pysim.plot.style import TEXT, frequency_axis, legend_above, new_figure, quiet
+from pysim.present.style import TEXT, frequency_axis, legend_above, new_figure, quiet
 from pysim.types import FrequencyResponse
 
 

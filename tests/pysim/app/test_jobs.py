@@ -223,7 +223,7 @@ def test_no_two_chains_of_effects_share_a_folder(project: Project) -> None:
 
 def parse(*lines: tuple[str, ...]) -> None:
     """The command line takes them."""
-    from pysim.cli._main import argument_parser
+    from pysim.cli.main import argument_parser
 
     for words in lines:
         assert argument_parser().parse_args(list(words)).command == words[0]

@@ -39,7 +39,7 @@ def undraw(patch: pytest.MonkeyPatch) -> None:
     from importlib import import_module
 
     patch.setattr("pysim.plot.render", lambda figure, form: b"drawn")
-    patch.setattr(import_module("pysim.plot.render"), "render", lambda figure, form: b"drawn")
+    patch.setattr(import_module("pysim.present.render"), "render", lambda figure, form: b"drawn")
 
 
 def refused(words: Sequence[str], capsys: pytest.CaptureFixture[str], *named: str) -> None:

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from pysim.cli._answer_folder import MARKER, answer_folder, prepare_answer
+from pysim.cli.outputs import MARKER, answer_folder, prepare_answer
 from pysim.types import BadInput
 
 

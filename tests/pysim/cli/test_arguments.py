@@ -4,8 +4,8 @@ from pathlib import Path
 
 import pytest
 
-from pysim.cli._main import argument_parser
-from pysim.cli._options import names_of
+from pysim.cli.main import argument_parser
+from pysim.cli.options import names_of
 
 OWN = {"add": ["--effects", "e"], "fit": ["--free", "m"]}
 

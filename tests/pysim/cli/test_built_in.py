@@ -6,8 +6,8 @@ import pytest
 
 from fmu_build import build
 from pysim.cli._built_in import built_in
-from pysim.cli._main import argument_parser
 from pysim.cli._subject import read_subject
+from pysim.cli.main import argument_parser
 from pysim.io import read_model
 from pysim.types import BadInput
 from tests.pysim.diagnose.toy import library

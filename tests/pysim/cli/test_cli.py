@@ -17,9 +17,9 @@ import pytest
 
 import pysim.cli
 from pysim.cli import main
-from pysim.cli._answer_folder import MARKER
-from pysim.cli._options import read_parameters
-from pysim.cli._outputs import command_line
+from pysim.cli.main import argument_parser, registry
+from pysim.cli.options import read_parameters
+from pysim.cli.outputs import MARKER, command_line
 from pysim.types import BadInput, Experiment, Record, SimulationError
 from tests.pysim import comparisons as linear
 from tests.pysim.cli.ran import refused
@@ -152,6 +152,17 @@ def test_unknown_words_are_exit_2(words: list[str], capsys: pytest.CaptureFixtur
     assert "usage" in capsys.readouterr().err
 
 
+def test_every_command_is_found_and_its_help_is_shown(capsys: pytest.CaptureFixture[str]) -> None:
+    from pysim.cli import commands
+
+    names = {path.stem.replace("_", "-") for path in Path(commands.__file__).parent.glob("[a-z]*.py")}
+    assert names <= set(registry())
+    for name in registry():
+        with pytest.raises(SystemExit):
+            argument_parser(name).parse_args([name, "--help"])
+        assert name in capsys.readouterr().out
+
+
 def test_help_is_exit_0() -> None:
     assert main(["--help"]) == 0
     assert main(["compare", "--help"]) == 0
@@ -174,7 +185,7 @@ def test_what_goes_wrong_becomes_an_exit_code(
         raise error
 
     commands = {"demo": SimpleNamespace(run=run, add_arguments=lambda parser: None, __doc__="Fail.")}
-    monkeypatch.setattr(import_module("pysim.cli._main"), "_COMMANDS", commands)
+    monkeypatch.setattr(import_module("pysim.cli.main"), "registry", lambda: commands)
     assert main(["demo"]) == code
     assert ("our mistake" in capsys.readouterr().err) == (code == 3)
 
@@ -198,10 +209,12 @@ def test_numbers_outside_the_bounds_are_said_and_used(folder: Path, capsys: pyte
 
 def test_a_reader_that_went_away_ends_the_command_quietly() -> None:
     script = (
-        "import sys; from types import SimpleNamespace; from pysim.cli import _main\n"
+        "import sys; from importlib import import_module; from types import SimpleNamespace\n"
         "run = lambda args: print('x' * 10_000_000) or 0\n"
-        "_main._COMMANDS = {'demo': SimpleNamespace(run=run, add_arguments=lambda p: None, __doc__='Print.')}\n"
-        "sys.exit(_main.main(['demo']))\n"
+        "commands = import_module('pysim.cli.main')\n"
+        "demo = SimpleNamespace(run=run, add_arguments=lambda p: None, __doc__='Print.')\n"
+        "commands.registry = lambda: {'demo': demo}\n"
+        "sys.exit(commands.main(['demo']))\n"
     )
     with subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
         assert process.stdout is not None

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from pysim.cli import main
-from pysim.cli._answer_folder import MARKER
-from pysim.cli._main import argument_parser
 from pysim.cli._subject import Given, read_subject
+from pysim.cli.main import argument_parser
+from pysim.cli.outputs import MARKER
 from pysim.io import read_model, write_dataset
 from pysim.types import Record
 from tests.pysim.cli.ran import Ran, refused

@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 
 from pysim.cli import _diagnosis_report, main
-from pysim.cli._answer_folder import MARKER
 from pysim.cli._story import JOURNAL, Story
+from pysim.cli.outputs import MARKER
 from pysim.diagnose import ledger
 from pysim.diagnose import story as diagnosis_story
 from pysim.identify.greybox.comparison import Compared

@@ -13,10 +13,10 @@ import pytest
 import pysim.cli
 from fmu_build.cli import main as fmu_build_main
 from pysim.cli._extended import extended_name, relative_files, write_extended
-from pysim.cli._options import parameters_of
-from pysim.cli._outputs import quoted
 from pysim.cli._subject import Given
 from pysim.cli._variants import Variants
+from pysim.cli.options import parameters_of
+from pysim.cli.outputs import quoted
 from pysim.diagnose import add
 from pysim.io import read_model
 from pysim.types import Diagnosis, Effect

@@ -11,7 +11,7 @@ import pytest
 from fmu_build.cli import main as build_command
 from pysim.cli import fit as fit_command
 from pysim.cli import main
-from pysim.cli._answer_folder import MARKER
+from pysim.cli.outputs import MARKER
 from pysim.identify.greybox import Profile, Tried
 from pysim.io import read_model, write_dataset
 from tests.pysim.cli.ran import Ran, refused

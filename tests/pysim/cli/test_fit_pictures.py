@@ -30,7 +30,7 @@ def captions(fit: Fit, folder: Path, *records: MeasuredRecord) -> list[str]:
 
 @pytest.fixture(autouse=True)
 def no_drawing(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("pysim.plot.render", lambda figure, form: b"drawn")
+    monkeypatch.setattr("pysim.present.render", lambda figure, form: b"drawn")
 
 
 def test_sines_of_one_test_stand_together(tmp_path: Path) -> None:

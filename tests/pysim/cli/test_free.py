@@ -7,8 +7,8 @@ import pytest
 
 from pysim.cli import main
 from pysim.cli._free import free_parameters
-from pysim.cli._main import argument_parser
 from pysim.cli._subject import Given, read_subject
+from pysim.cli.main import argument_parser
 from pysim.types import BadInput
 from tests.pysim.diagnose.toy import base
 

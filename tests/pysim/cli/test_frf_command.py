@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from pysim.cli import main
+from pysim.cli.outputs import MARKER
 from tests.pysim.cli.ran import refused
 from tests.pysim.identify.frf.systems import log, response, white
 
@@ -46,7 +47,7 @@ def test_writes_table_numbers_and_report(bench: Path, tmp_path: Path) -> None:
     one = json.loads((tmp_path / "frf.json").read_text())["responses"][0]
     truth = 20 * np.log10(np.abs(response(np.array(F))))
     assert (np.abs(np.array(one["magnitude_db"]) - truth) < 4 * np.array(one["magnitude_db_deviation"])).all()
-    assert {path.name for path in (tmp_path / "report").iterdir()} == {"frf.png", "frf.svg", "report.html"}
+    assert {path.name for path in (tmp_path / "report").iterdir()} == {"frf.png", "frf.svg", "report.html", MARKER}
 
 
 def test_gains_are_absolute_where_the_thesis_reference_was_not_measured(bench: Path, tmp_path: Path) -> None:

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from pysim.cli import main
+from pysim.cli.outputs import MARKER
 from pysim.io import write_dataset
 from pysim.types import Dataset, MeasuredRecord, MeasuredSignal, Record
 from tests.pysim.cli.ran import refused
@@ -46,7 +47,7 @@ def test_finds_table_6_2_and_writes_everything(folder: str, tmp_path: Path) -> N
     assert data["parameters"]["r"]["bounded_only"]
     assert data["parameters"]["r"]["interval"][1] is None
     assert data["by_filter"]["objective"] == "thesis Eq. 6.1"
-    assert {path.name for path in out.iterdir()} == {"friction.png", "report.html"}
+    assert {path.name for path in out.iterdir()} == {"friction.png", "friction.svg", "report.html", MARKER}
     assert (out / "report.html").read_text().count("data:image/svg+xml") == 1
 
 

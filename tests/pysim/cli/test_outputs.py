@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from pysim.cli import main
-from pysim.cli._outputs import JSON, prepare_file, prepare_folder
+from pysim.cli.outputs import JSON, prepare_file, prepare_folder
 from pysim.types import BadInput
 
 TOML = """[dataset]

@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from pysim.cli import _progress
-from pysim.cli._progress import ProgressBar, Working, announce_compilation
+from pysim.cli import progress
+from pysim.cli.progress import ProgressBar, Working, announce_compilation
 from pysim.simulate import build_kernel, kernel_is_built
 from pysim.simulate.kernel import build
 
@@ -35,7 +35,7 @@ class Stream(io.StringIO):
 @pytest.mark.parametrize("live", [False, True])
 def test_what_lasts_is_said_again_and_again(live: bool, monkeypatch: pytest.MonkeyPatch) -> None:
     for name in ("_MOMENT", "_TICK", "_PAUSE"):
-        monkeypatch.setattr(_progress, name, 0.0)
+        monkeypatch.setattr(progress, name, 0.0)
     monkeypatch.setattr(sys, "platform", "linux")
     stream = Stream(3, live=live)
     monkeypatch.setattr(sys, "stderr", stream)
@@ -47,7 +47,7 @@ def test_what_lasts_is_said_again_and_again(live: bool, monkeypatch: pytest.Monk
 
 
 def test_what_is_quick_is_not(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
-    monkeypatch.setattr(_progress, "_MOMENT", 1e6)
+    monkeypatch.setattr(progress, "_MOMENT", 1e6)
     with Working("Building Toy"):
         pass
     assert capsys.readouterr().err == ""

@@ -7,7 +7,7 @@ import pytest
 
 from pysim.cli import main
 from pysim.cli import signal as signal_command
-from pysim.cli._main import argument_parser
+from pysim.cli.main import argument_parser
 from pysim.excitation import Chirp, Excitation, LeadIn, LineGrid, Multisine, PiersonMoskowitz, Step, StochasticWave
 from pysim.excitation import SteppedSineCommand as Sine
 from pysim.io import read_signal

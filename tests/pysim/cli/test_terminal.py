@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from pysim.cli import _terminal, main
-from pysim.cli._terminal import draws_over, print_everything
+from pysim.cli import main, terminal
+from pysim.cli.terminal import draws_over, print_everything
 
 
 class Terminal(io.StringIO):
@@ -24,7 +24,7 @@ def test_a_file_is_no_terminal(monkeypatch: pytest.MonkeyPatch) -> None:
 @pytest.mark.parametrize("can", [True, False])
 def test_windows_is_asked(monkeypatch: pytest.MonkeyPatch, can: bool) -> None:
     monkeypatch.setattr(sys, "platform", "win32")
-    monkeypatch.setattr(_terminal, "_windows_draws", lambda stream: can)
+    monkeypatch.setattr(terminal, "_windows_draws", lambda stream: can)
     assert draws_over(Terminal()) is can
 
 

@@ -11,7 +11,7 @@ from pysim.plot import (
 )
 from pysim.types import BadInput
 from tests.pysim.fits import small_fit
-from tests.pysim.plot.looking import is_whole
+from tests.pysim.present.looking import is_whole
 
 
 def test_a_record_is_drawn_with_its_residual_in_noise() -> None:

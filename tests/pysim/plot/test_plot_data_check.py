@@ -7,7 +7,7 @@ import pytest
 
 from pysim.plot.data_check import coverage_figure, sine_logs_figure, time_logs_figure
 from pysim.types import BadInput, Dataset, MeasuredRecord, MeasuredSignal, Record
-from tests.pysim.plot.looking import numbers
+from tests.pysim.present.looking import numbers
 
 SIGNALS = (
     MeasuredSignal("p", "input", "Pa", "", "p"),

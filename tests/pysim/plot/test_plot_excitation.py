@@ -15,7 +15,7 @@ from pysim.excitation import (
     StochasticWave,
 )
 from pysim.plot import excitation_figure
-from tests.pysim.plot.looking import numbers
+from tests.pysim.present.looking import numbers
 
 FAMILY: list[Excitation] = [
     SteppedSineCommand(50.0, 10.0, 5.0, 7.0),

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from scipy.integrate import quad
 
 from pysim.excitation import PiersonMoskowitz, StochasticWave
-from pysim.plot.style import BAND, COLOURS, TEXT, new_figure, quiet
+from pysim.present.style import BAND, COLOURS, TEXT, new_figure, quiet
 from validation.findings import Finding
 from validation.thesis.numbers import published
 

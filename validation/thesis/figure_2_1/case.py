@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from pysim.excitation import SteppedSineCommand
-from pysim.plot.style import COLOURS, LIMIT, SMALL, TEXT, new_figure, quiet
+from pysim.present.style import COLOURS, LIMIT, SMALL, TEXT, new_figure, quiet
 from validation.findings import Finding
 from validation.thesis import FREQUENCIES_HZ
 from validation.thesis.numbers import published

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 
 from pysim.bench.bench_tests import SteppedSines
 from pysim.identify import SineFit, sine_fit
-from pysim.plot.style import COLOURS, DASHES, SMALL, TEXT, new_figure, quiet
+from pysim.present.style import COLOURS, DASHES, SMALL, TEXT, new_figure, quiet
 from pysim.types import Record
 from validation.findings import Finding
 from validation.thesis.numbers import published

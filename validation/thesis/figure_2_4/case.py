@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from pysim.bench.bench_tests import SteppedSines
 from pysim.identify import measured_responses
 from pysim.identify.blackbox import THESIS_STRUCTURE, TransferFunctionFit, fit_transfer_function
-from pysim.plot.style import COLOURS, MEASURED
+from pysim.present.style import COLOURS, MEASURED
 from pysim.types import FrequencyResponse
 from validation.findings import Finding
 from validation.thesis import FREQUENCIES_HZ

@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from pysim.plot.style import COLOURS, DASHES, SMALL, TEXT, new_figure, quiet
+from pysim.present.style import COLOURS, DASHES, SMALL, TEXT, new_figure, quiet
 from validation.findings import Finding
 from validation.pump_flow.case import turned
 from validation.pump_flow.kinematics import LITRES, SPEED, Geometry

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 import numpy as np
 from matplotlib.figure import Figure
 
-from pysim.plot.style import COLOURS, DASHES, LIMIT, SMALL, TEXT, new_figure, quiet
+from pysim.present.style import COLOURS, DASHES, LIMIT, SMALL, TEXT, new_figure, quiet
 from validation.findings import Finding
 from validation.pump_flow.case import swept
 from validation.pump_flow.kinematics import LITRES, Geometry

@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from pysim.identify import frequency_deviations
-from pysim.plot.style import COLOURS
+from pysim.present.style import COLOURS
 from pysim.types import FrequencyResponse
 from validation.findings import Finding
 from validation.thesis import FREQUENCIES_HZ, loaded_responses, measured_responses

@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 import fmu_build
 from pysim.excitation import LeadIn, PiersonMoskowitz, StochasticWave
 from pysim.io import read_model
-from pysim.plot.style import COLOURS, DASHES, SMALL, TEXT, new_figure, quiet
+from pysim.present.style import COLOURS, DASHES, SMALL, TEXT, new_figure, quiet
 from pysim.simulate import Rodas, simulate
 from pysim.types import Experiment, Record, Signal
 from validation.findings import Finding

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 import fmu_build
 from pysim.identify.friction import FRICTION_NAMES, FRICTION_UNITS, FrictionFit, fit_friction, pulse_samples
 from pysim.io import read_model
-from pysim.plot import friction_figure
+from pysim.present.friction import friction_figure
 from validation.findings import Finding
 from validation.friction.case import INERTIA, _measured, _simulated
 from validation.thesis.numbers import published

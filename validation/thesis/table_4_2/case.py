@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 from scipy.optimize import linprog
 
-from pysim.plot.style import COLOURS, DASHES, MEASURED, SMALL, TEXT, new_figure, quiet
+from pysim.present.style import COLOURS, DASHES, MEASURED, SMALL, TEXT, new_figure, quiet
 from validation.findings import Finding
 from validation.read_csv import read_csv
 

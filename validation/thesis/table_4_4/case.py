@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 
 from pysim.identify import FREQUENCY_CRITERIA, frequency_deviations
 from pysim.identify.blackbox import THESIS_STRUCTURE, fit_transfer_function
-from pysim.plot.style import COLOURS, LIMIT, MARKERS, SMALL, TEXT, legend_above, new_figure, quiet
+from pysim.present.style import COLOURS, LIMIT, MARKERS, SMALL, TEXT, legend_above, new_figure, quiet
 from validation.findings import Finding
 from validation.pump_frequency.case import reference_responses
 from validation.thesis.published import PublishedDeviations, published_deviations

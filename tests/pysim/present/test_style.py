@@ -2,8 +2,8 @@
 
 import pytest
 
-from pysim.plot.style import frequency_axis, legend_above, new_figure, phase_axis, size_axis
-from tests.pysim.plot.looking import is_whole, numbers
+from pysim.present.style import frequency_axis, legend_above, new_figure, phase_axis, size_axis
+from tests.pysim.present.looking import is_whole, numbers
 
 
 @pytest.mark.parametrize(

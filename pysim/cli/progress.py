@@ -7,7 +7,7 @@ import threading
 import time
 from types import TracebackType
 
-from pysim.cli._terminal import draws_over
+from pysim.cli.terminal import draws_over
 
 _WIDTH = 30
 _COMPILING = "Compiling the solver, once on this machine"

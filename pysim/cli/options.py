@@ -8,11 +8,16 @@ import re
 import sys
 import tomllib
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from pysim.cli._any_model import WHAT
+from pysim.cli.option import Option, Role, argument, file, number, text
+
 if TYPE_CHECKING:
-    from pysim.types import FrequencyResponse, Model, Variable
+    from pysim.cli.command import Given
+    from pysim.types import Dataset, FrequencyResponse, Model, Variable
 
 THESIS_HZ = 0.1
 SEED = "seed of the random draws; the same seed gives the same answer (0)"
@@ -42,7 +47,7 @@ def add_names(parser: argparse.ArgumentParser, option: str, *, what: str, requir
 
 def names_of(texts: Sequence[str]) -> list[str]:
     """Names between commas; one within brackets, as in `x[1,2]`, belongs to the name."""
-    parts = [part.strip() for text in texts for part in re.split(r",(?![^\[]*\])", text)]
+    parts = [part.strip() for one in texts for part in re.split(r",(?![^\[]*\])", one)]
     return [part for part in parts if part]
 
 
@@ -108,15 +113,15 @@ def bounded(texts: Sequence[str]) -> dict[str, tuple[float, float]]:
     from pysim.types import BadInput
 
     values = {}
-    for text in texts:
-        name, _, both = text.partition("=")
+    for word in texts:
+        name, _, both = word.partition("=")
         try:
-            low, high = (float(word) for word in both.split(":"))
+            low, high = (float(end) for end in both.split(":"))
         except ValueError:
             form = f"write NAME=LOW:HIGH with numbers in the parameter's unit{point_in_place(both)}"
-            raise BadInput(f"--bounds {text}: {form}") from None
+            raise BadInput(f"--bounds {word}: {form}") from None
         if not low < high:
-            raise BadInput(f"--bounds {text}: {low:g} is not below {high:g}; write the lower bound first")
+            raise BadInput(f"--bounds {word}: {low:g} is not below {high:g}; write the lower bound first")
         values[name.strip()] = (low, high)
     return values
 
@@ -132,15 +137,15 @@ def assigned(texts: Sequence[str], option: str, unit: str) -> dict[str, float]:
     from pysim.types import BadInput
 
     values = {}
-    for text in texts:
-        name, _, value = (part.strip() for part in text.partition("="))
+    for word in texts:
+        name, _, value = (part.strip() for part in word.partition("="))
         try:
             values[name] = float(value)
         except ValueError:
             values[name] = math.nan
         if not name or not math.isfinite(values[name]):
             hint = point_in_place(value)
-            raise BadInput(f"{option} {text}: write NAME=VALUE with a finite number in {unit}{hint}")
+            raise BadInput(f"{option} {word}: write NAME=VALUE with a finite number in {unit}{hint}")
     return values
 
 
@@ -197,3 +202,45 @@ def _flat(table: dict[str, object], prefix: str, path: Path) -> dict[str, float]
         else:
             raise BadInput(f"--parameters {path}: {prefix + key} = {value!r} is no number; write NAME = VALUE")
     return values
+
+
+def _dataset(given: Given) -> Dataset | list[Dataset]:
+    from pysim.cli._measurements import read_measurements
+
+    typed = given.typed["dataset"]
+    return [read_measurements(one) for one in typed] if isinstance(typed, list) else read_measurements(typed)
+
+
+def _model(given: Given) -> Model:
+    from pysim.cli._any_model import read_fmu_or_class
+
+    return read_fmu_or_class(given.typed["model"], given.library)
+
+
+DATASET = argument("DATASET", "folder with a dataset.toml", convert=Path, role=Role.DATA, read=_dataset)
+DATASETS = replace(DATASET, about="folder with a dataset.toml; several are taken together", nargs="+")
+MODEL = text("--model", "MODEL", WHAT, required=True, role=Role.READ, read=_model)
+LIBRARY = file(
+    "--library",
+    "PATH",
+    "Modelica library with the model: folder with package.mo, or .mo file; repeat",
+    repeated=True,
+    role=Role.READ,
+)
+SIGNAL = text("--signal", "NAME", "the responding signal, where the logs hold several")
+REFERENCE_HZ = number(
+    "--reference-hz",
+    "HZ",
+    _BY_DATA,
+    "frequency in Hz whose gain counts as 0 dB, or none for absolute gains "
+    f"({THESIS_HZ:g} where every test measured it, else none)",
+    convert=reference_hz,
+)
+JSON = file("--json", "FILE", "write all numbers here", suffixes=(".json",))
+OUTPUT = Option(
+    ("-o", "--output"),
+    "write report.html and the plots here: a new or empty folder, or an earlier answer, which is replaced",
+    "DIR",
+    convert=Path,
+    role=Role.FOLDER,
+)

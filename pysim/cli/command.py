@@ -1,0 +1,172 @@
+"""What a command is: data and one public function.
+
+A command stands in `pysim/cli/commands/<name>.py`, which is all it takes to be found:
+
+    def run(given: Given) -> Responses:
+        from pysim.identify import measured_responses           # heavy imports stay inside
+        return Responses(given.dataset.name, measured_responses(given.dataset, output=given.signal))
+
+    COMMAND = Command(
+        "frf", "Frequency responses from the stepped-sine logs of a data set", run,
+        options=(DATASET, SIGNAL, number("--settle", "SECONDS", 0.5, "left out after the sine starts"), JSON, OUTPUT),
+        view="pysim.present.frf",                               # text, data, figures, page of the result
+    )
+
+`given.NAME` is the value of an option. Where the option says how to read it, as DATASET and MODEL do, it is what was
+read; `given.typed["dataset"]` stays the path. All that writes is looked at before `run` starts. What `run` returns is
+printed by the view's `text`, written by its `data` to `--json`, and as pictures and a page to `--output`. `run` raises
+BadInput for what the user can mend.
+
+- `passes` says of a result whether the answer is yes (exit code 0) or no (1).
+- `files(given, result, folder)` writes what lies in the folder of `--output` beside the page, and needs more than the
+  result to be made.
+- Without a `view`, `run` prints, writes and returns the exit code by itself; that is for commands without a result,
+  such as `app`.
+- `parts` are commands of their own behind this one's name, as in `pysim data check`.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from importlib import import_module
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from pysim.cli.option import Option, Role
+from pysim.cli.outputs import answer_folder, command_line, prepare_answer, prepare_file
+
+if TYPE_CHECKING:
+    from pysim.cli.progress import ProgressBar
+
+DONE, NO = 0, 1
+
+
+@dataclass(frozen=True)
+class Command:
+    """See the head of this file."""
+
+    name: str
+    about: str
+    run: Callable[[Given], Any] | None = None
+    options: tuple[Option, ...] = ()
+    view: str = ""
+    passes: Callable[[Any], bool] | None = None
+    files: Callable[[Given, Any, Path], None] | None = None
+    parts: tuple[Command, ...] = ()
+
+    def add_arguments(self, parser: argparse.ArgumentParser) -> None:
+        """Let a parser take its options, or its parts with theirs."""
+        for option in self.options:
+            option.add_to(parser)
+        if self.parts:
+            parts = parser.add_subparsers(dest="part", required=True, metavar="ACTION")
+            for part in self.parts:
+                part.add_arguments(parts.add_parser(part.name, help=part.about, description=part.about))
+
+    def execute(self, parsed: argparse.Namespace, ahead: tuple[str, ...] = ()) -> int:
+        """Run it, show what it found, and write that where it was asked for.
+
+        Args:
+            ahead: names of the commands that this one is a part of.
+        Returns:
+            the exit code.
+        """
+        for part in self.parts:
+            if part.name == parsed.part:
+                return part.execute(parsed, (*ahead, self.name))
+        assert self.run is not None
+        given = Given(self, parsed, (*ahead, self.name))
+        _prepare(given)
+        result = self.run(given)
+        return _shown(given, result) if self.view else int(result)
+
+
+class Given:
+    """What the command line gives a command: the value of each option, by its name."""
+
+    def __init__(self, command: Command, parsed: argparse.Namespace, words: tuple[str, ...]) -> None:
+        self._options = {option.key: option for option in command.options}
+        self._parsed = parsed
+        self._read: dict[str, Any] = {}
+        self._words = words
+        self.command = command
+        self.typed = {key: option.value(getattr(parsed, key)) for key, option in self._options.items()}
+
+    def __getattr__(self, key: str) -> Any:
+        option = self.__dict__.get("_options", {}).get(key)
+        if option is None:
+            raise AttributeError(f"the command has no option {key}")
+        if option.read is None:
+            return self.typed[key]
+        if key not in self._read:
+            self._read[key] = option.read(self)
+        return self._read[key]
+
+    def __contains__(self, key: str) -> bool:
+        return key in self._options
+
+    @property
+    def repeated(self) -> str:
+        """The line that runs the command again: what differs from the defaults."""
+        ordered = sorted(self._options.values(), key=lambda option: not option.positional)
+        words = [word for option in ordered for word in option.words(getattr(self._parsed, option.key))]
+        return command_line([*self._words, *words])
+
+    def paths(self, *roles: Role) -> dict[str, list[Path]]:
+        """Option as typed -> paths, of the options with these roles."""
+        found: dict[str, list[Path]] = {}
+        for key, option in self._options.items():
+            value = self.typed[key]
+            if option.role in roles and value:
+                found[option.flags[-1]] = [Path(one) for one in (value if isinstance(value, list) else [value])]
+        return found
+
+    @contextmanager
+    def progress(self, title: str) -> Iterator[ProgressBar]:
+        """A bar on standard error that takes (done, total)."""
+        from pysim.cli.progress import ProgressBar
+
+        with ProgressBar(title) as bar:
+            yield bar
+
+
+def _prepare(given: Given) -> None:
+    """See that all results can be written, before the work starts.
+
+    Raises:
+        BadInput: one cannot; names the option.
+    """
+    data, read = (_flat(given.paths(role)) for role in (Role.DATA, Role.READ))
+    written = given.paths(Role.FILE)
+    for folder in _flat(given.paths(Role.FOLDER)):
+        prepare_answer(folder, data=data, read=read, beside=_flat(written))
+    for flag, paths in written.items():
+        option = next(one for one in given.command.options if one.flags[-1] == flag)
+        prepare_file(paths[0], flag, option.suffixes, read=[*data, *(one for one in read if one.is_file())])
+
+
+def _flat(paths: dict[str, list[Path]]) -> list[Path]:
+    return [path for several in paths.values() for path in several]
+
+
+def _shown(given: Given, result: Any) -> int:
+    """Print a result, and write it where that was asked for."""
+    from pysim.io import write_file
+
+    command, view = given.command, import_module(given.command.view)
+    print(view.text(result))
+    if "json" in given and given.json:
+        write_file(given.json, json.dumps(view.data(result), indent=1, allow_nan=False))
+    if "output" in given and given.output:
+        from pysim.present.report import write_report
+
+        with answer_folder(given.output, beside=_flat(given.paths(Role.FILE))) as new:
+            if command.files is not None:
+                command.files(given, result, new)
+            written = write_report(new, result, view, redo=given.repeated)
+        print(f"Report: {given.output / written['report'].name}")
+    return DONE if command.passes is None or command.passes(result) else NO

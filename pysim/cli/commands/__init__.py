@@ -1,0 +1,1 @@
+"""The commands, a file each: `COMMAND` and the function that it runs. `pysim/cli/command.py` says how."""

@@ -1,0 +1,68 @@
+"""`pysim friction`."""
+
+from __future__ import annotations
+
+import argparse
+import math
+from typing import TYPE_CHECKING
+
+from pysim.cli.command import Command, Given
+from pysim.cli.option import number, text
+from pysim.cli.options import DATASET, JSON, OUTPUT
+
+if TYPE_CHECKING:
+    from pysim.present.friction import Friction
+
+
+def run(given: Given) -> Friction:
+    """By pulses, with the thesis' way beside it where the log allows it; or by filter alone."""
+    from pysim.identify.friction import ShaftColumns, filtered_samples, fit_friction, pulse_samples, shaft_tests
+    from pysim.present.friction import Friction
+    from pysim.types import BadInput
+
+    inertia, cutoff_hz = given.inertia, given.cutoff_hz
+    if not (math.isfinite(inertia) and inertia >= 0):
+        raise BadInput(f"--inertia {inertia}: write the moment of inertia in kg.m2, 0 or above")
+    columns = ShaftColumns(given.speed, given.supply, given.load, given.supply_gain, given.load_gain)
+    tests, name = shaft_tests(given.dataset, columns), str(given.typed["dataset"])
+    try:
+        filtered = [filtered_samples(test, inertia, cutoff_hz=cutoff_hz) for test in tests]
+    except BadInput:  # an uneven log does without the filter where there are pulses
+        if given.pulses is None:
+            raise
+        filtered = []
+    if given.pulses is None:
+        return Friction(fit_friction(filtered), None, name, columns, inertia)
+    fit = fit_friction([pulse_samples(test, inertia, pulses=given.pulses) for test in tests])
+    by_filter = fit_friction(filtered, weighted=False) if filtered else None
+    return Friction(fit, by_filter, name, columns, inertia)
+
+
+def _pulses(word: str) -> int | None:
+    """Pulses per revolution, or None."""
+    if word == "none":
+        return None
+    if not word.isdecimal() or int(word) < 1:
+        raise argparse.ArgumentTypeError(f"{word!r} is no number of pulses; write one above 0, or none")
+    return int(word)
+
+
+COMMAND = Command(
+    "friction",
+    "Fit the friction of a shaft (thesis Eq. 5.38) to logs of its speed and torques.",
+    run,
+    options=(
+        DATASET,
+        text("--speed", "COLUMN", "speed of the shaft", required=True),
+        text("--supply", "COLUMN", "torque or pressure of the supply motor", required=True),
+        number("--supply-gain", "K", 1.0, "torque over pressure, m3/rad"),
+        text("--load", "COLUMN", "torque or pressure of the load motor, against the motion"),
+        number("--load-gain", "K", 1.0, "torque over pressure, m3/rad"),
+        number("--inertia", "J", None, "of motors and shaft, kg.m2", required=True),
+        number("--pulses", "N", 10, "per revolution; none: a continuous speed", convert=_pulses),
+        number("--cutoff-hz", "HZ", 5.0, "of the zero-phase filter"),
+        JSON,
+        OUTPUT,
+    ),
+    view="pysim.present.friction",
+)

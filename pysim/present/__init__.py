@@ -1,0 +1,20 @@
+"""What people read: each method is shown in one file.
+
+`present/<method>.py` shows what one command finds. It has, in this order,
+
+- the result as it is shown, where the analysis' own type lacks what the page says (a frozen dataclass);
+- `text(result)`, for a terminal;
+- `data(result)`, for JSON, whose keys are a contract with other programs;
+- `figures(result)`, which yields `Picture(name, caption, figure)`;
+- `page(result, drawings, redo)`, made with `pysim.present.page`;
+- where a result comes with more files, `files(result)`: name -> content.
+
+`style` and `page` give all of them one look, and cost no Matplotlib until a figure is made: figures are built from
+`style.new_figure`, and types of Matplotlib are imported for the type checker alone. `report.write_report` writes any
+result into a folder. `notes` has the words of every note.
+"""
+
+from pysim.present.render import Drawing, Picture, render
+from pysim.present.report import write_report
+
+__all__ = ["Drawing", "Picture", "render", "write_report"]

@@ -1,0 +1,33 @@
+"""Every note has words, and they name what the note is of."""
+
+import pytest
+
+from pysim.present.notes import words
+from pysim.types.note import Note, NoteCode
+
+VALUES = {
+    NoteCode.NOISE_ESTIMATED: {"dataset": "bench", "signal": "p", "value": 1e5, "unit": "Pa"},
+    NoteCode.NOISE_ASSUMED: {"dataset": "bench", "value": 0.22, "unit": "1"},
+    NoteCode.RECORD_LEFT_OUT: {"record": "a.csv", "reason": "too short"},
+    NoteCode.NOT_SIMULATED: {"record": "a.csv", "step": "axis.friction"},
+    NoteCode.NOT_TRIED: {"effect": "axis.friction", "reason": "no slot takes it"},
+    NoteCode.HELD: {"parameter": "m"},
+    NoteCode.AT_BOUND: {"parameter": "p_0", "bound": 2e5, "value": 2e5, "unit": "Pa"},
+    NoteCode.USED_TO_CHOOSE: {"records": "a.csv, b.csv"},
+    NoteCode.INTERVAL_CONDITIONAL: {},
+    NoteCode.OTHER: {"text": "as it stands"},
+}
+
+
+@pytest.mark.parametrize("code", NoteCode)
+def test_each_code_has_words_with_its_names(code: NoteCode) -> None:
+    values: dict[str, float | str] = dict(VALUES[code])  # type: ignore[arg-type]
+    said = words(Note(code, values))
+    assert [value for value in values.values() if isinstance(value, str) and value not in ("Pa", "1", said)] == [
+        value for value in values.values() if isinstance(value, str) and value in said and value != said
+    ]
+
+
+def test_numbers_are_shown_in_the_units_of_people() -> None:
+    assert "1 bar" in words(Note(NoteCode.NOISE_ESTIMATED, VALUES[NoteCode.NOISE_ESTIMATED]))  # type: ignore[arg-type]
+    assert "2 bar" in words(Note(NoteCode.AT_BOUND, VALUES[NoteCode.AT_BOUND]))  # type: ignore[arg-type]
