@@ -23,7 +23,7 @@ class Found:
     """What came of a request."""
 
     def __init__(self, tasks: Tasks, number: int) -> None:
-        self._tasks, self._number, self.task = tasks, number, tasks.table[number]
+        self.tasks, self.number, self.task = tasks, number, tasks.table[number]
 
     @property
     def outcome(self) -> Outcome:
@@ -62,26 +62,26 @@ class Found:
         return "" if number == FOUND else _TROUBLE[number] or self.message or _DRIFT
 
     def _said(self) -> str:
-        return joined(line_texts(self._tasks.texts[self._number]))
+        return joined(line_texts(self.tasks.texts[self.number]))
 
     def array(self, name: str) -> Array:
         """An array of the request's own, by the name of the field."""
-        return self._tasks.array(name, self._number)
+        return self.tasks.array(name, self.number)
 
     @property
     def values(self) -> Array:
         """(n_t, n_y) what was recorded, as far as the run came."""
-        return self._tasks.rows("values", self._number)
+        return self.tasks.rows("values", self.number)
 
     @property
     def slopes(self) -> Array:
         """(n_t, n_y, n_p) derivatives of that by the parameters of the directions."""
-        return self._tasks.rows("slopes", self._number)[:, :, self._tasks.by_offset :]
+        return self.tasks.rows("slopes", self.number)[:, :, self.tasks.by_offset :]
 
     @property
     def by_offset(self) -> Array:
         """(n_t, n_y, n_x) the same by the offset of the states; n_x = 0 where it is no direction."""
-        return self._tasks.rows("slopes", self._number)[:, :, : self._tasks.by_offset]
+        return self.tasks.rows("slopes", self.number)[:, :, : self.tasks.by_offset]
 
     def statistics(self) -> dict[str, int]:
         """Counts of the run, or of the last period."""

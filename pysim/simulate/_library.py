@@ -19,7 +19,17 @@ from pysim.simulate._job import Job
 from pysim.simulate._messages import Mailbox
 from pysim.simulate._structure import Structure
 from pysim.simulate.kernel.functions import FUNCTIONS, MATRICES, PARAMETER_COLUMN, SETUP, TYPES, access
-from pysim.simulate.kernel.layout import ERROR, FATAL, PART_ENTER, PART_EXIT, PART_INSTANTIATE, PART_SET, WARNING
+from pysim.simulate.kernel.layout import (
+    ERROR,
+    FATAL,
+    PART_CRASHED,
+    PART_ENTER,
+    PART_EXIT,
+    PART_INSTANTIATE,
+    PART_SET,
+    PART_SILENT,
+    WARNING,
+)
 from pysim.simulate.kernel.library import kernel
 from pysim.simulate.kernel.sparsity import jacobian_arrays
 from pysim.types import BadInput, Model
@@ -37,6 +47,8 @@ _PARTS = {
     PART_SET: "a start value could not be set",
     PART_ENTER: "the FMU could not be initialised",
     PART_EXIT: "the FMU could not be initialised",
+    PART_CRASHED: "the FMU crashed and took its process with it",
+    PART_SILENT: "the FMU gave no answer for so long that its process was ended",
 }
 
 

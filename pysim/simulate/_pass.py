@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
+from pysim.simulate._foreign import ForeignLibrary, Opened
 from pysim.simulate._found import Found
 from pysim.simulate._library import Library
 from pysim.simulate._pool import Stopped
@@ -21,7 +22,7 @@ _NAP, _GLANCE = 0.2, 0.02  # s between two looks at what goes on: on Windows no 
 
 
 def run_tasks(
-    library: Library,
+    library: Opened,
     kind: Kind,
     requests: Sequence[Request],
     *,
@@ -37,6 +38,11 @@ def run_tasks(
             interrupt from the keyboard. Runs with derivatives and orbits count where they came to their end.
         stopped: asked now and then.
     """
+    if not requests:
+        return []
+    if isinstance(library, ForeignLibrary):
+        answers = library.run(kind, requests, workers, progress, stopped)
+        return [Found(*answer) for answer in answers]
     groups: dict[tuple[tuple[str, ...], tuple[str, ...]], list[int]] = {}
     for number, request in enumerate(requests):
         key = request.experiment.record, tuple(request.experiment.overrides)
@@ -44,8 +50,8 @@ def run_tasks(
     found: dict[int, Found] = {}
     shown = 0
     for numbers in groups.values():
-        tasks = Tasks(library, kind, [requests[number] for number in numbers])
-        shown += _Crew(tasks, workers, later(progress, shown, len(requests)), stopped).run()
+        tasks = Tasks(library.model, kind, [requests[number] for number in numbers])
+        shown += _Crew(library, tasks, workers, later(progress, shown, len(requests)), stopped).run()
         found |= {number: Found(tasks, place) for place, number in enumerate(numbers)}
     return [found[number] for number in range(len(requests))]
 
@@ -58,8 +64,10 @@ def later(progress: Progress | None, before: int, total: int) -> Progress | None
 class _Crew:
     """Threads that share the tasks, watched by the thread that called."""
 
-    def __init__(self, tasks: Tasks, workers: int, progress: Progress | None, stopped: Stopped) -> None:
-        self._tasks, self._progress, self._stopped = tasks, progress, stopped
+    def __init__(
+        self, library: Library, tasks: Tasks, workers: int, progress: Progress | None, stopped: Stopped
+    ) -> None:
+        self._library, self._tasks, self._progress, self._stopped = library, tasks, progress, stopped
         self._pass = np.zeros(1, dtype=PASS)
         self._pass["tasks"], self._pass["count"] = address(tasks.table), tasks.table.size
         self._error: BaseException | None = None
@@ -70,7 +78,7 @@ class _Crew:
     def _work(self) -> None:
         try:
             while self._pass["next"][0] < self._pass["count"][0] and not self._pass["stop"][0]:
-                with self._tasks.library.lent() as instance:
+                with self._library.lent() as instance:
                     kernel().work(self._pass, self._tasks.prepare(instance).record)
         except BaseException as error:
             self._error = error

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from pysim.simulate._base import Solver
+from pysim.simulate._base import Control, Solver
 from pysim.simulate._variation import Directions
+from pysim.simulate.kernel.method import Method
 from pysim.types import Experiment
 
 Array = NDArray[np.float64]
@@ -48,3 +49,26 @@ class Kind:
     directions: Directions = Directions(outputs=False)  # noqa: RUF009
     mismatch: float = 0.0
     point: bool = False
+
+    def plain(self) -> Kind:
+        """The same with a solver that any process knows."""
+        solver = self.solver
+        known = PlainSolver(solver.method(), solver.control(), getattr(solver, "derivative_tol", np.inf))
+        return replace(self, solver=known)
+
+
+@dataclass(frozen=True)
+class PlainSolver:
+    """What the kernel needs of a solver. The class of a user's own may be known to the user's process alone."""
+
+    coefficients: Method
+    rule: Control
+    derivative_tol: float
+
+    def method(self) -> Method:
+        """The coefficients."""
+        return self.coefficients
+
+    def control(self) -> Control:
+        """The step rule."""
+        return self.rule

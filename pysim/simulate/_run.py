@@ -8,8 +8,8 @@ import numpy as np
 
 from pysim.simulate._base import Solver
 from pysim.simulate._check import check_arguments, check_experiment, check_experiments, check_list
+from pysim.simulate._foreign import Opened, open_model
 from pysim.simulate._found import Found
-from pysim.simulate._library import Library, open_library
 from pysim.simulate._pass import Progress, run_tasks
 from pysim.simulate._pool import Stopped, worker_count
 from pysim.simulate._request import Kind, Request
@@ -38,7 +38,7 @@ def simulate(model: Model, experiment: Experiment, *, solver: Solver = Rk45(), c
     """
     check_arguments("simulate", model, solver)
     check_experiment(model, experiment)
-    with open_library(model) as library:
+    with open_model(model) as library:
         record = run(library, experiment, solver)
     if check and record.outcome is not Outcome.DONE:
         raise SimulationError(f"{model.name}: {record.message}", record)
@@ -73,17 +73,17 @@ def simulate_many(
     check_experiments(model, experiments)
     if not experiments:
         return ()
-    with open_library(model) as library:
+    with open_model(model) as library:
         return tuple(run_many(library, experiments, solver, workers=count, progress=progress))
 
 
-def run(library: Library, experiment: Experiment, solver: Solver, stopped: Stopped = lambda: False) -> Record:
+def run(library: Opened, experiment: Experiment, solver: Solver, stopped: Stopped = lambda: False) -> Record:
     """Run a checked experiment; a failure is an outcome. `stopped` is asked now and then."""
     return run_many(library, [experiment], solver, stopped=stopped)[0]
 
 
 def run_many(
-    library: Library,
+    library: Opened,
     experiments: Sequence[Experiment],
     solver: Solver,
     *,

@@ -9,12 +9,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pysim.simulate._job import Job
-from pysim.simulate._library import Instance, Library
+from pysim.simulate._library import Instance
 from pysim.simulate._request import Kind, Request
 from pysim.simulate._variation import variation_arrays
-from pysim.simulate.kernel.layout import LINE_LENGTH, LINES, ORBIT, PLAIN, TASK
+from pysim.simulate.kernel.layout import DONE, FOUND, LINE_LENGTH, LINES, ORBIT, PLAIN, TASK
 from pysim.simulate.kernel.library import address
 from pysim.simulate.kernel.signals import offset_time, pack_breaks, pack_inputs
+from pysim.types import Model
 
 Array = NDArray[np.float64]
 
@@ -26,11 +27,11 @@ class Tasks:
         table: (n,) of TASK.
     """
 
-    def __init__(self, library: Library, kind: Kind, requests: Sequence[Request]) -> None:
-        self.kind, self.library = kind, library
+    def __init__(self, model: Model, kind: Kind, requests: Sequence[Request]) -> None:
+        self.kind = kind
         experiments = [request.experiment for request in requests]
         self.record, self.set_names = experiments[0].record, tuple(experiments[0].overrides)
-        count, n = len(requests), len(library.model.abilities.states)
+        count, n = len(requests), len(model.abilities.states)
         self.parameters = len(kind.directions.parameters)
         self.by_offset = n if kind.directions.offset else 0
         self.table = np.zeros(count, dtype=TASK)
@@ -50,7 +51,7 @@ class Tasks:
         self._put("start_by", [self._address(r.start_by) for r in requests])
         self._put("offset_at", [offset_time(e) for e in experiments])
         self._put("offset", [self._address(e.offset if e.offset.size else None) for e in experiments])
-        self._pack("inputs", pack_inputs(library.model, experiments))
+        self._pack("inputs", pack_inputs(model, experiments))
         self._pack("breaks", pack_breaks(experiments, ends))
         if kind.kind == ORBIT:
             settling = [request.settling * end for request, end in zip(requests, ends, strict=True)]
@@ -96,6 +97,16 @@ class Tasks:
         contiguous = np.ascontiguousarray(array, dtype=np.float64)
         self._kept.append(contiguous)
         return address(contiguous)
+
+    def counts(self, number: int) -> bool:
+        """Whether a task counts as done in what is said of progress."""
+        task = self.table[number]
+        return self.kind.kind == PLAIN or (int(task["code"]) == DONE and int(task["trouble"]) == FOUND)
+
+    def __getstate__(self) -> dict[str, Any]:
+        """For another process: what was found, without what was asked and without addresses."""
+        kept = ("kind", "record", "by_offset", "parameters", "table", "texts", "_first", "_results")
+        return {name: getattr(self, name) for name in kept}
 
     def array(self, name: str, number: int) -> Array:
         """Row `number` of a result that each task has one of."""

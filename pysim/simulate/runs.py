@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pysim.simulate._check import check_arguments
-from pysim.simulate._library import Library, open_library
+from pysim.simulate._foreign import Opened, open_model
 from pysim.simulate.esdirk import Esdirk
 from pysim.simulate.sensitivity.orbit import Orbit
 from pysim.simulate.sensitivity.periodic import Periodic, check_periodic, find_in
@@ -28,7 +28,7 @@ class Runs:
         model: the one that is open.
     """
 
-    def __init__(self, library: Library) -> None:
+    def __init__(self, library: Opened) -> None:
         self.model, self._library = library.model, library
 
     def sensitivities(
@@ -71,5 +71,5 @@ def open_runs(model: Model) -> Iterator[Runs]:
         BadInput: no model exchange, no binary for this machine, or an FMU that cannot be instantiated.
     """
     check_arguments("open_runs", model, Esdirk())
-    with open_library(model) as library:
+    with open_model(model) as library:
         yield Runs(library)

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pysim.simulate._base import Solver
-from pysim.simulate._library import Library
+from pysim.simulate._foreign import Opened
 from pysim.simulate._run import run_many
 from pysim.simulate.rodas import Rodas
 from pysim.simulate.sensitivity.probe import both_sides, size_of
@@ -29,7 +29,11 @@ def tight(solver: Solver) -> Rodas:
 
 
 def run_differences(
-    library: Library, experiment: Experiment, solver: Solver, names: Sequence[str], stopped: Callable[[], bool]
+    library: Opened,
+    experiment: Experiment,
+    solver: Solver,
+    names: Sequence[str],
+    stopped: Callable[[], bool],
 ) -> tuple[Array, Record | None]:
     """Central differences of a run's values (n_t, n_y, n_p), and the record of a run that failed if one did."""
     sides = [both_sides(library.model, experiment, name, DIFFERENCE_STEP) for name in names]
@@ -37,7 +41,7 @@ def run_differences(
 
 
 def offset_differences(
-    library: Library, experiment: Experiment, solver: Solver, stopped: Callable[[], bool]
+    library: Opened, experiment: Experiment, solver: Solver, stopped: Callable[[], bool]
 ) -> tuple[Array, Record | None]:
     """The same by the offset of each state, (n_t, n_y, n_x)."""
     sides = []
@@ -51,7 +55,7 @@ def offset_differences(
 
 
 def _differences(
-    library: Library,
+    library: Opened,
     experiment: Experiment,
     solver: Solver,
     sides: Sequence[tuple[Experiment, Experiment, float]],

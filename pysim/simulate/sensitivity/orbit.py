@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from pysim.simulate._foreign import Opened
 from pysim.simulate._found import Found
-from pysim.simulate._library import Library
 from pysim.simulate._pass import run_tasks
 from pysim.simulate._pool import Stopped
 from pysim.simulate._request import Kind, Request
@@ -71,7 +71,7 @@ class Orbit:
 class Plan:
     """What all tests of a call have in common."""
 
-    library: Library
+    library: Opened
     solver: Esdirk
     parameters: tuple[str, ...]
     offer: Offer

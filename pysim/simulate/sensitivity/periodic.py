@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pysim.simulate._check import check_arguments, check_list
+from pysim.simulate._foreign import Opened, open_model
 from pysim.simulate._found import Found
-from pysim.simulate._library import Library, open_library
 from pysim.simulate._pass import later
 from pysim.simulate._pool import side_by_side, worker_count
 from pysim.simulate.esdirk import Esdirk
@@ -126,7 +126,7 @@ def periodic_many(
     ask = check_periodic(model, tests, parameters, guesses, solver, mismatch, workers)
     if not tests:
         return ()
-    with open_library(model) as library:
+    with open_model(model) as library:
         return find_in(library, ask, progress)
 
 
@@ -167,7 +167,7 @@ def check_periodic(
     return Ask(experiments, names, tuple(starts), solver, mismatch, count)
 
 
-def find_in(library: Library, ask: Ask, progress: Callable[[int, int], None] | None) -> tuple[Orbit, ...]:
+def find_in(library: Opened, ask: Ask, progress: Callable[[int, int], None] | None) -> tuple[Orbit, ...]:
     """As `periodic_many`, with a library that is open already."""
     experiments, starts, count = ask.experiments, ask.guesses, ask.workers
     offers = probe_each(library, experiments, ask.solver, ask.names)

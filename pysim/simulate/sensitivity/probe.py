@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pysim.simulate._check import check_experiment, check_experiments
+from pysim.simulate._foreign import Opened
 from pysim.simulate._found import Found
-from pysim.simulate._library import Library
 from pysim.simulate._pass import run_tasks
 from pysim.simulate._request import Kind, Request
 from pysim.simulate._variation import Directions
@@ -116,7 +116,7 @@ def at_rest(experiment: Experiment) -> Experiment:
 _NOTHING = Offer((), frozenset(), False)
 
 
-def probe(library: Library, experiment: Experiment, solver: Esdirk, parameters: Sequence[str]) -> Offer | None:
+def probe(library: Opened, experiment: Experiment, solver: Esdirk, parameters: Sequence[str]) -> Offer | None:
     """Ask the FMU, at the experiment's start, for every derivative that is wanted; None where it cannot be started.
 
     A column that it refuses, or that is not what a difference shows, is not part of the offer. Nothing is where the
@@ -152,7 +152,7 @@ def probe(library: Library, experiment: Experiment, solver: Esdirk, parameters: 
 
 
 def probe_each(
-    library: Library, experiments: Sequence[Experiment], solver: Esdirk, parameters: Sequence[str]
+    library: Opened, experiments: Sequence[Experiment], solver: Esdirk, parameters: Sequence[str]
 ) -> dict[tuple[str, ...], Offer]:
     """The offer for each choice of variables to record, from the first of the experiments that can be started.
 
@@ -172,13 +172,17 @@ def _is_start(variable: Variable) -> bool:
 
 
 def points(
-    library: Library, solver: Esdirk, directions: Directions, requests: Sequence[Request], workers: int = 1
+    library: Opened,
+    solver: Esdirk,
+    directions: Directions,
+    requests: Sequence[Request],
+    workers: int = 1,
 ) -> list[Found]:
     """The first points of runs that end where they begin, with all derivatives there."""
     return run_tasks(library, Kind(VARIED, solver, directions, point=True), requests, workers=workers)
 
 
-def _columns(library: Library, solver: Esdirk, names: tuple[str, ...], request: Request) -> list[Array | None]:
+def _columns(library: Opened, solver: Esdirk, names: tuple[str, ...], request: Request) -> list[Array | None]:
     """Derivatives (n_x,) of the states' by each parameter; None where the FMU refuses."""
     (found,) = points(library, solver, Directions(names, outputs=False), [request])
     if found.done:

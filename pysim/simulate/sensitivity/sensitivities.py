@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pysim.simulate._check import check_arguments, check_list
+from pysim.simulate._foreign import Opened, open_model
 from pysim.simulate._found import Found
-from pysim.simulate._library import Library, open_library
 from pysim.simulate._pass import Progress, later, run_tasks
 from pysim.simulate._pool import Stopped, side_by_side, worker_count
 from pysim.simulate._request import Kind, Request
@@ -116,7 +116,7 @@ def sensitivities_many(
     ask = check_sensitivities(model, experiments, parameters, offset, solver, workers)
     if not experiments:
         return ()
-    with open_library(model) as library:
+    with open_model(model) as library:
         return run_in(library, ask, progress)
 
 
@@ -153,7 +153,7 @@ def check_sensitivities(
     return Ask(tuple(experiments), names, offset, solver, count)
 
 
-def run_in(library: Library, ask: Ask, progress: Progress | None) -> tuple[Sensitivities, ...]:
+def run_in(library: Opened, ask: Ask, progress: Progress | None) -> tuple[Sensitivities, ...]:
     """As `sensitivities_many`, with a library that is open already."""
     experiments, names, solver, count = ask.experiments, ask.names, ask.solver, ask.workers
     offers = probe_each(library, experiments, solver, names)
@@ -178,7 +178,7 @@ def run_in(library: Library, ask: Ask, progress: Progress | None) -> tuple[Sensi
 
 
 def _one(
-    library: Library,
+    library: Opened,
     ask: Ask,
     experiment: Experiment,
     offer: Offer,
@@ -215,7 +215,7 @@ def _not_finite(record: Record, names: tuple[str, ...], columns: Array) -> list[
     return [f"the derivative of {record.names[y]} by {names[p]} is {columns[row, y, p]:g} at {record.time[row]:g} s"]
 
 
-def _by_differences(library: Library, ask: Ask, experiment: Experiment, event: bool, stopped: Stopped) -> Sensitivities:
+def _by_differences(library: Opened, ask: Ask, experiment: Experiment, event: bool, stopped: Stopped) -> Sensitivities:
     names, solver = ask.names, ask.solver
     record = run(library, experiment, solver, stopped)
     shape = (len(record.values), len(experiment.record), len(names))

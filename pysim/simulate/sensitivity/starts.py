@@ -7,8 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from pysim.simulate._foreign import Opened
 from pysim.simulate._found import Found
-from pysim.simulate._library import Library
 from pysim.simulate._request import Request
 from pysim.simulate._variation import Directions
 from pysim.simulate.esdirk import Esdirk
@@ -19,7 +19,7 @@ Array = NDArray[np.float64]
 
 
 def start_slopes(
-    library: Library,
+    library: Opened,
     experiments: Sequence[Experiment],
     solver: Esdirk,
     offers: dict[tuple[str, ...], Offer],

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pysim.simulate._base import Solver
-from pysim.simulate._library import Library
+from pysim.simulate._foreign import Opened
 from pysim.simulate._pool import Stopped
 from pysim.simulate._run import run
 from pysim.types import Experiment, Outcome, Record
@@ -31,7 +31,7 @@ class Settled:
     trouble: str = ""
 
 
-def settle_down(library: Library, period: Experiment, solver: Solver, stopped: Stopped) -> Settled:
+def settle_down(library: Opened, period: Experiment, solver: Solver, stopped: Stopped) -> Settled:
     """Simulate from the model's own start until what is recorded repeats.
 
     Args:
@@ -48,7 +48,7 @@ def settle_down(library: Library, period: Experiment, solver: Solver, stopped: S
         periods *= 2
 
 
-def after(library: Library, period: Experiment, solver: Solver, periods: int, stopped: Stopped) -> Settled:
+def after(library: Opened, period: Experiment, solver: Solver, periods: int, stopped: Stopped) -> Settled:
     """The last of that many periods from the model's own start, and whether it repeats the one before."""
     length, points = float(period.times[-1]), period.times.size - 1
     times = np.concatenate([period.times[:-1] + (periods - 2) * length, period.times + (periods - 1) * length])

@@ -18,7 +18,8 @@ enum { OK, WARNING, DISCARD, ERROR, FATAL };
 /* How a run stands: in the order of pysim.types.Outcome, or still running, or at an event that is not differentiated. */
 enum { RUNNING = -1, DONE, STEP_TOO_SMALL, NOT_FINITE, MODEL_ERROR, TERMINATED, TOO_MANY_STEPS, TOO_MANY_EVENTS, EVENT = 100 };
 
-/* Parts of a run's life ahead of its first step, for a message. */
+/* Parts of a run's life ahead of its first step, for a message. Python adds two of its own: a worker process that ended,
+   and one that gave no answer. */
 enum { PART_NONE, PART_INSTANTIATE, PART_SET, PART_ENTER, PART_EXIT };
 
 /* How a search for a periodic orbit ended. */
