@@ -11,7 +11,6 @@ from nicegui import run
 
 from pysim.app.answers import Answers
 from pysim.app.jobs import DONE, FAILED, STOPPED, Job, Runner, Work, adding, read_job, works
-from pysim.app.layout import Layout
 from pysim.app.model_build import Built, build_model
 from pysim.app.project import Project
 from pysim.app.upload import Batch, Limits
@@ -41,7 +40,6 @@ class Desk:
 
     Args:
         redo: words of the command line -> the line to type in the project's folder.
-        drawing: of the model's parts; None where its class is not at hand.
         taking: whether a drop is being put into the project.
         sketches: of the laws of the effects that fit.
         draft: what was chosen so far for logs that nobody has described.
@@ -57,7 +55,6 @@ class Desk:
     beat: int = 0
     loaded: Loaded | None = None
     model: Mapping[str, Any] | None = None
-    drawing: Layout | None = None
     sketches: Mapping[str, Mapping[str, Any] | None] = field(default_factory=dict)
     model_trouble: str = ""
     model_busy: bool = False
@@ -160,7 +157,7 @@ class Desk:
         """Build or open the model, and keep what it says of itself; an earlier build that still goes on is ended."""
         self._build += 1
         build = self._build
-        self.model, self.drawing, self.model_trouble = None, None, ""
+        self.model, self.model_trouble = None, ""
         self.model_busy = bool(self.project.settings().model)
         self.changed()
         if not self.model_busy:
@@ -170,7 +167,7 @@ class Desk:
             built = await build_model(self.project, lambda: self._build == build)
         finally:
             if self._build == build:
-                self.model, self.drawing, self.sketches = built.model, built.drawing, built.sketches
+                self.model, self.sketches = built.model, built.sketches
                 self.model_trouble, self.model_busy = built.trouble, False
                 self.changed()
 

@@ -1,4 +1,4 @@
-"""What a model says of itself: built or opened in a process of its own, with a drawing of its parts."""
+"""What a model says of itself: built or opened in a process of its own."""
 
 from __future__ import annotations
 
@@ -11,9 +11,6 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
-from nicegui import run
-
-from pysim.app.layout import Layout, layout
 from pysim.app.processes import end, last_words, run_pysim
 from pysim.app.project import Project
 
@@ -31,13 +28,11 @@ class Built:
 
     Args:
         model: what `pysim model` wrote of it; None where it cannot be used.
-        drawing: of its parts; None where its class is not at hand.
         sketches: of the laws of the effects that fit.
         trouble: why there is no model.
     """
 
     model: Mapping[str, Any] | None = None
-    drawing: Layout | None = None
     sketches: Mapping[str, Mapping[str, Any] | None] = field(default_factory=dict)
     trouble: str = ""
 
@@ -68,6 +63,4 @@ async def build_model(project: Project, wanted: Callable[[], bool], *, limit: fl
         if not path.is_file():
             return Built(trouble=last_words(log))
         model = json.loads(path.read_text(encoding="utf-8"))
-    parts = model["structure"]
-    drawing = None if parts is None else await run.io_bound(layout, parts["nodes"], parts["links"])
-    return Built(model, drawing, {str(one["name"]): one["sketch"] for one in model["effects"]})
+    return Built(model, {str(one["name"]): one["sketch"] for one in model["effects"]})

@@ -11,6 +11,7 @@ from nicegui import ui
 from nicegui.element import Element
 from nicegui.elements.mixins.text_element import TextElement
 
+from pysim.app.flowchart import CONFIG, flowchart
 from pysim.app.upload import Limits
 from pysim.io import shown_value
 
@@ -100,39 +101,35 @@ def quantity(value: float | None, unit: str) -> dict[str, Any] | str:
 
 
 class Drawing(Element, component=str(_STATIC / "drawing.js")):
-    """Boxes and lines; those that can be picked are buttons, with the arrow keys between them.
+    """A flowchart; its places that can be picked are buttons, with the arrow keys between them.
 
     Args:
         label: what is to be seen.
-        size: width and height, px.
-        boxes: `name`, `rows` of its text, `x` and `y` of its middle, `wide`, `high`, `kind`, `told` below the name,
-            `share` from 0 to 1 or None, `words` for those who cannot see it, `pick`: whether it is a button, `has`:
-            names of what was put there.
-        lines: `points`: corners, and `kind`: "to", "both" or "joint".
-        dots: where a line branches.
-        on_pick: told the name of the box.
-        picked: name of a box.
+        places: `name`, `rows` of its text, `kind` of its shape and look, `share` from 0 to 1 or None, `words` for those
+            who cannot see it, and `pick`: whether it is a button.
+        links: `source`, `target`, and `kind`: "to", "both" or "joint".
+        on_pick: is given the name of the place.
+        picked: name of a place.
     """
 
     def __init__(
         self,
         label: str,
-        size: tuple[float, float],
-        boxes: Sequence[Mapping[str, Any]],
-        lines: Sequence[Mapping[str, Any]],
-        dots: Sequence[tuple[float, float]],
+        places: Sequence[Mapping[str, Any]],
+        links: Sequence[Mapping[str, Any]],
         *,
         on_pick: Callable[[str], Any],
         picked: str,
     ) -> None:
         super().__init__()
-        self._props["label"], self._props["width"], self._props["height"] = label, *size
-        self._props["boxes"], self._props["lines"], self._props["dots"] = list(boxes), list(lines), list(dots)
-        self._props["picked"] = picked
+        self._props["label"], self._props["picked"] = label, picked
+        self._props["places"] = [{k: v for k, v in place.items() if k != "rows"} for place in places]
         self.on("pick", lambda event: on_pick(str(event.args)))
+        with self:
+            ui.mermaid(flowchart(places, links), config=CONFIG)
 
     def pick(self, name: str) -> None:
-        """Mark another box."""
+        """Mark another place."""
         self._props["picked"] = name
         self.update()
 

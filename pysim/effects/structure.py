@@ -15,8 +15,6 @@ SLOT, PART, INPUT, OUTPUT, PORT, TERM = "slot", "part", "input", "output", "port
 TO, BOTH, JOINT = "to", "both", "joint"  # one way, both ways, a connection of ports that has no direction
 _MOST_TERMS = 14  # own variables that are drawn; more of them are drawn as one
 _NAME = re.compile(r"(?<![\w.])[A-Za-z_]\w*(?:\[[^\]]*\])?(?:\s*\.\s*[A-Za-z_]\w*(?:\[[^\]]*\])?)*(?!\s*\()")
-_EXTENT = re.compile(r"\btransformation\s*\(.*?extent\s*=\s*\{\s*\{([^}]*)\}\s*,\s*\{([^}]*)\}\s*\}", re.S)
-_ORIGIN = re.compile(r"\btransformation\s*\(\s*origin\s*=\s*\{([^}]*)\}", re.S)
 
 
 @dataclass(frozen=True)
@@ -27,13 +25,11 @@ class Node:
         name: of the component, or of the class for all that stands in its own equations.
         kind: SLOT, PART, INPUT, OUTPUT, PORT, or TERM for a variable with an equation of the class itself.
         about: description.
-        at: middle of its icon in the class' diagram, to the right and up; None where it has none.
     """
 
     name: str
     kind: str
     about: str = ""
-    at: tuple[float, float] | None = None
 
 
 @dataclass(frozen=True)
@@ -42,13 +38,11 @@ class Link:
 
     Args:
         kind: TO (the target depends on the source), BOTH or JOINT.
-        net: links of one net are one line that branches: what one node gives, or ports that are all connected.
     """
 
     source: str
     target: str
     kind: str
-    net: str
 
 
 @dataclass(frozen=True)
@@ -78,7 +72,6 @@ def structure(class_name: str, libraries: Sequence[Path]) -> Structure:
             for declaration in text.of_kind(Kind.COMPONENT):
                 reader.declare(declaration, text)
         arrows = [arrow for text in texts for arrow in reader.arrows(text)]
-    arrows = [replace(arrow, joint=reader.net(arrow.joint)) for arrow in arrows]
     return _drawn([node for node, _ in reader.known.values()], arrows, reader.states, class_name)
 
 
@@ -86,7 +79,7 @@ def structure(class_name: str, libraries: Sequence[Path]) -> Structure:
 class _Arrow:
     source: str
     target: str
-    joint: str = ""  # a port of the connection
+    is_joint: bool = False  # ports that are connected
 
 
 class _Reader:
@@ -99,14 +92,13 @@ class _Reader:
     def __init__(self, library: Libraries, known: dict[str, tuple[Node, ClassText | None]]) -> None:
         self._library, self.known = library, known
         self.states: set[str] = set()
-        self._joined: dict[str, str] = {}  # port -> another of its connection
 
     def declare(self, declaration: Declaration, owner: ClassText) -> None:
         """Take a declaration that the drawing shows."""
         kind, of = _kind(declaration, owner, self._library)
         if kind:
             about = " ".join(declaration.description.split())
-            node = Node(declaration.name, kind, about, _place(declaration.text(declaration.annotation)))
+            node = Node(declaration.name, kind, about)
             self.known.setdefault(declaration.name, (node, of))
 
     def arrows(self, text: ClassText) -> Iterator[_Arrow]:
@@ -130,16 +122,7 @@ class _Reader:
             return
         if ways[0] < ways[1]:
             one, other = other, one
-        joint = ways[0] == ways[1]
-        if joint:
-            self._joined[self.net(first)] = self.net(second)
-        yield _Arrow(one, other, first if joint else "")
-
-    def net(self, port: str) -> str:
-        """The one port that stands for a connection."""
-        while port in self._joined and self._joined[port] != port:
-            port = self._joined[port]
-        return port
+        yield _Arrow(one, other, ways[0] == ways[1])
 
     def _way(self, name: str) -> int:
         """1 for what gives a signal, -1 for what takes one, 0 for a port."""
@@ -196,20 +179,6 @@ def _signal(declaration: Declaration) -> str:
     return ""
 
 
-def _place(annotation: str) -> tuple[float, float] | None:
-    """Middle of the icon."""
-    found = _EXTENT.search(annotation)
-    if found is None:
-        return None
-    try:
-        (a, b), (c, d) = ([float(v) for v in corner.split(",")] for corner in found.groups())
-        moved = _ORIGIN.search(annotation)
-        x, y = [float(v) for v in moved[1].split(",")] if moved else (0.0, 0.0)
-    except ValueError:
-        return None
-    return x + (a + c) / 2, y + (b + d) / 2
-
-
 def _drawn(nodes: Sequence[Node], arrows: Sequence[_Arrow], states: set[str], class_name: str) -> Structure:
     """Without what only passes on, and without what leads nowhere."""
     terms = {node.name for node in nodes if node.kind == TERM}
@@ -253,5 +222,5 @@ def _links(arrows: Sequence[_Arrow]) -> Iterator[Link]:
     for own in pairs.values():
         first = own[0]
         both = any(arrow.source != first.source for arrow in own)
-        joint = next((arrow.joint for arrow in own if arrow.joint), "")
-        yield Link(first.source, first.target, JOINT if joint else BOTH if both else TO, joint or first.source)
+        is_joint = any(arrow.is_joint for arrow in own)
+        yield Link(first.source, first.target, JOINT if is_joint else BOTH if both else TO)

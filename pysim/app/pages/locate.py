@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping
 from typing import Any
 
 from pysim.app.desk import Desk
 from pysim.app.figures import missing_figure
-from pysim.app.layout import HIGH, WIDE
 from pysim.app.pages.candidates import effect_row
 from pysim.app.pages.common import busy, ended, nothing, start
 from pysim.app.parts import Chart, Drawing, box, button, card, live, note, text
 
-_LONG = 9  # letters that fit beside each other in a box
 _Found = Mapping[str, Mapping[str, Any]]
 
 
@@ -42,7 +39,7 @@ def _build(desk: Desk, chosen: dict[str, str]) -> None:
         button("Locate", lambda: start(desk, lambda: desk.work("locate")), "" if found else "main", off=busy(desk))
     text("p", "No effect is named for this: each place is given the term that closes the gap best.", "lead")
     ended(desk)
-    if desk.drawing is None or not _slots(desk):
+    if not _slots(desk) or (desk.model or {}).get("structure") is None:
         if not found:
             nothing("Nothing to look into yet", "Name a model with slots on the page Data, then press Locate.")
         return
@@ -51,13 +48,9 @@ def _build(desk: Desk, chosen: dict[str, str]) -> None:
 
 def _drawing(desk: Desk, found: _Found, chosen: dict[str, str]) -> None:
     """Every part; the slots with the share of the misfit that a term there would take."""
-    assert desk.drawing is not None
     assert desk.model is not None
-    lay, parts = desk.drawing, desk.model["structure"]
-    nodes = {str(node["name"]): node for node in parts["nodes"]}
-    slots, added = _slots(desk), _added(desk)
-    boxes = [_box(nodes[one.name], found, slots, added) | {"x": one.x, "y": one.y} for one in lay.boxes]
-    lines = [{"points": points, "kind": link["kind"]} for points, link in zip(lay.lines, parts["links"], strict=True)]
+    parts, added = desk.model["structure"], _added(desk)
+    places = [_place(node, found, _slots(desk), added) for node in parts["nodes"]]
 
     def pick(name: str) -> None:
         chosen["slot"] = name
@@ -66,10 +59,8 @@ def _drawing(desk: Desk, found: _Found, chosen: dict[str, str]) -> None:
     with card("The model, along its signals"):
         told = "How much of the avoidable misfit the best term at each place would take. Pick a slot to see it."
         text("p", told if found else "Pick a slot to see what may stand there.", "small")
-        label = f"{desk.model['name']}: {len(boxes)} places, {len(_slots(desk))} of them slots"
-        drawing = Drawing(
-            label, (lay.width, lay.height), boxes, lines, lay.dots, on_pick=pick, picked=chosen["slot"],
-        )  # fmt: skip
+        label = f"{desk.model['name']}: {len(places)} places, {len(_slots(desk))} of them slots"
+        drawing = Drawing(label, places, parts["links"], on_pick=pick, picked=chosen["slot"])
         with box("legend small"):
             for kind, words in _legend(bool(found), bool(added)):
                 with box("", "span"):
@@ -93,7 +84,7 @@ def _legend(looked: bool, added: bool) -> list[tuple[str, str]]:
     return [("seen", "slot with its share"), ("", "slot that was not looked at"), *more, ("part", "fixed part")]
 
 
-def _box(
+def _place(
     node: Mapping[str, Any], found: _Found, slots: Mapping[str, Mapping[str, Any]], added: Mapping[str, list[str]]
 ) -> dict[str, Any]:
     """One place as the drawing takes it."""
@@ -107,23 +98,11 @@ def _box(
         words += f"; {told} of the misfit" if told else "; not looked at" if found else ""
         words += f"; added: {', '.join(added[name])}" if name in added else ""
     look = [kind if slot or kind != "slot" else "part", "seen" if told else "", "first" if name in [*found][:1] else ""]
+    rows = [name, *filter(None, [told]), *(f"+ {effect}" for effect in added.get(name, []))]
+    look += ["has"] if name in added else []
     return {
-        "name": name, "rows": broken(name), "wide": WIDE, "high": HIGH, "kind": " ".join(filter(None, look)),
-        "told": told, "share": share, "words": words, "pick": slot, "has": added.get(name, []),
+        "name": name, "rows": rows, "kind": " ".join(filter(None, look)), "share": share, "words": words, "pick": slot,
     }  # fmt: skip
-
-
-def broken(name: str) -> list[str]:
-    """A name in one row, or in two where it is long: parted near its middle, ahead of a capital or a low line."""
-    if len(name) <= _LONG:
-        return [name]
-    places = [m.start() for m in re.finditer(r"(?<=[a-z0-9])(?=[A-Z])|_", name) if m.start() > 1]
-    at = min(places, key=lambda k: abs(k - len(name) / 2), default=len(name) // 2)
-    return [_short(name[:at]), _short(name[at:])]
-
-
-def _short(words: str) -> str:
-    return words if len(words) <= _LONG + 2 else f"{words[:_LONG]}…"
 
 
 def _below(desk: Desk, chosen: dict[str, str]) -> None:
