@@ -1,6 +1,5 @@
 """Figures from what was measured and simulated; nothing is shown or written here."""
 
-from pysim.plot.blackbox import blackbox_figure
 from pysim.plot.bode import bode_figure
 from pysim.plot.chirp import chirp_figure
 from pysim.plot.cosim import cosim_figure
@@ -23,7 +22,6 @@ from pysim.plot.time_response import time_response_figure
 from pysim.present.render import render
 
 __all__ = [
-    "blackbox_figure",
     "bode_figure",
     "chirp_figure",
     "cosim_figure",

@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from pysim.cli import main
+from pysim.cli.outputs import MARKER
 from tests.pysim.cli.ran import refused
 from validation.thesis import write_dataset
 
@@ -22,7 +23,12 @@ def test_a_row_of_the_thesis_comes_back(folder: Path, tmp_path: Path) -> None:
     assert main(words) == 0
     (one,) = json.loads(numbers.read_text())["responses"]
     assert one["denominator"] == pytest.approx([1, 208, 88674, 12347e3, 1452e6, 69731e6], rel=1e-6)
-    assert {p.name for p in out.iterdir()} == {"report.html", "blackbox_O-25_A10.png", "blackbox_O-25_A10.svg"}
+    assert {p.name for p in out.iterdir()} == {
+        "report.html",
+        "blackbox_O-25_A10.png",
+        "blackbox_O-25_A10.svg",
+        MARKER,
+    }
 
 
 def test_the_report_says_how_to_do_it_again(folder: Path, tmp_path: Path) -> None:

@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from typing import Any
+import re
+from collections.abc import Iterator, Sequence
+from itertools import count
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
-from matplotlib.patches import Ellipse
-from numpy.typing import NDArray
 
 from pysim.identify import HALF_95
 from pysim.identify.blackbox import FittedResponse, Root, TransferFunctionFit
+from pysim.io import same_file
+from pysim.present.blackbox.answer import TransferFunctions
+from pysim.present.render import Picture
 from pysim.present.style import (
     COLOURS,
     LIMIT,
@@ -25,12 +27,36 @@ from pysim.present.style import (
     quiet,
 )
 
-Array = NDArray[np.float64]
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+    from numpy.typing import NDArray
+
+    Array = NDArray[np.float64]
 
 _LEVEL = 0.95
 _TWO = 2.447747  # half width of a 95 percent region of two numbers, standard deviations
 _FAR = 20.0  # times the highest measured frequency: roots beyond are not drawn
 _FIT, _ZERO = COLOURS[0], COLOURS[1]
+_LONGEST = 60  # characters of a label in a file name
+
+
+def figures(result: TransferFunctions) -> Iterator[Picture]:
+    """One per response."""
+    for one, name in zip(result.fitted, _names([one.label for one in result.fitted]), strict=True):
+        caption = f"{one.label}: gain, phase and residuals of the fit; its poles and zeros."
+        yield Picture(name, caption, blackbox_figure(one))
+
+
+def _names(labels: Sequence[str]) -> list[str]:
+    """Names of files on any system, one per label and none twice: a test may have been repeated."""
+    names: dict[str, str] = {}
+    for label in labels:
+        plain = "blackbox_" + re.sub(r"[^\w+.-]+", "_", label)[:_LONGEST]
+        again = (plain if k == 1 else f"{plain}_{k}" for k in count(1))
+        name = next(name for name in again if same_file(name) not in names)
+        names[same_file(name)] = name
+    return list(names.values())
 
 
 def blackbox_figure(fitted: FittedResponse) -> Figure:
@@ -165,6 +191,8 @@ def _draw_doubt(axes: Axes, root: Root, widened: float, colour: str, reach: floa
         half = HALF_95 * widened * float(np.sqrt(root.covariance[0, 0]))
         axes.plot([root.value.real - half, root.value.real + half], [0, 0], color=colour, linewidth=2.4, alpha=0.45)
         return
+    from matplotlib.patches import Ellipse
+
     sizes, directions = np.linalg.eigh(root.covariance)
     width, height = 2 * _TWO * widened * np.sqrt(np.maximum(sizes, 0))
     angle = float(np.degrees(np.arctan2(directions[1, 0], directions[0, 0])))
