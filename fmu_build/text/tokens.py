@@ -45,8 +45,8 @@ Tokens = tuple[Token, ...]
 @lru_cache(maxsize=1024)
 def tokenise(text: str) -> Tokens:
     """All tokens of a text, comments left out."""
-    found = (Token(match.group(), match.start()) for match in _TOKEN.finditer(text))
-    return tuple(token for token in found if not token.text.startswith(("//", "/*")))
+    found = _TOKEN.finditer(text)
+    return tuple([Token(match[0], match.start()) for match in found if match[0][:2] not in ("//", "/*")])
 
 
 def is_name(word: str) -> bool:
