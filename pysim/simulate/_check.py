@@ -73,22 +73,15 @@ def check_experiments(model: Model, experiments: Sequence[Experiment]) -> None:
     Raises:
         BadInput: as `check_experiment`.
     """
-    known: set[object] = set()
-    real: dict[str, bool] = {}
+    known: dict[object, bool] = {}  # names -> whether all that are set are real, so that any finite number will do
     for experiment in experiments:
-        if isinstance(experiment, Experiment):
-            names = (
-                experiment.record,
-                experiment.offset.size,
-                *(tuple(getattr(experiment, kind)) for kind in ("inputs", "rates", "overrides")),
-            )
-            if names in known and all(
-                math.isfinite(value) and real.setdefault(name, model[name].type in REALS)
-                for name, value in experiment.overrides.items()
-            ):
-                continue
-            known.add(names)
-        check_experiment(model, experiment)
+        if not isinstance(experiment, Experiment):
+            check_experiment(model, experiment)
+        used = tuple(experiment.inputs), tuple(experiment.rates), tuple(experiment.overrides)
+        names = experiment.record, experiment.offset.size, *used
+        if not (known.get(names) and all(map(math.isfinite, experiment.overrides.values()))):
+            check_experiment(model, experiment)
+            known[names] = all(model[name].type in REALS for name in experiment.overrides)
 
 
 def _check_input(model: Model, variable: Variable) -> None:

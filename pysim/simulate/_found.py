@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -23,42 +25,45 @@ class Found:
     """What came of a request."""
 
     def __init__(self, tasks: Tasks, number: int) -> None:
-        self.tasks, self.number, self.task = tasks, number, tasks.table[number]
+        self.tasks, self.number = tasks, number
+
+    def number_of(self, name: str) -> Any:
+        """A number of the task, by the name of its field."""
+        return self.tasks.column(name)[self.number]
 
     @property
     def outcome(self) -> Outcome:
         """How the run ended; DONE also at an event that is not differentiated."""
-        return OUTCOMES[int(self.task["code"])]
+        return OUTCOMES[self.number_of("code")]
 
     @property
     def event(self) -> bool:
         """Whether the run ended at an event, or the search for an orbit met one."""
-        return int(self.task["code"]) == EVENT
+        return self.number_of("code") == EVENT
 
     @property
     def failed_to_start(self) -> bool:
         """Whether the FMU refused ahead of the run."""
-        return bool(self.task["part"])
+        return bool(self.number_of("part"))
 
     @property
     def done(self) -> bool:
         """Whether the run came to its end, or the orbit was found."""
-        return int(self.task["code"]) == DONE and int(self.task["trouble"]) == FOUND
+        return self.number_of("code") == DONE and self.number_of("trouble") == FOUND
 
     @property
     def message(self) -> str:
         """How the run ended, where, and what the FMU said; empty where it came to its end."""
-        task = self.task
-        if task["part"]:
-            return failure(int(task["part"])) + self._said()
+        if self.failed_to_start:
+            return failure(self.number_of("part")) + self._said()
         if self.outcome is Outcome.DONE:
             return ""
-        return explain(self.outcome, float(task["reached"]), int(task["status"])) + self._said()
+        return explain(self.outcome, self.number_of("reached"), self.number_of("status")) + self._said()
 
     @property
     def trouble(self) -> str:
         """Why there is no orbit; empty if there is one."""
-        number = int(self.task["trouble"])
+        number = self.number_of("trouble")
         return "" if number == FOUND else _TROUBLE[number] or self.message or _DRIFT
 
     def _said(self) -> str:
@@ -85,7 +90,7 @@ class Found:
 
     def statistics(self) -> dict[str, int]:
         """Counts of the run, or of the last period."""
-        return {name: int(self.task[name]) for name in STATISTICS}
+        return {name: self.number_of(name) for name in STATISTICS}
 
 
 def explain(outcome: Outcome, reached: float, status: int) -> str:

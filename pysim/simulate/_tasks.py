@@ -36,6 +36,7 @@ class Tasks:
         self.by_offset = n if kind.directions.offset else 0
         self.table = np.zeros(count, dtype=TASK)
         self._kept: list[Any] = [experiments]
+        self._columns: dict[str, list[Any]] = {}
         self.texts = np.zeros((count, LINES, LINE_LENGTH), dtype=np.uint8)
         ends = [float(e.times[-1]) for e in experiments]
         numbers = np.array([[*e.overrides.values()] for e in experiments], dtype=np.float64).reshape(count, -1)
@@ -100,12 +101,18 @@ class Tasks:
 
     def counts(self, number: int) -> bool:
         """Whether a task counts as done in what is said of progress."""
-        task = self.table[number]
-        return self.kind.kind == PLAIN or (int(task["code"]) == DONE and int(task["trouble"]) == FOUND)
+        is_done = self.column("code")[number] == DONE and self.column("trouble")[number] == FOUND
+        return self.kind.kind == PLAIN or is_done
+
+    def column(self, name: str) -> list[Any]:
+        """A field of all tasks, once they are done."""
+        if name not in self._columns:
+            self._columns[name] = self.table[name].tolist()
+        return self._columns[name]
 
     def __getstate__(self) -> dict[str, Any]:
         """For another process: what was found, without what was asked and without addresses."""
-        kept = ("kind", "record", "by_offset", "parameters", "table", "texts", "_first", "_results")
+        kept = ("kind", "record", "by_offset", "parameters", "table", "texts", "_first", "_results", "_columns")
         return {name: getattr(self, name) for name in kept}
 
     def array(self, name: str, number: int) -> Array:
@@ -116,7 +123,7 @@ class Tasks:
     def rows(self, name: str, number: int) -> Array:
         """Recorded rows of a task."""
         first = self._first[number]
-        rows: Array = self._results[name][first : first + int(self.table["rows"][number])]
+        rows: Array = self._results[name][first : first + self.column("rows")[number]]
         return rows
 
     def prepare(self, instance: Instance) -> Job:

@@ -139,7 +139,7 @@ def find_orbits(plan: Plan, tests: Sequence[tuple[Experiment, Array | None]], **
 
 def is_settled(plan: Plan, found: Found) -> bool:
     """Whether what the kernel found is all there is to an orbit."""
-    exact = plan.offer.outputs or float(found.task["correction"]) <= _TIGHT_MISMATCH
+    exact = plan.offer.outputs or found.number_of("correction") <= _TIGHT_MISMATCH
     return found.done and exact and not plan.missing
 
 
@@ -156,7 +156,7 @@ def orbit_of(plan: Plan, experiment: Experiment, found: Found | None, stopped: S
         return _failed(plan, experiment, Outcome.MODEL_ERROR, found.message)
     if not found.done:
         return _the_long_way(plan, experiment, found.trouble, stopped)
-    if not plan.offer.outputs and float(found.task["correction"]) > _TIGHT_MISMATCH:
+    if not plan.offer.outputs and found.number_of("correction") > _TIGHT_MISMATCH:
         return _again(plan, experiment, found, stopped)
     values = found.values
     record = make_record(plan.library.model, experiment, values, Outcome.DONE, "", found.statistics())
@@ -164,7 +164,7 @@ def orbit_of(plan: Plan, experiment: Experiment, found: Found | None, stopped: S
     if plan.missing:
         places = [plan.parameters.index(name) for name in plan.directions.parameters]
         columns, by = _spread(columns, places, len(plan.parameters)), _spread(by, places, len(plan.parameters))
-    iterations = int(found.task["iterations"])
+    iterations = found.number_of("iterations")
     orbit = Orbit(record, plan.parameters, columns, found.array("state"), by, iterations)
     return _with_differences(plan, experiment, orbit, stopped) if plan.missing else orbit
 
@@ -184,7 +184,7 @@ def _spread(columns: Array, places: list[int], count: int) -> Array:
 def _again(plan: Plan, experiment: Experiment, found: Found, stopped: Stopped) -> Orbit:
     """Without derivatives of the outputs a correction needs one more integration."""
     orbit = _find_orbit(replace(plan, mismatch=_TIGHT_MISMATCH), experiment, found.array("state"), stopped)
-    more = int(found.task["iterations"]) if orbit.iterations else 0
+    more = found.number_of("iterations") if orbit.iterations else 0
     return replace(orbit, iterations=orbit.iterations + more)
 
 

@@ -72,7 +72,7 @@ def check_parameters(function: str, model: Model, experiments: Sequence[Experime
     check_experiments(model, experiments)
     known: set[object] = set()
     for experiment in experiments:
-        used = tuple(tuple(getattr(experiment, kind)) for kind in ("inputs", "rates", "overrides"))
+        used = tuple(experiment.inputs), tuple(experiment.rates), tuple(experiment.overrides)
         if used not in known:
             values = {name: value_of(model, experiment, name) for name in names}
             check_experiment(model, experiment.override(**values))
