@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Protocol
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
+from scipy.linalg import solve_banded
 
 from pysim.diagnose.adapter import Residual, Target, over_noise
 from pysim.diagnose.noise import Column, Noise, white
@@ -19,8 +19,6 @@ from pysim.identify.greybox.stepped_sines import SteppedSines
 from pysim.identify.greybox.time_log import TimeLog
 
 Array = NDArray[np.float64]
-
-_compiled: Any = numba.njit(nogil=True, error_model="numpy", cache=True)
 
 
 class Whitening(Protocol):
@@ -186,30 +184,30 @@ def _filter(steps: Array, noise: Noise, unit: float) -> tuple[Array, Array, Arra
     return kept, gain, scale
 
 
-@_compiled
 def _gains(kept: Array, white: float, coloured: float) -> tuple[Array, Array]:
-    gain, scale = np.empty_like(kept), np.empty_like(kept)
-    unknown = coloured
-    for t in range(kept.size):
+    gain, scale, unknown = [], [], coloured
+    for share in kept.tolist():
         total = unknown + white
-        gain[t] = unknown / total
-        scale[t] = 1 / math.sqrt(total)
-        unknown = kept[t] ** 2 * unknown * (1 - gain[t]) + coloured * (1 - kept[t] ** 2)
-    return gain, scale
+        gain.append(unknown / total)
+        scale.append(1 / math.sqrt(total))
+        unknown = share**2 * unknown * (1 - gain[-1]) + coloured * (1 - share**2)
+    return np.array(gain), np.array(scale)
 
 
-@_compiled
 def _innovations(rows: Array, kept: Array, gain: Array, scale: Array) -> Array:
-    n, signals, columns = rows.shape
+    """What is new in rows (n, signals, m): each is predicted by what is kept of the one before, corrected by it."""
     found = np.empty_like(rows)
-    predicted = np.zeros((signals, columns))
-    for t in range(n):
-        for j in range(signals):
-            for c in range(columns):
-                new = rows[t, j, c] - predicted[j, c]
-                found[t, j, c] = new * scale[t, j]
-                predicted[j, c] = kept[t, j] * (predicted[j, c] + gain[t, j] * new)
+    for j in range(rows.shape[1]):
+        predicted = _recursion(kept[:, j] * (1 - gain[:, j]), (kept[:, j] * gain[:, j])[:, None] * rows[:, j])
+        found[:, j] = (rows[:, j] - predicted) * scale[:, j, None]
     return found
+
+
+def _recursion(kept: Array, added: Array) -> Array:
+    """y_0 = 0 and y_t = kept_(t-1) y_(t-1) + added_(t-1), (n, m): forward substitution in two diagonals."""
+    right = np.zeros_like(added)
+    right[1:] = added[:-1]
+    return np.asarray(solve_banded((1, 0), np.stack([np.ones_like(kept), -kept]), right, check_finite=False))
 
 
 def _harmonics(dataset: str, log: SineLog, noise: Mapping[Column, Noise]) -> tuple[Array | None, ...]:
@@ -234,11 +232,7 @@ def _products(log: SineLog, noise: Noise, columns: Array) -> Array:
     return np.asarray(columns.T @ weighted)
 
 
-@_compiled
 def _carried(rows: Array, kept: Array) -> Array:
     """What is left of all earlier rows at each one."""
-    found = np.zeros_like(rows)
-    for t in range(1, rows.shape[0]):
-        for c in range(rows.shape[1]):
-            found[t, c] = kept[t - 1] * (found[t - 1, c] + rows[t - 1, c])
-    return found
+    shares = np.append(kept, 0.0)
+    return _recursion(shares, shares[:, None] * rows)

@@ -22,8 +22,8 @@ Array = NDArray[np.float64]
 # point. So many steps are taken inside it, where the slope is the better guide, before the search ends.
 _BLUR, _BLIND = 2.5e-5, 1
 # A step is as short as it can be while it promises all but this share of what the best one does: what is nearly tied
-# costs length and gains next to nothing. With so few nats to gain it spares a share of the tolerance instead.
-_SPARE, _FINAL, _LEAST = 0.02, 1.0, 0.1
+# costs length and gains next to nothing.
+_SPARE = 0.05
 # It is a good end where a step inside the radius would gain no more than so many times the tolerance: in the blur, and
 # where a curved valley turns up.
 _NEAR, _LITTLE = 20.0, 1.0
@@ -84,11 +84,7 @@ class GaussNewton:
     def propose(self, state: State, bounds: Bounds) -> Proposal:
         """See Optimiser."""
         step, share = _Step.at(state.best, bounds), state.memory.get("share", 1.0)
-        p = step.within(state.memory["radius"])
-        gain = step.predicted(p)
-        if gain > self.tolerance:
-            spare = _SPARE if gain > _FINAL else min(_SPARE, _LEAST * self.tolerance / gain)
-            p = step.within(state.memory["radius"], spare)
+        p = step.within(state.memory["radius"], _SPARE)
         own = share * (2 - share) * state.best.gain
         return Proposal(np.clip(state.best.x + p, bounds.lower, bounds.upper), step.predicted(p) + own, share)
 

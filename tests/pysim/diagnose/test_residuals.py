@@ -10,7 +10,7 @@ from pysim.diagnose import residuals
 from pysim.diagnose.refit import refit
 from pysim.diagnose.residuals import Ruler, rulers
 from pysim.diagnose.subject import extended, identifiable
-from pysim.identify.greybox import Simulation, Treatment, fit, problem
+from pysim.identify.greybox import GaussNewton, Simulation, Treatment, fit, problem
 from pysim.io import read_model
 from pysim.simulate import Esdirk, Rodas, simulate_many
 from pysim.types import BadInput, Record
@@ -72,7 +72,11 @@ def test_the_refit_ends_where_the_fit_does() -> None:
     best = refit(ruler, what, ruler.evaluation(what, what.space.to_search(what.space.start)))
     fine = Simulation(Esdirk(rtol=1e-8, atol=1e-8))
     treatment = Treatment(rest=REST, initial="rest")
-    other = fit(problem(base(), [data], ["m", "d", "k"], treatment=treatment), simulation=fine)
+    other = fit(
+        problem(base(), [data], ["m", "d", "k"], treatment=treatment),
+        optimiser=GaussNewton(tolerance=1e-4),
+        simulation=fine,
+    )
     found = what.space.to_model(best.x)
     for value, estimate in zip(found, other.estimates, strict=True):
         assert abs(value - estimate.value) < 0.1 * estimate.std

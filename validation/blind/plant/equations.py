@@ -9,10 +9,10 @@ from __future__ import annotations
 import math
 from typing import Any
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
 
+from pysim.types import BadInput
 from validation.blind.plant.quantities import STEP, Parameters, Strengths
 
 Array = NDArray[np.float64]
@@ -28,6 +28,11 @@ _SPOOL_TURN = 0.05  # 1/s
 _ATMOSPHERE = 1.013e5  # Pa
 _POLYTROPIC = 1.4
 _VACUUM = 1e3  # Pa absolute, below which the air's share is no longer raised
+
+try:
+    import numba
+except ImportError as error:  # for the blind cases alone, so that nobody else installs it
+    raise BadInput("the plant of the blind cases needs Numba; python -m pip install numba") from error
 
 _inline: Any = numba.njit(inline="always", error_model="numpy")
 _compiled: Any = numba.njit(nogil=True, error_model="numpy", cache=True)
