@@ -18,6 +18,7 @@ printed by the view's `text`, written by its `data` to `--json`, and as pictures
 BadInput for what the user can mend.
 
 - `passes` says of a result whether the answer is yes (exit code 0) or no (1).
+- `done(given)` is called once all is written, to take away what an interrupted run would have gone on from.
 - `files(given, result, folder)` writes what lies in the folder of `--output` beside the page, and needs more than the
   result to be made.
 - Without a `view`, `run` prints, writes and returns the exit code by itself; that is for commands without a result,
@@ -37,7 +38,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from pysim.cli.option import Option, Role
-from pysim.cli.outputs import answer_folder, command_line, prepare_answer, prepare_file
+from pysim.cli.outputs import LOG, answer_folder, command_line, prepare_answer, prepare_file, refuse_same
 
 if TYPE_CHECKING:
     from pysim.cli.progress import ProgressBar
@@ -56,6 +57,7 @@ class Command:
     view: str = ""
     passes: Callable[[Any], bool] | None = None
     files: Callable[[Given, Any, Path], None] | None = None
+    done: Callable[[Given], None] | None = None
     parts: tuple[Command, ...] = ()
 
     def add_arguments(self, parser: argparse.ArgumentParser) -> None:
@@ -82,7 +84,10 @@ class Command:
         given = Given(self, parsed, (*ahead, self.name))
         _prepare(given)
         result = self.run(given)
-        return _shown(given, result) if self.view else int(result)
+        code = _shown(given, result) if self.view else int(result)
+        if self.done is not None:
+            self.done(given)
+        return code
 
 
 class Given:
@@ -125,6 +130,10 @@ class Given:
                 found[option.flags[-1]] = [Path(one) for one in (value if isinstance(value, list) else [value])]
         return found
 
+    def keep(self, result: Any) -> None:
+        """Write the JSON of a result that is not complete yet, for the case that the rest is stopped."""
+        _write_numbers(self, result)
+
     @contextmanager
     def progress(self, title: str) -> Iterator[ProgressBar]:
         """A bar on standard error that takes (done, total)."""
@@ -146,27 +155,37 @@ def _prepare(given: Given) -> None:
         prepare_answer(folder, data=data, read=read, beside=_flat(written))
     for flag, paths in written.items():
         option = next(one for one in given.command.options if one.flags[-1] == flag)
-        prepare_file(paths[0], flag, option.suffixes, read=[*data, *(one for one in read if one.is_file())])
+        refuse_same(paths[0], flag, read)
+        prepare_file(paths[0], flag, option.suffixes, read=data)
 
 
 def _flat(paths: dict[str, list[Path]]) -> list[Path]:
     return [path for several in paths.values() for path in several]
 
 
-def _shown(given: Given, result: Any) -> int:
-    """Print a result, and write it where that was asked for."""
+def _write_numbers(given: Given, result: Any) -> None:
+    """To `--json`, where that was asked for."""
     from pysim.io import write_file
 
+    if "json" in given and given.json:
+        numbers = import_module(given.command.view).data(result)
+        write_file(given.json, json.dumps(numbers, indent=1, allow_nan=False))
+
+
+def _shown(given: Given, result: Any) -> int:
+    """Print a result, and write it where that was asked for."""
     command, view = given.command, import_module(given.command.view)
     print(view.text(result))
-    if "json" in given and given.json:
-        write_file(given.json, json.dumps(view.data(result), indent=1, allow_nan=False))
+    _write_numbers(given, result)
     if "output" in given and given.output:
         from pysim.present.report import write_report
 
-        with answer_folder(given.output, beside=_flat(given.paths(Role.FILE))) as new:
+        log = given.output / LOG
+        beside = [*_flat(given.paths(Role.FILE)), *([log] if log.is_dir() else [])]
+        with answer_folder(given.output, beside=beside) as new:
             if command.files is not None:
                 command.files(given, result, new)
             written = write_report(new, result, view, redo=given.repeated)
-        print(f"Report: {given.output / written['report'].name}")
+        more = ", ".join(path.name for path in written.values() if path.suffix not in (".html", ".png"))
+        print(f"Report: {given.output / written['report'].name}{f'; beside it: {more}' if more else ''}")
     return DONE if command.passes is None or command.passes(result) else NO

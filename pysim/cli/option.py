@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import difflib
+import re
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from enum import Enum
@@ -143,6 +144,25 @@ def choice(flag: str, default: str | None, of: Iterable[str], about: str, **more
 def switch(flag: str, about: str) -> Option:
     """On where it is given."""
     return Option((flag,), about)
+
+
+def names(flag: str, about: str, *, required: bool = False) -> Option:
+    """Names with commas between them, or repeated; one within brackets, as in `x[1,2]`, belongs to the name."""
+    key = flag.lstrip("-").replace("-", "_")
+    return Option(
+        (flag,),
+        f"{about}; commas or repeat",
+        "NAME,...",
+        repeated=True,
+        required=required,
+        read=lambda given: names_of(given.typed[key]),
+    )
+
+
+def names_of(texts: Iterable[str]) -> list[str]:
+    """Names between commas; one within brackets, as in `x[1,2]`, belongs to the name."""
+    parts = [part.strip() for one in texts for part in re.split(r",(?![^\[]*\])", one)]
+    return [part for part in parts if part]
 
 
 def file(flag: str, metavar: str, about: str, *, role: Role = Role.FILE, **more: Any) -> Option:

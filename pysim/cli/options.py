@@ -13,7 +13,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from pysim.cli._any_model import WHAT
-from pysim.cli.option import Option, Role, argument, file, number, text
+from pysim.cli.option import Option, Role, argument, file, names, number, text
+from pysim.cli.option import names_of as names_of
 
 if TYPE_CHECKING:
     from pysim.cli.command import Given
@@ -43,12 +44,6 @@ def add_names(parser: argparse.ArgumentParser, option: str, *, what: str, requir
     parser.add_argument(
         option, metavar="NAME,...", action="append", default=[], required=required, help=f"{what}; commas or repeat"
     )
-
-
-def names_of(texts: Sequence[str]) -> list[str]:
-    """Names between commas; one within brackets, as in `x[1,2]`, belongs to the name."""
-    parts = [part.strip() for one in texts for part in re.split(r",(?![^\[]*\])", one)]
-    return [part for part in parts if part]
 
 
 def add_reference(parser: argparse.ArgumentParser) -> None:
@@ -243,4 +238,19 @@ OUTPUT = Option(
     "DIR",
     convert=Path,
     role=Role.FOLDER,
+)
+SET = text("--set", "NAME=VALUE", "set a parameter, in its own unit; repeat", repeated=True)
+PARAMETERS = file(
+    "--parameters",
+    "FILE.toml",
+    "lines NAME = VALUE, in their own units; where both set a parameter, --set wins",
+    role=Role.READ,
+)
+FREE = names("--free", "parameters to fit (all with min, max and nominal that are not set)")
+BOUNDS = text(
+    "--bounds",
+    "NAME=LOW:HIGH",
+    "bounds in the parameter's own unit, in place of the model's; without --free they make it free too; repeat",
+    repeated=True,
+    read=lambda given: bounded(given.typed["bounds"]),
 )

@@ -19,6 +19,7 @@ from pathlib import Path
 JSON = (".json",)
 PARAMETERS = "parameters.toml"  # in a folder of results: the fitted values
 MARKER = ".pysim-answer"  # in the folder: the names of our files, a line each
+LOG = "log"  # in the folder: what a fit tried, which a stopped one goes on from
 _NEW = ".pysim-new"  # in the folder while an answer is written
 _OF_THE_SYSTEM = {".DS_Store", "Thumbs.db", "desktop.ini"}  # whoever looks into a folder leaves one; they stay
 # What a stopped run goes on from; it lies there before any answer does. A kill may leave half of it under another name.
@@ -77,8 +78,20 @@ def refuse_inside(path: Path, option: str, read: Sequence[Path]) -> None:
         folder = one if one.is_dir() else one.parent if one.suffix == ".toml" else None
         if folder is not None and target.is_relative_to(folder.resolve()):
             raise BadInput(f"{option} {path}: inside the data set, which is never written to; choose a place outside")
-        if folder is None and target == one.resolve():
-            raise BadInput(f"{option} {path}: this is what is read, and would be lost; choose another name")
+        if folder is None:
+            refuse_same(path, option, [one])
+
+
+def refuse_same(path: Path, option: str, read: Sequence[Path]) -> None:
+    """Nothing is written over a file that is read.
+
+    Raises:
+        BadInput: the path is one of the files.
+    """
+    from pysim.types import BadInput
+
+    if path.resolve() in [one.resolve() for one in read]:
+        raise BadInput(f"{option} {path}: this is what is read, and would be lost; choose another name")
 
 
 def _probe(folder: Path, what: str, cure: str) -> None:

@@ -10,12 +10,6 @@ from pysim.plot.diagnosis_records import diagnosis_overlay_figure, telling_recor
 from pysim.plot.diagnosis_spectrum import diagnosis_spectrum_figure
 from pysim.plot.diagnosis_where import diagnosis_failures_figure, diagnosis_map_figure
 from pysim.plot.excitation import excitation_figure
-from pysim.plot.fit import (
-    fit_correlation_figure,
-    fit_harmonics_figure,
-    fit_parameters_figure,
-    fit_record_figure,
-)
 from pysim.plot.missing import missing_figure
 from pysim.plot.multisine import multisine_figure
 from pysim.plot.time_response import time_response_figure
@@ -34,10 +28,6 @@ __all__ = [
     "diagnosis_ranking_figure",
     "diagnosis_spectrum_figure",
     "excitation_figure",
-    "fit_correlation_figure",
-    "fit_harmonics_figure",
-    "fit_parameters_figure",
-    "fit_record_figure",
     "missing_figure",
     "multisine_figure",
     "render",

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from fmu_build.cli import main as build_command
-from pysim.cli import fit as fit_command
 from pysim.cli import main
+from pysim.cli.commands import fit as fit_command
 from pysim.cli.outputs import MARKER
 from pysim.identify.greybox import Profile, Tried
 from pysim.io import read_model, write_dataset
@@ -139,6 +139,14 @@ def test_a_class_is_fitted_as_its_fmu_is(lag: Path, tmp_path: Path) -> None:
     assert found[0] == found[1]
 
 
+def test_without_free_the_fit_frees_what_a_diagnosis_does(base: list[str], tmp_path: Path) -> None:
+    words = [*base, "--bounds", "K=0.5:4", "--set", "T=0.7", "--set", "g=1", "--json", str(tmp_path / "fit.json")]
+    assert main(words) == 0
+    found = json.loads((tmp_path / "fit.json").read_text())["estimates"]
+    assert list(found) == ["K"]
+    assert (found["K"]["lower"], found["K"]["upper"]) == (0.5, 4.0)
+
+
 def test_what_was_fitted_is_built_into_an_fmu(
     fitted: Ran, lag: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -158,7 +166,8 @@ def test_what_was_fitted_is_built_into_an_fmu(
 @pytest.mark.parametrize(
     ("more", "named"),
     [
-        ([], ["--free"]),
+        (["--set", "K=2", "--set", "T=1"], ["--free"]),
+        (["--objektive", "time"], ["did you mean --objective?"]),
         (["--free", "K", "--set", "T"], ["--set T", "write NAME=VALUE"]),
         (["--free", "K", "--tie", "g=two*K"], ["--tie g=two*K", "write A=B or A=2.5*B"]),
         (["--free", "K", "--bounds", "K=1"], ["--bounds K=1", "write NAME=LOW:HIGH"]),

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Any
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from matplotlib.figure import Figure
-from matplotlib.patches import Patch
 
 from pysim.identify import HALF_95
-from pysim.io import shown_unit
+from pysim.io import shown_unit, shown_value
+from pysim.present.fit.answer import Fitted
+from pysim.present.render import Picture
 from pysim.present.style import (
     BAND,
     COLOURS,
@@ -25,10 +26,51 @@ from pysim.present.style import (
     quiet,
     size_axis,
 )
-from pysim.types import BadInput, Estimate, Fit, RecordFit
+from pysim.types import BadInput, Dataset, Estimate, Fit, RecordFit
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 _MANY = 5000  # samples beyond which lines are drawn thin, and as pixels
 _CELL_IN, _NAME_IN = 0.46, 0.075  # in, a cell of the correlations and a letter of a name
+
+
+def figures(result: Fitted) -> Iterator[Picture]:
+    """Its parameters, each log, and per operating point and signal the stepped sines."""
+    fit, several = result.fit, len(result.datasets) > 1
+    yield Picture("parameters", "Parameters between their bounds.", fit_parameters_figure(fit))
+    yield Picture("correlation", "Correlations of the estimates.", fit_correlation_figure(fit))
+    for i, record in enumerate(fit.records):
+        if not record.harmonics:
+            of = f"{record.dataset}, " if several else ""
+            caption = f"{of}{record.source} ({record.use}): measured, fitted, and what is left."
+            yield Picture(f"record_{i}", caption, fit_record_figure(record))
+    for i, (test, signal, records) in enumerate(_sines(fit.records, result.datasets)):
+        caption = f"Stepped sines, {signal} {test}: points measured, lines fitted; grey: 95 percent of noise."
+        yield Picture(f"sines_{i}", caption, fit_harmonics_figure(records, test, signal))
+
+
+def _sines(records: Sequence[RecordFit], datasets: Sequence[Dataset]) -> list[tuple[str, str, list[RecordFit]]]:
+    """Stepped sines that belong on one picture: operating point in words, signal, records."""
+    found: dict[tuple[str, str], list[RecordFit]] = {}
+    for record, test in zip(records, _tests(records, datasets), strict=True):
+        for harmonics in record.harmonics:
+            found.setdefault((test, harmonics.signal), []).append(record)
+    return [(test, signal, own) for (test, signal), own in found.items()]
+
+
+def _tests(records: Sequence[RecordFit], datasets: Sequence[Dataset]) -> list[str]:
+    """What the data sets say of each record: where it was measured, and whose command swings how."""
+    words = [f"of {Path(record.source).parent.as_posix()}" for record in records]
+    for k, record in enumerate(records):
+        own = [one for one in datasets if one.name == record.dataset]
+        test = own[0].logs()[record.index] if len(own) == 1 else None
+        if test is not None and test.command and test.offset is not None and test.amplitude is not None:
+            unit = own[0].signal(test.command).unit
+            around, swing = shown_value(test.offset, unit), shown_value(test.amplitude, unit)
+            words[k] = f"at {test.command} {around}, amplitude {swing}"
+    several = len(datasets) > 1
+    return [f"{word} ({record.dataset})" if several else word for word, record in zip(words, records, strict=True)]
 
 
 def fit_record_figure(record: RecordFit) -> Figure:
@@ -162,5 +204,7 @@ def fit_correlation_figure(fit: Fit) -> Figure:
     bar.ax.tick_params(labelsize=SMALL)
     bar.set_label("Correlation", fontsize=SMALL)
     if not np.isfinite(matrix).all():
+        from matplotlib.patches import Patch
+
         legend_above(figure, [Patch(color=BAND)], ["not determined, or at a bound"])
     return figure

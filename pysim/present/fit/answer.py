@@ -1,21 +1,35 @@
-"""A fit as text for a terminal, as data for JSON, and as a page."""
+"""A fit as text for a terminal, as data for JSON and as files."""
 
 from __future__ import annotations
 
 import math
 import textwrap
-from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any
 
-from pysim.io import json_number, shown_value
-from pysim.present.page import cell, commands, heading, items, page, paragraph, picture, table
-from pysim.types import Estimate, Fit, FitOutcome, RecordFit, ResponseFit
+from pysim.identify.greybox import Profile
+from pysim.io import json_number
+from pysim.types import Dataset, Estimate, Fit, FitOutcome, RecordFit, ResponseFit
 
 _WIDTH = 100
 
 
-def fit_text(fit: Fit) -> str:
-    """Estimates, what is not determined, and what every record leaves over."""
+@dataclass(frozen=True)
+class Fitted:
+    """A fit with what it was fitted to.
+
+    Args:
+        profiles: exact intervals, of the parameters that were asked for.
+    """
+
+    fit: Fit
+    datasets: tuple[Dataset, ...]
+    profiles: tuple[Profile, ...] = ()
+
+
+def text(result: Fitted) -> str:
+    """Estimates, what is not determined, what every record leaves over, and profiles."""
+    fit = result.fit
     lines = [f"{fit.model}: {fit.objective}; {fit.optimiser}, {fit.iterations} points tried, {outcome_text(fit)}"]
     lines.append(f"cost {fit.cost:.6g}, from {fit.start_cost:.6g}; residual over noise {fit.misfit:.4g}")
     lines.append(f"  {'parameter':<14}{'estimate':>12}  {'95 % from':>11} {'to':>11}  unit")
@@ -26,6 +40,7 @@ def fit_text(fit: Fit) -> str:
     lines += [f"  {text}" for text in _left_over(fit)]
     for note in fit.notes:
         lines += textwrap.wrap(f"Note: {note}", _WIDTH)
+    lines += [f"Profile of {p.name}: 95 % from {p.interval[0]:.5g} to {p.interval[1]:.5g}" for p in result.profiles]
     return "\n".join(lines)
 
 
@@ -58,8 +73,25 @@ def _left_over(fit: Fit) -> list[str]:
     return lines
 
 
-def fit_data(fit: Fit) -> dict[str, Any]:
-    """Everything a Fit holds but the samples; numbers are finite or None, parameters in the variables' units."""
+def files(result: Fitted) -> dict[str, str]:
+    """The fitted values, as `--parameters` takes them."""
+    lines = [f'"{name}" = {value!r}' for name, value in result.fit.values.items() if "@" not in name]
+    return {"parameters.toml": "\n".join([*lines, ""])}
+
+
+def data(result: Fitted) -> dict[str, Any]:
+    """Everything a fit holds but the samples; numbers are finite or None, parameters in the variables' units."""
+    return _data(result.fit) | {"profiles": {p.name: _profile(p) for p in result.profiles}}
+
+
+def _profile(profile: Profile) -> dict[str, Any]:
+    return {
+        "interval": [json_number(end) for end in profile.interval],
+        "points": [[json_number(v) for v in point] for point in profile.points.tolist()],
+    }
+
+
+def _data(fit: Fit) -> dict[str, Any]:
     return {
         "model": fit.model,
         "objective": fit.objective,
@@ -138,77 +170,3 @@ def _response(response: ResponseFit) -> dict[str, Any]:
         "criteria": {d.criterion.symbol: float(d.value) for d in response.comparison.deviations},
         "passes": response.comparison.passes,
     }
-
-
-def fit_page(fit: Fit, *, units: Mapping[str, str], pictures: Sequence[tuple[str, bytes]], redo: str) -> str:
-    """A self-contained page: outcome, estimates, what is not determined, records, responses, pictures.
-
-    Args:
-        units: of the inputs, by name.
-        pictures: captions with their SVG.
-        redo: the command line that makes it again.
-    """
-    verdict = [
-        f"The search {outcome_text(fit)} after {fit.iterations} points.",
-        f"Cost {fit.cost:.6g}, from {fit.start_cost:.6g} at the start.",
-        f"Root-mean-square weighted residual: {fit.misfit:.3f} (1: nothing but noise is left).",
-    ]
-    parts = [heading("Outcome"), items([*verdict, *fit.notes]), heading("Parameters"), _estimates(fit)]
-    if fit.undetermined:
-        parts += [heading("What the data do not determine"), items(d.words for d in fit.undetermined)]
-        parts += [_combinations(fit)] if fit.combinations else []
-    parts += [heading("What each record leaves over"), _records(fit)]
-    parts += [_responses(fit, units)] if fit.responses else []
-    parts += [heading("Pictures"), *(picture(svg, caption) for caption, svg in pictures)]
-    parts += [paragraph(_METHOD), heading("Do it again"), commands(redo)]
-    return page("A model fitted to its measurements", f"{fit.model}; {fit.objective}; {fit.optimiser}.", parts)
-
-
-_METHOD = (
-    "Intervals are to first order around the estimates, widened by the residual where the model does not fit to the "
-    "noise; at a bound they are one-sided. Records marked validate had no part in the fit."
-)
-
-
-def _estimates(fit: Fit) -> str:
-    rows = []
-    for e in fit.estimates:
-        told = f"at its {e.at} bound" if e.at else "" if e.determined else "not determined by itself"
-        numbers = (e.value, *e.interval, e.start, e.lower, e.upper)
-        rows.append([cell(e.name), cell(e.unit), *(cell(f"{v:.5g}") for v in numbers), cell(told, "words")])
-    head = ["parameter", "unit", "estimate", "95 % from", "to", "start", "lower", "upper", ""]
-    return table("Estimates with 95 percent intervals", head, rows)
-
-
-def _combinations(fit: Fit) -> str:
-    rows = [[cell(c.name), *(cell(f"{v:.5g}") for v in (c.value, *c.interval))] for c in fit.combinations]
-    caption = "Combinations that are determined (product of the parameters' units)"
-    return table(caption, ["", "value", "95 % from", "to"], rows)
-
-
-def _records(fit: Fit) -> str:
-    rows = []
-    for record in fit.records:
-        for name, value in record.rms.items():
-            kind = "beyond" if value > 1.5 else ""
-            limits = [f"{d.criterion.symbol} {d.value:.2f} {d.criterion.unit}" for d in record.deviations.get(name, ())]
-            texts = (record.dataset, record.source, record.use, name)
-            rows.append([*(cell(text, "words") for text in texts), cell(f"{value:.3f}", kind), cell("; ".join(limits))])
-    head = ["data set", "record", "use", "signal", "residual / noise", "Table 1.4 (limits 2 % and 10 %)"]
-    return table("Root-mean-square residual over the noise", head, rows)
-
-
-def _responses(fit: Fit, units: Mapping[str, str]) -> str:
-    rows, head = [], ["data set", "use", "offset", "amplitude", "signal"]
-    kinds = set(units.values())
-    only = kinds.pop() if len(kinds) == 1 else "1"  # stepped sines do not tell which input swung
-    for response in fit.responses:
-        test, deviations = response.comparison.measured.test, response.comparison.deviations
-        unit = units.get(test.input, only)
-        offset, amplitude = (shown_value(value, unit) for value in (test.offset, test.amplitude))
-        texts = (response.dataset, response.use, offset, amplitude, test.output)
-        verdict = cell("pass", "pass") if response.comparison.passes else cell("fail", "fail")
-        numbers = [cell(f"{d.value:.2f}", "" if d.passes else "beyond") for d in deviations]
-        rows.append([*(cell(text) for text in texts), *numbers, verdict])
-        names = [f"{d.criterion.symbol} ({d.criterion.unit}, limit {d.criterion.limit:g})" for d in deviations]
-    return table("Frequency responses by thesis Table 1.3", [*head, *names, ""], rows)

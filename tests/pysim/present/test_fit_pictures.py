@@ -1,12 +1,10 @@
 """Pictures of a fit stand under the operating points that were measured."""
 
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
-import pytest
 
-from pysim.cli._fit_pictures import fit_pictures
+from pysim.present.fit import Fitted, figures
 from pysim.types import Dataset, Fit, MeasuredRecord, MeasuredSignal, Record
 from tests.pysim.fits import small_fit
 
@@ -21,27 +19,22 @@ def sine(source: str, frequency: float, offset: float | None) -> MeasuredRecord:
 WAVE = replace(sine("wave.txt", 1.0, None), kind="stochastic", use="validate", amplitude=None, frequency=None)
 
 
-def captions(fit: Fit, folder: Path, *records: MeasuredRecord) -> list[str]:
+def captions(fit: Fit, *records: MeasuredRecord) -> list[str]:
     """Of its stepped sines, without what all of them say."""
-    told = fit_pictures(fit, [Dataset("set", "-", "-", SIGNALS, records)], folder)
-    found = (caption.partition(":")[0] for caption, _ in told if caption.startswith("Stepped sines"))
+    told = figures(Fitted(fit, (Dataset("set", "-", "-", SIGNALS, records),)))
+    found = (one.caption.partition(":")[0] for one in told if one.caption.startswith("Stepped sines"))
     return [caption.removeprefix("Stepped sines, ") for caption in found]
 
 
-@pytest.fixture(autouse=True)
-def no_drawing(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("pysim.present.render", lambda figure, form: b"drawn")
-
-
-def test_sines_of_one_test_stand_together(tmp_path: Path) -> None:
+def test_sines_of_one_test_stand_together() -> None:
     records = [sine(f"O+25/{f:g}Hz.txt", f, 2e5) for f in (1.0, 5.0)]
-    assert captions(small_fit(), tmp_path, *records, WAVE) == ["y at w 2 bar, amplitude 1 bar"]
+    assert captions(small_fit(), *records, WAVE) == ["y at w 2 bar, amplitude 1 bar"]
     records = [sine(f"O+25/{f:g}Hz.txt", f, None) for f in (1.0, 5.0)]
-    assert captions(small_fit(), tmp_path, *records, WAVE) == ["y of O+25"]  # the data set does not say
+    assert captions(small_fit(), *records, WAVE) == ["y of O+25"]  # the data set does not say
 
 
-def test_sines_of_one_file_stand_under_their_own_test(tmp_path: Path) -> None:
+def test_sines_of_one_file_stand_under_their_own_test() -> None:
     fit = small_fit()
     fit = replace(fit, records=tuple(replace(r, source="a.tdms") if r.harmonics else r for r in fit.records))
-    found = captions(fit, tmp_path, sine("a.tdms", 1.0, 2e5), sine("a.tdms", 5.0, 4e5), WAVE)
+    found = captions(fit, sine("a.tdms", 1.0, 2e5), sine("a.tdms", 5.0, 4e5), WAVE)
     assert found == ["y at w 2 bar, amplitude 1 bar", "y at w 4 bar, amplitude 1 bar"]

@@ -1,0 +1,193 @@
+"""`pysim fit`."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterable, Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from pysim.cli.command import Command, Given
+from pysim.cli.option import choice, names, number, switch, text
+from pysim.cli.options import (
+    BOUNDS,
+    DATASETS,
+    FREE,
+    JSON,
+    LIBRARY,
+    MODEL,
+    OUTPUT,
+    PARAMETERS,
+    REFERENCE_HZ,
+    SET,
+    assigned,
+    chosen_reference,
+    parameters_of,
+    settable,
+)
+from pysim.cli.outputs import LOG
+
+if TYPE_CHECKING:
+    from pysim.identify.greybox import Problem, Tried
+    from pysim.present.fit import Fitted
+    from pysim.types import Dataset, Model
+
+
+def run(given: Given) -> Fitted:
+    """The estimates, with exact intervals where these were asked for."""
+    from pysim.cli.progress import Working, announce_compilation
+    from pysim.identify.greybox import (
+        OBJECTIVES,
+        Effort,
+        GaussNewton,
+        InteriorPoint,
+        Processes,
+        Simulation,
+        fit,
+        profile,
+    )
+    from pysim.io import in_model_units
+    from pysim.present.fit import Fitted
+
+    model = given.model
+    datasets = tuple(in_model_units(one, model) for one in given.dataset)
+    problem = _problem(given, model, datasets)
+    _refuse_unprofiled(problem, given.profile)
+    simulation = Simulation(workers=Processes()) if given.isolate else Simulation()
+    log = given.output / LOG if given.output else None
+    optimiser = {"gauss-newton": GaussNewton(), "interior-point": InteriorPoint(), None: None}[given.optimiser]
+    announce_compilation()
+    try:
+        found = fit(
+            problem,
+            objective=OBJECTIVES[given.objective],
+            optimiser=optimiser,
+            simulation=simulation,
+            effort=Effort(given.starts, given.seed, log=log, resume=log is not None),
+            progress=_say,
+        )
+    except KeyboardInterrupt:
+        cure = "the same command goes on where it was" if log else "with --output DIR a fit can be gone on with"
+        raise KeyboardInterrupt(cure) from None
+    result = Fitted(found, datasets)
+    for name in given.profile:  # each may take as long as the fit
+        given.keep(result)
+        with Working(f"Profile of {name}"):
+            more = profile(problem, found, name, simulation=simulation)
+        result = replace(result, profiles=(*result.profiles, more))
+    return result
+
+
+def _forget(given: Given) -> None:
+    """Nothing is left to go on with; the lines of the log stay."""
+    from pysim.identify.greybox.checkpoint import STATE
+
+    for state in (given.output / LOG).glob(f"*/{STATE}") if given.output else ():
+        state.unlink()
+
+
+def _say(tried: Tried) -> None:
+    print(f"\r{tried.search}: point {tried.tried}, cost {tried.best:.6g}   ", end="", file=sys.stderr, flush=True)
+
+
+def _refuse_unprofiled(problem: Problem, profiled: Sequence[str]) -> None:
+    """What the search for intervals would refuse, before anything is fitted."""
+    from pysim.types import BadInput
+
+    keys = problem.space.keys
+    for name in profiled:
+        if name not in keys:
+            raise BadInput(f"--profile {name}: not a free parameter; choose of {', '.join(keys)}")
+        if len(keys) == 1:
+            raise BadInput(f"--profile {name}: it is the only free parameter; its interval needs no profile")
+
+
+def _problem(given: Given, model: Model, datasets: Sequence[Dataset]) -> Problem:
+    from pysim.cli._free import free_parameters
+    from pysim.identify.greybox import Measurements, Parameter, Tie, Treatment, problem
+
+    ties, bounds, unit = [Tie(*_tie(word)) for word in given.tie], given.bounds, "the parameter's unit"
+    told = settable(parameters_of(given.parameters), model) if given.parameters else {}
+    own = assigned(given.set, "--set", unit)
+    tied = [tie.name for tie in ties]
+    free = [name for name in free_parameters(model, given.free, bounds, {**told, **own}) if name not in tied]
+    starts = {name: value for name, value in told.items() if name in free} | assigned(given.start, "--start", unit)
+    fixed = {name: value for name, value in told.items() if name not in free and name not in tied} | own
+    _refuse_idle([*starts, *bounds], free)
+    _refuse_still(datasets)
+    data = [Measurements(one, outputs=tuple(given.signal) or None) for one in datasets]
+    reference_hz = chosen_reference(given.reference_hz, (r for one in datasets for r in one.responses()))
+    parameters = [Parameter(name, starts.get(name), *bounds.get(name, (None, None))) for name in free]
+    return problem(model, data, parameters, fixed=fixed, ties=ties, treatment=Treatment(reference_hz=reference_hz))
+
+
+def _refuse_idle(named: Iterable[str], free: Sequence[str]) -> None:
+    from pysim.types import BadInput
+
+    for name in named:
+        if name not in free:
+            raise BadInput(f"{name} has a start or bounds but is not free; add it to --free, or use --set")
+
+
+def _refuse_still(datasets: Sequence[Dataset]) -> None:
+    """Logs in none of which an input moves tell nothing of what moves."""
+    from pysim.diagnose.adequacy import shortcomings
+    from pysim.types import BadInput
+
+    refusals = []
+    for dataset in datasets:
+        if any(record.use == "fit" for record in dataset.records):
+            try:
+                shortcomings(dataset, ())
+            except BadInput as error:
+                refusals.append(error)
+            else:
+                return
+    if refusals:
+        raise refusals[0]
+
+
+def _tie(word: str) -> tuple[str, str, float]:
+    """A=B or A=F*B."""
+    from pysim.types import BadInput
+
+    name, _, right = (part.strip() for part in word.partition("="))
+    factor, star, of = (part.strip() for part in right.rpartition("*"))
+    try:
+        value = float(factor) if star else 1.0
+    except ValueError:
+        value = None
+    if not name or not of or value is None:
+        raise BadInput(f"--tie {word}: write A=B or A=2.5*B")
+    return name, of, value
+
+
+COMMAND = Command(
+    "fit",
+    "Fit parameters of a model to data sets, and say how well they are known.",
+    run,
+    options=(
+        DATASETS,
+        MODEL,
+        LIBRARY,
+        FREE,
+        replace(PARAMETERS, about="start values of fitted parameters, and values of others; --start and --set win"),
+        SET,
+        text("--tie", "A=[F*]B", "let A follow the fitted B; repeat", repeated=True),
+        text("--start", "NAME=VALUE", "start value of a fitted parameter; repeat", repeated=True),
+        BOUNDS,
+        choice("--objective", "noise", ("noise", "time", "frequency", "combined"), "what is made small"),
+        choice("--optimiser", None, ("gauss-newton", "interior-point"), "gauss-newton for noise, else interior-point"),
+        names("--signal", "compare only these outputs"),
+        REFERENCE_HZ,
+        number("--starts", "N", 0, "more searches, drawn between the bounds", convert=int),
+        number("--seed", "S", None, "random seed for --starts", convert=int),
+        names("--profile", "parameters whose intervals are to be exact"),
+        switch("--isolate", "run the FMU in processes of its own, in case it crashes"),
+        JSON,
+        replace(OUTPUT, about="write report.html, parameters.toml, plots, log here; a stopped fit goes on from it"),
+    ),
+    view="pysim.present.fit",
+    passes=lambda result: bool(result.fit.outcome.name == "CONVERGED"),
+    done=_forget,
+)

@@ -1,0 +1,82 @@
+"""A fit as a page."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from pysim.io import shown_value
+from pysim.present.fit.answer import Fitted, outcome_text
+from pysim.present.page import cell, commands, heading, items, paragraph, picture, table
+from pysim.present.page import page as whole_page
+from pysim.present.render import Drawing
+from pysim.types import Fit
+
+
+def page(result: Fitted, drawings: Sequence[Drawing], redo: str) -> str:
+    """Outcome, estimates, what is not determined, records, responses, pictures."""
+    fit = result.fit
+    units = {signal.name: signal.unit for one in result.datasets for signal in one.signals if signal.role == "input"}
+    verdict = [
+        f"The search {outcome_text(fit)} after {fit.iterations} points.",
+        f"Cost {fit.cost:.6g}, from {fit.start_cost:.6g} at the start.",
+        f"Root-mean-square weighted residual: {fit.misfit:.3f} (1: nothing but noise is left).",
+    ]
+    parts = [heading("Outcome"), items([*verdict, *fit.notes]), heading("Parameters"), _estimates(fit)]
+    if fit.undetermined:
+        parts += [heading("What the data do not determine"), items(d.words for d in fit.undetermined)]
+        parts += [_combinations(fit)] if fit.combinations else []
+    parts += [heading("What each record leaves over"), _records(fit)]
+    parts += [_responses(fit, units)] if fit.responses else []
+    parts += [heading("Pictures"), *(picture(one.svg, one.caption) for one in drawings)]
+    parts += [paragraph(_METHOD), heading("Do it again"), commands(redo)]
+    return whole_page("A model fitted to its measurements", f"{fit.model}; {fit.objective}; {fit.optimiser}.", parts)
+
+
+_METHOD = (
+    "Intervals are to first order around the estimates, widened by the residual where the model does not fit to the "
+    "noise; at a bound they are one-sided. Records marked validate had no part in the fit."
+)
+
+
+def _estimates(fit: Fit) -> str:
+    rows = []
+    for e in fit.estimates:
+        told = f"at its {e.at} bound" if e.at else "" if e.determined else "not determined by itself"
+        numbers = (e.value, *e.interval, e.start, e.lower, e.upper)
+        rows.append([cell(e.name), cell(e.unit), *(cell(f"{v:.5g}") for v in numbers), cell(told, "words")])
+    head = ["parameter", "unit", "estimate", "95 % from", "to", "start", "lower", "upper", ""]
+    return table("Estimates with 95 percent intervals", head, rows)
+
+
+def _combinations(fit: Fit) -> str:
+    rows = [[cell(c.name), *(cell(f"{v:.5g}") for v in (c.value, *c.interval))] for c in fit.combinations]
+    caption = "Combinations that are determined (product of the parameters' units)"
+    return table(caption, ["", "value", "95 % from", "to"], rows)
+
+
+def _records(fit: Fit) -> str:
+    rows = []
+    for record in fit.records:
+        for name, value in record.rms.items():
+            kind = "beyond" if value > 1.5 else ""
+            limits = [f"{d.criterion.symbol} {d.value:.2f} {d.criterion.unit}" for d in record.deviations.get(name, ())]
+            texts = (record.dataset, record.source, record.use, name)
+            rows.append([*(cell(text, "words") for text in texts), cell(f"{value:.3f}", kind), cell("; ".join(limits))])
+    head = ["data set", "record", "use", "signal", "residual / noise", "Table 1.4 (limits 2 % and 10 %)"]
+    return table("Root-mean-square residual over the noise", head, rows)
+
+
+def _responses(fit: Fit, units: Mapping[str, str]) -> str:
+    rows, head = [], ["data set", "use", "offset", "amplitude", "signal"]
+    kinds = set(units.values())
+    only = kinds.pop() if len(kinds) == 1 else "1"  # stepped sines do not tell which input swung
+    for response in fit.responses:
+        test, deviations = response.comparison.measured.test, response.comparison.deviations
+        unit = units.get(test.input, only)
+        offset, amplitude = (shown_value(value, unit) for value in (test.offset, test.amplitude))
+        texts = (response.dataset, response.use, offset, amplitude, test.output)
+        verdict = cell("pass", "pass") if response.comparison.passes else cell("fail", "fail")
+        numbers = [cell(f"{d.value:.2f}", "" if d.passes else "beyond") for d in deviations]
+        rows.append([*(cell(text) for text in texts), *numbers, verdict])
+        names = [f"{d.criterion.symbol} ({d.criterion.unit}, limit {d.criterion.limit:g})" for d in deviations]
+    return table("Frequency responses by thesis Table 1.3", [*head, *names, ""], rows)
