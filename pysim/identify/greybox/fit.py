@@ -17,7 +17,7 @@ from pysim.identify.greybox.least_squares import GaussNewton
 from pysim.identify.greybox.noise import white_floor
 from pysim.identify.greybox.objective import NOISE, Objective
 from pysim.identify.greybox.observation import Measure
-from pysim.identify.greybox.optimiser import Optimiser, State
+from pysim.identify.greybox.optimiser import Bounds, Optimiser, State
 from pysim.identify.greybox.problem import Problem
 from pysim.identify.greybox.residuals import Carried, Channel, Point
 from pysim.identify.greybox.runs import Simulation
@@ -229,12 +229,12 @@ def _result(
     begun: Mapping[str, Array],
 ) -> Fit:
     space, best = problem.space, state.best
-    point = _at_levels(problem, objective, simulation, best)
+    point = _at_levels(problem, objective, optimiser, simulation, state)
     doubt = uncertainty(space, point)
     if not objective.squares:
         doubt = _of_sizes(doubt)
     runs = problem.residuals(replace(NOISE, domains=objective.domains)).runs
-    beside = compared(problem, best.x, simulation, dict(zip(map(id, runs), point.carried.states, strict=True)))
+    beside = compared(problem, point.x, simulation, dict(zip(map(id, runs), point.carried.states, strict=True)))
     noise = _noise(problem, beside)
     residuals = problem.residuals(replace(NOISE, domains=objective.domains), simulation)
     return Fit(
@@ -243,7 +243,7 @@ def _result(
         optimiser=optimiser.name,
         estimates=doubt.estimates,
         covariance=doubt.covariance,
-        values=space.values(best.x),
+        values=space.values(point.x),
         undetermined=doubt.known.directions,
         combinations=doubt.combinations,
         records=tuple(_with_noise(record, noise) for record in beside.records),
@@ -320,8 +320,20 @@ def _outcome(state: State) -> FitOutcome:
     return state.outcome
 
 
-def _at_levels(problem: Problem, objective: Objective, simulation: Simulation, best: Point) -> Point:
-    """The optimum simulated once more, as finely as intervals need it, and counted in the levels of its residuals."""
+def _at_levels(
+    problem: Problem, objective: Objective, optimiser: Optimiser, simulation: Simulation, state: State
+) -> Point:
+    """The optimum simulated once more, as finely as intervals need it, and counted in the levels of its residuals.
+
+    Of a smooth objective it is where the next step leads, which promises less than the tolerance and is taken for
+    nothing; the end of the search where that is no better.
+    """
+    best, model, space = state.best, problem.model, problem.space
     residuals = problem.residuals(replace(NOISE, domains=objective.domains), simulation)
-    point = residuals.evaluate(problem.model, problem.space, best.x, best.carried_to(best.x))
+    if optimiser.smooth_only and objective.measure is Measure.SIGNAL:
+        last = optimiser.propose(state, Bounds(*space.bounds()))
+        point = residuals.evaluate(model, space, last.x, best.carried_to(last.x, last.share))
+        if point.good and point.cost < best.cost:
+            return point
+    point = residuals.evaluate(model, space, best.x, best.carried_to(best.x))
     return point if point.good or objective.measure is not Measure.SIGNAL else best
