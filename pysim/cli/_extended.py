@@ -8,13 +8,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from pysim.cli._subject import Given
+    from pysim.cli._subject import Named
     from pysim.types import Dataset, Diagnosis
 
 _WIDTH = 110
 
 
-def write_extended(found: Diagnosis, given: Given, folder: Path, *, place: Path | None = None) -> dict[str, Path]:
+def write_extended(found: Diagnosis, given: Named, folder: Path, *, place: Path | None = None) -> dict[str, Path]:
     """Write the fitted values, and the class and its FMU where effects were added; name -> path, none without a refit.
 
     Nothing of the user's files is changed: the class extends theirs.
@@ -45,7 +45,7 @@ def write_extended(found: Diagnosis, given: Given, folder: Path, *, place: Path 
     return files
 
 
-def _set_before(given: Given) -> str:
+def _set_before(given: Named) -> str:
     """What the values hold with; nothing where nothing was set."""
     values = ", ".join(f"{name} = {value!r}" for name, value in given.overrides.items())
     return f"They hold with what was set: {values}." if values else ""
@@ -67,7 +67,7 @@ def _last(name: str) -> str:
     return name.rpartition(".")[2]
 
 
-def _comment(found: Diagnosis, given: Given, folder: Path, name: str) -> str:
+def _comment(found: Diagnosis, given: Named, folder: Path, name: str) -> str:
     """What it is, from which data, and when not to trust it."""
     from pysim.cli.outputs import command_line
 
@@ -91,7 +91,7 @@ def _comment(found: Diagnosis, given: Given, folder: Path, name: str) -> str:
 
 def _limits(found: Diagnosis, dataset: Dataset) -> list[str]:
     """What the data did not show."""
-    from pysim.report.diagnosis_words import limits_sentence
+    from pysim.present.diagnosis.words import limits_sentence
 
     texts = [f"beyond what was excited: {_excited(dataset)}"]
     if not any(record.use == "validate" for record in dataset.records):
@@ -127,10 +127,3 @@ def _excited(dataset: Dataset) -> str:
     sines = [record.frequency for record in dataset.records if record.frequency is not None]
     texts += [f"sines from {min(sines):g} to {max(sines):g} Hz"] if sines else []
     return "; ".join(texts) or "see the data set"
-
-
-def relative_files(files: Mapping[str, Path], folder: Path) -> dict[str, str]:
-    """Paths relative to a folder, with slashes."""
-    import os
-
-    return {name: Path(os.path.relpath(path.resolve(), folder.resolve())).as_posix() for name, path in files.items()}

@@ -10,13 +10,14 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from pysim.cli._variants import Variants
+    from pysim.cli.command import Given
     from pysim.diagnose import Subject
     from pysim.effects import Slot
     from pysim.types import Dataset, Effect, Model
 
 
 @dataclass(frozen=True)
-class Given:
+class Named:
     """What the command line named.
 
     Args:
@@ -39,65 +40,7 @@ class Given:
         return self.variants.class_name if self.variants else self.subject.model.name
 
 
-def add_subject(parser: argparse.ArgumentParser) -> None:
-    """`DATASET --model MODEL` and what goes with them."""
-    from pysim.cli._any_model import add_data_and_model
-    from pysim.cli.options import add_parameters, add_reference
-
-    add_data_and_model(parser, "a Modelica class with slots, or its .fmu")
-    add_fitted(parser)
-    add_parameters(parser)
-    add_reference(parser)
-
-
-def add_fitted(parser: argparse.ArgumentParser) -> None:
-    """`--library`, and what may be refitted."""
-    from pysim.cli._any_model import add_library
-    from pysim.cli.options import add_names
-
-    add_library(parser, "the model or your effects")
-    add_names(parser, "--free", what="parameters to refit (all with min, max and nominal that are not set)")
-    parser.add_argument(
-        "--bounds",
-        metavar="NAME=LOW:HIGH",
-        action="append",
-        default=[],
-        help="bounds in the parameter's own unit, in place of the model's; without --free they make it free too",
-    )
-
-
-def add_effects(parser: argparse.ArgumentParser) -> None:
-    """`--effects`."""
-    from pysim.cli.options import add_names
-
-    add_names(parser, "--effects", what="consider only these of the catalogue")
-
-
-def add_results(parser: argparse.ArgumentParser, what: str) -> None:
-    """`--json` and `--output`."""
-    parser.add_argument("--json", metavar="FILE", type=Path, help="write the whole answer here")
-    parser.add_argument("-o", "--output", metavar="DIR", type=Path, help=f"write report.html, pictures{what} here")
-    parser.add_argument("--records", metavar="FILE.npz", type=Path, help="write every record beside every model here")
-    parser.add_argument("--story", metavar="FILE", type=Path, help="write what is told on the way here, JSON lines")
-
-
-def prepare_results(args: argparse.Namespace) -> None:
-    """See that the results can be written, before the work starts.
-
-    Raises:
-        BadInput: they cannot.
-    """
-    from pysim.cli.outputs import JSON, prepare_answer, prepare_file, results_beside
-
-    for option, suffixes in (("json", JSON), ("records", (".npz",)), ("story", (".jsonl", ".json"))):
-        if getattr(args, option):
-            prepare_file(getattr(args, option), f"--{option}", suffixes, read=[args.data])
-    if args.output:
-        read = [Path(args.model), *args.library, *([args.parameters] if args.parameters else [])]
-        prepare_answer(args.output, data=[args.data], read=read, beside=results_beside(args))
-
-
-def read_subject(args: argparse.Namespace, *, refits: bool = True, only: Sequence[str] = ()) -> Given:
+def read_subject(args: Given, *, refits: bool = True, only: Sequence[str] = ()) -> Named:
     """Model, data and catalogue of a command line.
 
     Args:
@@ -109,29 +52,28 @@ def read_subject(args: argparse.Namespace, *, refits: bool = True, only: Sequenc
     from pysim.cli._any_model import is_fmu
     from pysim.cli._built_in import built_in
     from pysim.cli._free import begun_at, free_parameters, held_as_set
-    from pysim.cli._measurements import read_measurements
     from pysim.cli._variants import Variants
-    from pysim.cli.options import bounded, chosen_reference, names_of, read_parameters
+    from pysim.cli.options import chosen_reference, read_parameters
     from pysim.diagnose import Inside, subject
     from pysim.effects import STANDARD_LIBRARY, slots
     from pysim.io import in_model_units
 
-    dataset, left_out = _diagnosed(read_measurements(args.data))
+    dataset, left_out = _diagnosed(args.dataset)
     libraries = [STANDARD_LIBRARY, *args.library]
-    model, class_name, notes = _model(args.model, libraries)
+    model, class_name, notes = _model(args.typed["model"], libraries)
     dataset, notes = in_model_units(dataset, model), [*left_out, *notes]
     catalogue = _catalogue(libraries, only, class_name)
     if class_name and not catalogue:
         notes.append(f"no slot of {class_name} takes an effect of the libraries, so none could be tried")
     variants = Variants(class_name, libraries) if class_name else None
     inside = Inside(slots(class_name, libraries), variants.probed) if variants else None
-    args.reference_hz = chosen_reference(args.reference_hz, dataset.responses())
-    overrides, bounds = read_parameters(args, model), bounded(args.bounds)
-    free = free_parameters(model, names_of(args.free), bounds, overrides) if refits else ()
+    reference_hz = chosen_reference(args.reference_hz, dataset.responses())
+    overrides, bounds = read_parameters(args, model), args.bounds
+    free = free_parameters(model, args.free, bounds, overrides) if refits else ()
     if refits:
         model = begun_at(model, {name: overrides.pop(name) for name in free if name in overrides})
         notes += held_as_set(model, overrides)
-    if refits and class_name and is_fmu(args.model):
+    if refits and class_name and is_fmu(args.typed["model"]):
         own = {name: value for name, value in built_in(model, class_name, libraries).items() if name not in free}
         if own:
             notes.append(f"built with values of its own, which every candidate has too: {', '.join(own)}")
@@ -144,11 +86,11 @@ def read_subject(args: argparse.Namespace, *, refits: bool = True, only: Sequenc
         free=free,
         bounds=bounds,
         overrides=overrides,
-        reference_hz=args.reference_hz,
+        reference_hz=reference_hz,
         inside=inside,
         notes=tuple(notes),
     )
-    return Given(given, dataset, variants, overrides, tuple(args.library))
+    return Named(given, dataset, variants, overrides, tuple(args.library))
 
 
 def _diagnosed(dataset: Dataset) -> tuple[Dataset, list[str]]:
@@ -162,17 +104,6 @@ def _diagnosed(dataset: Dataset) -> tuple[Dataset, list[str]]:
         f"left out: tables of frequency responses ({count}), beside logs over time; they need a data set of their own"
     )
     return replace(dataset, records=tuple(logs)), [note]
-
-
-def read_base(args: argparse.Namespace) -> Model:
-    """The model alone, from a class or an FMU.
-
-    Raises:
-        BadInput: an FMU that cannot be read. BuildError: a class that does not compile.
-    """
-    from pysim.cli._any_model import read_fmu_or_class
-
-    return read_fmu_or_class(args.model, args.library)
 
 
 def read_inside(args: argparse.Namespace) -> tuple[Model, str, tuple[Slot, ...], tuple[Effect, ...]]:
@@ -190,7 +121,7 @@ def read_inside(args: argparse.Namespace) -> tuple[Model, str, tuple[Slot, ...],
     return model, class_name, slots(class_name, libraries), _catalogue(libraries, [], class_name)
 
 
-def effects_of(names: Sequence[str], given: Given, option: str = "--effects") -> tuple[Effect, ...]:
+def effects_of(names: Sequence[str], given: Named, option: str = "--effects") -> tuple[Effect, ...]:
     """Effects that an option names, in order.
 
     Raises:
@@ -226,7 +157,7 @@ def _model(text: str, libraries: Sequence[Path]) -> tuple[Model, str, list[str]]
 
 def _out_of_sight(model: Model) -> list[str]:
     """What cannot be looked at in a model without its Modelica class."""
-    from pysim.report.diagnosis_words import SHUT
+    from pysim.present.diagnosis.words import SHUT
 
     names = {c: [v.name for v in model.variables if v.causality == c] for c in ("input", "output")}
     states = model.abilities.states
@@ -263,7 +194,10 @@ def named_effects(
     known, fit = {effect.name for effect in catalogue}, {effect.name: effect for effect in taken}
     for name in names:
         if name not in known:
-            raise BadInput(f"{option} {name}: not in the catalogue; it has {', '.join(sorted(known))}")
+            from pysim.cli.option import did_you_mean
+
+            near = did_you_mean(name, known)
+            raise BadInput(f"{option} {name}: not in the catalogue{near}; it has {', '.join(sorted(known))}")
         if name not in fit:
             raise BadInput(
                 f"{option} {name}: no slot of {class_name} takes it; its slots take {', '.join(fit) or 'none of them'}"

@@ -18,9 +18,12 @@ printed by the view's `text`, written by its `data` to `--json`, and as pictures
 BadInput for what the user can mend.
 
 - `passes` says of a result whether the answer is yes (exit code 0) or no (1).
-- `done(given)` is called once all is written, to take away what an interrupted run would have gone on from.
-- `files(given, result, folder)` writes what lies in the folder of `--output` beside the page, and needs more than the
-  result to be made.
+- `files(given, result, folder)` writes what lies in the folder of `--output` beside the page and needs more than the
+  result to be made; it returns the result with the names of these files.
+- `done(given, result)` is called once all is written: for further files, and to take away what an interrupted run would
+  have gone on from.
+- `view` may be a function of the result, where a command finds one of several kinds.
+- A view that tells all files in its JSON has `placed(result, written, home)`, see `pysim.present.report`.
 - Without a `view`, `run` prints, writes and returns the exit code by itself; that is for commands without a result,
   such as `app`.
 - `parts` are commands of their own behind this one's name, as in `pysim data check`.
@@ -54,10 +57,10 @@ class Command:
     about: str
     run: Callable[[Given], Any] | None = None
     options: tuple[Option, ...] = ()
-    view: str = ""
+    view: str | Callable[[Any], str] = ""
     passes: Callable[[Any], bool] | None = None
-    files: Callable[[Given, Any, Path], None] | None = None
-    done: Callable[[Given], None] | None = None
+    files: Callable[[Given, Any, Path], Any] | None = None
+    done: Callable[[Given, Any], None] | None = None
     parts: tuple[Command, ...] = ()
 
     def add_arguments(self, parser: argparse.ArgumentParser) -> None:
@@ -84,10 +87,11 @@ class Command:
         given = Given(self, parsed, (*ahead, self.name))
         _prepare(given)
         result = self.run(given)
-        code = _shown(given, result) if self.view else int(result)
-        if self.done is not None:
-            self.done(given)
-        return code
+        return _shown(given, result) if self.view else int(result)
+
+    def shows(self, result: Any) -> Any:
+        """The module that shows a result."""
+        return import_module(self.view if isinstance(self.view, str) else self.view(result))
 
 
 class Given:
@@ -99,6 +103,7 @@ class Given:
         self._read: dict[str, Any] = {}
         self._words = words
         self.command = command
+        self.opened: Any = None  # what `run` hands on to `files` and `done` beside its result
         self.typed = {key: option.value(getattr(parsed, key)) for key, option in self._options.items()}
 
     def __getattr__(self, key: str) -> Any:
@@ -168,24 +173,37 @@ def _write_numbers(given: Given, result: Any) -> None:
     from pysim.io import write_file
 
     if "json" in given and given.json:
-        numbers = import_module(given.command.view).data(result)
+        numbers = given.command.shows(result).data(result)
         write_file(given.json, json.dumps(numbers, indent=1, allow_nan=False))
 
 
 def _shown(given: Given, result: Any) -> int:
     """Print a result, and write it where that was asked for."""
-    command, view = given.command, import_module(given.command.view)
+    command, view = given.command, given.command.shows(result)
     print(view.text(result))
-    _write_numbers(given, result)
     if "output" in given and given.output:
-        from pysim.present.report import write_report
-
-        log = given.output / LOG
-        beside = [*_flat(given.paths(Role.FILE)), *([log] if log.is_dir() else [])]
-        with answer_folder(given.output, beside=beside) as new:
-            if command.files is not None:
-                command.files(given, result, new)
-            written = write_report(new, result, view, redo=given.repeated)
-        more = ", ".join(path.name for path in written.values() if path.suffix not in (".html", ".png"))
-        print(f"Report: {given.output / written['report'].name}{f'; beside it: {more}' if more else ''}")
+        result = _reported(given, result, view)
+    _write_numbers(given, result)
+    if command.done is not None:
+        command.done(given, result)
     return DONE if command.passes is None or command.passes(result) else NO
+
+
+def _reported(given: Given, result: Any, view: Any) -> Any:
+    """Write the folder of a result; the result, with the places of its files where its view tells them."""
+    from pysim.cli.progress import Working
+    from pysim.present.report import write_report
+
+    folder, log = given.output, given.output / LOG
+    beside = [*_flat(given.paths(Role.FILE)), *([log] if log.is_dir() else [])]
+    with answer_folder(folder, beside=beside) as new:
+        if given.command.files is not None:
+            result = given.command.files(given, result, new)
+        with Working("Drawing the report"):
+            written = write_report(new, result, view, redo=given.repeated)
+    written = {name: folder / path.name for name, path in written.items()}
+    more = ", ".join(path.name for path in written.values() if path.suffix not in (".html", ".png"))
+    print(f"Report: {written['report']}{f'; beside it: {more}' if more else ''}")
+    if not hasattr(view, "placed"):
+        return result
+    return view.placed(result, written, given.json.parent if given.json else folder)

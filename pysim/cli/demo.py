@@ -8,11 +8,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from pysim.types import Comparison, Dataset, Model
 
 QUICK_FREQUENCIES_HZ = (0.1, 1, 3, 6, 10, 15, 20, 30)
+_TITLE = "The pump's swash plate against the transfer functions of thesis Table 4.1"
 _TABLES = {"free": "4.8", "locked": "4.7"}
 _CAVEATS: dict[str, tuple[str, ...]] = {
     "free": (),
@@ -35,10 +34,10 @@ def run(args: argparse.Namespace) -> int:
     from multiprocessing import get_context
 
     from pysim.cli._pictures import draw_picture, write_pictures
-    from pysim.cli.outputs import prepare_folder
+    from pysim.cli.outputs import prepare_folder, repeating
     from pysim.cli.progress import Working
     from pysim.io import read_dataset, write_file
-    from pysim.report import comparison_data, comparison_text
+    from pysim.present.comparison import Comparisons, comparison_text, data, page
     from validation.thesis import FREQUENCIES_HZ, write_dataset
 
     folder = prepare_folder(args.output)
@@ -51,16 +50,18 @@ def run(args: argparse.Namespace) -> int:
         with Working("Compiling the solver, once on this machine"):
             compiled.result()
         free = _compare("free", models["free"], dataset)
-        early = helpers.submit(draw_picture, (free,), folder, "bode_O+50.png")  # something to look at
+        early = helpers.submit(draw_picture, (free,), folder, "bode_O+50")  # something to look at
         comparisons = [free, _compare("locked", models["locked"], dataset)]
         for comparison in comparisons:
             print(comparison_text(comparison), end="\n\n")
         with Working("Drawing pictures"):
             early.result()  # or it could be written after the last picture of its name
             pictures = write_pictures(comparisons, folder, helpers)
-    numbers = json.dumps(comparison_data(comparisons), indent=1, allow_nan=False)
-    write_file(folder / "comparison.json", numbers)
-    write_file(folder / "report.html", _report(comparisons, args, pictures))
+    # with fewer frequencies the largest deviations are others, and the thesis' tables cannot be held against them
+    remarks = () if args.quick else tuple(part for one in comparisons for part in _against_the_thesis(one))
+    result = Comparisons(_TITLE, tuple(comparisons), remarks)
+    write_file(folder / "comparison.json", json.dumps(data(result), indent=1, allow_nan=False))
+    write_file(folder / "report.html", page(result, pictures, repeating(args)))
     print(f"Report: {folder / 'report.html'}")
     return 0
 
@@ -90,19 +91,9 @@ def _compare(label: str, model: Model, dataset: Dataset) -> Comparison:
         return compare(model, dataset, label=label, about=SOURCES[label], progress=progress)
 
 
-def _report(comparisons: Sequence[Comparison], args: argparse.Namespace, pictures: dict[str, bytes]) -> str:
-    from pysim.cli.outputs import repeating
-    from pysim.report import comparison_page
-
-    # with fewer frequencies the largest deviations are others, and the thesis' tables cannot be held against them
-    remarks = [] if args.quick else [part for comparison in comparisons for part in _against_the_thesis(comparison)]
-    title = "The pump's swash plate against the transfer functions of thesis Table 4.1"
-    return comparison_page(title, comparisons, pictures=pictures, redo=repeating(args), remarks=remarks)
-
-
 def _against_the_thesis(comparison: Comparison) -> list[str]:
     """Our numbers beside the thesis' own, and why they differ."""
-    from pysim.report import cell, heading, items, table
+    from pysim.present.page import cell, heading, items, table
     from validation.thesis import differences, explain
 
     printed = _TABLES[comparison.label]

@@ -71,7 +71,7 @@ def reference_hz(text: str) -> float | None:
         raise argparse.ArgumentTypeError(f"{text!r} is no frequency; write a number in Hz, or none") from None
 
 
-def read_parameters(args: argparse.Namespace, model: Model) -> dict[str, float]:
+def read_parameters(args: argparse.Namespace | Given, model: Model) -> dict[str, float]:
     """Parameters of the model from both options.
 
     Raises:

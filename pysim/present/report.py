@@ -14,7 +14,9 @@ PAGE = "report.html"
 class View(Protocol):
     """A module of `pysim.present` that shows the results of one method.
 
-    It may also have `files(result) -> name -> content`, of what lies beside the page.
+    It may also have `files(result) -> name -> content`, of what lies beside the page, and where its JSON names all
+    files `placed(result, written, home) -> result`: `written` are the paths that `write_report` gives, `home` is the
+    folder of the JSON file.
     """
 
     def text(self, result: Any) -> str:

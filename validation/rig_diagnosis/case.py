@@ -63,7 +63,7 @@ def _numbers(machine: str, found: Diagnosis) -> Iterator[Finding]:
 
 def pictures() -> Mapping[str, Figure]:
     """The staircase of the error, and the friction that was found on that of the machine."""
-    from pysim.plot import diagnosis_ledger_figure
+    from pysim.present.diagnosis import diagnosis_ledger_figure
     from validation.rig_diagnosis.friction_figure import friction_figure
 
     found = answer("shaft.friction")

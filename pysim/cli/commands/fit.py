@@ -78,7 +78,7 @@ def run(given: Given) -> Fitted:
     return result
 
 
-def _forget(given: Given) -> None:
+def _forget(given: Given, _: Fitted) -> None:
     """Nothing is left to go on with; the lines of the log stay."""
     from pysim.identify.greybox.checkpoint import STATE
 

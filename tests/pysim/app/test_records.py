@@ -12,7 +12,7 @@ from pysim.app.jobs import ANSWER, RECORDS
 from pysim.app.project import Project
 from pysim.app.records import compared_overlay, measured_overlay, stage_keys
 from pysim.io import write_stages
-from pysim.report.diagnosis import diagnosis_data
+from pysim.present.diagnosis.answer import diagnosis_data
 from tests.pysim.diagnosis_story import dataset, story
 
 

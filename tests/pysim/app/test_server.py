@@ -21,7 +21,7 @@ from pysim.app.lock import held
 from pysim.app.server import free_port, overlay_of, page_address, serve
 from pysim.app.upload import Limits
 from pysim.io import read_stages, write_stages
-from pysim.report.diagnosis import diagnosis_data
+from pysim.present.diagnosis.answer import diagnosis_data
 from pysim.types import BadInput
 from tests.pysim.app.browser import Show, asked, base, server
 from tests.pysim.diagnosis_story import dataset, story

@@ -58,10 +58,10 @@ def diagnosed(undrawn: None, rubbing: Path, toy: list[str], tmp_path_factory: py
 @pytest.fixture(scope="session")
 def compared(rubbing: Path, toy: list[str], tmp_path_factory: pytest.TempPathFactory) -> Ran:
     """`pysim compare --refit`; nothing is plotted."""
-    from pysim.cli import _diagnosis_report
+    from pysim.present.diagnosis import shown
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(_diagnosis_report, "_figures", lambda found, dataset: iter(()))
+        patch.setattr(shown, "pictures", lambda found, dataset: iter(()))
         return ran(["compare", str(rubbing), *toy, "--refit"], tmp_path_factory.mktemp("compared"))
 
 

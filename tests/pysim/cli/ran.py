@@ -12,6 +12,8 @@ from typing import Any
 import pytest
 
 from pysim.cli import main
+from pysim.cli.command import Command, Given
+from pysim.cli.main import argument_parser, registry
 
 
 @dataclass(frozen=True)
@@ -55,3 +57,10 @@ def refused(words: Sequence[str], capsys: pytest.CaptureFixture[str], *named: st
     line = said.splitlines()[-1]
     missing = [word for word in named if word not in line]
     assert not missing, f"{shlex.join(words)}: {line!r} does not say {missing}"
+
+
+def parsed(words: Sequence[str]) -> Given:
+    """What a command of the new form is given; it is not run."""
+    command = registry()[words[0]]
+    assert isinstance(command, Command)
+    return Given(command, argument_parser(words[0]).parse_args(list(words)), (words[0],))

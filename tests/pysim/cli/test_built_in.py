@@ -7,9 +7,9 @@ import pytest
 from fmu_build import build
 from pysim.cli._built_in import built_in
 from pysim.cli._subject import read_subject
-from pysim.cli.main import argument_parser
 from pysim.io import read_model
 from pysim.types import BadInput
+from tests.pysim.cli.ran import parsed
 from tests.pysim.diagnose.toy import library
 
 
@@ -52,7 +52,7 @@ def test_candidates_of_an_fmu_have_the_values_that_it_was_built_with(rubbing: Pa
     fmu = build("Toy.Mass", tmp_path / "Mass.fmu", libraries=[library()], overrides={"m": 1.3})
     words = ["add", str(rubbing), "--effects", "toy.friction", "--free", "d,k", "--library", str(library())]
     for model in (["--model", str(fmu)], ["--model", "Toy.Mass", "--set", "m=1.3"]):
-        given = read_subject(argument_parser().parse_args([*words, *model]))
+        given = read_subject(parsed([*words, *model]))
         assert given.overrides == {"m": 1.3}
         assert given.subject.free == ("d", "k")
         assert all(run.experiment.overrides["m"] == 1.3 for target in given.subject.targets for run in target.runs)

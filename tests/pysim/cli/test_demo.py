@@ -14,6 +14,7 @@ import pytest
 
 from pysim.cli import _pictures, main
 from pysim.identify import TransferFunction
+from pysim.present import Drawing
 from pysim.types import Comparison, Experiment, Model, Record
 from tests.pysim import comparisons as linear
 from tests.pysim.cli.ran import refused
@@ -65,9 +66,9 @@ def demo(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Path:
         def __init__(self, workers: int, mp_context: object) -> None:
             super().__init__(1)
 
-    def draw_picture(comparisons: Sequence[Comparison], folder: Path, name: str) -> bytes:
-        (folder / name).write_bytes(b"drawn where compare is tested")
-        return b"<svg/>"
+    def draw_picture(comparisons: Sequence[Comparison], folder: Path, name: str) -> Drawing:
+        (folder / f"{name}.png").write_bytes(b"drawn where compare is tested")
+        return Drawing(name, name, b"<svg/>")
 
     monkeypatch.setattr("concurrent.futures.ProcessPoolExecutor", InThisProcess)
     monkeypatch.setattr(_pictures, "draw_picture", draw_picture)

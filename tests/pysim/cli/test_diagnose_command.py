@@ -8,12 +8,11 @@ import numpy as np
 import pytest
 
 from pysim.cli import main
-from pysim.cli._subject import Given, read_subject
-from pysim.cli.main import argument_parser
+from pysim.cli._subject import Named, read_subject
 from pysim.cli.outputs import MARKER
 from pysim.io import read_model, write_dataset
 from pysim.types import Record
-from tests.pysim.cli.ran import Ran, refused
+from tests.pysim.cli.ran import Ran, parsed, refused
 from tests.pysim.diagnose.toy import CATALOGUE, measured
 
 KEYS = {
@@ -103,9 +102,9 @@ def test_an_fmu_of_another_tool_is_compared_and_refitted(rubbing: Path, foreign:
     assert all(0.5 < found["parameters"][name]["value"] < 100 for name in ("m", "d", "k"))
 
 
-def given(*words: str) -> Given:
+def given(*words: str) -> Named:
     """What a command line of `diagnose` names."""
-    return read_subject(argument_parser().parse_args(["diagnose", *words]))
+    return read_subject(parsed(["diagnose", *words]))
 
 
 def test_all_that_the_slots_take_is_a_candidate_and_nothing_else(rubbing: Path, toy: list[str]) -> None:

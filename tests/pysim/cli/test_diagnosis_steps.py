@@ -10,13 +10,15 @@ from typing import Any
 import numpy as np
 import pytest
 
-from pysim.cli import _diagnosis_report, main
-from pysim.cli._story import JOURNAL, Story
+from pysim.cli import main
+from pysim.cli.live import Story
 from pysim.cli.outputs import MARKER
+from pysim.cli.steps import JOURNAL
 from pysim.diagnose import ledger
 from pysim.diagnose import story as diagnosis_story
 from pysim.identify.greybox.comparison import Compared
 from pysim.io import read_model, write_dataset
+from pysim.present.diagnosis import shown
 from pysim.types import FrequencyResponse, MeasuredRecord, SineTest, Told
 from tests.pysim.cli.ran import Ran, refused
 from tests.pysim.diagnose.toy import measured
@@ -26,7 +28,7 @@ from tests.pysim.diagnosis_story import story
 @pytest.fixture
 def unpictured(monkeypatch: pytest.MonkeyPatch) -> None:
     """Nothing is plotted either."""
-    monkeypatch.setattr(_diagnosis_report, "_figures", lambda found, dataset: iter(()))
+    monkeypatch.setattr(shown, "pictures", lambda found, dataset: iter(()))
 
 
 def stopped_at(step: str) -> Callable[[Story, Told], None]:

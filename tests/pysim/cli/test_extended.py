@@ -12,13 +12,14 @@ import pytest
 
 import pysim.cli
 from fmu_build.cli import main as fmu_build_main
-from pysim.cli._extended import extended_name, relative_files, write_extended
-from pysim.cli._subject import Given
+from pysim.cli._extended import extended_name, write_extended
+from pysim.cli._subject import Named
 from pysim.cli._variants import Variants
 from pysim.cli.options import parameters_of
 from pysim.cli.outputs import quoted
 from pysim.diagnose import add
 from pysim.io import read_model
+from pysim.present.diagnosis import relative_files
 from pysim.types import Diagnosis, Effect
 from tests.pysim.diagnose.toy import CATALOGUE, library, measured, toy_subject
 
@@ -45,12 +46,12 @@ def found() -> Diagnosis:
     return add(toy_subject(measured(1, "toy.friction", F_c=0.4)), [CATALOGUE["toy.friction"]])
 
 
-def given(variants: type[Variants] = Unbuilt) -> Given:
+def given(variants: type[Variants] = Unbuilt) -> Named:
     data = measured(1, "toy.friction", F_c=0.4)
-    return Given(toy_subject(data), data, variants("Toy.Mass", [library()]), {}, (library(),))
+    return Named(toy_subject(data), data, variants("Toy.Mass", [library()]), {}, (library(),))
 
 
-def head(found: Diagnosis, given: Given, folder: Path, place: Path | None = None) -> str:
+def head(found: Diagnosis, given: Named, folder: Path, place: Path | None = None) -> str:
     """What stands ahead of the class."""
     return write_extended(found, given, folder, place=place)["modelica"].read_text()
 

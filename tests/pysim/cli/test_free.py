@@ -7,15 +7,15 @@ import pytest
 
 from pysim.cli import main
 from pysim.cli._free import free_parameters
-from pysim.cli._subject import Given, read_subject
-from pysim.cli.main import argument_parser
+from pysim.cli._subject import Named, read_subject
 from pysim.types import BadInput
+from tests.pysim.cli.ran import parsed
 from tests.pysim.diagnose.toy import base
 
 
-def given(*words: str) -> Given:
+def given(*words: str) -> Named:
     """What a command line of `compare --refit` names."""
-    return read_subject(argument_parser().parse_args(["compare", *words, "--refit"]))
+    return read_subject(parsed(["compare", *words, "--refit"]))
 
 
 def as_it_is(words: list[str], tmp_path: Path) -> dict[str, float]:

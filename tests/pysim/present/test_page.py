@@ -5,7 +5,10 @@ import re
 from dataclasses import replace
 from html.parser import HTMLParser
 
-from pysim.report import comparison_page, paragraph, picture
+from pysim.present import Drawing
+from pysim.present.comparison import Comparisons
+from pysim.present.comparison import page as comparison_page
+from pysim.present.page import paragraph, picture
 from tests.pysim.comparisons import comparison
 
 _VOID = {"meta", "img", "br", "link", "input", "hr"}
@@ -42,7 +45,7 @@ def checked(html: str) -> Checker:
 def test_page_is_whole_and_needs_no_network() -> None:
     sets = [comparison("A"), comparison("B <odd>", error_db=3.0, fails=1)]
     html = comparison_page(
-        "Title & all", sets, pictures={"A picture": b"<svg/>"}, redo="pysim demo", remarks=["<p>x</p>"]
+        Comparisons("Title & all", tuple(sets), ("<p>x</p>",)), [Drawing("a", "A picture", b"<svg/>")], "pysim demo"
     )
     page = checked(html)
     assert [address for address in page.addresses if not address.startswith("data:")] == []
@@ -60,7 +63,7 @@ def test_the_page_says_what_it_takes_to_do_it_again() -> None:
         parameters={"K_p": (42.445, "1"), "rho": (875.0, "kg/m3")},
     )
     locked = replace(free, label="locked", parameters={"K_p": (40.0, "1"), "rho": (875.0, "kg/m3")})
-    html = comparison_page("t", [free, locked], pictures={}, redo="")
+    html = comparison_page(Comparisons("t", (free, locked)), [], "")
     checked(html)
     assert '<tr><td>K_p</td><td>1</td><td class="differs">42.445</td><td class="differs">40</td></tr>' in html
     assert "<tr><td>rho</td><td>kg/m3</td><td>875</td><td>875</td></tr>" in html
@@ -70,14 +73,14 @@ def test_the_page_says_what_it_takes_to_do_it_again() -> None:
 def test_what_stands_for_the_measurements_is_named() -> None:
     one = comparison("A")
     tests = tuple(replace(t, measured=replace(t.measured, origin="transfer function, Table 9")) for t in one.tests)
-    text = checked(comparison_page("t", [replace(one, tests=tests)], pictures={}, redo="")).text
+    text = checked(comparison_page(Comparisons("t", (replace(one, tests=tests),)), [], "")).text
     assert "The model is held against: transfer function, Table 9." in text
     assert "absolute deviation from transfer function, Table 9" in text
     assert "measured" not in text.replace("not measured", "")
 
 
 def test_what_is_beyond_a_limit_is_marked() -> None:
-    html = comparison_page("t", [comparison("B", error_db=3.0)], pictures={}, redo="")
+    html = comparison_page(Comparisons("t", (comparison("B", error_db=3.0),)), [], "")
     assert re.findall(r'<td class="beyond">([\d.]+)</td>', html) == ["2.25", "3.00"] * 4
     assert html.count('<td class="fail">fail</td>') == 4
 

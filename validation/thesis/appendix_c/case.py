@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from pysim.diagnose import compare
 from pysim.io import read_dataset
-from pysim.plot import bode_figure, deviation_figure
+from pysim.present.comparison import bode_figure, deviation_figure
 from pysim.types import Comparison
 from validation.findings import Finding
 from validation.pump import pump_model

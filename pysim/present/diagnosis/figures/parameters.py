@@ -5,13 +5,16 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 from pysim.present.style import BAND, COLOURS, LIMIT, SMALL, TEXT, legend_above, new_figure, quiet
 from pysim.types import BadInput, Estimate, Stage
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 _LEAST = 0.1  # half widths of an interval at which the axis of the moves begins
 

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from pysim.plot import missing_figure
+from pysim.present.diagnosis import missing_figure
 from pysim.types import BadInput, Missing, Shape
 
 V = np.linspace(-0.3, 0.3, 61)

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from pysim.cli._story import Story, StoryFile, block, left
+from pysim.cli.live import Story, StoryFile, block, left
 from pysim.types import LedgerStep, Told
 from pysim.types.diagnosis import standing
 from tests.pysim.diagnosis_story import step, story

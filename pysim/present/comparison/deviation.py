@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 from pysim.identify import FREQUENCY_CRITERIA
 from pysim.io import shown_unit
 from pysim.present.style import COLOURS, LIMIT, MARKERS, SMALL, TEXT, legend_above, new_figure, quiet
 from pysim.types import Comparison, Criterion
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 
 def deviation_figure(comparisons: Sequence[Comparison]) -> Figure:

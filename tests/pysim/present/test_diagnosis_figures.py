@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from pysim.plot import (
+from pysim.present.diagnosis import (
     diagnosis_failures_figure,
     diagnosis_ledger_figure,
     diagnosis_map_figure,

@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 from pysim.identify import FREQUENCY_CRITERIA, magnitude_db
 from pysim.io import shown_point
@@ -25,6 +23,10 @@ from pysim.present.style import (
     quiet,
 )
 from pysim.types import BadInput, Comparison, FrequencyResponse, ResponseComparison
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 _MAX_DB, _MAX_DEG = FREQUENCY_CRITERIA[1].limit, FREQUENCY_CRITERIA[3].limit
 

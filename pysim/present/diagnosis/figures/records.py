@@ -4,16 +4,19 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
-from matplotlib.artist import Artist
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 from pysim.identify import HALF_95
 from pysim.io import shown_unit
 from pysim.present.style import BAND, COLOURS, DASHES, LIMIT, MEASURED, SMALL, TEXT, legend_above, new_figure, quiet
 from pysim.types import BadInput, Diagnosis, RecordFit, Stage
+
+if TYPE_CHECKING:
+    from matplotlib.artist import Artist
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 _PERIODS = 2.0  # of a stepped sine that are shown
 _STRETCH = 2.0  # s of another log that are shown, where the refitted model fails most

@@ -7,7 +7,7 @@ import textwrap
 from collections.abc import Mapping, Sequence
 
 from pysim.io import json_number
-from pysim.report.diagnosis_words import limits_words, next_test_sentence, verdict_sentence
+from pysim.present.diagnosis.words import limits_words, next_test_sentence, verdict_sentence
 from pysim.types import Estimate
 from pysim.types.diagnosis import AddedEffect, Candidate, Diagnosis, LedgerStep, Missing, NextTest
 

@@ -4,13 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
-from matplotlib.patches import Patch
-from matplotlib.ticker import FixedLocator, NullLocator, StrMethodFormatter
 
 from pysim.identify.accuracy import FREQUENCY_CRITERIA, TIME_CRITERIA
 from pysim.present.style import (
@@ -27,6 +23,10 @@ from pysim.present.style import (
     quiet,
 )
 from pysim.types import BadInput, Candidate, Criterion, Diagnosis, LedgerStep
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 _CRITERIA = {c.symbol: c for c in (*FREQUENCY_CRITERIA, *TIME_CRITERIA)}
 _TICKS = tuple(digit * 10.0**power for power in range(-2, 7) for digit in (1, 2, 5))
@@ -71,6 +71,8 @@ def _staircase(figure: Figure, axes: Axes, steps: Sequence[LedgerStep]) -> None:
     known = [v for values in lines.values() for v in values if v is not None]
     low, high = min([0.72, *(0.72 * v for v in known)]), max([1.6, *(1.7 * v for v in known)])
     axes.set_ylim(low, high)
+    from matplotlib.ticker import FixedLocator, NullLocator, StrMethodFormatter
+
     axes.yaxis.set_major_locator(FixedLocator([t for t in _TICKS if low <= t <= high]))
     axes.yaxis.set_minor_locator(NullLocator())
     axes.yaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
@@ -160,6 +162,8 @@ def diagnosis_ranking_figure(diagnosis: Diagnosis) -> Figure:
         axes.set_title("" if len(rounds) == 1 else f"Round {number}", fontsize=TEXT, loc="left")
     words = "Gain less price: fall of the sum of squares over noise, less ln n per parameter"
     panels[-1].set_xlabel(words, fontsize=TEXT)
+    from matplotlib.patches import Patch
+
     kinds = {"added": Patch(facecolor=COLOURS[0])} if {e.effect.name for e in diagnosis.added} - set(groups) else {}
     kinds |= {
         "refitted": Patch(facecolor=COLOURS[5]),

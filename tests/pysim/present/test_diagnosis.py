@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from pysim.report.diagnosis import diagnosis_data, diagnosis_text, evidence_text
-from pysim.report.diagnosis_page import diagnosis_page
-from pysim.report.diagnosis_words import (
+from pysim.present.diagnosis.answer import diagnosis_data, diagnosis_text, evidence_text
+from pysim.present.diagnosis.page import diagnosis_page
+from pysim.present.diagnosis.words import (
     added_sentence,
     comparison_sentence,
     limits_sentence,

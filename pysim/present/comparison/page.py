@@ -2,32 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 from pysim.identify import FREQUENCY_CRITERIA
-from pysim.present.page import cell, commands, heading, items, page, paragraph, picture, table
-from pysim.report.text import note_text, verdict_text
+from pysim.present.comparison.answer import Comparisons, note_text, verdict_text
+from pysim.present.page import cell, commands, heading, items, paragraph, picture, table
+from pysim.present.page import page as whole_page
+from pysim.present.render import Drawing
 from pysim.types import Comparison, ResponseComparison
 
 _DIGITS = (2, 2, 1, 1)
 
 
-def comparison_page(
-    title: str,
-    comparisons: Sequence[Comparison],
-    *,
-    pictures: Mapping[str, bytes],
-    redo: str,
-    remarks: Sequence[str] = (),
-) -> str:
-    """A self-contained HTML page: what was done, verdicts with their caveat, pictures, remarks, how to redo it.
-
-    Args:
-        comparisons: parameter sets against one data set.
-        pictures: caption -> SVG, in the order they are shown.
-        redo: the command line that makes this page again.
-        remarks: sections of HTML to put behind the pictures.
-    """
+def page(result: Comparisons, drawings: Sequence[Drawing], redo: str) -> str:
+    """What was done, verdicts with their caveat, pictures, remarks, how to redo it."""
+    comparisons = result.sets
     first = comparisons[0]
     models = "; ".join(f"{comparison.label}: {comparison.model}" for comparison in comparisons)
     parts = [heading("Verdict"), items(f"{c.label}: {verdict_text(c)}" for c in comparisons)]
@@ -37,9 +26,9 @@ def comparison_page(
     for comparison in comparisons:
         parts += [heading(f"Test by test: {comparison.label}"), comparison_table(comparison)]
         parts += note
-    parts += [heading("Pictures"), *(picture(svg, caption) for caption, svg in pictures.items())]
-    parts += [*remarks, heading("Do it again"), commands(redo)]
-    return page(title, f"{models}; held against: {first.dataset}, {first.measured_name}.", parts)
+    parts += [heading("Pictures"), *(picture(one.svg, one.caption) for one in drawings)]
+    parts += [*result.remarks, heading("Do it again"), commands(redo)]
+    return whole_page(result.title, f"{models}; held against: {first.dataset}, {first.measured_name}.", parts)
 
 
 def comparison_table(comparison: Comparison) -> str:

@@ -3,17 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from matplotlib.artist import Artist
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
-from numpy.typing import NDArray
 from scipy.special import chdtri
 
 from pysim.identify.residual_spectrum import FEWEST, residual_spectrum
-from pysim.plot.diagnosis_records import same_record, stages_compared
+from pysim.present.diagnosis.figures.records import same_record, stages_compared
 from pysim.present.style import (
     BAND,
     COLOURS,
@@ -29,7 +25,13 @@ from pysim.present.style import (
 )
 from pysim.types import BadInput, Diagnosis, RecordFit
 
-Array = NDArray[np.float64]
+if TYPE_CHECKING:
+    from matplotlib.artist import Artist
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+    from numpy.typing import NDArray
+
+    Array = NDArray[np.float64]
 
 _MANY = 3  # logs shown
 

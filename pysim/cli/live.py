@@ -1,14 +1,12 @@
-"""A diagnosis as it unfolds on the terminal, and what is written when it has ended."""
+"""A diagnosis as it unfolds, on the terminal and in a file that another program follows."""
 
 from __future__ import annotations
 
-import argparse
 import shutil
 import sys
 import threading
 import time
-from collections.abc import Callable, Sequence
-from dataclasses import replace
+from collections.abc import Sequence
 from pathlib import Path
 from types import TracebackType
 from typing import TYPE_CHECKING
@@ -17,10 +15,8 @@ from pysim.cli.terminal import draws_over
 from pysim.types.diagnosis import standing
 
 if TYPE_CHECKING:
-    from pysim.cli._subject import Given
-    from pysim.types import Diagnosis, LedgerStep, Told
+    from pysim.types import LedgerStep, Told
 
-JOURNAL = "journal.jsonl"  # in --output, until the answer is written
 _LEARNED = 4  # last lines kept in sight
 _BAR = 24
 _PAUSE = 0.5  # s between two drawings
@@ -143,7 +139,7 @@ class StoryFile:
         """Write one line; a reader never sees half of one that it cannot tell."""
         import json
 
-        from pysim.report.diagnosis import step_data
+        from pysim.present.diagnosis.answer import step_data
 
         elapsed = time.monotonic() - self._begun
         if told.step is not None:
@@ -156,90 +152,3 @@ class StoryFile:
         line |= {"text": told.text, "step": None if told.step is None else step_data(told.step)}
         with self._path.open("a", encoding="utf-8") as file:
             file.write(json.dumps(line) + "\n")
-
-
-def unfold(
-    given: Given, args: argparse.Namespace, work: Callable[[Callable[[Told], None], Path | None], Diagnosis]
-) -> Diagnosis:
-    """Run steps of the diagnosis and show them; in `--output` lies a journal from which a stopped run goes on.
-
-    Args:
-        work: the steps, handed what tells and the journal's place.
-    Raises:
-        KeyboardInterrupt: stopped by the user; says how to go on.
-    """
-    from pysim.types import Told
-
-    journal = args.output / JOURNAL if args.output else None
-    try:
-        with Story(f"{given.dataset.name}: {given.model_name}") as story:
-            told: list[Callable[[Told], None]] = [story, *([StoryFile(args.story)] if args.story else [])]
-
-            def tell(what: Told) -> None:
-                for one in told:
-                    one(what)
-
-            found = work(tell, journal)
-            for one in told[1:]:  # a program that follows is told why it does not end yet
-                one(Told("writing report and files"))
-            return found
-    except KeyboardInterrupt:
-        cure = "the same command goes on where it was" if journal else "with --output DIR a run can be gone on with"
-        raise KeyboardInterrupt(cure) from None
-
-
-def finish(
-    found: Diagnosis,
-    given: Given,
-    args: argparse.Namespace,
-    *,
-    question: str = "Which effect is missing?",
-    answer: str = "",
-) -> None:
-    """Write the report, the fitted model and the JSON answer, where they were asked for, in place of an earlier answer.
-
-    Args:
-        question, answer: what leads the report; the verdict where empty.
-    """
-    import json
-
-    from pysim.cli._diagnosis_report import write_diagnosis
-    from pysim.cli._extended import relative_files
-    from pysim.cli.outputs import answer_folder, repeating, results_beside
-    from pysim.io import write_file, write_stages
-    from pysim.report.diagnosis import diagnosis_data
-
-    redo = repeating(args)
-    found = replace(found, conditions={**_conditions(given, args, redo), **found.conditions})
-    files: dict[str, Path] = {}
-    if args.output:
-        print("Drawing the report ...", file=sys.stderr)
-        with answer_folder(args.output, beside=results_beside(args)) as new:
-            files = write_diagnosis(found, given, new, redo, question=question, answer=answer, place=args.output)
-        files = {name: args.output / path.name for name, path in files.items()}
-        print(f"Report: {args.output / 'report.html'}")
-    if args.records:
-        write_stages(args.records, found.stages)
-    if args.json:
-        relative = relative_files(files, args.json.parent)
-        write_file(args.json, json.dumps(diagnosis_data(found, relative), indent=1, allow_nan=False) + "\n")
-    if args.output:  # nothing is left to go on with; the next question may use the folder
-        (args.output / JOURNAL).unlink(missing_ok=True)
-
-
-def _conditions(given: Given, args: argparse.Namespace, redo: str) -> dict[str, str]:
-    """What it takes to repeat it."""
-    from pysim.diagnose.conditions import versions
-
-    model = given.subject.model
-    found = {
-        "model": f"{given.model_name}, FMI {model.abilities.fmi}, token {model.token}",
-        "data set": f"{given.dataset.name}, {len(given.dataset.records)} records, {args.data}",
-        "libraries": ", ".join(str(library) for library in given.libraries) or "the one that comes along",
-        "free parameters": ", ".join(given.subject.free) or "none",
-        "parameters set": ", ".join(f"{name} = {value:g}" for name, value in given.overrides.items()) or "none",
-        "candidates": ", ".join(effect.name for effect in given.subject.catalogue) or "none",
-    }
-    if hasattr(args, "seed"):
-        found["seed"] = str(args.seed)
-    return {**found, "versions": versions(), "command": redo}

@@ -5,20 +5,23 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.colors import LogNorm
-from matplotlib.figure import Figure
-from matplotlib.image import AxesImage
-from numpy.typing import NDArray
 
 from pysim.io import shown_point
-from pysim.plot.diagnosis_records import base_of, stages_compared
+from pysim.present.diagnosis.figures.records import base_of, stages_compared
 from pysim.present.style import BAND, COLOURS, LIMIT, SMALL, TEXT, legend_above, new_figure, quiet
 from pysim.types import BadInput, Dataset, Diagnosis, MeasuredRecord, RecordFit, Stage
 
-Array = NDArray[np.float64]
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.colors import LogNorm
+    from matplotlib.figure import Figure
+    from matplotlib.image import AxesImage
+    from numpy.typing import NDArray
+
+    Array = NDArray[np.float64]
 
 _WINDOWS = 12  # of a log over time
 _WORST = 12  # places shown by rank
@@ -47,6 +50,8 @@ def diagnosis_map_figure(diagnosis: Diagnosis, dataset: Dataset) -> Figure:
     Raises:
         BadInput: no log was compared.
     """
+    from matplotlib.colors import LogNorm
+
     shown = [(name, stage) for name, stage, _ in stages_compared(diagnosis)]
     if not any(stage.records for _, stage in shown):
         raise BadInput("residual map: no log over time was compared")

@@ -9,8 +9,9 @@ import pytest
 from matplotlib.figure import Figure
 
 from pysim.identify import magnitude_db
-from pysim.plot import bode_figure, deviation_figure, render, time_response_figure
-from pysim.present import style
+from pysim.plot import time_response_figure
+from pysim.present import render, style
+from pysim.present.comparison import bode_figure, deviation_figure
 from pysim.present.style import new_figure
 from pysim.types import BadInput, Record, SineTest
 from tests.pysim.comparisons import comparison

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from pysim.identify.accuracy import FREQUENCY_CRITERIA, TIME_CRITERIA
-from pysim.present.page import cell, commands, heading, items, page, paragraph, picture, statement, table
-from pysim.report.diagnosis_words import (
+from pysim.present.diagnosis.words import (
     chance_text,
     limits_words,
     next_test_sentence,
@@ -15,6 +14,7 @@ from pysim.report.diagnosis_words import (
     sizes,
     verdict_sentence,
 )
+from pysim.present.page import cell, commands, heading, items, page, paragraph, picture, statement, table
 from pysim.types import AddedEffect, Candidate, Diagnosis, Estimate, LedgerStep, Missing, Stage
 
 # Section of the page -> SVG by caption.

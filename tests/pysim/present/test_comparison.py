@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 
-from pysim.report import comparison_page, comparison_text
+from pysim.present.comparison import Comparisons, comparison_text, page
 from tests.pysim.comparisons import comparison
 
 
@@ -26,5 +26,5 @@ def test_a_run_that_failed_says_why() -> None:
 def test_a_data_set_without_a_description_adds_no_line() -> None:
     silent = replace(comparison("set A", error_db=1.0), note="-")
     assert comparison_text(silent).splitlines()[-1] == "0 of 1 independent tests pass (0 of 4 rows)."
-    assert 'class="note"' not in comparison_page("t", [silent], pictures={}, redo="")
-    assert 'class="note"' in comparison_page("t", [comparison("set A")], pictures={}, redo="")
+    assert 'class="note"' not in page(Comparisons("t", (silent,)), [], "")
+    assert 'class="note"' in page(Comparisons("t", (comparison("set A"),)), [], "")

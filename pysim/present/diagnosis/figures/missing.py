@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from matplotlib.figure import Figure
+from typing import TYPE_CHECKING
 
 from pysim.io import shown_unit
 from pysim.present.style import COLOURS, LIMIT, SMALL, TEXT, legend_above, new_figure, quiet
 from pysim.types import BadInput, Missing
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 _KINDS = {"N": "force", "m3/s": "flow", "Pa": "pressure", "N.m": "torque", "m": "position", "rad": "angle"}
 

@@ -1,0 +1,44 @@
+"""`pysim add`."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from pysim.cli.command import Command, Given
+from pysim.cli.option import names
+from pysim.cli.steps import SUBJECT, end_step, results, run_step, write_model
+
+if TYPE_CHECKING:
+    from pysim.present.diagnosis import Diagnosed
+
+
+def run(given: Given) -> Diagnosed:
+    """What each effect does to the error, on fitted and held-out data."""
+    from pysim.cli._subject import effects_of, read_subject
+    from pysim.diagnose import add
+    from pysim.present.diagnosis.words import added_sentence
+
+    named = read_subject(given)
+    effects = effects_of(given.effects, named)
+    return run_step(
+        given,
+        named,
+        lambda story, journal: add(named.subject, effects, progress=story, journal=journal),
+        question="What do the effects mend?",
+        answer=added_sentence,
+    )
+
+
+COMMAND = Command(
+    "add",
+    "Add effects to a model, refit everything, and write the extended class with its FMU.",
+    run,
+    options=(
+        *SUBJECT,
+        names("--effects", "to add, by their standard names, in order", required=True),
+        *results(", parameters.toml, the extended class and its FMU"),
+    ),
+    view="pysim.present.diagnosis",
+    files=write_model,
+    done=end_step,
+)

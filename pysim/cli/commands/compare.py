@@ -1,0 +1,116 @@
+"""`pysim compare`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from pysim.cli.command import Command, Given
+from pysim.cli.option import switch
+from pysim.cli.steps import SUBJECT, end_step, results, run_step, write_model
+
+if TYPE_CHECKING:
+    from pysim.present.comparison import Comparisons
+    from pysim.present.diagnosis import Diagnosed
+    from pysim.types import Comparison, Dataset
+
+
+def run(given: Given) -> Comparisons | Diagnosed:
+    """Responses are compared by driving the model through the tests they stand for, logs over time sample by sample.
+
+    Logs are compared in units of their noise; with --refit both are, as the model is and refitted.
+    """
+    from pysim.present.comparison import Comparisons
+
+    dataset = given.dataset
+    if not given.refit:
+        _refuse_idle(given)
+    if given.refit or given.records or given.story or not dataset.responses():
+        return _logs(given)
+    if dataset.logs():
+        print(
+            f"Compared are tables of frequency responses alone ({len(dataset.responses())}), not the logs over time "
+            f"beside them ({len(dataset.logs())}): --refit takes the logs, or give them a data set of their own.\n"
+        )
+    return Comparisons("A model against its measurements", (_responses(given, dataset),))
+
+
+def _refuse_idle(given: Given) -> None:
+    """Nothing is free where nothing is refitted."""
+    from pysim.types import BadInput
+
+    for option in ("free", "bounds"):
+        if given.typed[option]:
+            raise BadInput(f"--{option}: nothing is refitted without --refit; add that, or leave --{option} out")
+
+
+def _logs(given: Given) -> Diagnosed:
+    """Every record beside the model as it is, and refitted where that is asked for."""
+    from pysim.cli._subject import read_subject
+    from pysim.diagnose import against
+    from pysim.present.diagnosis.words import comparison_sentence
+
+    named = read_subject(given, refits=given.refit)
+    return run_step(
+        given,
+        named,
+        lambda story, journal: against(
+            named.subject,
+            refitted=given.refit,
+            progress=lambda told: None if told.text.startswith("verdict:") else story(told),  # of a diagnosis
+            journal=journal,
+        ),
+        question="How far is the model from its measurements?",
+        answer=comparison_sentence,
+    )
+
+
+def _responses(given: Given, dataset: Dataset) -> Comparison:
+    from pysim.cli.options import chosen_reference, read_parameters
+    from pysim.cli.progress import announce_compilation
+    from pysim.diagnose import compare
+    from pysim.io import in_model_units
+
+    reference_hz = chosen_reference(given.reference_hz, dataset.responses())
+    model, name = given.model, given.typed["model"]
+    overrides = read_parameters(given, model)
+    announce_compilation()
+    with given.progress("stepped sines") as progress:
+        return compare(
+            model,
+            in_model_units(dataset, model),
+            overrides=overrides,
+            label=Path(name).stem if name.lower().endswith(".fmu") else name,
+            reference_hz=reference_hz,
+            progress=progress,
+        )
+
+
+def _of_responses(result: Any) -> bool:
+    from pysim.present.comparison import Comparisons
+
+    return isinstance(result, Comparisons)
+
+
+def _passes(result: Any) -> bool:
+    """Whether every test is within the limits."""
+    if _of_responses(result):
+        return all(one.passes for one in result.sets)
+    last = result.found.error[-1]
+    return bool(last.passes and last.criteria)
+
+
+COMMAND = Command(
+    "compare",
+    "Hold a model against measurements and judge it by thesis Tables 1.3 and 1.4; with --refit also refitted.",
+    run,
+    options=(
+        *SUBJECT,
+        switch("--refit", "refit within the bounds too, and say where it fails"),
+        *results(", with --refit parameters.toml"),
+    ),
+    view=lambda result: f"pysim.present.{'comparison' if _of_responses(result) else 'diagnosis'}",
+    passes=_passes,
+    files=lambda given, result, folder: result if given.opened is None else write_model(given, result, folder),
+    done=lambda given, result: None if given.opened is None else end_step(given, result),
+)

@@ -1,0 +1,40 @@
+"""`pysim locate`."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from pysim.cli.command import Command, Given
+from pysim.cli.option import names
+from pysim.cli.steps import SUBJECT, end_step, results, run_step, write_model
+
+if TYPE_CHECKING:
+    from pysim.present.diagnosis import Diagnosed
+
+
+def run(given: Given) -> Diagnosed:
+    """The places with the term that each would need."""
+    from pysim.cli._subject import effects_of, read_subject
+    from pysim.diagnose import located
+    from pysim.present.diagnosis.words import missing_sentence
+
+    named, there = read_subject(given), getattr(given, "with")  # a word of Python
+    effects = effects_of(there, named, "--with") if there else ()
+    return run_step(
+        given,
+        named,
+        lambda story, journal: located(named.subject, effects, progress=story, journal=journal),
+        question="Where is what missing?",
+        answer=missing_sentence,
+    )
+
+
+COMMAND = Command(
+    "locate",
+    "Estimate what is missing at each place of a model, and its shape, without naming an effect.",
+    run,
+    options=(*SUBJECT, names("--with", "effects that the model is to have already"), *results(", parameters.toml")),
+    view="pysim.present.diagnosis",
+    files=write_model,
+    done=end_step,
+)
