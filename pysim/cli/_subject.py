@@ -189,15 +189,14 @@ def named_effects(
     Raises:
         BadInput: one that is not in the catalogue, or that no slot of the model takes.
     """
+    from pysim.cli.option import did_you_mean
     from pysim.types import BadInput
 
     known, fit = {effect.name for effect in catalogue}, {effect.name: effect for effect in taken}
     for name in names:
         if name not in known:
-            from pysim.cli.option import did_you_mean
-
-            near = did_you_mean(name, known)
-            raise BadInput(f"{option} {name}: not in the catalogue{near}; it has {', '.join(sorted(known))}")
+            near = did_you_mean(name, known) or f"; it has {', '.join(sorted(known))}"
+            raise BadInput(f"{option} {name}: not in the catalogue{near}")
         if name not in fit:
             raise BadInput(
                 f"{option} {name}: no slot of {class_name} takes it; its slots take {', '.join(fit) or 'none of them'}"
