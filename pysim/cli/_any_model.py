@@ -13,18 +13,6 @@ if TYPE_CHECKING:
 WHAT = "an .fmu, or a Modelica class"
 
 
-def add_data_and_model(parser: argparse.ArgumentParser, model: str = WHAT, *, several: bool = False) -> None:
-    """`DATASET --model MODEL`, as `data` (a path, or paths) and `model` (text).
-
-    Args:
-        model: what it may be, for the help.
-        several: whether more than one data set may be named.
-    """
-    what = f"folder with a dataset.toml{'; several are taken together' if several else ''}"
-    parser.add_argument("data", metavar="DATASET", type=Path, nargs="+" if several else None, help=what)
-    parser.add_argument("--model", metavar="MODEL", required=True, help=model)
-
-
 def add_library(parser: argparse.ArgumentParser, of: str = "the model") -> None:
     """`--library`."""
     parser.add_argument(

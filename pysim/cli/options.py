@@ -21,7 +21,6 @@ if TYPE_CHECKING:
     from pysim.types import Dataset, FrequencyResponse, Model, Variable
 
 THESIS_HZ = 0.1
-SEED = "seed of the random draws; the same seed gives the same answer (0)"
 _BY_DATA = -1.0  # of `--reference-hz`, where it was not said
 
 
@@ -44,15 +43,6 @@ def add_names(parser: argparse.ArgumentParser, option: str, *, what: str, requir
     parser.add_argument(
         option, metavar="NAME,...", action="append", default=[], required=required, help=f"{what}; commas or repeat"
     )
-
-
-def add_reference(parser: argparse.ArgumentParser) -> None:
-    """`--reference-hz`, for `chosen_reference`."""
-    about = (
-        "frequency in Hz whose gain counts as 0 dB, or none for absolute gains "
-        f"({THESIS_HZ:g} where every test measured it, else none)"
-    )
-    parser.add_argument("--reference-hz", metavar="HZ", type=reference_hz, default=_BY_DATA, help=about)
 
 
 def chosen_reference(given: float | None, responses: Iterable[FrequencyResponse]) -> float | None:

@@ -227,8 +227,3 @@ def _inside(folder: Path, paths: Iterable[Path | None]) -> set[str]:
 
 def _is_unfinished(name: str) -> bool:
     return _UNFINISHED.fullmatch(name) is not None
-
-
-def results_beside(args: argparse.Namespace) -> list[Path | None]:
-    """What a step writes beside the folder of its answer."""
-    return [args.json, args.records, args.story]
