@@ -60,10 +60,12 @@ def _deviations(deviations: Sequence[Deviation]) -> str:
 
 
 def numbers(one: FittedResponse) -> tuple[FittedNumber, ...]:
+    """Coefficients, dead time and gain."""
     return (*one.fit.estimates(), one.fit.gain())
 
 
 def misfit(one: FittedResponse) -> str:
+    """How far the fit is from the data, or how it was weighted where the noise is not known."""
     fit = one.fit
     if fit.noise_known:
         return f"misfit {fit.misfit:.1f} for {fit.freedom} degrees of freedom (probability {fit.explains:.2g})"
@@ -76,6 +78,7 @@ def upper(roots: Sequence[Root]) -> list[Root]:
 
 
 def root_text(root: Root, quantile: float) -> str:
+    """A pole or zero with half its interval, `quantile` standard deviations."""
     value = root.value
     if value.imag == 0:
         return f"{value.real:.6g} ± {quantile * np.sqrt(root.covariance[0, 0]):.2g} rad/s"

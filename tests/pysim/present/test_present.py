@@ -6,8 +6,6 @@ import sys
 from importlib import import_module
 from pathlib import Path
 
-import pytest
-
 from pysim import present
 from pysim.cli.command import Command
 from pysim.cli.main import registry
@@ -16,15 +14,14 @@ BASE = {"notes", "page", "render", "report", "style", "ticks"}
 METHODS = sorted({one.name for one in pkgutil.iter_modules(present.__path__)} - BASE)
 
 
-@pytest.mark.parametrize("name", METHODS)
-def test_a_method_has_all_that_a_command_needs(name: str) -> None:
-    module = import_module(f"pysim.present.{name}")
-    assert all(callable(getattr(module, part)) for part in ("text", "data", "figures", "page"))
-
-
-def test_what_a_command_names_as_its_view_is_there() -> None:
-    views = {one.view for one in registry().values() if isinstance(one, Command) and isinstance(one.view, str)} - {""}
-    assert {view.removeprefix("pysim.present.") for view in views} <= set(METHODS)
+def test_every_view_has_all_that_its_command_needs() -> None:
+    commands = [one for one in registry().values() if isinstance(one, Command)]
+    commands += [part for one in commands for part in one.parts]
+    views = {one.view: "output" in {option.key for option in one.options} for one in commands}
+    for view, reports in views.items():
+        if isinstance(view, str) and view:
+            needed = ("text", "data", *(("figures", "page") if reports else ()))
+            assert all(callable(getattr(import_module(view), part)) for part in needed), view
 
 
 def test_methods_are_imported_without_matplotlib() -> None:
