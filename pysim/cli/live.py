@@ -12,7 +12,6 @@ from types import TracebackType
 from typing import TYPE_CHECKING
 
 from pysim.cli.terminal import draws_over
-from pysim.types.diagnosis import standing
 
 if TYPE_CHECKING:
     from pysim.types import LedgerStep, Told
@@ -50,6 +49,8 @@ class Story:
         with self._lock:
             self._stage = told.stage
             if told.step is not None:
+                from pysim.types.diagnosis import standing
+
                 self._steps = standing([*self._steps, told.step], lambda step: step.step)
             elif told.text:
                 self._learned = [*self._learned, told.text][-_LEARNED:]
@@ -143,6 +144,8 @@ class StoryFile:
 
         elapsed = time.monotonic() - self._begun
         if told.step is not None:
+            from pysim.types.diagnosis import standing
+
             self._steps = standing([*self._steps, told.step], lambda step: step.step)
         line: dict[str, object] = {
             "seconds": round(elapsed, 3),
