@@ -18,7 +18,7 @@ from pysim.control.tuning import (
     steady_above,
     tune_pi,
 )
-from pysim.plot.tuning import tuning_figure
+from pysim.present.tuning import tuning_figure
 from validation.findings import Finding
 
 

@@ -4,6 +4,7 @@ from pathlib import Path
 import pytest
 
 from pysim.cli import main
+from pysim.cli.outputs import MARKER
 from tests.pysim.cli.ran import refused
 
 
@@ -14,7 +15,7 @@ def test_gains_of_the_load_controller(tmp_path: Path) -> None:
     assert list(found) == ["tuned", "MATLAB tuned (Table 6.1)", "manually tuned (Table 6.1)", "2e-9,0.05"]
     assert found["tuned"]["K_p"] == pytest.approx(1.01e-9, rel=0.05)
     assert found["tuned"]["phase_margin_deg"] == pytest.approx(60)
-    assert {path.name for path in (tmp_path / "out").iterdir()} == {"tuning.png", "tuning.svg", "report.html"}
+    assert {path.name for path in (tmp_path / "out").iterdir()} == {"tuning.png", "tuning.svg", "report.html", MARKER}
 
 
 def test_a_plant_of_ones_own_with_dead_time(tmp_path: Path) -> None:

@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from pysim.control.tuning import Gains, known_pi, load_pressure_plant, shaft_speed_plant
-from pysim.plot.tuning import tuning_figure
+from pysim.present.tuning import tuning_figure
 from validation.findings import Finding
 from validation.thesis.numbers import published
 

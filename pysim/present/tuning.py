@@ -1,18 +1,23 @@
-"""Loops of PI controllers: open and closed loop over frequency as in thesis Figures 6.1 and 6.2, and over time."""
+"""Tuned loops, shown: text, JSON, figure and page.
+
+The figure has open and closed loop over frequency as in thesis Figures 6.1 and 6.2, and the answers over time.
+"""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from matplotlib.artist import Artist
-from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
 from pysim.control.tuning import Gains, loop_response
 from pysim.control.tuning.margins import open_loop
+from pysim.io import json_number
+from pysim.present.page import cell, commands, heading, items, picture, table
+from pysim.present.page import page as whole_page
+from pysim.present.render import Drawing, Picture
 from pysim.present.style import (
     COLOURS,
     DASHES,
@@ -26,17 +31,110 @@ from pysim.present.style import (
 )
 from pysim.types import BadInput
 
-Array = NDArray[np.float64]
+if TYPE_CHECKING:
+    from matplotlib.artist import Artist
+    from matplotlib.figure import Figure
+    from numpy.typing import NDArray
+
+    Array = NDArray[np.float64]
 
 _STEPS = 40  # of the sampled controller, at least, in the right column
 _POINTS = 400  # at least, of a curve there
 _PICTURE = 4.0  # steps of the reference; an answer that grows beyond is cut off
+_METHOD = (
+    "The controller is K_p (1 + 1/(T_i s)), thesis Eq. 5.32. Phase margin and crossover fix both of its numbers.",
+    "Margins count the plant's dead time, if it was given one; the steps over time are the sampled controller's.",
+    "The maximum of sensitivity tells how much the loop amplifies a disturbance at the worst frequency; 1.5 to 2 is "
+    "usual.",
+)
+_HEAD = ("K_p", "T_i (s)", "K_p/T_i", "crossover (Hz)", "phase margin (deg)", "gain margin (dB)", "delay (s)", "M_s")
+_SHORT = ("K_p", "T_i (s)", "K_p/T_i", "cross (Hz)", "phase (deg)", "gain (dB)", "delay (s)", "M_s")  # of a terminal
+
+
+@dataclass(frozen=True)
+class Tuning:
+    """Loops on one plant.
+
+    Args:
+        loops: label -> gains; at least one.
+        dt: s between the sampled controller's steps, for the answers over time.
+    """
+
+    loops: Mapping[str, Gains]
+    dt: float
 
 
 @dataclass(frozen=True)
 class _Look:
     colour: str
     dash: object
+
+
+def text(result: Tuning) -> str:
+    """A row per loop: gains, crossover, phase, gain and delay margin, largest sensitivity."""
+    rows = [["", *_SHORT], *([label, *_cells(gains)] for label, gains in result.loops.items())]
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    ends = ["stable", *("yes" if gains.loop.stable else "NO" for gains in result.loops.values())]
+    lines = []
+    for (label, *cells), end in zip(rows, ends, strict=True):
+        numbers = "".join(f"  {text:>{width}}" for text, width in zip(cells, widths[1:], strict=True))
+        lines.append(f"{label:<{widths[0]}}{numbers}  {end}")
+    return "\n".join(lines)
+
+
+def data(result: Tuning) -> dict[str, Any]:
+    """Everything, frequencies in Hz, margins in degrees and dB; null where there is none."""
+    return {label: _data(gains) for label, gains in result.loops.items()}
+
+
+def figures(result: Tuning) -> Iterator[Picture]:
+    """All loops in one."""
+    caption = "Open loop with its crossovers, closed loop, and the sampled loop after unit steps."
+    yield Picture("tuning", caption, tuning_figure(result.loops, dt=result.dt))
+
+
+def page(result: Tuning, drawings: Sequence[Drawing], redo: str) -> str:
+    """How it was done, the picture, gains and margins."""
+    first = next(iter(result.loops.values()))
+    rows = [
+        [cell(label, "words"), *(cell(x) for x in _cells(g)), cell("yes" if g.loop.stable else "no")]
+        for label, g in result.loops.items()
+    ]
+    parts = [heading("How it was done"), items(_METHOD), heading("Loops")]
+    parts += [picture(one.svg, one.caption) for one in drawings]
+    parts += [table("Gains and margins", ["", *_HEAD, "stable"], rows), heading("Do it again"), commands(redo)]
+    return whole_page("Tuning of a PI controller", f"Plant: {first.plant.name}.", parts)
+
+
+def _cells(gains: Gains) -> list[str]:
+    loop = gains.loop
+    margin = 20 * math.log10(loop.gain_margin) if 0 < loop.gain_margin < math.inf else math.inf
+    return [
+        f"{gains.K_p:.4g}",
+        f"{gains.T_i:.4g}",
+        f"{gains.integral:.4g}",
+        f"{loop.crossover / (2 * math.pi):.4g}",
+        f"{math.degrees(loop.phase_margin):.2f}",
+        f"{margin:.1f}",
+        f"{loop.delay_margin:.3g}",
+        f"{loop.peak_sensitivity:.2f}",
+    ]
+
+
+def _data(gains: Gains) -> dict[str, Any]:
+    loop = gains.loop
+    return {
+        "plant": gains.plant.name,
+        "K_p": gains.K_p,
+        "T_i": gains.T_i,
+        "crossover_hz": json_number(loop.crossover / (2 * math.pi)),
+        "phase_margin_deg": json_number(math.degrees(loop.phase_margin)),
+        "gain_margin_db": json_number(20 * math.log10(loop.gain_margin)),
+        "delay_margin_s": json_number(loop.delay_margin),
+        "peak_sensitivity": loop.peak_sensitivity,
+        "bandwidth_hz": json_number(loop.bandwidth / (2 * math.pi)),
+        "stable": loop.stable,
+    }
 
 
 def tuning_figure(loops: Mapping[str, Gains], *, dt: float) -> Figure:

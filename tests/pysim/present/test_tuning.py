@@ -1,3 +1,4 @@
+import json
 import math
 
 import numpy as np
@@ -13,8 +14,34 @@ from pysim.control.tuning import (
     tune_pi,
 )
 from pysim.control.tuning.margins import open_loop
-from pysim.plot.tuning import tuning_figure
+from pysim.present import Drawing
+from pysim.present.tuning import Tuning, data, page, text, tuning_figure
 from pysim.types import BadInput
+
+LOOPS = {
+    "MATLAB": known_pi(load_pressure_plant(), 1.01e-9, 0.023),
+    "wild": known_pi(shaft_speed_plant(), 1.41e-5, 0.000159),
+}
+
+
+def test_text_tells_gains_margins_and_stability() -> None:
+    head, first, second = text(Tuning(LOOPS, 1e-3)).splitlines()
+    assert head.split()[:1] == ["K_p"]
+    assert {"1.01e-09", "0.023", "3.018", "60.06", "35.5", "yes"} <= set(first.split())
+    assert second.endswith("NO")
+
+
+def test_data_in_hertz_and_degrees() -> None:
+    found = json.loads(json.dumps(data(Tuning(LOOPS, 1e-3)), allow_nan=False))
+    assert found["MATLAB"]["phase_margin_deg"] == pytest.approx(60.06, abs=0.01)
+    assert found["MATLAB"]["crossover_hz"] == pytest.approx(18.96 / (2 * math.pi), rel=1e-3)
+    assert found["wild"]["stable"] is False
+
+
+def test_page_holds_table_picture_and_the_way_back() -> None:
+    html = page(Tuning(LOOPS, 1e-3), [Drawing("tuning", "A caption.", b"<svg/>")], "pysim tune load")
+    for part in ("A caption.", "60.06", "pysim tune load"):
+        assert part in html
 
 
 def test_what_is_drawn_is_the_loop() -> None:
