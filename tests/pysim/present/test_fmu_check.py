@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from pysim.fmu_check import CheckResult, FmuReport
-from pysim.report.fmu_check import fmu_check_data, fmu_check_parts, fmu_check_text
+from pysim.present.fmu_check import Checked, data, page, text
 
 REPORT = FmuReport(
     Path("a.fmu"),
@@ -19,14 +19,15 @@ REPORT = FmuReport(
 
 
 def test_text_names_what_does_not_hold() -> None:
-    text = fmu_check_text(REPORT)
-    assert text.startswith("A<b> (FMI 2.0, a tool): 1 claims hold, 1 fail, 1 are doubtful.")
-    assert "order" not in text
-    assert "parameters: all: g" in text
+    shown = text(Checked((REPORT,)))
+    assert shown.startswith("A<b> (FMI 2.0, a tool): 1 claims hold, 1 fail, 1 are doubtful.")
+    assert "order" not in shown
+    assert "parameters: all: g" in shown
 
 
 def test_page_and_data() -> None:
-    html = "".join(fmu_check_parts(REPORT))
+    html = page(Checked((REPORT,)), [], "")
     assert "A&lt;b&gt;" in html
     assert 'class="fail">fails' in html
-    assert [result["verdict"] for result in fmu_check_data(REPORT)["results"]] == ["fails", "holds", "doubtful"]
+    (one,) = data(Checked((REPORT,)))
+    assert [result["verdict"] for result in one["results"]] == ["fails", "holds", "doubtful"]
