@@ -1,6 +1,5 @@
 """Figures from what was measured and simulated; nothing is shown or written here."""
 
-from pysim.plot.chirp import chirp_figure
 from pysim.plot.cosim import cosim_figure
 from pysim.plot.excitation import excitation_figure
 from pysim.plot.multisine import multisine_figure
@@ -8,7 +7,6 @@ from pysim.plot.time_response import time_response_figure
 from pysim.present.render import render
 
 __all__ = [
-    "chirp_figure",
     "cosim_figure",
     "excitation_figure",
     "multisine_figure",

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from pysim.cli import main
+from pysim.cli.outputs import MARKER
 from pysim.types import MeasuredRecord, Record
 from tests.pysim.cli.ran import refused
 from tests.pysim.identify.chirp.chirps import log as chirp_log
@@ -68,7 +69,7 @@ def test_a_data_set_gives_table_numbers_and_report(bench: Path, tmp_path: Path) 
     inside = (mean["frequency_hz"] > 2) & (mean["frequency_hz"] < 20)
     assert (np.abs(mean["magnitude_db"] - truth) < 4.5 * mean["magnitude_db_deviation"] + 0.03)[inside].all()
     assert (one["offset"], one["rate_hz_per_s"]) == (pytest.approx(50.0, abs=1e-4), pytest.approx(1.0, rel=1e-6))
-    assert {path.name for path in (tmp_path / "report").iterdir()} == {"chirp.png", "chirp.svg", "report.html"}
+    assert {path.name for path in (tmp_path / "report").iterdir()} == {"chirp.png", "chirp.svg", "report.html", MARKER}
 
 
 def test_a_single_log_needs_its_columns(bench: Path, tmp_path: Path) -> None:

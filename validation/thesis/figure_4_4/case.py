@@ -13,7 +13,7 @@ from pysim.bench.bench_tests import ChirpTest, SteppedSines
 from pysim.excitation import Chirp
 from pysim.identify import magnitude_db, measured_responses
 from pysim.identify.chirp import ChirpAnalysis, analyse_chirp
-from pysim.plot import chirp_figure
+from pysim.present.chirp import chirp_figure
 from pysim.present.style import COLOURS, DASHES, SMALL, TEXT, new_figure, quiet
 from pysim.types import FrequencyResponse, Record
 from validation.findings import Finding

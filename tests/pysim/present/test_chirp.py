@@ -1,5 +1,6 @@
-"""The picture of a chirp's response shows its numbers."""
+"""Chirp analyses as text, data, figure and page: the numbers are those of the analysis."""
 
+import json
 from dataclasses import fields, replace
 
 import numpy as np
@@ -7,7 +8,8 @@ import pytest
 
 from pysim.identify import measured_responses
 from pysim.identify.chirp import Branch, ChirpAnalysis, analyse_chirp
-from pysim.plot import chirp_figure
+from pysim.present import Drawing
+from pysim.present.chirp import Chirps, chirp_figure, data, page, text
 from pysim.types import FrequencyResponse, SineTest
 from tests.pysim.identify.chirp.chirps import log, response
 from tests.pysim.identify.frf.systems import dataset
@@ -19,6 +21,41 @@ DELAY = 0.02  # s; with the lag, more than half a turn between 0.1 and 12 Hz
 @pytest.fixture(scope="module")
 def found() -> ChirpAnalysis:
     return analyse_chirp(log(2.0, noise=0.02, delay=DELAY), "u", "y")
+
+
+@pytest.fixture(scope="module")
+def quick() -> ChirpAnalysis:
+    return analyse_chirp(log(2.0, noise=0.1), "u", "y")
+
+
+def test_text_reads_the_curves_at_round_frequencies(quick: ChirpAnalysis) -> None:
+    lines = text(Chirps("d", (quick,), (None,))).splitlines()
+    assert lines[0].startswith("chirp.txt: y to u around 50 %, amplitude 10 %, 0.1 to 25 Hz at 2 Hz/s")
+    row = next(line for line in lines if line.startswith("      10 "))
+    numbers = [float(word.strip("±")) for word in row.replace("±", " ").split()]
+    magnitude, phase = quick.mean.at(np.array(10.0))
+    assert numbers[1] == pytest.approx(float(magnitude), abs=0.006)
+    assert numbers[3] == pytest.approx(float(phase), abs=0.06)
+    assert numbers[5] == pytest.approx(float(quick.top.at(np.array(10.0))[0]), abs=0.006)
+
+
+def test_pressures_are_told_in_bar(quick: ChirpAnalysis) -> None:
+    command = replace(quick.command, offset=1e7, amplitude=2e6)
+    (title, *_) = text(Chirps("d", (replace(quick, command=command, input_unit="Pa"),), (None,))).splitlines()
+    assert "around 100 bar, amplitude 20 bar, 0.1 to 25 Hz" in title
+
+
+def test_data_is_complete_and_fit_for_json(quick: ChirpAnalysis) -> None:
+    (one,) = json.loads(json.dumps(data(Chirps("d", (quick,), (None,))), allow_nan=False))["chirps"]
+    np.testing.assert_allclose(one["top"]["magnitude_db"], quick.top.magnitude_db)
+    np.testing.assert_allclose(one["mean"]["phase_deg"], quick.mean.phase_deg)
+    assert one["level"] == pytest.approx(50.0, abs=1e-4)
+
+
+def test_page_holds_the_table_and_the_picture(quick: ChirpAnalysis) -> None:
+    html = page(Chirps("d", (quick,), (None,)), [Drawing("chirp", "A picture", b"<svg/>")], "pysim chirp d")
+    assert "A picture" in html
+    assert html.count("<tr>") > 5
 
 
 def test_three_curves_a_band_and_dots(found: ChirpAnalysis) -> None:
