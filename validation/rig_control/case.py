@@ -8,7 +8,8 @@ from functools import cache
 import numpy as np
 from matplotlib.figure import Figure
 
-from pysim.plot.rig import rig_error_figure, rig_heave_figure, rig_step_figure
+from pysim.present.rig.heave import rig_error_figure, rig_heave_figure
+from pysim.present.rig.steps import rig_step_figure
 from pysim.rig import HeaveTest, StepTest, step_figures
 from validation.findings import Finding
 from validation.rig_control import experiments, ways

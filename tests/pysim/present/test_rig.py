@@ -1,12 +1,27 @@
+import json
+import math
+
 import numpy as np
 import pytest
 
-from pysim.plot.rig import rig_error_figure, rig_heave_figure, rig_step_figure
-from pysim.rig import HeaveTest, StepTest
+from pysim.present import Drawing
+from pysim.present.rig import heave, steps
+from pysim.present.rig.heave import Heave, rig_error_figure, rig_heave_figure
+from pysim.present.rig.steps import Steps, rig_step_figure
+from pysim.rig import HeaveFigures, HeaveTest, StepFigures, StepTest
 from pysim.rig.rig_system import OUTPUTS
 from pysim.types import BadInput, Record
 
 CRANE = ("crane.omegaS_ref", "crane.pL_ref")
+STEPS = Steps(
+    (
+        (StepTest("speed", 30.0), StepFigures(1e-6, 0.298, 0.019, 0.39, 0.05)),
+        (StepTest("load", 40e5), StepFigures(-250.0, 0.353, math.nan, math.nan, 0.05)),
+    ),
+    (),
+)
+FOLLOWED = HeaveFigures(3.7, 15.1, 15.5e5, 63e5, 1.77e5, 13e5, 177e5, np.array([[7.0, 7.7]]), 0.7, 0.32)
+HEAVE = Heave(HeaveTest(seed=7), {"thesis": FOLLOWED}, {})
 
 
 def record(length: float) -> Record:
@@ -52,3 +67,26 @@ def test_step_draws_reference_and_answer(kind: str, size: float) -> None:
     assert np.asarray(lines[0].get_ydata())[0] == 0.0
     assert axes[0].get_ylabel() == ("Speed (rad/s)" if kind == "speed" else "Load pressure (bar)")
     assert axes[2].get_ylabel() == ("Speed (rad/s)" if kind == "load" else "Load pressure (bar)")
+
+
+def test_steps_as_text_data_and_page() -> None:
+    _, speed, load = steps.text(STEPS).splitlines()
+    assert speed.split() == ["speed", "30", "rad/s", "1e-06", "rad/s", "29.8", "0.019", "0.39"]
+    assert load.split()[:6] == ["load", "pressure", "40", "bar", "-0.0025", "bar"]
+    data = json.loads(json.dumps(steps.data(STEPS), allow_nan=False))
+    assert data[0]["overshoot"] == 0.298
+    assert data[1]["settling_time_s"] is None
+    html = steps.page(STEPS, [Drawing("step_speed", "A step.", b"<svg/>")], "pysim rig step")
+    assert "29.8" in html
+    assert "A step." in html
+
+
+def test_heave_as_text_data_and_page() -> None:
+    row = heave.text(HEAVE).splitlines()[1]
+    assert row.split() == ["thesis", "3.70", "15.1", "15.50", "63.0", "1.77", "13", "...", "177", "1", "0.70", "(0.32)"]
+    data = json.loads(json.dumps(heave.data(HEAVE), allow_nan=False))
+    assert data["wave"]["seed"] == 7
+    assert data["controllers"]["thesis"]["standstills"] == [[7.0, 7.7]]
+    html = heave.page(HEAVE, [], "pysim rig heave --seed=7")
+    assert "15.50" in html
+    assert "--seed=7" in html

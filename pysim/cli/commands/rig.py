@@ -1,0 +1,147 @@
+"""`pysim rig step` and `pysim rig heave`."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+from pysim.cli.command import Command, Given
+from pysim.cli.option import Option, choice, number
+from pysim.cli.options import JSON, OUTPUT
+
+if TYPE_CHECKING:
+    from pysim.control import CompensatedLoadController, LoadController
+    from pysim.present.rig.heave import Heave
+    from pysim.present.rig.steps import Steps
+    from pysim.types import Experiment, Record
+
+# s; the least time between two rows of a record, and a sampling time that is none for loops of a few hertz
+_ROW, _COARSEST = 2e-3, 0.1
+_RIG, _CRANE = "HydraulicTestBench.LoadCircuit.Rig", "HydraulicTestBench.Crane.IdealCompensation"
+
+
+def _step(given: Given) -> Steps:
+    """A step of the speed, and one of the load pressure at that speed."""
+    from pysim.present.rig.steps import Steps
+    from pysim.rig import StepTest, step_figures
+
+    every = _row(given.dt)
+    tests = (
+        StepTest("speed", given.speed, at=2.0, length=given.length),
+        StepTest("load", 1e5 * given.load, speed=given.speed, at=10.0, length=given.length),
+    )
+    records = tuple(_run(given, test.experiment(every=every), None, f"step of {test.kind}") for test in tests)
+    found = tuple((test, step_figures(record, test)) for test, record in zip(tests, records, strict=True))
+    return Steps(found, records)
+
+
+def _heave(given: Given) -> Heave:
+    """The same wave under each load controller."""
+    from pysim.present.rig.heave import Heave
+    from pysim.rig import HeaveTest, heave_figures
+
+    every = _row(given.dt)
+    test = HeaveTest(given.height, given.period, given.length, given.seed)
+    experiment = test.experiment(every=every)
+    records = {
+        label: _run(given, experiment, load, label, crane=True) for label, load in _load_controllers(given.dt).items()
+    }
+    return Heave(test, {label: heave_figures(record, test) for label, record in records.items()}, records)
+
+
+def _row(dt: float) -> float:
+    """The least whole number of steps that is 2 ms or more, s.
+
+    Raises:
+        BadInput: a step that no controller of the rig can have.
+    """
+    from pysim.types import BadInput
+
+    if not 0 < dt < _COARSEST:
+        raise BadInput(f"--dt {dt:g}: give seconds, more than none and less than {_COARSEST:g}")
+    return dt * max(1, math.ceil(_ROW / dt - 1e-6))
+
+
+def _load_controllers(dt: float) -> Mapping[str, LoadController | CompensatedLoadController]:
+    """Before and after: the thesis', with its valve turned round, and that with the gain that calms the shaft."""
+    from pysim.control import CompensatedLoadController, LoadController
+    from pysim.control.tuning import damping_gain
+
+    plain = LoadController(dt)
+    gain = damping_gain(plain.T_i, speed=8.0)
+    return {
+        "thesis": plain,
+        "compensated": CompensatedLoadController(dt),
+        "gain for the shaft": LoadController(dt, K_p=gain),
+        "both": CompensatedLoadController(dt, K_p=gain * 0.0035),
+    }
+
+
+def _run(
+    given: Given,
+    experiment: Experiment,
+    load: LoadController | CompensatedLoadController | None,
+    title: str,
+    *,
+    crane: bool = False,
+) -> Record:
+    import fmu_build
+    from pysim.cli.progress import Working, announce_compilation
+    from pysim.cosim import cosimulate
+    from pysim.cosim.members import Fmu
+    from pysim.io import read_model
+    from pysim.rig import rig_member, rig_system
+
+    def member(name: str) -> Any:
+        with Working(f"Building {name}"):
+            return read_model(fmu_build.build(name, fmi=given.fmi))
+
+    announce_compilation()
+    above = Fmu("crane", member(_CRANE), interface=given.interface) if crane else None
+    rig = rig_member(member(_RIG), interface=given.interface)
+    system = rig_system(rig, dt=given.dt, load=load, crane=above)
+    end = float(experiment.times[-1])
+    with given.progress(title) as bar:
+        return cosimulate(system, experiment, step=given.dt, progress=lambda time: bar(round(time), round(end)))
+
+
+_SHARED = (
+    number("--dt", "SECONDS", 1e-3, "of controllers and coupling"),
+    Option(("--fmi",), "version of the FMUs", "2|3", default=2, convert=int, choices=("2", "3")),
+    choice("--interface", "co-simulation", ("co-simulation", "model-exchange"), "of the FMUs"),
+    JSON,
+    OUTPUT,
+)
+
+COMMAND = Command(
+    "rig",
+    "The thesis' test bench under its controllers: step tests, or heave compensation.",
+    parts=(
+        Command(
+            "step",
+            "Steps of speed and load pressure.",
+            _step,
+            options=(
+                number("--speed", "RAD/S", 30.0, "size of its step"),
+                number("--load", "BAR", 40.0, "size of the load pressure's step, at that speed"),
+                number("--length", "SECONDS", 30.0, "behind the step"),
+                *_SHARED,
+            ),
+            view="pysim.present.rig.steps",
+        ),
+        Command(
+            "heave",
+            "A wave.",
+            _heave,
+            options=(
+                number("--height", "M", 2.0, "significant height"),
+                number("--period", "SECONDS", 10.0, "peak period"),
+                number("--seed", "N", 1, "of the wave's phases", convert=int),
+                number("--length", "SECONDS", 60.0, "of the wave"),
+                *_SHARED,
+            ),
+            view="pysim.present.rig.heave",
+        ),
+    ),
+)
