@@ -22,6 +22,7 @@ BadInput for what the user can mend.
   result to be made; it returns the result with the names of these files.
 - `done(given, result)` is called once all is written: for further files, and to take away what an interrupted run would
   have gone on from.
+- `goes_on` are the names in the folder of `--output` from which a stopped run goes on.
 - `view` may be a function of the result, where a command finds one of several kinds.
 - A view that tells all files in its JSON has `placed(result, written, home)`, see `pysim.present.report`.
 - Without a `view`, `run` prints, writes and returns the exit code by itself; that is for commands without a result,
@@ -61,6 +62,7 @@ class Command:
     passes: Callable[[Any], bool] | None = None
     files: Callable[[Given, Any, Path], Any] | None = None
     done: Callable[[Given, Any], None] | None = None
+    goes_on: tuple[str, ...] = ()
     parts: tuple[Command, ...] = ()
 
     def add_arguments(self, parser: argparse.ArgumentParser) -> None:
@@ -157,7 +159,7 @@ def _prepare(given: Given) -> None:
     data, read = (_flat(given.paths(role)) for role in (Role.DATA, Role.READ))
     written = given.paths(Role.FILE)
     for folder in _flat(given.paths(Role.FOLDER)):
-        prepare_answer(folder, data=data, read=read, beside=_flat(written))
+        prepare_answer(folder, data=data, read=read, beside=_flat(written), goes_on=given.command.goes_on)
     for flag, paths in written.items():
         option = next(one for one in given.command.options if one.flags[-1] == flag)
         refuse_same(paths[0], flag, read)
@@ -194,8 +196,8 @@ def _reported(given: Given, result: Any, view: Any) -> Any:
     from pysim.cli.progress import Working
     from pysim.present.report import write_report
 
-    folder, log = given.output, given.output / LOG
-    beside = [*_flat(given.paths(Role.FILE)), *([log] if log.is_dir() else [])]
+    folder = given.output
+    beside = [*_flat(given.paths(Role.FILE)), *(folder / name for name in given.command.goes_on if name == LOG)]
     with answer_folder(folder, beside=beside) as new:
         if given.command.files is not None:
             result = given.command.files(given, result, new)

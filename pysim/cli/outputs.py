@@ -19,7 +19,8 @@ from pathlib import Path
 JSON = (".json",)
 PARAMETERS = "parameters.toml"  # in a folder of results: the fitted values
 MARKER = ".pysim-answer"  # in the folder: the names of our files, a line each
-LOG = "log"  # in the folder: what a fit tried, which a stopped one goes on from
+LOG, JOURNAL = "log", "journal.jsonl"  # in the folder: what a stopped fit, and a stopped diagnosis, goes on from
+_GO_ON = (LOG, JOURNAL)
 _NEW = ".pysim-new"  # in the folder while an answer is written
 _OF_THE_SYSTEM = {".DS_Store", "Thumbs.db", "desktop.ini"}  # whoever looks into a folder leaves one; they stay
 # What a stopped run goes on from; it lies there before any answer does. A kill may leave half of it under another name.
@@ -133,13 +134,21 @@ def command_line(words: Sequence[str], folder: Path = Path(), *, program: str = 
     return quoted(["py" if windows else "python3", start, program, *words])
 
 
-def prepare_answer(folder: Path, *, data: Sequence[Path], read: Iterable[Path], beside: Iterable[Path | None]) -> None:
+def prepare_answer(
+    folder: Path,
+    *,
+    data: Sequence[Path],
+    read: Iterable[Path],
+    beside: Iterable[Path | None],
+    goes_on: Sequence[str] = (),
+) -> None:
     """See that an answer can be written into the folder, and make it where it is missing.
 
     Args:
         data: data sets, which are never written into.
         read: files and Modelica libraries that the run takes.
         beside: other results of the same run, which may lie in the folder.
+        goes_on: names in the folder from which a stopped run of this command goes on.
     Raises:
         BadInput: the folder holds a file that is not ours or that is read, lies in a data set, or cannot be written.
     """
@@ -151,7 +160,12 @@ def prepare_answer(folder: Path, *, data: Sequence[Path], read: Iterable[Path], 
                 f"--output {folder}: {path} is read, and the new answer would replace it; choose another folder"
             )
     ours = _listed(folder) | _inside(folder, beside)
-    other = next((name for name in _files(folder) if name not in ours and not _is_unfinished(name)), None)
+    other = next((name for name in _files(folder) if name not in ours and not _is_unfinished(name, goes_on)), None)
+    if other is not None and _is_unfinished(other, _GO_ON):
+        raise BadInput(
+            f"--output {folder}: {other} is of another command that was stopped; choose a new folder, or repeat that "
+            "command, which goes on from it"
+        )
     if other is not None:
         raise BadInput(
             f"--output {folder}: {other} is there, which is no part of an earlier answer; choose a new folder, or move "
@@ -225,5 +239,7 @@ def _inside(folder: Path, paths: Iterable[Path | None]) -> set[str]:
     return {path.relative_to(home).as_posix() for path in whole if path.is_relative_to(home)}
 
 
-def _is_unfinished(name: str) -> bool:
-    return _UNFINISHED.fullmatch(name) is not None
+def _is_unfinished(name: str, goes_on: Sequence[str]) -> bool:
+    """Whether a stopped run left it, from which a run of these names goes on."""
+    first = name.partition("/")[0]
+    return _UNFINISHED.fullmatch(name) is not None and first.startswith((MARKER, *goes_on))

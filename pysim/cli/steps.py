@@ -21,13 +21,13 @@ from pysim.cli.options import (
     REFERENCE_HZ,
     SET,
 )
+from pysim.cli.outputs import JOURNAL
 
 if TYPE_CHECKING:
     from pysim.cli._subject import Named
     from pysim.present.diagnosis import Diagnosed
     from pysim.types import Diagnosis, Told
 
-JOURNAL = "journal.jsonl"  # in --output, until the answer is written
 SUBJECT = (
     DATASET,
     replace(MODEL, about="a Modelica class with slots, or its .fmu"),

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from pysim.cli.command import Command, Given
 from pysim.cli.option import number
+from pysim.cli.outputs import JOURNAL
 from pysim.cli.steps import EFFECTS, SUBJECT, end_step, results, run_step, write_model
 
 if TYPE_CHECKING:
@@ -52,4 +53,5 @@ COMMAND = Command(
     view="pysim.present.diagnosis",
     files=write_model,
     done=end_step,
+    goes_on=(JOURNAL,),
 )

@@ -190,4 +190,5 @@ COMMAND = Command(
     view="pysim.present.fit",
     passes=lambda result: bool(result.fit.outcome.name == "CONVERGED"),
     done=_forget,
+    goes_on=(LOG,),
 )

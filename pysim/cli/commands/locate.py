@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from pysim.cli.command import Command, Given
 from pysim.cli.option import names
+from pysim.cli.outputs import JOURNAL
 from pysim.cli.steps import SUBJECT, end_step, results, run_step, write_model
 
 if TYPE_CHECKING:
@@ -37,4 +38,5 @@ COMMAND = Command(
     view="pysim.present.diagnosis",
     files=write_model,
     done=end_step,
+    goes_on=(JOURNAL,),
 )

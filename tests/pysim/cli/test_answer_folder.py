@@ -11,7 +11,7 @@ from pysim.types import BadInput
 
 def answer(folder: Path, *names: str, beside: Sequence[Path] = (), read: Sequence[Path] = ()) -> None:
     """An answer of these files."""
-    prepare_answer(folder, data=[], read=read, beside=beside)
+    prepare_answer(folder, data=[], read=read, beside=beside, goes_on=("journal.jsonl", "log"))
     with answer_folder(folder, beside=beside) as new:
         for name in names:
             (new / name).write_text(f"our {name}")
@@ -92,6 +92,16 @@ def test_what_a_killed_run_left_is_gone_on_with_or_replaced(tmp_path: Path) -> N
     assert left(tmp_path) == {*unfinished, "report.html", MARKER}
     answer(tmp_path, "other.html")  # the log was part of the earlier answer
     assert left(tmp_path) == {"journal.jsonl", "other.html", MARKER}
+
+
+@pytest.mark.parametrize(("begun", "goes_on"), [("journal.jsonl", "log"), ("log/given/state.npz", "journal.jsonl")])
+def test_what_another_command_would_go_on_from_is_refused(tmp_path: Path, begun: str, goes_on: str) -> None:
+    (tmp_path / begun).parent.mkdir(parents=True, exist_ok=True)
+    (tmp_path / begun).write_text("half")
+    for names in ((), (goes_on,)):
+        with pytest.raises(BadInput, match="is of another command that was stopped; choose a new folder"):
+            prepare_answer(tmp_path, data=[], read=[], beside=[], goes_on=names)
+    prepare_answer(tmp_path, data=[], read=[], beside=[], goes_on=(begun.partition("/")[0],))
 
 
 def test_other_results_of_the_run_may_lie_in_the_folder(tmp_path: Path) -> None:

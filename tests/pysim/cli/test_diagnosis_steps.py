@@ -12,8 +12,7 @@ import pytest
 
 from pysim.cli import main
 from pysim.cli.live import Story
-from pysim.cli.outputs import MARKER
-from pysim.cli.steps import JOURNAL
+from pysim.cli.outputs import JOURNAL, MARKER
 from pysim.diagnose import ledger
 from pysim.diagnose import story as diagnosis_story
 from pysim.identify.greybox.comparison import Compared
