@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from pysim.identify.greybox import Parameter, Treatment
 from pysim.types import MeasuredRecord, Model
@@ -25,13 +25,10 @@ class Way:
 
 
 def freed(model: Model, records: Sequence[MeasuredRecord], states: Sequence[str]) -> Way:
-    """Each log that is fitted begins where it may; `states` are those that can be set and last."""
-    settable = [name for name in states if model[name].start is not None]
-    logs = [record.source for record in records if record.use == "fit"]
-    free = tuple(Parameter(name, record=log) for log in logs for name in settable)
-    return Way(tuple(records), free, Treatment(rest=None))
+    """Each log begins where it may; `states` are those that last."""
+    return Way(tuple(records))
 
 
 def at_rest(records: Sequence[MeasuredRecord]) -> Way:
     """Each log begins at rest."""
-    return Way(tuple(records))
+    return Way(tuple(replace(record, initial="rest") for record in records))
