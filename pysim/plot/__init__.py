@@ -2,14 +2,12 @@
 
 from pysim.plot.cosim import cosim_figure
 from pysim.plot.excitation import excitation_figure
-from pysim.plot.multisine import multisine_figure
 from pysim.plot.time_response import time_response_figure
 from pysim.present.render import render
 
 __all__ = [
     "cosim_figure",
     "excitation_figure",
-    "multisine_figure",
     "render",
     "time_response_figure",
 ]

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Any
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
 from pysim.identify.multisine import gain_interval, gain_radius, pooled
+from pysim.present.multisine.answer import Approximations
+from pysim.present.render import Picture
 from pysim.present.style import (
     COLOURS,
     LIMIT,
@@ -24,13 +23,25 @@ from pysim.present.style import (
 )
 from pysim.types import BadInput, BestLinearApproximation, Distortion, Level
 
-Array = NDArray[np.float64]
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+    from numpy.typing import NDArray
+
+    Array = NDArray[np.float64]
 
 _NOISE, _TOTAL, _EVEN, _ODD = LIMIT, MEASURED, COLOURS[1], COLOURS[0]
 _SMOOTH = 6  # free lines in the mean that is drawn through the single ones
 _SURE_DEG = 45.0  # phases less sure than this do not widen the axis
 _NEARLY_NONE = 0.05
 _BELOW_NOISE_DB = 6.0  # how far under the lowest noise the axis reaches
+
+
+def figures(result: Approximations) -> Iterator[Picture]:
+    """One per approximation."""
+    for i, (name, bla) in enumerate(result.found, start=1):
+        caption = f"{name}: gain with its 95 percent band, and the levels beside it; points are single lines."
+        yield Picture(f"multisine_{i}", caption, multisine_figure([bla], [name]))
 
 
 def multisine_figure(approximations: Sequence[BestLinearApproximation], titles: Sequence[str]) -> Figure:

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from pysim.identify.multisine import DropPeriods, fast_approximation, pooled, robust_approximation
-from pysim.plot import multisine_figure
+from pysim.present.multisine import multisine_figure
 from pysim.types import BadInput
 from tests.pysim.identify.multisine.systems import ODD, measure, with_free_lines
 

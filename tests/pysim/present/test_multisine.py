@@ -7,8 +7,9 @@ from dataclasses import replace
 import numpy as np
 
 from pysim.identify.multisine import DropPeriods, fast_approximation, robust_approximation, smooth_approximation
-from pysim.report.multisine import multisine_data, multisine_page, multisine_text, verdicts
-from pysim.types import Level
+from pysim.present import Drawing
+from pysim.present.multisine import Approximations, data, page, text, verdicts
+from pysim.types import BestLinearApproximation, Level
 from tests.pysim.identify.multisine.systems import FULL, ODD, measure, with_free_lines
 
 FREE = with_free_lines(ODD, seed=11)
@@ -16,6 +17,10 @@ SQUARE = fast_approximation(
     measure(FREE, realisations=1, periods=4, noise=0.01, seed=8, respond=lambda u: u + 0.1 * u**2),
     transient=DropPeriods(0),
 )
+
+
+def one(bla: BestLinearApproximation) -> Approximations:
+    return Approximations("A title", (("bench", bla),))
 
 
 def test_verdicts_name_what_is_there_and_what_is_not_seen() -> None:
@@ -55,7 +60,7 @@ def test_pressures_are_told_in_bar() -> None:
 
 
 def test_text_has_a_row_per_frequency_and_a_dash_below_the_noise() -> None:
-    lines = multisine_text("bench", SQUARE).splitlines()
+    lines = text(one(SQUARE)).splitlines()
     assert lines[6].split()[0] == "0.5"
     assert lines[6].split()[-1] == "-"
     assert float(lines[6].split()[1]) == round(20 * np.log10(abs(SQUARE.gain[0])), 2)
@@ -63,25 +68,25 @@ def test_text_has_a_row_per_frequency_and_a_dash_below_the_noise() -> None:
 
 def test_where_noise_cannot_be_told_apart_the_table_shows_both_together() -> None:
     alone = robust_approximation(measure(FREE, realisations=3, periods=1, noise=0.01, seed=2))
-    lines = multisine_text("bench", alone).splitlines()
+    lines = text(one(alone)).splitlines()
     assert "noise + distortion dB  distortion dB" in lines[3]
     assert alone.total is not None
     assert lines[4].split()[5:] == [f"{10 * np.log10(alone.total.variance[0]):.1f}", "-", "-", "-"]
 
 
 def test_data_is_complete_and_json() -> None:
-    data = multisine_data("bench", SQUARE)
-    again = json.loads(json.dumps(data, allow_nan=False))
+    (again,) = json.loads(json.dumps(data(one(SQUARE)), allow_nan=False))["approximations"]
     np.testing.assert_allclose(np.array(again["gain_real"]) + 1j * np.array(again["gain_imag"]), SQUARE.gain)
     assert SQUARE.even is not None
     np.testing.assert_allclose(again["levels"]["even"]["variance"], SQUARE.even.variance)
     assert again["levels"]["even"]["p_value"] < 1e-6 < again["levels"]["odd"]["p_value"]
     assert again["test"]["input"] == "u"
-    single = multisine_data("x", robust_approximation(measure(FREE, realisations=3, periods=1, noise=0.1, seed=2)))
+    alone = robust_approximation(measure(FREE, realisations=3, periods=1, noise=0.1, seed=2))
+    (single,) = data(one(alone))["approximations"]
     assert single["levels"]["noise"] is None
 
 
 def test_page_holds_tables_pictures_and_the_command() -> None:
-    page = multisine_page("A title", [("bench", SQUARE)], pictures=[("A caption", b"<svg/>")], redo="pysim multisine x")
+    html = page(one(SQUARE), [Drawing("multisine_1", "A caption", b"<svg/>")], "pysim multisine x")
     for words in ("A title", "bench, fast", "A caption", "pysim multisine x", "<table>"):
-        assert words in page
+        assert words in html

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from pysim.cli import main
+from pysim.cli.outputs import MARKER
 from pysim.io import write_record
 from pysim.types import Record
 from tests.pysim.identify.multisine.systems import ODD, PERIOD, N, gain, multisine, through, with_free_lines
@@ -46,7 +47,7 @@ def test_several_records_are_realisations(records: list[str], tmp_path: Path) ->
     np.testing.assert_allclose(found, gain(FREE), atol=6 * np.sqrt(np.max(data["variance"])))
     np.testing.assert_allclose(data["frequency_hz"], FREE / PERIOD)
     assert data["levels"]["even"]["p_value"] < 1e-6
-    assert {path.name for path in out.iterdir()} == {"report.html", "multisine_1.png", "multisine_1.svg"}
+    assert {path.name for path in out.iterdir()} == {"report.html", "multisine_1.png", "multisine_1.svg", MARKER}
 
 
 @pytest.mark.parametrize(

@@ -1,20 +1,18 @@
-"""Best linear approximations as text, as data and as sections of a page."""
+"""Best linear approximations as text and JSON."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Any
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pysim.identify.multisine import distortion_p_value, gain_interval, pooled
 from pysim.io import json_number, shown_value
-from pysim.present.page import cell, commands, heading, items, page, paragraph, picture, table
 from pysim.types import BestLinearApproximation, Distortion, Level
 
-Array = NDArray[np.float64]
-Named = Sequence[tuple[str, BestLinearApproximation]]  # what each was found from, and what was found
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
 
 _ROWS = 12  # frequencies in a table; all of them are in the data
 _ALARM = 0.01  # p-value below which a distortion counts as seen
@@ -22,9 +20,31 @@ _POOL = 6  # free lines whose mean stands in a table
 _HEADS = ("Hz", "gain dB", "± dB", "phase deg", "± deg", "noise dB", "distortion dB", "even dB", "odd dB")
 
 
-def multisine_text(name: str, bla: BestLinearApproximation) -> str:
-    """What was found, for a terminal: verdicts, then some of the lines; "-" is below what the noise lets see."""
-    rows = [_heads(bla), *_table_rows(bla)]
+@dataclass(frozen=True)
+class Approximations:
+    """Those of one data set, or of some records.
+
+    Args:
+        title: of the page.
+        found: what each was found from, and what was found.
+    """
+
+    title: str
+    found: tuple[tuple[str, BestLinearApproximation], ...]
+
+
+def text(result: Approximations) -> str:
+    """Of each the verdicts, then some of the lines; "-" is below what the noise lets see."""
+    return "\n\n".join(_text(name, bla) for name, bla in result.found)
+
+
+def data(result: Approximations) -> dict[str, Any]:
+    """Everything, numbers finite or None: gain unit is output per input unit, levels are variances in its square."""
+    return {"approximations": [_data(name, bla) for name, bla in result.found]}
+
+
+def _text(name: str, bla: BestLinearApproximation) -> str:
+    rows = [heads(bla), *table_rows(bla)]
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     lines = ["  ".join(text.rjust(width) for text, width in zip(row, widths, strict=True)) for row in rows]
     return "\n".join([f"{name}: {bla.method}", *(f"  {line}" for line in verdicts(bla)), *(f"  {x}" for x in lines)])
@@ -46,9 +66,7 @@ def verdicts(bla: BestLinearApproximation) -> tuple[str, ...]:
     return (done, *found, _worst(bla))
 
 
-def multisine_data(name: str, bla: BestLinearApproximation) -> dict[str, Any]:
-    """Everything a best linear approximation holds, numbers finite or None: gain unit is output per input unit, levels
-    are variances in its square."""
+def _data(name: str, bla: BestLinearApproximation) -> dict[str, Any]:
     test = bla.test
     magnitude, phase = gain_interval(bla)
     levels = {key: getattr(bla, key) for key in ("total", "noise", "distortion", "on_lines", "even", "odd")}
@@ -72,45 +90,6 @@ def multisine_data(name: str, bla: BestLinearApproximation) -> dict[str, Any]:
         "output_mean_variance": json_number(bla.mean_variance),
         "levels": {key: None if level is None else _level_data(level) for key, level in levels.items()},
     }
-
-
-def multisine_page(
-    title: str,
-    approximations: Named,
-    *,
-    pictures: Sequence[tuple[str, bytes]],
-    redo: str,
-) -> str:
-    """A self-contained HTML page.
-
-    Args:
-        approximations: each with its name.
-        pictures: captions with their SVG.
-        redo: the command line that makes it again.
-    """
-    parts = multisine_section(approximations, pictures=pictures)
-    lead = "How much of the response is linear, how much noise, how much distortion, line by line."
-    return page(title, lead, [*parts, heading("Do it again"), commands(redo)])
-
-
-def multisine_section(approximations: Named, *, pictures: Sequence[tuple[str, bytes]]) -> list[str]:
-    """HTML: verdicts, pictures and a table per approximation."""
-    parts = [heading("Best linear approximation")]
-    for name, bla in approximations:
-        parts += [paragraph(f"{name}, {bla.method}."), items(verdicts(bla))]
-    parts += [picture(svg, caption) for caption, svg in pictures]
-    parts.append(
-        paragraph(
-            "Levels are mean squares of one realisation over its periods, divided by the input's power on a line; they "
-            "add up. Even and odd parts are means over neighbouring lines that were not excited. A dash is below what "
-            "the noise lets see.",
-            note=True,
-        )
-    )
-    for name, bla in approximations:
-        rows = [[cell(text) for text in row] for row in _table_rows(bla)]
-        parts.append(table(f"{name}: some of {bla.frequency.size} lines, ± for 95 percent", _heads(bla), rows))
-    return parts
 
 
 def _verdict(words: str, level: Distortion) -> str:
@@ -137,12 +116,13 @@ def _worst(bla: BestLinearApproximation) -> str:
     return f"Worst at {bla.frequency[k]:g} Hz: distortion {-10 * np.log10(share[k]):.1f} dB below the linear response"
 
 
-def _heads(bla: BestLinearApproximation) -> tuple[str, ...]:
+def heads(bla: BestLinearApproximation) -> tuple[str, ...]:
     """Of the table; noise stands for everything where nothing tells it from distortion."""
     return tuple("noise + distortion dB" if bla.noise is None and head == "noise dB" else head for head in _HEADS)
 
 
-def _table_rows(bla: BestLinearApproximation) -> list[tuple[str, ...]]:
+def table_rows(bla: BestLinearApproximation) -> list[tuple[str, ...]]:
+    """Some of the lines, in words, as `heads` names the columns."""
     f = bla.frequency
     wanted = np.geomspace(f[0], f[-1], min(_ROWS, f.size))
     at = np.unique(np.argmin(np.abs(np.log(f[:, None] / wanted)), axis=0))

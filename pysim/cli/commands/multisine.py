@@ -1,0 +1,191 @@
+"""`pysim multisine`."""
+
+from __future__ import annotations
+
+import re
+from fnmatch import fnmatch
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from pysim.cli.command import Command, Given
+from pysim.cli.option import Option, Role, choice, number, text
+from pysim.cli.options import JSON, OUTPUT, SIGNAL
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from pysim.present.multisine import Approximations
+    from pysim.types import BestLinearApproximation, Dataset, MeasuredRecord, Record
+
+_METHODS = ("auto", "robust", "fast", "smooth", "arbitrary")
+_KINDS = ("multisine", "other")
+
+
+def run(given: Given) -> Approximations:
+    """What was found for each test."""
+    from pysim.present.multisine import Approximations
+
+    _refuse_idle(given)
+    found = _found(given, *_read(given))
+    return Approximations(f"Best linear approximation of {given.dataset[0].name}", tuple(found))
+
+
+def _is_arbitrary(given: Given) -> bool:
+    return given.period is None or given.method == "arbitrary"
+
+
+def _refuse_idle(given: Given) -> None:
+    """Options that the way the logs are taken has no use for."""
+    from pysim.types import BadInput
+
+    if given.period is None and given.method not in ("auto", "arbitrary"):
+        raise BadInput(f"--method {given.method}: needs the period of the multisine; write --period SECONDS")
+    idle = ("start", "periods", "drop", "lines") if _is_arbitrary(given) else ("band",)
+    cure = "goes with --period SECONDS and a method for it" if _is_arbitrary(given) else "goes without a period"
+    for option in idle:
+        if given.typed[option] is not None:
+            raise BadInput(f"--{option} {cure}; leave one of them out")
+    if given.records != "*" and not _is_dataset(given):
+        raise BadInput("--records chooses among the logs of a data set; name the files that are to be taken instead")
+
+
+def _is_dataset(given: Given) -> bool:
+    return len(given.dataset) == 1 and given.dataset[0].suffix.lower() not in (".csv", ".npz")
+
+
+def _read(given: Given) -> tuple[list[Record], tuple[str, ...]]:
+    """Records, each called by its file, and the columns to use."""
+    from dataclasses import replace
+
+    from pysim.io import read_dataset, read_record
+    from pysim.types import BadInput, Record
+
+    if _is_dataset(given):
+        dataset = read_dataset(given.dataset[0])
+        logs = [log for log in dataset.logs() if fnmatch(log.source, given.records)]
+        logs = [log for log in logs if log.kind in _KINDS] if given.records == "*" else logs
+        if not logs:
+            what = f"no log of kind {' or '.join(_KINDS)}" if given.records == "*" else f"no log called {given.records}"
+            raise BadInput(f"{given.dataset[0]}: there is {what}; name the logs to take, --records PATTERN")
+        _refuse_forgotten_period(given, logs)
+        columns = tuple(_column(given, dataset, logs[0], role) for role in ("input", "output"))
+        records = [replace(log.data, origin=log.source) for log in logs if isinstance(log.data, Record)]
+    else:
+        if not (given.input and given.signal):
+            raise BadInput("multisine: records do not tell what is input; write --input NAME --signal NAME")
+        columns = (given.input, given.signal)
+        records = [replace(read_record(path), origin=str(path)) for path in given.dataset]
+    return records, columns if given.reference is None else (*columns, given.reference)
+
+
+def _refuse_forgotten_period(given: Given, logs: list[MeasuredRecord]) -> None:
+    """Between the lines of a multisine there is nothing that a method for any signal could use."""
+    from pysim.types import BadInput
+
+    periodic = next((log.source for log in logs if log.kind == "multisine"), None)
+    if periodic and given.period is None and given.method == "auto":
+        raise BadInput(
+            f"{periodic} is a multisine; write its period, --period SECONDS, or --method arbitrary to take it as any "
+            "signal"
+        )
+
+
+def _column(given: Given, dataset: Dataset, log: MeasuredRecord, role: str) -> str:
+    """The one asked for, or the only one of that role."""
+    from pysim.types import BadInput
+
+    option, wanted = ("--input", given.input) if role == "input" else ("--signal", given.signal)
+    if wanted:
+        return str(wanted)
+    names = dataset.columns(log, role)
+    if len(names) != 1:
+        raise BadInput(f"{log.source}: its {role}s are {', '.join(names) or 'none'}; choose one with {option} NAME")
+    return names[0]
+
+
+def _found(given: Given, records: list[Record], columns: tuple[str, ...]) -> list[tuple[str, BestLinearApproximation]]:
+    """A result per test with its name, where the records are periodic, else one per record."""
+    from pysim.io import shown_value
+
+    if _is_arbitrary(given):
+        return [(record.origin, _arbitrary(given, record, columns)) for record in records]
+    found: list[tuple[str, BestLinearApproximation]] = []
+    for bla in _periodic(given, records, columns):
+        test = bla.test
+        offset, rms = shown_value(test.offset, test.input_unit, ".4g"), shown_value(test.rms, test.input_unit, ".3g")
+        name = f"{test.input} around {offset}, rms {rms}"
+        found.append((name if all(name != other for other, _ in found) else f"{name}, {bla.origin}", bla))
+    return found
+
+
+def _periodic(given: Given, records: list[Record], columns: tuple[str, ...]) -> list[BestLinearApproximation]:
+    """Realisations of the same test are put together."""
+    from pysim.identify import multisine
+
+    methods = {
+        "auto": multisine.best_linear_approximation,
+        "robust": multisine.robust_approximation,
+        "fast": multisine.fast_approximation,
+        "smooth": multisine.smooth_approximation,
+    }
+    cuts = [multisine.periods_of([r], given.period, columns, start=given.start, count=given.periods) for r in records]
+    transient = None if given.drop is None else multisine.DropPeriods(given.drop)
+    excited = None if given.lines is None else _harmonics(given.lines)
+    tests = multisine.grouped_realisations(cuts, excited=excited)
+    return [methods[given.method](periods, excited=excited, transient=transient) for periods in tests]
+
+
+def _harmonics(text: str) -> NDArray[np.intp]:
+    """1,3,7-99:2 as numbers; the last of a range counts."""
+    import numpy as np
+
+    from pysim.types import BadInput
+
+    found: set[int] = set()
+    for part in text.split(","):
+        match = re.fullmatch(r"\s*(\d+)(?:-(\d+)(?::([1-9]\d*))?)?\s*", part)
+        if match is None:
+            raise BadInput(f"--lines {text}: {part!r} is no harmonic; write numbers and ranges, as 1,3,7-99:2")
+        first, last, step = match.groups()
+        found |= set(range(int(first), int(last or first) + 1, int(step or 1)))
+    return np.array(sorted(found), dtype=np.intp)
+
+
+def _arbitrary(given: Given, record: Record, columns: tuple[str, ...]) -> BestLinearApproximation:
+    from pysim.identify.multisine import local_polynomial_approximation
+
+    band = None if given.band is None else (given.band[0], given.band[1])
+    return local_polynomial_approximation(record, columns, band=band)
+
+
+COMMAND = Command(
+    "multisine",
+    "Find the best linear approximation from multisine logs, with noise, even and odd distortion beside it.",
+    run,
+    options=(
+        Option(
+            ("DATASET",), "data set, or records as .csv or .npz", "DATASET", convert=Path, nargs="+", role=Role.DATA
+        ),
+        number("--period", "SECONDS", None, "of the multisine; none: any broadband signal"),
+        text("--input", "NAME", "what excites; the only input by default"),
+        SIGNAL,
+        text("--reference", "NAME", "known command, where the input is measured or in a loop"),
+        text("--records", "PATTERN", "only logs of this name, as multisine/*.txt", default="*"),
+        number("--start", "SECONDS", None, "first period (found in the command)"),
+        number("--periods", "N", None, "how many of each log (all)", convert=int),
+        choice(
+            "--method",
+            "auto",
+            _METHODS,
+            "robust: several realisations; fast: lines left free; smooth: local polynomial over periods; arbitrary: "
+            "local polynomial without periods; auto: what the logs allow",
+        ),
+        number("--drop", "N", None, "leave out periods, in place of estimating the transient", convert=int),
+        text("--lines", "LIST", "excited harmonics, as 1,3,7-99:2 (found in the command)"),
+        number("--band", "HZ", None, "lowest and highest line, without a period", nargs=2),
+        JSON,
+        OUTPUT,
+    ),
+    view="pysim.present.multisine",
+)
