@@ -86,7 +86,7 @@ def explained(hypothesis: Hypothesis, dataset: Dataset, locked: Model, start: Ma
     residuals = sum(2 * r.comparison.measured.frequency.size - 1 for r in found.responses)
     return Explained(
         hypothesis,
-        math.sqrt(found.cost / residuals),
+        math.sqrt(2 * found.cost / residuals),  # half their sum of squares: tables have known levels
         sum(r.comparison.passes for r in found.responses),
         {name: values[name] for name in values if name in names},
         tuple(e.name for e in found.estimates if e.at),
