@@ -195,9 +195,9 @@ class Fit:
         combinations: what of those directions is determined after all.
         records: logs beside the fitted model, those held out too.
         responses: frequency responses, from tables or from stepped sines.
-        cost: of the objective at the estimates; start_cost at the start.
-        misfit: root-mean-square weighted residual over the degrees of freedom: 1 where the model fits to the noise;
-            intervals are widened by it where it is larger. Not a number for objectives that know no noise.
+        cost: of the objective at the estimates; start_cost at the start. Nats where squares are summed up, and then of
+            any sign, so that only differences count.
+        misfit: root-mean-square residual over the noise, per degree of freedom: 1 where nothing but noise is left.
         outcome, message: how the search ended.
         iterations: evaluations of the objective that were tried in the search that won.
         starts: every search.
