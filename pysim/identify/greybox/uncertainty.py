@@ -1,9 +1,9 @@
 """How well the data determine the parameters: intervals from blocks, and combinations of what is not determined.
 
 Residuals are neither independent nor white where a model is a little wrong. The blocks of the data are: the scatter of
-their scores gives an interval that holds for any colour (a sandwich), each block's own leverage taken off.
+their scores gives an interval that holds for any colour (a sandwich), unbiased where residuals are white after all.
 
-Source: White 1980, Econometrica 48:817; Bell and McCaffrey 2002, Survey Methodology 28:169 (CR3, degrees of freedom).
+Source: White 1980, Econometrica 48:817; Bell and McCaffrey 2002, Survey Methodology 28:169 (CR2, degrees of freedom).
 """
 
 from __future__ import annotations
@@ -142,21 +142,25 @@ def _covariance(slopes: Array, point: Point, free: NDArray[np.bool_]) -> _Covari
 
 
 def _sandwich(rows: Array, residual: Array, back: Array, blocks: Sequence[NDArray[np.bool_]]) -> tuple[Array, Array]:
-    """Covariance (n, n) by scores of blocks less their leverage (CR3), and degrees of freedom (n,) of each variance.
+    """Covariance (n, n) by scores of blocks, their leverage made up for (CR2), and degrees of freedom (n,).
 
-    In directions of information one, with H_b and s_b the information and the score of block b, the estimate changes
-    by (I - H_b)^-1 s_b when that block is left out. The degrees are Satterthwaite's, of white residuals.
+    In directions of information one, H_b and s_b are the information and the score of block b. White residuals give s_b
+    the covariance H_b - H_b^2, so that (I - H_b)^-1/2 s_b has H_b, and all of them together one. What a block alone
+    determines has no scatter, and the variance of white residuals. The degrees are Satterthwaite's, of white residuals.
 
     Args:
         rows: (n_r, m) orthonormal slopes.
         back: (n, m) from their directions to the parameters.
     """
     changes, pushes = [], []
+    alone = np.zeros((rows.shape[1], rows.shape[1]))
     for block in blocks:
         part = rows[block]
         own, directions = np.linalg.eigh(part.T @ part)
         left = 1.0 - own
-        undone = (directions * np.where(left > EXACT, 1 / np.maximum(left, EXACT), 0.0)) @ directions.T
+        seen = left > EXACT
+        undone = (directions * np.where(seen, 1 / np.sqrt(np.maximum(left, EXACT)), 0.0)) @ directions.T
+        alone += directions[:, ~seen] @ directions[:, ~seen].T
         changes.append(back @ undone @ (part.T @ residual[block]))
         pushes.append((undone @ back.T, part.T @ part))
     count, moved = len(blocks), np.array(changes)
@@ -167,8 +171,8 @@ def _sandwich(rows: Array, residual: Array, back: Array, blocks: Sequence[NDArra
         products = -pushed @ pushed.T
         products[np.diag_indices(count)] += np.sum(w * pushed, axis=1)
         square = float(np.sum(products**2))
-        freedom[c] = max(float(np.trace(products)) ** 2 / square, 1.0) if square > 0 else 1.0
-    return (count - 1) / count * moved.T @ moved, freedom
+        freedom[c] = max(float(back[c] @ back[c]) ** 2 / square, 1.0) if square > 0 else math.inf
+    return moved.T @ moved + back @ alone @ back.T, freedom
 
 
 def _colour(point: Point, column: Array) -> float:

@@ -38,8 +38,8 @@ def test_at_a_bound_the_interval_has_one_side() -> None:
     assert first.interval[1] > 5.0
 
 
-def test_blocks_give_the_jackknife_of_a_mean_and_its_degrees_of_freedom() -> None:
-    """The mean of m equal blocks: CR3 is the scatter of the block means over m - 1, with m - 1 degrees of freedom."""
+def test_blocks_give_the_scatter_of_a_mean_and_its_degrees_of_freedom() -> None:
+    """The mean of m equal blocks: the scatter of the block means over m - 1, with m - 1 degrees of freedom."""
     blocks, size = 12, 30
     y = np.random.default_rng(3).normal(size=blocks * size)
     rest = y - y.mean()
@@ -50,6 +50,30 @@ def test_blocks_give_the_jackknife_of_a_mean_and_its_degrees_of_freedom() -> Non
     assert found.covariance[0, 0] == pytest.approx(means @ means / (blocks * (blocks - 1)), rel=1e-9)
     reach = student.ppf(0.975, blocks - 1) * found.estimates[0].std
     assert found.estimates[0].interval == pytest.approx((7 - reach, 7 + reach), rel=1e-6)
+
+
+def test_blocks_are_unbiased_for_white_residuals_however_uneven_their_leverage() -> None:
+    """The covariance is quadratic in the residual: its mean is its sum over a basis of white noise."""
+    rng = np.random.default_rng(4)
+    rows = rng.normal(size=(60, 2))
+    rows[:6, 1] *= 10.0  # the first of ten blocks knows most of the second
+    left = np.eye(60) - rows @ np.linalg.pinv(rows)
+    x = np.array([3.0, -2.0])
+    total = np.zeros((2, 2))
+    for rest in left:
+        total += uncertainty(space(x.tolist()), Point(x, 0.0, rest, rows, blocks=np.arange(60) // 6)).covariance
+    np.testing.assert_allclose(total, np.linalg.inv(rows.T @ rows), rtol=1e-9)
+
+
+def test_what_one_block_alone_determines_has_the_interval_of_white_residuals() -> None:
+    rows = np.zeros((60, 2))
+    rows[6:, 0], rows[:6, 1] = 1.0, 1.0
+    rest = np.tile([1.0, -1.0], 30)
+    x = np.array([3.0, -2.0])
+    found = uncertainty(space(x.tolist()), Point(x, 0.0, rest, rows, blocks=np.arange(60) // 6))
+    assert found.covariance[1, 1] == pytest.approx(1 / 6)
+    reach = NORMAL / 6**0.5
+    assert found.estimates[1].interval == pytest.approx((-2 - reach, -2 + reach), rel=1e-6)
 
 
 def slope_interval(noise: np.ndarray) -> Uncertainty:
