@@ -26,7 +26,7 @@ BadInput for what the user can mend.
 - `view` may be a function of the result, where a command finds one of several kinds.
 - A view that tells all files in its JSON has `placed(result, written, home)`, see `pysim.present.report`.
 - Without a `view`, `run` prints, writes and returns the exit code by itself; that is for commands without a result,
-  such as `app`.
+  such as `app`. So may a run that has no result to show, such as `cosim --export-ssp`.
 - `parts` are commands of their own behind this one's name, as in `pysim data check`.
 """
 
@@ -89,7 +89,7 @@ class Command:
         given = Given(self, parsed, (*ahead, self.name))
         _prepare(given)
         result = self.run(given)
-        return _shown(given, result) if self.view else int(result)
+        return int(result) if not self.view or isinstance(result, int) else _shown(given, result)
 
     def shows(self, result: Any) -> Any:
         """The module that shows a result."""

@@ -4,6 +4,7 @@ from pathlib import Path
 import pytest
 
 from pysim.cli import main
+from pysim.cli.outputs import MARKER
 from tests.pysim.cli.ran import refused
 from tests.pysim.cosim.described import controlled, oscillator
 from tests.pysim.simulate.text_models import DISCARDS, text_model
@@ -25,7 +26,7 @@ def test_a_system_is_run_and_reported(folder: Path, tmp_path: Path) -> None:
     assert {s["name"]: s["end"] for s in numbers["signals"]}["plant.y"] == pytest.approx(3.0, abs=1e-3)
     assert (tmp_path / "out" / "record.csv").read_text().count("\n") >= 1201
     names = {path.name for path in (tmp_path / "out").iterdir()}
-    assert names == {"record.csv", "cosim.png", "cosim.svg", "report.html"}
+    assert names == {"record.csv", "cosim.png", "cosim.svg", "report.html", MARKER}
 
 
 def test_an_exported_system_is_run(folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
