@@ -1,11 +1,9 @@
 """Figures from what was measured and simulated; nothing is shown or written here."""
 
-from pysim.plot.excitation import excitation_figure
 from pysim.plot.time_response import time_response_figure
 from pysim.present.render import render
 
 __all__ = [
-    "excitation_figure",
     "render",
     "time_response_figure",
 ]

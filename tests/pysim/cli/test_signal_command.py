@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 
 from pysim.cli import main
-from pysim.cli import signal as signal_command
-from pysim.cli.main import argument_parser
+from pysim.cli.outputs import MARKER
 from pysim.excitation import Chirp, Excitation, LeadIn, LineGrid, Multisine, PiersonMoskowitz, Step, StochasticWave
 from pysim.excitation import SteppedSineCommand as Sine
 from pysim.io import read_signal
@@ -48,36 +47,15 @@ def test_the_file_is_the_signal(words: str, test: Excitation, tmp_path: Path) ->
 def test_output_writes_picture_and_page(words: str, stem: str, tmp_path: Path) -> None:
     files = ["-o", str(tmp_path / "s.csv"), "--output", str(tmp_path / "r")]
     assert main(["signal", *words.split(), *files]) == 0
-    assert {path.name for path in (tmp_path / "r").iterdir()} == {f"{stem}.png", f"{stem}.svg", "report.html"}
+    assert {path.name for path in (tmp_path / "r").iterdir()} == {f"{stem}.png", f"{stem}.svg", "report.html", MARKER}
     assert f"value [{'V' if stem == 'chirp' else '%'}]" in (tmp_path / "s.csv").read_text()
-
-
-@pytest.mark.parametrize(
-    ("words", "jumps"),
-    [
-        ("step --offset 20 --height 10 --length 2 -o s.csv", [(2, 20, 30)]),
-        (
-            "step --offset 20 --height 10 --length 2 --back --ramp 0 -o s.csv",
-            [(0.5, 0, 20), (1.5, 20, 30), (3.5, 30, 20)],
-        ),
-        ("chirp --amplitude 5 --sweep 5 -o s.csv", []),
-        ("step --height 1 --length 0.0004 -o s.csv", [(2.0, 0, 1)]),
-    ],
-)
-def test_every_jump_is_known(words: str, jumps: list[tuple[float, float, float]]) -> None:
-    """Rest 0.5 s, ramp 0.5 s, hold 1 s, then the step; a command of a single row has its facts too."""
-    args = argument_parser().parse_args(["signal", *words.split()])
-    test = signal_command._excitation(args)
-    expected = [pytest.approx(jump) for jump in jumps]
-    assert signal_command._jumps(test.signal()) == expected
-    assert any("jumps" in fact for fact in signal_command._facts(test, args)) == bool(jumps)
 
 
 def test_without_its_picture_nothing_is_written(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def fails(*_: object) -> None:
         raise RuntimeError("no picture")
 
-    monkeypatch.setattr("pysim.plot.excitation_figure", fails)
+    monkeypatch.setattr("pysim.present.excitation.excitation_figure", fails)
     words = ["signal", "chirp", "--amplitude", "5", "--sweep", "5", "-o", str(tmp_path / "s.csv")]
     assert main([*words, "--output", str(tmp_path / "r")]) == 3
     assert not [path for path in tmp_path.rglob("*") if path.is_file()]

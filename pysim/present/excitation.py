@@ -1,14 +1,19 @@
-"""A test signal over time, and where its power is."""
+"""A test signal, shown: text, figure and page; over time, and where its power is."""
 
 from __future__ import annotations
 
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
 import numpy as np
-from matplotlib.artist import Artist
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
 from pysim.excitation import Excitation, Multisine, StochasticWave
+from pysim.present.page import heading, items, paragraph, picture
+from pysim.present.page import page as whole_page
+from pysim.present.render import Drawing, Picture
 from pysim.present.style import (
     BAND,
     COLOURS,
@@ -22,7 +27,13 @@ from pysim.present.style import (
 )
 from pysim.types import Signal
 
-Array = NDArray[np.float64]
+if TYPE_CHECKING:
+    from matplotlib.artist import Artist
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+    from numpy.typing import NDArray
+
+    Array = NDArray[np.float64]
 
 _SAMPLES = 30_000  # of a time course: the tops of a fast sine do not beat with them
 _COARSE = 0.1  # of the fastest sine's period: with times further apart it folds back visibly
@@ -32,6 +43,72 @@ _MOST = 2**22  # of one whose sines are too fast for so few
 _PER_PERIOD = 2.5  # of the fastest sine, the fewest that keep it from folding back
 _FEWEST = 64  # samples of it, however short it is
 _HIGHEST_HZ = 1000.0  # that a spectrum resolves, or twice the fastest sine
+
+
+@dataclass(frozen=True)
+class Played:
+    """A test signal in a file.
+
+    Args:
+        file: that a bench plays.
+        kind: such as "stepped-sine".
+        about: what that is, in a phrase.
+        test: the signal.
+        unit: of the command.
+        sampling_hz: rows per second of the file.
+        settings: all of them in one line.
+    """
+
+    file: Path
+    kind: str
+    about: str
+    test: Excitation
+    unit: str
+    sampling_hz: float
+    settings: str
+
+
+def text(result: Played) -> str:
+    """What the file is, and what is in it."""
+    return "\n".join([f"{result.file}: {result.about}", *(f"  {fact}" for fact in _facts(result))])
+
+
+def figures(result: Played) -> Iterator[Picture]:
+    """Time course and spectrum."""
+    figure = excitation_figure(result.test, result.unit)
+    spectrum = ", and its spectrum" if len(figure.axes) > 1 else ""
+    caption = f"The command over time, the excitation proper shaded{spectrum}."
+    yield Picture(result.kind.replace("-", "_"), caption, figure)
+
+
+def page(result: Played, drawings: Sequence[Drawing], redo: str) -> str:
+    """What is played, with its settings, and the picture."""
+    parts = [heading("What is played"), items(_facts(result)), paragraph(result.settings)]
+    parts += [picture(one.svg, one.caption) for one in drawings]
+    return whole_page(f"Test signal: {result.kind}", result.about, parts)
+
+
+def _facts(result: Played) -> list[str]:
+    """What a person at the bench wants to know before it is played: levels, jumps, and the speed between these."""
+    test, unit, sampling, signal = result.test, result.unit, result.sampling_hz, result.test.signal()
+    t = np.arange(max(1, math.floor((test.end - test.onset) * sampling))) / sampling + test.onset
+    value, fastest = signal.value(t), float(np.abs(signal.derivative(t)).max())
+    facts = [f"excitation from {test.onset:g} to {test.end:g} s, {test.duration:g} s in all"]
+    if np.ptp(value) > 0:
+        levels = f"from {value.min():.4g} to {value.max():.4g} {unit}"
+        facts.append(f"mean {value.mean():.4g} {unit}, rms about it {value.std():.4g} {unit}, {levels}")
+    jumped = [f"at {at:g} s from {before:.4g} to {behind:.4g} {unit}" for at, before, behind in jumps(signal)]
+    facts += [f"jumps {', '.join(jumped)}"] if jumped else []
+    shown = f", its fastest sine in {sampling / test.highest_hz:.3g} rows per period" if test.highest_hz else ""
+    return facts + ([f"fastest {fastest:.4g} {unit}/s{shown}"] if fastest > 0 else [])
+
+
+def jumps(signal: Signal) -> list[tuple[float, float, float]]:
+    """Time in s, value before and value behind, wherever the command jumps."""
+    at = signal.starts[1:]
+    before, behind = signal.value(np.nextafter(at, -np.inf)), signal.value(at)
+    there = np.abs(behind - before) > 1e-6 * np.abs([before, behind]).max(initial=0.0)
+    return list(zip(at[there].tolist(), before[there].tolist(), behind[there].tolist(), strict=True))
 
 
 def excitation_figure(test: Excitation, unit: str) -> Figure:

@@ -1,5 +1,7 @@
 """The picture of a test signal shows its numbers."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -7,6 +9,7 @@ import pysim.excitation
 from pysim.excitation import (
     Chirp,
     Excitation,
+    LeadIn,
     LineGrid,
     Multisine,
     PiersonMoskowitz,
@@ -14,7 +17,7 @@ from pysim.excitation import (
     SteppedSineCommand,
     StochasticWave,
 )
-from pysim.plot import excitation_figure
+from pysim.present.excitation import Played, excitation_figure, jumps, text
 from tests.pysim.present.looking import numbers
 
 FAMILY: list[Excitation] = [
@@ -106,3 +109,19 @@ def test_a_command_without_an_end_is_drawn_for_a_minute() -> None:
     assert curve(figure, 0)[-1, 0] == 62.0
     f, density = curve(figure, 1).T
     assert f[np.argmax(density)] == pytest.approx(1.0, abs=0.02)
+
+
+@pytest.mark.parametrize(
+    ("test", "expected"),
+    [
+        (Step(20.0, 10.0, 2.0), [(2, 20, 30)]),
+        (Step(20.0, 10.0, 2.0, True, LeadIn(ramp=0.0)), [(0.5, 0, 20), (1.5, 20, 30), (3.5, 30, 20)]),
+        (Chirp(0.0, 5.0, 0.1, 30.0, 5.0), []),
+        (Step(0.0, 1.0, 0.0004), [(2.0, 0, 1)]),
+    ],
+)
+def test_every_jump_is_known(test: Excitation, expected: list[tuple[float, float, float]]) -> None:
+    """Rest 0.5 s, ramp 0.5 s, hold 1 s, then the step; a command of a single row has its facts too."""
+    assert jumps(test.signal()) == [pytest.approx(jump) for jump in expected]
+    shown = text(Played(Path("s.csv"), "kind", "about", test, "%", 1000.0, "settings"))
+    assert ("jumps" in shown) == bool(expected)

@@ -1,0 +1,227 @@
+"""`pysim signal KIND`: a file that any bench can play, and a picture of it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from pysim.cli.command import DONE, Command, Given
+from pysim.cli.option import Option, Role, choice, file, number, switch, text
+
+if TYPE_CHECKING:
+    from pysim.excitation import Excitation, LeadIn
+    from pysim.present.excitation import Played
+
+
+def run(given: Given) -> int:
+    """Write the file and say what is in it; the folder's page comes whole together with the file, or not at all."""
+    from pysim.cli.outputs import answer_folder, prepare_answer, prepare_file
+    from pysim.present import excitation
+    from pysim.present.report import write_report
+
+    path, folder = _places(given)
+    test = _MAKE[given.command.name](given, _lead(given))
+    _refuse_slow_sampling(test, given.sampling)
+    prepare_file(path, "-o", (".csv",))
+    about = given.command.about.rstrip(".")
+    played = excitation.Played(path, given.command.name, about, test, given.unit, given.sampling, _settings(given))
+    if folder is None:
+        _write(played)
+        print(excitation.text(played))
+        return DONE
+    prepare_answer(folder, data=[], read=[], beside=[path])
+    view: Any = excitation
+    with answer_folder(folder, beside=[path]) as new:
+        written = write_report(new, played, view, redo=given.repeated)
+        _write(played)
+    print(excitation.text(played))
+    print(f"Report: {folder / written['report'].name}")
+    return DONE
+
+
+def _places(given: Given) -> tuple[Path, Path | None]:
+    """The file, and the folder of its report; elsewhere the option of the one result is --output.
+
+    Raises:
+        BadInput: no file is named.
+    """
+    from pysim.types import BadInput
+
+    path, folder = given.file, given.output
+    if path is None and folder is not None and folder.suffix.lower() == ".csv":
+        path, folder = folder, None
+    if path is None:
+        raise BadInput("name the file to write, -o FILE.csv")
+    return path, folder
+
+
+def _write(played: Played) -> None:
+    from pysim.io import write_signal
+
+    write_signal(
+        played.test.signal(),
+        played.file,
+        duration=played.test.duration,
+        unit=played.unit,
+        sampling_hz=played.sampling_hz,
+        title=played.settings,
+    )
+
+
+def _refuse_slow_sampling(test: Excitation, sampling_hz: float) -> None:
+    """Rows further apart than half a period would be another signal."""
+    from pysim.types import BadInput
+
+    if test.highest_hz > 0 and not sampling_hz > 2 * test.highest_hz:
+        raise BadInput(
+            f"--sampling {sampling_hz:g}: so few rows per second do not show {test.highest_hz:.4g} Hz; give more than "
+            f"twice that, or ten times to keep the shape"
+        )
+
+
+def _settings(given: Given) -> str:
+    """All of them in one line, so that the file tells what it is."""
+    told = (f"{key} {value}" for key, value in given.typed.items() if key not in _PLACES and value is not None)
+    return f"{given.command.name}: {', '.join(told)}"
+
+
+def _lead(given: Given) -> LeadIn:
+    from pysim.excitation import LeadIn
+
+    return LeadIn(given.rest, given.ramp, given.hold, given.ramp_down)
+
+
+def _stepped_sine(given: Given, lead: LeadIn) -> Excitation:
+    from pysim.excitation import SteppedSineCommand
+
+    return SteppedSineCommand(given.offset, given.amplitude, given.frequency, given.periods, lead)
+
+
+def _chirp(given: Given, lead: LeadIn) -> Excitation:
+    from pysim.excitation import Chirp
+
+    return Chirp(given.offset, given.amplitude, given.start_hz, given.stop_hz, given.sweep, lead)
+
+
+def _stochastic(given: Given, lead: LeadIn) -> Excitation:
+    from pysim.excitation import PiersonMoskowitz, StochasticWave
+
+    spectrum = PiersonMoskowitz(given.height, given.peak_period)
+    return StochasticWave(spectrum, given.length, given.seed, given.components, given.offset, lead=lead)
+
+
+def _step(given: Given, lead: LeadIn) -> Excitation:
+    from pysim.excitation import Step
+
+    return Step(given.offset, given.height, given.length, given.back, lead)
+
+
+def _multisine(given: Given, lead: LeadIn) -> Excitation:
+    from pysim.excitation import LineGrid, Multisine
+    from pysim.types import BadInput
+
+    if (given.rms is None) == (given.peak is None):
+        raise BadInput("one of the arguments --rms --peak is required; give the level by one of them")
+    grid = LineGrid(given.period, given.low_hz, given.high_hz, given.lines)
+    more = {"offset": given.offset, "periods": given.periods, "lead": lead}
+    return Multisine(grid, given.seed, rms=given.rms, peak=given.peak, **more)
+
+
+_MAKE: dict[str, Callable[[Given, LeadIn], Excitation]] = {
+    "stepped-sine": _stepped_sine,
+    "chirp": _chirp,
+    "stochastic": _stochastic,
+    "step": _step,
+    "multisine": _multisine,
+}
+
+
+def _needed(flag: str, unit: str, about: str) -> Option:
+    return number(flag, unit, None, about, required=True)
+
+
+_AMPLITUDE = _needed("--amplitude", "A", "of the sine, in the command's unit")
+_SEED = number("--seed", "N", 0, "of the random phases", convert=int)
+_PLACES = ("file", "output")
+_SHARED = (
+    number("--offset", "LEVEL", 0.0, "what the command is around, in its unit"),
+    number("--rest", "SECONDS", 0.5, "at zero before"),
+    number("--ramp", "SECONDS", 0.5, "to the offset"),
+    number("--hold", "SECONDS", 1.0, "at the offset"),
+    number("--ramp-down", "SECONDS", 0.5, "back to zero"),
+    text("--unit", "UNIT", "of the command, for header and picture", default="%"),
+    number("--sampling", "HZ", 1000.0, "rows per second"),
+    Option(("-o", "--file"), "time, value and rate; needed", "FILE.csv", convert=Path),
+    file("--output", "DIR", "write the picture and report.html here; a .csv is taken as --file", role=Role.VALUE),
+)
+
+COMMAND = Command(
+    "signal",
+    "Make a test signal: a file any bench can play, and a picture of it.",
+    parts=(
+        Command(
+            "stepped-sine",
+            "one sine around an offset (thesis Eq. 2.1)",
+            run,
+            options=(
+                _AMPLITUDE,
+                _needed("--frequency", "HZ", "of the sine"),
+                number("--periods", "N", 10.0, "how many"),
+                *_SHARED,
+            ),
+        ),
+        Command(
+            "chirp",
+            "a sine of linearly changing frequency (thesis Eq. 2.2)",
+            run,
+            options=(
+                _AMPLITUDE,
+                number("--start-hz", "HZ", 0.1, "frequency at its start"),
+                number("--stop-hz", "HZ", 30.0, "frequency at its end"),
+                _needed("--sweep", "SECONDS", "from the one to the other"),
+                *_SHARED,
+            ),
+        ),
+        Command(
+            "stochastic",
+            "a wave with the Pierson-Moskowitz spectrum (thesis Appendix A)",
+            run,
+            options=(
+                _needed("--height", "H", "significant height, in the command's unit"),
+                _needed("--peak-period", "SECONDS", "of the spectrum"),
+                number("--length", "SECONDS", 30.0, "of the wave"),
+                number("--components", "N", 100, "how many sines", convert=int),
+                _SEED,
+                *_SHARED,
+            ),
+        ),
+        Command(
+            "step",
+            "a step from one level to another",
+            run,
+            options=(
+                _needed("--height", "H", "of the step, either sign, in the command's unit"),
+                _needed("--length", "SECONDS", "at each level"),
+                switch("--back", "step back again"),
+                *_SHARED,
+            ),
+        ),
+        Command(
+            "multisine",
+            "a periodic sum of sines with random phases",
+            run,
+            options=(
+                _needed("--period", "SECONDS", "its inverse is the distance of the lines"),
+                number("--low-hz", "HZ", 0.1, "lowest line"),
+                number("--high-hz", "HZ", 30.0, "highest line"),
+                number("--rms", "LEVEL", None, "level without the offset, in the command's unit"),
+                number("--peak", "LEVEL", None, "or the largest deviation from the offset, in the command's unit"),
+                choice("--lines", "random-odd", ("full", "odd", "random-odd"), "that are excited"),
+                number("--periods", "N", 3.0, "how many"),
+                _SEED,
+                *_SHARED,
+            ),
+        ),
+    ),
+)
