@@ -3,7 +3,8 @@
 import numpy as np
 
 from pysim.identify.data_check import check_dataset
-from pysim.report.data_check import data_check_data, data_check_page, data_check_text
+from pysim.present import Drawing
+from pysim.present.data_check import data, page, text
 from pysim.types import Dataset, MeasuredRecord, MeasuredSignal, Record
 
 SIGNALS = (MeasuredSignal("cmd", "input", "1", "", "cmd", noise=0.5), MeasuredSignal("y", "output", "1", "<y>", "y"))
@@ -19,32 +20,32 @@ def dataset(count: int) -> Dataset:
 
 
 def test_few_warnings_are_all_shown() -> None:
-    text = data_check_text(check_dataset(dataset(2)))
-    assert text.endswith(
+    shown = text(check_dataset(dataset(2)))
+    assert shown.endswith(
         "2 warnings:\n  0.txt: a gap in time, of 0.11 s after 0.49 s\n  1.txt: a gap in time, of 0.11 s after 0.49 s"
     )
-    assert "  cmd  input, 1, noise 0.5, no resolution told" in text.splitlines()
+    assert "  cmd  input, 1, noise 0.5, no resolution told" in shown.splitlines()
 
 
 def test_many_warnings_are_cut_in_the_terminal_and_whole_elsewhere() -> None:
     check = check_dataset(dataset(30))
-    assert data_check_text(check).endswith("  and 10 more")
-    data = data_check_data(check)
-    assert data["warnings"] == 30
-    assert data["records"][29]["clock"]["gaps"][0]["after_s"] == 0.49
-    page = data_check_page(check, pictures={"a picture": b"<svg/>"}, redo="pysim data check d")
-    assert page.count("a gap in time") == 30
-    assert "&lt;y&gt;" in page
-    assert "<y>" not in page
-    assert "30 warnings." in page
+    assert text(check).endswith("  and 10 more")
+    found = data(check)
+    assert found["warnings"] == 30
+    assert found["records"][29]["clock"]["gaps"][0]["after_s"] == 0.49
+    html = page(check, [Drawing("logs", "a picture", b"<svg/>")], "pysim data check d")
+    assert html.count("a gap in time") == 30
+    assert "&lt;y&gt;" in html
+    assert "<y>" not in html
+    assert "30 warnings." in html
 
 
 def test_a_good_set_is_ready() -> None:
     time = np.arange(200) / 100
     log = Record(time, np.column_stack([np.sin(time), np.cos(time)]), ("cmd", "y"), ("1", "1"))
-    data = Dataset("d", "words", "s", SIGNALS, (MeasuredRecord("a.txt", "other", "fit", log),))
-    assert data_check_text(check_dataset(data)).endswith("0 warnings, ready to use")
-    assert "ready to use" in data_check_page(check_dataset(data), pictures={}, redo="x")
+    good = Dataset("d", "words", "s", SIGNALS, (MeasuredRecord("a.txt", "other", "fit", log),))
+    assert text(check_dataset(good)).endswith("0 warnings, ready to use")
+    assert "ready to use" in page(check_dataset(good), [], "x")
 
 
 def test_pressures_of_sines_are_told_in_bar() -> None:
@@ -53,8 +54,8 @@ def test_pressures_of_sines_are_told_in_bar() -> None:
     sine = 1e7 + 1e6 * np.sin(2 * np.pi * time)
     log = Record(time, np.column_stack([sine, np.cos(time)]), ("p", "y"), ("Pa", "1"))
     sines = MeasuredRecord("a.txt", "frequency-response", "fit", log, 1e7, 1e6, 1.0, command="p")
-    text = data_check_text(check_dataset(Dataset("d", "-", "-", signals, (sines,))))
-    assert "offset 100 bar, amplitude 10 bar: 1 Hz" in text
+    shown = text(check_dataset(Dataset("d", "-", "-", signals, (sines,))))
+    assert "offset 100 bar, amplitude 10 bar: 1 Hz" in shown
 
 
 def test_sines_on_several_inputs_are_told_apart() -> None:
@@ -67,9 +68,9 @@ def test_sines_on_several_inputs_are_told_apart() -> None:
         return MeasuredRecord("a.txt", "frequency-response", "fit", log, 1e7, 1e6, frequency, command=command)
 
     check = check_dataset(Dataset("d", "-", "-", signals, tuple(record(c, f) for f in (1.0, 2.0) for c in "pq")))
-    text = data_check_text(check)
+    shown = text(check)
     for name in "pq":
-        assert f"  {name} at offset 100 bar, amplitude 10 bar: 1, 2 Hz;" in text
-    assert text.count("amplitude 10 bar") == 2
-    assert [one["input"] for one in data_check_data(check)["records"]] == ["p", "q", "p", "q"]
-    assert "<th>input</th>" in data_check_page(check, pictures={}, redo="x")
+        assert f"  {name} at offset 100 bar, amplitude 10 bar: 1, 2 Hz;" in shown
+    assert shown.count("amplitude 10 bar") == 2
+    assert [one["input"] for one in data(check)["records"]] == ["p", "q", "p", "q"]
+    assert "<th>input</th>" in page(check, [], "x")

@@ -3,18 +3,21 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
-from typing import Any, NamedTuple, TypeVar
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
-from numpy.typing import NDArray
 
+from pysim.identify.data_check import DataCheck
 from pysim.io import shown_unit
+from pysim.present.render import Picture
 from pysim.present.style import COLOURS, DASHES, MEASURED, SMALL, TEXT, frequency_axis, legend_above, new_figure, quiet
 from pysim.types import BadInput, Dataset, MeasuredRecord, Record
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+    from numpy.typing import NDArray
 
 _T = TypeVar("_T")
 
@@ -23,6 +26,18 @@ _ROWS = 8  # operating points, or records over time, per picture
 _PERIODS = 2.0  # of a sine that are shown
 _COMMAND: dict[str, Any] = {"color": MEASURED, "linewidth": 1.0}
 _ANSWER: dict[str, Any] = {"color": COLOURS[0], "linewidth": 1.2, "linestyle": DASHES[1]}  # in phase, both are seen
+
+
+def figures(check: DataCheck) -> Iterator[Picture]:
+    """What the stepped sines cover, their last periods, and the other logs over time; each where there are some."""
+    dataset = check.dataset
+    if any(record.frequency is not None for record in dataset.logs()):
+        caption = "Offsets, amplitudes and frequencies of the stepped sines."
+        yield Picture("coverage", caption, coverage_figure(dataset))
+        caption = "The last two periods of stepped sines: the command, and what answered."
+        yield Picture("sines", caption, sine_logs_figure(dataset))
+    if any(record.frequency is None for record in dataset.logs()):
+        yield Picture("logs", "Logs over time.", time_logs_figure(dataset))
 
 
 class _Test(NamedTuple):
@@ -110,6 +125,8 @@ def sine_logs_figure(dataset: Dataset) -> Figure:
     figure.supylabel("Offset / amplitude", fontsize=TEXT)
     figure.supxlabel("Last periods of the log", fontsize=TEXT)
     figure.align_ylabels()
+    from matplotlib.lines import Line2D
+
     lines = [Line2D([], [], **look) for look in (_COMMAND, _ANSWER)]
     legend_above(figure, lines, [commands[0] if len(commands) == 1 else "command", _shown_name(dataset, answer)])
     return figure
@@ -166,6 +183,8 @@ def time_logs_figure(dataset: Dataset) -> Figure:
     for panel in axes[-1]:
         panel.set_xlabel("Time (s)", fontsize=TEXT)
     figure.align_ylabels()
+    from matplotlib.lines import Line2D
+
     lines = [Line2D([], [], **_look(dataset, name, names)) for name in names]
     legend_above(figure, lines, names)
     return figure

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from pysim.cli import main
+from pysim.cli.outputs import MARKER
 from pysim.io import write_dataset
 from pysim.types import Dataset, FrequencyResponse, MeasuredRecord, MeasuredSignal, Record, SineTest
 from tests.pysim.cli.ran import refused
@@ -69,7 +70,7 @@ def test_numbers_report_and_pictures(folder: Path, tmp_path: Path) -> None:
     }
     assert data["signals"][1]["noise"] == 0.01
     pictures = {f"{name}.{form}" for name in ("coverage", "sines", "logs") for form in ("png", "svg")}
-    assert {path.name for path in out.iterdir()} == {"report.html", *pictures}
+    assert {path.name for path in out.iterdir()} == {"report.html", MARKER, *pictures}
     assert (out / "report.html").read_text().count("data:image/svg+xml") == 3
     assert before == {path: path.stat().st_mtime_ns for path in folder.rglob("*")}
 

@@ -1,28 +1,27 @@
-"""What a data set holds: for a terminal, for JSON and for the page."""
+"""What a data set holds, as text and JSON."""
 
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 from pysim.identify.data_check import DataCheck, RecordCheck
 from pysim.io import counted, shown_point
-from pysim.present.page import cell, commands, heading, items, page, paragraph, picture, table
 
-_UNTOLD = "-"  # a description or a system that dataset.toml leaves out
+UNTOLD = "-"  # a description or a system that dataset.toml leaves out
 _WIDTH = 100
 _SHOWN = 20  # warnings in the terminal; all of them stand in JSON and report
 
 
-def data_check_text(check: DataCheck) -> str:
+def text(check: DataCheck) -> str:
     """Signals, records by kind and operating point, and warnings."""
     dataset = check.dataset
-    system = "" if dataset.system == _UNTOLD else f" (system {dataset.system})"
-    about = "" if dataset.description == _UNTOLD else f": {dataset.description}"
+    system = "" if dataset.system == UNTOLD else f" (system {dataset.system})"
+    about = "" if dataset.description == UNTOLD else f": {dataset.description}"
     lines = [f"{dataset.name}{system}{about}", "signals"]
     width = max(len(signal.name) for signal in dataset.signals)
-    for signal, words in zip(dataset.signals, _signals(check), strict=True):
+    for signal, words in zip(dataset.signals, signals_in_words(check), strict=True):
         _, role, unit, quantity, variable, *rest = words
         told = [quantity] if quantity not in ("", signal.name) else []
         told += [f"{variable} in the model"] if variable != signal.name else []
@@ -38,7 +37,7 @@ def data_check_text(check: DataCheck) -> str:
     return "\n".join(lines)
 
 
-def data_check_data(check: DataCheck) -> dict[str, Any]:
+def data(check: DataCheck) -> dict[str, Any]:
     """Everything for JSON; SI units or %."""
     dataset = check.dataset
     about = {"name": dataset.name, "description": dataset.description, "system": dataset.system}
@@ -52,37 +51,7 @@ def data_check_data(check: DataCheck) -> dict[str, Any]:
     }
 
 
-def data_check_page(check: DataCheck, *, pictures: Mapping[str, bytes], redo: str) -> str:
-    """A self-contained HTML page.
-
-    Args:
-        pictures: caption -> SVG.
-        redo: the command line that makes this page again.
-    """
-    warnings = check.warnings
-    found = "One warning." if len(warnings) == 1 else f"{len(warnings)} warnings."
-    verdict = found if warnings else "Nothing stands out; the data set is ready to use."
-    parts = [heading("Verdict"), paragraph(f"{len(check.records)} records were read. {verdict}", note=bool(warnings))]
-    parts.append(items(f"{source}: {text}" for source, text in warnings))
-    rows = [[cell(words[0], "words"), *(cell(word, "words") for word in words[1:])] for words in _signals(check)]
-    head = ["", "role", "unit", "quantity", "model variable", "noise", "resolution"]
-    parts += [heading("Signals"), table("In SI units or %", head, rows)]
-    parts += [heading("Pictures"), *(picture(svg, caption) for caption, svg in pictures.items())]
-    several = _several_inputs(check.records)
-    head = ["file", "kind", "use", "rows", "duration s", "rate Hz", "jitter %", *(["input"] if several else [])]
-    head += ["offset", "amplitude", "Hz", "warnings"]
-    body = [_row(record, several) for record in check.records]
-    parts += [heading("Records"), table("Offset and amplitude in the input's SI unit or %", head, body)]
-    parts += [heading("Do it again"), commands(redo)]
-    told = {
-        check.dataset.description: check.dataset.description,
-        check.dataset.system: f"system {check.dataset.system}",
-    }
-    about = "; ".join(words for text, words in told.items() if text != _UNTOLD)
-    return page(f"Data set {check.dataset.name}", f"{about}." if about else "", parts)
-
-
-def _signals(check: DataCheck) -> list[list[str]]:
+def signals_in_words(check: DataCheck) -> list[list[str]]:
     """Name, role, unit, quantity, variable, noise and resolution of every signal, in words."""
     rows = []
     for signal in check.dataset.signals:
@@ -108,7 +77,7 @@ def _points(records: list[RecordCheck]) -> list[str]:
     for record in records:
         if record.frequency is not None:
             groups.setdefault((record.command, record.offset or 0.0, record.amplitude or 0.0), []).append(record)
-    several = _several_inputs(records)
+    several = several_inputs(records)
     for (command, offset, amplitude), members in groups.items():
         frequencies = ", ".join(f"{f:g}" for f in sorted(r.frequency for r in members if r.frequency is not None))
         point = shown_point(offset, amplitude, members[0].unit, command if several else "")
@@ -117,7 +86,7 @@ def _points(records: list[RecordCheck]) -> list[str]:
     return [part for line in lines for part in textwrap.wrap(line, _WIDTH, subsequent_indent="    ")]
 
 
-def _several_inputs(records: Sequence[RecordCheck]) -> bool:
+def several_inputs(records: Sequence[RecordCheck]) -> bool:
     """Whether offsets and amplitudes are not all of the same input."""
     return len({record.command for record in records if record.offset is not None or record.amplitude is not None}) > 1
 
@@ -157,16 +126,3 @@ def _record(record: RecordCheck) -> dict[str, Any]:
         about["clock"] = {"start_s": base.start, "duration_s": base.duration, "rate_hz": base.rate}
         about["clock"] |= {"jitter": base.jitter, "gaps": gaps}
     return about
-
-
-def _row(record: RecordCheck, several: bool) -> list[str]:
-    """Cells of the table of records, the input among them where there are several."""
-    base = record.clock
-    clock = ["-", "-", "-"]
-    if base is not None:
-        clock = [f"{base.duration:.4g}", f"{base.rate:.4g}", f"{100 * base.jitter:.2g}"]
-    told = [record.command or "-"] if several else []
-    told += ["-" if v is None else f"{v:g}" for v in (record.offset, record.amplitude, record.frequency)]
-    count = len(record.warnings)
-    words = [record.source, record.kind, record.use, str(record.rows), *clock, *told]
-    return [*(cell(word) for word in words), cell(str(count), "beyond" if count else "")]

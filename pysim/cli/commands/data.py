@@ -1,0 +1,126 @@
+"""`pysim data check` and `pysim data describe`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from pysim.cli.command import DONE, Command, Given
+from pysim.cli.option import Option, Role, argument, text
+from pysim.cli.options import JSON, OUTPUT
+
+if TYPE_CHECKING:
+    from pysim.identify.data_check import DataCheck
+    from pysim.types import Dataset, MeasuredSignal
+
+
+def _check(given: Given) -> DataCheck:
+    """What is in it, and what should be looked at."""
+    from pysim.identify.data_check import check_dataset
+
+    return check_dataset(given.dataset)
+
+
+def _describe(given: Given) -> int:
+    """Write the draft; never over a description that is there."""
+    from pysim.cli._describe import draft, draft_text, open_ends
+    from pysim.cli.outputs import command_line
+    from pysim.io import write_file
+    from pysim.types import BadInput
+
+    target = given.folder / "dataset.toml"
+    if not given.folder.is_dir():
+        raise BadInput(f"{given.folder} is no folder; name the folder of the logs")
+    if target.exists():
+        raise BadInput(f"{target} is there already and stays as it is; remove it first where it is to be drafted anew")
+    found = draft(given.folder, _units(given.input), _units(given.response))
+    write_file(target, draft_text(found))
+    print(
+        f"Drafted: {target}, {len(found.columns)} log{'s' * (len(found.columns) > 1)}, signals {', '.join(found.roles)}"
+    )
+    for remark in found.remarks:
+        print(f"  {remark}")
+    for what in open_ends(found):
+        print(f"  to fill in: {what}")
+    print(f"Look through it, then: {command_line(['data', 'check', str(given.folder)])}")
+    return DONE
+
+
+def _units(texts: list[str]) -> dict[str, str]:
+    """Signal -> unit in the files."""
+    from pysim.cli.options import names_of
+    from pysim.io.units import unit_cure
+    from pysim.types import UNITS, BadInput
+
+    signals = [_signal("input", text) for text in names_of(texts)]
+    for signal in signals:
+        if signal.unit not in UNITS:
+            raise BadInput(f"signal {signal.name}: unit = {signal.unit!r} is not known; {unit_cure(signal.unit)}")
+    return {signal.name: signal.unit for signal in signals}
+
+
+def _read(given: Given) -> Dataset:
+    from pysim.cli._measurements import read_measurements
+    from pysim.cli.options import names_of
+    from pysim.io import read_thesis_folder
+    from pysim.types import BadInput
+
+    inputs, responses = names_of(given.input), names_of(given.response)
+    if not (inputs or responses):
+        return read_measurements(given.typed["dataset"])
+    if len(inputs) != 1 or not responses:
+        raise BadInput("logs without a dataset.toml need one --input NAME:UNIT and at least one --response NAME:UNIT")
+    signals = [_signal("input", inputs[0]), *(_signal("output", text) for text in responses)]
+    return read_thesis_folder(given.typed["dataset"], signals)
+
+
+def _signal(role: str, text: str) -> MeasuredSignal:
+    from pysim.types import BadInput, MeasuredSignal
+
+    name, colon, unit = (part.strip() for part in text.rpartition(":"))
+    if not (name and colon and unit):
+        raise BadInput(f"{text}: write NAME:UNIT, as alphaCMD:%")
+    return MeasuredSignal(name, role, unit, name, name)
+
+
+def _signals(input_about: str) -> tuple[Option, Option]:
+    more = "commas or repeat"
+    return (
+        text("--input", "NAME:UNIT,...", f"{input_about}; {more}", repeated=True),
+        text("--response", "NAME:UNIT,...", f"the columns behind it, one by one; {more}", repeated=True),
+    )
+
+
+COMMAND = Command(
+    "data",
+    "Say what a data set holds and what should be looked at; draft a dataset.toml for plain logs.",
+    parts=(
+        Command(
+            "check",
+            "read a data set and print what it holds",
+            _check,
+            options=(
+                Option(
+                    ("DATASET",),
+                    "folder with a dataset.toml, or that file",
+                    convert=Path,
+                    role=Role.DATA,
+                    read=_read,
+                ),
+                *_signals("the command, second column of logs without a dataset.toml whose names tell their frequency"),
+                JSON,
+                OUTPUT,
+            ),
+            view="pysim.present.data_check",
+        ),
+        Command(
+            "describe",
+            "draft a dataset.toml into a folder of logs that has none",
+            _describe,
+            options=(
+                argument("FOLDER", "of logs; nothing else in it is changed", convert=Path),
+                *_signals("what drives the plant, by its heading, or in the order of the columns (the second)"),
+            ),
+        ),
+    ),
+)
