@@ -9,11 +9,10 @@ import pytest
 from matplotlib.figure import Figure
 
 from pysim.identify import magnitude_db
-from pysim.plot import time_response_figure
 from pysim.present import render, style
 from pysim.present.comparison import bode_figure, deviation_figure
 from pysim.present.style import new_figure
-from pysim.types import BadInput, Record, SineTest
+from pysim.types import BadInput, SineTest
 from tests.pysim.comparisons import comparison
 
 SETS = [comparison("A"), comparison("B", error_db=1.0, fails=1)]
@@ -85,17 +84,6 @@ def test_deviations_tell_pass_from_fail() -> None:
     np.testing.assert_allclose(hollow_b, [0.75] * 3)  # the fourth did not run
     assert mean_db[3].get_markerfacecolor() == "white"
     assert mean_db[4].get_xdata()[0] == 0.5
-
-
-def test_time_response_is_drawn_in_the_reader_s_units() -> None:
-    values, names = np.array([[1e5, 1.0, 1.0], [2e5, 2.0, 2.0]]), ("p1", "u", "w")
-    record = Record(np.arange(2.0), values, names, ("Pa", "1", "rad/s"))
-    figure = time_response_figure({"reference": record, "FMU": record}, names)
-    np.testing.assert_allclose(curves(figure, 0)[1], [1.0, 2.0])
-    np.testing.assert_allclose(curves(figure, 2)[1], [30 / np.pi, 60 / np.pi])
-    assert [axes.get_ylabel() for axes in figure.axes] == ["p1 (bar)", "u (-)", "w (rpm)"]
-    with pytest.raises(BadInput, match="at least one record"):
-        time_response_figure({}, ("u",))
 
 
 @pytest.mark.parametrize(("form", "begins"), [("png", b"\x89PNG\r\n\x1a\n"), ("svg", b"<?xml")])

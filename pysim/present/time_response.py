@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-
-from matplotlib.figure import Figure
+from typing import TYPE_CHECKING
 
 from pysim.io import shown_unit
 from pysim.present.style import COLOURS, DASHES, MEASURED, TEXT, legend_above, new_figure, quiet
 from pysim.types import BadInput, Record
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 
 def time_response_figure(records: Mapping[str, Record], signals: Sequence[str]) -> Figure:
