@@ -1,9 +1,8 @@
-"""Say what a model holds: inputs, outputs, parameters, slots, and the effects that its slots take."""
+"""What a model holds, shown: text and JSON."""
 
 from __future__ import annotations
 
-import argparse
-import json
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -12,33 +11,27 @@ if TYPE_CHECKING:
     from pysim.types import Effect, Model, Variable
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The words behind `pysim model`."""
-    from pysim.cli._any_model import WHAT, add_library
+@dataclass(frozen=True)
+class Inside:
+    """A model with what its libraries know of it.
 
-    parser.add_argument("model", metavar="MODEL", help=WHAT)
-    add_library(parser)
-    parser.add_argument("--json", metavar="FILE", type=Path, help="write all of it here")
+    Args:
+        class_name: of the model; "" for an FMU without its class.
+        slots: of the class.
+        effects: that the slots take.
+        libraries: of the user.
+    """
 
-
-def run(args: argparse.Namespace) -> int:
-    """Print what it holds; 0."""
-    from pysim.cli._subject import read_inside
-    from pysim.cli.outputs import JSON, prepare_file
-    from pysim.io import write_file
-
-    if args.json:
-        prepare_file(args.json, "--json", JSON)
-    model, class_name, slots, effects = read_inside(args)
-    print(_text(model, slots, effects))
-    if args.json:
-        found = _data(model, class_name, slots) | {"structure": _structure(class_name, args.library)}
-        found["effects"] = [_effect(effect, model, slots, args.library) for effect in effects]
-        write_file(args.json, json.dumps(found, indent=1, allow_nan=False) + "\n")
-    return 0
+    model: Model
+    class_name: str
+    slots: tuple[Slot, ...]
+    effects: tuple[Effect, ...]
+    libraries: tuple[Path, ...]
 
 
-def _text(model: Model, slots: tuple[Slot, ...], effects: tuple[Effect, ...]) -> str:
+def text(result: Inside) -> str:
+    """Inputs, outputs, parameters with bounds, and slots with what they take."""
+    model, slots, effects = result.model, result.slots, result.effects
     lines = [f"{model.name}, FMI {model.abilities.fmi}, {len(model.abilities.states)} states"]
     for causality in ("input", "output"):
         lines += [f"{causality}s", *(f"  {v.name} [{v.unit}] {v.description}".rstrip() for v in _of(model, causality))]
@@ -48,6 +41,15 @@ def _text(model: Model, slots: tuple[Slot, ...], effects: tuple[Effect, ...]) ->
         own = ", ".join(effect.name for effect in effects if effect.slot == slot.name) or "no effect of the libraries"
         lines.append(f"slot {slot.name}: {own}")
     return "\n".join(lines)
+
+
+def data(result: Inside) -> dict[str, Any]:
+    """All of it, with its parts and their links, and a picture of each effect's law."""
+    libraries = list(result.libraries)
+    found = _data(result.model, result.class_name, result.slots)
+    found |= {"structure": _structure(result.class_name, libraries)}
+    found["effects"] = [_effect(effect, result.model, result.slots, libraries) for effect in result.effects]
+    return found
 
 
 def _data(model: Model, class_name: str, slots: tuple[Slot, ...]) -> dict[str, Any]:
