@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pysim.io import shown_unit
+from pysim.io import record_text, shown_unit
 from pysim.present.page import cell, commands, heading, paragraph, picture, table
 from pysim.present.page import page as whole_page
 from pysim.present.render import Drawing, Picture
@@ -96,6 +96,11 @@ def page(result: CoSimulation, drawings: Sequence[Drawing], redo: str) -> str:
     body += [heading("Do it again"), commands(redo)]
     lead = "Members stepped side by side and wired at communication points."
     return whole_page(f"Co-simulation {result.name}", lead, body)
+
+
+def files(result: CoSimulation) -> dict[str, str]:
+    """The record, where anything was recorded."""
+    return {"record.csv": record_text(result.record)} if result.record.time.size else {}
 
 
 def _wiring(wires: Wires) -> str:

@@ -108,13 +108,6 @@ def _is_done(result: CoSimulation) -> bool:
     return result.record.outcome is Outcome.DONE
 
 
-def _write_record(_: Given, result: CoSimulation, folder: Path) -> None:
-    from pysim.io import write_record
-
-    if result.record.time.size:
-        write_record(result.record, folder / "record.csv")
-
-
 COMMAND = Command(
     "cosim",
     "Run a system of FMUs and controllers that a file describes.",
@@ -129,5 +122,4 @@ COMMAND = Command(
     ),
     view="pysim.present.cosim",
     passes=_is_done,
-    files=_write_record,
 )
