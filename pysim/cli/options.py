@@ -205,6 +205,7 @@ def _model(given: Given) -> Model:
 DATASET = argument("DATASET", "folder with a dataset.toml", convert=Path, role=Role.DATA, read=_dataset)
 DATASETS = replace(DATASET, about="folder with a dataset.toml; several are taken together", nargs="+")
 MODEL = text("--model", "MODEL", WHAT, required=True, role=Role.READ, read=_model)
+MODEL_FIRST = argument("MODEL", WHAT, role=Role.READ, read=_model)
 LIBRARY = file(
     "--library",
     "PATH",

@@ -1,0 +1,106 @@
+"""`pysim simulate`."""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from pysim.cli._inputs import INPUT
+from pysim.cli.command import DONE, NO, Command, Given
+from pysim.cli.option import Option, Role, choice, file, number, text
+from pysim.cli.options import LIBRARY, MODEL_FIRST, PARAMETERS, SET
+
+if TYPE_CHECKING:
+    from pysim.types import Experiment, Model, Record
+
+_STOP = 1.0  # s, where neither the command line nor the FMU says it
+_ROWS = 500  # rows of a run, where the command line does not say it
+_MOST_ROWS = 10_000_000  # of a run; more is a slip of the keyboard, and would fill the memory
+
+
+def run(given: Given) -> int:
+    """Simulate; NO when the run stops early, with what was reached written all the same."""
+    from pysim.cli._inputs import input_files
+    from pysim.cli.outputs import prepare_file
+    from pysim.cli.progress import simulating
+    from pysim.simulate import Rk45, Rodas, simulate
+    from pysim.types import Outcome
+
+    model: Model = given.model
+    experiment = _experiment(given, model)
+    if given.output:
+        prepare_file(given.output, "--output", read=input_files(given))
+    with simulating():
+        record = simulate(model, experiment, solver=Rodas() if given.solver == "rodas" else Rk45(), check=False)
+    _write(given, record)
+    if record.outcome is not Outcome.DONE:
+        print(f"pysim simulate: {model.name} stopped early: {record.message}", file=sys.stderr)
+        return NO
+    return DONE
+
+
+def _experiment(given: Given, model: Model) -> Experiment:
+    import numpy as np
+
+    from pysim.cli._inputs import read_inputs
+    from pysim.cli.options import names_of, read_parameters
+    from pysim.types import BadInput, Experiment
+
+    stop = model.stop_time or _STOP if given.stop is None else given.stop
+    step = stop / _ROWS if given.step is None else given.step
+    if not (0 < step <= stop < float("inf")):
+        raise BadInput(f"--stop {stop:g} --step {step:g}: the step must be positive and not beyond the stop")
+    if stop / step > _MOST_ROWS:
+        raise BadInput(
+            f"--stop {stop:g} --step {step:g}: {stop / step:.3g} rows are more than {_MOST_ROWS:,}; widen the step"
+        )
+    times = np.append(np.arange(0.0, stop - step / 2, step), stop)
+    inputs = read_inputs(given, model)
+    recorded = _recorded(model, names_of(given.record))
+    return Experiment(times, recorded, inputs, read_parameters(given, model), rates=model.rate_inputs(inputs))
+
+
+def _recorded(model: Model, names: list[str]) -> tuple[str, ...]:
+    """The variables asked for, else every output, else every state."""
+    outputs = tuple(variable.name for variable in model.variables if variable.causality == "output")
+    return tuple(names) or outputs or model.abilities.states
+
+
+def _write(given: Given, record: Record) -> None:
+    from pysim.io import record_data, record_text, write_file, write_record
+
+    if given.json:
+        write_file(given.json, json.dumps(record_data(record), indent=1, allow_nan=False))
+    if given.output:
+        write_record(record, given.output)
+    else:
+        sys.stdout.write(record_text(record))
+
+
+COMMAND = Command(
+    "simulate",
+    "Run a model and write what it did as .csv or .npz.",
+    run,
+    options=(
+        MODEL_FIRST,
+        LIBRARY,
+        number("--stop", "SECONDS", None, "end of the run (the FMU's own, else 1)"),
+        number("--step", "SECONDS", None, "time between rows (a 500th of the run)"),
+        text("--record", "NAME,...", "variables (all outputs); commas or repeat", repeated=True),
+        INPUT,
+        SET,
+        PARAMETERS,
+        choice("--solver", "rodas", ("rodas", "rk45"), "for stiff models or for others"),
+        Option(
+            ("-o", "--output"),
+            ".csv or .npz to write; else csv to standard output",
+            "FILE",
+            convert=Path,
+            role=Role.FILE,
+            suffixes=(".csv", ".npz"),
+        ),
+        file("--json", "FILE", "write record and statistics here", suffixes=(".json",)),
+    ),
+)
