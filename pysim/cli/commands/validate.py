@@ -1,11 +1,13 @@
-"""Redo what is claimed and published, case by case."""
+"""`pysim validate`."""
 
 from __future__ import annotations
 
-import argparse
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
+
+from pysim.cli.command import DONE, NO, Command, Given
+from pysim.cli.option import Option, switch
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -17,51 +19,37 @@ if TYPE_CHECKING:
     from validation.results import CaseResult
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The words behind `pysim validate`."""
-    parser.add_argument("names", metavar="NAME", nargs="*", help="cases to run, all by default")
-    parser.add_argument("--quick", action="store_true", help="only cases that take seconds, under 2 min of CPU in all")
-    parser.add_argument("--list", action="store_true", help="say which cases there are, and run none")
-    parser.add_argument(
-        "-o", "--output", metavar="DIR", type=Path, help="write report.html, summary.md and pictures here"
-    )
-    parser.add_argument("--json", metavar="FILE", type=Path, help="write all numbers here, a line of JSON per case")
-    parser.add_argument(
-        "--record", action="store_true", help="keep the results in the checkout, and write its summary and README anew"
-    )
-
-
-def run(args: argparse.Namespace) -> int:
-    """0 when every claim that could be tried holds, 1 when one fails."""
+def run(given: Given) -> int:
+    """NO when one claim fails of those that could be tried."""
     from pysim.cli.outputs import prepare_file, prepare_folder
     from validation.registry import CASES
     from validation.results import FAILS, append_results
     from validation.suite import chosen, run_cases
 
-    names = chosen(args.names, quick=args.quick)
-    if args.list:
+    names = chosen(given.names, quick=given.quick)
+    if given.list:
         for name in names:
             print(f"{name:<18} {'quick' if CASES[name].quick else '':<5}  {CASES[name].about}")
-        return 0
-    if args.output:
-        prepare_folder(args.output)
-    if args.json:
-        numbers = prepare_file(args.json, "--json", (".json", ".jsonl"))
+        return DONE
+    if given.output:
+        prepare_folder(given.output)
+    if given.json:
+        numbers = prepare_file(given.json, "--json", (".json", ".jsonl"))
         if numbers.is_file():  # not a device, such as /dev/null
             numbers.unlink()
-    checkout = _checkout() if args.record else None
+    checkout = _checkout() if given.record else None
     show = _Show(len(names))
     results = []
     for result in run_cases(names, show):
         show.finished(result)
         results.append(result)
-        if args.json:
-            append_results(args.json, [result])
-    if args.output:
-        _write_page(args.output, results)
+        if given.json:
+            append_results(given.json, [result])
+    if given.output:
+        _write_page(given.output, results)
     if checkout:
         _record(checkout, results)
-    return 1 if any(result.verdict == FAILS for result in results) else 0
+    return NO if any(result.verdict == FAILS for result in results) else DONE
 
 
 class _Show:
@@ -120,7 +108,7 @@ def _checkout() -> Path:
     """
     from pysim.types import BadInput
 
-    root = Path(__file__).resolve().parents[2]
+    root = Path(__file__).resolve().parents[3]
     if not (root / "pyproject.toml").is_file():
         raise BadInput("--record writes into a checkout and this is an installed package; use --output or --json")
     return root
@@ -136,3 +124,18 @@ def _record(root: Path, results: Sequence[CaseResult]) -> None:
     readme = root / "README.md"
     write_file(readme, between_markers(readme.read_text(encoding="utf-8"), short_summary(kept)))
     print(f"recorded {len(results)} cases in {_results_file()}")
+
+
+COMMAND = Command(
+    "validate",
+    "Redo what is claimed and published, case by case.",
+    run,
+    options=(
+        Option(("NAMES",), "cases to run, all by default", "NAME", nargs="*"),
+        switch("--quick", "only cases that take seconds, under 2 min of CPU in all"),
+        switch("--list", "say which cases there are, and run none"),
+        Option(("-o", "--output"), "write report.html, summary.md and pictures here", "DIR", convert=Path),
+        Option(("--json",), "write all numbers here, a line of JSON per case", "FILE", convert=Path),
+        switch("--record", "keep the results in the checkout, and write its summary and README anew"),
+    ),
+)

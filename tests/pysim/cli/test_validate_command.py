@@ -4,7 +4,8 @@ from pathlib import Path
 
 import pytest
 
-from pysim.cli import main, validate
+from pysim.cli import main
+from pysim.cli.commands import validate
 from tests.validation import made_up
 from validation.results import read_results
 from validation.summary import BEGIN, END
