@@ -90,7 +90,7 @@ def parse(words: list[str]) -> None:
     if words[0] == "pysim":
         parsed = argument_parser().parse_args(words[1:])
         if words[1] == "validate":
-            unknown = set(parsed.names) - set(import_module("validation.registry").CASES)
+            unknown = {name for name, _ in parsed.names or ()} - set(import_module("validation.registry").CASES)
             assert not unknown, f"there is no case {sorted(unknown)}"
     elif words[0] == "fmu-build":
         import_module("fmu_build.cli")._parser().parse_args(words[1:])
