@@ -6,8 +6,8 @@ from collections.abc import Mapping, Sequence
 
 from matplotlib.figure import Figure
 
-from pysim.plot import render
 from pysim.present.page import cell, commands, heading, items, page, paragraph, picture, statement, table
+from pysim.present.render import render
 from validation.findings import Finding
 from validation.registry import CASES, GROUPS
 from validation.results import FAILS, HOLDS, SKIPPED, CaseResult, verdict_of

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from pysim.io import write_file
-from pysim.plot import render
+from pysim.present.render import render
 from validation.accuracy.case import pictures
 from validation.accuracy.judged import table
 from validation.accuracy.models import SET, models

@@ -79,7 +79,7 @@ class _Show:
 
 def _write_page(folder: Path, results: Sequence[CaseResult]) -> None:
     from pysim.io import write_file
-    from pysim.plot import render
+    from pysim.present.render import render
     from validation.page import suite_page
     from validation.registry import CASES
     from validation.summary import full_summary
