@@ -37,10 +37,9 @@ def ran(words: Sequence[str], folder: Path) -> Ran:
 
 
 def undraw(patch: pytest.MonkeyPatch) -> None:
-    """Draw no picture: it costs a second, and pictures are held to their numbers in tests/pysim/plot."""
+    """Draw no picture: it costs a second, and pictures are held to their numbers in tests/pysim/present."""
     from importlib import import_module
 
-    patch.setattr("pysim.plot.render", lambda figure, form: b"drawn")
     patch.setattr(import_module("pysim.present.render"), "render", lambda figure, form: b"drawn")
 
 

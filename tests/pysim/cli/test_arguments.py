@@ -20,13 +20,6 @@ def parsed(words: list[str]) -> Any:
     return argparse.Namespace(**Given(command, args, ()).typed) if isinstance(command, Command) else args
 
 
-def parsed(words: list[str]) -> Any:
-    """The values of a command's options by their names."""
-    args = argument_parser(words[0]).parse_args(words)
-    command = registry()[words[0]]
-    return argparse.Namespace(**Given(command, args, ()).typed) if isinstance(command, Command) else args
-
-
 @pytest.mark.parametrize("command", ["add", "compare", "diagnose", "fit", "locate"])
 def test_a_data_set_and_its_model_have_one_form(command: str, capsys: pytest.CaptureFixture[str]) -> None:
     args = parsed([command, "d", "--model", "m.fmu", *OWN.get(command, [])])
