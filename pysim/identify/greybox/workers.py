@@ -71,7 +71,7 @@ class Workers(Protocol):
 
 @dataclass(frozen=True)
 class Threads:
-    """Threads of this process, all cores where `count` is None. An FMU that crashes takes the process with it."""
+    """Threads of this process, all cores where `count` is None; the FMUs of others run in processes of their own."""
 
     count: int | None = None
 
