@@ -21,8 +21,7 @@ from pysim.identify.greybox import Effort, Parameter, fit, problem
 from pysim.types import FitOutcome, Model
 from validation import initial_states
 from validation.findings import Finding
-from validation.initial_states.mass import TRUTH, force, logged, mass_model, measured, motion
-from validation.initial_states.way import at_rest, freed
+from validation.initial_states.mass import TRUTH, at_rest, force, logged, mass_model, measured, motion
 
 Array = NDArray[np.float64]
 
@@ -96,11 +95,11 @@ def one_fit(model: Model, variant: Variant, seed: int) -> Mapping[str, bool]:
     pushed = force(TIME, _PUSHED) * (1.0 if variant.moves else np.minimum(TIME, 1.0))
     states = motion(TIME, pushed, (begun[0], begun[1]))
     states[:, 0] += coloured(rng, TIME.size, variant.memory)
-    records = (logged("log", TIME, pushed, states, ("x",)),)
-    way = freed(model, records, ("x", "v")) if variant.moves else at_rest(records)
+    begins = (logged("log", TIME, pushed, states, ("x",)),)
+    records = begins if variant.moves else at_rest(begins)
     free = [Parameter(name, start=value * float(np.exp(rng.uniform(-_OFF, _OFF)))) for name, value in TRUTH.items()]
-    data = measured("mass", way.records, {"x": NOISE})
-    found = fit(problem(model, [data], [*free, *way.free], treatment=way.treatment), effort=Effort(nominal=False))
+    data = measured("mass", records, {"x": NOISE})
+    found = fit(problem(model, [data], free), effort=Effort(nominal=False))
     good = found.outcome is FitOutcome.CONVERGED
     own = (e for e in found.estimates if e.name in TRUTH)
     return {e.name: bool(good and e.interval[0] <= TRUTH[e.name] <= e.interval[1]) for e in own}
@@ -118,7 +117,7 @@ def code() -> str:
     digest = hashlib.sha256(repr((TRUTH, NOISE, FURTHEST, VARIANTS)).encode())
     root = Path(__file__).parents[2] / "pysim"
     files = [file for folder in _CODE for file in (root / folder).rglob("*") if file.suffix in (".py", ".c")]
-    files += [Path(initial_states.__file__).with_name(name) for name in ("mass.py", "Mass.mo", "way.py")]
+    files += [Path(initial_states.__file__).with_name(name) for name in ("mass.py", "Mass.mo")]
     for file in sorted(files):
         digest.update(file.read_bytes())
     return digest.hexdigest()[:8]

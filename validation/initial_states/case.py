@@ -16,8 +16,7 @@ from pysim.io import read_dataset
 from pysim.types import Dataset, Estimate, Fit, MeasuredRecord, Model, Record
 from validation.findings import Finding
 from validation.initial_states.closed import closed_model
-from validation.initial_states.mass import TRUTH, force, logged, mass_model, measured, motion
-from validation.initial_states.way import Way, at_rest, freed
+from validation.initial_states.mass import TRUTH, at_rest, force, logged, mass_model, measured, motion
 from validation.pump import pump_model
 
 Array = NDArray[np.float64]
@@ -34,10 +33,6 @@ MEASUREMENTS = Path(__file__).parents[1] / "measurements"
 LOG, CUT = "stochastic/Tp1.0_fit.txt", (8.3, 20.3)  # s: the plate moves at 1 m/s there
 HELD = ("A_p", "K_D")  # at the truth: one is a null direction, the other nearly tied (../fit_coverage)
 PUMP = ("omega_v", "zeta_v", "L", "V_0", "m_eff", "k", "b", "K_p", "T_d", "K_L", "tau")
-PUMP_STATES = (
-    *("piston.x", "piston.v", "spool.u", "spool.u_t", "deadTime.z1", "deadTime.z2", "deadTime.z3"),
-    "p_start",  # both chambers begin at that pressure
-)
 
 
 def run() -> Iterator[Finding]:
@@ -60,16 +55,9 @@ def mass_logs(seed: int, starts: Sequence[tuple[float, float]], uses: Sequence[s
     return tuple(logs)
 
 
-def fitted(model: Model, data: Dataset, names: Sequence[Parameter], way: Way, held: Mapping[str, float]) -> Fit:
-    """With the initial states as the way says."""
-    task = problem(
-        model,
-        [replace(data, records=way.records)],
-        [*names, *way.free],
-        fixed=held,
-        treatment=way.treatment,
-    )
-    return fit(task, effort=Effort(nominal=False))
+def fitted(model: Model, data: Dataset, names: Sequence[Parameter], held: Mapping[str, float]) -> Fit:
+    """From the given starts alone."""
+    return fit(problem(model, [data], names, fixed=held), effort=Effort(nominal=False))
 
 
 def half_widths(estimate: Estimate, truth: float) -> float:
@@ -79,19 +67,16 @@ def half_widths(estimate: Estimate, truth: float) -> float:
     return 0.0 if truth == estimate.value else abs(truth - estimate.value) / max(width, 1e-300)
 
 
-def _mass_fit(model: Model, records: Sequence[MeasuredRecord], way: Way) -> Fit:
+def _mass_fit(model: Model, records: Sequence[MeasuredRecord]) -> Fit:
     free = [Parameter(name, start=OFF * value) for name, value in TRUTH.items()]
-    return fitted(model, measured("mass", tuple(records), NOISE), free, way, {})
+    return fitted(model, measured("mass", tuple(records), NOISE), free, {})
 
 
 def _displaced() -> Iterator[Finding]:
     """Position alone is measured."""
     records, model = mass_logs(1, STARTS, ("fit", "fit", "validate")), mass_model()
-    found = _mass_fit(model, records, freed(model, records, ("x", "v")))
-    truth = dict(TRUTH)
-    for k, start in enumerate(STARTS, start=1):
-        truth |= {f"{name}@log {k}": value for name, value in zip(("x", "v"), start, strict=True)}
-    yield from _judged("a mass displaced at the start", found, truth)
+    found = _mass_fit(model, records)
+    yield from _judged("a mass displaced at the start", found, TRUTH)
     held_out = next(record for record in found.records if record.use == "validate")
     claim = "a mass displaced at the start, held-out log: residual over noise is 1, off by"
     yield Finding(claim, abs(held_out.rms["x"] - 1), NEAR, "")
@@ -100,7 +85,7 @@ def _displaced() -> Iterator[Finding]:
 def _closed(model: Model) -> Iterator[Finding]:
     """The same motion of an FMU whose states cannot be set by name."""
     records = mass_logs(2, STARTS[:2], ("fit", "fit"))
-    found = _mass_fit(model, records, freed(model, records, ("s1", "s2")))
+    found = _mass_fit(model, records)
     yield from _judged("an FMU of which only the output is known", found, TRUTH)
 
 
@@ -114,8 +99,7 @@ def _cut_pump() -> Iterator[Finding]:
     for name in PUMP:
         start = truth[name] * float(np.exp(rng.uniform(-0.05, 0.05)))
         free.append(Parameter(name, start=float(np.clip(start, model[name].min, model[name].max))))
-    way = freed(model, records, PUMP_STATES)
-    found = fitted(model, data, free, way, {name: truth[name] for name in HELD})
+    found = fitted(model, replace(data, records=records), free, {name: truth[name] for name in HELD})
     yield from _judged("a pump's log cut in mid-motion", found, truth)
 
 
@@ -141,8 +125,8 @@ def _judged(plant: str, found: Fit, truth: Mapping[str, float]) -> Iterator[Find
 def _at_rest() -> Iterator[Finding]:
     """What the freedom costs where it is not needed."""
     records, model = mass_logs(3, ((0.0, 0.0),) * 2, ("fit", "fit")), mass_model()
-    free = _mass_fit(model, records, freed(model, records, ("x", "v")))
-    held = _mass_fit(model, records, at_rest(records))
+    free = _mass_fit(model, records)
+    held = _mass_fit(model, at_rest(records))
     widths = [{e.name: float(np.ptp(e.interval)) for e in found.estimates if e.name in TRUTH} for found in (free, held)]
     ratios = {name: widths[0][name] / widths[1][name] for name in TRUTH}
     worst = max(ratios, key=ratios.__getitem__)

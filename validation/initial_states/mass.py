@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -76,3 +77,8 @@ def measured(name: str, records: tuple[MeasuredRecord, ...], noise: Mapping[str,
     signals = [MeasuredSignal("F", "input", "N", "force", "F", hold=Command.LINES)]
     signals += [MeasuredSignal(n, "output", UNITS[n], n, n, noise=size) for n, size in noise.items()]
     return Dataset(name, "closed form", "mass on a spring", tuple(signals), records)
+
+
+def at_rest(records: Sequence[MeasuredRecord]) -> tuple[MeasuredRecord, ...]:
+    """The logs, their initial states held at rest."""
+    return tuple(replace(record, initial="rest") for record in records)
