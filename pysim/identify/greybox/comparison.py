@@ -12,7 +12,7 @@ from pysim.identify.greybox.least_squares import GaussNewton
 from pysim.identify.greybox.observation import Observation, Simulated
 from pysim.identify.greybox.parameters import ParameterSpace
 from pysim.identify.greybox.problem import Problem
-from pysim.identify.greybox.residuals import Carried, Point, WeightedResiduals
+from pysim.identify.greybox.residuals import Point, WeightedResiduals
 from pysim.identify.greybox.runs import Failure, Simulation, simulate_runs
 from pysim.types import Experiment, Model, RecordFit, ResponseFit
 
@@ -44,7 +44,7 @@ def compared(
         carried: id of a run -> where its orbit is sought or its log begins, of the runs that were fitted.
     """
     known = dict(carried or {})
-    residuals = replace(problem.residuals(simulation=simulation, use="validate"), observations=problem.observations)
+    residuals = problem.residuals(simulation=simulation, use="validate")
     unknown = [o for o in problem.observations if any(run.free.size and id(run) not in known for run in o.runs)]
     for one in unknown:
         point = settled_initial_states(replace(residuals, observations=(one,)), problem.model, problem.space, x)
@@ -53,7 +53,9 @@ def compared(
     responses: list[ResponseFit] = []
     experiments, notes, lost = [], [], 0
     for one, simulated, failure in _simulated(problem, x, simulation, known):
-        experiments += [_run(problem, run, x, known.get(id(run))) for run in one.runs if one.domain == "time"]
+        if one.domain == "time":
+            overrides = [problem.space.overrides(x, run.record) for run in one.runs]
+            experiments += [r.over_time(o, known.get(id(r))) for r, o in zip(one.runs, overrides, strict=True)]
         if failure is not None:
             notes.append(f"not simulated: {failure}")
             lost += len(one.sources)
@@ -70,31 +72,12 @@ def settled_initial_states(residuals: WeightedResiduals, model: Model, space: Pa
     for _ in range(_ROUNDS):
         if not best.good or best.gain < GaussNewton().tolerance:
             break
-        trial = residuals.evaluate(model, space, x, _stepped(best, share), jacobian=False)
+        trial = residuals.evaluate(model, space, x, best.carried_to(x, share), jacobian=False)
         if trial.cost < best.cost:
             best, share = trial, min(1.0, 2 * share)
         else:
             share *= 0.25
     return best
-
-
-def _stepped(point: Point, share: float) -> Carried:
-    states = [
-        value if step is None or value is None else value + share * step[0]
-        for value, step in zip(point.carried.states, point.steps, strict=False)
-    ]
-    return Carried(tuple(states), point.carried.nuisances)
-
-
-def _run(problem: Problem, run, x: Array, offset: Array | None) -> Experiment:  # type: ignore[no-untyped-def]
-    """Exactly what is run for a log."""
-    experiment = run.experiment
-    overrides = {**experiment.overrides, **problem.space.overrides(x, run.record)}
-    if offset is None or not run.free.size:
-        return replace(experiment, overrides=overrides)
-    whole = np.zeros(run.initial.size)
-    whole[run.free] = offset
-    return replace(experiment, overrides=overrides, offset=whole, offset_at=run.begins)
 
 
 def _simulated(

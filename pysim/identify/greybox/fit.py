@@ -19,7 +19,7 @@ from pysim.identify.greybox.objective import NOISE, Objective
 from pysim.identify.greybox.observation import Measure
 from pysim.identify.greybox.optimiser import Bounds, Optimiser, State
 from pysim.identify.greybox.problem import Problem
-from pysim.identify.greybox.residuals import Carried, Channel, Point
+from pysim.identify.greybox.residuals import Carried, Channel, Point, WeightedResiduals
 from pysim.identify.greybox.runs import Simulation
 from pysim.identify.greybox.search import Progress, search
 from pysim.identify.greybox.settings import FitSettings
@@ -229,14 +229,14 @@ def _result(
     begun: Mapping[str, Array],
 ) -> Fit:
     space, best = problem.space, state.best
-    point = _at_levels(problem, objective, optimiser, simulation, state)
+    residuals = problem.residuals(replace(NOISE, domains=objective.domains), simulation)
+    point = _at_levels(residuals, problem, objective, optimiser, state)
     doubt = uncertainty(space, point)
     if not objective.squares:
         doubt = _of_sizes(doubt)
-    runs = problem.residuals(replace(NOISE, domains=objective.domains)).runs
-    beside = compared(problem, point.x, simulation, dict(zip(map(id, runs), point.carried.states, strict=True)))
+    carried = dict(zip(map(id, residuals.runs), point.carried.states, strict=True))
+    beside = compared(problem, point.x, simulation, carried)
     noise = _noise(problem, beside)
-    residuals = problem.residuals(replace(NOISE, domains=objective.domains), simulation)
     return Fit(
         model=problem.model.name,
         objective=objective.words,
@@ -321,7 +321,7 @@ def _outcome(state: State) -> FitOutcome:
 
 
 def _at_levels(
-    problem: Problem, objective: Objective, optimiser: Optimiser, simulation: Simulation, state: State
+    residuals: WeightedResiduals, problem: Problem, objective: Objective, optimiser: Optimiser, state: State
 ) -> Point:
     """The optimum simulated once more, as finely as intervals need it, and counted in the levels of its residuals.
 
@@ -329,7 +329,6 @@ def _at_levels(
     nothing; the end of the search where that is no better.
     """
     best, model, space = state.best, problem.model, problem.space
-    residuals = problem.residuals(replace(NOISE, domains=objective.domains), simulation)
     if optimiser.smooth_only and objective.measure is Measure.SIGNAL:
         last = optimiser.propose(state, Bounds(*space.bounds()))
         point = residuals.evaluate(model, space, last.x, best.carried_to(last.x, last.share))

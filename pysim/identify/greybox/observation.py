@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, field
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from enum import Enum
 from typing import Protocol
 
@@ -47,6 +47,15 @@ class Run:
     def free(self) -> NDArray[np.intp]:
         """Places of the states that are free at the log's start."""
         return np.flatnonzero(self.initial)
+
+    def over_time(self, overrides: Mapping[str, float], offset: Array | None) -> Experiment:
+        """The run over time with parameters set, its free states begun at an offset (n_s,) from rest, or at rest."""
+        experiment = self.experiment.override(**overrides)
+        if offset is None or not self.free.size:
+            return experiment
+        whole = np.zeros(self.initial.size)
+        whole[self.free] = offset
+        return replace(experiment, offset=whole, offset_at=self.begins)
 
 
 @dataclass(frozen=True)

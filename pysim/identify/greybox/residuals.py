@@ -95,8 +95,11 @@ class Point:
             return Carried()
         moved = []
         for value, step in zip((*self.carried.states, self.carried.nuisances), self.steps, strict=True):
-            there = value is not None and step is not None
-            moved.append(value + share * step[0] + step[1] @ (x - self.x) if there else value)  # type: ignore[index,operator]
+            if value is not None and step is not None:
+                value = value + share * step[0]
+                if step[1].size:  # none where the point has no Jacobian
+                    value = value + step[1] @ (x - self.x)
+            moved.append(value)
         nuisances = moved[-1]
         assert nuisances is not None
         return Carried(tuple(moved[:-1]), nuisances)
@@ -253,9 +256,7 @@ class WeightedResiduals:
         if sizes.size:
             sd = np.array([one.prior_sd for one in self.nuisances])
             joint = np.concatenate([part.rows for part in parts])
-            found = _eliminated(
-                np.column_stack([joint[:, : 1 + n], joint[:, 1 + n :]]), np.zeros((len(joint), 0)), n, sizes, sd
-            )
+            found = _eliminated(joint, np.zeros((len(joint), 0)), n, sizes, sd)
             cost = 0.5 * float(np.sum((sizes / sd) ** 2))
             residual = np.concatenate([-sizes / sd, residual])
             jacobian, gain = found.rows[:, 1 : 1 + n], gain + found.gain
@@ -290,9 +291,7 @@ class WeightedResiduals:
         samples, least = self.samples, floor**2
         variance = squares / np.maximum(samples, 1.0)
         above = variance > least
-        cost = np.where(
-            above, np.log(np.where(above, variance, 1.0)), np.log(least) + variance / least - 1 if floor.size else 0.0
-        )
+        cost = np.where(above, np.log(np.where(above, variance, 1.0)), np.log(least) + variance / least - 1)
         return np.sqrt(np.where(above, variance, least)), float(0.5 * np.sum(samples * cost))
 
     def _blocks(

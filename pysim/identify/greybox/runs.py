@@ -156,9 +156,7 @@ class _Settings:
         overrides, names, chain = self.of(run.record)
         if run.orbit is not None:
             return Job(place, run.orbit.override(**overrides), names, chain, guess, self.mismatch)
-        experiment = run.experiment.override(**overrides)
-        if run.free.size and (self.initial or guess is not None):
-            offset = np.zeros(run.initial.size)
-            offset[run.free] = 0.0 if guess is None else guess
-            experiment = replace(experiment, offset=offset, offset_at=run.begins)
-        return Job(place, experiment, names, chain, None, self.mismatch, offset=bool(run.free.size) and self.initial)
+        by_initial = bool(run.free.size) and self.initial
+        guess = np.zeros(run.free.size) if guess is None and by_initial else guess
+        experiment = run.over_time(overrides, guess)
+        return Job(place, experiment, names, chain, None, self.mismatch, offset=by_initial)

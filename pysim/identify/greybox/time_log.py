@@ -100,13 +100,14 @@ class TimeLog:
             if one.dataset != self.dataset or one.signal not in self.channels:
                 continue
             j = self.channels.index(one.signal)
-            values = answer.values[:, j]
-            columns[:, j, k] = {
-                NuisanceKind.GAIN: lambda v=values: v,
-                NuisanceKind.OFFSET: lambda v=values: np.ones_like(v),
-                NuisanceKind.DELAY: lambda v=values: -np.gradient(v, time),
-                NuisanceKind.DRIFT: lambda v=values: (self.begin or 0.0) + time - time[0] + 0.0 * v,
-            }[one.kind]()
+            if one.kind is NuisanceKind.GAIN:
+                columns[:, j, k] = answer.values[:, j]
+            elif one.kind is NuisanceKind.OFFSET:
+                columns[:, j, k] = 1.0
+            elif one.kind is NuisanceKind.DELAY:
+                columns[:, j, k] = -np.gradient(answer.values[:, j], time)
+            else:
+                columns[:, j, k] = (self.begin or 0.0) + time - time[0]
         return columns.reshape(-1, len(nuisances))
 
     def pieces(self, residual: Array, shortest: float) -> NDArray[np.intp]:
@@ -135,11 +136,20 @@ class TimeLog:
 def time_logs(context: Context, records: Sequence[tuple[int, MeasuredRecord]]) -> list[TimeLog]:
     """The logs over time among the records of a data set, each with its number."""
     logs = [_log(context, record, index) for index, record in records]
-    ranges = _state_ranges(context, [log.run.experiment for log in logs])
-    return [
-        replace(log, run=replace(log.run, initial=_spread(context, record, spread)))
-        for log, (_, record), spread in zip(logs, records, ranges, strict=True)
-    ]
+    known = [_initial(context, record) for _, record in records]
+    free = [i for i, one in enumerate(known) if one != "rest"]
+    ranges = _state_ranges(context, [logs[i].run.experiment for i in free])
+    for i, spread in zip(free, ranges, strict=True):
+        sd = math.inf if known[i] == "estimate" else context.treatment.noise.initial * spread
+        run = replace(logs[i].run, initial=np.where(spread > 0, sd, 0.0))
+        logs[i] = replace(logs[i], run=run)
+    return logs
+
+
+def _initial(context: Context, record: MeasuredRecord) -> str:
+    """What is known of the plant at a log's first sample; start values that are parameters hold the states."""
+    started = record.source in context.started or None in context.started
+    return "rest" if started else record.initial or context.treatment.initial
 
 
 def _log(context: Context, record: MeasuredRecord, index: int) -> TimeLog:
@@ -168,14 +178,6 @@ def _log(context: Context, record: MeasuredRecord, index: int) -> TimeLog:
         index=index,
         begin=record.begin,
     )
-
-
-def _spread(context: Context, record: MeasuredRecord, ranges: Array) -> Array:
-    """Standard deviations of the initial states (n_x,); 0 where held, empty where all are."""
-    known = record.initial or context.treatment.initial
-    if known == "rest" or record.source in context.started or None in context.started:
-        return np.zeros(0)
-    return np.where(ranges > 0, math.inf if known == "estimate" else context.treatment.noise.initial * ranges, 0.0)
 
 
 def _state_ranges(context: Context, experiments: Sequence[Experiment]) -> list[Array]:
