@@ -204,6 +204,11 @@ CASES: Mapping[str, Case] = MappingProxyType(
         "real-measurements": Case(
             "validation.real_measurements.case", "why the locked model cannot fit; the load", "diagnosis"
         ),
+        "real-machines": Case(
+            "validation.real.case",
+            "five measured machines: base models and right effects against independent least squares",
+            "diagnosis",
+        ),
         "figure-2-1": Case(_THESIS + "figure_2_1.case", "command of a stepped-sine test", "thesis", quick=True),
         "figure-2-2": Case(_THESIS + "figure_2_2.case", "sines fitted to responses; Figure 2.3", "thesis", quick=True),
         "figure-2-4": Case(_THESIS + "figure_2_4.case", "Bode plot and five poles; Figure 2.5", "thesis", quick=True),
