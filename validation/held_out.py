@@ -15,6 +15,7 @@ FINE = Simulation(solver=Esdirk(rtol=1e-7, atol=1e-7))
 """A lightly damped swing of nine seconds comes out within a tenth of its encoder's step."""
 _ROUNDS = 60  # steps of the initial states
 _LEAST = 1e-3  # nats that a step must promise
+_SHORTEST = 1e-4  # share of a step, below which rounding decides
 
 
 def held_out_rms(
@@ -46,7 +47,7 @@ def _settled(judged: Problem, residuals: WeightedResiduals) -> Point:
     if not best.good:
         raise BadInput(f"held-out logs of {judged.model.name}: {best.failure}")
     for _ in range(_ROUNDS):
-        if best.gain < _LEAST:
+        if best.gain < _LEAST or share < _SHORTEST:
             break
         trial = residuals.evaluate(judged.model, judged.space, x, best.carried_to(x, share), jacobian=False)
         best, share = (trial, min(1.0, 2 * share)) if trial.cost < best.cost else (best, share / 4)
