@@ -29,16 +29,16 @@ class Judged:
     wrong: tuple[str, ...] | None
 
     @property
-    def rises(self) -> bool:
-        """Whether a step made the error larger."""
-        return any(after > RISE * before for before, after in pairwise(self.errors))
+    def rise(self) -> float:
+        """Largest error of a step over that of the step before; 1 where there is one step."""
+        return max((after / before for before, after in pairwise(self.errors)), default=1.0)
 
     def __str__(self) -> str:
         right = self.task.right
         sought = ", ".join("|".join(names) for names in right.order) if right else "?"
         sought = sought or ("unknown" if right and right.unknown else "none")
         said = {True: "complete", False: "more", None: "?"}[self.answer.complete]
-        errors = " -> ".join(f"{error:.4g}" for error in self.errors) + (" RISES" if self.rises else "")
+        errors = " -> ".join(f"{error:.4g}" for error in self.errors) + (" RISES" if self.rise > RISE else "")
         best = "" if self.task.perfect is None else f" (true model {self.task.perfect:.3f})"
         verdict = "?" if self.wrong is None else "; ".join(self.wrong) or "right"
         named = ", ".join(self.answer.effects) or "nothing"

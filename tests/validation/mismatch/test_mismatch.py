@@ -10,7 +10,8 @@ import pytest
 from pysim.types import BadInput, Dataset, Model
 from validation.initial_states.mass import TRUTH, force, logged, mass_model, measured, motion
 from validation.mismatch.answer import Answer, Step
-from validation.mismatch.judge import judged
+from validation.mismatch.case import ENVIRONMENT, run
+from validation.mismatch.judge import RISE, judged
 from validation.mismatch.tasks import Right, Task, read_task
 
 WITHHELD = "stochastic/Tp0.5_heldout.txt"
@@ -108,10 +109,27 @@ def test_errors_are_those_of_the_log_withheld_over_the_noise_and_a_rise_is_seen(
     good = judged(task, Answer(("stiff",), True, (base, true)))
     assert good.errors[0] > 3
     assert good.errors[1] == pytest.approx(1, rel=0.07)
-    assert not good.rises
+    assert good.rise == pytest.approx(good.errors[1] / good.errors[0])
     assert good.wrong == ()
     worse = judged(replace(task, noise={}, right=None), Answer(("stiff",), True, (true, base)))
-    assert worse.rises
+    assert worse.rise > RISE
     assert worse.wrong is None
     assert worse.errors[0] == pytest.approx(1e-3, rel=0.07)
     assert isinstance(task.model, Model)
+
+
+def test_the_case_asks_for_every_set_of_the_folder_and_skips_the_others(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv(ENVIRONMENT, str(tmp_path))
+    pump_set(tmp_path, "m", (WITHHELD, "fit.txt"), {"effect": "x", "noise_percent": 0.1, "noise_u": 0.002})
+    asked: list[bool] = []
+
+    def ask(task: Task) -> Answer:
+        asked.append(task.given.signal("u").noise is None)
+        return Answer(("y",), True, ())
+
+    found = list(run([("m", True), ("m", False), ("absent", True)], ask))
+    assert asked == [False, True]
+    assert [finding.holds for finding in found] == [False, True, False, True, False]
+    assert [bool(finding.skipped) for finding in found] == [False, False, False, False, True]
