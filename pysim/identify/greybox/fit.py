@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from pysim.identify.greybox.checkpoint import Checkpoint, digest
 from pysim.identify.greybox.comparison import Compared, compared
 from pysim.identify.greybox.interior_point import InteriorPoint
-from pysim.identify.greybox.least_squares import GaussNewton
+from pysim.identify.greybox.least_squares import GaussNewton, blur_of
 from pysim.identify.greybox.noise import white_floor
 from pysim.identify.greybox.objective import NOISE, Objective
 from pysim.identify.greybox.observation import Measure
@@ -168,11 +168,23 @@ def _polished(
     best: State,
     progress: Progress | None,
 ) -> State:
-    """The end of a rough search, gone on with by fine simulations."""
+    """The end of a rough search, gone on with by fine simulations from where its next step leads."""
     if optimiser.rough() is None:
         return best
+    optimiser, simulation = optimiser.finer(best), simulation.searching()
+    residuals, bounds = problem.residuals(objective, simulation), Bounds(*problem.space.bounds())
+
+    def first() -> Point:
+        """The step's end, unless the rough one is better."""
+        step = optimiser.propose(optimiser.begin(best.best, bounds, objective.squares), bounds)
+        carried = best.best.carried_to(step.x, step.share)
+        ahead = residuals.evaluate(problem.model, problem.space, step.x, carried)
+        if ahead.good and ahead.cost < best.best.cost:
+            return ahead
+        return residuals.evaluate(problem.model, problem.space, best.best.x, best.best.carried)
+
     fine = _one_search(
-        problem, objective, optimiser.finer(best), simulation.searching(), effort, _polish_of(name), best.best, progress
+        problem, objective, optimiser, simulation, effort, _polish_of(name), best.best.x, progress, first
     )
     if not fine.best.good:
         return replace(best, outcome=FitOutcome.STALLED, message=f"the optimum is a rough one: {fine.message}")
@@ -186,10 +198,10 @@ def _one_search(
     simulation: Simulation,
     effort: Effort,
     name: str,
-    start: Array | Point,
+    x: Array,
     progress: Progress | None,
+    first: Callable[[], Point] | None = None,
 ) -> State:
-    x = start.x if isinstance(start, Point) else start
     folder = None if effort.log is None else effort.log / name
     residuals = problem.residuals(objective, simulation)
 
@@ -200,7 +212,7 @@ def _one_search(
         evaluate,
         optimiser,
         problem.space,
-        start,
+        first or x,
         squares=objective.squares,
         name=name,
         checkpoint=None if folder is None else _checkpoint(problem, objective, optimiser, simulation, folder, x),
@@ -326,13 +338,13 @@ def _at_levels(
     """The optimum simulated once more, as finely as intervals need it, and counted in the levels of its residuals.
 
     Of a smooth objective it is where the next step leads, which promises less than the tolerance and is taken for
-    nothing; the end of the search where that is no better.
+    nothing; the end of the search where that is worse, and where steps from it were seen to fail.
     """
     best, model, space = state.best, problem.model, problem.space
-    if optimiser.smooth_only and objective.measure is Measure.SIGNAL:
+    if optimiser.smooth_only and objective.measure is Measure.SIGNAL and not state.memory.get("turned"):
         last = optimiser.propose(state, Bounds(*space.bounds()))
         point = residuals.evaluate(model, space, last.x, best.carried_to(last.x, last.share))
-        if point.good and point.cost < best.cost:
+        if point.good and point.cost < best.cost + blur_of(best):
             return point
     point = residuals.evaluate(model, space, best.x, best.carried_to(best.x))
     return point if point.good or objective.measure is not Measure.SIGNAL else best

@@ -18,20 +18,12 @@ from pysim.types import BadInput, FitOutcome
 
 Array = NDArray[np.float64]
 
-# Share of the sum of squares within which two simulated costs cannot be told apart: step control jumps from point to
-# point. So many steps are taken inside it, where the slope is the better guide, before the search ends.
-_BLUR, _BLIND = 2.5e-5, 1
-# A step is as short as it can be while it promises all but this share of what the best one does: what is nearly tied
-# costs length and gains next to nothing.
-_SPARE = 0.05
-# It is a good end where a step inside the radius would gain no more than so many times the tolerance: in the blur, and
-# where a curved valley turns up.
-_NEAR, _LITTLE = 20.0, 1.0
 # Actual over predicted gain below which the radius shrinks, above which it doubles, and below which a step is not
 # taken. Source: Nocedal and Wright 2006, Algorithm 4.1.
 _POOR, _GOOD, _NONE = 0.25, 0.75, 1e-4
 _SHORTEST = 1e-9  # radius below which a search has stalled
 _BISECTIONS = 20
+_SETTINGS = FitSettings()
 
 
 @dataclass(frozen=True)
@@ -53,9 +45,9 @@ class GaussNewton:
     Source: Nocedal and Wright 2006, Numerical Optimization, algorithm 4.1 and Section 10.3.
     """
 
-    max_iterations: int = FitSettings().max_iterations
-    tolerance: float = FitSettings().tolerance
-    radius: float = FitSettings().first_radius
+    max_iterations: int = _SETTINGS.max_iterations
+    tolerance: float = _SETTINGS.tolerance
+    radius: float = _SETTINGS.first_radius
     share: float = 0.0
     name: str = "gauss-newton"
     smooth_only: bool = True
@@ -67,7 +59,7 @@ class GaussNewton:
 
     def rough(self) -> GaussNewton:
         """Ends where rough simulations tell no better."""
-        return replace(self, share=max(self.share, FitSettings().near))
+        return replace(self, share=max(self.share, _SETTINGS.near))
 
     def finer(self, end: State) -> GaussNewton:
         """Begins with a step that is no longer than those that the end was reached by."""
@@ -79,12 +71,12 @@ class GaussNewton:
 
     def begin(self, start: Point, bounds: Bounds, squares: bool) -> State:
         """See Optimiser."""
-        return self._examined(State(start, memory={"radius": self.radius, "blind": 0.0, "turned": 0.0}), bounds)
+        return self._examined(State(start, memory={"radius": self.radius, "turned": 0.0}), bounds)
 
     def propose(self, state: State, bounds: Bounds) -> Proposal:
         """See Optimiser."""
         step, share = _Step.at(state.best, bounds), state.memory.get("share", 1.0)
-        p = step.within(state.memory["radius"], _SPARE)
+        p = step.within(state.memory["radius"], _SETTINGS.spare)
         own = share * (2 - share) * state.best.gain
         return Proposal(np.clip(state.best.x + p, bounds.lower, bounds.upper), step.predicted(p) + own, share)
 
@@ -93,12 +85,10 @@ class GaussNewton:
         length = float(np.linalg.norm(proposal.x - state.best.x))
         actual = state.best.cost - trial.cost if trial.good else -math.inf
         ratio = actual / proposal.predicted if proposal.predicted > 0 else -math.inf
-        radius, blur = state.memory["radius"], _BLUR * state.best.square
+        radius, blur = state.memory["radius"], blur_of(state.best)
         if proposal.predicted < blur and ratio <= _NONE and actual > -blur:
-            steps = state.memory["blind"] + 1
-            memory = {**state.memory, "blind": steps, "radius": _POOR * length}
-            state = replace(state, best=trial, tried=state.tried + 1, memory=memory)
-            return self._examined(state, bounds) if steps < _BLIND else self._lost(state, bounds)
+            memory = {**state.memory, "radius": _POOR * length}
+            return self._lost(replace(state, best=trial, tried=state.tried + 1, memory=memory), bounds)
         share = min(2 * proposal.share, 1.0)
         if ratio < _POOR:
             shorter = _best_share(state.best, trial, proposal) if trial.good else _POOR
@@ -121,16 +111,16 @@ class GaussNewton:
         return self._counted(state)
 
     def _bends(self, state: State, bounds: Bounds) -> bool:
-        """Whether what is promised up to where steps were seen to fail is next to nothing."""
-        step = _Step.at(state.best, bounds)
+        """Whether what is promised up to where steps were seen to fail is nothing, or cannot be told from nothing."""
+        step, small = _Step.at(state.best, bounds), self._small(state.best)
         promised = step.predicted(step.within(state.memory["radius"])) + state.best.gain
-        return promised < _LITTLE * self._small(state.best)
+        return promised < max(small, min(blur_of(state.best), _SETTINGS.close * small))
 
     def _lost(self, state: State, bounds: Bounds) -> State:
         """The end where the slope promises something that cannot be seen any more."""
         step = _Step.at(state.best, bounds)
         radius = state.memory["radius"] if state.memory.get("turned") else math.inf
-        if step.predicted(step.within(radius)) < _NEAR * self._small(state.best):
+        if step.predicted(step.within(radius)) < _SETTINGS.close * self._small(state.best):
             return _ended(state, FitOutcome.CONVERGED, "to within the rounding of the simulation")
         promised = f"a full step promises {step.full_gain:.3g} nats, and short ones gain nothing"
         return _ended(state, FitOutcome.STALLED, promised)
@@ -140,8 +130,7 @@ class GaussNewton:
         gain = _Step.at(state.best, bounds).full_gain + state.best.gain
         if gain <= self._small(state.best):
             return _ended(state, FitOutcome.CONVERGED, f"a full step would lower the objective by {gain:.2g} nats")
-        turned = state.memory.get("turned") or (state.memory.get("blind") and gain < _NEAR * self._small(state.best))
-        if turned and self._bends(state, bounds):
+        if state.memory.get("turned") and self._bends(state, bounds):
             return _ended(state, FitOutcome.CONVERGED, "no more is to be gained as far as steps gain what they promise")
         return self._counted(state)
 
@@ -152,6 +141,11 @@ class GaussNewton:
         if state.tried < self.max_iterations:
             return state
         return _ended(state, FitOutcome.ITERATION_LIMIT, f"{state.tried} points were tried")
+
+
+def blur_of(point: Point) -> float:
+    """nats by which the costs of two points nearby may differ because the integration took other steps."""
+    return _SETTINGS.blur * point.square
 
 
 def _turned(there: Point, way: Array) -> bool:

@@ -37,7 +37,7 @@ def search(
     evaluate: Evaluate,
     optimiser: Optimiser,
     space: ParameterSpace,
-    start: Array | Point,
+    start: Array | Callable[[], Point],
     *,
     squares: bool,
     name: str = "",
@@ -48,7 +48,7 @@ def search(
     """Search from one start until the optimiser has an outcome.
 
     Args:
-        start: (n,), or a point found before, perhaps by rougher simulations: orbits are sought from its own.
+        start: (n,), or what gives the first point; not called where the search goes on from a checkpoint.
         checkpoint: where every point is written down, or None.
         resume: go on from the checkpoint where it holds a state; an outcome it holds is final.
         progress: called after every point; what it raises ends the search, which can be resumed.
@@ -58,9 +58,7 @@ def search(
     bounds = Bounds(*space.bounds())
     state = checkpoint.load() if checkpoint is not None and resume else None
     if state is None:
-        before = start if isinstance(start, Point) else None
-        x = optimiser.first(start.x if isinstance(start, Point) else start, bounds)
-        first = evaluate(x, Carried() if before is None else before.carried_to(x))
+        first = start() if callable(start) else evaluate(optimiser.first(start, bounds), Carried())
         state = _begun(optimiser, first, bounds, squares)
         if checkpoint is not None:
             checkpoint.begin()
