@@ -13,7 +13,7 @@ from pysim.simulate.rk45 import Rk45
 from pysim.simulate.rodas import Rodas
 from pysim.simulate.rounding import rounding
 from pysim.simulate.runs import Runs, open_runs
-from pysim.simulate.sensitivity.orbit import Orbit
+from pysim.simulate.sensitivity.orbit import Orbit, Orbits, OrbitStack
 from pysim.simulate.sensitivity.periodic import Periodic, periodic_many
 from pysim.simulate.sensitivity.sensitivities import Sensitivities, sensitivities, sensitivities_many
 from pysim.simulate.stepwise import (
@@ -33,6 +33,8 @@ __all__ = [
     "FmuValues",
     "Mailbox",
     "Orbit",
+    "OrbitStack",
+    "Orbits",
     "Periodic",
     "Rk4",
     "Rk45",

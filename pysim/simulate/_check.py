@@ -77,7 +77,7 @@ def check_experiments(model: Model, experiments: Sequence[Experiment]) -> None:
     for experiment in experiments:
         if not isinstance(experiment, Experiment):
             check_experiment(model, experiment)
-        used = tuple(experiment.inputs), tuple(experiment.rates), tuple(experiment.overrides)
+        used = tuple(experiment.inputs.keys()), tuple(experiment.rates.keys()), tuple(experiment.overrides.keys())
         names = experiment.record, experiment.offset.size, *used
         if not (known.get(names) and all(map(math.isfinite, experiment.overrides.values()))):
             check_experiment(model, experiment)

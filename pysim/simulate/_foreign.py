@@ -22,6 +22,7 @@ from pysim.simulate._request import Kind, Request
 from pysim.simulate._tasks import Tasks
 from pysim.simulate.kernel.functions import MATRICES
 from pysim.simulate.kernel.layout import MODEL_ERROR, PART_CRASHED, PART_SILENT, RUNNING
+from pysim.simulate.kernel.signals import Packs
 from pysim.types import BadInput, Model
 
 LONGEST, LOADING = 3600.0, 600.0  # s of one question, and of loading: an FMU that takes longer never answers
@@ -213,7 +214,7 @@ class _Crew:
 
     def _without(self, number: int, code: int, part: int = 0) -> Answer:
         """Stands for an answer that nobody gave."""
-        tasks = Tasks(self._model, self._kind, [self._requests[number]])
+        tasks = Tasks(self._model, self._kind, [self._requests[number]], Packs())
         tasks.table["code"], tasks.table["part"] = code, part
         return tasks, 0
 

@@ -27,6 +27,7 @@ class Job:
     def __init__(self, solver: Solver) -> None:
         self.solver = solver
         self.record = np.zeros(1, dtype=JOB)
+        self.variations: dict[Any, dict[str, Any]] = {}  # by what is recorded, and the directions
         self._arrays: dict[tuple[str, str], Any] = {}
 
     def restart(self, start: float, end: float) -> None:

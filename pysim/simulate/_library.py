@@ -31,6 +31,7 @@ from pysim.simulate.kernel.layout import (
     WARNING,
 )
 from pysim.simulate.kernel.library import kernel
+from pysim.simulate.kernel.signals import Packs
 from pysim.simulate.kernel.sparsity import jacobian_arrays
 from pysim.types import BadInput, Model
 
@@ -191,6 +192,7 @@ class Library:
     def __init__(self, model: Model) -> None:
         self.model = model
         self.known: dict[Any, Any] = {}  # what was found out about the FMU and need not be asked again
+        self.packs = Packs()
         self._idle: deque[Instance] = deque()
         if not model.abilities.model_exchange:
             raise BadInput(f"{model.label} is for co-simulation only; export it for model exchange as well")

@@ -50,7 +50,7 @@ def run_tasks(
     found: dict[int, Found] = {}
     shown = 0
     for numbers in groups.values():
-        tasks = Tasks(library.model, kind, [requests[number] for number in numbers])
+        tasks = Tasks(library.model, kind, [requests[number] for number in numbers], library.packs)
         shown += _Crew(library, tasks, workers, later(progress, shown, len(requests)), stopped).run()
         found |= {number: Found(tasks, place) for place, number in enumerate(numbers)}
     return [found[number] for number in range(len(requests))]

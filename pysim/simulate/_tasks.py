@@ -14,7 +14,7 @@ from pysim.simulate._request import Kind, Request
 from pysim.simulate._variation import variation_arrays
 from pysim.simulate.kernel.layout import DONE, FOUND, LINE_LENGTH, LINES, ORBIT, PLAIN, TASK
 from pysim.simulate.kernel.library import address
-from pysim.simulate.kernel.signals import offset_time, pack_breaks, pack_inputs
+from pysim.simulate.kernel.signals import Packs, offset_time
 from pysim.types import Model
 
 Array = NDArray[np.float64]
@@ -27,7 +27,7 @@ class Tasks:
         table: (n,) of TASK.
     """
 
-    def __init__(self, model: Model, kind: Kind, requests: Sequence[Request]) -> None:
+    def __init__(self, model: Model, kind: Kind, requests: Sequence[Request], packs: Packs) -> None:
         self.kind = kind
         experiments = [request.experiment for request in requests]
         self.record, self.set_names = experiments[0].record, tuple(experiments[0].overrides)
@@ -52,12 +52,13 @@ class Tasks:
         self._put("start_by", [self._address(r.start_by) for r in requests])
         self._put("offset_at", [offset_time(e) for e in experiments])
         self._put("offset", [self._address(e.offset if e.offset.size else None) for e in experiments])
-        self._pack("inputs", pack_inputs(model, experiments))
-        self._pack("breaks", pack_breaks(experiments, ends))
+        self._pack("inputs", packs.inputs(model, experiments))
+        self._pack("breaks", packs.breaks(experiments, ends))
         if kind.kind == ORBIT:
             settling = [request.settling * end for request, end in zip(requests, ends, strict=True)]
             self._put("settling", settling)
-            self._pack("settling_breaks", pack_breaks(experiments, settling))
+            if any(request.states is None for request in requests):
+                self._pack("settling_breaks", packs.breaks(experiments, settling))
         self._rows_of("text", self.texts.reshape(count, -1))
         self._first, self.most_rows = np.cumsum([0, *sizes]), int(sizes.max())
         self._results = self._make_results(count, n)
@@ -120,6 +121,20 @@ class Tasks:
         row: Array = self._results[name][number]
         return row
 
+    def arrays(self, name: str, numbers: Sequence[int]) -> Array:
+        """The rows of some tasks (n, ...)."""
+        whole: Array = self._results[name]
+        return whole if len(numbers) == len(whole) else whole[numbers]
+
+    def stack(self, name: str, numbers: Sequence[int]) -> Array | None:
+        """The recorded rows of some tasks (n, n_t, ...); None where not all have as many."""
+        count, sizes = self.column("rows"), np.diff(self._first)
+        rows = count[numbers[0]]
+        if any(count[number] != rows for number in numbers) or np.any(sizes != sizes[0]):
+            return None
+        whole: Array = self._results[name].reshape(len(sizes), int(sizes[0]), *self._results[name].shape[1:])
+        return whole[:, :rows] if len(numbers) == len(whole) else whole[numbers, :rows]
+
     def rows(self, name: str, number: int) -> Array:
         """Recorded rows of a task."""
         first = self._first[number]
@@ -139,7 +154,10 @@ class Tasks:
         rows = {"columns": len(self.record), "access": getters, "set": setters, "buffer": np.zeros(width)}
         job.put("rows", rows)
         if self.kind.kind != PLAIN:
-            arrays = variation_arrays(instance.model, self.record, self.kind.directions, solver, instance.column_of())
+            key = self.record, self.kind.directions
+            if key not in job.variations:
+                job.variations[key] = variation_arrays(instance.model, *key, solver, instance.column_of())
+            arrays = job.variations[key]
             job.put("variation", arrays)
             sizes = len(abilities.states), self.parameters, self.most_rows, len(self.record), arrays["columns"]
             job.put_shots(*sizes, orbit=self.kind.kind == ORBIT)

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from pysim.simulate._check import check_arguments
 from pysim.simulate._foreign import Opened, open_model
 from pysim.simulate.esdirk import Esdirk
-from pysim.simulate.sensitivity.orbit import Orbit
+from pysim.simulate.sensitivity.orbit import Orbits
 from pysim.simulate.sensitivity.periodic import Periodic, check_periodic, find_in
 from pysim.simulate.sensitivity.sensitivities import Sensitivities, check_sensitivities, run_in
 from pysim.types import Experiment, Model
@@ -56,8 +56,8 @@ class Runs:
         mismatch: float = 1e-3,
         workers: int | None = None,
         progress: Callable[[int, int], None] | None = None,
-    ) -> tuple[Orbit, ...]:
-        """Periodic steady states, as `periodic_many`."""
+    ) -> Orbits | tuple[()]:
+        """Periodic steady states, as `periodic_many`, each made where it is asked for."""
         check_arguments("orbits", self.model, solver, Esdirk)
         ask = check_periodic(self.model, tests, parameters, guesses, solver, mismatch, workers)
         return find_in(self._library, ask, progress) if tests else ()

@@ -53,15 +53,13 @@ class Experiment:
             )
         if not isinstance(self.record, Iterable) or not all(isinstance(name, str) for name in self.record):
             raise BadInput(f"experiment: record is {self.record!r}; write a tuple of the names of variables")
-        times = _times(self.times)
-        offset = np.array(self.offset, dtype=np.float64)
-        for name, array in (("times", times), ("offset", offset)):
-            array.setflags(write=False)
-            object.__setattr__(self, name, array)
+        object.__setattr__(self, "times", _read_only(_times(self.times)))
+        object.__setattr__(self, "offset", _read_only(np.array(self.offset, dtype=np.float64)))
         object.__setattr__(self, "record", tuple(self.record))
         for name in ("inputs", "overrides", "rates"):
             object.__setattr__(self, name, FrozenMapping(getattr(self, name)))
         self._check_times()
+        self._check_offset()
         self._check_names()
 
     def _check_times(self) -> None:
@@ -72,6 +70,9 @@ class Experiment:
             raise BadInput(f"experiment: the start is {self.start!r} s; give a finite time")
         if times[0] < self.start:
             raise BadInput(f"experiment: the first time {times[0]} s lies before the start {self.start} s")
+
+    def _check_offset(self) -> None:
+        times = self.times
         if self.offset_at is not None and not self.start <= self.offset_at <= times[-1]:
             raise BadInput(
                 f"experiment: offset_at = {self.offset_at} s lies outside the run, {self.start} to {times[-1]} s"
@@ -85,9 +86,7 @@ class Experiment:
         for name, signal in self.inputs.items():
             if not isinstance(signal, Signal):
                 raise BadInput(f"experiment: input {name!r} is {signal!r}; give a Signal, as Signal.constant(1.0)")
-        for name, value in self.overrides.items():
-            if not isinstance(value, Real):
-                raise BadInput(f"experiment: {name!r} cannot be set to {value!r}; give a number in its unit")
+        _check_numbers(self.overrides)
         for name, of in self.rates.items():
             if of not in self.inputs or name in self.inputs:
                 raise BadInput(
@@ -96,10 +95,29 @@ class Experiment:
 
     def override(self, **values: float) -> Experiment:
         """The same experiment with more parameters set; what stays is not checked again."""
+        _check_numbers(values)
         other = copy(self)
         object.__setattr__(other, "overrides", FrozenMapping({**self.overrides, **values}))
-        other._check_names()
         return other
+
+    def moved(self, offset: Array, at: float | None = None) -> Experiment:
+        """The same experiment with the states offset (n_x,) at that time (s); what stays is not checked again."""
+        other = copy(self)
+        object.__setattr__(other, "offset", _read_only(np.array(offset, dtype=np.float64)))
+        object.__setattr__(other, "offset_at", at)
+        other._check_offset()
+        return other
+
+
+def _read_only(array: Array) -> Array:
+    array.setflags(write=False)
+    return array
+
+
+def _check_numbers(overrides: Mapping[str, float]) -> None:
+    for name, value in overrides.items():
+        if not isinstance(value, float | Real):  # the second alone takes ten times the time
+            raise BadInput(f"experiment: {name!r} cannot be set to {value!r}; give a number in its unit")
 
 
 def _times(given: object) -> Array:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from enum import Enum
 from typing import Protocol
 
@@ -55,7 +55,7 @@ class Run:
             return experiment
         whole = np.zeros(self.initial.size)
         whole[self.free] = offset
-        return replace(experiment, offset=whole, offset_at=self.begins)
+        return experiment.moved(whole, self.begins)
 
 
 @dataclass(frozen=True)

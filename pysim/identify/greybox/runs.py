@@ -13,7 +13,7 @@ from pysim.identify.greybox.observation import Run, Simulated
 from pysim.identify.greybox.parameters import ParameterSpace
 from pysim.identify.greybox.settings import FitSettings
 from pysim.identify.greybox.workers import Job, Result, Threads, Workers
-from pysim.simulate import Esdirk, Orbit, Periodic, Sensitivities
+from pysim.simulate import Esdirk, Orbit, Orbits, Periodic, Sensitivities
 from pysim.types import Experiment, Model, Outcome
 
 Array = NDArray[np.float64]
@@ -104,32 +104,67 @@ def simulate_runs(
         initial: whether those by the free states are wanted.
     """
     settings = _Settings(space, x, slopes, initial, simulation.mismatch)
-    pairs = list(zip(runs, guesses, strict=True))
-    jobs = [settings.job(run, place, guess) for place, (run, guess) in enumerate(pairs)]
+    jobs = [settings.job(run, place, guess) for place, (run, guess) in enumerate(zip(runs, guesses, strict=True))]
     orbits: list[tuple[Array, Array] | None] = [None] * len(runs)
     answers: dict[int, Simulated] = {}
-    again: list[Job] = []
-    for job, orbit in _results(model, [job for job in jobs if isinstance(job.run, Periodic)], simulation):
+    missing: list[int] = []
+    for own, results in _results(model, [job for job in jobs if isinstance(job.run, Periodic)], simulation):
+        missing += _take_orbits(own, results, answers, orbits)
+    over_time = [job for job in jobs if isinstance(job.run, Experiment)]
+    over_time += [settings.job(replace(runs[place], orbit=None), place, None) for place in sorted(missing)]
+    for own, results in _results(model, over_time, simulation):
+        for job, run in zip(own, results, strict=True):
+            if not isinstance(run, Sensitivities) or run.record.outcome is not Outcome.DONE:
+                return Answer((), failure=Failure(runs[job.place].record, run.record.outcome, run.record.message))
+            by_initial = run.by_offset[:, :, runs[job.place].free] if job.offset else np.zeros((0, 0, 0))
+            answers[job.place] = Simulated(run.record.values, run.by_parameter @ job.slopes, by_initial)
+    for place, asked in enumerate(runs):
+        answer = answers[place]
+        if not all(math.isfinite(a.sum()) for a in (answer.values, answer.slopes, answer.by_initial)):
+            return Answer((), failure=Failure(asked.record, Outcome.DONE, "a value or a slope is not finite"))
+    return Answer(tuple(answers[i] for i in range(len(runs))), tuple(orbits))
+
+
+def _take_orbits(
+    jobs: Sequence[Job],
+    results: Sequence[Result],
+    answers: dict[int, Simulated],
+    orbits: list[tuple[Array, Array] | None],
+) -> list[int]:
+    """Put orbits in their places; the places of those that were not found."""
+    left = dict(enumerate(jobs))
+    for stack in results.stacks() if isinstance(results, Orbits) else ():
+        chains = [jobs[number].slopes for number in stack.numbers]
+        slopes, moved = _chained(stack.by_parameter, chains), _chained(stack.state_by_parameter, chains)
+        for k, number in enumerate(stack.numbers):
+            place = left.pop(number).place
+            answers[place] = Simulated(stack.values[k], slopes[k])
+            orbits[place] = stack.state[k], moved[k]
+    for number, job in list(left.items()):
+        orbit = results[number]
         if isinstance(orbit, Orbit) and orbit.outcome is Outcome.DONE:
             answers[job.place] = Simulated(orbit.record.values, orbit.by_parameter @ job.slopes)
             if orbit.state.size:
                 orbits[job.place] = orbit.state, orbit.state_by_parameter @ job.slopes
-        else:
-            again.append(settings.job(replace(runs[job.place], orbit=None), job.place, None))
-    for job, run in _results(model, [job for job in jobs if isinstance(job.run, Experiment)] + again, simulation):
-        if not isinstance(run, Sensitivities) or run.record.outcome is not Outcome.DONE:
-            return Answer((), failure=Failure(runs[job.place].record, run.record.outcome, run.record.message))
-        by_initial = run.by_offset[:, :, runs[job.place].free] if job.offset else np.zeros((0, 0, 0))
-        answers[job.place] = Simulated(run.record.values, run.by_parameter @ job.slopes, by_initial)
+            del left[number]
+    return [job.place for job in left.values()]
+
+
+def _chained(by_variables: Array, chains: Sequence[Array]) -> Array:
+    """Slopes of orbits (n, ..., n_v) by the search's numbers (n, ..., n_x); most logs share one chain (n_v, n_x)."""
+    if all(chain is chains[0] for chain in chains):
+        outer, (n_v, n_x) = by_variables.shape[:-1], chains[0].shape
+        return (by_variables.reshape(math.prod(outer), n_v) @ chains[0]).reshape(*outer, n_x)
+    return np.array([by @ chain for by, chain in zip(by_variables, chains, strict=True)])
+
+
+def _results(model: Model, jobs: list[Job], simulation: Simulation) -> Iterator[tuple[Sequence[Job], Sequence[Result]]]:
+    """Jobs with the same variables go together."""
+    groups: dict[tuple[tuple[str, ...], bool], list[Job]] = {}
     for job in jobs:
-        answer = answers[job.place]
-        if not all(np.isfinite(a).all() for a in (answer.values, answer.slopes, answer.by_initial)):
-            return Answer((), failure=Failure(runs[job.place].record, Outcome.DONE, "a value or a slope is not finite"))
-    return Answer(tuple(answers[i] for i in range(len(runs))), tuple(orbits))
-
-
-def _results(model: Model, jobs: list[Job], simulation: Simulation) -> Iterator[tuple[Job, Result]]:
-    return zip(jobs, simulation.workers.run(model, jobs, simulation.solver), strict=True) if jobs else iter(())
+        groups.setdefault((job.names, job.offset), []).append(job)
+    for own in groups.values():
+        yield own, simulation.workers.run(model, own, simulation.solver)
 
 
 @dataclass(frozen=True)

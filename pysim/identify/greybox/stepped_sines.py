@@ -98,12 +98,28 @@ class SteppedSines:
         """Mean and harmonics, uncorrelated; or magnitudes and phases (thesis Eq. 2.11 to 2.13 and 2.25)."""
         if measure is Measure.THESIS:
             return np.concatenate([self._deviation(answers, j) for j in range(len(self.channels))])
-        parts = []
-        for log, answer in zip(self.logs, answers, strict=True):
-            values = log.harmonics - log.onto @ answer.values
-            slopes = -np.tensordot(log.onto, answer.slopes, axes=1)
-            parts.append(np.concatenate([values[:, :, None], slopes], axis=2).reshape(values.size, -1))
-        return np.concatenate(parts)
+        parts: dict[int, Array] = {}
+        for places, onto, harmonics in self._stacks:
+            values = np.array([answers[i].values for i in places])
+            slopes = np.array([answers[i].slopes for i in places])
+            n, points, n_y, n_x = slopes.shape
+            table = np.empty((*harmonics.shape, 1 + n_x))
+            np.subtract(harmonics, onto @ values, out=table[..., 0])
+            flat = onto @ slopes.reshape(n, points, n_y * n_x)
+            np.negative(flat.reshape(*harmonics.shape, n_x), out=table[..., 1:])
+            parts |= zip(places, table.reshape(n, -1, 1 + n_x), strict=True)
+        return np.concatenate([parts[i] for i in range(len(self.logs))])
+
+    @cached_property
+    def _stacks(self) -> list[tuple[list[int], Array, Array]]:
+        """Places of logs with as many harmonics, their `onto` (n, n_h, points) and `harmonics` (n, n_h, n_y)."""
+        groups: dict[tuple[int, ...], list[int]] = {}
+        for i, log in enumerate(self.logs):
+            groups.setdefault(log.onto.shape, []).append(i)
+        return [
+            (places, np.array([self.logs[i].onto for i in places]), np.array([self.logs[i].harmonics for i in places]))
+            for places in groups.values()
+        ]
 
     def _deviation(self, answers: Sequence[Simulated], column: int) -> Array:
         measured = np.array([self.measured_gains[i, column] for i in range(len(self.logs))])

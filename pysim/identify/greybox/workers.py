@@ -6,7 +6,7 @@ import atexit
 import multiprocessing
 import os
 import threading
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import ExitStack, contextmanager
@@ -65,7 +65,7 @@ class Workers(Protocol):
     """Runs jobs, in their order; a failed run is a result that says so."""
 
     def run(self, model: Model, jobs: Sequence[Job], solver: Esdirk) -> Sequence[Result]:
-        """Orbits for jobs with a Periodic, runs with sensitivities for the others."""
+        """Orbits, or runs with sensitivities: all jobs are of one kind, with the same names and `offset`."""
         ...
 
 
@@ -97,7 +97,7 @@ class Processes:
         again: list[int] = []
         chunks = _chunks(len(jobs), 4 * count)
         with ProcessPoolExecutor(count, mp_context=multiprocessing.get_context("spawn")) as pool:
-            waiting = [pool.submit(run_jobs, model, [jobs[i] for i in chunk], solver, 1) for chunk in chunks]
+            waiting = [pool.submit(_run_share, (model, [jobs[i] for i in chunk], solver)) for chunk in chunks]
             for chunk, job in zip(chunks, waiting, strict=True):
                 try:
                     results |= zip(chunk, job.result(), strict=True)
@@ -106,7 +106,7 @@ class Processes:
         for i in again:
             with ProcessPoolExecutor(1, mp_context=multiprocessing.get_context("spawn")) as pool:
                 try:
-                    results[i] = pool.submit(run_jobs, model, [jobs[i]], solver, 1).result()[0]
+                    results[i] = pool.submit(_run_share, (model, [jobs[i]], solver)).result()[0]
                 except BrokenProcessPool:
                     results[i] = Lost("the FMU crashed and took its worker process with it")
         return [results[i] for i in range(len(jobs))]
@@ -141,27 +141,15 @@ class Cluster:
         return [results[i] for i in range(len(jobs))]
 
 
-def run_jobs(model: Model, jobs: Sequence[Job], solver: Esdirk, workers: int | None) -> list[Result]:
-    """All jobs in threads of this process; jobs with the same variables go together."""
-    results: dict[int, Result] = {}
-    groups = _grouped((job.names, isinstance(job.run, Periodic), job.offset) for job in jobs)
+def run_jobs(model: Model, jobs: Sequence[Job], solver: Esdirk, workers: int | None) -> Sequence[Result]:
+    """All jobs in threads of this process."""
+    names, orbits = jobs[0].names, [job.run for job in jobs if isinstance(job.run, Periodic)]
     with _KEPT.use(model) as runs:
-        for names, places in groups.items():
-            group = [jobs[i] for i in places]
-            results |= zip(places, _run_group(runs, group, names[0], solver, workers), strict=True)
-    return [results[i] for i in range(len(jobs))]
-
-
-def _run_group(
-    runs: Runs, jobs: Sequence[Job], names: tuple[str, ...], solver: Esdirk, workers: int | None
-) -> Sequence[Result]:
-    orbits = [job.run for job in jobs if isinstance(job.run, Periodic)]
-    if orbits:
-        guesses = [job.guess for job in jobs]
-        left = min(job.mismatch for job in jobs)
-        return runs.orbits(orbits, names, guesses=guesses, solver=solver, mismatch=left, workers=workers)
-    own = [job.run for job in jobs if isinstance(job.run, Experiment)]
-    return runs.sensitivities(own, names, offset=jobs[0].offset, solver=solver, workers=workers)
+        if orbits:
+            guesses, left = [job.guess for job in jobs], min(job.mismatch for job in jobs)
+            return runs.orbits(orbits, names, guesses=guesses, solver=solver, mismatch=left, workers=workers)
+        own = [job.run for job in jobs if isinstance(job.run, Experiment)]
+        return runs.sensitivities(own, names, offset=jobs[0].offset, solver=solver, workers=workers)
 
 
 class _Kept:
@@ -215,14 +203,7 @@ def _count(client: Any) -> int:
 
 def _run_share(share: tuple[Model, list[Job], Esdirk]) -> list[Result]:
     model, jobs, solver = share
-    return run_jobs(model, jobs, solver, 1)
-
-
-def _grouped(keys: Iterable[Any]) -> dict[Any, list[int]]:
-    groups: dict[Any, list[int]] = {}
-    for i, key in enumerate(keys):
-        groups.setdefault(key, []).append(i)
-    return groups
+    return list(run_jobs(model, jobs, solver, 1))
 
 
 def _chunks(count: int, most: int) -> list[list[int]]:

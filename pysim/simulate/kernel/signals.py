@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -18,6 +18,44 @@ class Packed(NamedTuple):
 
     structures: NDArray[Any]
     kept: tuple[Any, ...]
+
+
+class Packs:
+    """Signals that were packed before, since every pass of a fit has the same ones; the last few that took long."""
+
+    _MOST, _WORTH = 8, 64  # packs; experiments and pieces of signals
+
+    def __init__(self) -> None:
+        self._packs: dict[Any, tuple[Any, Packed]] = {}
+
+    def inputs(self, model: Model, experiments: Sequence[Experiment]) -> Packed:
+        """As `pack_inputs`, with work space of its own."""
+        key = tuple([(id(e.inputs), id(e.rates)) for e in experiments])
+        packed = self._packed(key, experiments, lambda: pack_inputs(model, experiments))
+        if not packed.kept:
+            return packed
+        own = {name: packed.kept[0][name].copy() for name in ("cursor", "values")}
+        found = packed.structures.copy()
+        for name, array in own.items():
+            found[name] += address(array) - address(packed.kept[0][name])
+        return Packed(found, (packed.kept, own))
+
+    def breaks(self, experiments: Sequence[Experiment], ends: Sequence[float]) -> Packed:
+        """As `pack_breaks`."""
+        times = [(e.start, offset_time(e), end) for e, end in zip(experiments, ends, strict=True)]
+        key = tuple([(id(e.inputs), id(e.rates), repr(t)) for e, t in zip(experiments, times, strict=True)])
+        return self._packed(key, experiments, lambda: pack_breaks(experiments, ends))
+
+    def _packed(self, key: Any, experiments: Sequence[Experiment], pack: Callable[[], Packed]) -> Packed:
+        if key in self._packs:
+            return self._packs[key][1]
+        packed = pack()
+        pieces = sum(signal.starts.size for e in experiments for signal in e.inputs.values())
+        if len(experiments) + pieces > self._WORTH:
+            while len(self._packs) >= self._MOST:
+                self._packs.pop(next(iter(self._packs)))
+            self._packs[key] = [(e.inputs, e.rates) for e in experiments], packed  # which keeps the numbers in the key
+        return packed
 
 
 def pack_inputs(model: Model, experiments: Sequence[Experiment]) -> Packed:

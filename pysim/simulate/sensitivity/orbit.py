@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Any
+from typing import Any, NamedTuple, overload
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +16,7 @@ from pysim.simulate._pass import run_tasks
 from pysim.simulate._pool import Stopped
 from pysim.simulate._request import Kind, Request
 from pysim.simulate._run import make_record
+from pysim.simulate._tasks import Tasks
 from pysim.simulate._variation import Directions
 from pysim.simulate.esdirk import Esdirk
 from pysim.simulate.kernel.layout import ORBIT, VARIED
@@ -65,6 +66,64 @@ class Orbit:
             array = np.array(getattr(self, name), dtype=np.float64)
             array.setflags(write=False)
             object.__setattr__(self, name, array)
+
+
+class OrbitStack(NamedTuple):
+    """Orbits of as many points, one above the other.
+
+    Args:
+        numbers: places (n) among all.
+        values: (n, points, n_y); by_parameter: (n, points, n_y, n_p).
+        state: (n, n_x); state_by_parameter: (n, n_x, n_p).
+    """
+
+    numbers: list[int]
+    values: Array
+    by_parameter: Array
+    state: Array
+    state_by_parameter: Array
+
+
+class Orbits(Sequence[Orbit]):
+    """Orbits in the order of their tests. Hundreds of them are made where they are asked for, and stacked at once.
+
+    Args:
+        make: the orbit of a number, where it is none of the next two.
+        others: orbits by number.
+        found: what the kernel found, by number, where that is all there is to an orbit.
+    """
+
+    def __init__(
+        self, count: int, make: Callable[[int], Orbit], others: Mapping[int, Orbit], found: Mapping[int, Found]
+    ) -> None:
+        self._count, self._make, self._orbits, self._found = count, make, dict(others), found
+
+    def __len__(self) -> int:
+        return self._count
+
+    @overload
+    def __getitem__(self, number: int) -> Orbit: ...
+    @overload
+    def __getitem__(self, number: slice) -> tuple[Orbit, ...]: ...
+    def __getitem__(self, number: int | slice) -> Orbit | tuple[Orbit, ...]:
+        if isinstance(number, slice):
+            return tuple(self[i] for i in range(*number.indices(self._count)))
+        number = range(self._count)[number]
+        if number not in self._orbits:
+            self._orbits[number] = self._make(number)
+        return self._orbits[number]
+
+    def stacks(self) -> Iterator[OrbitStack]:
+        """All that were found by shooting alone, as arrays."""
+        groups: dict[int, tuple[Tasks, list[int]]] = {}
+        for number, one in self._found.items():
+            groups.setdefault(id(one.tasks), (one.tasks, []))[1].append(number)
+        for tasks, numbers in groups.values():
+            places = [self._found[number].number for number in numbers]
+            values, slopes = tasks.stack("values", places), tasks.stack("slopes", places)
+            if values is not None and slopes is not None:
+                states = tasks.arrays("state", places), tasks.arrays("state_by", places)
+                yield OrbitStack(numbers, values, slopes[..., tasks.by_offset :], *states)
 
 
 @dataclass(frozen=True)

@@ -16,9 +16,9 @@ from pysim.simulate._check import check_arguments, check_list
 from pysim.simulate._foreign import Opened, open_model
 from pysim.simulate._found import Found
 from pysim.simulate._pass import later
-from pysim.simulate._pool import side_by_side, worker_count
+from pysim.simulate._pool import Stopped, side_by_side, worker_count
 from pysim.simulate.esdirk import Esdirk
-from pysim.simulate.sensitivity.orbit import Orbit, Plan, find_orbits, is_settled, orbit_of, remembers
+from pysim.simulate.sensitivity.orbit import Orbit, Orbits, Plan, find_orbits, is_settled, orbit_of, remembers
 from pysim.simulate.sensitivity.probe import check_names, check_parameters, probe_each
 from pysim.types import BadInput, Experiment, Model, Signal
 
@@ -127,7 +127,7 @@ def periodic_many(
     if not tests:
         return ()
     with open_model(model) as library:
-        return find_in(library, ask, progress)
+        return tuple(find_in(library, ask, progress))
 
 
 @dataclass(frozen=True)
@@ -167,7 +167,7 @@ def check_periodic(
     return Ask(experiments, names, tuple(starts), solver, mismatch, count)
 
 
-def find_in(library: Opened, ask: Ask, progress: Callable[[int, int], None] | None) -> tuple[Orbit, ...]:
+def find_in(library: Opened, ask: Ask, progress: Callable[[int, int], None] | None) -> Orbits:
     """As `periodic_many`, with a library that is open already."""
     experiments, starts, count = ask.experiments, ask.guesses, ask.workers
     offers = probe_each(library, experiments, ask.solver, ask.names)
@@ -182,11 +182,16 @@ def find_in(library: Opened, ask: Ask, progress: Callable[[int, int], None] | No
         watch = None if plan.missing or not plan.offer.outputs else watch
         found |= zip(numbers, find_orbits(plan, pairs, workers=count, progress=watch), strict=True)
         settled = sum(is_settled(plans[experiments[i].record], one) for i, one in found.items())
-    tasks = [partial(orbit_of, plans[e.record], e, found.get(i)) for i, e in enumerate(experiments)]
-    left = [i for i, e in enumerate(experiments) if i not in found or not is_settled(plans[e.record], found[i])]
-    others = side_by_side([tasks[i] for i in left], count, later(progress, settled, len(experiments)))
-    results = dict(zip(left, others, strict=True))
-    return tuple(results[i] if i in results else task(lambda: False) for i, task in enumerate(tasks))
+
+    def make(number: int, stopped: Stopped = lambda: False) -> Orbit:
+        experiment = experiments[number]
+        return orbit_of(plans[experiment.record], experiment, found.get(number), stopped)
+
+    whole = {i: one for i, one in found.items() if is_settled(plans[experiments[i].record], one)}
+    left = [i for i in range(len(experiments)) if i not in whole]
+    watch = later(progress, len(whole), len(experiments))
+    others = side_by_side([partial(make, number) for number in left], count, watch) if left else ()
+    return Orbits(len(experiments), make, dict(zip(left, others, strict=True)), whole)
 
 
 def _check_guesses(model: Model, tests: Sequence[Periodic], guesses: Sequence[Array | None]) -> list[Array | None]:

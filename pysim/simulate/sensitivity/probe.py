@@ -16,7 +16,7 @@ from pysim.simulate._request import Kind, Request
 from pysim.simulate._variation import Directions
 from pysim.simulate.esdirk import Esdirk
 from pysim.simulate.kernel.layout import VARIED
-from pysim.types import BadInput, Experiment, Model, Variable
+from pysim.types import BadInput, Experiment, Model, Signal, Variable
 
 Array = NDArray[np.float64]
 
@@ -72,7 +72,7 @@ def check_parameters(function: str, model: Model, experiments: Sequence[Experime
     check_experiments(model, experiments)
     known: set[object] = set()
     for experiment in experiments:
-        used = tuple(experiment.inputs), tuple(experiment.rates), tuple(experiment.overrides)
+        used = tuple(experiment.inputs.keys()), tuple(experiment.rates.keys()), tuple(experiment.overrides.keys())
         if used not in known:
             values = {name: value_of(model, experiment, name) for name in names}
             check_experiment(model, experiment.override(**values))
@@ -109,8 +109,15 @@ def both_sides(model: Model, experiment: Experiment, name: str, share: float) ->
 
 
 def at_rest(experiment: Experiment) -> Experiment:
-    """The experiment's start alone, before any offset of its states."""
-    return replace(experiment, times=np.array([experiment.start]), offset=np.zeros(0), offset_at=None)
+    """The experiment's start alone, before any offset of its states; of its inputs the pieces that are needed there."""
+    start = experiment.start
+    inputs = {name: _piece_at(signal, start) for name, signal in experiment.inputs.items()}
+    return replace(experiment, times=np.array([start]), inputs=inputs, offset=np.zeros(0), offset_at=None)
+
+
+def _piece_at(signal: Signal, time: float) -> Signal:
+    k = max(int(np.searchsorted(signal.starts, time, side="right")) - 1, 0)
+    return Signal(signal.starts[k : k + 1], signal.cubics[k : k + 1], signal.sines[k : k + 1])
 
 
 _NOTHING = Offer((), frozenset(), False)

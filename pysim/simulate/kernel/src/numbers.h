@@ -13,9 +13,9 @@ static inline int worse(int a, int b) { return a > b ? a : b; }
 static inline double larger(double a, double b) { return a > b ? a : b; }
 static inline double smaller(double a, double b) { return a < b ? a : b; }
 
-/* to = from; they do not overlap. Most are a dozen numbers, too few for a call. */
+/* to = from; they do not overlap. Most are a dozen numbers, or some hundreds: too few for a call. */
 static inline void copy(double *restrict to, const double *restrict from, int64_t n) {
-    if (n > 64) {
+    if (n > 1024) {
         memcpy(to, from, (size_t)n * sizeof *to);
         return;
     }

@@ -96,9 +96,10 @@ void note_range(Job *job) {
 
 /* Makes the end of the step the current point. */
 void end_variation(Job *job) {
-    const Variation *v = &job->variation;
+    Variation *v = &job->variation;
     const int64_t size = job->work.n * v->columns;
-    copy(v->s, v->inside, size); /* the last stage */
+    double *last = v->inside; /* the last stage */
+    v->inside = v->s, v->s = last;
     copy(v->k, v->k + size * (job->method.stages - 1), size);
     job->run.jacobian_at = job->run.t;
 }
