@@ -19,15 +19,18 @@ def interpolation(phase: Array, points: int) -> Array:
     """Weights (n_t, points) that give a periodic signal at phases (n_t,) rad from equidistant samples over one period.
 
     Exact for every harmonic below points / 2; what lies above is folded down as sampling does.
+
+    Source: Henrici 1979, Numerische Mathematik 33:225 (barycentric formula).
     """
-    nodes = 2 * np.pi * np.arange(points) / points
-    distance = phase[:, None] - nodes
-    half = 0.5 * (distance - 2 * np.pi * np.round(distance / (2 * np.pi)))
-    away = np.abs(half) > 1e-12
-    half = np.where(away, half, 1.0)
-    # the sum of 1 + 2 cos(k distance) in closed form; for an even count the last cosine counts once
-    kernel = np.sin(points * half) / (points * (np.sin(half) if points % 2 else np.tan(half)))
-    return np.where(away, kernel, 1.0)
+    half_phase, half_node = 0.5 * phase[:, None], np.pi * np.arange(points) / points
+    sin = np.sin(half_phase) * np.cos(half_node) - np.cos(half_phase) * np.sin(half_node)
+    met = np.abs(sin) <= 1e-12  # a phase that falls on a sample
+    weights = (1.0 - 2.0 * (np.arange(points) % 2)) / np.where(met, 1.0, sin)
+    if points % 2 == 0:
+        weights *= np.cos(half_phase) * np.cos(half_node) + np.sin(half_phase) * np.sin(half_node)
+    weights[met.any(axis=1)] = 0.0
+    weights[met] = 1.0
+    return np.asarray(weights / weights.sum(axis=1, keepdims=True))
 
 
 def to_complex(coefficients: Array) -> NDArray[np.complex128]:

@@ -98,6 +98,20 @@ class SineLog:
         """The same of some of its samples, (n_t,)."""
         return replace(self, measured=_kept(self.measured, keep))
 
+    @cached_property
+    def unlike(self) -> float:
+        """How far the first compared period is from those after it, in standard deviations: the largest difference of
+        a mean, a sine or a cosine; zero where there is one period only.
+
+        A valve that is too slow for the sine, or a plate that sticks, may need many periods more than were left out.
+        """
+        first = self.phase < self.phase[0] + (1 - 1e-6) * 2 * np.pi
+        if any(np.count_nonzero(part) < 2 * self.count + 2 for part in (first, ~first)):
+            return 0.0
+        begun, rest = self.part(first), self.part(~first)
+        variance = sum(part.variances[:, None] * np.maximum(part.scatter, self.noise) ** 2 for part in (begun, rest))
+        return float(np.max(np.abs(rest.parts - begun.parts) / np.sqrt(variance)))
+
     def coefficients(self, uncorrelated: Array) -> NDArray[np.complex128]:
         """(n_h, ...) as `harmonics` -> mean and complex harmonics (count + 1, ...)."""
         return to_complex(np.asarray(np.linalg.solve(self._factors[1], uncorrelated), dtype=np.float64))

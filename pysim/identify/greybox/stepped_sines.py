@@ -19,7 +19,7 @@ from pysim.identify.greybox.sine_log import Sine, SineLog, sine_log, steady_sine
 from pysim.identify.greybox.steady_run import steady_run
 from pysim.identify.greybox.time_log import kept_columns
 from pysim.identify.greybox.treatment import SinePlan
-from pysim.identify.greybox.unsettled import UNLIKE, unlike
+from pysim.identify.greybox.unsettled import UNLIKE
 from pysim.identify.logged import logged_wave
 from pysim.types import (
     FrequencyResponse,
@@ -229,7 +229,7 @@ def _settled(source: str, data: Record, sine: Sine, noise: tuple[float, ...], pl
     if plan.settle_time is not None:
         return log
     most = plan.settle_periods + log.periods // 2
-    while unlike(log) > UNLIKE and plan.settle_periods < most:
+    while log.unlike > UNLIKE and plan.settle_periods < most:
         plan = replace(plan, settle_periods=min(plan.settle_periods + max(log.periods // 10, 1), most))
         log = sine_log(source, data, sine, noise, plan, index=index)
     return log

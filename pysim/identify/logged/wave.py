@@ -87,15 +87,16 @@ def logged_wave(record: MeasuredRecord, column: str) -> LoggedWave:
             raise BadInput(f"{record.source}: a stepped sine needs its frequency; give it in the record")
         omega = 2 * np.pi * record.frequency
         what = f"a sine of {record.frequency:g} Hz"
-        stretch = grow(log, sine_start(log.time, log.values, omega, log.step), lambda t, y, w: fit_sine(t, y, omega))
+        start = sine_start(log.time, log.values, omega, log.step, log.interval)
+        stretch = grow(log, start, lambda t, y, w: fit_sine(t, y, omega))
     elif record.kind == CHIRP.name:
         what, lost = "a chirp", _lost(log)
-        start = chirp_start(log.time, log.values)
-        if start is None:
+        found = chirp_start(log.time, log.values)
+        if found is None:
             raise BadInput(
                 f"{where}: this is no chirp: it swings less than three times; correct the record's kind{lost}"
             )
-        stretch = grow(log, start, fit_chirp)
+        stretch = grow(log, found, fit_chirp)
     else:
         raise BadInput(f"{record.source}: a {record.kind} record has no closed form; only stepped sines and chirps do")
     _check(log, stretch, where, what, lost)

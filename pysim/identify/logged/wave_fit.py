@@ -55,7 +55,7 @@ def fit_sine(t: Array, y: Array, omega: float) -> Wave:
     return Wave(float(c[2]), float(np.hypot(c[0], c[1])), float(np.arctan2(c[1], c[0])), omega, 0.0, origin)
 
 
-def sine_start(t: Array, y: Array, omega: float, step: float) -> tuple[Wave, slice]:
+def sine_start(t: Array, y: Array, omega: float, step: float, interval: float) -> tuple[Wave, slice]:
     """The stretch of a period that is most a sine, and its fit; the whole log where it is one, or not longer.
 
     At high frequencies it is longer than a period, so that it shows how noisy the log is.
@@ -64,8 +64,9 @@ def sine_start(t: Array, y: Array, omega: float, step: float) -> tuple[Wave, sli
         t, y: (n,).
         omega: rad/s.
         step: rounding of y.
+        interval: s between samples.
     """
-    count = max(round(2 * np.pi / omega / sampling(t).step), min(_FEWEST, t.size // 2), 8)
+    count = max(round(2 * np.pi / omega / interval), min(_FEWEST, t.size // 2), 8)
     rounding = _ROUNDING * float(np.ptp(y)) or 1.0
     best, inside, record = fit_sine(t, y, omega), slice(0, t.size), -1.0
     if np.max(np.abs(y - best.value(t))) <= max(2 * step, _WHOLE * best.amplitude):

@@ -83,7 +83,7 @@ class Periodic:
 def _repeats(signal: Signal, period: float) -> bool:
     """Whether the first two periods look alike. One look may fall on a jump, where rounding decides the side."""
     phases = (0.5 + np.arange(_LOOKS) * (math.sqrt(5) - 1) / 2) % 1.0  # evenly spread, on no fraction of the period
-    first, second = signal.value(phases * period), signal.value((phases + 1.0) * period)
+    first, second = np.split(signal.value(np.concatenate([phases, phases + 1.0]) * period), 2)
     allowed = _APART * max(np.ptp(first), np.ptp(second)) + 1e-12 * np.max(np.abs(first))
     return int(np.sum(np.abs(second - first) > allowed)) <= 1
 

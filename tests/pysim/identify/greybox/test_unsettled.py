@@ -6,7 +6,6 @@ from numpy.typing import NDArray
 
 from pysim.identify.greybox import Parameter, Simulation, SinePlan, Treatment, fit, problem
 from pysim.identify.greybox.sine_log import Sine, SineLog, sine_log
-from pysim.identify.greybox.unsettled import unlike
 from pysim.simulate import Esdirk
 from pysim.types import MeasuredRecord, Model, Record
 from tests.pysim.identify.greybox import measurements as m
@@ -27,16 +26,16 @@ def swing(drift: float, seed: int | None = None, *, seconds: float = 4.0) -> Sin
 
 @seeds(400)
 def test_a_drift_is_seen_where_the_noise_lets_it_be(runs: int) -> None:
-    still = [unlike(swing(0.0, seed)) for seed in range(runs)]
+    still = [swing(0.0, seed).unlike for seed in range(runs)]
     assert max(still) < 5.0
     assert 1.0 < np.median(still) < 2.5  # the largest of eleven normal numbers
-    assert max(unlike(swing(1e-3, seed)) for seed in range(20)) < 5.0
-    assert min(unlike(swing(0.2, seed)) for seed in range(20)) > 5.0
+    assert max(swing(1e-3, seed).unlike for seed in range(20)) < 5.0
+    assert min(swing(0.2, seed).unlike for seed in range(20)) > 5.0
 
 
 def test_one_period_has_no_other_to_be_compared_with() -> None:
-    assert unlike(swing(5.0, seconds=1.0)) == 0.0
-    assert unlike(swing(5.0, seconds=1.6)) > 5.0
+    assert swing(5.0, seconds=1.0).unlike == 0.0
+    assert swing(5.0, seconds=1.6).unlike > 5.0
 
 
 def started(K: float, T: float, f: float) -> MeasuredRecord:
