@@ -3,6 +3,7 @@
 from pysim.simulate._base import Solver
 from pysim.simulate._check import check_override, value_objection
 from pysim.simulate._messages import Mailbox
+from pysim.simulate._request import Take
 from pysim.simulate._run import simulate, simulate_many
 from pysim.simulate.esdirk import Esdirk
 from pysim.simulate.fmu_states import FmuState, FmuStates
@@ -45,6 +46,7 @@ __all__ = [
     "Solver",
     "StepFailed",
     "Stepwise",
+    "Take",
     "Wires",
     "build_kernel",
     "can_be_saved",

@@ -100,12 +100,13 @@ class _Crew:
         finally:
             for thread in self._threads:
                 thread.join()
-        if self._error is not None:
-            raise self._error
+        error = self._error or self._tasks.error
+        if error is not None:
+            raise error
         return self._shown
 
     def _look(self) -> None:
-        if not self._pass["stop"][0] and self._stopped():
+        if not self._pass["stop"][0] and (self._tasks.error is not None or self._stopped()):
             self._pass["stop"] = 1
         done = int(self._pass["done"][0])
         while self._progress is not None and self._shown < done:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -14,6 +15,10 @@ from pysim.types import Experiment
 
 Array = NDArray[np.float64]
 
+# Number of the first row, values (n, n_y), slopes (n, n_y, n_d) by the offset, where that is a direction, and the
+# parameters; only valid in the call.
+Take = Callable[[int, Array, Array], None]
+
 
 @dataclass(frozen=True)
 class Request:
@@ -25,12 +30,14 @@ class Request:
         start_by: (n, n_p) how they depend on the parameters; not at all where None.
         settling: periods from the model's own start that make a guess, where there is none; half of four cost the
             pump three times the time.
+        take: of a run with derivatives, is given its rows stretch by stretch; then none of them are kept.
     """
 
     experiment: Experiment
     states: Array | None = None
     start_by: Array | None = None
     settling: int = 4
+    take: Take | None = None
 
 
 @dataclass(frozen=True)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ctypes
 from collections.abc import Sequence
 from typing import Any
 
@@ -13,11 +14,13 @@ from pysim.simulate._library import Instance
 from pysim.simulate._request import Kind, Request
 from pysim.simulate._variation import variation_arrays
 from pysim.simulate.kernel.layout import DONE, FOUND, LINE_LENGTH, LINES, ORBIT, PLAIN, TASK
-from pysim.simulate.kernel.library import address
+from pysim.simulate.kernel.library import TAKE, address
 from pysim.simulate.kernel.signals import Packs, offset_time
 from pysim.types import Model
 
 Array = NDArray[np.float64]
+
+STRETCH = 8192  # rows that are handed over at a time: a few MB
 
 
 class Tasks:
@@ -25,10 +28,12 @@ class Tasks:
 
     Attributes:
         table: (n,) of TASK.
+        error: what was raised where rows were taken.
     """
 
     def __init__(self, model: Model, kind: Kind, requests: Sequence[Request], packs: Packs) -> None:
         self.kind = kind
+        self.error: BaseException | None = None
         experiments = [request.experiment for request in requests]
         self.record, self.set_names = experiments[0].record, tuple(experiments[0].overrides)
         count, n = len(requests), len(model.abilities.states)
@@ -46,6 +51,9 @@ class Tasks:
         self._put("times", [self._address(e.times) for e in experiments])
         sizes = np.array([e.times.size for e in experiments])
         self._put("count", sizes)
+        self._takes = [request.take for request in requests]
+        if any(self._takes):
+            sizes = self._put_takes(sizes)
         self._put("mismatch", kind.mismatch)
         self._rows_of("set_values", numbers)
         self._put("states", [self._address(r.states) for r in requests])
@@ -62,6 +70,25 @@ class Tasks:
         self._rows_of("text", self.texts.reshape(count, -1))
         self._first, self.most_rows = np.cumsum([0, *sizes]), int(sizes.max())
         self._results = self._make_results(count, n)
+
+    def _put_takes(self, sizes: NDArray[np.int64]) -> NDArray[np.int64]:
+        """Have rows handed over; how many of each task are in memory at a time."""
+        self._callback = TAKE(self._take)
+        given = np.array([take is not None for take in self._takes])
+        sizes = np.where(given, np.minimum(sizes, STRETCH), sizes)
+        self._put("take", np.where(given, ctypes.cast(self._callback, ctypes.c_void_p).value or 0, 0))
+        self._put("room", sizes)
+        self._put("number", np.arange(len(sizes)))
+        return sizes
+
+    def _take(self, number: int, first: int, count: int) -> None:
+        take, place = self._takes[number], self._first[number]
+        if take is None or self.error is not None:
+            return
+        try:
+            take(first, *(self._results[name][place : place + count] for name in ("values", "slopes")))
+        except BaseException as error:
+            self.error = error
 
     def _make_results(self, count: int, n: int) -> dict[str, Any]:
         rows, n_y, n_p = int(self._first[-1]), len(self.record), self.parameters
@@ -136,9 +163,9 @@ class Tasks:
         return whole[:, :rows] if len(numbers) == len(whole) else whole[numbers, :rows]
 
     def rows(self, name: str, number: int) -> Array:
-        """Recorded rows of a task."""
-        first = self._first[number]
-        rows: Array = self._results[name][first : first + self.column("rows")[number]]
+        """Recorded rows of a task; none where they were handed over."""
+        first, taken = self._first[number], self.column("take")[number]
+        rows: Array = self._results[name][first : first + (0 if taken else self.column("rows")[number])]
         return rows
 
     def prepare(self, instance: Instance) -> Job:

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from pysim.simulate._check import check_arguments
 from pysim.simulate._foreign import Opened, open_model
+from pysim.simulate._request import Take
 from pysim.simulate.esdirk import Esdirk
 from pysim.simulate.sensitivity.orbit import Orbits
 from pysim.simulate.sensitivity.periodic import Periodic, check_periodic, find_in
@@ -37,14 +39,21 @@ class Runs:
         parameters: Sequence[str],
         *,
         offset: bool = False,
+        takes: Sequence[Take | None] = (),
         solver: Esdirk = Esdirk(),  # noqa: B008
         workers: int | None = None,
         progress: Callable[[int, int], None] | None = None,
     ) -> tuple[Sensitivities, ...]:
-        """Runs with their derivatives, as `sensitivities_many`."""
+        """Runs with their derivatives, as `sensitivities_many`.
+
+        Args:
+            takes: per run what is given its rows, stretch by stretch, where the kernel alone makes them: the number of
+                the first row, values (n, n_y), and derivatives (n, n_y, n_x + n_p) by the offset, where that is asked
+                for, and the parameters. The result has no rows then. The arrays are valid in the call only.
+        """
         check_arguments("sensitivities", self.model, solver, Esdirk)
         ask = check_sensitivities(self.model, experiments, parameters, offset, solver, workers)
-        return run_in(self._library, ask, progress) if experiments else ()
+        return run_in(self._library, replace(ask, takes=tuple(takes)), progress) if experiments else ()
 
     def orbits(
         self,

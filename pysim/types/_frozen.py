@@ -1,11 +1,24 @@
-"""A mapping that stays as it was given."""
+"""Mappings and arrays that stay as they were given."""
 
 from __future__ import annotations
 
 from collections.abc import ItemsView, Iterator, KeysView, Mapping, ValuesView
-from typing import TypeVar
+from typing import Any, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
 
 V = TypeVar("V")
+
+
+def frozen_array(numbers: Any) -> NDArray[np.float64]:
+    """Numbers as an array that cannot be written to: one that is so already as it is, of anything else a copy."""
+    is_whole = isinstance(numbers, np.ndarray) and numbers.dtype == np.float64 and numbers.base is None
+    if is_whole and numbers.flags.c_contiguous and not numbers.flags.writeable:
+        return numbers
+    array = np.array(numbers, dtype=np.float64, order="C")
+    array.setflags(write=False)
+    return array
 
 
 class FrozenMapping(Mapping[str, V]):

@@ -11,7 +11,7 @@ from numbers import Real
 import numpy as np
 from numpy.typing import NDArray
 
-from pysim.types._frozen import FrozenMapping
+from pysim.types._frozen import FrozenMapping, frozen_array
 from pysim.types.errors import BadInput
 from pysim.types.signal import Signal
 
@@ -53,8 +53,8 @@ class Experiment:
             )
         if not isinstance(self.record, Iterable) or not all(isinstance(name, str) for name in self.record):
             raise BadInput(f"experiment: record is {self.record!r}; write a tuple of the names of variables")
-        object.__setattr__(self, "times", _read_only(_times(self.times)))
-        object.__setattr__(self, "offset", _read_only(np.array(self.offset, dtype=np.float64)))
+        object.__setattr__(self, "times", _times(self.times))
+        object.__setattr__(self, "offset", frozen_array(self.offset))
         object.__setattr__(self, "record", tuple(self.record))
         for name in ("inputs", "overrides", "rates"):
             object.__setattr__(self, name, FrozenMapping(getattr(self, name)))
@@ -103,15 +103,10 @@ class Experiment:
     def moved(self, offset: Array, at: float | None = None) -> Experiment:
         """The same experiment with the states offset (n_x,) at that time (s); what stays is not checked again."""
         other = copy(self)
-        object.__setattr__(other, "offset", _read_only(np.array(offset, dtype=np.float64)))
+        object.__setattr__(other, "offset", frozen_array(offset))
         object.__setattr__(other, "offset_at", at)
         other._check_offset()
         return other
-
-
-def _read_only(array: Array) -> Array:
-    array.setflags(write=False)
-    return array
 
 
 def _check_numbers(overrides: Mapping[str, float]) -> None:
@@ -122,6 +117,6 @@ def _check_numbers(overrides: Mapping[str, float]) -> None:
 
 def _times(given: object) -> Array:
     try:
-        return np.array(given, dtype=np.float64)
+        return frozen_array(given)
     except (TypeError, ValueError):
         raise BadInput("experiment: times must be a non-empty row of finite, increasing numbers") from None

@@ -9,7 +9,7 @@ from enum import Enum
 import numpy as np
 from numpy.typing import NDArray
 
-from pysim.types._frozen import FrozenMapping
+from pysim.types._frozen import FrozenMapping, frozen_array
 from pysim.types.errors import BadInput
 
 Array = NDArray[np.float64]
@@ -82,13 +82,11 @@ class Record:
 
 
 def _read_only(name: str, numbers: Array) -> Array:
-    """A copy that nobody can change."""
+    """What nobody can change."""
     try:
-        array = np.array(numbers, dtype=np.float64)
+        return frozen_array(numbers)
     except (TypeError, ValueError) as error:
         raise BadInput(f"record: {name} must hold numbers ({error})") from error
-    array.setflags(write=False)
-    return array
 
 
 class SimulationError(RuntimeError):

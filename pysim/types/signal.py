@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from pysim.types._frozen import frozen_array
 from pysim.types._spline import hermite, natural_rates
 from pysim.types.errors import BadInput
 
@@ -46,9 +47,7 @@ class Signal:
 
     def __post_init__(self) -> None:
         for name in ("starts", "cubics", "sines"):
-            array = np.array(getattr(self, name), dtype=np.float64, order="C")
-            array.setflags(write=False)
-            object.__setattr__(self, name, array)
+            object.__setattr__(self, name, frozen_array(getattr(self, name)))
         n_k = self.starts.size
         if self.starts.shape != (n_k,) or n_k == 0 or self.cubics.shape != (n_k, 4):
             raise BadInput(
@@ -129,11 +128,24 @@ class Signal:
 
     def breaks(self) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
         """Per piece (n_k,), whether the value jumps and whether the rate jumps where the piece starts."""
-        k, at_start, at_end = np.arange(self.starts.size), np.zeros(self.starts.size), np.diff(self.starts)
-        value, rate = self._value(k, at_start), self._rate(k, at_start)
-        value_before = np.concatenate([value[:1], self._value(k[:-1], at_end)])
-        rate_before = np.concatenate([[0.0], self._rate(k[:-1], at_end)])
-        return _differ(value_before, value), _differ(rate_before, rate)
+        count = self.starts.size
+        parts = [np.arange(first, min(first + _PART, count)) for first in range(0, count, _PART)]
+        sizes = [[np.max(np.abs(sides)) for sides in self._sides(part)] for part in parts]
+        least = _ROUNDING * np.max(sizes, axis=0)
+        differ = [
+            [np.abs(after - before) > size for (before, after), size in zip(self._sides(part), least, strict=True)]
+            for part in parts
+        ]
+        jumps, kinks = (np.concatenate(rows) for rows in zip(*differ, strict=True))
+        return jumps, kinks
+
+    def _sides(self, k: NDArray[np.intp]) -> tuple[tuple[Array, Array], tuple[Array, Array]]:
+        """Value and rate on both sides of where pieces k (n,) start."""
+        before, at_start = np.maximum(k - 1, 0), np.zeros(k.size)
+        length = self.starts[k] - self.starts[before]
+        rate_before = np.where(k > 0, self._rate(before, length), 0.0)
+        value = self._value(before, length), self._value(k, at_start)
+        return value, (rate_before, self._rate(k, at_start))
 
     def _locate(self, t: Array) -> tuple[NDArray[np.intp], Array]:
         """Piece and time within it."""
@@ -170,6 +182,8 @@ class Signal:
         """The sum over a piece's sines of `of`, in parts that stay in the processor's cache."""
         total = np.zeros(np.shape(s))
         piece, time, flat = np.ravel(k), np.ravel(s), total.reshape(-1)
+        if not self.sines.size:
+            return total
         if piece.size == 1:  # as for the value at one time: finding out who swings would take longer
             flat[:] = of(self.sines[piece[0]], time[:, None]).sum(axis=-1)
             return total
@@ -206,9 +220,3 @@ def _samples(times: ArrayLike, values: ArrayLike, *, least: int) -> tuple[Array,
     if not (np.isfinite(t).all() and np.isfinite(v).all() and (np.diff(t) > 0).all()):
         raise BadInput("signal: times and values must be finite, and times increase")
     return t, v
-
-
-def _differ(before: Array, after: Array) -> NDArray[np.bool_]:
-    """Whether two rows differ by more than the rounding of the pieces they were computed from."""
-    scale = max(np.max(np.abs(before)), np.max(np.abs(after)))
-    return np.abs(after - before) > _ROUNDING * scale

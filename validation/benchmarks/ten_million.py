@@ -8,13 +8,13 @@ from validation.benchmarks.long_log import GIB, cost
 from validation.benchmarks.measurement import Measurement
 
 AIM, ROWS = 2.0, 10_000_000  # GiB
-_FEW = (125_000, 500_000)  # rows: enough to see what a row takes
+_FEW = (500_000, 2_000_000)  # rows: enough to see what a row takes
 _ACCURACY = 1e-3
 
 
 def measure(pairs: int) -> Iterator[Measurement]:
     """From two shorter logs: memory that grows by the row."""
-    cost(_FEW[0] // 100)
+    cost(_FEW[0] // 500)
     small, large = (cost(rows) for rows in _FEW)
     per_row = (large.peak - small.peak) / (large.rows - small.rows)
     peak = small.peak + per_row * (ROWS - small.rows)

@@ -126,7 +126,7 @@ class Checkpoint:
         write_file(path, "".join(f"{line}\n" for line in keep))
 
 
-_PLAIN = ("x", "cost", "residual", "jacobian", "levels", "squares", "known", "blocks", "series", "gain")
+_PLAIN = ("x", "cost", "residual", "jacobian", "levels", "squares", "known", "more", "blocks", "series", "gain")
 
 
 def _arrays(point: Point) -> dict[str, Array]:
@@ -138,7 +138,7 @@ def _arrays(point: Point) -> dict[str, Array]:
             found[f"carried_{i}"] = value
         if step is not None:
             found[f"step_{i}"], found[f"by_{i}"] = step
-    return found | {"count": np.array(len(values))}
+    return found | {"count": np.array(len(values)), "pieces": np.array(point.carried.pieces, dtype=np.int64)}
 
 
 def _point(arrays: Mapping[str, Array]) -> Point:
@@ -150,7 +150,8 @@ def _point(arrays: Mapping[str, Array]) -> Point:
     nuisances = values.pop()
     assert nuisances is not None
     plain: dict[str, Any] = {name: float(arrays[name]) if arrays[name].ndim == 0 else arrays[name] for name in _PLAIN}
-    return Point(**plain, carried=Carried(tuple(values), nuisances), steps=tuple(steps))
+    carried = Carried(tuple(values), nuisances, tuple(arrays["pieces"].tolist()))
+    return Point(**plain, carried=carried, steps=tuple(steps))
 
 
 # What a record says of itself, which no residual depends on.

@@ -9,6 +9,8 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
+_FEW = 1024  # lags that are looked at first
+
 
 def inflation(left: Sequence[Array], changed: Sequence[Array]) -> float:
     """By how much the colour of what is left inflates the variance of a sum over samples: lambda, at least 1.
@@ -25,27 +27,39 @@ def inflation(left: Sequence[Array], changed: Sequence[Array]) -> float:
     if not left:
         return 1.0
     lags, channels = max(len(rows) for rows in left), left[0].shape[1]
-    of_left, of_change = np.zeros((lags, channels)), np.zeros((lags, channels))
-    for rest, change in zip(left, changed, strict=True):
-        of_left[: len(rest)] += _products(rest)
-        of_change[: len(change)] += _products(change)
-    weight = of_change[0].copy()
-    total = float(weight.sum())
+    power = sum(np.sum(change**2, axis=0) for change in changed)
+    total = float(np.sum(power))
     if not total > 0:
         return 1.0
-    with np.errstate(invalid="ignore", divide="ignore"):
-        correlation = np.where(of_left[0] > 0, of_left / of_left[0], 0.0)
     found = 0.0
     for j in range(channels):
-        negative = np.flatnonzero(correlation[1:, j] <= 0)
-        end = 1 + (int(negative[0]) if negative.size else lags - 1)
-        found += weight[j] + 2 * float(correlation[1:end, j] @ of_change[1:end, j])
+        count, end = 0, 1
+        while end > count and count < lags:  # most residuals forget soon: few lags at first
+            count = min(max(_FEW, 4 * count), lags)
+            of_left = _products([rest[:, j] for rest in left], count)
+            negative = np.flatnonzero(of_left[1:] <= 0)
+            end = 1 + (int(negative[0]) if negative.size else count)
+        end = min(end, count)
+        of_change = _products([change[:, j] for change in changed], end)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            correlation = of_left / of_left[0] if of_left[0] > 0 else np.zeros(count)
+        found += of_change[0] + 2 * float(correlation[1:end] @ of_change[1:end])
     return max(found / total, 1.0)
 
 
-def _products(rows: Array) -> Array:
-    """Sums over t of rows[t] rows[t + k], for k = 0 ... n - 1, per column, by FFT."""
-    n = len(rows)
-    size = 1 << int(np.ceil(np.log2(2 * n)))
-    power = np.abs(np.fft.rfft(rows, size, axis=0)) ** 2
-    return np.asarray(np.fft.irfft(power, size, axis=0)[:n])
+def _products(rows: Sequence[Array], count: int) -> Array:
+    """Sums over t of row[t] row[t + k], for k = 0 ... count - 1, over all rows (n_t,)."""
+    found = np.zeros(count)
+    for row in rows:
+        found[: row.size] += _own_products(row, min(count, row.size))
+    return found
+
+
+def _own_products(row: Array, lags: int) -> Array:
+    """The same of one row, by FFT, in parts of it."""
+    size = max(1 << int(np.ceil(np.log2(2 * lags))), min(8 * _FEW, 2 << int(np.log2(row.size))))
+    step, power = size - lags, np.zeros(size // 2 + 1, dtype=np.complex128)
+    for first in range(0, row.size, step):
+        ahead = np.fft.rfft(row[first : first + size - 1], size)
+        power += np.conj(np.fft.rfft(row[first : first + step], size)) * ahead
+    return np.asarray(np.fft.irfft(power, size)[:lags])

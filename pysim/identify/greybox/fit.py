@@ -152,8 +152,8 @@ def _worth_polishing(good: Mapping[str, State], best: str) -> list[str]:
     for name, state in good.items():
         here, there = state.best, good[best].best
         near = here.cost - there.cost <= 0.5 * _ALIKE * there.square
-        others = [good[key].best.residual for key in chosen]
-        if near and all(np.sum((here.residual - r) ** 2) > _ALIKE * here.square for r in others):
+        ways = [good[key].best.x - here.x for key in chosen]
+        if near and all(np.sum((here.jacobian @ way) ** 2) > _ALIKE * here.square for way in ways):
             chosen.append(name)
     return chosen
 

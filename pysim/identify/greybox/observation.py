@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pysim.identify.greybox.nuisance import Nuisance
+from pysim.identify.greybox.reduction import Reduction
 from pysim.simulate import Periodic
 from pysim.types import Experiment, RecordFit, ResponseFit
 
@@ -35,6 +36,7 @@ class Run:
         initial: (n_x,) standard deviation of the states at the log's start around rest: infinite where nothing is
             known of them, 0 where they are held. All are held where it is empty.
         begins: s, when the log starts.
+        measured: (n_t, n_y) what each row of a run over time is compared with; empty where it is not row by row.
     """
 
     record: str
@@ -42,6 +44,7 @@ class Run:
     orbit: Periodic | None = None
     initial: Array = field(default_factory=lambda: np.zeros(0))
     begins: float = 0.0
+    measured: Array = field(default_factory=lambda: np.zeros((0, 0)))
 
     @property
     def free(self) -> NDArray[np.intp]:
@@ -66,11 +69,13 @@ class Simulated:
         values: (n_t, n_y) in the variables' units.
         slopes: (n_t, n_y, n_x) by the search's numbers.
         by_initial: (n_t, n_y, n_s) by the free states at the log's start.
+        reduction: what a long log became instead; then there are no rows.
     """
 
     values: Array
     slopes: Array
     by_initial: Array = field(default_factory=lambda: np.zeros((0, 0, 0)))
+    reduction: Reduction | None = None
 
 
 class Observation(Protocol):

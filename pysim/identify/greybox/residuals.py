@@ -12,6 +12,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +21,7 @@ from pysim.identify.greybox.identifiability import EXACT
 from pysim.identify.greybox.nuisance import Nuisance, NuisanceKind
 from pysim.identify.greybox.observation import Measure, Observation, Run, Simulated
 from pysim.identify.greybox.parameters import ParameterSpace
+from pysim.identify.greybox.reduction import Reduction
 from pysim.identify.greybox.runs import Answer, Failure, Simulation, simulate_runs
 from pysim.identify.greybox.settings import NoiseSettings
 from pysim.identify.greybox.triangle import ROWS, triangle
@@ -39,10 +41,12 @@ class Carried:
     Args:
         states: per run, an orbit's state (n_states,), the offset from rest of a log's free states (n_s,), or None.
         nuisances: (k,) sizes of the sensor errors that are free.
+        pieces: per run, how many independent stretches the residual of a long log has; 0 of any other.
     """
 
     states: tuple[Array | None, ...] = ()
     nuisances: Array = field(default_factory=lambda: np.zeros(0))
+    pieces: tuple[int, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -52,11 +56,13 @@ class Point:
     Args:
         x: (n,) in the search's numbers.
         cost: of the objective, nats where it sums up squares; infinite where the model could not be simulated.
-        residual: (n_r,) over the level of its channel; priors are rows too.
+        residual: (n_r,) over the level of its channel; priors are rows too. Of a long log triangles stand for the rows
+            of each channel and block (`reduction`), with the same sums of squares and products.
         jacobian: (n_r, n) of the residual by x, initial states and nuisances eliminated.
         levels: (n_c,) of the channels, in their units.
         squares: (n_c,) sums of squares of the residuals, in the units squared.
         known: sum of squares of the residuals whose level is known.
+        more: rows that those of triangles stand for, beyond their own number.
         blocks: (n_r,) number of the block that each row belongs to; blocks count as independent of each other.
         series: (n_r,) number of the log and channel that each row belongs to, in the order of time.
         carried: what was found along with x.
@@ -72,6 +78,7 @@ class Point:
     levels: Array = field(default_factory=lambda: np.zeros(0))
     squares: Array = field(default_factory=lambda: np.zeros(0))
     known: float = 0.0
+    more: float = 0.0
     blocks: NDArray[np.intp] = field(default_factory=lambda: np.zeros(0, dtype=np.intp))
     series: NDArray[np.intp] = field(default_factory=lambda: np.zeros(0, dtype=np.intp))
     carried: Carried = field(default_factory=Carried)
@@ -89,6 +96,11 @@ class Point:
         """Sum of the squared residuals over their levels."""
         return float(self.residual @ self.residual)
 
+    @property
+    def count(self) -> float:
+        """Rows of all observations, and priors."""
+        return self.residual.size + self.more
+
     def carried_to(self, x: Array, share: float = 1.0) -> Carried:
         """What goes along with another point x (n,), to first order; `share` of the step of what is free here."""
         if not self.steps:
@@ -102,7 +114,7 @@ class Point:
             moved.append(value)
         nuisances = moved[-1]
         assert nuisances is not None
-        return Carried(tuple(moved[:-1]), nuisances)
+        return Carried(tuple(moved[:-1]), nuisances, self.carried.pieces)
 
 
 def failed_point(x: Array, failure: Failure) -> Point:
@@ -170,15 +182,27 @@ class WeightedResiduals:
             self.simulation,
             slopes=jacobian,
             initial=not self.absolute,
+            reductions=self._reductions(carried),
         )
         return self.weigh(x, answer, carried, x.size if jacobian else 0)
+
+    def _reductions(self, carried: Carried) -> list[Reduction | None]:
+        """For each run that is too long to keep its rows."""
+        if self.absolute or self.measure is Measure.THESIS or self.nuisances:
+            return []
+        runs, blocks = self.runs, self.settings.blocks
+        pieces = carried.pieces or (0,) * len(runs)
+        return [
+            Reduction(run.measured, count, blocks) if len(run.measured) > self.settings.whole else None
+            for run, count in zip(runs, pieces, strict=True)
+        ]
 
     def weigh(self, x: Array, answer: Answer, carried: Carried, n: int) -> Point:
         """The point that simulated runs make, with `n` columns of the Jacobian."""
         if answer.failure is not None:
             return failed_point(x, answer.failure)
-        tables = [one.residual(own, self.measure) for one, own in self._own(answer.simulated)]
-        if not all(_finite(table) for table in tables):
+        tables = [_rows(one, own, self.measure) for one, own in self._own(answer.simulated)]
+        if not all(_finite(table.rows) for table in tables):
             return failed_point(x, Failure("residual", Outcome.DONE, "it is not finite; an output may not move at all"))
         if self.absolute or self.measure is Measure.THESIS:
             return self._unlevelled(x, tables, answer, n)
@@ -200,9 +224,9 @@ class WeightedResiduals:
                 total[place[one.dataset, name]] += value
         return total
 
-    def _unlevelled(self, x: Array, tables: Sequence[Array], answer: Answer, n: int) -> Point:
-        residual = np.concatenate([table[:, 0] for table in tables])
-        jacobian = np.concatenate([table[:, 1 : 1 + n] for table in tables])
+    def _unlevelled(self, x: Array, tables: Sequence[_Rows], answer: Answer, n: int) -> Point:
+        residual = np.concatenate([table.rows[:, 0] for table in tables])
+        jacobian = np.concatenate([table.rows[:, 1 : 1 + n] for table in tables])
         cost = float(np.sum(np.abs(residual))) if self.absolute else 0.5 * float(residual @ residual)
         states, steps = _orbits(answer, n)
         return Point(
@@ -210,7 +234,7 @@ class WeightedResiduals:
             carried=Carried(tuple(states)), steps=(*steps, (np.zeros(0), np.zeros((0, n)))),
         )  # fmt: skip
 
-    def _levelled(self, x: Array, tables: list[Array], answer: Answer, carried: Carried, n: int) -> Point:
+    def _levelled(self, x: Array, tables: Sequence[_Rows], answer: Answer, carried: Carried, n: int) -> Point:
         sizes = carried.nuisances if carried.nuisances.size else np.zeros(len(self.nuisances))
         errors = self._with_nuisances(tables, answer, sizes) if self.nuisances else []
         squares = self._summed([_squares(one, table) for one, table in zip(self.observations, tables, strict=True)])
@@ -219,9 +243,9 @@ class WeightedResiduals:
         states, steps = _orbits(answer, n)
         parts: list[_Eliminated] = []
         run, known = 0, 0.0
-        for k, (one, table) in enumerate(zip(self.observations, tables, strict=True)):
+        for k, (one, whole) in enumerate(zip(self.observations, tables, strict=True)):
             own = np.array([levels[place[one.dataset, name]] for name in one.channels] or [1.0])
-            size = own[one.channel_of_row][:, None]
+            size, table = own[whole.channel][:, None], whole.rows
             table /= size
             if not one.channels:
                 known += float(table[:, 0] @ table[:, 0])
@@ -231,12 +255,11 @@ class WeightedResiduals:
             offset = carried.states[run] if carried.states and free else None
             offset = np.zeros(free) if offset is None else offset
             parts.append(_eliminated(table, more, n, offset, sd))
-            tables[k] = table = np.zeros((0, 0))  # a long log's rows are large
             cost += 0.5 * float(np.sum((offset / sd) ** 2))
             if free:
                 states[run] = offset
             run += len(one.runs)
-        point = self._joined(x, parts, states, steps, sizes, n)
+        point = self._joined(x, parts, states, steps, sizes, n, tables)
         return replace(point, cost=cost + 0.5 * known + point.cost, levels=levels, squares=squares, known=known)
 
     def _joined(
@@ -247,6 +270,7 @@ class WeightedResiduals:
         steps: list[tuple[Array, Array] | None],
         sizes: Array,
         n: int,
+        tables: Sequence[_Rows],
     ) -> Point:
         """One point of all observations, the nuisances eliminated too; its cost is that of their priors."""
         residual = _stacked([part.residual for part in parts])
@@ -267,16 +291,16 @@ class WeightedResiduals:
                 own, through = part.solution[:, : 1 + n], part.solution[:, 1 + n :]
                 steps[run] = -(own[:, 0] + through @ step), -(own[:, 1:] + through @ by)
             run += len(one.runs)
-        blocks, series = self._blocks([part.residual for part in parts], [part.priors for part in parts], sizes.size)
+        blocks, series, pieces = self._blocks(parts, tables, sizes.size)
         return Point(
-            x, cost, residual, jacobian, blocks=blocks, series=series,
-            carried=Carried(tuple(states), sizes), steps=(*steps, (step, by)), gain=gain,
+            x, cost, residual, jacobian, blocks=blocks, series=series, more=sum(table.more for table in tables),
+            carried=Carried(tuple(states), sizes, pieces), steps=(*steps, (step, by)), gain=gain,
         )  # fmt: skip
 
-    def _with_nuisances(self, tables: list[Array], answer: Answer, sizes: Array) -> list[Array]:
+    def _with_nuisances(self, tables: Sequence[_Rows], answer: Answer, sizes: Array) -> list[Array]:
         """Take the sensor errors off the residuals in place; slopes by their sizes, per observation (n, k)."""
         found = []
-        for (one, own), table in zip(self._own(answer.simulated), tables, strict=True):
+        for (one, own), (table, *_) in zip(self._own(answer.simulated), tables, strict=True):
             columns = one.nuisance_columns(own, self.nuisances)
             table[:, 0] -= columns @ sizes
             for error, size in zip(self.nuisances, sizes, strict=True):
@@ -295,22 +319,30 @@ class WeightedResiduals:
         return np.sqrt(np.where(above, variance, least)), float(0.5 * np.sum(samples * cost))
 
     def _blocks(
-        self, parts: Sequence[Array], priors: Sequence[int], ahead: int = 0
-    ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-        """Block and series of each row. Pieces are dealt out in turn, so that each block has some of every log.
+        self, parts: Sequence[_Eliminated], tables: Sequence[_Rows], ahead: int = 0
+    ) -> tuple[NDArray[np.intp], NDArray[np.intp], tuple[int, ...]]:
+        """Block and series of each row, and the pieces of long logs. Pieces are dealt out in turn, so that each block
+        has some of every log.
 
         Args:
-            parts: residual of each observation, its priors first; `priors` of them, and `ahead` before all.
+            parts: of each observation; `ahead` priors come before all.
         """
         blocks, series = [np.zeros(ahead, dtype=np.intp)], [np.full(ahead, -1, dtype=np.intp)]
-        dealt, number = 0, 0
-        for one, part, prior in zip(self.observations, parts, priors, strict=True):
-            pieces = one.pieces(part[prior:], self.settings.piece)
-            blocks += [np.full(prior, dealt % self.settings.blocks), (dealt + pieces) % self.settings.blocks]
-            series += [np.full(prior, -1), number + one.channel_of_row]
-            dealt += int(pieces[-1]) + 1
+        dealt, number, settings = 0, 0, self.settings
+        counts: list[int] = []
+        for one, part, table in zip(self.observations, parts, tables, strict=True):
+            counts += [0] * len(one.runs)
+            if table.reduction is None:
+                pieces = one.pieces(part.residual[part.priors :], settings.piece)
+                own, dealing = (dealt + pieces) % settings.blocks, int(pieces[-1]) + 1
+            else:
+                own, dealing = table.reduction.block, table.reduction.pieces(settings.piece)
+                counts[-1] = dealing
+            blocks += [np.full(part.priors, dealt % settings.blocks), own]
+            series += [np.full(part.priors, -1), number + table.channel]
+            dealt += dealing
             number += max(len(one.channels), 1)
-        return np.concatenate(blocks), np.concatenate(series)
+        return np.concatenate(blocks), np.concatenate(series), tuple(counts)
 
     def misfit(self, point: Point, noise: Mapping[Channel, float]) -> float:
         """Root mean square residual over the noise, per degree of freedom: 1 where nothing but noise is left."""
@@ -318,6 +350,26 @@ class WeightedResiduals:
         rows = sum(one.channel_of_row.size for one in self.observations if not one.channels)
         total = float(np.sum(point.squares / size**2)) + point.known
         return math.sqrt(total / max(float(self.samples.sum()) + rows - point.x.size, 1.0))
+
+
+class _Rows(NamedTuple):
+    """Residual and slopes of one observation (n, m), the channel of each row (n,), and how a long log was reduced."""
+
+    rows: Array
+    channel: Rows
+    reduction: Reduction | None = None
+
+    @property
+    def more(self) -> float:
+        """Rows that these stand for, beyond their own number."""
+        return 0.0 if self.reduction is None else float(self.reduction.count - len(self.rows))
+
+
+def _rows(one: Observation, own: Sequence[Simulated], measure: Measure) -> _Rows:
+    reduction = own[0].reduction if own else None
+    if reduction is None:
+        return _Rows(one.residual(own, measure), one.channel_of_row)
+    return _Rows(reduction.table, reduction.channel, reduction)
 
 
 @dataclass(frozen=True)
@@ -369,12 +421,12 @@ def _eliminated(table: Array, more: Array, n: int, values: Array, sd: Array) -> 
     return _Eliminated(residual, rows, solution, 0.5 * float(inner[:, 0] @ inner[:, 0]), count)
 
 
-def _squares(one: Observation, table: Array) -> Array:
+def _squares(one: Observation, table: _Rows) -> Array:
     """Sum of squares per channel of an observation, those too that no model changes."""
     count = len(one.channels)
     if not count:
         return np.zeros(0)
-    return one.rest + np.bincount(one.channel_of_row, table[:, 0] ** 2, count)[:count]
+    return one.rest + np.bincount(table.channel, table.rows[:, 0] ** 2, count)[:count]
 
 
 def _finite(table: Array) -> bool:

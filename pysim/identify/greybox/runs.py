@@ -11,12 +11,15 @@ from numpy.typing import NDArray
 
 from pysim.identify.greybox.observation import Run, Simulated
 from pysim.identify.greybox.parameters import ParameterSpace
+from pysim.identify.greybox.reduction import Reduction
 from pysim.identify.greybox.settings import FitSettings
 from pysim.identify.greybox.workers import Job, Result, Threads, Workers
 from pysim.simulate import Esdirk, Orbit, Orbits, Periodic, Sensitivities
 from pysim.types import Experiment, Model, Outcome
 
 Array = NDArray[np.float64]
+
+_NONE = np.zeros(0, dtype=np.intp)
 
 
 @dataclass(frozen=True)
@@ -91,6 +94,7 @@ def simulate_runs(
     *,
     slopes: bool = True,
     initial: bool = True,
+    reductions: Sequence[Reduction | None] = (),
 ) -> Answer:
     """Simulate every run at x (n,).
 
@@ -102,6 +106,7 @@ def simulate_runs(
             start, or None.
         slopes: whether those by x are wanted; there are none where not.
         initial: whether those by the free states are wanted.
+        reductions: per run what its rows are to become at once, or None; all None where empty.
     """
     settings = _Settings(space, x, slopes, initial, simulation.mismatch)
     jobs = [settings.job(run, place, guess) for place, (run, guess) in enumerate(zip(runs, guesses, strict=True))]
@@ -110,19 +115,39 @@ def simulate_runs(
     missing: list[int] = []
     for own, results in _results(model, [job for job in jobs if isinstance(job.run, Periodic)], simulation):
         missing += _take_orbits(own, results, answers, orbits)
-    over_time = [job for job in jobs if isinstance(job.run, Experiment)]
+    over_time = [_reduced(job, runs, reductions) for job in jobs if isinstance(job.run, Experiment)]
     over_time += [settings.job(replace(runs[place], orbit=None), place, None) for place in sorted(missing)]
     for own, results in _results(model, over_time, simulation):
         for job, run in zip(own, results, strict=True):
             if not isinstance(run, Sensitivities) or run.record.outcome is not Outcome.DONE:
                 return Answer((), failure=Failure(runs[job.place].record, run.record.outcome, run.record.message))
-            by_initial = run.by_offset[:, :, runs[job.place].free] if job.offset else np.zeros((0, 0, 0))
-            answers[job.place] = Simulated(run.record.values, run.by_parameter @ job.slopes, by_initial)
+            reduction = reductions[job.place] if reductions else None
+            answers[job.place] = _simulated(run, job, runs[job.place].free, reduction)
     for place, asked in enumerate(runs):
         answer = answers[place]
-        if not all(math.isfinite(a.sum()) for a in (answer.values, answer.slopes, answer.by_initial)):
+        arrays = answer.reduction.arrays if answer.reduction else (answer.values, answer.slopes, answer.by_initial)
+        if not all(math.isfinite(a.sum()) for a in arrays):
             return Answer((), failure=Failure(asked.record, Outcome.DONE, "a value or a slope is not finite"))
     return Answer(tuple(answers[i] for i in range(len(runs))), tuple(orbits))
+
+
+def _reduced(job: Job, runs: Sequence[Run], reductions: Sequence[Reduction | None]) -> Job:
+    """The job with its rows handed to their reduction, if there is one."""
+    reduction = reductions[job.place] if reductions else None
+    if reduction is None:
+        return job
+    reduction.begin(job.slopes, runs[job.place].free if job.offset else _NONE)
+    return replace(job, take=reduction.take)
+
+
+def _simulated(run: Sensitivities, job: Job, free: NDArray[np.intp], reduction: Reduction | None) -> Simulated:
+    """A run over time by the search's numbers; rows that could not be taken while it went on are taken now."""
+    if reduction is None:
+        by_initial = run.by_offset[:, :, free if job.offset else _NONE]
+        return Simulated(run.record.values, run.by_parameter @ job.slopes, by_initial)
+    if len(run.record.values):
+        reduction.take(0, run.record.values, np.concatenate([run.by_offset, run.by_parameter], axis=2))
+    return Simulated(np.zeros((0, 0)), np.zeros((0, 0, 0)), reduction=reduction)
 
 
 def _take_orbits(

@@ -87,6 +87,12 @@ class FitSettings:
 class NoiseSettings:
     """What residuals are measured against, and what is allowed for beside the model."""
 
+    whole: int = setting(
+        200_000,
+        unit="1",
+        meaning="samples of a log, above which its rows become triangles while it is simulated",
+        source="measured: fit-cost, memory",
+    )
     blocks: int = setting(
         24,
         unit="1",

@@ -174,7 +174,12 @@ def _log(context: Context, record: MeasuredRecord, index: int) -> TimeLog:
         measured=measured,
         noise=tuple(context.noise[name] for name in outputs),
         full_scale=tuple(full_scale(context.dataset.signal(n), measured[n]) for n in outputs),
-        run=Run(record.source, context.experiment(data.time, outputs, commands, begin), begins=start),
+        run=Run(
+            record.source,
+            context.experiment(data.time, outputs, commands, begin),
+            begins=start,
+            measured=measured.values,
+        ),
         index=index,
         begin=record.begin,
     )

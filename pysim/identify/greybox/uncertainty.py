@@ -128,7 +128,7 @@ def _covariance(slopes: Array, point: Point, free: NDArray[np.bool_]) -> _Covari
     held = sigma > EXACT * max(sigma.max(initial=0.0), np.finfo(float).tiny)
     back = vt[held].T / sigma[held]  # from directions that the data see equally well to the parameters
     bread = back @ back.T
-    excess = point.residual.size / max(point.residual.size - n, 1)
+    excess = point.count / max(point.count - n, 1)
     white[places] = bread * excess
     numbers = np.unique(point.blocks[np.any(rows != 0, axis=1)]) if point.blocks.size else np.zeros(0)
     if len(numbers) >= _SETTINGS.fewest_blocks:
@@ -137,7 +137,7 @@ def _covariance(slopes: Array, point: Point, free: NDArray[np.bool_]) -> _Covari
         return _Covariance(full, white, freedom, len(own))
     colour = np.array([_colour(point, rows[:, j]) for j in range(rows.shape[1])])
     full[places] = bread * excess * np.sqrt(np.outer(colour, colour))
-    freedom[free] = np.maximum(point.residual.size / colour - n, 1.0)
+    freedom[free] = np.maximum(point.count / colour - n, 1.0)
     return _Covariance(full, white, freedom, 0)
 
 

@@ -10,13 +10,13 @@ from collections.abc import Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import ExitStack, contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
-from pysim.simulate import Esdirk, Orbit, Periodic, Runs, Sensitivities, open_runs
+from pysim.simulate import Esdirk, Orbit, Periodic, Runs, Sensitivities, Take, open_runs
 from pysim.types import BadInput, Experiment, Model, Outcome
 
 Array = NDArray[np.float64]
@@ -34,6 +34,7 @@ class Job:
         guess: state to start an orbit's search from, or None.
         mismatch: what of an orbit's correction is left to first order.
         offset: whether slopes by the offset of the states are wanted.
+        take: of a run over time, is given its rows where it runs in this process; then its result has none.
     """
 
     place: int
@@ -43,6 +44,7 @@ class Job:
     guess: Array | None = None
     mismatch: float = 1e-5
     offset: bool = False
+    take: Take | None = None
 
 
 @dataclass(frozen=True)
@@ -59,6 +61,7 @@ class Lost:
 
 
 Result = Orbit | Sensitivities | Lost
+Share = tuple[Model, list[Job], Esdirk]
 
 
 class Workers(Protocol):
@@ -97,7 +100,7 @@ class Processes:
         again: list[int] = []
         chunks = _chunks(len(jobs), 4 * count)
         with ProcessPoolExecutor(count, mp_context=multiprocessing.get_context("spawn")) as pool:
-            waiting = [pool.submit(_run_share, (model, [jobs[i] for i in chunk], solver)) for chunk in chunks]
+            waiting = [pool.submit(_run_share, _share(model, jobs, chunk, solver)) for chunk in chunks]
             for chunk, job in zip(chunks, waiting, strict=True):
                 try:
                     results |= zip(chunk, job.result(), strict=True)
@@ -106,7 +109,7 @@ class Processes:
         for i in again:
             with ProcessPoolExecutor(1, mp_context=multiprocessing.get_context("spawn")) as pool:
                 try:
-                    results[i] = pool.submit(_run_share, (model, [jobs[i]], solver)).result()[0]
+                    results[i] = pool.submit(_run_share, _share(model, jobs, [i], solver)).result()[0]
                 except BrokenProcessPool:
                     results[i] = Lost("the FMU crashed and took its worker process with it")
         return [results[i] for i in range(len(jobs))]
@@ -129,7 +132,7 @@ class Cluster:
     def run(self, model: Model, jobs: Sequence[Job], solver: Esdirk) -> Sequence[Result]:
         """Share the jobs out; a share whose worker died is a row of failed runs."""
         chunks = _chunks(len(jobs), self.chunks or 2 * _count(self.client))
-        shares = [(model, [jobs[i] for i in chunk], solver) for chunk in chunks]
+        shares = [_share(model, jobs, chunk, solver) for chunk in chunks]
         results: dict[int, Result] = {}
         for chunk, future in zip(chunks, self.client.map(_run_share, shares, pure=False), strict=True):
             try:
@@ -149,7 +152,8 @@ def run_jobs(model: Model, jobs: Sequence[Job], solver: Esdirk, workers: int | N
             guesses, left = [job.guess for job in jobs], min(job.mismatch for job in jobs)
             return runs.orbits(orbits, names, guesses=guesses, solver=solver, mismatch=left, workers=workers)
         own = [job.run for job in jobs if isinstance(job.run, Experiment)]
-        return runs.sensitivities(own, names, offset=jobs[0].offset, solver=solver, workers=workers)
+        takes = [job.take for job in jobs]
+        return runs.sensitivities(own, names, offset=jobs[0].offset, takes=takes, solver=solver, workers=workers)
 
 
 class _Kept:
@@ -201,7 +205,12 @@ def _count(client: Any) -> int:
         return 32
 
 
-def _run_share(share: tuple[Model, list[Job], Esdirk]) -> list[Result]:
+def _share(model: Model, jobs: Sequence[Job], numbers: Sequence[int], solver: Esdirk) -> Share:
+    """Some of the jobs for another process, which hands all rows back."""
+    return model, [replace(jobs[i], take=None) for i in numbers], solver
+
+
+def _run_share(share: Share) -> list[Result]:
     model, jobs, solver = share
     return list(run_jobs(model, jobs, solver, 1))
 

@@ -15,6 +15,7 @@ from pysim.simulate.kernel.layout import JOB
 Array = NDArray[Any]
 
 _P, _N, _D = ctypes.c_void_p, ctypes.c_int64, ctypes.c_double
+TAKE = ctypes.CFUNCTYPE(None, _N, _N, _N)  # Take of job.h
 
 
 class Kernel:

@@ -92,8 +92,8 @@ def pack_inputs(model: Model, experiments: Sequence[Experiment]) -> Packed:
         "values": np.zeros(len(signals)),
     }
     shared: dict[str, NDArray[Any]] = {
-        "starts": np.concatenate([signal.starts for signal in signals]),
-        "cubics": np.concatenate([signal.cubics for signal in signals]),
+        "starts": _joined([signal.starts for signal in signals]),
+        "cubics": _joined([signal.cubics for signal in signals]),
         "waves": _offsets(np.bincount(owner[used], minlength=pieces[-1])),
         "sines": rows[used],
     }
@@ -106,6 +106,11 @@ def pack_inputs(model: Model, experiments: Sequence[Experiment]) -> Packed:
     return Packed(found, (arrays, shared))
 
 
+def _joined(parts: list[NDArray[Any]]) -> NDArray[Any]:
+    """One behind the other; a single one as it is, which may be large."""
+    return np.concatenate(parts) if len(parts) > 1 else parts[0]
+
+
 def _offsets(sizes: Any) -> NDArray[np.int64]:
     return np.concatenate([[0], np.cumsum(sizes)]).astype(np.int64)
 
@@ -113,9 +118,8 @@ def _offsets(sizes: Any) -> NDArray[np.int64]:
 def pack_breaks(experiments: Sequence[Experiment], ends: Sequence[float]) -> Packed:
     """`Breaks` of each experiment, were it to end at that time (s)."""
     found = [breaks(experiment, end) for experiment, end in zip(experiments, ends, strict=True)]
-    sizes = [len(times) for times, _ in found]
-    times = np.array([time for row, _ in found for time in row], dtype=np.float64)
-    jumps = np.array([jump for _, row in found for jump in row], dtype=np.int64)
+    sizes = [times.size for times, _ in found]
+    times, jumps = (np.concatenate(parts) if len(parts) > 1 else parts[0] for parts in zip(*found, strict=True))
     packed = np.zeros(len(found), dtype=structures()["Breaks"])
     packed["count"] = sizes
     first = np.cumsum([0, *sizes[:-1]]) * times.itemsize
@@ -130,27 +134,24 @@ def offset_time(experiment: Experiment) -> float:
     return float(experiment.start if experiment.offset_at is None else experiment.offset_at)
 
 
-def breaks(experiment: Experiment, end: float) -> tuple[list[float], list[int]]:
+def breaks(experiment: Experiment, end: float) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
     """Times (s) after the start at which an input jumps or kinks, or the states are offset; 1 where an input jumps.
 
     Where one jumps at the very end, a segment of no length lies behind it: the last row is one of after the jump.
     """
-    found: dict[float, int] = {end: 0}
-    offset = offset_time(experiment)
-    if experiment.start < offset <= end:
-        found[offset] = 0
+    start, offset = experiment.start, offset_time(experiment)
+    times, jumps = [np.array([end, offset] if start < offset <= end else [end])], []
     for name, signal in experiment.inputs.items():
-        if signal.starts.size == 1 and signal.starts[0] <= experiment.start:
+        inside = (signal.starts > start) & (signal.starts <= end)
+        if not inside.any():
             continue
-        if not np.any((signal.starts > experiment.start) & (signal.starts <= end)):
-            continue
-        jumps, kinks = signal.breaks()
+        jump, kink = signal.breaks()
         if name in experiment.rates.values():
-            jumps = jumps | kinks  # the input that carries the rate jumps where the signal kinks
-        for t, jump, kink in zip(signal.starts.tolist(), jumps, kinks, strict=True):
-            if experiment.start < t <= end and (jump or (kink and t < end)):
-                found[t] = max(found.get(t, 0), int(jump))
-    if found[end] or offset == end:
-        found[np.inf] = 0
-    times = sorted(found)
-    return times, [found[t] for t in times]
+            jump = jump | kink  # the input that carries the rate jumps where the signal kinks
+        times.append(signal.starts[inside & (jump | (kink & (signal.starts < end)))])
+        jumps.append(signal.starts[inside & jump])
+    found = np.unique(np.concatenate(times))
+    jumping = np.isin(found, np.concatenate(jumps)) if jumps else np.zeros(found.size, dtype=bool)
+    if jumping[-1] or offset == end:
+        found, jumping = np.append(found, np.inf), np.append(jumping, False)
+    return found, jumping.astype(np.int64)

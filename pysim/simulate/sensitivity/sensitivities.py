@@ -14,7 +14,7 @@ from pysim.simulate._foreign import Opened, open_model
 from pysim.simulate._found import Found
 from pysim.simulate._pass import Progress, later, run_tasks
 from pysim.simulate._pool import Stopped, side_by_side, worker_count
-from pysim.simulate._request import Kind, Request
+from pysim.simulate._request import Kind, Request, Take
 from pysim.simulate._run import record_of, run
 from pysim.simulate.esdirk import Esdirk
 from pysim.simulate.kernel.layout import VARIED
@@ -129,6 +129,7 @@ class Ask:
     offset: bool
     solver: Esdirk
     workers: int
+    takes: tuple[Take | None, ...] = ()
 
 
 def check_sensitivities(
@@ -163,7 +164,8 @@ def run_in(library: Opened, ask: Ask, progress: Progress | None) -> tuple[Sensit
     ready: list[int] = []  # those that need nothing more
     for record, offer in offers.items():
         numbers = [i for i, e in enumerate(experiments) if e.record == record and starts[i] is not None]
-        requests = [Request(experiments[i], start_by=starts[i]) for i in numbers]
+        takes = ask.takes if ask.takes and record in whole else (None,) * len(experiments)
+        requests = [Request(experiments[i], start_by=starts[i], take=takes[i]) for i in numbers]
         kind = Kind(VARIED, solver, offer.directions(offset=ask.offset))
         watch = later(progress, len(ready), len(experiments)) if record in whole else None
         found |= zip(numbers, run_tasks(library, kind, requests, workers=count, progress=watch), strict=True)

@@ -11,6 +11,7 @@
 #include "rows.h"
 
 typedef void Function(void); /* a function of the FMU; fmi.c knows how each is called */
+typedef void Take(int64_t number, int64_t first, int64_t count); /* rows of a task from the row `first` on are in memory */
 
 /* The numbers of fmi2Status and fmi3Status, as far as they agree and matter. */
 enum { OK, WARNING, DISCARD, ERROR, FATAL };
@@ -237,6 +238,11 @@ typedef struct {
     const double *times; /* (n_t,) s */
     double *values;      /* (n_t, n_y) */
     int64_t columns;     /* n_y */
+    int64_t first;       /* row that is the first in `values`: those before it were handed over */
+    int64_t room;        /* rows that are handed over at a time */
+    int64_t number;      /* of the task, for take */
+    Function *take;      /* Take, which is given the rows; null: they stay, all of them */
+    double *slopes;      /* (n_t or room, n_y, columns that are asked for) of the rows in memory, once they are handed over */
     const Access *access;
     const Access *set; /* start values, ahead of initialisation */
     void *buffer; /* of 8 bytes for each recorded variable and for each start value */
@@ -327,8 +333,11 @@ typedef struct {
     Breaks settling_breaks; /* ... and the breaks of its inputs */
     double mismatch;        /* largest correction of an orbit, in amplitudes, that is left to first order */
     /* Found. */
-    double *values;   /* (n_t, n_y) */
-    double *slopes;   /* (n_t, n_y, n_p), ahead of them n columns of an offset if that is a direction */
+    double *values;   /* (n_t, n_y), or (room, n_y) where rows are handed over */
+    double *slopes;   /* (n_t, n_y, n_p) likewise, ahead of them n columns of an offset if that is a direction */
+    int64_t room;     /* rows that are handed over at a time */
+    int64_t number;   /* of the task, for take */
+    Function *take;   /* as in Rows */
     double *state;    /* (n,) at the end, or at phase zero of the orbit */
     double *state_by; /* (n, n_p) */
     double *rates;    /* (n,) derivative at the end, or null, as the next two */

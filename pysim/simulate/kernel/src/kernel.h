@@ -54,6 +54,7 @@ double next_target(Job *job);           /* s, that the next step must not pass *
 int read_row(Job *job);
 int record_inside(Job *job, double h, double t_end);
 int record_here(Job *job);
+void hand_over(Job *job); /* of a run with derivatives */
 
 /* events.c. settle and handle_event: RUNNING, or the outcome if the run ends there. */
 bool crossed(const Job *job, const double *before, const double *after);

@@ -14,7 +14,7 @@ static double converted(int64_t kind, const void *buffer, int64_t i) {
 /* One row, at the point last set. */
 int read_row(Job *job) {
     Rows *rows = &job->rows;
-    double *row = rows->values + rows->next * rows->columns;
+    double *row = rows->values + (rows->next - rows->first) * rows->columns;
     const Access *a = rows->access;
     for (int64_t g = 0; g < a->groups; g++) {
         const int64_t first = a->first[g], count = a->first[g + 1] - first;
@@ -24,6 +24,18 @@ int read_row(Job *job) {
     }
     rows->next++;
     return OK;
+}
+
+/* Derivatives of the rows in memory go where they are asked for, and the rows to whoever takes them. */
+void hand_over(Job *job) {
+    Rows *rows = &job->rows;
+    const Variation *v = &job->variation;
+    const int64_t count = rows->next - rows->first, from = v->from_start ? v->by_start : 0; /* those of an offset stay */
+    const int64_t kept = v->by_start - from + v->parameters;
+    for (int64_t r = 0; r < count * rows->columns; r++) copy(rows->slopes + r * kept, v->rows + r * v->columns + from, kept);
+    if (!rows->take) return;
+    ((Take *)rows->take)(rows->number, rows->first, count);
+    rows->first = rows->next;
 }
 
 /* Every row before t_end (s) in the step of length h from run.t; work.dense is filled. */

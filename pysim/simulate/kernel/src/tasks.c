@@ -50,7 +50,7 @@ static void keep_point(const Job *job, const Task *task) {
 
 static void run_varied(Job *job, Task *task, const Pass *pass) {
     Variation *v = &job->variation;
-    const int64_t n = job->work.n, c = v->columns, n_p = v->parameters, n_y = job->rows.columns;
+    const int64_t n = job->work.n, c = v->columns, n_p = v->parameters;
     job->breaks = task->breaks;
     job->rows.next = 0, job->rows.count = task->count, job->rows.times = task->times, job->rows.values = task->values;
     fresh_run(job, task->start, task->end);
@@ -63,10 +63,11 @@ static void run_varied(Job *job, Task *task, const Pass *pass) {
     fill(v->low, INFINITY, n);
     fill(v->high, -INFINITY, n);
     v->rows = job->shooting.now.rows;
+    job->rows.first = 0, job->rows.slopes = task->slopes;
+    job->rows.take = task->take, job->rows.room = task->room, job->rows.number = task->number;
     note_run(job, task, run_to_end(job, pass, integrate_variations));
     task->rows = job->rows.next;
-    const int64_t first = v->from_start ? v->by_start : 0, kept = v->by_start - first + n_p; /* those of an offset stay */
-    for (int64_t r = 0; r < task->rows * n_y; r++) copy(task->slopes + r * kept, v->rows + r * c + first, kept);
+    hand_over(job);
     keep_point(job, task);
 }
 

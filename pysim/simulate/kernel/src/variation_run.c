@@ -13,9 +13,12 @@ static int restart(Job *job) {
 
 /* The next row at the point last set, with S in s. */
 static int record(Job *job, const double *s) {
-    const int64_t row = job->rows.next;
-    const int status = read_row(job);
-    return status > WARNING ? status : worse(status, record_variation(job, row, s));
+    const Rows *rows = &job->rows;
+    const int64_t row = rows->next - rows->first;
+    int status = read_row(job);
+    if (status <= WARNING) status = worse(status, record_variation(job, row, s));
+    if (status <= WARNING && rows->take && row + 1 == rows->room) hand_over(job);
+    return status;
 }
 
 /* Records the point reached, and sees whether it is the last one. */

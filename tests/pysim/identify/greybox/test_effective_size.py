@@ -31,3 +31,13 @@ def test_white_residuals_are_worth_their_number_and_a_change_weighs_its_channel(
     both = np.hstack([white, slow])
     change = np.hstack([np.ones_like(white), np.zeros_like(white)])
     assert inflation([both], [change]) < 1.2
+
+
+def test_a_memory_of_thousands_of_samples_is_followed_to_its_end() -> None:
+    """The definition, with correlations summed up directly; in parts of the log, as many as it takes."""
+    rest, change = autoregressive(0.9995, 9000, 5)[:, 0], autoregressive(0.9, 9000, 6)[:, 0]
+    of_rest, of_change = (np.correlate(row, row, "full")[row.size - 1 :] for row in (rest, change))
+    end = int(np.argmax(of_rest <= 0))
+    assert end > 1024
+    expected = 1 + 2 * float(of_rest[1:end] @ of_change[1:end]) / of_rest[0] / of_change[0]
+    assert inflation([rest[:, None]], [change[:, None]]) == pytest.approx(expected, rel=1e-10)
