@@ -16,7 +16,7 @@ class FitSettings:
         unit="nats",
         meaning="a search ends where a full step would lower the objective by less: 0.3 standard deviations of the "
         "worst combination of parameters at most, and less with every step that was taken",
-        source="measured: fit-speed, where five of eight points gained 6 of 23,685 below it",
+        source="measured: fit-cost, where five of eight points gained 6 of 23,685 below it",
     )
     max_iterations: int = setting(
         100, unit="1", meaning="points that one search tries", source="measured: fit-thesis needs 40"
@@ -28,37 +28,38 @@ class FitSettings:
         source="Nocedal and Wright 2006, Algorithm 4.1; half of the linear range of a logarithm",
     )
     rough: float = setting(
-        1e-4,
+        3e-4,
         unit="1",
         meaning="tolerance of the integration on the way to the optimum",
-        source="measured: fit-speed; the optimum moves by less than a tenth of its interval",
+        source="measured: fit-cost; over five starts a sixth less CPU than 1e-4, and the same end within the jumps of "
+        "the cost",
     )
     near: float = setting(
         4e-3,
         unit="1",
         meaning="share of the sum of squares by which a step must still lower it while the integration is rough",
-        source="measured: fit-speed",
+        source="measured: fit-cost",
     )
     blur: float = setting(
         2.5e-5,
         unit="1",
         meaning="share of the sum of squares within which two simulated costs are equal: the integration takes other "
         "steps from point to point",
-        source="measured: fit-speed, where costs on one line jump by 0.3 of 23,300 at a tolerance of 1e-5",
+        source="measured: fit-cost, where costs on one line jump by 0.3 of 23,300 at a tolerance of 1e-5",
     )
     close: float = setting(
         20.0,
         unit="1",
         meaning="tolerances: a search ends well where costs tell no better and a step that is not too long promises "
         "less",
-        source="measured: fit-speed, where of such a promise a quarter came true in a curved valley",
+        source="measured: fit-cost, where of such a promise a quarter came true in a curved valley",
     )
     spare: float = setting(
         0.05,
         unit="1",
         meaning="a step is the shortest that promises all but this share of what the best one does: what is nearly "
         "tied costs length and gains next to nothing",
-        source="measured: fit-speed",
+        source="measured: fit-cost",
     )
     level: float = setting(
         0.95, unit="1", meaning="of intervals", source="convention of the field; ISO/IEC Guide 98-3:2008, 6.2"
