@@ -8,6 +8,7 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+T = TypeVar("T")
 V = TypeVar("V")
 
 
@@ -19,6 +20,13 @@ def frozen_array(numbers: Any) -> NDArray[np.float64]:
     array = np.array(numbers, dtype=np.float64, order="C")
     array.setflags(write=False)
     return array
+
+
+def changed(frozen: T, **fields: object) -> T:
+    """A frozen object with other fields, which nobody checks: a fifth of the time of copy.copy."""
+    other = object.__new__(type(frozen))
+    other.__dict__.update(frozen.__dict__, **fields)
+    return other
 
 
 class FrozenMapping(Mapping[str, V]):

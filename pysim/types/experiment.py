@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping
-from copy import copy
 from dataclasses import dataclass, field
 from numbers import Real
 
 import numpy as np
 from numpy.typing import NDArray
 
-from pysim.types._frozen import FrozenMapping, frozen_array
+from pysim.types._frozen import FrozenMapping, changed, frozen_array
 from pysim.types.errors import BadInput
 from pysim.types.signal import Signal
 
@@ -96,15 +95,11 @@ class Experiment:
     def override(self, **values: float) -> Experiment:
         """The same experiment with more parameters set; what stays is not checked again."""
         _check_numbers(values)
-        other = copy(self)
-        object.__setattr__(other, "overrides", FrozenMapping({**self.overrides, **values}))
-        return other
+        return changed(self, overrides=FrozenMapping({**self.overrides, **values}))
 
     def moved(self, offset: Array, at: float | None = None) -> Experiment:
         """The same experiment with the states offset (n_x,) at that time (s); what stays is not checked again."""
-        other = copy(self)
-        object.__setattr__(other, "offset", frozen_array(offset))
-        object.__setattr__(other, "offset_at", at)
+        other = changed(self, offset=frozen_array(offset), offset_at=at)
         other._check_offset()
         return other
 

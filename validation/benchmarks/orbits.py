@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from functools import partial
 from statistics import median
 
-from pysim.simulate import Esdirk, periodic_many
+from pysim.simulate import Esdirk, open_runs
 from pysim.types import Outcome
 from validation.benchmarks.measurement import Measurement, timed
 from validation.pump import pump_model
@@ -18,14 +18,15 @@ _MISMATCH = 1e-2  # amplitudes: what a search leaves to first order
 
 
 def measure(pairs: int) -> Iterator[Measurement]:
-    """From the orbits nearby, as every pass of a fit but the first."""
-    model, wanted = pump_model("free"), orbits()
+    """From the orbits nearby and with the FMU open, as every pass of a fit but the first."""
+    wanted = orbits()
     for tolerance in _TOLERANCES:
         solver = Esdirk(tolerance, tolerance)
-        one_pass = partial(periodic_many, model, wanted, PARAMETERS, solver=solver, mismatch=_MISMATCH)
-        guesses = [orbit.state for orbit in one_pass()]
-        found = one_pass(guesses=guesses)
-        times = [timed(partial(one_pass, guesses=guesses)) for _ in range(pairs)]
+        with open_runs(pump_model("free")) as runs:
+            one_pass = partial(runs.orbits, wanted, PARAMETERS, solver=solver, mismatch=_MISMATCH)
+            guesses = [orbit.state for orbit in one_pass()]
+            found = one_pass(guesses=guesses)
+            times = [timed(partial(one_pass, guesses=guesses)) for _ in range(pairs)]
         if any(orbit.outcome is not Outcome.DONE or not orbit.iterations for orbit in found):
             raise RuntimeError("an orbit was not found by shooting")
         calls = sum(orbit.record.statistics["derivatives"] * orbit.iterations for orbit in found)

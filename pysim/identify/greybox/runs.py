@@ -113,8 +113,9 @@ def simulate_runs(
     orbits: list[tuple[Array, Array] | None] = [None] * len(runs)
     answers: dict[int, Simulated] = {}
     missing: list[int] = []
+    unsure = set(range(len(runs)))  # whether every number is finite
     for own, results in _results(model, [job for job in jobs if isinstance(job.run, Periodic)], simulation):
-        missing += _take_orbits(own, results, answers, orbits)
+        missing += _take_orbits(own, results, answers, orbits, unsure)
     over_time = [_reduced(job, runs, reductions) for job in jobs if isinstance(job.run, Experiment)]
     over_time += [settings.job(replace(runs[place], orbit=None), place, None) for place in sorted(missing)]
     for own, results in _results(model, over_time, simulation):
@@ -123,11 +124,11 @@ def simulate_runs(
                 return Answer((), failure=Failure(runs[job.place].record, run.record.outcome, run.record.message))
             reduction = reductions[job.place] if reductions else None
             answers[job.place] = _simulated(run, job, runs[job.place].free, reduction)
-    for place, asked in enumerate(runs):
+    for place in sorted(unsure):
         answer = answers[place]
         arrays = answer.reduction.arrays if answer.reduction else (answer.values, answer.slopes, answer.by_initial)
         if not all(math.isfinite(a.sum()) for a in arrays):
-            return Answer((), failure=Failure(asked.record, Outcome.DONE, "a value or a slope is not finite"))
+            return Answer((), failure=Failure(runs[place].record, Outcome.DONE, "a value or a slope is not finite"))
     return Answer(tuple(answers[i] for i in range(len(runs))), tuple(orbits))
 
 
@@ -155,8 +156,9 @@ def _take_orbits(
     results: Sequence[Result],
     answers: dict[int, Simulated],
     orbits: list[tuple[Array, Array] | None],
+    unsure: set[int],
 ) -> list[int]:
-    """Put orbits in their places; the places of those that were not found."""
+    """Put orbits in their places; the places of those that were not found. Finite ones are no longer unsure."""
     left = dict(enumerate(jobs))
     for stack in results.stacks() if isinstance(results, Orbits) else ():
         chains = [jobs[number].slopes for number in stack.numbers]
@@ -165,6 +167,8 @@ def _take_orbits(
             place = left.pop(number).place
             answers[place] = Simulated(stack.values[k], slopes[k])
             orbits[place] = stack.state[k], moved[k]
+        if math.isfinite(stack.values.sum()) and math.isfinite(slopes.sum()):
+            unsure.difference_update(jobs[number].place for number in stack.numbers)
     for number, job in list(left.items()):
         orbit = results[number]
         if isinstance(orbit, Orbit) and orbit.outcome is Outcome.DONE:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from copy import copy
 from dataclasses import dataclass, field
 from functools import partial
 from numbers import Integral, Real
@@ -21,6 +20,7 @@ from pysim.simulate.esdirk import Esdirk
 from pysim.simulate.sensitivity.orbit import Orbit, Orbits, Plan, find_orbits, is_settled, orbit_of, remembers
 from pysim.simulate.sensitivity.probe import check_names, check_parameters, probe_each
 from pysim.types import BadInput, Experiment, Model, Signal
+from pysim.types._frozen import changed
 
 Array = NDArray[np.float64]
 
@@ -74,10 +74,8 @@ class Periodic:
 
     def override(self, **values: float) -> Periodic:
         """The same test with more parameters set; what stays is not checked again."""
-        other, experiment = copy(self), self._experiment.override(**values)
-        object.__setattr__(other, "_experiment", experiment)
-        object.__setattr__(other, "overrides", experiment.overrides)
-        return other
+        experiment = self._experiment.override(**values)
+        return changed(self, _experiment=experiment, overrides=experiment.overrides)
 
 
 def _repeats(signal: Signal, period: float) -> bool:
@@ -175,19 +173,18 @@ def find_in(library: Opened, ask: Ask, progress: Callable[[int, int], None] | No
     quick = min(range(len(experiments)), key=lambda i: float(experiments[i].times[-1]))
     long_way = remembers(plans[experiments[quick].record], experiments[quick], starts[quick])
     found: dict[int, Found] = {}
-    settled = 0
+    whole: dict[int, Found] = {}  # where that is all there is to an orbit
     for record, plan in plans.items():
         numbers = [i for i, experiment in enumerate(experiments) if experiment.record == record and not long_way]
-        pairs, watch = [(experiments[i], starts[i]) for i in numbers], later(progress, settled, len(experiments))
+        pairs, watch = [(experiments[i], starts[i]) for i in numbers], later(progress, len(whole), len(experiments))
         watch = None if plan.missing or not plan.offer.outputs else watch
         found |= zip(numbers, find_orbits(plan, pairs, workers=count, progress=watch), strict=True)
-        settled = sum(is_settled(plans[experiments[i].record], one) for i, one in found.items())
+        whole |= {i: found[i] for i in numbers if is_settled(plan, found[i])}
 
     def make(number: int, stopped: Stopped = lambda: False) -> Orbit:
         experiment = experiments[number]
         return orbit_of(plans[experiment.record], experiment, found.get(number), stopped)
 
-    whole = {i: one for i, one in found.items() if is_settled(plans[experiments[i].record], one)}
     left = [i for i in range(len(experiments)) if i not in whole]
     watch = later(progress, len(whole), len(experiments))
     others = side_by_side([partial(make, number) for number in left], count, watch) if left else ()
