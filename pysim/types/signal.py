@@ -83,8 +83,10 @@ class Signal:
             BadInput: fewer than two samples, and as `steps`.
         """
         t, v = _samples(times, values, least=2)
-        slopes = np.append(np.diff(v) / np.diff(t), 0.0)
-        return cls._of_cubics(t, np.column_stack([v, slopes, np.zeros((t.size, 2))]))
+        cubics = np.zeros((t.size, 4))
+        cubics[:, 0] = v
+        np.divide(np.diff(v), np.diff(t), out=cubics[:-1, 1])
+        return cls._of_cubics(t, cubics)
 
     @classmethod
     def through(cls, times: ArrayLike, values: ArrayLike, rates: ArrayLike | None = None) -> Signal:
@@ -104,6 +106,7 @@ class Signal:
 
     @classmethod
     def _of_cubics(cls, starts: Array, cubics: Array) -> Signal:
+        cubics.setflags(write=False)  # so that it is not copied
         return cls(starts, cubics, np.zeros((starts.size, 0, 4)))
 
     def value(self, t: Array) -> Array:
@@ -210,7 +213,7 @@ def _wave_rate(sines: Array, s: Array) -> Array:
 def _samples(times: ArrayLike, values: ArrayLike, *, least: int) -> tuple[Array, Array]:
     """Checked rows of equal length (n_t,)."""
     try:
-        t, v = np.array(times, dtype=np.float64), np.array(values, dtype=np.float64)
+        t, v = frozen_array(times), frozen_array(values)
     except (TypeError, ValueError) as error:
         raise BadInput(f"signal: times and values must be rows of numbers ({error})") from error
     if t.ndim != 1 or t.shape != v.shape or t.size < least:

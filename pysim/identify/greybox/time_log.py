@@ -202,8 +202,9 @@ def _state_ranges(context: Context, experiments: Sequence[Experiment]) -> list[A
 def kept_columns(data: Record, names: tuple[str, ...]) -> Record:
     """Some columns of a log."""
     places = [data.names.index(name) for name in names]
-    units = tuple(data.units[i] for i in places)
-    return Record(data.time, data.values[:, places], names, units, origin=data.origin)
+    units, values = tuple(data.units[i] for i in places), data.values[:, places].copy()
+    values.setflags(write=False)  # so that a long log is not copied once more
+    return Record(data.time, values, names, units, origin=data.origin)
 
 
 def full_scale(signal: MeasuredSignal, values: Array) -> float:
