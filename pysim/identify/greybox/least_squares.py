@@ -77,8 +77,8 @@ class GaussNewton:
         """See Optimiser."""
         step, share = _Step.at(state.best, bounds), state.memory.get("share", 1.0)
         p = step.within(state.memory["radius"], _SETTINGS.spare)
-        own = share * (2 - share) * state.best.gain
-        return Proposal(np.clip(state.best.x + p, bounds.lower, bounds.upper), step.predicted(p) + own, share)
+        promised = step.predicted(p) + _own_gain(state)
+        return Proposal(np.clip(state.best.x + p, bounds.lower, bounds.upper), promised, share)
 
     def tell(self, state: State, proposal: Proposal, trial: Point, bounds: Bounds) -> State:
         """See Optimiser."""
@@ -100,12 +100,10 @@ class GaussNewton:
         if ratio > _NONE:
             taken = replace(state, best=trial, memory={**state.memory, "length": length or radius})
             return self._examined(taken, bounds)
-        turned = trial.good and _turned(trial, proposal.x - state.best.x)
-        if turned:
+        if trial.good and _turned(trial, proposal.x - state.best.x):
             state = replace(state, memory={**state.memory, "turned": 1.0})
-        if turned and self._bends(state, bounds):
-            bent = "the sum of squares rises again beyond the last step, and within it no more is to be gained"
-            return _ended(state, FitOutcome.CONVERGED, bent)
+        if trial.good and self._bends(state, bounds):
+            return self._lost(state, bounds)
         if radius < _SHORTEST and share * share * state.best.gain < self.tolerance:
             return _ended(state, FitOutcome.STALLED, str(trial.failure or f"the last step was {length:.1g} long"))
         return self._counted(state)
@@ -113,7 +111,7 @@ class GaussNewton:
     def _bends(self, state: State, bounds: Bounds) -> bool:
         """Whether what is promised up to where steps were seen to fail is nothing, or cannot be told from nothing."""
         step, small = _Step.at(state.best, bounds), self._small(state.best)
-        promised = step.predicted(step.within(state.memory["radius"])) + state.best.gain
+        promised = step.predicted(step.within(state.memory["radius"])) + _own_gain(state)
         return promised < max(small, min(blur_of(state.best), _SETTINGS.close * small))
 
     def _lost(self, state: State, bounds: Bounds) -> State:
@@ -141,6 +139,12 @@ class GaussNewton:
         if state.tried < self.max_iterations:
             return state
         return _ended(state, FitOutcome.ITERATION_LIMIT, f"{state.tried} points were tried")
+
+
+def _own_gain(state: State) -> float:
+    """nats that the share which is taken of the step of what belongs to single logs promises."""
+    share = state.memory.get("share", 1.0)
+    return share * (2 - share) * state.best.gain
 
 
 def blur_of(point: Point) -> float:
