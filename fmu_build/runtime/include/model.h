@@ -92,10 +92,10 @@ typedef struct {
     ModelFunction *update;           /* d (n_d), b (n_b), x (n_x), terminations (n_terminations): 1 where one holds */
     ModelFunction *check;            /* conditions (n_checks): 1 where one holds */
     ModelFunction *jacobian;         /* d dx/dx (n_x x n_x), d dx/dq (n_x x n_q), d g/dx (n_q x n_x),
-                                        d dx/dt (n_x), d g/dt (n_q) */
+                                        d dx/dt (n_x), d g/dt (n_q), d dx/dp (n_x x n_p; c follows p; only where
+                                        n_q = 0) */
     ModelFunction *forward;          /* tangents of dx (n_x), w (n_w), g (n_q); c follows p */
     ModelFunction *reverse;          /* weights of x (n_x), u (n_u), p (n_p), q (n_q), v (n_v); c follows p */
-    ModelFunction *by_parameters;    /* d dx/dp (n_x x n_p); c follows p; null where n_q > 0 */
 } Model;
 
 /* The one symbol the generated file defines. */

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "crossing.h"
+#include "linearise.h"
 #include "rodas.h"
 #include "vector.h"
 
@@ -127,7 +128,7 @@ static void lay_out_jacobian(Instance *s, Arena *a) {
     JacobianWork *w = &s->jacobian;
     w->xx = doubles(a, n_x * n_x);
     w->xq = doubles(a, n_x * n_q);
-    w->xp = doubles(a, s->model->by_parameters ? n_x * s->model->n_p : 0);
+    w->xp = doubles(a, has_by_parameters(s->model) ? n_x * s->model->n_p : 0);
     w->qx = doubles(a, n_q * n_x);
     w->qq = doubles(a, n_q * n_q);
     w->pivot = take(a, n_q, sizeof(int));

@@ -30,7 +30,7 @@ void let_blocks_follow(const Instance *s, double *rate, double *dg_dt) {
 Status linearise(Instance *s, double *rate, double *dg_dt) {
     const size_t n_x = s->model->n_x, n_q = s->model->n_q;
     JacobianWork *w = &s->jacobian;
-    double *res[] = {w->xx, w->xq, w->qx, rate, dg_dt};
+    double *res[] = {w->xx, w->xq, w->qx, rate, dg_dt, NULL};
     clear_computed(s, HAS_JACOBIAN);
     if (call_model(s, s->model->jacobian, res) != STATUS_OK) return STATUS_DISCARD;
     if (factor_blocks(s) != STATUS_OK) return STATUS_DISCARD;
@@ -45,11 +45,21 @@ Status evaluate_jacobian(Instance *s) {
     return linearise(s, NULL, NULL);
 }
 
-Status evaluate_by_parameters(Instance *s) {
-    double *res[] = {s->jacobian.xp};
-    if (is_computed(s, HAS_BY_PARAMETERS)) return STATUS_OK;
+bool has_by_parameters(const Model *m) { return m->n_q == 0 && m->n_x > 0 && m->n_p > 0; }
+
+/* Those matrices that are asked for and not there yet; no blocks follow, since there are none. */
+static Status bring_up_to_date(Instance *s, bool by_states, bool by_parameters) {
+    const bool states = by_states && !is_computed(s, HAS_JACOBIAN);
+    const bool parameters = by_parameters && !is_computed(s, HAS_BY_PARAMETERS);
+    double *res[] = {states ? s->jacobian.xx : NULL, NULL, NULL, NULL, NULL, parameters ? s->jacobian.xp : NULL};
+    if (!states && !parameters) return STATUS_OK;
     if (evaluate_unknowns(s) != STATUS_OK) return STATUS_DISCARD;
-    if (call_model(s, s->model->by_parameters, res) != STATUS_OK) return STATUS_DISCARD;
-    set_computed(s, HAS_BY_PARAMETERS);
+    if (call_model(s, s->model->jacobian, res) != STATUS_OK) return STATUS_DISCARD;
+    if (states) set_computed(s, HAS_JACOBIAN);
+    if (parameters) set_computed(s, HAS_BY_PARAMETERS);
     return STATUS_OK;
 }
+
+Status evaluate_by_parameters(Instance *s) { return bring_up_to_date(s, false, true); }
+
+Status evaluate_matrices(Instance *s) { return bring_up_to_date(s, true, true); }

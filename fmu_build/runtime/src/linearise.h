@@ -5,8 +5,14 @@
 
 #include "instance.h"
 
-/* Brings jacobian.xp up to date, for a model that has `by_parameters`. */
+/* Whether the model gives the derivatives by all parameters as one matrix. */
+bool has_by_parameters(const Model *m);
+
+/* Brings jacobian.xp up to date, for a model that has it. */
 Status evaluate_by_parameters(Instance *s);
+
+/* Brings jacobian.xx and xp up to date, for a model that has both: what they have in common is worked out once. */
+Status evaluate_matrices(Instance *s);
 
 /* Brings jacobian.xx up to date. Discard, with a log line, where the blocks are singular. */
 Status evaluate_jacobian(Instance *s);

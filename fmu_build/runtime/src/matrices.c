@@ -16,20 +16,17 @@ EXPORT int64_t htbParameterColumn(void *instance, uint32_t reference);
 int htbMatrices(void *instance, const double **by_states, const double **by_parameters) {
     Instance *s = instance;
     if (!s || !by_states || !instance_in_phase(s, PHASE_EVENT | PHASE_CONTINUOUS, "htbMatrices")) return STATUS_ERROR;
-    if (evaluate_jacobian(s) != STATUS_OK) return STATUS_DISCARD;
+    const bool both = by_parameters && has_by_parameters(s->model);
+    if ((both ? evaluate_matrices(s) : evaluate_jacobian(s)) != STATUS_OK) return STATUS_DISCARD;
     *by_states = s->jacobian.xx;
-    if (!by_parameters) return STATUS_OK;
-    *by_parameters = NULL;
-    if (!s->model->by_parameters) return STATUS_OK;
-    if (evaluate_by_parameters(s) != STATUS_OK) return STATUS_DISCARD;
-    *by_parameters = s->jacobian.xp;
+    if (by_parameters) *by_parameters = both ? s->jacobian.xp : NULL;
     return STATUS_OK;
 }
 
 /* Which column of `by_parameters` belongs to a variable; -1 where none does. */
 int64_t htbParameterColumn(void *instance, uint32_t reference) {
     const Instance *s = instance;
-    if (!s || !s->model->by_parameters || reference >= s->model->n_variables) return -1;
+    if (!s || !has_by_parameters(s->model) || reference >= s->model->n_variables) return -1;
     const ModelVariable *v = &s->model->variables[reference];
     return v->vector == VECTOR_P && v->type == TYPE_REAL ? (int64_t)v->index : -1;
 }

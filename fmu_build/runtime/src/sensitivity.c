@@ -164,7 +164,7 @@ Status directional_derivative(Instance *s, const char *function, const Partials 
     const Entries results = {w->seed_x, w->seed_u, w->seed_p, w->out_dx, w->out_w};
     const bool of_dx = all_in(s, partials->unknowns, partials->n_unknowns, VECTOR_DX);
     const bool by_states = of_dx && all_in(s, partials->knowns, partials->n_knowns, VECTOR_X);
-    const bool is_jacobian = by_states || (of_dx && s->model->by_parameters && all_real_parameters(s, partials));
+    const bool is_jacobian = by_states || (of_dx && has_by_parameters(s->model) && all_real_parameters(s, partials));
     Status status = STATUS_OK;
     if (!is_jacobian) status = check_references(s, function, partials->knowns, partials->n_knowns, &seeds, "a known");
     if (!is_jacobian && status == STATUS_OK)
