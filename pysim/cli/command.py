@@ -42,7 +42,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from pysim.cli.option import Option, Role
-from pysim.cli.outputs import LOG, answer_folder, command_line, prepare_answer, prepare_file, refuse_same
+from pysim.cli.outputs import LOG, answer_folder, prepare_answer, prepare_file, refuse_same
+from pysim.workflow import command_line
 
 if TYPE_CHECKING:
     from pysim.cli.progress import ProgressBar

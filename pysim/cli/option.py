@@ -72,7 +72,7 @@ class Option:
             more["action"] = "append"
         if not self.positional:
             more |= {"dest": self.key, "required": self.required}
-        told = isinstance(self.default, int | float | str) and self.default not in ("", -1.0)
+        told = isinstance(self.default, int | float | str) and self.default != ""
         about = f"{self.about} ({_text(self.default)})" if told else self.about
         flags = (self.key,) if self.positional else self.flags
         more |= {"metavar": self.metavar or self.flags[-1], "type": self._typed, "help": about.replace("%", "%%")}

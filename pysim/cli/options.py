@@ -7,68 +7,39 @@ import math
 import re
 import sys
 import tomllib
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
+from contextlib import nullcontext
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from pysim.cli._any_model import WHAT
-from pysim.cli.option import Option, Role, argument, file, names, number, text
+from pysim.cli.option import Option, Role, argument, file, names, text
 from pysim.cli.option import names_of as names_of
 
 if TYPE_CHECKING:
     from pysim.cli.command import Given
-    from pysim.types import Dataset, FrequencyResponse, Model, Variable
+    from pysim.types import Dataset, Model, Variable
 
-THESIS_HZ = 0.1
-_BY_DATA = -1.0  # of `--reference-hz`, where it was not said
-
-
-def add_parameters(parser: argparse.ArgumentParser, more: str = "where both set a parameter, --set wins") -> None:
-    """`--set` and `--parameters`.
-
-    Args:
-        more: for the help, behind what the file holds.
-    """
-    parser.add_argument(
-        "--set", metavar="NAME=VALUE", action="append", default=[], help="set a parameter, in its own unit"
-    )
-    parser.add_argument(
-        "--parameters", metavar="FILE.toml", type=Path, help=f"lines NAME = VALUE, in their own units; {more}"
-    )
+_WHAT = "an .fmu, or a Modelica class"
+_BY_DATA = "by data"  # of `--reference-hz`, as pysim.workflow.BY_DATA
 
 
-def add_names(parser: argparse.ArgumentParser, option: str, *, what: str, required: bool = False) -> None:
-    """An option that lists names, with commas between them or repeated; for `names_of`."""
-    parser.add_argument(
-        option, metavar="NAME,...", action="append", default=[], required=required, help=f"{what}; commas or repeat"
-    )
-
-
-def chosen_reference(given: float | None, responses: Iterable[FrequencyResponse]) -> float | None:
-    """The frequency in Hz to which gains are relative, as in the thesis (Eq. 2.12); None for absolute gains."""
-    if given != _BY_DATA:
-        return given
-    lowest = (abs(response.frequency / THESIS_HZ - 1).min() for response in responses)
-    return THESIS_HZ if all(away < 1e-6 for away in lowest) else None
-
-
-def reference_hz(text: str) -> float | None:
-    """Of `--reference-hz`: a frequency in Hz, or None."""
+def reference_hz(text: str) -> float | str | None:
+    """Of `--reference-hz`: a frequency in Hz, None, or that the data are to say it."""
     try:
-        return None if text == "none" else float(text)
+        return {"none": None, _BY_DATA: _BY_DATA}[text] if text in ("none", _BY_DATA) else float(text)
     except ValueError:
         raise argparse.ArgumentTypeError(f"{text!r} is no frequency; write a number in Hz, or none") from None
 
 
-def read_parameters(args: argparse.Namespace | Given, model: Model) -> dict[str, float]:
+def read_parameters(given: Given, model: Model) -> dict[str, float]:
     """Parameters of the model from both options.
 
     Raises:
         BadInput: a file that cannot be read, no finite number, or a name the model does not have.
     """
-    values = parameters_of(args.parameters) if args.parameters else {}
-    return settable(values | assigned(args.set, "--set", "the parameter's unit"), model)
+    values = parameters_of(given.parameters) if given.parameters else {}
+    return settable(values | assigned(given.set, "--set", "the parameter's unit"), model)
 
 
 def settable(values: dict[str, float], model: Model) -> dict[str, float]:
@@ -190,22 +161,25 @@ def _flat(table: dict[str, object], prefix: str, path: Path) -> dict[str, float]
 
 
 def _dataset(given: Given) -> Dataset | list[Dataset]:
-    from pysim.cli._measurements import read_measurements
+    from pysim.workflow import data_of
 
     typed = given.typed["dataset"]
-    return [read_measurements(one) for one in typed] if isinstance(typed, list) else read_measurements(typed)
+    return [data_of(one) for one in typed] if isinstance(typed, list) else data_of(typed)
 
 
 def _model(given: Given) -> Model:
-    from pysim.cli._any_model import read_fmu_or_class
+    from pysim.cli.progress import Working
+    from pysim.workflow import is_fmu, model_of
 
-    return read_fmu_or_class(given.typed["model"], given.library)
+    name = given.typed["model"]
+    with nullcontext() if is_fmu(name) else Working(f"Building {name}"):
+        return model_of(name, given.library)
 
 
 DATASET = argument("DATASET", "folder with a dataset.toml", convert=Path, role=Role.DATA, read=_dataset)
 DATASETS = replace(DATASET, about="folder with a dataset.toml; several are taken together", nargs="+")
-MODEL = text("--model", "MODEL", WHAT, required=True, role=Role.READ, read=_model)
-MODEL_FIRST = argument("MODEL", WHAT, role=Role.READ, read=_model)
+MODEL = text("--model", "MODEL", _WHAT, required=True, role=Role.READ, read=_model)
+MODEL_FIRST = argument("MODEL", _WHAT, role=Role.READ, read=_model)
 LIBRARY = file(
     "--library",
     "PATH",
@@ -214,12 +188,12 @@ LIBRARY = file(
     role=Role.READ,
 )
 SIGNAL = text("--signal", "NAME", "the responding signal, where the logs hold several")
-REFERENCE_HZ = number(
+REFERENCE_HZ = text(
     "--reference-hz",
     "HZ",
-    _BY_DATA,
-    "frequency in Hz whose gain counts as 0 dB, or none for absolute gains "
-    f"({THESIS_HZ:g} where every test measured it, else none)",
+    "frequency in Hz whose gain counts as 0 dB, none for absolute gains, or by data: 0.1 where every test measured it, "
+    "else none",
+    default=_BY_DATA,
     convert=reference_hz,
 )
 JSON = file("--json", "FILE", "write all numbers here", suffixes=(".json",))

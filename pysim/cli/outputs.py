@@ -8,16 +8,14 @@ from __future__ import annotations
 import argparse
 import os
 import re
-import shlex
 import shutil
-import subprocess
-import sys
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
+from pysim.workflow import command_line
+
 JSON = (".json",)
-PARAMETERS = "parameters.toml"  # in a folder of results: the fitted values
 MARKER = ".pysim-answer"  # in the folder: the names of our files, a line each
 LOG, JOURNAL = "log", "journal.jsonl"  # in the folder: what a stopped fit, and a stopped diagnosis, goes on from
 _GO_ON = (LOG, JOURNAL)
@@ -107,31 +105,9 @@ def _probe(folder: Path, what: str, cure: str) -> None:
         raise BadInput(f"{what}: cannot write there ({error.strerror or error}); {cure}") from error
 
 
-def quoted(words: Sequence[str]) -> str:
-    """Words as this system's shell takes them."""
-    return subprocess.list2cmdline(words) if sys.platform == "win32" else shlex.join(words)
-
-
 def repeating(args: argparse.Namespace) -> str:
     """The line that runs the command again: the words that were typed."""
     return command_line(args.words)
-
-
-def command_line(words: Sequence[str], folder: Path = Path(), *, program: str = "pysim") -> str:
-    """The line that runs a program of ours with these words in a folder, quoted for a shell.
-
-    Where this process runs in the environment that run.py made, its programs are on nobody's path and run.py is the way
-    in.
-
-    Args:
-        program: that run.py knows by this name, `pysim` or `fmu-build`.
-    """
-    windows = sys.platform == "win32"
-    root = Path(__file__).resolve().parents[2]
-    if Path(sys.prefix).resolve() != root / ".venv" or not (root / "run.py").is_file():
-        return quoted([program, *words])
-    start = "run.py" if folder.resolve() == root else str(root / "run.py")
-    return quoted(["py" if windows else "python3", start, program, *words])
 
 
 def prepare_answer(

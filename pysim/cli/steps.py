@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -24,9 +24,10 @@ from pysim.cli.options import (
 from pysim.cli.outputs import JOURNAL
 
 if TYPE_CHECKING:
-    from pysim.cli._subject import Named
+    from pysim.diagnose import Subject
     from pysim.present.diagnosis import Diagnosed
     from pysim.types import Diagnosis, Told
+    from pysim.workflow import SessionParts
 
 SUBJECT = (
     DATASET,
@@ -55,10 +56,33 @@ def results(what: str) -> tuple[Option, ...]:
     )
 
 
+def read_parts(given: Given, *, refits: bool = True, only: Sequence[str] = ()) -> SessionParts:
+    """What the command line names, opened.
+
+    Args:
+        refits: whether parameters will be refitted, so that some must be free.
+        only: effects to consider; all that the slots take, where none is named.
+    """
+    from pysim.cli.options import read_parameters
+    from pysim.workflow import reference_of, session_parts
+
+    return session_parts(
+        given.model,
+        given.dataset,
+        libraries=given.library,
+        free=given.free,
+        bounds=given.bounds,
+        values=read_parameters(given, given.model),
+        effects=only,
+        reference_hz=reference_of(given.dataset.responses(), given.reference_hz),
+        refits=refits,
+    )
+
+
 def run_step(
     given: Given,
-    named: Named,
-    work: Callable[[Callable[[Told], None], Path | None], Diagnosis],
+    parts: SessionParts,
+    work: Callable[[Subject, Callable[[Told], None], Path | None], Diagnosis],
     *,
     question: str = "Which effect is missing?",
     answer: Callable[[Diagnosis], str] | None = None,
@@ -66,7 +90,7 @@ def run_step(
     """Run a step of the diagnosis and show it; in `--output` lies a journal from which a stopped run goes on.
 
     Args:
-        work: the step, handed what tells and the journal's place.
+        work: the step; takes the session, what tells, and the journal's place.
         question, answer: what leads text and page; the verdict by default.
     Raises:
         KeyboardInterrupt: stopped by the user; says how to go on.
@@ -75,32 +99,34 @@ def run_step(
     from pysim.cli.progress import announce_compilation
     from pysim.present.diagnosis import Diagnosed
     from pysim.types import Told
+    from pysim.workflow import session_of
 
+    session = session_of(parts)
     announce_compilation()
     journal = given.output / JOURNAL if given.output else None
     try:
-        with Story(f"{named.dataset.name}: {named.model_name}") as story:
+        with Story(f"{parts.dataset.name}: {parts.model_name}") as story:
             told: list[Callable[[Told], None]] = [story, *([StoryFile(given.story)] if given.story else [])]
 
             def tell(what: Told) -> None:
                 for one in told:
                     one(what)
 
-            found = work(tell, journal)
+            found = work(session, tell, journal)
             for one in told[1:]:  # a program that follows is told why it does not end yet
                 one(Told("writing report and files"))
     except KeyboardInterrupt:
         cure = "the same command goes on where it was" if journal else "with --output DIR a run can be gone on with"
         raise KeyboardInterrupt(cure) from None
-    found = replace(found, conditions={**_conditions(given, named), **found.conditions})
+    found = replace(found, conditions={**_conditions(given, parts), **found.conditions})
     said = answer(found) if answer is not None else ""
-    given.opened = named
-    return Diagnosed(found, named.dataset, named.model_name, question, said)
+    given.opened = parts
+    return Diagnosed(found, parts.dataset, parts.model_name, question, said)
 
 
 def write_model(given: Given, result: Diagnosed, folder: Path) -> Diagnosed:
     """Write the fitted values, and class and FMU where effects were added."""
-    from pysim.cli._extended import write_extended
+    from pysim.workflow import write_extended
 
     files = write_extended(result.found, given.opened, folder, place=given.output)
     return replace(result, files={name: path.name for name, path in files.items()})
@@ -116,18 +142,18 @@ def end_step(given: Given, result: Diagnosed) -> None:
         (given.output / JOURNAL).unlink(missing_ok=True)
 
 
-def _conditions(given: Given, named: Named) -> dict[str, str]:
+def _conditions(given: Given, parts: SessionParts) -> dict[str, str]:
     """What it takes to repeat it."""
     from pysim.diagnose.conditions import versions
 
-    model = named.subject.model
+    model = parts.model
     found = {
-        "model": f"{named.model_name}, FMI {model.abilities.fmi}, token {model.token}",
-        "data set": f"{named.dataset.name}, {len(named.dataset.records)} records, {given.typed['dataset']}",
-        "libraries": ", ".join(str(library) for library in named.libraries) or "the one that comes along",
-        "free parameters": ", ".join(named.subject.free) or "none",
-        "parameters set": ", ".join(f"{name} = {value:g}" for name, value in named.overrides.items()) or "none",
-        "candidates": ", ".join(effect.name for effect in named.subject.catalogue) or "none",
+        "model": f"{parts.model_name}, FMI {model.abilities.fmi}, token {model.token}",
+        "data set": f"{parts.dataset.name}, {len(parts.dataset.records)} records, {given.typed['dataset']}",
+        "libraries": ", ".join(str(library) for library in parts.libraries) or "the one that comes along",
+        "free parameters": ", ".join(parts.free) or "none",
+        "parameters set": ", ".join(f"{name} = {value:g}" for name, value in parts.overrides.items()) or "none",
+        "candidates": ", ".join(effect.name for effect in parts.catalogue) or "none",
     }
     if "seed" in given:
         found["seed"] = str(given.seed)

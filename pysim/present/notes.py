@@ -5,6 +5,7 @@ from __future__ import annotations
 from pysim.io import shown_value
 from pysim.types.note import Note, NoteCode
 
+SHUT = "in none of the libraries"  # said of a model's class
 _WORDS = {
     NoteCode.NOISE_ESTIMATED: (
         "{dataset}: no noise is specified for {signal}; a standard deviation of {shown} was estimated from the data."
@@ -19,6 +20,17 @@ _WORDS = {
     NoteCode.AT_BOUND: "{parameter} stopped at its bound {shown}; the true value may lie beyond it.",
     NoteCode.USED_TO_CHOOSE: "{records}: these validation data also chose between models; their error is optimistic.",
     NoteCode.INTERVAL_CONDITIONAL: "Intervals hold for the chosen model; they ignore that another one may be right.",
+    NoteCode.TABLES_LEFT_OUT: (
+        "left out: tables of frequency responses ({count:.0f}) beside logs over time; they need a data set of their own"
+    ),
+    NoteCode.HELD_AS_SET: "held as set, not refitted: {parameters}; --free refits them from there",
+    NoteCode.BUILT_WITH: "built with values of its own, which every candidate has too: {parameters}",
+    NoteCode.NO_EFFECT_FITS: "no slot of {model} takes an effect of the libraries, so none could be tried",
+    NoteCode.CLASS_UNKNOWN: f"{{model}} is {SHUT}, so no effect can be added; name its library with --library",
+    NoteCode.SEEN_FROM_OUTSIDE: (
+        "looked at were the inputs {inputs} and the outputs {outputs} of {model}, nothing inside it: neither its "
+        "{states:.0f} states nor the terms of their equations"
+    ),
     NoteCode.OTHER: "{text}",
 }
 

@@ -21,6 +21,12 @@ class NoteCode(Enum):
     AT_BOUND = "at_bound"  # parameter, bound, value, unit
     USED_TO_CHOOSE = "used_to_choose"  # records that are reported as unseen also chose between models
     INTERVAL_CONDITIONAL = "interval_conditional"  # intervals hold for the model that was chosen only
+    TABLES_LEFT_OUT = "tables_left_out"  # count: of tables of responses, beside logs over time
+    HELD_AS_SET = "held_as_set"  # parameters: set, so not refitted, though the model gives them bounds
+    BUILT_WITH = "built_with"  # parameters: an FMU was built with values that its class does not have
+    NO_EFFECT_FITS = "no_effect_fits"  # model: no slot of it takes an effect of the libraries
+    CLASS_UNKNOWN = "class_unknown"  # model: its class is in none of the libraries
+    SEEN_FROM_OUTSIDE = "seen_from_outside"  # model, inputs, outputs, states: all that can be seen of a closed FMU
     OTHER = "other"  # text: of a program part that has no codes yet
 
 

@@ -12,8 +12,8 @@ _HIGHEST_PORT = 65535
 
 def run(given: Given) -> int:
     """Serve until Ctrl-C."""
-    from pysim.cli.outputs import command_line
     from pysim.types import BadInput
+    from pysim.workflow import command_line
 
     try:
         from pysim.app import Limits, serve

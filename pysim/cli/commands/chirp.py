@@ -29,16 +29,16 @@ def run(given: Given) -> Chirps:
 
 
 def _read(given: Given) -> Dataset:
-    from pysim.cli._measurements import read_measurements
     from pysim.io import read_single_log
     from pysim.types import BadInput
+    from pysim.workflow import data_of
 
     place: Path = given.typed["dataset"]
     if place.is_dir() or place.suffix == ".toml":
         for option in ("columns", "units"):
             if given.typed[option]:
                 raise BadInput(f"--{option}: {place} is a data set, whose dataset.toml says that; leave it out")
-        return read_measurements(place)
+        return data_of(place)
     if not given.columns:
         raise BadInput(f"{place}: is no data set; for a single log name its columns: --columns time,command,response")
     columns, units = (

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from pysim.cli.command import Command, Given
 from pysim.cli.option import switch
 from pysim.cli.outputs import JOURNAL
-from pysim.cli.steps import SUBJECT, end_step, results, run_step, write_model
+from pysim.cli.steps import SUBJECT, end_step, read_parts, results, run_step, write_model
 
 if TYPE_CHECKING:
     from pysim.present.comparison import Comparisons
@@ -47,16 +47,15 @@ def _refuse_idle(given: Given) -> None:
 
 def _logs(given: Given) -> Diagnosed:
     """Every record beside the model as it is, and refitted where that is asked for."""
-    from pysim.cli._subject import read_subject
     from pysim.diagnose import against
     from pysim.present.diagnosis.words import comparison_sentence
 
-    named = read_subject(given, refits=given.refit)
+    parts = read_parts(given, refits=given.refit)
     return run_step(
         given,
-        named,
-        lambda story, journal: against(
-            named.subject,
+        parts,
+        lambda session, story, journal: against(
+            session,
             refitted=given.refit,
             progress=lambda told: None if told.text.startswith("verdict:") else story(told),  # of a diagnosis
             journal=journal,
@@ -67,12 +66,13 @@ def _logs(given: Given) -> Diagnosed:
 
 
 def _responses(given: Given, dataset: Dataset) -> Comparison:
-    from pysim.cli.options import chosen_reference, read_parameters
+    from pysim.cli.options import read_parameters
     from pysim.cli.progress import announce_compilation
     from pysim.diagnose import compare
     from pysim.io import in_model_units
+    from pysim.workflow import reference_of
 
-    reference_hz = chosen_reference(given.reference_hz, dataset.responses())
+    reference_hz = reference_of(dataset.responses(), given.reference_hz)
     model, name = given.model, given.typed["model"]
     overrides = read_parameters(given, model)
     announce_compilation()

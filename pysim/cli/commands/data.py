@@ -24,9 +24,9 @@ def _check(given: Given) -> DataCheck:
 def _describe(given: Given) -> int:
     """Write the draft; never over a description that is there."""
     from pysim.cli._describe import draft, draft_text, open_ends
-    from pysim.cli.outputs import command_line
     from pysim.io import write_file
     from pysim.types import BadInput
+    from pysim.workflow import command_line
 
     target = given.folder / "dataset.toml"
     if not given.folder.is_dir():
@@ -60,14 +60,14 @@ def _units(texts: list[str]) -> dict[str, str]:
 
 
 def _read(given: Given) -> Dataset:
-    from pysim.cli._measurements import read_measurements
     from pysim.cli.options import names_of
     from pysim.io import read_thesis_folder
     from pysim.types import BadInput
+    from pysim.workflow import data_of
 
     inputs, responses = names_of(given.input), names_of(given.response)
     if not (inputs or responses):
-        return read_measurements(given.typed["dataset"])
+        return data_of(given.typed["dataset"])
     if len(inputs) != 1 or not responses:
         raise BadInput("logs without a dataset.toml need one --input NAME:UNIT and at least one --response NAME:UNIT")
     signals = [_signal("input", inputs[0]), *(_signal("output", text) for text in responses)]

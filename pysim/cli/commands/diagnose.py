@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from pysim.cli.command import Command, Given
 from pysim.cli.option import number
 from pysim.cli.outputs import JOURNAL
-from pysim.cli.steps import EFFECTS, SUBJECT, end_step, results, run_step, write_model
+from pysim.cli.steps import EFFECTS, SUBJECT, end_step, read_parts, results, run_step, write_model
 
 if TYPE_CHECKING:
     from pysim.present.diagnosis import Diagnosed
@@ -15,7 +15,6 @@ if TYPE_CHECKING:
 
 def run(given: Given) -> Diagnosed:
     """The verdict; without effects to add, what each candidate gains, screened or refitted."""
-    from pysim.cli._subject import read_subject
     from pysim.diagnose import diagnose, rank
     from pysim.present.diagnosis.words import ranking_sentence
     from pysim.types import BadInput
@@ -23,17 +22,17 @@ def run(given: Given) -> Diagnosed:
     most, seed = given.max_effects, given.seed
     if most < 0:
         raise BadInput(f"--max-effects {most}: write how many effects may be added, 0 or more")
-    named = read_subject(given, only=given.effects)
+    parts = read_parts(given, only=given.effects)
     if most:
         return run_step(
             given,
-            named,
-            lambda story, journal: diagnose(named.subject, seed=seed, most=most, progress=story, journal=journal),
+            parts,
+            lambda session, story, journal: diagnose(session, seed=seed, most=most, progress=story, journal=journal),
         )
     return run_step(
         given,
-        named,
-        lambda story, journal: rank(named.subject, seed=seed, progress=story, journal=journal),
+        parts,
+        lambda session, story, journal: rank(session, seed=seed, progress=story, journal=journal),
         question="What would each effect gain?",
         answer=ranking_sentence,
     )

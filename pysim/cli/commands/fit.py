@@ -21,7 +21,6 @@ from pysim.cli.options import (
     REFERENCE_HZ,
     SET,
     assigned,
-    chosen_reference,
     parameters_of,
     settable,
 )
@@ -103,8 +102,8 @@ def _refuse_unprofiled(problem: Problem, profiled: Sequence[str]) -> None:
 
 
 def _problem(given: Given, model: Model, datasets: Sequence[Dataset]) -> Problem:
-    from pysim.cli._free import free_parameters
     from pysim.identify.greybox import Measurements, Parameter, Tie, Treatment, problem
+    from pysim.workflow import free_parameters, reference_of
 
     ties, bounds, unit = [Tie(*_tie(word)) for word in given.tie], given.bounds, "the parameter's unit"
     told = settable(parameters_of(given.parameters), model) if given.parameters else {}
@@ -116,7 +115,7 @@ def _problem(given: Given, model: Model, datasets: Sequence[Dataset]) -> Problem
     _refuse_idle([*starts, *bounds], free)
     _refuse_still(datasets)
     data = [Measurements(one, outputs=tuple(given.signal) or None) for one in datasets]
-    reference_hz = chosen_reference(given.reference_hz, (r for one in datasets for r in one.responses()))
+    reference_hz = reference_of((r for one in datasets for r in one.responses()), given.reference_hz)
     parameters = [Parameter(name, starts.get(name), *bounds.get(name, (None, None))) for name in free]
     return problem(model, data, parameters, fixed=fixed, ties=ties, treatment=Treatment(reference_hz=reference_hz))
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from pysim.cli.command import Command, Given
 from pysim.cli.option import number
-from pysim.cli.options import DATASET, JSON, OUTPUT, REFERENCE_HZ, SIGNAL, chosen_reference
+from pysim.cli.options import DATASET, JSON, OUTPUT, REFERENCE_HZ, SIGNAL
 
 if TYPE_CHECKING:
     from pysim.present.frf import Responses
@@ -16,10 +16,11 @@ def run(given: Given) -> Responses:
     """The responses of every offset and amplitude."""
     from pysim.identify import Window, measured_responses
     from pysim.present.frf import Responses
+    from pysim.workflow import reference_of
 
     window = Window(given.settle_periods, given.settle)
     responses = tuple(measured_responses(given.dataset, output=given.signal, window=window))
-    reference_hz = chosen_reference(given.reference_hz, (one.response for one in responses))
+    reference_hz = reference_of((one.response for one in responses), given.reference_hz)
     return Responses(given.dataset.name, responses, reference_hz)
 
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from pysim.cli.command import Command, Given
 from pysim.cli.option import names
 from pysim.cli.outputs import JOURNAL
-from pysim.cli.steps import SUBJECT, end_step, results, run_step, write_model
+from pysim.cli.steps import SUBJECT, end_step, read_parts, results, run_step, write_model
 
 if TYPE_CHECKING:
     from pysim.present.diagnosis import Diagnosed
@@ -15,16 +15,16 @@ if TYPE_CHECKING:
 
 def run(given: Given) -> Diagnosed:
     """The places with the term that each would need."""
-    from pysim.cli._subject import effects_of, read_subject
     from pysim.diagnose import located
     from pysim.present.diagnosis.words import missing_sentence
+    from pysim.workflow import effects_of
 
-    named, there = read_subject(given), getattr(given, "with")  # a word of Python
-    effects = effects_of(there, named, "--with") if there else ()
+    parts, there = read_parts(given), getattr(given, "with")  # a word of Python
+    effects = effects_of(there, parts) if there else ()
     return run_step(
         given,
-        named,
-        lambda story, journal: located(named.subject, effects, progress=story, journal=journal),
+        parts,
+        lambda session, story, journal: located(session, effects, progress=story, journal=journal),
         question="Where is what missing?",
         answer=missing_sentence,
     )

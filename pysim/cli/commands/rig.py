@@ -86,16 +86,15 @@ def _run(
     *,
     crane: bool = False,
 ) -> Record:
-    import fmu_build
     from pysim.cli.progress import Working, announce_compilation
     from pysim.cosim import cosimulate
     from pysim.cosim.members import Fmu
-    from pysim.io import read_model
     from pysim.rig import rig_member, rig_system
+    from pysim.workflow import model_of
 
     def member(name: str) -> Any:
         with Working(f"Building {name}"):
-            return read_model(fmu_build.build(name, fmi=given.fmi))
+            return model_of(name, fmi=given.fmi)
 
     announce_compilation()
     above = Fmu("crane", member(_CRANE), interface=given.interface) if crane else None

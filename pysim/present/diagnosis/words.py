@@ -7,13 +7,12 @@ from collections.abc import Sequence
 
 from pysim.identify.accuracy import FREQUENCY_CRITERIA, TIME_CRITERIA
 from pysim.io import counted
+from pysim.present.notes import SHUT
 from pysim.types import AddedEffect, Criterion, Diagnosis, Estimate, LedgerStep, NextTest
 from pysim.types.diagnosis import NONE, UNKNOWN
 
 _BY_TABLE = (FREQUENCY_CRITERIA, TIME_CRITERIA)
 _UNITS = {"%": "% of full scale", "deg": "degrees"}
-SHUT = "in none of the libraries"
-"""In the note on a model whose Modelica class is not known."""
 _NOISE = 1.5  # times the noise: a model that leaves more than this fails, though limits that are wider may hold
 
 

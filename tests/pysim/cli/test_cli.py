@@ -2,7 +2,6 @@
 
 import argparse
 import json
-import shlex
 import subprocess
 import sys
 from collections.abc import Sequence
@@ -15,11 +14,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-import pysim.cli
 from pysim.cli import main
 from pysim.cli.main import argument_parser, registry
 from pysim.cli.options import read_parameters
-from pysim.cli.outputs import MARKER, command_line
+from pysim.cli.outputs import MARKER
 from pysim.types import BadInput, Experiment, Record, SimulationError
 from tests.pysim import comparisons as linear
 from tests.pysim.cli.ran import refused
@@ -224,29 +222,3 @@ def test_a_reader_that_went_away_ends_the_command_quietly() -> None:
         process.stdout.close()
         assert process.stderr.read() == b""
     assert process.returncode == 2
-
-
-def test_the_line_to_redo_is_quoted_and_starts_where_it_works(monkeypatch: pytest.MonkeyPatch) -> None:
-    root = Path(pysim.cli.__file__).parents[2]
-    monkeypatch.setattr(sys, "prefix", "/usr")
-    assert command_line(["demo", "--output", "my results"]) == "pysim demo --output 'my results'"
-    assert command_line(["A.B"], program="fmu-build") == "fmu-build A.B"
-    monkeypatch.setattr(sys, "prefix", str(root / ".venv"))
-    monkeypatch.chdir(root)
-    assert command_line(["demo"]) == "python3 run.py pysim demo"
-    assert command_line(["A.B"], program="fmu-build") == "python3 run.py fmu-build A.B"
-    monkeypatch.chdir(root / "tests")
-    assert shlex.split(command_line(["demo"])) == ["python3", str(root / "run.py"), "pysim", "demo"]
-    assert command_line(["demo"], root) == "python3 run.py pysim demo"  # typed there, wherever this process is
-    monkeypatch.chdir(root)
-    assert shlex.split(command_line(["demo"], root / "tests"))[1] == str(root / "run.py")
-
-
-def test_the_line_to_redo_is_quoted_as_windows_wants_it(monkeypatch: pytest.MonkeyPatch) -> None:
-    root = Path(pysim.cli.__file__).parents[2]
-    monkeypatch.setattr(sys, "platform", "win32")
-    monkeypatch.setattr(sys, "prefix", "/usr")
-    assert command_line(["demo", "--output", "my results"]) == 'pysim demo --output "my results"'
-    monkeypatch.setattr(sys, "prefix", str(root / ".venv"))
-    monkeypatch.chdir(root)
-    assert command_line(["demo"]) == "py run.py pysim demo"

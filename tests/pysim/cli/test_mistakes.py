@@ -108,7 +108,7 @@ MISTAKES = [
     (["diagnose", "d", *AXIS, "--max-effects", "-1"], ["--max-effects -1", "0 or more"]),
     (["add", "d", *AXIS], ["--effects"]),
     (["add", "d", *AXIS, "--effects", "shaft.friction"], ["shaft.friction", "no slot of Axis takes it"]),
-    (["locate", "d", *AXIS, "--with", "shaft.frction"], ["--with shaft.frction", "did you mean shaft.friction?"]),
+    (["locate", "d", *AXIS, "--with", "shaft.frction"], ["effect shaft.frction", "did you mean shaft.friction?"]),
     # what has no data set
     (["model", "nowhere.fmu"], ["nowhere.fmu"]),
     (["rig", "step", "--dt", "1"], ["--dt 1", "less than 0.1"]),

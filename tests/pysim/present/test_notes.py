@@ -15,6 +15,12 @@ VALUES = {
     NoteCode.AT_BOUND: {"parameter": "p_0", "bound": 2e5, "value": 2e5, "unit": "Pa"},
     NoteCode.USED_TO_CHOOSE: {"records": "a.csv, b.csv"},
     NoteCode.INTERVAL_CONDITIONAL: {},
+    NoteCode.TABLES_LEFT_OUT: {"count": 2.0},
+    NoteCode.HELD_AS_SET: {"parameters": "m, d"},
+    NoteCode.BUILT_WITH: {"parameters": "m, d"},
+    NoteCode.NO_EFFECT_FITS: {"model": "Lib.Axis"},
+    NoteCode.CLASS_UNKNOWN: {"model": "Lib.Axis"},
+    NoteCode.SEEN_FROM_OUTSIDE: {"model": "Axis.fmu", "inputs": "u", "outputs": "x, v", "states": 3.0},
     NoteCode.OTHER: {"text": "as it stands"},
 }
 

@@ -5,16 +5,20 @@ from __future__ import annotations
 import textwrap
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from pysim.cli._subject import Named
-    from pysim.types import Dataset, Diagnosis
+from pysim.io import shown_unit, write_file
+from pysim.present.diagnosis.words import limits_sentence
+from pysim.types import Dataset, Diagnosis
+from pysim.workflow.session import SessionParts
+from pysim.workflow.shell import command_line
 
+PARAMETERS = "parameters.toml"  # the fitted values
 _WIDTH = 110
 
 
-def write_extended(found: Diagnosis, given: Named, folder: Path, *, place: Path | None = None) -> dict[str, Path]:
+def write_extended(
+    found: Diagnosis, parts: SessionParts, folder: Path, *, place: Path | None = None
+) -> dict[str, Path]:
     """Write the fitted values, and the class and its FMU where effects were added; name -> path, none without a refit.
 
     Nothing of the user's files is changed: the class extends theirs.
@@ -25,29 +29,26 @@ def write_extended(found: Diagnosis, given: Named, folder: Path, *, place: Path 
     Raises:
         BadInput: the folder cannot be written.
     """
-    from pysim.cli.outputs import PARAMETERS
-    from pysim.io import write_file
-
     fitted = {e.name: e.value for e in found.parameters if "@" not in e.name}
     files: dict[str, Path] = {}
-    if found.added and given.variants is not None:
-        name = extended_name(given.variants.class_name, [one.effect.class_name for one in found.added])
-        values = {**given.overrides, **fitted}
+    if found.added and parts.variants is not None:
+        name = extended_name(parts.variants.class_name, [one.effect.class_name for one in found.added])
+        values = {**parts.overrides, **fitted}
         effects, fmu = [one.effect for one in found.added], folder / f"{name}.fmu"
-        given.variants.write(effects, folder, fmu, name, values, _comment(found, given, place or folder, name))
+        parts.variants.write(effects, folder, fmu, name, values, _comment(found, parts, place or folder, name))
         files = {"modelica": folder / f"{name}.mo", "fmu": fmu}
-        about = f"{name}, the class in {name}.mo, fitted to data set {given.dataset.name}."
+        about = f"{name}, the class in {name}.mo, fitted to data set {parts.dataset.name}."
     else:
-        about = f"{given.model_name}, refitted to data set {given.dataset.name}. {_set_before(given)}"
+        about = f"{parts.model_name}, refitted to data set {parts.dataset.name}. {_set_before(parts)}"
     if fitted:
         files["parameters"] = folder / PARAMETERS
         write_file(files["parameters"], _parameters(f"Of {about}", fitted))
     return files
 
 
-def _set_before(given: Named) -> str:
+def _set_before(parts: SessionParts) -> str:
     """What the values hold with; nothing where nothing was set."""
-    values = ", ".join(f"{name} = {value!r}" for name, value in given.overrides.items())
+    values = ", ".join(f"{name} = {value!r}" for name, value in parts.overrides.items())
     return f"They hold with what was set: {values}." if values else ""
 
 
@@ -67,32 +68,28 @@ def _last(name: str) -> str:
     return name.rpartition(".")[2]
 
 
-def _comment(found: Diagnosis, given: Named, folder: Path, name: str) -> str:
+def _comment(found: Diagnosis, parts: SessionParts, folder: Path, name: str) -> str:
     """What it is, from which data, and when not to trust it."""
-    from pysim.cli.outputs import command_line
-
-    libraries = [folder / f"{name}.mo", *given.libraries]
+    libraries = [folder / f"{name}.mo", *parts.libraries]
     own = [word for library in libraries for word in ("--library", str(library.resolve()))]
     build = command_line([name, *own], folder, program="fmu-build")  # whole paths, as it may be pasted anywhere
-    parts = [
-        f"{name}: {given.model_name} with {', '.join(one.effect.name for one in found.added)}.",
-        f"Every number below was fitted to the records of data set {given.dataset.name} that are marked fit; intervals "
+    paragraphs = [
+        f"{name}: {parts.model_name} with {', '.join(one.effect.name for one in found.added)}.",
+        f"Every number below was fitted to the records of data set {parts.dataset.name} that are marked fit; intervals "
         "and evidence are in report.html beside this file.",
         f"Compiles by: {build}",
         "Do not trust it",
-        *(f"- {text}" for text in _limits(found, given.dataset)),
+        *(f"- {text}" for text in _limits(found, parts.dataset)),
     ]
     indent = {True: "  ", False: ""}
     wrapped = [
-        p if build in p else textwrap.fill(p, _WIDTH, subsequent_indent=indent[p.startswith("-")]) for p in parts
+        p if build in p else textwrap.fill(p, _WIDTH, subsequent_indent=indent[p.startswith("-")]) for p in paragraphs
     ]  # a command is pasted, and stays on its line
     return "\n".join(wrapped)
 
 
 def _limits(found: Diagnosis, dataset: Dataset) -> list[str]:
     """What the data did not show."""
-    from pysim.present.diagnosis.words import limits_sentence
-
     texts = [f"beyond what was excited: {_excited(dataset)}"]
     if not any(record.use == "validate" for record in dataset.records):
         texts.append("for other excitation without a test: no record was held out")
@@ -112,8 +109,6 @@ def _limits(found: Diagnosis, dataset: Dataset) -> list[str]:
 
 def _excited(dataset: Dataset) -> str:
     """Ranges of the inputs, and the frequencies of stepped sines."""
-    from pysim.io import shown_unit
-
     ranges: dict[str, tuple[float, float]] = {}
     for record in dataset.logs():
         for name in dataset.columns(record, "input"):

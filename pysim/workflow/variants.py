@@ -1,4 +1,4 @@
-"""Models with effects, compiled: what a diagnosis is handed, and what is written for the user."""
+"""Models with effects, compiled: what a diagnosis takes, and what is written for the user."""
 
 from __future__ import annotations
 
@@ -6,40 +6,50 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
+
+from pysim.io import read_model
 
 if TYPE_CHECKING:
     from pysim.diagnose.locating.laws import Term
+    from pysim.effects import Slot
     from pysim.types import Effect, Model
 
 
-@dataclass
+@dataclass(frozen=True)
 class Variants:
     """Builds models with effects, each once.
 
     Args:
         class_name: of the base model.
         libraries: where it and the effects are.
-        built: names of effects -> the model, and effect name -> the name ahead of its parameters there.
     """
 
     class_name: str
-    libraries: list[Path]
-    built: dict[tuple[str, ...], tuple[Model, dict[str, str]]] = field(default_factory=dict)
+    libraries: tuple[Path, ...]
+    _built: dict[tuple[str, ...], tuple[Model, dict[str, str]]] = field(
+        default_factory=dict, init=False, repr=False, compare=False
+    )
 
-    def __call__(self, effects: Sequence[Effect]) -> tuple[Model, dict[str, str]]:
-        """The model with these effects, and where they are in it.
+    @property
+    def slots(self) -> tuple[Slot, ...]:
+        """Replaceable parts of the base model."""
+        from pysim.effects import slots
+
+        return slots(self.class_name, self.libraries)
+
+    def build(self, effects: Sequence[Effect]) -> tuple[Model, dict[str, str]]:
+        """The model with these effects, and effect name -> the name ahead of its parameters there.
 
         Raises:
             BadInput: a class that cannot be made or does not compile.
         """
         key = tuple(effect.name for effect in effects)
-        if key not in self.built:
-            from tempfile import TemporaryDirectory
-
+        if key not in self._built:
             with TemporaryDirectory(prefix="pysim-variant-") as folder, _refusals():
-                self.built[key] = self.write(effects, Path(folder), None)
-        return self.built[key]
+                self._built[key] = self.write(effects, Path(folder), None)
+        return self._built[key]
 
     def write(
         self,
@@ -56,17 +66,14 @@ class Variants:
             name: of the class; the base model's with `Variant` behind it where none is given.
             values: parameters to set, by their full names.
             comment: lines ahead of the class.
+        Raises:
+            BadInput: a class that cannot be made. BuildError: one that does not compile.
         """
-        import fmu_build
         from pysim.effects import variant
-        from pysim.io import read_model
 
-        name = name or f"{self.class_name.rpartition('.')[2]}Variant"
+        name = name or f"{self._own_name}Variant"
         made = variant(self.class_name, effects, self.libraries, name=name, values=values, comment=comment)
-        source = folder / f"{name}.mo"
-        source.write_text(made.text, encoding="utf-8")
-        built = fmu_build.build(name, fmu, libraries=[*self.libraries, source])
-        return read_model(built), made.places
+        return self._compiled(name, made.text, folder, fmu), made.places
 
     def probed(self, effects: Sequence[Effect], law: Term) -> Model:
         """The model with these effects and a term at one place of it, as a table whose values are parameters.
@@ -74,20 +81,25 @@ class Variants:
         Raises:
             BadInput: a class that does not compile with that term.
         """
-        from tempfile import TemporaryDirectory
-
-        import fmu_build
         from pysim.diagnose.locating.laws import wrapped
         from pysim.effects import variant
-        from pysim.io import read_model
 
-        name = f"{self.class_name.rpartition('.')[2]}Located"
+        name = f"{self._own_name}Located"
         made = variant(self.class_name, effects, self.libraries, name=f"{name}Base") if effects else None
         text = (made.text if made else "") + wrapped(made.class_name if made else self.class_name, law, name)
         with TemporaryDirectory(prefix="pysim-located-") as folder, _refusals():
-            source = Path(folder) / f"{name}.mo"
-            source.write_text(text, encoding="utf-8")
-            return read_model(fmu_build.build(name, libraries=[*self.libraries, source], probes=law.probes))
+            return self._compiled(name, text, Path(folder), None, law.probes)
+
+    @property
+    def _own_name(self) -> str:
+        return self.class_name.rpartition(".")[2]
+
+    def _compiled(self, name: str, text: str, folder: Path, fmu: Path | None, probes: Sequence[str] = ()) -> Model:
+        import fmu_build
+
+        source = folder / f"{name}.mo"
+        source.write_text(text, encoding="utf-8")
+        return read_model(fmu_build.build(name, fmu, libraries=[*self.libraries, source], probes=probes))
 
 
 @contextmanager

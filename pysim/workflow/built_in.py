@@ -5,29 +5,24 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from pysim.types import Model, Variable
+from pysim.types import BadInput, Model, Variable
+from pysim.workflow.model import model_of
 
 _CURE = "effects are added to the class, so name a class that extends it as it was built in place of the FMU"
 _SAME = 1e-9  # numbers that differ by less have been through a text
 
 
-def built_in(model: Model, class_name: str, libraries: Sequence[Path]) -> dict[str, float]:
+def built_in(model: Model, libraries: Sequence[Path | str]) -> dict[str, float]:
     """Parameters of an FMU whose values are not those of its class, in the variables' units.
 
     Args:
-        model: of the FMU.
-        class_name: at hand in the libraries; compiled here, or taken from the cache.
+        model: of the FMU. Its class is in one of the libraries, and is compiled here or taken from the cache.
     Raises:
         BadInput: one that nothing can set once the model is built, or another number of states. BuildError: a class
             that does not compile.
     """
-    from pysim.cli._any_model import read_fmu_or_class
-    from pysim.types import BadInput
-
-    plain = read_fmu_or_class(class_name, libraries)
+    plain, class_name = model_of(model.name, libraries), model.name
     states = [len(one.abilities.states) for one in (model, plain)]
     if states[0] != states[1]:
         raise BadInput(f"{model.path.name}: has {states[0]} states, where {class_name} has {states[1]}; {_CURE}")
@@ -35,7 +30,7 @@ def built_in(model: Model, class_name: str, libraries: Sequence[Path]) -> dict[s
     values: dict[str, float] = {}
     for own in model.variables:
         other = declared.get(own.name)
-        if other is None or own.start is None or not _is_told(own) or _is_same(own.start, own.unit, other):
+        if other is None or own.start is None or not _is_written(own) or _is_same(own.start, own.unit, other):
             continue
         if {own.causality, other.causality} != {"parameter"} or own.unit != other.unit:
             raise BadInput(
@@ -46,7 +41,7 @@ def built_in(model: Model, class_name: str, libraries: Sequence[Path]) -> dict[s
     return values
 
 
-def _is_told(v: Variable) -> bool:
+def _is_written(v: Variable) -> bool:
     """Whether its start is a number that somebody wrote."""
     return v.causality in ("parameter", "structuralParameter") or v.variability == "constant"
 

@@ -6,16 +6,16 @@ from pathlib import Path
 import pytest
 
 from pysim.cli import main
-from pysim.cli._free import free_parameters
-from pysim.cli._subject import Named, read_subject
-from pysim.types import BadInput
+from pysim.cli.steps import read_parts
+from pysim.types import BadInput, NoteCode
+from pysim.workflow import SessionParts, free_parameters
 from tests.pysim.cli.ran import parsed
 from tests.pysim.diagnose.toy import base
 
 
-def given(*words: str) -> Named:
+def given(*words: str) -> SessionParts:
     """What a command line of `compare --refit` names."""
-    return read_subject(parsed(["compare", *words, "--refit"]))
+    return read_parts(parsed(["compare", *words, "--refit"]))
 
 
 def as_it_is(words: list[str], tmp_path: Path) -> dict[str, float]:
@@ -36,15 +36,15 @@ def test_an_fmu_without_bounds_is_compared_as_that_with_bounds(
 
 def test_the_others_are_refitted_beside_what_was_set(rubbing: Path, toy: list[str]) -> None:
     found = given(str(rubbing), *toy, "--set", "m=1.05")
-    assert (found.subject.free, found.overrides) == (("d", "k"), {"m": 1.05})
-    assert any("held as set" in note for note in found.subject.notes)
+    assert (found.free, found.overrides) == (("d", "k"), {"m": 1.05})
+    assert [note.values for note in found.notes if note.code is NoteCode.HELD_AS_SET] == [{"parameters": "m"}]
 
 
 def test_bounds_alone_make_free(rubbing: Path, foreign: Path) -> None:
     bounds = [word for text in ("m=0.5:5", "k=1:100") for word in ("--bounds", text)]
     found = given(str(rubbing), "--model", str(foreign), *bounds)
-    assert found.subject.free == ("m", "k")
-    assert dict(found.subject.bounds) == {"m": (0.5, 5.0), "k": (1.0, 100.0)}
+    assert found.free == ("m", "k")
+    assert dict(found.bounds) == {"m": (0.5, 5.0), "k": (1.0, 100.0)}
 
 
 def test_what_a_fit_found_is_where_the_refit_begins(rubbing: Path, toy: list[str], tmp_path: Path) -> None:
@@ -53,9 +53,9 @@ def test_what_a_fit_found_is_where_the_refit_begins(rubbing: Path, toy: list[str
     values.write_text("m = 1.3\nd = 0.4\n")
     words = [str(rubbing), *toy, "--parameters", str(values)]
     held, begun = given(*words), given(*words, "--free", "m,d,k")
-    assert (held.subject.free, held.overrides) == (("k",), {"m": 1.3, "d": 0.4})
-    assert (begun.subject.free, begun.overrides) == (("m", "d", "k"), {})
-    assert [begun.subject.model[name].start for name in "mdk"] == [1.3, 0.4, 20.0]
+    assert (held.free, held.overrides) == (("k",), {"m": 1.3, "d": 0.4})
+    assert (begun.free, begun.overrides) == (("m", "d", "k"), {})
+    assert [begun.model[name].start for name in "mdk"] == [1.3, 0.4, 20.0]
 
 
 def test_what_is_set_is_refitted_where_it_is_named_or_has_bounds() -> None:

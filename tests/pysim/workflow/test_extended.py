@@ -10,17 +10,16 @@ from typing import Any
 
 import pytest
 
-import pysim.cli
+import pysim
 from fmu_build.cli import main as fmu_build_main
-from pysim.cli._extended import extended_name, write_extended
-from pysim.cli._subject import Named
-from pysim.cli._variants import Variants
 from pysim.cli.options import parameters_of
-from pysim.cli.outputs import quoted
 from pysim.diagnose import add
 from pysim.io import read_model
 from pysim.present.diagnosis import relative_files
 from pysim.types import Diagnosis, Effect
+from pysim.workflow import SessionParts, Variants, model_of, session_parts, write_extended
+from pysim.workflow.extended import extended_name
+from pysim.workflow.shell import quoted
 from tests.pysim.diagnose.toy import CATALOGUE, library, measured, toy_subject
 
 NAME = "MassWithRubbing"
@@ -46,12 +45,15 @@ def found() -> Diagnosis:
     return add(toy_subject(measured(1, "toy.friction", F_c=0.4)), [CATALOGUE["toy.friction"]])
 
 
-def given(variants: type[Variants] = Unbuilt) -> Named:
+def given(variants: type[Variants] = Unbuilt) -> SessionParts:
     data = measured(1, "toy.friction", F_c=0.4)
-    return Named(toy_subject(data), data, variants("Toy.Mass", [library()]), {}, (library(),))
+    parts = session_parts(
+        model_of("Toy.Mass", [library()]), data, libraries=[library()], bounds={}, values={}, reference_hz=None
+    )
+    return replace(parts, variants=variants("Toy.Mass", (library(),)))
 
 
-def head(found: Diagnosis, given: Named, folder: Path, place: Path | None = None) -> str:
+def head(found: Diagnosis, given: SessionParts, folder: Path, place: Path | None = None) -> str:
     """What stands ahead of the class."""
     return write_extended(found, given, folder, place=place)["modelica"].read_text()
 
@@ -100,7 +102,7 @@ def test_the_command_in_the_header_works_wherever_it_is_pasted(
 def test_the_command_in_the_header_names_where_the_class_will_lie_and_where_fmu_build_is_at_hand(
     found: Diagnosis, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    root = Path(pysim.cli.__file__).parents[2]
+    root = Path(pysim.__file__).parents[1]
     monkeypatch.setattr(sys, "prefix", str(root / ".venv"))
     words = ["fmu-build", NAME, "--library", str(tmp_path.resolve() / "later" / f"{NAME}.mo")]
     assert quoted([str(root / "run.py"), *words]) in head(found, given(), tmp_path, tmp_path / "later")

@@ -5,22 +5,23 @@ from pathlib import Path
 import pytest
 
 from fmu_build import build
-from pysim.cli._built_in import built_in
-from pysim.cli._subject import read_subject
+from pysim.cli.steps import read_parts
 from pysim.io import read_model
 from pysim.types import BadInput
+from pysim.workflow import session_of
+from pysim.workflow.built_in import built_in
 from tests.pysim.cli.ran import parsed
 from tests.pysim.diagnose.toy import library
 
 
 def test_values_that_the_class_has_too_are_not_told(tmp_path: Path) -> None:
     plain = read_model(build("Toy.Mass", tmp_path / "Mass.fmu", libraries=[library()]))
-    assert built_in(plain, "Toy.Mass", [library()]) == {}
+    assert built_in(plain, [library()]) == {}
 
 
 def test_values_of_its_own_are_told(tmp_path: Path) -> None:
     heavy = read_model(build("Toy.Mass", tmp_path / "Mass.fmu", libraries=[library()], overrides={"m": 1.25}))
-    assert built_in(heavy, "Toy.Mass", [library()]) == {"m": 1.25}
+    assert built_in(heavy, [library()]) == {"m": 1.25}
 
 
 def test_what_no_candidate_could_be_given_is_refused(tmp_path: Path) -> None:
@@ -31,7 +32,7 @@ def test_what_no_candidate_could_be_given_is_refused(tmp_path: Path) -> None:
     )
     long = read_model(build("Sized", tmp_path / "Long.fmu", libraries=[source], overrides={"n": 3}))
     with pytest.raises(BadInput, match=r"^Long.fmu: has 3 states, where Sized has 2; effects are added to the class"):
-        built_in(long, "Sized", [source])
+        built_in(long, [source])
 
 
 def test_a_fixed_number_of_another_value_is_refused(tmp_path: Path) -> None:
@@ -44,7 +45,7 @@ def test_a_fixed_number_of_another_value_is_refused(tmp_path: Path) -> None:
     with pytest.raises(
         BadInput, match=r"^One.fmu: built with c = 1, where Fixed has 2; effects are added to the class"
     ):
-        built_in(one, "Fixed", [source])
+        built_in(one, [source])
 
 
 def test_candidates_of_an_fmu_have_the_values_that_it_was_built_with(rubbing: Path, tmp_path: Path) -> None:
@@ -52,7 +53,7 @@ def test_candidates_of_an_fmu_have_the_values_that_it_was_built_with(rubbing: Pa
     fmu = build("Toy.Mass", tmp_path / "Mass.fmu", libraries=[library()], overrides={"m": 1.3})
     words = ["add", str(rubbing), "--effects", "toy.friction", "--free", "d,k", "--library", str(library())]
     for model in (["--model", str(fmu)], ["--model", "Toy.Mass", "--set", "m=1.3"]):
-        given = read_subject(parsed([*words, *model]))
-        assert given.overrides == {"m": 1.3}
-        assert given.subject.free == ("d", "k")
-        assert all(run.experiment.overrides["m"] == 1.3 for target in given.subject.targets for run in target.runs)
+        parts = read_parts(parsed([*words, *model]))
+        assert parts.overrides == {"m": 1.3}
+        assert parts.free == ("d", "k")
+        assert all(run.experiment.overrides["m"] == 1.3 for target in session_of(parts).targets for run in target.runs)
