@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import json
 import os
 from collections.abc import Collection, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from pysim.io import log_source, names_its_columns, read_dataset_partly, read_toml, write_file
+from pysim.io import log_source, names_its_columns, read_dataset_partly, read_toml, toml_key, toml_table, write_file
 from pysim.types import BadInput, Dataset
 from pysim.types.record_kind import STEPPED_SINE
 
@@ -27,16 +26,11 @@ def read_description(path: Path) -> dict[str, Any]:
 
 
 def description_text(content: Mapping[str, Any]) -> str:
-    """A dataset.toml with that content; JSON writes texts, numbers and rows as TOML does."""
-    parts = [_table("[dataset]", content["dataset"])]
-    parts += [_table(f"[signals.{json.dumps(n, ensure_ascii=False)}]", s) for n, s in content["signals"].items()]
-    parts += [_table("[[records]]", record) for record in content["records"]]
+    """A dataset.toml with that content."""
+    parts = [toml_table("[dataset]", content["dataset"])]
+    parts += [toml_table(f"[signals.{toml_key(n)}]", s) for n, s in content["signals"].items()]
+    parts += [toml_table("[[records]]", record) for record in content["records"]]
     return "\n".join(parts)
-
-
-def _table(header: str, values: Mapping[str, Any]) -> str:
-    lines = [f"{key} = {json.dumps(value, ensure_ascii=False)}" for key, value in values.items() if value is not None]
-    return "\n".join([header, *lines]) + "\n"
 
 
 def change_description(path: Path, content: Mapping[str, Any], *, read: bool = True) -> Dataset | None:

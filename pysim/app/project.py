@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import contextlib
 import hashlib
-import json
 import os
 import re
 import tomllib
@@ -15,7 +14,7 @@ from typing import Any
 
 from pysim.app.disk import move_all
 from pysim.app.lock import LOCK
-from pysim.io import write_file
+from pysim.io import toml_table, write_file
 from pysim.types import BadInput
 
 _SETTINGS = "project.toml"
@@ -116,8 +115,7 @@ class Project:
     def save(self, settings: Settings) -> None:
         """Write them."""
         values = {f.name: getattr(settings, f.name) for f in fields(Settings)}
-        lines = [f"{name} = {json.dumps(value, ensure_ascii=False)}" for name, value in values.items()]
-        write_file(self.folder / _SETTINGS, "\n".join(["# of pysim app", *lines, ""]))
+        write_file(self.folder / _SETTINGS, toml_table("# of pysim app", values))
 
     def change(self, **values: Any) -> Settings:
         """Some of them changed, and written."""

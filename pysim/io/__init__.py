@@ -7,6 +7,8 @@ from pysim.io.cache import cache_folder
 from pysim.io.columns import names_its_columns
 from pysim.io.counted import counted
 from pysim.io.dataset import SIGNAL_KEYS, described_signal, read_dataset, read_dataset_partly
+from pysim.io.draft_dataset import Draft, draft_dataset
+from pysim.io.draft_text import draft_text
 from pysim.io.file_names import same_file, unusable_name
 from pysim.io.files import write_file
 from pysim.io.fmu import read_model
@@ -20,6 +22,7 @@ from pysim.io.stages import StageFile, read_stages, write_stages
 from pysim.io.text_table import read_text
 from pysim.io.thesis_folder import LOG_SUFFIXES, read_thesis_folder
 from pysim.io.toml_section import Section, TomlFile, log_source, read_toml
+from pysim.io.toml_text import toml_key, toml_table
 from pysim.io.units import SI, shown_point, shown_unit, shown_value, signal_in_si
 from pysim.io.write_dataset import write_dataset
 
@@ -28,6 +31,7 @@ __all__ = [
     "LOG_SUFFIXES",
     "SI",
     "SIGNAL_KEYS",
+    "Draft",
     "Section",
     "StageFile",
     "TomlFile",
@@ -36,6 +40,8 @@ __all__ = [
     "column_names",
     "counted",
     "described_signal",
+    "draft_dataset",
+    "draft_text",
     "extracted",
     "in_model_units",
     "json_number",
@@ -60,6 +66,8 @@ __all__ = [
     "shown_unit",
     "shown_value",
     "signal_in_si",
+    "toml_key",
+    "toml_table",
     "unusable_name",
     "write_dataset",
     "write_file",

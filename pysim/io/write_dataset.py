@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Mapping
 from pathlib import Path, PurePosixPath, PureWindowsPath
@@ -14,6 +13,7 @@ from pysim.io.columns import names_its_columns
 from pysim.io.file_names import same_file, unusable_name
 from pysim.io.files import write_file
 from pysim.io.response_table import TABLE_COLUMNS
+from pysim.io.toml_text import toml_key, toml_table
 from pysim.io.units import Scale
 from pysim.types import UNITS, BadInput, Dataset, FrequencyResponse, MeasuredRecord, MeasuredSignal, Record, conversion
 from pysim.types.record_kind import HOLDS, KINDS
@@ -153,7 +153,7 @@ def _table(response: FrequencyResponse, scales: Mapping[str, Scale]) -> str:
 def _description(dataset: Dataset, name: str, units: Mapping[str, str], scales: Mapping[str, Scale]) -> str:
     """dataset.toml."""
     about = {"name": name, "description": dataset.description or None, "system": dataset.system or None}
-    parts = [_section("[dataset]", about)]
+    parts = [toml_table("[dataset]", about)]
     for signal in dataset.signals:
         to_si = scales[signal.name].gain
         about = {"role": signal.role, "unit": units[signal.name], "quantity": signal.quantity or signal.name}
@@ -161,8 +161,8 @@ def _description(dataset: Dataset, name: str, units: Mapping[str, str], scales: 
         noise, resolution = (None if v is None else _tidy(v / to_si) for v in (signal.noise, signal.resolution))
         hold = next((word for word, command in HOLDS.items() if command is signal.hold), None)
         numbers = {"noise": noise, "resolution": resolution}
-        parts.append(_section(f"[signals.{_key(signal.name)}]", about | numbers | {"hold": hold}))
-    parts += [_section("[[records]]", _about(record, dataset, scales)) for record in dataset.records]
+        parts.append(toml_table(f"[signals.{toml_key(signal.name)}]", about | numbers | {"hold": hold}))
+    parts += [toml_table("[[records]]", _about(record, dataset, scales)) for record in dataset.records]
     return "\n".join(parts)
 
 
@@ -188,18 +188,6 @@ def _about(record: MeasuredRecord, dataset: Dataset, scales: Mapping[str, Scale]
     usual = f"measured, {record.source}"
     about |= {"initial": record.initial, "begin": record.begin}
     return about | {"origin": data.origin if data.origin not in ("", usual) else None}
-
-
-def _section(header: str, values: Mapping[str, object]) -> str:
-    """One TOML table; JSON writes texts, numbers and rows of texts as TOML does."""
-    lines = [f"{key} = {json.dumps(value, ensure_ascii=False)}" for key, value in values.items() if value is not None]
-    return "\n".join([header, *lines]) + "\n"
-
-
-def _key(name: str) -> str:
-    """A name as a TOML key."""
-    bare = name.isascii() and name.replace("_", "").replace("-", "").isalnum()
-    return name if bare else json.dumps(name, ensure_ascii=False)
 
 
 def _tidy(value: float) -> float:

@@ -23,8 +23,7 @@ def _check(given: Given) -> DataCheck:
 
 def _describe(given: Given) -> int:
     """Write the draft; never over a description that is there."""
-    from pysim.cli._describe import draft, draft_text, open_ends
-    from pysim.io import write_file
+    from pysim.io import draft_dataset, draft_text, write_file
     from pysim.types import BadInput
     from pysim.workflow import command_line
 
@@ -33,15 +32,15 @@ def _describe(given: Given) -> int:
         raise BadInput(f"{given.folder} is no folder; name the folder of the logs")
     if target.exists():
         raise BadInput(f"{target} is there already and stays as it is; remove it first where it is to be drafted anew")
-    found = draft(given.folder, _units(given.input), _units(given.response))
+    found = draft_dataset(given.folder, _units(given.input), _units(given.response))
     write_file(target, draft_text(found))
     print(
         f"Drafted: {target}, {len(found.columns)} log{'s' * (len(found.columns) > 1)}, signals {', '.join(found.roles)}"
     )
     for remark in found.remarks:
         print(f"  {remark}")
-    for what in open_ends(found):
-        print(f"  to fill in: {what}")
+    if found.without_unit:
+        print(f"  to fill in: the unit of {', '.join(found.without_unit)}")
     print(f"Look through it, then: {command_line(['data', 'check', str(given.folder)])}")
     return DONE
 

@@ -1,16 +1,15 @@
-"""A first dataset.toml for plain logs: what their headings, their names and the command line tell, and what is open."""
+"""A first dataset.toml for plain logs: what headings, file names and the user say, and what is open."""
 
 from __future__ import annotations
 
-import json
-import textwrap
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from pysim.types import MeasuredRecord
+from pysim.io.columns import names_its_columns
+from pysim.io.headings import column_names, name_and_unit
+from pysim.io.thesis_folder import LOG_SUFFIXES, read_thesis_folder
+from pysim.types import SECONDS, UNITS, BadInput, MeasuredRecord, MeasuredSignal
 
 LEFT_OUT = "-"  # in place of the name of a column that nobody needs, or that holds no numbers
 OPEN = "?"  # in place of a unit that nobody told; refused until it is filled in
@@ -62,20 +61,22 @@ class Draft:
         """Of all logs; s where no heading tells one."""
         return next(iter(self.clocks), "s")
 
+    @property
+    def without_unit(self) -> list[str]:
+        """Signals whose unit has to be filled in before the data set can be read."""
+        return [name for name, unit in self.units.items() if unit == OPEN]
 
-def draft(folder: Path, inputs: Mapping[str, str], responses: Mapping[str, str]) -> Draft:
+
+def draft_dataset(folder: Path, inputs: Mapping[str, str], responses: Mapping[str, str]) -> Draft:
     """Look at the logs of a folder, and at all below it.
 
     Args:
-        inputs, responses: signal -> unit, as the command line names them; where it names none, the column behind the
+        inputs, responses: signal -> unit, as the user names them; where that is none, the column behind the
             time is taken for the command and all others for what answers.
     Raises:
         BadInput: no logs, one that cannot be read, columns that are not those that were named, or times in several
             units.
     """
-    from pysim.io import LOG_SUFFIXES, column_names
-    from pysim.types import BadInput
-
     if bool(inputs) != bool(responses):
         raise BadInput(f"{folder}: {_NEEDED}")
     found = Draft(folder)
@@ -97,15 +98,11 @@ def draft(folder: Path, inputs: Mapping[str, str], responses: Mapping[str, str])
 
 
 def _column(heading: str) -> Column:
-    from pysim.io import name_and_unit
-
     return Column(heading, *name_and_unit(heading))
 
 
 def _take_clock(found: Draft, path: Path, clock: Column) -> None:
     """The unit of a log's times, where its heading tells one."""
-    from pysim.types import SECONDS, BadInput
-
     if not clock.unit:
         return
     if clock.unit not in SECONDS:
@@ -120,8 +117,6 @@ def _take_clock(found: Draft, path: Path, clock: Column) -> None:
 
 def _take(found: Draft, path: Path, columns: Sequence[Column], *, named: bool) -> None:
     """One log: its columns, and the signals that nobody named before."""
-    from pysim.io import names_its_columns
-
     by_name = names_its_columns(path)
     names = _names(found, path, columns, by_name) if named else _guessed(found, columns, by_name)
     for name, column in zip(names, columns, strict=True):
@@ -134,8 +129,6 @@ def _take(found: Draft, path: Path, columns: Sequence[Column], *, named: bool) -
 
 def _names(found: Draft, path: Path, columns: Sequence[Column], by_name: bool) -> list[str]:
     """Of a log whose signals were named: found in its heading, else counted."""
-    from pysim.types import BadInput
-
     own = [column.heading if by_name else column.name for column in columns]
     time, kept = _time(columns, own, found.roles), sum(name != LEFT_OUT for name in own)
     if all(name in own for name in found.roles):
@@ -151,8 +144,6 @@ def _names(found: Draft, path: Path, columns: Sequence[Column], by_name: bool) -
 
 def _guessed(found: Draft, columns: Sequence[Column], by_name: bool) -> list[str]:
     """Of a log of which nothing was said: time, then the command, then what answers."""
-    from pysim.types import UNITS
-
     short = [column.name for column in columns]
     told = [name for name in short if name != LEFT_OUT]
     own = [column.heading for column in columns] if by_name or len(set(told)) < len(told) else short
@@ -174,9 +165,6 @@ def _time(columns: Sequence[Column], names: Sequence[str], signals: Collection[s
 
 def _find_sines(found: Draft) -> None:
     """Offset, amplitude and frequency of stepped sines, from names of logs and folders, or read off the command."""
-    from pysim.io import read_thesis_folder
-    from pysim.types import BadInput, MeasuredSignal
-
     sines = [source for source in found.columns if "hz" in Path(source).stem.lower()]
     order = ["time", *found.roles]
     if not sines:
@@ -195,73 +183,3 @@ def _find_sines(found: Draft) -> None:
 
 def _source(found: Draft, path: Path) -> str:
     return path.relative_to(found.folder).as_posix()
-
-
-def draft_text(found: Draft) -> str:
-    """The dataset.toml, with comments on what to fill in and to look at."""
-    from pysim.types import SYNONYMS, UNITS
-
-    known = ", ".join(unit for unit in UNITS if unit not in SYNONYMS)
-    head = [
-        "# A draft. Look at every line; what is behind a # is not read.",
-        *textwrap.wrap(f"Units: {known}", 100, initial_indent="# ", subsequent_indent="#   "),
-        "",
-        "[dataset]",
-        f"name = {_toml(found.folder.resolve().name)}",
-        '# description = "what was tested, and on which bench"',
-    ]
-    told = f"time_unit = {_toml(found.time_unit)}"
-    head += [told] if found.time_unit != "s" else ['# time_unit = "ms"    # where the times are not in s']
-    parts = ["\n".join(head), *(_signal(found, name) for name in found.roles)]
-    parts += [_record(found, source, first=not k) for k, source in enumerate(found.columns)]
-    return "\n\n".join(parts) + "\n"
-
-
-def _signal(found: Draft, name: str) -> str:
-    unit = found.units[name]
-    fill = "    # FILL IN: a unit of the list above" if unit == OPEN else ""
-    lines = [
-        f"[signals.{_key(name)}]",
-        f'role = "{found.roles[name]}"    # input: what drives the plant | output: what answers',
-        f"unit = {_toml(unit)}{fill}",
-        '# variable = "..."    # where the model calls it otherwise',
-    ]
-    lines += ["# noise = 0.1         # standard deviation of the sensor's noise, in the unit above"]
-    return "\n".join(lines)
-
-
-def _record(found: Draft, source: str, *, first: bool) -> str:
-    """A log; the first says what else it may be."""
-    from pysim.types.record_kind import LOGS, OTHER, STEPPED_SINE
-
-    lines = ["[[records]]", f"file = {_toml(source)}", f"columns = {_toml(found.columns[source])}"]
-    if source in found.called:
-        lines.append(f"time = {_toml(found.called[source])}" + "    # what this log calls it" * first)
-    sine = found.sines.get(source)
-    if sine is None:
-        others = " | ".join(kind.name for kind in reversed(LOGS) if kind is not OTHER)
-        lines.append(f'kind = "{OTHER.name}"' + f"    # {others}; the last two say more" * first)
-    else:
-        lines.append(f'kind = "{STEPPED_SINE.name}"')
-        lines += [f"{key} = {getattr(sine, key)!r}" for key in ("offset", "amplitude", "frequency")]
-        command = next(name for name, role in found.roles.items() if role == "input")
-        lines[-3] += f"    # of {command}, in its unit" if first else ""
-    lines.append('use = "fit"' + '    # "validate" keeps it apart, to try the fitted model on' * first)
-    return "\n".join(lines)
-
-
-def _key(name: str) -> str:
-    bare = name.isascii() and name.replace("_", "").replace("-", "").isalnum()
-    return name if bare else _toml(name)
-
-
-def _toml(value: object) -> str:
-    """JSON writes texts and rows of texts as TOML does."""
-    return json.dumps(value, ensure_ascii=False)
-
-
-def open_ends(found: Draft) -> Iterator[str]:
-    """What has to be filled in before the data set can be read."""
-    names = [name for name, unit in found.units.items() if unit == OPEN]
-    if names:
-        yield f"the unit of {', '.join(names)}"
