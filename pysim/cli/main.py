@@ -11,8 +11,6 @@ import traceback
 from collections.abc import Sequence
 from functools import cache
 from importlib import import_module
-from pathlib import Path
-from types import ModuleType
 from typing import NoReturn
 
 from pysim.cli.command import Command
@@ -23,22 +21,13 @@ DONE, NO, WRONG_USE, OUR_BUG = 0, 1, 2, 3
 
 
 @cache
-def registry() -> dict[str, Command | ModuleType]:
-    """Every command by its name: a file in `pysim/cli/commands` each, and modules that are not of this form yet."""
+def registry() -> dict[str, Command]:
+    """Every command by its name: a file in `pysim/cli/commands` each."""
     from pysim.cli import commands
 
-    here = pkgutil.iter_modules([str(Path(__file__).parent)])
-    names = [one.name for one in here if not one.ispkg and one.name[0] != "_"]
-    modules = (import_module(f"pysim.cli.{name}") for name in names)
-    found: dict[str, Command | ModuleType] = {
-        module.__name__.rpartition(".")[2].replace("_", "-"): module
-        for module in modules
-        if hasattr(module, "add_arguments")
-    }
-    for one in pkgutil.iter_modules(commands.__path__):
-        command = import_module(f"{commands.__name__}.{one.name}").COMMAND
-        found[command.name] = command
-    return dict(sorted(found.items()))
+    files = pkgutil.iter_modules(commands.__path__)
+    found: list[Command] = [import_module(f"{commands.__name__}.{one.name}").COMMAND for one in files]
+    return {command.name: command for command in sorted(found, key=lambda command: command.name)}
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -53,7 +42,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     words = list(sys.argv[1:] if argv is None else argv)
     try:
         parser = argument_parser(words[0] if words else "")
-        args = parser.parse_args(words, argparse.Namespace(words=words))
+        args = parser.parse_args(words)
     except SystemExit as end:  # argparse has said what is wrong, or shown the help
         return int(end.code or 0)
     return _guarded(args)
@@ -102,17 +91,15 @@ def argument_parser(command: str = "") -> argparse.ArgumentParser:
     parser.add_argument("--version", action=_Version, nargs=0, help="print the version")
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
     for name, one in registry().items():
-        help_text = one.about if isinstance(one, Command) else (one.__doc__ or "").strip().splitlines()[0]
-        parser_of = commands.add_parser(name, help=help_text, description=help_text)
+        parser_of = commands.add_parser(name, help=one.about, description=one.about)
         if command == name or command not in registry():
             one.add_arguments(parser_of)
     return parser
 
 
 def _guarded(args: argparse.Namespace) -> int:
-    command = registry()[args.command]
     try:
-        code = command.execute(args) if isinstance(command, Command) else int(command.run(args))
+        code = registry()[args.command].execute(args)
         sys.stdout.flush()  # here, where a reader that went away can still be dealt with
         return code
     except BrokenPipeError:  # `pysim ... | head` has seen enough

@@ -5,15 +5,12 @@ The folder of `--output` is new, empty, an unfinished run, or an earlier answer 
 
 from __future__ import annotations
 
-import argparse
 import os
 import re
 import shutil
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
-
-from pysim.workflow import command_line
 
 JSON = (".json",)
 MARKER = ".pysim-answer"  # in the folder: the names of our files, a line each
@@ -103,11 +100,6 @@ def _probe(folder: Path, what: str, cure: str) -> None:
         probe.unlink()
     except OSError as error:
         raise BadInput(f"{what}: cannot write there ({error.strerror or error}); {cure}") from error
-
-
-def repeating(args: argparse.Namespace) -> str:
-    """The line that runs the command again: the words that were typed."""
-    return command_line(args.words)
 
 
 def prepare_answer(

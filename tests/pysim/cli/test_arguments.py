@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from pysim.cli.command import Command, Given
+from pysim.cli.command import Given
 from pysim.cli.main import argument_parser, registry
 from pysim.cli.options import names_of
 
@@ -16,15 +16,14 @@ OWN = {"add": ["--effects", "e"]}
 def parsed(words: list[str]) -> Any:
     """The values of a command's options by their names."""
     args = argument_parser(words[0]).parse_args(words)
-    command = registry()[words[0]]
-    return argparse.Namespace(**Given(command, args, ()).typed) if isinstance(command, Command) else args
+    return argparse.Namespace(**Given(registry()[words[0]], args, ()).typed)
 
 
 @pytest.mark.parametrize("command", ["add", "compare", "diagnose", "fit", "locate"])
 def test_a_data_set_and_its_model_have_one_form(command: str, capsys: pytest.CaptureFixture[str]) -> None:
     args = parsed([command, "d", "--model", "m.fmu", *OWN.get(command, [])])
     assert args.model == "m.fmu"
-    assert (args.dataset if hasattr(args, "dataset") else args.data) in (Path("d"), [Path("d")])
+    assert args.dataset in (Path("d"), [Path("d")])
     for words, named in ((["d"], "--model"), (["--model", "m"], "DATASET")):
         with pytest.raises(SystemExit) as end:
             argument_parser().parse_args([command, *words, *OWN.get(command, [])])

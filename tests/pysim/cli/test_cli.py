@@ -8,13 +8,13 @@ from collections.abc import Sequence
 from dataclasses import replace
 from importlib import import_module
 from pathlib import Path
-from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 import pytest
 
 from pysim.cli import main
+from pysim.cli.command import Command
 from pysim.cli.main import argument_parser, registry
 from pysim.cli.options import read_parameters
 from pysim.cli.outputs import MARKER
@@ -183,7 +183,7 @@ def test_what_goes_wrong_becomes_an_exit_code(
     def run(_: Any) -> int:
         raise error
 
-    commands = {"demo": SimpleNamespace(run=run, add_arguments=lambda parser: None, __doc__="Fail.")}
+    commands = {"demo": Command("demo", "Fail.", run)}
     monkeypatch.setattr(import_module("pysim.cli.main"), "registry", lambda: commands)
     assert main(["demo"]) == code
     assert ("our mistake" in capsys.readouterr().err) == (code == 3)
@@ -208,10 +208,10 @@ def test_numbers_outside_the_bounds_are_said_and_used(folder: Path, capsys: pyte
 
 def test_a_reader_that_went_away_ends_the_command_quietly() -> None:
     script = (
-        "import sys; from importlib import import_module; from types import SimpleNamespace\n"
+        "import sys; from importlib import import_module; from pysim.cli.command import Command\n"
         "run = lambda args: print('x' * 10_000_000) or 0\n"
         "commands = import_module('pysim.cli.main')\n"
-        "demo = SimpleNamespace(run=run, add_arguments=lambda p: None, __doc__='Print.')\n"
+        "demo = Command('demo', 'Print.', run)\n"
         "commands.registry = lambda: {'demo': demo}\n"
         "sys.exit(commands.main(['demo']))\n"
     )

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from pysim.cli import _pictures, main
+from pysim.cli import main
 from pysim.identify import TransferFunction
 from pysim.present import Drawing
 from pysim.types import Comparison, Experiment, Model, Record
@@ -71,7 +71,7 @@ def demo(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Path:
         return Drawing(name, name, b"<svg/>")
 
     monkeypatch.setattr("concurrent.futures.ProcessPoolExecutor", InThisProcess)
-    monkeypatch.setattr(_pictures, "draw_picture", draw_picture)
+    monkeypatch.setattr("pysim.cli.commands.demo.draw_picture", draw_picture)
     monkeypatch.setattr("validation.pump.pump_model", pump_model)
     monkeypatch.setattr(import_module("pysim.diagnose.compare"), "simulate_many", simulate_many)
     return tmp_path / "results" / "demo"

@@ -1,13 +1,20 @@
-"""Build the thesis' pump, run its 18 tests for both parameter sets, and report."""
+"""`pysim demo`."""
 
 from __future__ import annotations
 
-import argparse
 import json
+from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from pysim.cli.command import DONE, Command, Given
+from pysim.cli.option import Option, switch
+
 if TYPE_CHECKING:
+    from concurrent.futures import Executor
+
+    from pysim.present import Drawing
     from pysim.types import Comparison, Dataset, Model
 
 QUICK_FREQUENCIES_HZ = (0.1, 1, 3, 6, 10, 15, 20, 30)
@@ -22,26 +29,19 @@ _CAVEATS: dict[str, tuple[str, ...]] = {
 }
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The words behind `pysim demo`."""
-    parser.add_argument("-o", "--output", metavar="DIR", type=Path, default=Path("results/demo"), help="(results/demo)")
-    parser.add_argument("--quick", action="store_true", help="8 frequencies in place of 19")
-
-
-def run(args: argparse.Namespace) -> int:
-    """Print both tables and leave report.html, plots, JSON, the FMUs and the data set; 0 when that is done."""
+def run(given: Given) -> int:
+    """Print both tables, and leave report.html, plots, JSON, the FMUs and the data set as each is there."""
     from concurrent.futures import ProcessPoolExecutor
     from multiprocessing import get_context
 
-    from pysim.cli._pictures import draw_picture, write_pictures
-    from pysim.cli.outputs import prepare_folder, repeating
+    from pysim.cli.outputs import prepare_folder
     from pysim.cli.progress import Working
     from pysim.io import read_dataset, write_file
     from pysim.present.comparison import Comparisons, comparison_text, data, page
     from validation.thesis import FREQUENCIES_HZ, write_dataset
 
-    folder = prepare_folder(args.output)
-    frequencies = QUICK_FREQUENCIES_HZ if args.quick else FREQUENCIES_HZ
+    folder = prepare_folder(given.output)
+    frequencies = QUICK_FREQUENCIES_HZ if given.quick else FREQUENCIES_HZ
     # On two cores the solver is compiled while the models are built, and pictures are drawn while the models run.
     with ProcessPoolExecutor(2, mp_context=get_context("spawn")) as helpers:
         compiled = helpers.submit(_build_kernel)
@@ -58,12 +58,27 @@ def run(args: argparse.Namespace) -> int:
             early.result()  # or it could be written after the last picture of its name
             pictures = write_pictures(comparisons, folder, helpers)
     # with fewer frequencies the largest deviations are others, and the thesis' tables cannot be held against them
-    remarks = () if args.quick else tuple(part for one in comparisons for part in _against_the_thesis(one))
+    remarks = () if given.quick else tuple(part for one in comparisons for part in _against_the_thesis(one))
     result = Comparisons(_TITLE, tuple(comparisons), remarks)
     write_file(folder / "comparison.json", json.dumps(data(result), indent=1, allow_nan=False))
-    write_file(folder / "report.html", page(result, pictures, repeating(args)))
+    write_file(folder / "report.html", page(result, pictures, given.repeated))
     print(f"Report: {folder / 'report.html'}")
-    return 0
+    return DONE
+
+
+def write_pictures(comparisons: Sequence[Comparison], folder: Path, executor: Executor) -> list[Drawing]:
+    """Write deviations and a Bode plot per offset, several at a time."""
+    from pysim.present.comparison import picture_names
+
+    return list(executor.map(partial(draw_picture, tuple(comparisons), folder), picture_names(comparisons)))
+
+
+def draw_picture(comparisons: Sequence[Comparison], folder: Path, name: str) -> Drawing:
+    """Write one of the pictures."""
+    from pysim.present.comparison import comparison_picture
+    from pysim.present.render import draw
+
+    return draw(comparison_picture(comparisons, name), folder)
 
 
 def _build_kernel() -> None:
@@ -113,3 +128,20 @@ def _against_the_thesis(comparison: Comparison) -> list[str]:
     caption = f"{comparison.label}: this page | thesis Table {printed} | misfit of the transfer function, Table 4.4"
     title = f"Where and why this differs from thesis Table {printed} ({comparison.label} set)"
     return [heading(title), items([*explain(rows, printed), *_CAVEATS[comparison.label]]), table(caption, head, cells)]
+
+
+COMMAND = Command(
+    "demo",
+    "Build the thesis' pump, run its 18 tests for both parameter sets, and report.",
+    run,
+    options=(
+        Option(
+            ("-o", "--output"),
+            "write everything here (results/demo)",
+            "DIR",
+            default=Path("results/demo"),
+            convert=Path,
+        ),
+        switch("--quick", "8 frequencies in place of 19"),
+    ),
+)
