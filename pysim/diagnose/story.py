@@ -36,7 +36,7 @@ from pysim.diagnose.subject import Extended, Subject, extended
 from pysim.diagnose.where import failures
 from pysim.identify.greybox.residuals import Point
 from pysim.identify.greybox.time_log import TimeLog
-from pysim.types import Candidate, Effect, LedgerStep, Stage, Told
+from pysim.types import Candidate, Effect, LedgerStep, Note, Stage, Told
 
 Array = NDArray[np.float64]
 Say = Callable[[Told], None]
@@ -66,7 +66,7 @@ class Story:
     journal: Journal
     ledger: list[LedgerStep] = field(default_factory=list)
     seconds: dict[str, float] = field(default_factory=dict)
-    notes: list[str] = field(default_factory=list)
+    notes: list[Note | str] = field(default_factory=list)
     ranking: list[Candidate] = field(default_factory=list)
     ties: list[tuple[str, ...]] = field(default_factory=list)
     stages: list[Stage] = field(default_factory=list)
@@ -93,7 +93,7 @@ class Story:
         """Something was learned."""
         self.tell(Told(self.doing, text, step))
 
-    def note(self, text: str) -> None:
+    def note(self, text: Note | str) -> None:
         """What a reader must know, once."""
         if text not in self.notes:
             self.notes.append(text)

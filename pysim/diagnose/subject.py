@@ -14,7 +14,7 @@ from pysim.identify import THESIS_REFERENCE_HZ
 from pysim.identify.greybox import Measurements, Parameter, Rest, Treatment, problem
 from pysim.identify.greybox.parameters import ParameterSpace, parameter_space
 from pysim.identify.greybox.residuals import Channel
-from pysim.types import BadInput, Dataset, Effect, Model
+from pysim.types import BadInput, Dataset, Effect, Model, Note
 from pysim.types._frozen import FrozenMapping
 from pysim.types.answer import NoiseFloor
 
@@ -58,7 +58,7 @@ class Subject:
     free: tuple[str, ...]
     catalogue: tuple[Effect, ...]
     build_variant: BuildVariant | None
-    notes: tuple[str, ...] = ()
+    notes: tuple[Note | str, ...] = ()
     dataset: Dataset | None = field(default=None, repr=False)
     bounds: Mapping[str, tuple[float, float]] = field(default_factory=dict)
     inside: Inside | None = field(default=None, repr=False)
@@ -134,7 +134,7 @@ def subject(
     data = Measurements(dataset, overrides=overrides or {})
     treatment = Treatment(steady="transient", rest=rest or Rest(), reference_hz=reference_hz, initial="rest")
     checked = problem(model, [data], given.parameters, treatment=treatment)
-    told = (*notes, *shortcomings(dataset, names), *_unbounded(checked.space), *checked.notes)
+    told: tuple[Note | str, ...] = (*notes, *shortcomings(dataset, names), *_unbounded(checked.space), *checked.notes)
     return replace(given, targets=checked.observations, floors=checked.floors, specified=checked.specified, notes=told)
 
 

@@ -11,15 +11,29 @@ _WORDS = {
         "{dataset}: no noise is specified for {signal}; a standard deviation of {shown} was estimated from the data."
     ),
     NoteCode.NOISE_ASSUMED: (
-        "{dataset}: a table of responses states no noise; a standard deviation of {shown} was assumed for each point."
+        "{dataset}: tables of responses specify no noise; standard deviations of {magnitude:.2g} dB and {phase:.2g} "
+        "degrees were assumed for each point (thesis Eq. 2.25)."
     ),
     NoteCode.RECORD_LEFT_OUT: "{record} was left out: {reason}.",
-    NoteCode.NOT_SIMULATED: "{record}: the model could not be run through it at step {step}.",
+    NoteCode.NOT_COMPARED: "{record} was left out: none of its columns is compared.",
+    NoteCode.NOT_SETTLED: (
+        "{record}{more}: the first period is unlike those after it. Either the plant had not settled, or the noise has "
+        "a long memory. The log is compared sample by sample from its start."
+    ),
+    NoteCode.NOT_SIMULATED: "{record} could not be simulated: {reason}",
     NoteCode.NOT_TRIED: "{effect} was not tried: {reason}.",
     NoteCode.HELD: "The data do not determine {parameter}; it was held at its value, and the intervals hold for that.",
     NoteCode.AT_BOUND: "{parameter} stopped at its bound {shown}; the true value may lie beyond it.",
     NoteCode.USED_TO_CHOOSE: "{records}: these validation data also chose between models; their error is optimistic.",
     NoteCode.INTERVAL_CONDITIONAL: "Intervals hold for the chosen model; they ignore that another one may be right.",
+    NoteCode.INTERVAL_WIDTHS: (
+        "The residuals are not white: the model, or the noise that was specified, is not right. The intervals allow "
+        "for that. Compared with white residuals, they are this many times as wide: {widths}."
+    ),
+    NoteCode.FEW_BLOCKS: (
+        "The data have fewer than {fewest:.0f} independent stretches. The intervals therefore rely on an estimate of "
+        "how long the residuals' memory is."
+    ),
     NoteCode.TABLES_LEFT_OUT: (
         "left out: tables of frequency responses ({count:.0f}) beside logs over time; they need a data set of their own"
     ),
@@ -35,13 +49,19 @@ _WORDS = {
 }
 
 
-def words(note: Note) -> str:
-    """One note as a sentence.
+def words(note: Note | str) -> str:
+    """One note in sentences; what is a sentence already stays as it is.
 
     Raises:
         KeyError: a value that belongs to the note's code is missing, which is our mistake.
     """
+    if isinstance(note, str):
+        return note
     values = dict(note.values)
+    if note.code is NoteCode.INTERVAL_WIDTHS:
+        values = {"widths": ", ".join(f"{name} {value:.2g}" for name, value in values.items())}
+    others = float(values.get("others", 0.0))
+    values["more"] = f" and {others:.0f} more" if others else ""
     number, unit = values.get("value", values.get("bound")), str(values.get("unit", "1"))
     if not isinstance(number, str) and number is not None:
         values["shown"] = shown_value(float(number), unit, ".3g")

@@ -31,7 +31,9 @@ def to_answer(old: diagnosis.Diagnosis) -> answer.Diagnosis:
         learned=tuple(_law(one) for one in old.missing),
         next_test=old.next_test,
         estimates=old.parameters,
-        notes=tuple(Note(NoteCode.OTHER, {"text": text}) for text in (old.reason, *old.notes)),
+        notes=tuple(
+            Note(NoteCode.OTHER, {"text": one}) if isinstance(one, str) else one for one in (old.reason, *old.notes)
+        ),
         conditions=old.conditions,
         seconds=old.seconds,
     )
@@ -39,10 +41,11 @@ def to_answer(old: diagnosis.Diagnosis) -> answer.Diagnosis:
 
 def from_answer(new: answer.Diagnosis) -> diagnosis.Diagnosis:
     """The same as today's commands, pages and reports read it."""
-    texts = [str(note.values["text"]) for note in new.notes if note.code is NoteCode.OTHER]
+    notes = [str(one.values["text"]) if one.code is NoteCode.OTHER else one for one in new.notes]
+    reason = notes.pop(0) if notes and isinstance(notes[0], str) else ""
     return diagnosis.Diagnosis(
         verdict=new.verdict if new.complete else diagnosis.UNKNOWN,
-        reason=texts[0] if texts else "",
+        reason=str(reason),
         added=tuple(diagnosis.AddedEffect(one.effect, one.place, one.estimates) for one in new.effects),
         ranking=tuple(
             diagnosis.Candidate(
@@ -58,7 +61,7 @@ def from_answer(new: answer.Diagnosis) -> diagnosis.Diagnosis:
         parameters=new.estimates,
         where=new.failures,
         seconds=new.seconds,
-        notes=tuple(texts[1:]),
+        notes=tuple(notes),
         missing=tuple(_missing(law) for law in new.learned),
         next_test=new.next_test,
         stages=tuple(

@@ -13,6 +13,7 @@ from pysim.types._frozen import FrozenMapping
 from pysim.types.effect import Effect
 from pysim.types.errors import BadInput
 from pysim.types.fit import Direction, Estimate, RecordFit, ResponseFit
+from pysim.types.note import Note
 
 Array = NDArray[np.float64]
 
@@ -268,7 +269,7 @@ class Diagnosis:
     parameters: tuple[Estimate, ...]
     where: tuple[Failure, ...]
     seconds: Mapping[str, float]
-    notes: tuple[str, ...] = ()
+    notes: tuple[Note | str, ...] = ()
     missing: tuple[Missing, ...] = ()
     next_test: NextTest | None = None
     stages: tuple[Stage, ...] = field(default=(), repr=False)

@@ -15,6 +15,7 @@ from pysim.types.comparison import ResponseComparison
 from pysim.types.criterion import Deviation
 from pysim.types.errors import BadInput
 from pysim.types.experiment import Experiment
+from pysim.types.note import Note
 from pysim.types.record import Record
 
 Array = NDArray[np.float64]
@@ -222,7 +223,7 @@ class Fit:
     message: str
     iterations: int
     starts: tuple[Start, ...] = ()
-    notes: tuple[str, ...] = ()
+    notes: tuple[Note, ...] = ()
     experiments: tuple[Experiment, ...] = ()
 
     def __post_init__(self) -> None:

@@ -13,9 +13,11 @@ class NoteCode(Enum):
     """What is said. The keys of `Note.values` that belong to it stand behind it."""
 
     NOISE_ESTIMATED = "noise_estimated"  # dataset, signal, value, unit: not specified, estimated from the data
-    NOISE_ASSUMED = "noise_assumed"  # dataset, value, unit: of a table that states none
+    NOISE_ASSUMED = "noise_assumed"  # dataset, magnitude (dB), phase (deg): of tables that state none
     RECORD_LEFT_OUT = "record_left_out"  # record, reason (a code of the failure)
-    NOT_SIMULATED = "not_simulated"  # record, step: the model could not be run through it
+    NOT_COMPARED = "not_compared"  # record: no column of it is
+    NOT_SETTLED = "not_settled"  # record, others (how many more): its first period is unlike those after it
+    NOT_SIMULATED = "not_simulated"  # record, reason (what the run said): the model could not be run through it
     NOT_TRIED = "not_tried"  # effect, reason (a code): it has no slot, does not compile, disturbs the others
     HELD = "held"  # parameter: the data do not determine it, intervals hold it where it stands
     AT_BOUND = "at_bound"  # parameter, bound, value, unit
@@ -27,6 +29,8 @@ class NoteCode(Enum):
     NO_EFFECT_FITS = "no_effect_fits"  # model: no slot of it takes an effect of the libraries
     CLASS_UNKNOWN = "class_unknown"  # model: its class is in none of the libraries
     SEEN_FROM_OUTSIDE = "seen_from_outside"  # model, inputs, outputs, states: all that can be seen of a closed FMU
+    INTERVAL_WIDTHS = "interval_widths"  # parameter: how many times as wide as for white residuals, each
+    FEW_BLOCKS = "few_blocks"  # fewest: the data have fewer independent stretches than intervals need
     OTHER = "other"  # text: of a program part that has no codes yet
 
 
@@ -44,3 +48,6 @@ class Note:
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "values", FrozenMapping(self.values))
+
+    def __hash__(self) -> int:
+        return hash((self.code, frozenset(self.values.items())))

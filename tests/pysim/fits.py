@@ -16,6 +16,8 @@ from pysim.types import (
     FitOutcome,
     FrequencyResponse,
     Harmonics,
+    Note,
+    NoteCode,
     Record,
     RecordFit,
     ResponseComparison,
@@ -79,5 +81,5 @@ def small_fit() -> Fit:
         message="a full step would gain nothing",
         iterations=7,
         starts=(Start("given", {"K": 1.5}, 9000.0, 120.0, FitOutcome.CONVERGED),),
-        notes=("noise of u not told by the data set",),
+        notes=(Note(NoteCode.NOISE_ESTIMATED, {"dataset": "set", "signal": "u", "value": 0.1, "unit": "1"}),),
     )

@@ -14,7 +14,7 @@ from pysim.identify.greybox.parameters import ParameterSpace
 from pysim.identify.greybox.problem import Problem
 from pysim.identify.greybox.residuals import Point, WeightedResiduals
 from pysim.identify.greybox.runs import Failure, Simulation, simulate_runs
-from pysim.types import Experiment, Model, RecordFit, ResponseFit
+from pysim.types import Experiment, Model, Note, NoteCode, RecordFit, ResponseFit
 
 Array = NDArray[np.float64]
 
@@ -28,7 +28,7 @@ class Compared:
     records: tuple[RecordFit, ...]
     responses: tuple[ResponseFit, ...]
     experiments: tuple[Experiment, ...]
-    notes: tuple[str, ...]
+    notes: tuple[Note, ...]
     lost: int = 0
 
 
@@ -51,13 +51,14 @@ def compared(
         known |= dict(zip(map(id, one.runs), point.carried.states, strict=False))
     records: list[RecordFit] = []
     responses: list[ResponseFit] = []
-    experiments, notes, lost = [], [], 0
+    experiments, notes, lost = [], list[Note](), 0
     for one, simulated, failure in _simulated(problem, x, simulation, known):
         if one.domain == "time":
             overrides = [problem.space.overrides(x, run.record) for run in one.runs]
             experiments += [r.over_time(o, known.get(id(r))) for r, o in zip(one.runs, overrides, strict=True)]
         if failure is not None:
-            notes.append(f"not simulated: {failure}")
+            why = f"{failure.outcome.value}. {failure.message}".strip()
+            notes.append(Note(NoteCode.NOT_SIMULATED, {"record": failure.record, "reason": why}))
             lost += len(one.sources)
             continue
         own = one.beside(simulated)

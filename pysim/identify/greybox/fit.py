@@ -25,7 +25,7 @@ from pysim.identify.greybox.search import Progress, search
 from pysim.identify.greybox.settings import FitSettings
 from pysim.identify.greybox.starts import starts
 from pysim.identify.greybox.uncertainty import Uncertainty, uncertainty
-from pysim.types import BadInput, Fit, FitOutcome, RecordFit, Start
+from pysim.types import BadInput, Fit, FitOutcome, Note, NoteCode, RecordFit, Start
 from pysim.types.answer import FloorSource
 
 Array = NDArray[np.float64]
@@ -285,20 +285,15 @@ def _of_sizes(doubt: Uncertainty) -> Uncertainty:
     return replace(doubt, estimates=tuple(estimates), covariance=_SIZES**2 * doubt.covariance)
 
 
-def _interval_notes(doubt: Uncertainty) -> list[str]:
+def _interval_notes(doubt: Uncertainty) -> list[Note]:
     """What a reader must know of the intervals."""
-    apart, settings = [], FitSettings()
-    for one, ratio in zip(doubt.estimates, doubt.ratio.tolist(), strict=True):
-        if math.isfinite(ratio) and not 1 / settings.apart <= ratio <= settings.apart:
-            apart.append(f"{one.name} ({ratio:.2g})")
-    notes = []
+    settings, notes = FitSettings(), []
+    widths = {one.name: ratio for one, ratio in zip(doubt.estimates, doubt.ratio.tolist(), strict=True)}
+    apart = {n: r for n, r in widths.items() if math.isfinite(r) and not 1 / settings.apart <= r <= settings.apart}
     if apart:
-        notes.append(
-            "intervals are not those of white residuals, so the model or the noise is not what it seems; "
-            f"they are so many times as wide: {', '.join(apart)}"
-        )
+        notes.append(Note(NoteCode.INTERVAL_WIDTHS, apart))
     if not doubt.blocks:
-        notes.append(f"fewer than {settings.fewest_blocks} independent stretches of data: intervals assume their noise")
+        notes.append(Note(NoteCode.FEW_BLOCKS, {"fewest": settings.fewest_blocks}))
     return notes
 
 

@@ -1,4 +1,4 @@
-"""How small a residual can be: specified by the data set, or seen in the logs."""
+"""How small a residual can be: specified by the data set, or estimated from the logs."""
 
 from __future__ import annotations
 
@@ -45,22 +45,21 @@ def seen_noise(values: Array) -> float:
     return (middle or float(np.sqrt(np.mean(differences**2)))) / math.sqrt(_GAIN)
 
 
-def signal_noise(signal: MeasuredSignal, logs: list[Array], given: Mapping[str, float]) -> tuple[float, str]:
-    """The noise of one signal before any model is known, and a note where it had to be estimated.
+def signal_noise(signal: MeasuredSignal, logs: list[Array], given: Mapping[str, float]) -> tuple[float, bool]:
+    """The noise of one signal before any model is known, and whether it had to be estimated.
 
     Args:
         given: the caller's own numbers, which go first.
     Raises:
-        BadInput: neither specified nor to be seen.
+        BadInput: neither specified nor to be estimated.
     """
     size = given.get(signal.name) or specified_noise(signal)
     if size is not None:
-        return size, ""
+        return size, False
     seen = [value for log in logs if math.isfinite(value := seen_noise(log)) and value > 0]
     if not seen:
-        raise BadInput(f"signal {signal.name!r}: its noise is neither told nor seen in the logs; give noise = a number")
-    size = float(np.median(seen))
-    return size, f"noise of {signal.name} not told by the data set; {size:.3g} {signal.unit} seen in the logs"
+        raise BadInput(f"signal {signal.name!r}: the logs show no noise, and none is specified; give noise = a number")
+    return float(np.median(seen)), True
 
 
 def noise_floor(

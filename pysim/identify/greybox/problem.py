@@ -15,14 +15,14 @@ from pysim.identify.greybox.objective import NOISE, Objective
 from pysim.identify.greybox.observation import Observation
 from pysim.identify.greybox.parameters import Parameter, ParameterSpace, Tie, parameter_space
 from pysim.identify.greybox.residuals import Channel, WeightedResiduals
-from pysim.identify.greybox.response_table import ResponseTable, response_table
+from pysim.identify.greybox.response_table import UNSPECIFIED_DB, UNSPECIFIED_DEG, ResponseTable, response_table
 from pysim.identify.greybox.runs import Simulation
 from pysim.identify.greybox.settings import NoiseSettings
 from pysim.identify.greybox.stepped_sines import stepped_sines, swing
 from pysim.identify.greybox.time_log import time_logs
 from pysim.identify.greybox.treatment import Measurements, Treatment
-from pysim.identify.greybox.unsettled import unsettled, unsettled_note
-from pysim.types import BadInput, Dataset, FrequencyResponse, MeasuredRecord, Model, Record
+from pysim.identify.greybox.unsettled import unsettled
+from pysim.types import BadInput, Dataset, FrequencyResponse, MeasuredRecord, Model, Note, NoteCode, Record
 from pysim.types.answer import FloorSource, NoiseFloor
 from pysim.types.record_kind import STEPPED_SINE
 
@@ -47,7 +47,7 @@ class Problem:
     space: ParameterSpace
     observations: tuple[Observation, ...]
     floors: Mapping[Channel, NoiseFloor] = field(default_factory=dict)
-    notes: tuple[str, ...] = ()
+    notes: tuple[Note, ...] = ()
     settings: NoiseSettings = field(default_factory=NoiseSettings)
     specified: bool = True
 
@@ -102,7 +102,7 @@ def problem(
         raise BadInput("fit: give at least one data set")
     observations: list[Observation] = []
     floors: dict[Channel, NoiseFloor] = {}
-    notes: list[str] = []
+    notes: list[Note] = []
     specified = True
     for one in (d if isinstance(d, Measurements) else Measurements(d) for d in data):
         for name in one.overrides:
@@ -122,7 +122,7 @@ def problem(
 
 def _context(
     model: Model, data: Measurements, treatment: Treatment, started: Collection[str | None]
-) -> tuple[Context, list[str]]:
+) -> tuple[Context, list[Note]]:
     """A data set beside the model, and notes on the noise that was estimated."""
     dataset = data.dataset
     measured = tuple(signal.name for signal in dataset.signals if signal.role == "output")
@@ -132,11 +132,14 @@ def _context(
     for name in data.noise:
         dataset.signal(name)
     outputs = measured if data.outputs is None else tuple(data.outputs)
-    sizes, notes = {}, []
+    sizes: dict[str, float] = {}
+    notes: list[Note] = []
     for name in outputs:
         if logs := _columns(dataset, name):
-            sizes[name], note = signal_noise(dataset.signal(name), logs, data.noise)
-            notes += [note] if note else []
+            sizes[name], is_estimated = signal_noise(dataset.signal(name), logs, data.noise)
+            if is_estimated:
+                names = {"dataset": dataset.name, "signal": name, "unit": dataset.signal(name).unit}
+                notes.append(Note(NoteCode.NOISE_ESTIMATED, {"value": sizes[name], **names}))
     return Context(model, dataset, data.overrides, outputs, sizes, treatment, started), notes
 
 
@@ -152,7 +155,7 @@ def _floors(context: Context, given: Mapping[str, float]) -> dict[Channel, Noise
     }
 
 
-def _observations(context: Context) -> tuple[list[Observation], list[str], bool]:
+def _observations(context: Context) -> tuple[list[Observation], list[Note], bool]:
     """Of a data set, the stepped sines of a test together, notes on what was assumed, and whether tables state errors.
 
     Raises:
@@ -160,14 +163,15 @@ def _observations(context: Context) -> tuple[list[Observation], list[str], bool]
     """
     tables: list[ResponseTable] = []
     logs: list[tuple[int, MeasuredRecord]] = []
-    swings, notes, index = [], [], -1
+    swings, index = [], -1
+    notes: list[Note] = []
     for record in context.dataset.records:
         index += isinstance(record.data, Record)
         if isinstance(record.data, FrequencyResponse):
             if record.data.test.output in context.outputs:
                 tables.append(response_table(context, record, record.data))
         elif not context.columns(record)[1]:
-            notes.append(f"{record.source}: no column of it is compared")
+            notes.append(Note(NoteCode.NOT_COMPARED, {"record": record.source}))
         elif record.kind == STEPPED_SINE.name:
             swings.append(swing(context, record, index))
         else:
@@ -178,10 +182,12 @@ def _observations(context: Context) -> tuple[list[Observation], list[str], bool]
         early = [one for one, is_late in zip(swings, late, strict=True) if is_late]
         swings = [one for one, is_late in zip(swings, late, strict=True) if not is_late]
     logs += [(one.log.index, one.record) for one in early]
-    notes += unsettled_note([one.record.source for one in early])
+    if early:
+        notes.append(Note(NoteCode.NOT_SETTLED, {"record": early[0].record.source, "others": len(early) - 1}))
     stated = all(table.specified for table in tables)
     if not stated:
-        notes.append("tables without covariance: 20/90 dB and 1 degree are taken as standard deviations (Eq. 2.25)")
+        sizes = {"magnitude": UNSPECIFIED_DB, "phase": UNSPECIFIED_DEG}
+        notes.append(Note(NoteCode.NOISE_ASSUMED, {"dataset": context.dataset.name, **sizes}))
     return [*tables, *time_logs(context, logs), *stepped_sines(context, swings)], notes, stated
 
 

@@ -30,8 +30,8 @@ from pysim.types.record_kind import RESPONSE_TABLE
 Array = NDArray[np.float64]
 
 # Where a table has no covariance a degree counts as much as in Eq. 2.25, and a dB too.
-_UNSPECIFIED_DEG = 1.0
-_UNSPECIFIED_DB = _UNSPECIFIED_DEG / MAGNITUDE_WEIGHT
+UNSPECIFIED_DEG = 1.0
+UNSPECIFIED_DB = UNSPECIFIED_DEG / MAGNITUDE_WEIGHT
 
 
 @dataclass(frozen=True)
@@ -128,7 +128,7 @@ class ResponseTable:
         """Standard deviations in dB and degrees, (n_f,) each."""
         covariance, ones = self.measured.covariance, np.ones(self.measured.frequency.size)
         if covariance is None:
-            return _UNSPECIFIED_DB * ones, _UNSPECIFIED_DEG * ones
+            return UNSPECIFIED_DB * ones, UNSPECIFIED_DEG * ones
         amplitude = self.measured.gain * self._amplitude
         return DB * np.sqrt(covariance[:, 0, 0]) / amplitude, np.degrees(np.sqrt(covariance[:, 1, 1]))
 

@@ -17,14 +17,3 @@ def unsettled(logs: Sequence[SineLog]) -> list[bool]:
     away = [log.unlike for log in logs]
     limit = _ALSO if max(away, default=0.0) > UNLIKE else UNLIKE
     return [z > limit for z in away]
-
-
-def unsettled_note(sources: Sequence[str]) -> list[str]:
-    """What a reader must know of such logs; nothing where there are none."""
-    if not sources:
-        return []
-    others = f" and {len(sources) - 1} more" if len(sources) > 1 else ""
-    return [
-        f"{sources[0]}{others}: the first compared period is unlike those after it, as before a plant has "
-        "settled or where noise has a long memory; compared sample by sample from its start"
-    ]

@@ -8,6 +8,7 @@ from collections.abc import Mapping, Sequence
 
 from pysim.io import json_number
 from pysim.present.diagnosis.words import limits_words, next_test_sentence, verdict_sentence
+from pysim.present.notes import words
 from pysim.types import Estimate
 from pysim.types.diagnosis import AddedEffect, Candidate, Diagnosis, LedgerStep, Missing, NextTest
 
@@ -36,7 +37,7 @@ def diagnosis_data(diagnosis: Diagnosis, files: Mapping[str, str] | None = None)
         "next_test": _next_test(diagnosis.next_test),
         "seconds": {name: json_number(value) for name, value in diagnosis.seconds.items()},
         "files": dict(files or {}),
-        "notes": list(diagnosis.notes),
+        "notes": [words(note) for note in diagnosis.notes],
         "conditions": dict(diagnosis.conditions),
     }
 
@@ -148,7 +149,7 @@ def evidence_text(diagnosis: Diagnosis) -> str:
     if diagnosis.next_test is not None:
         lines += textwrap.wrap(f"Next test: {next_test_sentence(diagnosis.next_test)}", _WIDTH, subsequent_indent="  ")
     for note in diagnosis.notes:
-        lines += textwrap.wrap(f"Note: {note}", _WIDTH, subsequent_indent="  ")
+        lines += textwrap.wrap(f"Note: {words(note)}", _WIDTH, subsequent_indent="  ")
     return "\n".join(lines)
 
 

@@ -14,6 +14,7 @@ from pysim.present.diagnosis.words import (
     sizes,
     verdict_sentence,
 )
+from pysim.present.notes import words
 from pysim.present.page import cell, commands, heading, items, page, paragraph, picture, statement, table
 from pysim.types import AddedEffect, Candidate, Diagnosis, Estimate, LedgerStep, Missing, Stage
 
@@ -58,7 +59,7 @@ def diagnosis_page(
         parts += _section("The next test", [told, *([commands(test.plan)] if test.plan else [])])
     parts += _section("The error, step by step", [_ledger(diagnosis.error)])
     if diagnosis.notes:
-        parts += _section("What to bear in mind", [items(diagnosis.notes)])
+        parts += _section("What to bear in mind", [items(map(words, diagnosis.notes))])
     conditions = {**diagnosis.conditions, **{f"time for {k}": f"{v:.1f} s" for k, v in diagnosis.seconds.items()}}
     listed = [f"{name}: {text}" for name, text in conditions.items()]
     if files:

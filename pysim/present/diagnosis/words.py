@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 from pysim.identify.accuracy import FREQUENCY_CRITERIA, TIME_CRITERIA
 from pysim.io import counted
-from pysim.present.notes import SHUT
+from pysim.present.notes import SHUT, words
 from pysim.types import AddedEffect, Criterion, Diagnosis, Estimate, LedgerStep, NextTest
 from pysim.types.diagnosis import NONE, UNKNOWN
 
@@ -135,7 +135,7 @@ def missing_sentence(diagnosis: Diagnosis) -> str:
 
 def _nowhere(diagnosis: Diagnosis) -> str:
     """What is known where no place gave a term; of causes only the one that a note tells."""
-    shut = any(SHUT in note for note in diagnosis.notes)
+    shut = any(SHUT in words(note) for note in diagnosis.notes)
     of_model = "the model's inputs and outputs, and without its Modelica class nothing else can be looked at"
     text = f"No term could be estimated at {of_model if shut else 'any place of the model'}."
     explained = " The model explains the measurements down to their noise without one."

@@ -9,6 +9,7 @@ from typing import Any
 
 from pysim.identify.greybox import Profile
 from pysim.io import json_number
+from pysim.present.notes import words
 from pysim.types import Dataset, Estimate, Fit, FitOutcome, RecordFit, ResponseFit
 
 _WIDTH = 100
@@ -31,7 +32,7 @@ def text(result: Fitted) -> str:
     """Estimates, what is not determined, what every record leaves over, and profiles."""
     fit = result.fit
     lines = [f"{fit.model}: {fit.objective}; {fit.optimiser}, {fit.iterations} points tried, {outcome_text(fit)}"]
-    lines.append(f"cost {fit.cost:.6g}, from {fit.start_cost:.6g}; residual over noise {fit.misfit:.4g}")
+    lines.append(f"residual over noise {fit.misfit:.4g} (1 is perfect); {gain_text(fit)}")
     lines.append(f"  {'parameter':<14}{'estimate':>12}  {'95 % from':>11} {'to':>11}  unit")
     lines += [_row(estimate) for estimate in fit.estimates]
     for direction in fit.undetermined:
@@ -39,7 +40,7 @@ def text(result: Fitted) -> str:
     lines += [f"  {c.name} = {c.value:.5g}, 95 % {c.interval[0]:.5g} to {c.interval[1]:.5g}" for c in fit.combinations]
     lines += [f"  {text}" for text in _left_over(fit)]
     for note in fit.notes:
-        lines += textwrap.wrap(f"Note: {note}", _WIDTH)
+        lines += textwrap.wrap(f"Note: {words(note)}", _WIDTH)
     lines += [f"Profile of {p.name}: 95 % from {p.interval[0]:.5g} to {p.interval[1]:.5g}" for p in result.profiles]
     return "\n".join(lines)
 
@@ -47,6 +48,11 @@ def text(result: Fitted) -> str:
 def outcome_text(fit: Fit) -> str:
     """How the search ended, and why."""
     return f"{fit.outcome.value} ({fit.message})" if fit.message else fit.outcome.value
+
+
+def gain_text(fit: Fit) -> str:
+    """What the search gained on the start; half a sum of squares, where the objective is one."""
+    return f"the search lowered the cost by {fit.start_cost - fit.cost:.4g}"
 
 
 def _row(estimate: Estimate) -> str:
@@ -126,7 +132,8 @@ def _data(fit: Fit) -> dict[str, Any]:
             }
             for s in fit.starts
         ],
-        "notes": list(fit.notes),
+        "notes": [words(note) for note in fit.notes],
+        "note_codes": [note.code.value for note in fit.notes],
     }
 
 

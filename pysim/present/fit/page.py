@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from pysim.io import shown_value
-from pysim.present.fit.answer import Fitted, outcome_text
+from pysim.present.fit.answer import Fitted, gain_text, outcome_text
+from pysim.present.notes import words
 from pysim.present.page import cell, commands, heading, items, paragraph, picture, table
 from pysim.present.page import page as whole_page
 from pysim.present.render import Drawing
@@ -18,10 +19,10 @@ def page(result: Fitted, drawings: Sequence[Drawing], redo: str) -> str:
     units = {signal.name: signal.unit for one in result.datasets for signal in one.signals if signal.role == "input"}
     verdict = [
         f"The search {outcome_text(fit)} after {fit.iterations} points.",
-        f"Cost {fit.cost:.6g}, from {fit.start_cost:.6g} at the start.",
-        f"Root-mean-square weighted residual: {fit.misfit:.3f} (1: nothing but noise is left).",
+        f"Root-mean-square residual over the noise: {fit.misfit:.3f} (1: nothing but noise is left).",
+        f"{gain_text(fit).capitalize()}.",
     ]
-    parts = [heading("Outcome"), items([*verdict, *fit.notes]), heading("Parameters"), _estimates(fit)]
+    parts = [heading("Outcome"), items([*verdict, *map(words, fit.notes)]), heading("Parameters"), _estimates(fit)]
     if fit.undetermined:
         parts += [heading("What the data do not determine"), items(d.words for d in fit.undetermined)]
         parts += [_combinations(fit)] if fit.combinations else []

@@ -7,9 +7,11 @@ from pysim.types.note import Note, NoteCode
 
 VALUES = {
     NoteCode.NOISE_ESTIMATED: {"dataset": "bench", "signal": "p", "value": 1e5, "unit": "Pa"},
-    NoteCode.NOISE_ASSUMED: {"dataset": "bench", "value": 0.22, "unit": "1"},
+    NoteCode.NOISE_ASSUMED: {"dataset": "bench", "magnitude": 0.22, "phase": 1.0},
     NoteCode.RECORD_LEFT_OUT: {"record": "a.csv", "reason": "too short"},
-    NoteCode.NOT_SIMULATED: {"record": "a.csv", "step": "axis.friction"},
+    NoteCode.NOT_COMPARED: {"record": "a.csv"},
+    NoteCode.NOT_SETTLED: {"record": "a.csv", "others": 2.0},
+    NoteCode.NOT_SIMULATED: {"record": "a.csv", "reason": "stiff. No step is short enough."},
     NoteCode.NOT_TRIED: {"effect": "axis.friction", "reason": "no slot takes it"},
     NoteCode.HELD: {"parameter": "m"},
     NoteCode.AT_BOUND: {"parameter": "p_0", "bound": 2e5, "value": 2e5, "unit": "Pa"},
@@ -21,6 +23,8 @@ VALUES = {
     NoteCode.NO_EFFECT_FITS: {"model": "Lib.Axis"},
     NoteCode.CLASS_UNKNOWN: {"model": "Lib.Axis"},
     NoteCode.SEEN_FROM_OUTSIDE: {"model": "Axis.fmu", "inputs": "u", "outputs": "x, v", "states": 3.0},
+    NoteCode.INTERVAL_WIDTHS: {"m": 2.3, "d": 0.4},
+    NoteCode.FEW_BLOCKS: {"fewest": 8.0},
     NoteCode.OTHER: {"text": "as it stands"},
 }
 
@@ -37,3 +41,9 @@ def test_each_code_has_words_with_its_names(code: NoteCode) -> None:
 def test_numbers_are_shown_in_the_units_of_people() -> None:
     assert "1 bar" in words(Note(NoteCode.NOISE_ESTIMATED, VALUES[NoteCode.NOISE_ESTIMATED]))  # type: ignore[arg-type]
     assert "2 bar" in words(Note(NoteCode.AT_BOUND, VALUES[NoteCode.AT_BOUND]))  # type: ignore[arg-type]
+
+
+def test_each_parameter_stands_with_its_number() -> None:
+    assert "m 2.3, d 0.4" in words(Note(NoteCode.INTERVAL_WIDTHS, {"m": 2.3, "d": 0.4}))
+    assert "a.csv and 2 more:" in words(Note(NoteCode.NOT_SETTLED, {"record": "a.csv", "others": 2.0}))
+    assert words(Note(NoteCode.NOT_SETTLED, {"record": "a.csv", "others": 0.0})).startswith("a.csv: ")

@@ -25,7 +25,7 @@ from pysim.identify.greybox import (
     problem,
 )
 from pysim.simulate import Esdirk
-from pysim.types import BadInput, FitOutcome, FrequencyResponse, MeasuredRecord, Model, Record
+from pysim.types import BadInput, FitOutcome, FrequencyResponse, MeasuredRecord, Model, NoteCode, Record
 from tests.pysim.identify.greybox import measurements as m
 
 TIGHT = Simulation(solver=Esdirk(rtol=1e-8, atol=1e-8))
@@ -187,9 +187,11 @@ def test_a_record_that_starts_away_from_rest_has_its_own_initial_state(lag: Mode
     assert found.misfit == pytest.approx(1, abs=0.2)
 
 
-def test_noise_that_nobody_told_is_estimated_and_said(lag: Model) -> None:
+def test_noise_that_is_not_specified_is_estimated_and_said(lag: Model) -> None:
     found = fit(problem(lag, [m.dataset([m.ramp_log(2.0, 0.7, seed=2)], noise=None)], ["K", "T"]), simulation=TIGHT)
-    assert any("not told" in note for note in found.notes)
+    note = next(note for note in found.notes if note.code is NoteCode.NOISE_ESTIMATED)
+    assert (note.values["signal"], note.values["unit"]) == ("y", "1")
+    assert note.values["value"] == pytest.approx(m.NOISE, rel=0.25)
     assert found.records[0].noise[0] == pytest.approx(m.NOISE, rel=0.25)
 
 

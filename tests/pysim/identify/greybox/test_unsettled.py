@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 from pysim.identify.greybox import Parameter, Simulation, SinePlan, Treatment, fit, problem
 from pysim.identify.greybox.sine_log import Sine, SineLog, sine_log
 from pysim.simulate import Esdirk
-from pysim.types import MeasuredRecord, Model, Record
+from pysim.types import MeasuredRecord, Model, NoteCode, Record
 from tests.pysim.identify.greybox import measurements as m
 from tests.pysim.identify.seeds import seeds
 
@@ -55,7 +55,7 @@ def found(lag: Model, steady: str, *domains: str) -> list[float]:
     given = problem(lag, [m.dataset(records)], parameters, treatment=treatment)
     assert [one.kind for one in given.observations] == ["frequency-response"] * len(given.observations)
     assert [one.domain for one in given.observations] == list(domains)
-    assert any("unlike those after it" in note for note in given.notes) == ("time" in domains)
+    assert (NoteCode.NOT_SETTLED in [note.code for note in given.notes]) == ("time" in domains)
     answer = fit(given, simulation=Simulation(solver=Esdirk(rtol=1e-8, atol=1e-8)))
     return [estimate.value for estimate in answer.estimates]
 
