@@ -9,13 +9,12 @@ A command stands in `pysim/cli/commands/<name>.py`, which is all it takes to be 
     COMMAND = Command(
         "frf", "Frequency responses from the stepped-sine logs of a data set", run,
         options=(DATASET, SIGNAL, number("--settle", "SECONDS", 0.5, "left out after the sine starts"), JSON, OUTPUT),
-        view="pysim.present.frf",                               # text, data, figures, page of the result
     )
 
 `given.NAME` is the value of an option. Where the option says how to read it, as DATASET and MODEL do, it is what was
 read; `given.typed["dataset"]` stays the path. All that writes is looked at before `run` starts. What `run` returns is
-printed by the view's `text`, written by its `data` to `--json`, and as pictures and a page to `--output`. `run` raises
-BadInput for what the user can mend.
+printed, written to `--json`, and as pictures and a page to `--output`, by what `pysim.present` has for its type.
+`run` raises BadInput for what the user can mend.
 
 - `passes` says of a result whether the answer is yes (exit code 0) or no (1).
 - `files(given, result, folder)` writes what lies in the folder of `--output` beside the page and needs more than the
@@ -23,10 +22,8 @@ BadInput for what the user can mend.
 - `done(given, result)` is called once all is written: for further files, and to take away what an interrupted run would
   have gone on from.
 - `goes_on` are the names in the folder of `--output` from which a stopped run goes on.
-- `view` may be a function of the result, where a command finds one of several kinds.
-- A view that tells all files in its JSON has `placed(result, written, home)`, see `pysim.present.report`.
-- Without a `view`, `run` prints, writes and returns the exit code by itself; that is for commands without a result,
-  such as `app`. So may a run that has no result to show, such as `cosim --export-ssp`.
+- A command without a result, such as `app`, prints and writes by itself, and returns the exit code. So may a run that
+  has none, such as `cosim --export-ssp`.
 - `parts` are commands of their own behind this one's name, as in `pysim data check`.
 """
 
@@ -37,7 +34,6 @@ import json
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
-from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -59,7 +55,6 @@ class Command:
     about: str
     run: Callable[[Given], Any] | None = None
     options: tuple[Option, ...] = ()
-    view: str | Callable[[Any], str] = ""
     passes: Callable[[Any], bool] | None = None
     files: Callable[[Given, Any, Path], Any] | None = None
     done: Callable[[Given, Any], None] | None = None
@@ -90,11 +85,7 @@ class Command:
         given = Given(self, parsed, (*ahead, self.name))
         _prepare(given)
         result = self.run(given)
-        return int(result) if not self.view or isinstance(result, int) else _shown(given, result)
-
-    def shows(self, result: Any) -> Any:
-        """The module that shows a result."""
-        return import_module(self.view if isinstance(self.view, str) else self.view(result))
+        return result if isinstance(result, int) else _shown(given, result)
 
 
 class Given:
@@ -174,28 +165,30 @@ def _flat(paths: dict[str, list[Path]]) -> list[Path]:
 def _write_numbers(given: Given, result: Any) -> None:
     """To `--json`, where that was asked for."""
     from pysim.io import write_file
+    from pysim.present import data
 
     if "json" in given and given.json:
-        numbers = given.command.shows(result).data(result)
-        write_file(given.json, json.dumps(numbers, indent=1, allow_nan=False))
+        write_file(given.json, json.dumps(data(result), indent=1, allow_nan=False))
 
 
 def _shown(given: Given, result: Any) -> int:
     """Print a result, and write it where that was asked for."""
-    command, view = given.command, given.command.shows(result)
-    print(view.text(result))
+    from pysim.present import text
+
+    command = given.command
+    print(text(result))
     if "output" in given and given.output:
-        result = _reported(given, result, view)
+        result = _reported(given, result)
     _write_numbers(given, result)
     if command.done is not None:
         command.done(given, result)
     return DONE if command.passes is None or command.passes(result) else NO
 
 
-def _reported(given: Given, result: Any, view: Any) -> Any:
-    """Write the folder of a result; the result, with the places of its files where its view tells them."""
+def _reported(given: Given, result: Any) -> Any:
+    """Write the folder of a result; the result, with the places of its files where its JSON tells them."""
     from pysim.cli.progress import Working
-    from pysim.present.report import write_report
+    from pysim.present.report import with_places, write_report
 
     folder = given.output
     beside = [*_flat(given.paths(Role.FILE)), *(folder / name for name in given.command.goes_on if name == LOG)]
@@ -203,10 +196,8 @@ def _reported(given: Given, result: Any, view: Any) -> Any:
         if given.command.files is not None:
             result = given.command.files(given, result, new)
         with Working("Drawing the report"):
-            written = write_report(new, result, view, redo=given.repeated)
+            written = write_report(new, result, redo=given.repeated)
     written = {name: folder / path.name for name, path in written.items()}
     more = ", ".join(path.name for path in written.values() if path.suffix not in (".html", ".png"))
     print(f"Report: {written['report']}{f'; beside it: {more}' if more else ''}")
-    if not hasattr(view, "placed"):
-        return result
-    return view.placed(result, written, given.json.parent if given.json else folder)
+    return with_places(result, written, given.json.parent if given.json else folder)

@@ -10,11 +10,11 @@
 - where a result comes with more files, `files(result)`: name -> content.
 
 `style` and `page` give all of them one look, and cost no Matplotlib until a figure is made: figures are built from
-`style.new_figure`, and types of Matplotlib are imported for the type checker alone. `report.write_report` writes any
-result into a folder. `notes` has the words of every note.
+`style.new_figure`, and types of Matplotlib are imported for the type checker alone. `text`, `data` and `write_report`
+show any result: `report.VIEWS` says which file shows which type. `notes` has the words of every note.
 """
 
 from pysim.present.render import Drawing, Picture, render
-from pysim.present.report import write_report
+from pysim.present.report import data, text, write_report
 
-__all__ = ["Drawing", "Picture", "render", "write_report"]
+__all__ = ["Drawing", "Picture", "data", "render", "text", "write_report"]

@@ -1,18 +1,37 @@
-"""The folder of a result: its pictures, its files and its page."""
+"""A result shown by what it is: its text, its data, and a folder with pictures, files and a page."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from importlib import import_module
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any, Protocol, cast
 
 from pysim.present.render import Drawing, Picture, draw
 
 PAGE = "report.html"
+VIEWS = {  # type of a result -> the module that shows it, and that exports the type
+    "Approximations": "pysim.present.multisine",
+    "Checked": "pysim.present.fmu_check",
+    "Chirps": "pysim.present.chirp",
+    "CoSimulation": "pysim.present.cosim",
+    "Comparisons": "pysim.present.comparison",
+    "DataCheck": "pysim.present.data_check",
+    "Diagnosed": "pysim.present.diagnosis",
+    "Fitted": "pysim.present.fit",
+    "Friction": "pysim.present.friction",
+    "Heave": "pysim.present.rig.heave",
+    "Inside": "pysim.present.model",
+    "Played": "pysim.present.excitation",
+    "Responses": "pysim.present.frf",
+    "Steps": "pysim.present.rig.steps",
+    "TransferFunctions": "pysim.present.blackbox",
+    "Tuning": "pysim.present.tuning",
+}
 
 
 class View(Protocol):
-    """A module of `pysim.present` that shows the results of one method.
+    """A module that shows the results of one method. A result without pictures needs `text` and `data` alone.
 
     It may also have `files(result) -> name -> content`, of what lies beside the page, and where its JSON names all
     files `placed(result, written, home) -> result`: `written` are the paths that `write_report` gives, `home` is the
@@ -36,18 +55,42 @@ class View(Protocol):
         ...
 
 
-def write_report(folder: Path, result: object, view: View, *, redo: str) -> dict[str, Path]:
+def view_of(result: object) -> View:
+    """The module that shows a result.
+
+    Raises:
+        TypeError: none shows results of this type, which is our mistake.
+    """
+    name = type(result).__name__
+    if name in VIEWS:
+        module = import_module(VIEWS[name])
+        if getattr(module, name) is type(result):
+            return cast(View, module)
+    raise TypeError(f"nothing in pysim.present shows a {type(result).__module__}.{name}; add it to VIEWS")
+
+
+def text(result: object) -> str:
+    """For a terminal."""
+    return view_of(result).text(result)
+
+
+def data(result: object) -> Any:
+    """For JSON: plain numbers, texts, lists and dictionaries; what is not finite is None."""
+    return view_of(result).data(result)
+
+
+def write_report(folder: Path, result: object, *, redo: str) -> dict[str, Path]:
     """Write every picture as PNG and SVG, the files of the result and its page.
 
     Args:
         folder: that is there.
-        view: the module that shows this kind of result.
         redo: the command line that makes it again.
     Returns:
         name without suffix -> path: "report", each picture (PNG), each file.
     """
     from pysim.io import write_file
 
+    view = view_of(result)
     drawings = [draw(picture, folder) for picture in view.figures(result)]
     contents: Mapping[str, str | bytes] = view.files(result) if hasattr(view, "files") else {}
     for name, content in contents.items():
@@ -55,3 +98,14 @@ def write_report(folder: Path, result: object, view: View, *, redo: str) -> dict
     write_file(folder / PAGE, view.page(result, drawings, redo))
     written = {one.name: folder / f"{one.name}.png" for one in drawings}
     return {"report": folder / PAGE, **written, **{Path(name).stem: folder / name for name in contents}}
+
+
+def with_places(result: Any, written: Mapping[str, Path], home: Path) -> Any:
+    """The result with the places of its files, where its JSON tells them.
+
+    Args:
+        written: as `write_report` gives them.
+        home: the folder of the JSON file.
+    """
+    view = view_of(result)
+    return view.placed(result, written, home) if hasattr(view, "placed") else result

@@ -39,7 +39,6 @@ COMMAND = Command(
         names("--effects", "to add, by their standard names, in order", required=True),
         *results(", parameters.toml, the extended class and its FMU"),
     ),
-    view="pysim.present.diagnosis",
     files=write_model,
     done=end_step,
     goes_on=(JOURNAL,),

@@ -76,6 +76,5 @@ COMMAND = Command(
         JSON,
         OUTPUT,
     ),
-    view="pysim.present.blackbox",
     passes=lambda result: all(one.fit.converged for one in result.fitted),
 )

@@ -39,6 +39,5 @@ COMMAND = Command(
         JSON,
         OUTPUT,
     ),
-    view="pysim.present.fmu_check",
     passes=lambda checked: bool(checked.passes),
 )

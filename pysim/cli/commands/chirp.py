@@ -88,5 +88,4 @@ COMMAND = Command(
         JSON,
         OUTPUT,
     ),
-    view="pysim.present.chirp",
 )

@@ -110,7 +110,6 @@ COMMAND = Command(
         switch("--refit", "refit within the bounds too, and say where it fails"),
         *results(", with --refit parameters.toml"),
     ),
-    view=lambda result: f"pysim.present.{'comparison' if _of_responses(result) else 'diagnosis'}",
     passes=_passes,
     files=lambda given, result, folder: result if given.opened is None else write_model(given, result, folder),
     goes_on=(JOURNAL,),

@@ -120,6 +120,5 @@ COMMAND = Command(
         JSON,
         OUTPUT,
     ),
-    view="pysim.present.cosim",
     passes=_is_done,
 )

@@ -110,7 +110,6 @@ COMMAND = Command(
                 JSON,
                 OUTPUT,
             ),
-            view="pysim.present.data_check",
         ),
         Command(
             "describe",

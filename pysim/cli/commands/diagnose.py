@@ -49,7 +49,6 @@ COMMAND = Command(
         number("--seed", "S", 0, "seed of the random draws; the same seed gives the same answer", convert=int),
         *results(", parameters.toml, the extended class and its FMU"),
     ),
-    view="pysim.present.diagnosis",
     files=write_model,
     done=end_step,
     goes_on=(JOURNAL,),

@@ -186,7 +186,6 @@ COMMAND = Command(
         JSON,
         replace(OUTPUT, about="write report.html, parameters.toml, plots, log here; a stopped fit goes on from it"),
     ),
-    view="pysim.present.fit",
     passes=lambda result: bool(result.fit.outcome.name == "CONVERGED"),
     done=_forget,
     goes_on=(LOG,),

@@ -37,5 +37,4 @@ COMMAND = Command(
         JSON,
         OUTPUT,
     ),
-    view="pysim.present.frf",
 )

@@ -64,5 +64,4 @@ COMMAND = Command(
         JSON,
         OUTPUT,
     ),
-    view="pysim.present.friction",
 )

@@ -35,7 +35,6 @@ COMMAND = Command(
     "Estimate what is missing at each place of a model, and its shape, without naming an effect.",
     run,
     options=(*SUBJECT, names("--with", "effects that the model is to have already"), *results(", parameters.toml")),
-    view="pysim.present.diagnosis",
     files=write_model,
     done=end_step,
     goes_on=(JOURNAL,),

@@ -25,5 +25,4 @@ COMMAND = Command(
     "Say what a model holds: inputs, outputs, parameters, slots, and the effects that its slots take.",
     run,
     options=(MODEL_FIRST, LIBRARY, JSON),
-    view="pysim.present.model",
 )

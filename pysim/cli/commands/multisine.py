@@ -187,5 +187,4 @@ COMMAND = Command(
         JSON,
         OUTPUT,
     ),
-    view="pysim.present.multisine",
 )

@@ -127,7 +127,6 @@ COMMAND = Command(
                 number("--length", "SECONDS", 30.0, "behind the step"),
                 *_SHARED,
             ),
-            view="pysim.present.rig.steps",
         ),
         Command(
             "heave",
@@ -140,7 +139,6 @@ COMMAND = Command(
                 number("--length", "SECONDS", 60.0, "of the wave"),
                 *_SHARED,
             ),
-            view="pysim.present.rig.heave",
         ),
     ),
 )

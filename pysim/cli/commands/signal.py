@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from pysim.cli.command import DONE, Command, Given
 from pysim.cli.option import Option, Role, choice, file, number, switch, text
@@ -16,26 +16,25 @@ if TYPE_CHECKING:
 
 def run(given: Given) -> int:
     """Write the file and say what is in it; the folder's page comes whole together with the file, or not at all."""
+    from pysim import present
     from pysim.cli.outputs import answer_folder, prepare_answer, prepare_file
-    from pysim.present import excitation
-    from pysim.present.report import write_report
+    from pysim.present.excitation import Played
 
     path, folder = _places(given)
     test = _MAKE[given.command.name](given, _lead(given))
     _refuse_slow_sampling(test, given.sampling)
     prepare_file(path, "-o", (".csv",))
     about = given.command.about.rstrip(".")
-    played = excitation.Played(path, given.command.name, about, test, given.unit, given.sampling, _settings(given))
+    played = Played(path, given.command.name, about, test, given.unit, given.sampling, _settings(given))
     if folder is None:
         _write(played)
-        print(excitation.text(played))
+        print(present.text(played))
         return DONE
     prepare_answer(folder, data=[], read=[], beside=[path])
-    view: Any = excitation
     with answer_folder(folder, beside=[path]) as new:
-        written = write_report(new, played, view, redo=given.repeated)
+        written = present.write_report(new, played, redo=given.repeated)
         _write(played)
-    print(excitation.text(played))
+    print(present.text(played))
     print(f"Report: {folder / written['report'].name}")
     return DONE
 

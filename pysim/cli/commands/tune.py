@@ -90,6 +90,5 @@ COMMAND = Command(
         JSON,
         OUTPUT,
     ),
-    view="pysim.present.tuning",
     passes=_is_stable,
 )

@@ -1,7 +1,8 @@
 """What a data set holds, shown."""
 
+from pysim.identify.data_check import DataCheck
 from pysim.present.data_check.answer import data, text
 from pysim.present.data_check.figures import coverage_figure, figures, sine_logs_figure, time_logs_figure
 from pysim.present.data_check.page import page
 
-__all__ = ["coverage_figure", "data", "figures", "page", "sine_logs_figure", "text", "time_logs_figure"]
+__all__ = ["DataCheck", "coverage_figure", "data", "figures", "page", "sine_logs_figure", "text", "time_logs_figure"]

@@ -3,6 +3,7 @@
 import json
 import shlex
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -13,14 +14,23 @@ from pysim.cli.command import Command, Given
 from pysim.cli.option import Role, argument, choice, file, number, switch, text
 from pysim.cli.options import JSON, OUTPUT
 from pysim.present import Drawing, Picture
+from pysim.present.report import VIEWS
 from pysim.present.style import new_figure
 
 SEEN: list[Given] = []
 
 
-def run(given: Given) -> dict[str, Any]:
+@dataclass(frozen=True)
+class Level:
+    """What is found."""
+
+    level: float
+    fast: bool
+
+
+def run(given: Given) -> Level:
     SEEN.append(given)
-    return dict(given.typed)
+    return Level(given.level, given.fast)
 
 
 COMMAND = Command(
@@ -38,27 +48,26 @@ COMMAND = Command(
         JSON,
         OUTPUT,
     ),
-    view="tests.pysim.cli.test_command",
-    passes=lambda result: not result["fast"],
+    passes=lambda result: not result.fast,
 )
 
 
-def figures(result: dict[str, Any]) -> Iterator[Picture]:
+def figures(result: Level) -> Iterator[Picture]:
     figure = new_figure(1.0, 1.0)
     figure.subplots()
     yield Picture("square", "A square.", figure)
 
 
-def data(result: dict[str, Any]) -> dict[str, Any]:
-    return {"level": result["level"]}
+def data(result: Level) -> dict[str, Any]:
+    return {"level": result.level}
 
 
-def page(result: dict[str, Any], drawings: Sequence[Drawing], redo: str) -> str:
+def page(result: Level, drawings: Sequence[Drawing], redo: str) -> str:
     return f"{len(drawings)} {redo}"
 
 
-def files(result: dict[str, Any]) -> dict[str, str]:
-    return {"level.txt": str(result["level"])}
+def files(result: Level) -> dict[str, str]:
+    return {"level.txt": str(result.level)}
 
 
 @pytest.fixture(autouse=True)
@@ -66,8 +75,9 @@ def known(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     import sys
 
     here = sys.modules[__name__]
-    monkeypatch.setattr(here, "text", lambda result: f"level {result['level']}")
-    monkeypatch.setitem(sys.modules, COMMAND.view, here)
+    monkeypatch.setattr(here, "text", lambda result: f"level {result.level}")
+    monkeypatch.setitem(VIEWS, "Level", __name__)
+    monkeypatch.setitem(sys.modules, __name__, here)
     monkeypatch.setattr(sys.modules["pysim.cli.main"], "registry", lambda: {"try": COMMAND})
     monkeypatch.chdir(tmp_path)
     SEEN.clear()

@@ -26,7 +26,7 @@ def undrawn(monkeypatch: pytest.MonkeyPatch) -> None:
 def written(found: Diagnosis, folder: Path, question: str = "", answer: str = "") -> tuple[Diagnosed, dict[str, Path]]:
     """The result with its files named relative to the folder's parent, and the files."""
     result = Diagnosed(found, dataset(), "toy", question, answer)
-    files = write_report(folder, result, diagnosis, redo="pysim diagnose x")
+    files = write_report(folder, result, redo="pysim diagnose x")
     return diagnosis.placed(result, files, folder.parent), files
 
 
