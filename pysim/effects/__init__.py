@@ -2,6 +2,7 @@
 
 from pysim.effects._text import declares
 from pysim.effects.catalogue import STANDARD_LIBRARY, VENDOR, Pair, law_constants, read_catalogue, read_pairs
+from pysim.effects.law_class import law_class, slot_units
 from pysim.effects.sketch import Sketch, law_sketch
 from pysim.effects.slots import Slot, fitting, slots
 from pysim.effects.variant import Variant, variant, variant_text
@@ -15,10 +16,12 @@ __all__ = [
     "Variant",
     "declares",
     "fitting",
+    "law_class",
     "law_constants",
     "law_sketch",
     "read_catalogue",
     "read_pairs",
+    "slot_units",
     "slots",
     "variant",
     "variant_text",

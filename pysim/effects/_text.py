@@ -7,6 +7,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from fmu_build.text import ClassText, Declaration, Libraries, TextError
+from fmu_build.text.declarations import Kind
 from pysim.types import BadInput
 
 
@@ -54,3 +55,17 @@ def changes(declaration: Declaration, owner: ClassText, library: Libraries) -> b
     if resolved is None:
         return declaration.class_name == "Real"
     return resolved.kind == "type" or resolved.full_name.endswith((".RealInput", ".RealOutput"))
+
+
+def attributes_of(declaration: Declaration, text: ClassText, library: Libraries) -> dict[str, str]:
+    """Attributes of the declaration, and those of its type where it has none of its own."""
+    found = _written(declaration)
+    base = library.resolve(declaration.class_name, text)
+    for one in library.ancestry(base) if base is not None else ():
+        for extended in one.of_kind(Kind.EXTENDS):
+            found = {**_written(extended), **found}
+    return found
+
+
+def _written(declaration: Declaration) -> dict[str, str]:
+    return {name: declaration.text(modifier.value) for name, modifier in declaration.modifiers.items()}

@@ -13,7 +13,7 @@ from fmu_build.text import ClassText, Declaration, Libraries
 from fmu_build.text.declarations import Kind, Modifier, modifiers
 from fmu_build.text.expressions import literal
 from fmu_build.text.tokens import string_value
-from pysim.effects._text import as_bad_input, known_class
+from pysim.effects._text import as_bad_input, attributes_of, known_class
 from pysim.types import BadInput, Effect, EffectParameter
 
 VENDOR = "__HydraulicTestBench"  # the annotation's name
@@ -134,7 +134,7 @@ def _law(text: ClassText) -> str:
 def _parameters(declaration: Declaration, text: ClassText, library: Libraries) -> Iterator[EffectParameter]:
     """A parameter, or each element of a vector of them."""
     where = f"{text.source.file}: {declaration.name}"
-    attributes = _attributes(declaration, text, library)
+    attributes = attributes_of(declaration, text, library)
     for attribute in ("min", "max", "unit"):
         if attribute not in attributes:
             raise BadInput(
@@ -223,20 +223,6 @@ def _number(text: str, where: str, known: Mapping[str, float]) -> Any:
         return literal(text, known)
     except ValueError as error:
         raise BadInput(f"{where}: {text.strip()!r} must be a number; write it out, such as 5e-3") from error
-
-
-def _attributes(declaration: Declaration, text: ClassText, library: Libraries) -> dict[str, str]:
-    """Attributes of the declaration, and those of its type where it has none of its own."""
-    found = _written(declaration)
-    base = library.resolve(declaration.class_name, text)
-    for one in library.ancestry(base) if base is not None else ():
-        for extended in one.of_kind(Kind.EXTENDS):
-            found = {**_written(extended), **found}
-    return found
-
-
-def _written(declaration: Declaration) -> dict[str, str]:
-    return {name: declaration.text(modifier.value) for name, modifier in declaration.modifiers.items()}
 
 
 def _string(said: _Said, name: str) -> str:

@@ -110,7 +110,7 @@ def _take_equation(law: Law, statement: Statement, text: str) -> None:
 
 
 def _sides(tokens: Tokens, text: str) -> Equation | None:
-    """Left and right of an equation; None for what is none."""
+    """Left and right of the equation that these tokens of a text are; None for what is none."""
     depth, bare = 0, _bare(tokens)
     for k, token in enumerate(bare):
         depth += depth_change(token)
@@ -192,12 +192,15 @@ _FUNCTIONS: Mapping[str, Callable[..., Any]] = {
     "and": np.logical_and, "or": np.logical_or, "not": np.logical_not, IF: np.where,
 }  # fmt: skip
 
+_UNARY = (NEGATE, "not", "tanh", "exp", "sqrt", "abs", "sin", "cos", "sign", "noEvent")
+ARGUMENTS = {name: 3 if name == IF else 1 if name in _UNARY else 2 for name in _FUNCTIONS}  # how many each takes
+
 # --- units -----------------------------------------------------------------------------------------------------------
 
 Dimension = dict[str, float]  # exponents of kg, m, s, A, K; an angle is a number
 _DERIVED: Mapping[str, Dimension] = {
     "N": {"kg": 1, "m": 1, "s": -2}, "Pa": {"kg": 1, "m": -1, "s": -2}, "J": {"kg": 1, "m": 2, "s": -2},
-    "W": {"kg": 1, "m": 2, "s": -3}, "V": {"kg": 1, "m": 2, "s": -3, "A": -1}, "Hz": {"s": -1}, "rad": {},
+    "W": {"kg": 1, "m": 2, "s": -3}, "%": {}, "V": {"kg": 1, "m": 2, "s": -3, "A": -1}, "Hz": {"s": -1}, "rad": {},
     **{base: {base: 1} for base in ("kg", "m", "s", "A", "K")},
 }  # fmt: skip
 _UNIT_FREE = ("tanh", "exp", "sin", "cos")
@@ -222,14 +225,14 @@ def dimension(unit: str) -> Dimension:
     return found
 
 
-def check_units(tree: Tree, units: Mapping[str, str]) -> Dimension | None:
-    """The dimension of an expression; None where a number written in it may have any unit.
+def check_units(tree: Tree, units: Mapping[str, str | None]) -> Dimension | None:
+    """The dimension of an expression; None where a number written in it, or a name of an open unit, may have any.
 
     A number is a plain factor in `2*v`, and may have any unit in a sum, a comparison, and below a quotient's line, as
     the width of `tanh(v/1e-3)`.
 
     Args:
-        units: name -> SI unit.
+        units: name -> SI unit; None for one that is open.
     Raises:
         ValueError: a sum or comparison of two quantities, a unit in tanh() and the like, or a name without a unit.
     """
@@ -239,7 +242,8 @@ def check_units(tree: Tree, units: Mapping[str, str]) -> Dimension | None:
         case Name(name):
             if name.removeprefix(_PRE) not in units:
                 raise ValueError(f"{name} has no unit; the law may name {', '.join(units) or 'nothing'}")
-            return dimension(units[name.removeprefix(_PRE)])
+            unit = units[name.removeprefix(_PRE)]
+            return None if unit is None else dimension(unit)
     own = [check_units(argument, units) for argument in tree.arguments]
     match tree.function, own:
         case ("*", [one, other]):
@@ -252,11 +256,12 @@ def check_units(tree: Tree, units: Mapping[str, str]) -> Dimension | None:
         case ("sqrt", [base]):
             return None if base is None else _joined({}, base, 0.5)
     if tree.function in _UNIT_FREE and any(own):
-        raise ValueError(f"{tree.function}() is given {_words(own[0])}; divide by a width of that unit")
+        raise ValueError(f"{tree.function}() is given {dimension_words(own[0])}; divide by a width of that unit")
     values = own[1:] if tree.function in (IF, "smooth") else own
     known = [one for one in values if one is not None]
     if any(one != known[0] for one in known):
-        raise ValueError(f"{tree.function} takes {' and '.join(map(_words, known))} together; give both the same unit")
+        both = " and ".join(map(dimension_words, known))
+        raise ValueError(f"{tree.function} takes {both} together; give both the same unit")
     return {} if tree.function in (*_UNIT_FREE, *_SUMS[4:], "and", "or", "not", "sign") else next(iter(known), None)
 
 
@@ -265,5 +270,6 @@ def _joined(one: Dimension, other: Dimension, power: float) -> Dimension:
     return {base: exponent for base, exponent in sorted(found.items()) if exponent}
 
 
-def _words(found: Dimension | None) -> str:
+def dimension_words(found: Dimension | None) -> str:
+    """A dimension as a unit; "1" where there is none."""
     return ".".join(f"{base}{exponent:g}" if exponent != 1 else base for base, exponent in (found or {}).items()) or "1"
