@@ -19,7 +19,7 @@ from pysim.types import BadInput, Deviation, Estimate, RecordFit, ResponseFit, S
 
 Array = NDArray[np.float64]
 
-_FORM = 2
+_FORM = 3
 
 
 @dataclass(frozen=True)
@@ -88,7 +88,7 @@ def _stage(stage: Stage, number: int, arrays: dict[str, Array]) -> dict[str, Any
     return {
         "step": stage.step,
         "estimates": [_estimate(e) for e in stage.estimates],
-        "undetermined": [{"exponents": dict(d.exponents), "words": d.words} for d in stage.undetermined],
+        "undetermined": [{"exponents": dict(d.exponents), "spread": json_number(d.spread)} for d in stage.undetermined],
         "where": [[f.record, f.signal, f.region, json_number(f.error)] for f in stage.where],
         "records": [_record(r, f"{number}/{k}", f"0/{k}", arrays) for k, r in enumerate(stage.records)],
         "responses": [_response(r) for r in stage.responses],

@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Sequence
+
 from pysim.io import shown_value
+from pysim.types import Direction
 from pysim.types.note import Note, NoteCode
 
 SHUT = "in none of the libraries"  # said of a model's class
@@ -47,6 +51,32 @@ _WORDS = {
     ),
     NoteCode.OTHER: "{text}",
 }
+
+
+def direction_words(direction: Direction) -> str:
+    """What the data do not tell apart, with an example: one standard deviation, or a tenth where nothing is known."""
+    scale = math.exp(direction.spread) if math.isfinite(direction.spread) else 1.1
+    changes = {name: _change(scale**power) for name, power in direction.exponents.items()}
+    first, *others = changes
+    may = f"{first} may be {changes[first]}"
+    if not others:
+        known = "hardly determine" if math.isfinite(direction.spread) else "do not determine"
+        return f"These data {known} {first}: {may}. Fix it, or log what depends on it."
+    condition = listed([f"{name} is {changes[name]}" for name in others])
+    return (
+        f"These data do not tell {listed([*changes])} apart: {may} if {condition}. Fix one, or use their combinations."
+    )
+
+
+def listed(texts: Sequence[str]) -> str:
+    """Texts between commas, the last behind an "and"."""
+    return " and ".join([", ".join(texts[:-1]), texts[-1]] if len(texts) > 1 else texts)
+
+
+def _change(factor: float) -> str:
+    if factor >= 1:
+        return f"{factor:.2g} times as large" if factor >= 2 else f"{100 * (factor - 1):.2g} % larger"
+    return f"{1 / factor:.2g} times smaller" if factor <= 0.5 else f"{100 * (1 - factor):.2g} % smaller"
 
 
 def words(note: Note | str) -> str:

@@ -67,12 +67,10 @@ class Direction:
     Args:
         exponents: parameter -> exponent; multiplying each by s to its exponent leaves the compared signals as they are.
         spread: standard deviation of ln s; infinite where nothing at all changes.
-        words: the same as a sentence.
     """
 
     exponents: Mapping[str, float]
     spread: float
-    words: str
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "exponents", FrozenMapping(self.exponents))

@@ -92,7 +92,7 @@ def story(**changes: object) -> Diagnosis:
     Args:
         changes: fields of the answer, in place of what stands here.
     """
-    open_ = Direction({"m": 1.0, "k": 2.0}, np.inf, "m and k^2 scale")
+    open_ = Direction({"m": 1.0, "k": 2.0}, np.inf)
     before = (estimate("m", 2.0, 0.0), estimate("k", 3.0, 0.3), estimate("d", 1.0, 0.2))
     after = (estimate("m", 1.0, 0.0), estimate("k", 0.75, 0.1), estimate("d", 1.5, 0.1), estimate("F_o", 0.4, 0.05))
     stages = (

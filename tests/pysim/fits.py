@@ -70,7 +70,7 @@ def small_fit() -> Fit:
         estimates=estimates,
         covariance=covariance,
         values={"K": 2.0, "g": 1.0, "T": 0.01, "x@wave.txt": 0.5},
-        undetermined=(Direction({"K": 1.0, "g": -1.0}, math.inf, "K by s, g by s^-1 leaves all as it is."),),
+        undetermined=(Direction({"K": 1.0, "g": -1.0}, math.inf),),
         combinations=(Combination({"K": 1.0, "g": 1.0}, "K g", 2.0, (1.9, 2.1)),),
         records=(wave, *sines),
         responses=(ResponseFit("set", "fit", comparison),),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from math import inf
 from typing import Any
 
 from pysim.app.answers import Answer, ledger
@@ -10,6 +11,8 @@ from pysim.app.desk import Desk
 from pysim.app.figures import CRITERIA, criteria_figure, parameters_figure, staircase_figure
 from pysim.app.pages.common import attempt, busy, ended, nothing, start
 from pysim.app.parts import Chart, Table, box, button, card, head, live, note, text
+from pysim.present.notes import direction_words
+from pysim.types import Direction
 
 
 def add_page(desk: Desk) -> None:
@@ -164,7 +167,8 @@ def _parameters(answer: Answer) -> None:
             Chart(parameters_figure(drawn), "Parameters between their bounds", height=80 + 27 * len(drawn))
         Table("Parameters", columns, rows)
         for direction in answer.last["undetermined"]:
-            text("p", f"The measurements leave open: {direction['words']}", "small")
+            spread = direction["spread"]
+            text("p", direction_words(Direction(direction["exponents"], inf if spread is None else spread)), "small")
 
 
 def _three(e: Mapping[str, Any] | None) -> list[str]:

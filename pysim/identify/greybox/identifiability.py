@@ -16,7 +16,7 @@ Array = NDArray[np.float64]
 # A direction is undetermined where its singular value is below this share of the largest: above what the sensitivities'
 # own error leaves of a true zero, and below what measurements tell apart.
 EXACT = 1e-5
-# Directions known to no better than this standard deviation (of ln s) are worth a sentence.
+# Directions known to no better than this standard deviation (of ln s) are worth a mention.
 LOOSE = 0.2
 _WHOLE = 0.02  # how near a ratio of exponents has to be to a small fraction to be called that fraction
 
@@ -27,7 +27,7 @@ class Identifiability:
 
     Args:
         exact: (n, n_0) a basis of directions of ln(p) that change nothing, in a form with many zeros.
-        directions: these in words, then those known badly, each with its standard deviation.
+        directions: these, then those known badly, each with its standard deviation.
     """
 
     exact: Array
@@ -70,14 +70,7 @@ def _sparse(basis: Array) -> Array:
 
 
 def _exact_direction(keys: Sequence[str], direction: Array) -> Direction:
-    exponents = whole_exponents(keys, direction)
-    powers = ", ".join(f"{name} by {_power('s', e)}" for name, e in exponents.items())
-    return Direction(
-        exponents,
-        np.inf,
-        f"Multiplying {powers} for any s leaves every compared signal as it is: fix one of {', '.join(exponents)}, "
-        "or use what their combinations tell.",
-    )
+    return Direction(whole_exponents(keys, direction), np.inf)
 
 
 def _loose_direction(keys: Sequence[str], row: Array, spread: float) -> list[Direction]:
@@ -87,12 +80,7 @@ def _loose_direction(keys: Sequence[str], row: Array, spread: float) -> list[Dir
     if spread < LOOSE:
         return []
     exponents = {name: round(float(e), 2) for name, e in zip(keys, direction, strict=True) if abs(e) >= 0.1}
-    powers = ", ".join(f"{name} by {_power('s', e)}" for name, e in exponents.items())
-    words = f"Multiplying {powers} hardly changes the compared signals; ln s is known to {spread:.2g} only."
-    if len(exponents) == 1:
-        name = next(iter(exponents))
-        words = f"{name} hardly changes the compared signals; its logarithm is known to {spread:.2g} only."
-    return [Direction(exponents, spread, words)]
+    return [Direction(exponents, spread)]
 
 
 def whole_exponents(keys: Sequence[str], direction: Array) -> dict[str, float]:
@@ -104,7 +92,3 @@ def whole_exponents(keys: Sequence[str], direction: Array) -> dict[str, float]:
     values = near if np.all(np.abs(near - ratios) < _WHOLE * np.maximum(np.abs(ratios), 1.0)) else np.round(ratios, 3)
     first = next(v for v in values if v)
     return {name: float(v * np.sign(first)) for name, v in zip(keys, values, strict=True) if v}
-
-
-def _power(base: str, exponent: float) -> str:
-    return base if exponent == 1 else f"{base}^{exponent:g}"

@@ -14,7 +14,7 @@ from pysim.present.diagnosis.words import (
     sizes,
     verdict_sentence,
 )
-from pysim.present.notes import words
+from pysim.present.notes import direction_words, words
 from pysim.present.page import cell, commands, heading, items, page, paragraph, picture, statement, table
 from pysim.types import AddedEffect, Candidate, Diagnosis, Estimate, LedgerStep, Missing, Stage
 
@@ -166,7 +166,7 @@ def _parameters(diagnosis: Diagnosis) -> list[str]:
     rows = [_parameter(e, ends.pop(e.name, None), moves.get(e.name), e.name in held) for e in base.estimates]
     head = ["parameter", "unit", "as it is", "refitted", "95 % from", "to"]
     head += ["at the end", "95 % from", "to", "moved by", ""] if last else [""]
-    scale = [f"The data leave open: {d.words}" for d in (base if last is None else last).undetermined]
+    scale = [direction_words(d) for d in (base if last is None else last).undetermined]
     if last is not None and scale:
         scale.append("Moves are counted once both are brought to the same value of the parameter that is held.")
     caption = "Fitted parameters; moves in half widths of the interval at the end"

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 from pysim.identify.accuracy import FREQUENCY_CRITERIA, TIME_CRITERIA
 from pysim.io import counted
-from pysim.present.notes import SHUT, words
+from pysim.present.notes import SHUT, listed, words
 from pysim.types import AddedEffect, Criterion, Diagnosis, Estimate, LedgerStep, NextTest
 from pysim.types.diagnosis import NONE, UNKNOWN
 
@@ -28,9 +28,9 @@ def verdict_sentence(diagnosis: Diagnosis) -> str:
     fall = f" {_fall(diagnosis.error)}" if diagnosis.error else ""
     if diagnosis.verdict == UNKNOWN:
         verb = "is" if len(names) == 1 else "are"
-        return f"More is missing than could be named: {_and(names)} {verb} asked for, and is not all.{fall}"
+        return f"More is missing than could be named: {listed(names)} {verb} asked for, and is not all.{fall}"
     count = "an effect" if len(names) == 1 else f"{len(names)} effects"
-    return f"The model lacks {count}: {_and(names)}.{_tie(diagnosis)}{fall}"
+    return f"The model lacks {count}: {listed(names)}.{_tie(diagnosis)}{fall}"
 
 
 def comparison_sentence(diagnosis: Diagnosis) -> str:
@@ -46,7 +46,7 @@ def _step_text(step: LedgerStep) -> str:
     who = {"prior": "As it is, the model", "refit": "Refitted, it"}.get(step.step, f"With {step.step}, it")
     values = (("fitted", step.fit), ("held out", step.validate))
     parts = [f"{value:.2f} times the noise on what is {what}" for what, value in values if value is not None]
-    left = f"leaves {_and(parts)}" if parts else "is judged by responses alone"
+    left = f"leaves {listed(parts)}" if parts else "is judged by responses alone"
     return f"{who} {left}. {limits_sentence(step)}"
 
 
@@ -55,7 +55,7 @@ def limits_sentence(step: LedgerStep) -> str:
     texts = []
     for criteria in _judging(step):
         values = [f"{_worst(step, c)} {_UNITS.get(c.unit, c.unit)} {_how(c)} (limit {c.limit:g})" for c in criteria]
-        texts.append(f"{_capital(criteria[0].source)} is {_verdict(step, criteria)}: at worst {_and(values)}.")
+        texts.append(f"{_capital(criteria[0].source)} is {_verdict(step, criteria)}: at worst {listed(values)}.")
     largest = max((value for value in (step.fit, step.validate) if value is not None), default=0.0)
     if texts and step.passes and largest > _NOISE:
         texts.append("These limits are wider than the noise: that they are met does not make the model complete.")
@@ -153,7 +153,7 @@ def next_test_sentence(test: NextTest) -> str:
 def added_sentence(diagnosis: Diagnosis) -> str:
     """What the effects that were asked for do to the error."""
     last = diagnosis.error[-1]
-    names = _and([_named(one) for one in diagnosis.added])
+    names = listed([_named(one) for one in diagnosis.added])
     return f"Added as asked: {names}. {_fall(diagnosis.error)} {limits_sentence(last)}"
 
 
@@ -166,7 +166,7 @@ def _named(one: AddedEffect) -> str:
 def _tie(diagnosis: Diagnosis) -> str:
     added = {one.effect.name for one in diagnosis.added}
     groups = [[name for name in group if name not in added] for group in diagnosis.confusable if added & set(group)]
-    return "".join(f" These data do not tell it from {_and(rest)}." for rest in groups if rest)
+    return "".join(f" These data do not tell it from {listed(rest)}." for rest in groups if rest)
 
 
 def _fall(steps: Sequence[LedgerStep]) -> str:
@@ -177,7 +177,7 @@ def _fall(steps: Sequence[LedgerStep]) -> str:
         for what, before, after in (("fitted", base.fit, last.fit), ("held out", base.validate, last.validate))
         if before is not None and after is not None
     ]
-    return f"With {'it' if len(steps) < 4 else 'them'} the error falls {_and(parts)}." if parts else ""
+    return f"With {'it' if len(steps) < 4 else 'them'} the error falls {listed(parts)}." if parts else ""
 
 
 def _left(diagnosis: Diagnosis) -> str:
@@ -186,10 +186,6 @@ def _left(diagnosis: Diagnosis) -> str:
         return ""
     held = "" if last.validate is None else f", {last.validate:.2f} on what was held out"
     return f" What is left is {last.fit:.2f} times the noise on what was fitted{held}."
-
-
-def _and(words: Sequence[str]) -> str:
-    return " and ".join([", ".join(words[:-1]), words[-1]] if len(words) > 1 else words)
 
 
 def sizes(one: AddedEffect) -> list[tuple[str, float, tuple[float, float], str]]:

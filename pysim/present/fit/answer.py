@@ -9,7 +9,7 @@ from typing import Any
 
 from pysim.identify.greybox import Profile
 from pysim.io import json_number
-from pysim.present.notes import words
+from pysim.present.notes import direction_words, words
 from pysim.types import Dataset, Estimate, Fit, FitOutcome, RecordFit, ResponseFit
 
 _WIDTH = 100
@@ -36,7 +36,7 @@ def text(result: Fitted) -> str:
     lines.append(f"  {'parameter':<14}{'estimate':>12}  {'95 % from':>11} {'to':>11}  unit")
     lines += [_row(estimate) for estimate in fit.estimates]
     for direction in fit.undetermined:
-        lines += textwrap.wrap(f"Not determined: {direction.words}", _WIDTH)
+        lines += textwrap.wrap(direction_words(direction), _WIDTH)
     lines += [f"  {c.name} = {c.value:.5g}, 95 % {c.interval[0]:.5g} to {c.interval[1]:.5g}" for c in fit.combinations]
     lines += [f"  {text}" for text in _left_over(fit)]
     for note in fit.notes:
@@ -114,7 +114,7 @@ def _data(fit: Fit) -> dict[str, Any]:
         "covariance": [[json_number(v) for v in row] for row in fit.covariance.tolist()],
         "correlation": [[json_number(v) for v in row] for row in fit.correlation.tolist()],
         "undetermined": [
-            {"exponents": dict(d.exponents), "spread": json_number(d.spread), "words": d.words}
+            {"exponents": dict(d.exponents), "spread": json_number(d.spread), "words": direction_words(d)}
             for d in fit.undetermined
         ],
         "combinations": [

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 
 from pysim.io import shown_value
 from pysim.present.fit.answer import Fitted, gain_text, outcome_text
-from pysim.present.notes import words
+from pysim.present.notes import direction_words, words
 from pysim.present.page import cell, commands, heading, items, paragraph, picture, table
 from pysim.present.page import page as whole_page
 from pysim.present.render import Drawing
@@ -24,7 +24,7 @@ def page(result: Fitted, drawings: Sequence[Drawing], redo: str) -> str:
     ]
     parts = [heading("Outcome"), items([*verdict, *map(words, fit.notes)]), heading("Parameters"), _estimates(fit)]
     if fit.undetermined:
-        parts += [heading("What the data do not determine"), items(d.words for d in fit.undetermined)]
+        parts += [heading("What the data do not determine"), items(map(direction_words, fit.undetermined))]
         parts += [_combinations(fit)] if fit.combinations else []
     parts += [heading("What each record leaves over"), _records(fit)]
     parts += [_responses(fit, units)] if fit.responses else []

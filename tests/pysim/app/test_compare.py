@@ -56,7 +56,7 @@ def answered(folder: Path, stages: list[dict[str, Any]]) -> None:
     (folder / "results/compare").mkdir(parents=True)
     (folder / "project.toml").write_text('model = ""\n')
     time = np.arange(0, 4, 0.005)
-    about = np.frombuffer(json.dumps({"form": 2, "stages": stages}).encode(), dtype=np.uint8)
+    about = np.frombuffer(json.dumps({"form": 3, "stages": stages}).encode(), dtype=np.uint8)
     archive = io.BytesIO()
     np.savez(archive, about=about, t=time, m=10 + 0 * time[:, None], s=10 + 0 * time[:, None])
     (folder / "results/compare/records.npz").write_bytes(archive.getvalue())

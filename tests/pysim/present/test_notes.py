@@ -1,8 +1,11 @@
 """Every note has words, and they name what the note is of."""
 
+import math
+
 import pytest
 
-from pysim.present.notes import words
+from pysim.present.notes import direction_words, words
+from pysim.types import Direction
 from pysim.types.note import Note, NoteCode
 
 VALUES = {
@@ -47,3 +50,25 @@ def test_each_parameter_stands_with_its_number() -> None:
     assert "m 2.3, d 0.4" in words(Note(NoteCode.INTERVAL_WIDTHS, {"m": 2.3, "d": 0.4}))
     assert "a.csv and 2 more:" in words(Note(NoteCode.NOT_SETTLED, {"record": "a.csv", "others": 2.0}))
     assert words(Note(NoteCode.NOT_SETTLED, {"record": "a.csv", "others": 0.0})).startswith("a.csv: ")
+
+
+@pytest.mark.parametrize(
+    ("exponents", "spread", "said"),
+    [
+        ({"K": 1.0, "g": -1.0}, math.inf, ["K and g apart", "K may be 10 % larger if g is 9.1 % smaller"]),
+        (
+            {"m": 1.0, "J": -0.27, "c": 0.11},
+            math.log(1.5),
+            ["m, J and c", "50 % larger if J is 10 % smaller and c is 4.6 %"],
+        ),
+        ({"a": 1.0, "b": 2.0}, math.log(3.0), ["a may be 3 times as large if b is 9 times as large"]),
+        ({"a": 1.0, "b": -1.0}, math.log(4.0), ["if b is 4 times smaller"]),
+        ({"d": 1.0}, math.log(1.25), ["hardly determine d", "25 % larger"]),
+        ({"d": 1.0}, math.inf, ["do not determine d"]),
+    ],
+)
+def test_what_is_not_told_apart_comes_with_its_sizes(
+    exponents: dict[str, float], spread: float, said: list[str]
+) -> None:
+    text = direction_words(Direction(exponents, spread))
+    assert all(one in text for one in said)
