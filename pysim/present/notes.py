@@ -49,6 +49,38 @@ _WORDS = {
         "looked at were the inputs {inputs} and the outputs {outputs} of {model}, nothing inside it: neither its "
         "{states:.0f} states nor the terms of their equations"
     ),
+    NoteCode.SEARCH_GAVE_UP: "The search gave up after {evaluations:.0f} evaluations; the result may not be the best.",
+    NoteCode.BEYOND_NOISE: (
+        "The residuals are {factor:.1f} times what the noise explains: the structure does not hold all of the "
+        "response, or the system is not linear. Intervals are widened by that factor, which covers random deviations "
+        "and not a wrong structure."
+    ),
+    NoteCode.DEAD_TIME_AT_BOUND: (
+        "The dead time ended at the {end} that was allowed, {seconds:.4g} s, and counts as known."
+    ),
+    NoteCode.DEAD_TIME_AMBIGUOUS: (
+        "A dead time of {seconds:.4g} s turns the phase by more than half a turn between any two measured frequencies: "
+        "these data cannot tell it from others. It is meant in seconds."
+    ),
+    NoteCode.EDGE_OF_STABILITY: (
+        "A pole ended at the edge of stability: without that condition the data ask for an unstable one, or for an "
+        "integrator. It counts as known there, so the intervals are too narrow."
+    ),
+    NoteCode.INTEGRATOR: (
+        "The pole at {frequency:.2g} Hz cannot be told from an integrator: it is slower than any measured frequency. "
+        "The gain at rest is not determined; the response within the measured band is."
+    ),
+    NoteCode.UNSTABLE: (
+        "{count:.0f} of {poles:.0f} poles are not left of the imaginary axis: not stable. A system that answers "
+        "steadily is; ask for a stable fit."
+    ),
+    NoteCode.NOT_DETERMINED: (
+        "The data do not determine {names}: other values give the same response. Ask for fewer poles and zeros."
+    ),
+    NoteCode.CANCELLING: (
+        "The pole at {pole:.4g} Hz and the zero at {zero:.4g} Hz cannot be told apart and cancel: the data support "
+        "fewer of both."
+    ),
     NoteCode.OTHER: "{text}",
 }
 

@@ -31,6 +31,15 @@ class NoteCode(Enum):
     SEEN_FROM_OUTSIDE = "seen_from_outside"  # model, inputs, outputs, states: all that can be seen of a closed FMU
     INTERVAL_WIDTHS = "interval_widths"  # parameter: how many times as wide as for white residuals, each
     FEW_BLOCKS = "few_blocks"  # fewest: the data have fewer independent stretches than intervals need
+    SEARCH_GAVE_UP = "search_gave_up"  # evaluations
+    BEYOND_NOISE = "beyond_noise"  # factor: residuals over what the noise explains
+    DEAD_TIME_AT_BOUND = "dead_time_at_bound"  # end ("smallest" or "largest"), seconds
+    DEAD_TIME_AMBIGUOUS = "dead_time_ambiguous"  # seconds: turns the phase by more than the frequencies resolve
+    EDGE_OF_STABILITY = "edge_of_stability"  # a pole is held there
+    INTEGRATOR = "integrator"  # frequency (Hz) of a pole that may be one
+    UNSTABLE = "unstable"  # count, poles: so many of the poles
+    NOT_DETERMINED = "not_determined"  # names: of coefficients that the data leave open
+    CANCELLING = "cancelling"  # pole, zero (Hz): alike within their errors
     OTHER = "other"  # text: of a program part that has no codes yet
 
 

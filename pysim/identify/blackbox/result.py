@@ -12,6 +12,7 @@ from scipy.special import chdtrc, ndtri, stdtrit
 from pysim.identify.blackbox.response import ComplexResponse
 from pysim.identify.blackbox.structure import Structure
 from pysim.identify.transfer_function import TransferFunction
+from pysim.types import Note
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -88,7 +89,7 @@ class TransferFunctionFit:
         noise_known: whether the weights are the noise itself, so that `misfit` should be near `freedom`.
         scatter: the factor on the noise that the covariance holds: 1, or what the residuals say.
         converged: whether the search ended because nothing was left to gain.
-        notes: what to know before using the result, in words.
+        notes: what to know before using the result.
     """
 
     function: TransferFunction
@@ -108,7 +109,7 @@ class TransferFunctionFit:
     noise_known: bool
     scatter: float
     converged: bool
-    notes: tuple[str, ...] = ()
+    notes: tuple[Note, ...] = ()
 
     @property
     def covariance(self) -> Array:

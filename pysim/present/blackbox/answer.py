@@ -12,6 +12,7 @@ import numpy as np
 from pysim.identify import magnitude_db
 from pysim.identify.blackbox import FittedNumber, FittedResponse, OrderSuggestion, Root
 from pysim.io import json_number
+from pysim.present.notes import words
 from pysim.types import Deviation
 
 _WIDTH = 96
@@ -49,7 +50,7 @@ def _text(one: FittedResponse) -> Iterable[str]:
         yield from (f"  {name:<10}{root_text(root, fit.quantile(0.95))}" for root in upper(roots))
     if one.suggestion:
         yield from _suggestion_text(one.suggestion)
-    for note in (*fit.notes, *one.remarks):
+    for note in (*map(words, fit.notes), *one.remarks):
         yield textwrap.fill(f"note: {note}", _WIDTH, initial_indent="  ", subsequent_indent="    ")
 
 
@@ -129,7 +130,7 @@ def _data(one: FittedResponse) -> dict[str, Any]:
         "deviations": _criteria(one.deviations),
         "held_out_deviations": [_criteria(deviations) for deviations in one.held_out],
         "converged": fit.converged,
-        "notes": [*fit.notes, *one.remarks],
+        "notes": [*map(words, fit.notes), *one.remarks],
         "structures": None if one.suggestion is None else [_candidate(c) for c in one.suggestion.candidates],
         "frequency_hz": one.measured.frequency.tolist(),
         "measured_db": magnitude_db(one.measured, None).tolist(),

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from pysim.identify import FREQUENCY_CRITERIA
 from pysim.identify.blackbox import FittedResponse, OrderSuggestion
 from pysim.present.blackbox.answer import DIGITS, TransferFunctions, misfit, numbers, root_text, upper
+from pysim.present.notes import words
 from pysim.present.page import cell, commands, heading, items, paragraph, picture, table
 from pysim.present.page import page as whole_page
 from pysim.present.render import Drawing
@@ -20,7 +21,7 @@ def page(result: TransferFunctions, drawings: Sequence[Drawing], redo: str) -> s
         parts += [heading(f"{one.label}: {one.fit.structure.label}"), _numbers_table(one), _roots_table(one)]
         if one.suggestion:
             parts.append(_structures_table(one.suggestion))
-        parts += [paragraph(note, note=True) for note in (*one.fit.notes, *one.remarks)]
+        parts += [paragraph(note, note=True) for note in (*map(words, one.fit.notes), *one.remarks)]
         parts += [picture(drawing.svg, drawing.caption) for drawing in drawings[i : i + 1]]
     parts += [heading("Do it again"), commands(redo)]
     return whole_page("Black-box transfer functions", f"Fitted to the frequency responses of {result.dataset}.", parts)
@@ -79,7 +80,7 @@ def _structures_table(suggestion: OrderSuggestion) -> str:
             cell(f"{c.aicc - lowest:.1f}"),
             cell(f"{c.bic - lowest_bic:.1f}"),
             cell(f"{c.fit.fit_percent:.2f}"),
-            cell("" if c.sound else "; ".join(c.fit.notes) or "not sound", "words"),
+            cell("" if c.sound else "; ".join(map(words, c.fit.notes)) or "not sound", "words"),
         ]
         for c in suggestion.candidates
     ]

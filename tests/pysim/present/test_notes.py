@@ -28,6 +28,15 @@ VALUES = {
     NoteCode.SEEN_FROM_OUTSIDE: {"model": "Axis.fmu", "inputs": "u", "outputs": "x, v", "states": 3.0},
     NoteCode.INTERVAL_WIDTHS: {"m": 2.3, "d": 0.4},
     NoteCode.FEW_BLOCKS: {"fewest": 8.0},
+    NoteCode.SEARCH_GAVE_UP: {"evaluations": 200.0},
+    NoteCode.BEYOND_NOISE: {"factor": 12.34},
+    NoteCode.DEAD_TIME_AT_BOUND: {"end": "largest", "seconds": 0.02},
+    NoteCode.DEAD_TIME_AMBIGUOUS: {"seconds": 0.5},
+    NoteCode.EDGE_OF_STABILITY: {},
+    NoteCode.INTEGRATOR: {"frequency": 0.01},
+    NoteCode.UNSTABLE: {"count": 1.0, "poles": 3.0},
+    NoteCode.NOT_DETERMINED: {"names": "b0, a2"},
+    NoteCode.CANCELLING: {"pole": 3.0, "zero": 3.1},
     NoteCode.OTHER: {"text": "as it stands"},
 }
 

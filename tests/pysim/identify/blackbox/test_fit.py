@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from pysim.identify import TransferFunction
 from pysim.identify.blackbox import ComplexResponse, Structure, fit_transfer_function
-from pysim.types import BadInput, SineTest
+from pysim.types import BadInput, NoteCode, SineTest
 from tests.pysim.identify.blackbox.systems import exact, from_roots, noisy, pairs
 
 F = np.geomspace(0.1, 30, 24)
@@ -101,8 +101,8 @@ def test_stable_on_request_where_noise_asks_for_an_unstable_pole() -> None:
         assert b.misfit >= a.misfit * (1 - 1e-9)
         if a.function.stable:
             assert b.misfit == pytest.approx(a.misfit, rel=1e-6)
-    assert all("not stable" in " ".join(free[i].notes) for i in unstable)
-    assert all("edge of stability" in " ".join(held[i].notes) for i in unstable)
+    assert all(NoteCode.UNSTABLE in [note.code for note in free[i].notes] for i in unstable)
+    assert all(NoteCode.EDGE_OF_STABILITY in [note.code for note in held[i].notes] for i in unstable)
 
 
 def test_weights_decide_which_points_count() -> None:
