@@ -32,7 +32,7 @@ class Option:
         metavar: what stands for the value there; "" for a switch.
         default: where it is not given; a number is told in the help.
         convert: text -> value; raises ArgumentTypeError or ValueError.
-        choices: the only texts that are allowed.
+        choices: the only texts that are allowed, or what gives them, where they are those of a registry.
         repeated: may be given more than once; the value is a list.
         nargs: how many words it takes, as argparse says it.
         required: only of options; arguments are unless nargs says otherwise.
@@ -45,7 +45,7 @@ class Option:
     metavar: str = ""
     default: Any = None
     convert: Callable[[str], Any] = str
-    choices: tuple[str, ...] = ()
+    choices: tuple[str, ...] | Callable[[], Iterable[str]] = ()
     repeated: bool = False
     nargs: int | str | None = None
     required: bool = False
@@ -62,9 +62,14 @@ class Option:
         """The name of its value."""
         return self.flags[-1].lstrip("-").replace("-", "_").lower()
 
+    @property
+    def allowed(self) -> tuple[str, ...]:
+        """The choices; none where any text will do."""
+        return tuple(self.choices() if callable(self.choices) else self.choices)
+
     def add_to(self, parser: argparse.ArgumentParser) -> None:
         """Let a parser take it; the parsed value keeps the text beside it."""
-        if not self.metavar and not self.positional:
+        if not self.metavar and not self.choices and not self.positional:
             parser.add_argument(*self.flags, dest=self.key, action="store_true", help=self.about)
             return
         more: dict[str, Any] = {} if self.nargs is None else {"nargs": self.nargs}
@@ -75,13 +80,17 @@ class Option:
         told = isinstance(self.default, int | float | str) and self.default != ""
         about = f"{self.about} ({_text(self.default)})" if told else self.about
         flags = (self.key,) if self.positional else self.flags
-        more |= {"metavar": self.metavar or self.flags[-1], "type": self._typed, "help": about.replace("%", "%%")}
+        more |= {
+            "metavar": self.metavar or "|".join(self.allowed) or self.flags[-1],
+            "type": self._typed,
+            "help": about.replace("%", "%%"),
+        }
         parser.add_argument(*flags, default=None, **more)
 
     def _typed(self, text: str) -> tuple[str, Any]:
-        if self.choices and text not in self.choices:
-            near = did_you_mean(text, self.choices)
-            raise argparse.ArgumentTypeError(f"{text!r} is none of {', '.join(self.choices)}{near}")
+        if self.choices and text not in self.allowed:
+            near = did_you_mean(text, self.allowed)
+            raise argparse.ArgumentTypeError(f"{text!r} is none of {', '.join(self.allowed)}{near}")
         try:
             return text, self.convert(text)
         except ValueError:
@@ -135,10 +144,11 @@ def number(
     return Option((flag,), about, metavar, default=default, convert=convert, **more)
 
 
-def choice(flag: str, default: str | None, of: Iterable[str], about: str, **more: Any) -> Option:
-    """One of a few words."""
-    words = tuple(of)
-    return Option((flag,), about, "|".join(words), default=default, choices=words, **more)
+def choice(
+    flag: str, default: str | None, of: tuple[str, ...] | Callable[[], Iterable[str]], about: str, **more: Any
+) -> Option:
+    """One of a few words, or of the names in a registry."""
+    return Option((flag,), about, default=default, choices=of, **more)
 
 
 def switch(flag: str, about: str) -> Option:

@@ -161,6 +161,12 @@ def _tie(word: str) -> tuple[str, str, float]:
     return name, of, value
 
 
+def _objectives() -> Iterable[str]:
+    from pysim.identify.greybox import OBJECTIVES
+
+    return OBJECTIVES
+
+
 COMMAND = Command(
     "fit",
     "Fit parameters of a model to data sets, and say how well they are known.",
@@ -175,7 +181,7 @@ COMMAND = Command(
         text("--tie", "A=[F*]B", "let A follow the fitted B; repeat", repeated=True),
         text("--start", "NAME=VALUE", "start value of a fitted parameter; repeat", repeated=True),
         BOUNDS,
-        choice("--objective", "noise", ("noise", "time", "frequency", "combined"), "what is made small"),
+        choice("--objective", "noise", _objectives, "what is made small"),
         choice("--optimiser", None, ("gauss-newton", "interior-point"), "gauss-newton for noise, else interior-point"),
         names("--signal", "compare only these outputs"),
         REFERENCE_HZ,
