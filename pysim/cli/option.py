@@ -81,7 +81,7 @@ class Option:
         about = f"{self.about} ({_text(self.default)})" if told else self.about
         flags = (self.key,) if self.positional else self.flags
         more |= {
-            "metavar": self.metavar or "|".join(self.allowed) or self.flags[-1],
+            "metavar": self.metavar or ("" if self.positional else "|".join(self.allowed)) or self.flags[-1],
             "type": self._typed,
             "help": about.replace("%", "%%"),
         }

@@ -40,7 +40,7 @@ class _Equation:
 
     gives: str
     tree: Tree
-    text: str
+    written: str
     start: int
 
 
@@ -87,7 +87,7 @@ def law_class(
         description=description,
         extends=[(slot.takes, ())],
         declarations=declared,
-        equations=[one.text for one in equations],
+        equations=[one.written for one in equations],
         annotation=note,
     )
 
@@ -171,13 +171,13 @@ def _local_units(
         try:
             found = check_units(one.tree, known)
         except ValueError as error:
-            raise _refusal(name, law, one.start, f"{one.text!r}: {error}") from error
+            raise _refusal(name, law, one.start, f"{one.written!r}: {error}") from error
         if one.gives not in known:
             own[one.gives] = known[one.gives] = dimension_words(found)
         unit = known[one.gives]
         if unit is not None and found is not None and found != dimension(unit):
             said = f"{one.gives} is in {unit}, and what stands behind it in {dimension_words(found)}"
-            raise _refusal(name, law, one.start, f"{one.text!r}: {said}; make both the same")
+            raise _refusal(name, law, one.start, f"{one.written!r}: {said}; make both the same")
     return own
 
 

@@ -33,7 +33,7 @@ class Column:
     unit: str
 
 
-@dataclass
+@dataclass(frozen=True)
 class Draft:
     """What is known so far.
 
@@ -178,7 +178,7 @@ def _find_sines(found: Draft) -> None:
     except BadInput as error:
         found.remarks.append(f"no stepped sines, though a frequency is in a name: {error}")
         return
-    found.sines = {record.source: record for record in records}
+    found.sines.update({record.source: record for record in records})
 
 
 def _source(found: Draft, path: Path) -> str:

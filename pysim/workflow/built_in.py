@@ -19,8 +19,8 @@ def built_in(model: Model, libraries: Sequence[Path | str]) -> dict[str, float]:
     Args:
         model: of the FMU. Its class is in one of the libraries, and is compiled here or taken from the cache.
     Raises:
-        BadInput: one that nothing can set once the model is built, or another number of states. BuildError: a class
-            that does not compile.
+        BadInput: one that nothing can set once the model is built, another number of states, or a
+            class that does not compile.
     """
     plain, class_name = model_of(model.name, libraries), model.name
     states = [len(one.abilities.states) for one in (model, plain)]

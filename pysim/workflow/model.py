@@ -7,9 +7,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from pysim.io import read_model
+from pysim.types import BadInput, Effect, Model
+
 if TYPE_CHECKING:
     from pysim.effects import Slot
-    from pysim.types import Effect, Model
 
 
 def is_fmu(name: Path | str) -> bool:
@@ -25,15 +27,32 @@ def model_of(name: Path | str, libraries: Sequence[Path | str] = (), *, fmi: int
         libraries: of the user; the one that comes along is always there.
         fmi: version, 2 or 3, of what is built.
     Raises:
-        BadInput: an FMU that cannot be read. BuildError: a class that does not compile.
+        BadInput: an FMU that cannot be read, or a class that does not compile.
     """
-    from pysim.io import read_model
+    return read_model(Path(name)) if is_fmu(name) else compiled(str(name), libraries, fmi=fmi)
 
-    if is_fmu(name):
-        return read_model(Path(name))
+
+def compiled(
+    class_name: str,
+    libraries: Sequence[Path | str],
+    output: Path | None = None,
+    *,
+    fmi: int = 2,
+    probes: Sequence[str] = (),
+) -> Model:
+    """The model of a class, built into a file, or into the cache where none is named.
+
+    Args:
+        probes: variables that get a further input, as `fmu_build.build` says.
+    Raises:
+        BadInput: a class that does not compile; says where.
+    """
     import fmu_build  # not needed for an FMU
 
-    return read_model(fmu_build.build(str(name), libraries=list(libraries), fmi=fmi))
+    try:
+        return read_model(fmu_build.build(class_name, output, libraries=list(libraries), fmi=fmi, probes=probes))
+    except fmu_build.BuildError as error:
+        raise BadInput(str(error)) from error
 
 
 @dataclass(frozen=True)

@@ -79,7 +79,7 @@ def open_session(
         reference_hz: whose gain counts as 0 dB in measured responses; None for absolute gains; by default 0.1 Hz where
             every test measured it, as in the thesis (Eq. 2.12).
     Raises:
-        BadInput: what cannot be read, or does not go together. BuildError: a class that does not compile.
+        BadInput: what cannot be read, does not compile, or does not go together.
     """
     libraries = [library] if isinstance(library, Path | str) else list(library)
     opened = model if isinstance(model, Model) else model_of(model, libraries)
@@ -114,8 +114,8 @@ def session_parts(
     Args:
         refits: whether parameters will be refitted, so that some must be free.
     Raises:
-        BadInput: no free parameter, an effect that no slot takes, an FMU that is not what its class would become.
-            BuildError: a class that does not compile.
+        BadInput: no free parameter, an effect that no slot takes, a class that does not compile, or an FMU that is not
+            what its class would become.
     """
     notes: list[Note] = []
     dataset = in_model_units(_diagnosed(dataset, notes), model)

@@ -9,7 +9,8 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
-from pysim.io import read_model
+from pysim.types import BadInput
+from pysim.workflow.model import compiled
 
 if TYPE_CHECKING:
     from pysim.diagnose.locating.laws import Term
@@ -67,7 +68,7 @@ class Variants:
             values: parameters to set, by their full names.
             comment: lines ahead of the class.
         Raises:
-            BadInput: a class that cannot be made. BuildError: one that does not compile.
+            BadInput: a class that cannot be made or does not compile.
         """
         from pysim.effects import variant
 
@@ -95,21 +96,17 @@ class Variants:
         return self.class_name.rpartition(".")[2]
 
     def _compiled(self, name: str, text: str, folder: Path, fmu: Path | None, probes: Sequence[str] = ()) -> Model:
-        import fmu_build
-
         source = folder / f"{name}.mo"
         source.write_text(text, encoding="utf-8")
-        return read_model(fmu_build.build(name, fmu, libraries=[*self.libraries, source], probes=probes))
+        return compiled(name, [*self.libraries, source], fmu, probes=probes)
 
 
 @contextmanager
 def _refusals() -> Iterator[None]:
-    """What cannot be built is a candidate less; also where the C of it does not compile, which is our mistake."""
-    from fmu_build import BuildError
+    """A candidate whose C does not compile, which is our mistake, is a candidate less."""
     from fmu_build.pack import CompilerError
-    from pysim.types import BadInput
 
     try:
         yield
-    except (BuildError, CompilerError) as error:
+    except CompilerError as error:
         raise BadInput(str(error)) from error

@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import pysim
 from pysim.types import BadInput, FrequencyResponse, MeasuredRecord, NoteCode, SineTest
 from pysim.workflow import (
     SessionParts,
@@ -37,6 +38,13 @@ def test_names_and_paths_are_enough(rubbing: Path) -> None:
     assert (session.model["d"].start, session.free) == (0.5, ("m", "d"))
     assert {effect.name for effect in session.catalogue} == set(CATALOGUE)
     assert all(run.experiment.overrides == {"k": 19.0} for target in session.targets for run in target.runs)
+
+
+def test_the_package_opens_a_session_itself(rubbing: Path) -> None:
+    with pytest.raises(pysim.BadInput, match="nowhere"):
+        pysim.open_session("Toy.Mass", rubbing, library="nowhere.mo")
+    with pytest.raises(AttributeError):
+        pysim.nothing  # noqa: B018
 
 
 def test_what_is_open_already_is_taken_as_it_is(rubbing: Path) -> None:
