@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from pysim.workflow.data import BY_DATA, data_of, reference_of
     from pysim.workflow.extended import write_extended
+    from pysim.workflow.fitting import fit_problem
     from pysim.workflow.free import free_parameters
     from pysim.workflow.model import ModelInside, inside, is_fmu, model_of
     from pysim.workflow.session import SessionParts, effects_of, open_session, session_of, session_parts
@@ -26,6 +27,7 @@ if TYPE_CHECKING:
 _FILES = {
     "data": ("BY_DATA", "data_of", "reference_of"),
     "extended": ("write_extended",),
+    "fitting": ("fit_problem",),
     "free": ("free_parameters",),
     "model": ("ModelInside", "inside", "is_fmu", "model_of"),
     "session": ("SessionParts", "effects_of", "open_session", "session_of", "session_parts"),
@@ -40,6 +42,7 @@ __all__ = [
     "command_line",
     "data_of",
     "effects_of",
+    "fit_problem",
     "free_parameters",
     "inside",
     "is_fmu",

@@ -102,48 +102,22 @@ def _refuse_unprofiled(problem: Problem, profiled: Sequence[str]) -> None:
 
 
 def _problem(given: Given, model: Model, datasets: Sequence[Dataset]) -> Problem:
-    from pysim.identify.greybox import Measurements, Parameter, Tie, Treatment, problem
-    from pysim.workflow import free_parameters, reference_of
+    from pysim.identify.greybox import Tie
+    from pysim.workflow import fit_problem, reference_of
 
-    ties, bounds, unit = [Tie(*_tie(word)) for word in given.tie], given.bounds, "the parameter's unit"
-    told = settable(parameters_of(given.parameters), model) if given.parameters else {}
-    own = assigned(given.set, "--set", unit)
-    tied = [tie.name for tie in ties]
-    free = [name for name in free_parameters(model, given.free, bounds, {**told, **own}) if name not in tied]
-    starts = {name: value for name, value in told.items() if name in free} | assigned(given.start, "--start", unit)
-    fixed = {name: value for name, value in told.items() if name not in free and name not in tied} | own
-    _refuse_idle([*starts, *bounds], free)
-    _refuse_still(datasets)
-    data = [Measurements(one, outputs=tuple(given.signal) or None) for one in datasets]
-    reference_hz = reference_of((r for one in datasets for r in one.responses()), given.reference_hz)
-    parameters = [Parameter(name, starts.get(name), *bounds.get(name, (None, None))) for name in free]
-    return problem(model, data, parameters, fixed=fixed, ties=ties, treatment=Treatment(reference_hz=reference_hz))
-
-
-def _refuse_idle(named: Iterable[str], free: Sequence[str]) -> None:
-    from pysim.types import BadInput
-
-    for name in named:
-        if name not in free:
-            raise BadInput(f"{name} has a start or bounds but is not free; add it to --free, or use --set")
-
-
-def _refuse_still(datasets: Sequence[Dataset]) -> None:
-    """Logs in none of which an input moves tell nothing of what moves."""
-    from pysim.diagnose.adequacy import shortcomings
-    from pysim.types import BadInput
-
-    refusals = []
-    for dataset in datasets:
-        if any(record.use == "fit" for record in dataset.records):
-            try:
-                shortcomings(dataset, ())
-            except BadInput as error:
-                refusals.append(error)
-            else:
-                return
-    if refusals:
-        raise refusals[0]
+    unit = "the parameter's unit"
+    return fit_problem(
+        model,
+        datasets,
+        free=given.free,
+        bounds=given.bounds,
+        values=settable(parameters_of(given.parameters), model) if given.parameters else {},
+        fixed=assigned(given.set, "--set", unit),
+        starts=assigned(given.start, "--start", unit),
+        ties=[Tie(*_tie(word)) for word in given.tie],
+        outputs=given.signal,
+        reference_hz=reference_of((r for one in datasets for r in one.responses()), given.reference_hz),
+    )
 
 
 def _tie(word: str) -> tuple[str, str, float]:
