@@ -15,9 +15,11 @@ VIEWS = {  # type of a result -> the module that shows it, and that exports the 
     "Checked": "pysim.present.fmu_check",
     "Chirps": "pysim.present.chirp",
     "CoSimulation": "pysim.present.cosim",
+    "Comparison": "pysim.present.comparison",
     "Comparisons": "pysim.present.comparison",
     "DataCheck": "pysim.present.data_check",
     "Diagnosed": "pysim.present.diagnosis",
+    "Fit": "pysim.present.fit",
     "Fitted": "pysim.present.fit",
     "Friction": "pysim.present.friction",
     "Heave": "pysim.present.rig.heave",
@@ -35,7 +37,7 @@ class View(Protocol):
 
     It may also have `files(result) -> name -> content`, of what lies beside the page, and where its JSON names all
     files `placed(result, written, home) -> result`: `written` are the paths that `write_report` gives, `home` is the
-    folder of the JSON file.
+    folder of the JSON file. A module that shows several types has `whole(result)`, which makes all of them one.
     """
 
     def text(self, result: Any) -> str:
@@ -55,8 +57,8 @@ class View(Protocol):
         ...
 
 
-def view_of(result: object) -> View:
-    """The module that shows a result.
+def viewed(result: object) -> tuple[View, Any]:
+    """The module that shows a result, and the result as that module takes it.
 
     Raises:
         TypeError: none shows results of this type, which is our mistake.
@@ -65,18 +67,20 @@ def view_of(result: object) -> View:
     if name in VIEWS:
         module = import_module(VIEWS[name])
         if getattr(module, name) is type(result):
-            return cast(View, module)
+            return cast(View, module), module.whole(result) if hasattr(module, "whole") else result
     raise TypeError(f"nothing in pysim.present shows a {type(result).__module__}.{name}; add it to VIEWS")
 
 
 def text(result: object) -> str:
     """For a terminal."""
-    return view_of(result).text(result)
+    view, whole = viewed(result)
+    return view.text(whole)
 
 
 def data(result: object) -> Any:
     """For JSON: plain numbers, texts, lists and dictionaries; what is not finite is None."""
-    return view_of(result).data(result)
+    view, whole = viewed(result)
+    return view.data(whole)
 
 
 def write_report(folder: Path, result: object, *, redo: str) -> dict[str, Path]:
@@ -90,7 +94,7 @@ def write_report(folder: Path, result: object, *, redo: str) -> dict[str, Path]:
     """
     from pysim.io import write_file
 
-    view = view_of(result)
+    view, result = viewed(result)
     drawings = [draw(picture, folder) for picture in view.figures(result)]
     contents: Mapping[str, str | bytes] = view.files(result) if hasattr(view, "files") else {}
     for name, content in contents.items():
@@ -107,5 +111,5 @@ def with_places(result: Any, written: Mapping[str, Path], home: Path) -> Any:
         written: as `write_report` gives them.
         home: the folder of the JSON file.
     """
-    view = view_of(result)
-    return view.placed(result, written, home) if hasattr(view, "placed") else result
+    view, whole = viewed(result)
+    return view.placed(whole, written, home) if hasattr(view, "placed") else result

@@ -11,18 +11,15 @@ from pysim.cli.outputs import JOURNAL
 from pysim.cli.steps import SUBJECT, end_step, read_parts, results, run_step, write_model
 
 if TYPE_CHECKING:
-    from pysim.present.comparison import Comparisons
     from pysim.present.diagnosis import Diagnosed
     from pysim.types import Comparison, Dataset
 
 
-def run(given: Given) -> Comparisons | Diagnosed:
+def run(given: Given) -> Comparison | Diagnosed:
     """Responses are compared by driving the model through the tests they stand for, logs over time sample by sample.
 
     Logs are compared in units of their noise; with --refit both are, as the model is and refitted.
     """
-    from pysim.present.comparison import Comparisons
-
     dataset = given.dataset
     if not given.refit:
         _refuse_idle(given)
@@ -33,7 +30,7 @@ def run(given: Given) -> Comparisons | Diagnosed:
             f"Compared are tables of frequency responses alone ({len(dataset.responses())}), not the logs over time "
             f"beside them ({len(dataset.logs())}): --refit takes the logs, or give them a data set of their own.\n"
         )
-    return Comparisons("A model against its measurements", (_responses(given, dataset),))
+    return _responses(given, dataset)
 
 
 def _refuse_idle(given: Given) -> None:
@@ -87,16 +84,12 @@ def _responses(given: Given, dataset: Dataset) -> Comparison:
         )
 
 
-def _of_responses(result: Any) -> bool:
-    from pysim.present.comparison import Comparisons
-
-    return isinstance(result, Comparisons)
-
-
 def _passes(result: Any) -> bool:
     """Whether every test is within the limits."""
-    if _of_responses(result):
-        return all(one.passes for one in result.sets)
+    from pysim.types import Comparison
+
+    if isinstance(result, Comparison):
+        return result.passes
     last = result.found.error[-1]
     return bool(last.passes and last.criteria)
 

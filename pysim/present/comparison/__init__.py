@@ -1,12 +1,14 @@
 """Models against measured responses, shown."""
 
-from pysim.present.comparison.answer import Comparisons, comparison_text, data, text, verdict_text
+from pysim.present.comparison.answer import Comparisons, comparison_text, data, text, verdict_text, whole
 from pysim.present.comparison.bode import bode_figure
 from pysim.present.comparison.deviation import deviation_figure
 from pysim.present.comparison.figures import comparison_picture, figures, picture_names
 from pysim.present.comparison.page import comparison_table, page
+from pysim.types import Comparison
 
 __all__ = [
+    "Comparison",
     "Comparisons",
     "bode_figure",
     "comparison_picture",
@@ -19,4 +21,5 @@ __all__ = [
     "picture_names",
     "text",
     "verdict_text",
+    "whole",
 ]

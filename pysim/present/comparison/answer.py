@@ -32,6 +32,11 @@ class Comparisons:
     remarks: tuple[str, ...] = ()
 
 
+def whole(result: Comparison | Comparisons) -> Comparisons:
+    """One parameter set is several with one."""
+    return result if isinstance(result, Comparisons) else Comparisons("A model against its measurements", (result,))
+
+
 def text(result: Comparisons) -> str:
     """The table of every parameter set."""
     return "\n\n".join(comparison_text(comparison) for comparison in result.sets)

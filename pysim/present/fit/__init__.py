@@ -1,6 +1,6 @@
 """Fitted parameters, shown."""
 
-from pysim.present.fit.answer import Fitted, data, files, text
+from pysim.present.fit.answer import Fitted, data, files, text, whole
 from pysim.present.fit.figures import (
     figures,
     fit_correlation_figure,
@@ -9,8 +9,10 @@ from pysim.present.fit.figures import (
     fit_record_figure,
 )
 from pysim.present.fit.page import page
+from pysim.types import Fit
 
 __all__ = [
+    "Fit",
     "Fitted",
     "data",
     "figures",
@@ -21,4 +23,5 @@ __all__ = [
     "fit_record_figure",
     "page",
     "text",
+    "whole",
 ]

@@ -28,6 +28,11 @@ class Fitted:
     profiles: tuple[Profile, ...] = ()
 
 
+def whole(result: Fit | Fitted) -> Fitted:
+    """A fit alone, without profiles and without its data sets, whose inputs' units are then not known."""
+    return result if isinstance(result, Fitted) else Fitted(result, ())
+
+
 def text(result: Fitted) -> str:
     """Estimates, what is not determined, what every record leaves over, and profiles."""
     fit = result.fit

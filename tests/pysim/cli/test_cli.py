@@ -51,7 +51,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
         return [linear.steady_output(experiment) for experiment in experiments]
 
     monkeypatch.setattr(import_module("pysim.diagnose.compare"), "simulate_many", simulate_many)
-    monkeypatch.setattr("pysim.io.read_model", lambda path: linear.model())
+    monkeypatch.setattr("pysim.workflow.model.read_model", lambda path: linear.model())
     return tmp_path
 
 

@@ -41,7 +41,8 @@ def test_a_type_is_exported_where_it_is_shown(name: str) -> None:
 def test_a_result_is_shown_by_what_it_is() -> None:
     result = Fitted(small_fit(), ())
     assert text(result) == fit.text(result)
-    assert data(result) == fit.data(result)
+    assert data(result) == fit.data(result) == data(small_fit())
+    assert text(small_fit()) == fit.text(result)
     namesake = type("Fitted", (), {})()
     for unknown in (namesake, 3.0):
         with pytest.raises(TypeError, match="nothing in pysim"):
