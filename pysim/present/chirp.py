@@ -14,7 +14,7 @@ import numpy as np
 from pysim.identify import HALF_95, magnitude_db
 from pysim.identify.chirp import Branch, ChirpAnalysis
 from pysim.io import shown_value
-from pysim.present.page import cell, commands, heading, items, picture, table
+from pysim.present.page import cell, heading, items, pictures, table
 from pysim.present.page import page as whole_page
 from pysim.present.render import Drawing, Picture
 from pysim.present.style import COLOURS, MEASURED, TEXT, frequency_axis, legend_above, new_figure, phase_axis, quiet
@@ -84,7 +84,7 @@ def figures(result: Chirps) -> Iterator[Picture]:
 def page(result: Chirps, drawings: Sequence[Drawing], redo: str) -> str:
     """How it was done, a picture and a table per chirp, remarks."""
     parts = [heading("How it was done"), items(_METHOD), heading("Responses")]
-    parts += [picture(one.svg, one.caption) for one in drawings]
+    parts += pictures(drawings)
     for one in result.analyses:
         head = ["Hz", "mean (dB)", "±", "mean (deg)", "±", "top (dB)", "top (deg)", "bottom (dB)", "bottom (deg)"]
         rows = [
@@ -94,8 +94,7 @@ def page(result: Chirps, drawings: Sequence[Drawing], redo: str) -> str:
         parts.append(table(_title(one), head, rows))
         if one.remarks:
             parts.append(items(one.remarks))
-    parts += [heading("Do it again"), commands(redo)]
-    return whole_page("Response to chirps", f"Chirps of {result.dataset}.", parts)
+    return whole_page("Response to chirps", f"Chirps of {result.dataset}.", parts, redo)
 
 
 def _title(one: ChirpAnalysis) -> str:

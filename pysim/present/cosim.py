@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from pysim.io import record_text, shown_unit
-from pysim.present.page import cell, commands, heading, paragraph, picture, table
+from pysim.present.page import cell, heading, paragraph, pictures, table
 from pysim.present.page import page as whole_page
 from pysim.present.render import Drawing, Picture
 from pysim.present.style import COLOURS, DASHES, SMALL, TEXT, new_figure, quiet
@@ -83,7 +83,7 @@ def page(result: CoSimulation, drawings: Sequence[Drawing], redo: str) -> str:
     """How the run went, the picture, signals, members and connections."""
     body = [heading("Verdict"), paragraph(_how(result), note=result.record.outcome is not Outcome.DONE)]
     if drawings:
-        body += [heading("Pictures"), *(picture(one.svg, one.caption) for one in drawings)]
+        body += [heading("Pictures"), *pictures(drawings)]
     rows = [
         [cell(signal, "words"), cell(unit, "words"), *(cell(f"{value:.5g}") for value in values)]
         for signal, unit, values in _signals(result.record)
@@ -93,9 +93,8 @@ def page(result: CoSimulation, drawings: Sequence[Drawing], redo: str) -> str:
     body += [heading("Members"), table("What the system is made of", ["", "", "inputs", "outputs"], rows)]
     if result.wires:
         body += [heading("Connections"), _wiring(result.wires)]
-    body += [heading("Do it again"), commands(redo)]
     lead = "Members stepped side by side and wired at communication points."
-    return whole_page(f"Co-simulation {result.name}", lead, body)
+    return whole_page(f"Co-simulation {result.name}", lead, body, redo)
 
 
 def files(result: CoSimulation) -> dict[str, str]:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from pysim.excitation import Excitation, Multisine, StochasticWave
-from pysim.present.page import heading, items, paragraph, picture
+from pysim.present.page import heading, items, paragraph, pictures
 from pysim.present.page import page as whole_page
 from pysim.present.render import Drawing, Picture
 from pysim.present.style import (
@@ -84,7 +84,7 @@ def figures(result: Played) -> Iterator[Picture]:
 def page(result: Played, drawings: Sequence[Drawing], redo: str) -> str:
     """What is played, with its settings, and the picture."""
     parts = [heading("What is played"), items(_facts(result)), paragraph(result.settings)]
-    parts += [picture(one.svg, one.caption) for one in drawings]
+    parts += pictures(drawings)
     return whole_page(f"Test signal: {result.kind}", result.about, parts)
 
 

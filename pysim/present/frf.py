@@ -17,7 +17,7 @@ from pysim.identify import (
     standard_deviations,
 )
 from pysim.io import shown_unit, shown_value
-from pysim.present.page import cell, commands, heading, items, paragraph, picture, table
+from pysim.present.page import cell, heading, items, paragraph, pictures, table
 from pysim.present.page import page as whole_page
 from pysim.present.render import Drawing, Picture
 from pysim.present.style import (
@@ -88,15 +88,15 @@ def figures(result: Responses) -> Iterator[Picture]:
 def page(result: Responses, drawings: Sequence[Drawing], redo: str) -> str:
     """How it was done, the picture, a table per response with its remarks."""
     parts = [heading("How it was done"), items(_method()), heading("Responses")]
-    parts += [picture(one.svg, one.caption) for one in drawings]
+    parts += pictures(drawings)
     for one in result.responses:
         mean = f"mean ({shown_unit(one.output_unit)[0]})"
         head = ["Hz", "magnitude (dB)", "±", "phase (deg)", "±", mean, "harmonics (%)", "periods"]
         parts.append(table(_title(one), head, [_cells(row) for row in _rows(one, result.reference_hz)]))
         if one.remarks:
             parts.append(items(one.remarks))
-    parts += [paragraph(" ".join(_legend(result.reference_hz))), heading("Do it again"), commands(redo)]
-    return whole_page("Frequency responses", f"Stepped sines of {result.dataset}.", parts)
+    parts.append(paragraph(" ".join(_legend(result.reference_hz))))
+    return whole_page("Frequency responses", f"Stepped sines of {result.dataset}.", parts, redo)
 
 
 def _title(one: MeasuredResponse) -> str:

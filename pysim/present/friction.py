@@ -19,7 +19,7 @@ from pysim.identify.friction import (
     friction_torque,
 )
 from pysim.io import json_number
-from pysim.present.page import cell, commands, heading, items, paragraph, picture, table
+from pysim.present.page import cell, heading, items, paragraph, pictures, table
 from pysim.present.page import page as whole_page
 from pysim.present.render import Drawing, Picture
 from pysim.present.style import BAND, COLOURS, LIMIT, MEASURED, TEXT, legend_above, new_figure, quiet
@@ -91,12 +91,11 @@ def page(result: Friction, drawings: Sequence[Drawing], redo: str) -> str:
     load = f" and {columns.load}" if columns.load else ""
     lead = f"{result.dataset}: {columns.speed} against {columns.supply}{load}, inertia {result.inertia:g} kg.m2."
     parts = [heading("Friction of the shaft"), _table(fit), items(_remarks(fit))]
-    parts += [picture(one.svg, one.caption) for one in drawings]
+    parts += pictures(drawings)
     parts += [heading("How it was found"), items(_method(fit))]
     if thesis is not None:
         parts += [heading("The same log by filter and Eq. 6.1"), _table(thesis), paragraph(_beside(), note=True)]
-    parts += [heading("Do it again"), commands(redo)]
-    return whole_page("Friction torque of the shaft over its speed", lead, parts)
+    return whole_page("Friction torque of the shaft over its speed", lead, parts, redo)
 
 
 def _data(fit: FrictionFit) -> dict[str, Any]:

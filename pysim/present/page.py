@@ -5,6 +5,10 @@ from __future__ import annotations
 import base64
 from collections.abc import Iterable, Sequence
 from html import escape
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from pysim.present.render import Drawing
 
 _STYLE = """
 :root { color-scheme: light dark; --ink: #1a1a1a; --quiet: #5c5c5c; --paper: #fff; --line: #d7d7d7; --fail: #b3261e;
@@ -36,18 +40,20 @@ pre { background: color-mix(in srgb, var(--line) 40%, transparent); padding: .7r
 """
 
 
-def page(title: str, lead: str, parts: Iterable[str]) -> str:
+def page(title: str, lead: str, parts: Iterable[str], redo: str = "") -> str:
     """The whole page.
 
     Args:
         title, lead: plain text.
         parts: HTML made by the other functions of this module.
+        redo: the command line that makes it again, for the end; "" for none.
     """
+    body = "\n".join([*parts, *([heading("Do it again"), commands(redo)] if redo else [])])
     return (
         '<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
         '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
         f"<title>{escape(title)}</title>\n<style>{_STYLE}</style>\n</head>\n<body>\n"
-        f'<h1>{escape(title)}</h1>\n<p class="lead">{escape(lead)}</p>\n' + "\n".join(parts) + "\n</body>\n</html>\n"
+        f'<h1>{escape(title)}</h1>\n<p class="lead">{escape(lead)}</p>\n{body}\n</body>\n</html>\n'
     )
 
 
@@ -101,3 +107,8 @@ def picture(svg: bytes, caption: str) -> str:
         f'<figure><img alt="{escape(caption, quote=True)}" src="data:image/svg+xml;base64,{data}">'
         f"<figcaption>{escape(caption)}</figcaption></figure>"
     )
+
+
+def pictures(drawings: Iterable[Drawing]) -> list[str]:
+    """All drawings inside the page, each with its caption."""
+    return [picture(one.svg, one.caption) for one in drawings]

@@ -15,7 +15,7 @@ import numpy as np
 from pysim.control.tuning import Gains, loop_response
 from pysim.control.tuning.margins import open_loop
 from pysim.io import json_number
-from pysim.present.page import cell, commands, heading, items, picture, table
+from pysim.present.page import cell, heading, items, pictures, table
 from pysim.present.page import page as whole_page
 from pysim.present.render import Drawing, Picture
 from pysim.present.style import (
@@ -101,9 +101,9 @@ def page(result: Tuning, drawings: Sequence[Drawing], redo: str) -> str:
         for label, g in result.loops.items()
     ]
     parts = [heading("How it was done"), items(_METHOD), heading("Loops")]
-    parts += [picture(one.svg, one.caption) for one in drawings]
-    parts += [table("Gains and margins", ["", *_HEAD, "stable"], rows), heading("Do it again"), commands(redo)]
-    return whole_page("Tuning of a PI controller", f"Plant: {first.plant.name}.", parts)
+    parts += pictures(drawings)
+    parts.append(table("Gains and margins", ["", *_HEAD, "stable"], rows))
+    return whole_page("Tuning of a PI controller", f"Plant: {first.plant.name}.", parts, redo)
 
 
 def _cells(gains: Gains) -> list[str]:

@@ -8,7 +8,7 @@ from pysim.identify import FREQUENCY_CRITERIA
 from pysim.identify.blackbox import FittedResponse, OrderSuggestion
 from pysim.present.blackbox.answer import DIGITS, TransferFunctions, misfit, numbers, root_text, upper
 from pysim.present.notes import words
-from pysim.present.page import cell, commands, heading, items, paragraph, picture, table
+from pysim.present.page import cell, heading, items, paragraph, pictures, table
 from pysim.present.page import page as whole_page
 from pysim.present.render import Drawing
 from pysim.types import Deviation
@@ -22,9 +22,9 @@ def page(result: TransferFunctions, drawings: Sequence[Drawing], redo: str) -> s
         if one.suggestion:
             parts.append(_structures_table(one.suggestion))
         parts += [paragraph(note, note=True) for note in (*map(words, one.fit.notes), *one.remarks)]
-        parts += [picture(drawing.svg, drawing.caption) for drawing in drawings[i : i + 1]]
-    parts += [heading("Do it again"), commands(redo)]
-    return whole_page("Black-box transfer functions", f"Fitted to the frequency responses of {result.dataset}.", parts)
+        parts += pictures(drawings[i : i + 1])
+    lead = f"Fitted to the frequency responses of {result.dataset}."
+    return whole_page("Black-box transfer functions", lead, parts, redo)
 
 
 def _method() -> list[str]:

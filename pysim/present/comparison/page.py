@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from pysim.identify import FREQUENCY_CRITERIA
 from pysim.present.comparison.answer import Comparisons, note_text, verdict_text
-from pysim.present.page import cell, commands, heading, items, paragraph, picture, table
+from pysim.present.page import cell, heading, items, paragraph, pictures, table
 from pysim.present.page import page as whole_page
 from pysim.present.render import Drawing
 from pysim.types import Comparison, ResponseComparison
@@ -26,9 +26,9 @@ def page(result: Comparisons, drawings: Sequence[Drawing], redo: str) -> str:
     for comparison in comparisons:
         parts += [heading(f"Test by test: {comparison.label}"), comparison_table(comparison)]
         parts += note
-    parts += [heading("Pictures"), *(picture(one.svg, one.caption) for one in drawings)]
-    parts += [*result.remarks, heading("Do it again"), commands(redo)]
-    return whole_page(result.title, f"{models}; held against: {first.dataset}, {first.measured_name}.", parts)
+    parts += [heading("Pictures"), *pictures(drawings)]
+    parts += result.remarks
+    return whole_page(result.title, f"{models}; held against: {first.dataset}, {first.measured_name}.", parts, redo)
 
 
 def comparison_table(comparison: Comparison) -> str:

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from pysim.identify.data_check import DataCheck, RecordCheck
 from pysim.present.data_check.answer import UNTOLD, several_inputs, signals_in_words
-from pysim.present.page import cell, commands, heading, items, paragraph, picture, table
+from pysim.present.page import cell, heading, items, paragraph, pictures, table
 from pysim.present.page import page as whole_page
 from pysim.present.render import Drawing
 
@@ -23,19 +23,18 @@ def page(check: DataCheck, drawings: Sequence[Drawing], redo: str) -> str:
     ]
     head = ["", "role", "unit", "quantity", "model variable", "noise", "resolution"]
     parts += [heading("Signals"), table("In SI units or %", head, rows)]
-    parts += [heading("Pictures"), *(picture(one.svg, one.caption) for one in drawings)]
+    parts += [heading("Pictures"), *pictures(drawings)]
     several = several_inputs(check.records)
     head = ["file", "kind", "use", "rows", "duration s", "rate Hz", "jitter %", *(["input"] if several else [])]
     head += ["offset", "amplitude", "Hz", "warnings"]
     body = [_row(record, several) for record in check.records]
     parts += [heading("Records"), table("Offset and amplitude in the input's SI unit or %", head, body)]
-    parts += [heading("Do it again"), commands(redo)]
     told = {
         check.dataset.description: check.dataset.description,
         check.dataset.system: f"system {check.dataset.system}",
     }
     about = "; ".join(words for text, words in told.items() if text != UNTOLD)
-    return whole_page(f"Data set {check.dataset.name}", f"{about}." if about else "", parts)
+    return whole_page(f"Data set {check.dataset.name}", f"{about}." if about else "", parts, redo)
 
 
 def _row(record: RecordCheck, several: bool) -> list[str]:

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from pysim.io import shown_value
 from pysim.present.fit.answer import Fitted, gain_text, outcome_text
 from pysim.present.notes import direction_words, words
-from pysim.present.page import cell, commands, heading, items, paragraph, picture, table
+from pysim.present.page import cell, heading, items, paragraph, pictures, table
 from pysim.present.page import page as whole_page
 from pysim.present.render import Drawing
 from pysim.types import Fit
@@ -28,9 +28,10 @@ def page(result: Fitted, drawings: Sequence[Drawing], redo: str) -> str:
         parts += [_combinations(fit)] if fit.combinations else []
     parts += [heading("What each record leaves over"), _records(fit)]
     parts += [_responses(fit, units)] if fit.responses else []
-    parts += [heading("Pictures"), *(picture(one.svg, one.caption) for one in drawings)]
-    parts += [paragraph(_METHOD), heading("Do it again"), commands(redo)]
-    return whole_page("A model fitted to its measurements", f"{fit.model}; {fit.objective}; {fit.optimiser}.", parts)
+    parts += [heading("Pictures"), *pictures(drawings)]
+    parts.append(paragraph(_METHOD))
+    lead = f"{fit.model}; {fit.objective}; {fit.optimiser}."
+    return whole_page("A model fitted to its measurements", lead, parts, redo)
 
 
 _METHOD = (

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from pysim.present.multisine.answer import Approximations, heads, table_rows, verdicts
-from pysim.present.page import cell, commands, heading, items, paragraph, picture, table
+from pysim.present.page import cell, heading, items, paragraph, pictures, table
 from pysim.present.page import page as whole_page
 from pysim.present.render import Drawing
 
@@ -15,7 +15,7 @@ def page(result: Approximations, drawings: Sequence[Drawing], redo: str) -> str:
     parts = [heading("Best linear approximation")]
     for name, bla in result.found:
         parts += [paragraph(f"{name}, {bla.method}."), items(verdicts(bla))]
-    parts += [picture(one.svg, one.caption) for one in drawings]
+    parts += pictures(drawings)
     parts.append(
         paragraph(
             "Levels are mean squares of one realisation over its periods, divided by the input's power on a line; they "
@@ -28,4 +28,4 @@ def page(result: Approximations, drawings: Sequence[Drawing], redo: str) -> str:
         rows = [[cell(text) for text in row] for row in table_rows(bla)]
         parts.append(table(f"{name}: some of {bla.frequency.size} lines, ± for 95 percent", heads(bla), rows))
     lead = "How much of the response is linear, how much noise, how much distortion, line by line."
-    return whole_page(result.title, lead, [*parts, heading("Do it again"), commands(redo)])
+    return whole_page(result.title, lead, parts, redo)

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pysim.present.page import cell, commands, heading, items, picture, table
+from pysim.present.page import cell, heading, items, pictures, table
 from pysim.present.page import page as whole_page
 from pysim.present.render import Drawing, Picture
 from pysim.present.rig.looks import BAR, PULSES, REFERENCE, TRUE, within
@@ -113,9 +113,8 @@ def page(result: Heave, drawings: Sequence[Drawing], redo: str) -> str:
     )
     parts = [heading("How it was done"), items(_METHOD)]
     parts.append(table("How well the references were followed", ["controller", *_HEAD], rows))
-    parts += [picture(one.svg, one.caption) for one in drawings]
-    parts += [heading("Do it again"), commands(redo)]
-    return whole_page("Heave compensation on the rig", lead, parts)
+    parts += pictures(drawings)
+    return whole_page("Heave compensation on the rig", lead, parts, redo)
 
 
 def _cells(f: HeaveFigures) -> list[str]:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from pysim.io import json_number
-from pysim.present.page import cell, commands, heading, items, picture, table
+from pysim.present.page import cell, heading, items, pictures, table
 from pysim.present.page import page as whole_page
 from pysim.present.render import Drawing, Picture
 from pysim.present.rig.looks import BAR, PULSES, REFERENCE, TRUE, within
@@ -82,10 +82,9 @@ def page(result: Steps, drawings: Sequence[Drawing], redo: str) -> str:
     """How it was done, the answers' figures, the pictures."""
     rows = [[cell(x) for x in _cells(*one)] for one in result.steps]
     parts = [heading("How it was done"), items(_METHOD), table("Answers to steps", _HEAD, rows)]
-    parts += [picture(one.svg, one.caption) for one in drawings]
-    parts += [heading("Do it again"), commands(redo)]
+    parts += pictures(drawings)
     return whole_page(
-        "Step tests of the rig", "Speed and load pressure of the test bench under its controllers.", parts
+        "Step tests of the rig", "Speed and load pressure of the test bench under its controllers.", parts, redo
     )
 
 
