@@ -56,7 +56,7 @@ def signals_in_words(check: DataCheck) -> list[list[str]]:
     rows = []
     for signal in check.dataset.signals:
         noise, step = (
-            f"no {what} told" if value is None else f"{what} {value:.3g} {signal.unit.removeprefix('1')}".rstrip()
+            f"no {what} specified" if value is None else f"{what} {value:.3g} {signal.unit.removeprefix('1')}".rstrip()
             for what, value in (("noise", signal.noise), ("resolution", signal.resolution))
         )
         rows.append([signal.name, signal.role, signal.unit, signal.quantity, signal.variable, noise, step])

@@ -134,7 +134,7 @@ def evidence_text(diagnosis: Diagnosis) -> str:
         )
         lines.append(f"  {step.step:<20}{numbers}  {limits_words(step)}")
     if diagnosis.ranking:
-        lines += ["", "Candidates                  gain less price   explained"]
+        lines += ["", "Candidates                  gain less penalty explained"]
         for number in sorted({row.round for row in diagnosis.ranking}):
             own = [row for row in diagnosis.ranking if row.round == number][: 6 if number == 1 else 3]
             lines += [f"  round {number}"] if number > 1 else []
@@ -145,7 +145,7 @@ def evidence_text(diagnosis: Diagnosis) -> str:
             f"  {one.slot:<23} {one.depends_on:<23} {100 * one.share:6.1f} %  {one.formula}".rstrip()
             for one in diagnosis.missing[:6]
         ]
-    lines += [f"Not told apart by these data: {', '.join(group)}" for group in diagnosis.confusable]
+    lines += [f"Indistinguishable with these data: {', '.join(group)}" for group in diagnosis.confusable]
     if diagnosis.next_test is not None:
         lines += textwrap.wrap(f"Next test: {next_test_sentence(diagnosis.next_test)}", _WIDTH, subsequent_indent="  ")
     for note in diagnosis.notes:

@@ -14,7 +14,7 @@ from pysim.present.diagnosis.words import (
     sizes,
     verdict_sentence,
 )
-from pysim.present.notes import direction_words, words
+from pysim.present.notes import direction_words, listed, words
 from pysim.present.page import cell, commands, heading, items, page, paragraph, picture, statement, table
 from pysim.types import AddedEffect, Candidate, Diagnosis, Estimate, LedgerStep, Missing, Stage
 
@@ -61,10 +61,10 @@ def diagnosis_page(
     if diagnosis.notes:
         parts += _section("What to bear in mind", [items(map(words, diagnosis.notes))])
     conditions = {**diagnosis.conditions, **{f"time for {k}": f"{v:.1f} s" for k, v in diagnosis.seconds.items()}}
-    listed = [f"{name}: {text}" for name, text in conditions.items()]
+    lines = [f"{name}: {text}" for name, text in conditions.items()]
     if files:
-        listed.append("files beside this page: " + ", ".join(files.values()))
-    parts += _section("Conditions", [items(listed), paragraph(_METHOD)])
+        lines.append("files beside this page: " + ", ".join(files.values()))
+    parts += _section("Conditions", [items(lines), paragraph(_METHOD)])
     parts += _section("Do it again", [commands(redo)])
     return page(question, title, parts)
 
@@ -72,7 +72,7 @@ def diagnosis_page(
 _METHOD = (
     "Residuals are measured minus simulated, in standard deviations of the noise: where nothing but noise is left "
     "their root mean square is 1. A candidate's gain is the fall of the sum of squares once everything is refitted "
-    "with it; its price is the logarithm of the number of residuals for each of its parameters. Intervals are to "
+    "with it; its penalty is the logarithm of the number of residuals for each of its parameters. Intervals are to "
     "first order, widened by the residual where the model does not fit to the noise. Records held out had no part in "
     "any fit."
 )
@@ -131,13 +131,13 @@ def _missing(missing: Sequence[Missing]) -> str:
 
 
 def _ranking(diagnosis: Diagnosis) -> list[str]:
-    texts = [f"Not told apart by these data: {', '.join(group)}." for group in diagnosis.confusable]
+    texts = [f"Indistinguishable with these data: {', '.join(group)}." for group in diagnosis.confusable]
     several = len({row.round for row in diagnosis.ranking}) > 1
     rows = [[*([cell(f"{row.round}")] if several else []), *_candidate(row)] for row in diagnosis.ranking]
     head = [
         *(["round"] if several else []),
         "effect",
-        "gain less price",
+        "gain less penalty",
         "of the misfit",
         "by chance",
         "how",
@@ -160,7 +160,7 @@ def _parameters(diagnosis: Diagnosis) -> list[str]:
         return []
     moves = {} if last is None else last.moves_from(base)
     bent = [name for name, move in moves.items() if move is not None and move > 1]
-    words = "To hide what was missing, refitting had bent " + ", ".join(bent) + "." if bent else ""
+    pushed = f"Without the effect, the fit had pushed {listed(bent)} to wrong values." if bent else ""
     ends = {} if last is None else {e.name: e for e in last.estimates}
     held = {next(iter(d.exponents)) for d in (base if last is None else last).undetermined}
     rows = [_parameter(e, ends.pop(e.name, None), moves.get(e.name), e.name in held) for e in base.estimates]
@@ -170,7 +170,7 @@ def _parameters(diagnosis: Diagnosis) -> list[str]:
     if last is not None and scale:
         scale.append("Moves are counted once both are brought to the same value of the parameter that is held.")
     caption = "Fitted parameters; moves in half widths of the interval at the end"
-    return [paragraph(words) if words else "", table(caption, head, rows), *(paragraph(text) for text in scale)]
+    return [paragraph(pushed) if pushed else "", table(caption, head, rows), *(paragraph(text) for text in scale)]
 
 
 def _parameter(before: Estimate, after: Estimate | None, move: float | None, held: bool) -> list[str]:

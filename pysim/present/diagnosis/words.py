@@ -113,10 +113,10 @@ def ranking_sentence(diagnosis: Diagnosis) -> str:
     paying = [row for row in diagnosis.ranking if row.score > 0 and row.round == 1]
     count = len({row.effect for row in diagnosis.ranking})
     if not paying:
-        return f"None of {count} candidates gains more than its price."
+        return f"None of {count} candidates improves the fit enough to justify its extra parameters."
     names = [f"{row.effect} ({share_text(row.explained)} of the misfit)" for row in paying[:3]]
-    listed = ", ".join(names) + ("" if len(paying) <= 3 else ", ...")
-    return f"{len(paying)} of {count} candidates gain more than their price: {listed}. Nothing was decided."
+    best = ", ".join(names) + ("" if len(paying) <= 3 else ", ...")
+    return f"{len(paying)} of {count} candidates improve the fit enough to justify their extra parameters: {best}."
 
 
 def missing_sentence(diagnosis: Diagnosis) -> str:

@@ -24,7 +24,7 @@ def test_few_warnings_are_all_shown() -> None:
     assert shown.endswith(
         "2 warnings:\n  0.txt: a gap in time, of 0.11 s after 0.49 s\n  1.txt: a gap in time, of 0.11 s after 0.49 s"
     )
-    assert "  cmd  input, 1, noise 0.5, no resolution told" in shown.splitlines()
+    assert "  cmd  input, 1, noise 0.5, no resolution specified" in shown.splitlines()
 
 
 def test_many_warnings_are_cut_in_the_terminal_and_whole_elsewhere() -> None:

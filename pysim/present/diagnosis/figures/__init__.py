@@ -40,7 +40,7 @@ def pictures(found: Diagnosis, dataset: Dataset) -> Iterator[Picture]:
     yield from _record_figures(found, dataset)
     yield from _missing_figures(found)
     if found.ranking:
-        caption = "Candidates by what they gain less their price; n is the number of residuals."
+        caption = "Candidates by their gain less the penalty for their parameters; n is the number of residuals."
         yield Picture("ranking", caption, diagnosis_ranking_figure(found), "ranking")
     base = next((stage for stage in found.stages if stage.step == "refit"), None)
     if base is not None and base.estimates:

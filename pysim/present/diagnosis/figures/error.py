@@ -142,7 +142,7 @@ def _limit(criterion: Criterion) -> str:
 
 
 def diagnosis_ranking_figure(diagnosis: Diagnosis) -> Figure:
-    """Gain less price of each candidate, the best on top: full bars were refitted, hollow ones only screened.
+    """Gain less penalty of each candidate, the best on top: full bars were refitted, hollow ones only screened.
 
     A panel per round of the search. Candidates that the data do not tell apart share a colour and a bracket.
 
@@ -160,7 +160,7 @@ def diagnosis_ranking_figure(diagnosis: Diagnosis) -> Figure:
     for axes, rows, number in zip(panels, rounds, numbers, strict=True):
         _round(axes, rows, groups, _added_in(diagnosis, number), high)
         axes.set_title("" if len(rounds) == 1 else f"Round {number}", fontsize=TEXT, loc="left")
-    words = "Gain less price: fall of the sum of squares over noise, less ln n per parameter"
+    words = "Gain less penalty: fall of the sum of squares over noise, less ln n per parameter"
     panels[-1].set_xlabel(words, fontsize=TEXT)
     from matplotlib.patches import Patch
 
@@ -170,7 +170,7 @@ def diagnosis_ranking_figure(diagnosis: Diagnosis) -> Figure:
         "screened only": Patch(facecolor="white", edgecolor=COLOURS[5], hatch="////"),
     }
     if groups:
-        kinds["not told apart"] = Patch(facecolor=COLOURS[4])
+        kinds["indistinguishable"] = Patch(facecolor=COLOURS[4])
     legend_above(figure, list(kinds.values()), list(kinds))
     return figure
 
