@@ -7,7 +7,8 @@ import pytest
 
 import fmu_build
 from fmu_build.pack import CompilerError
-from pysim.types import BadInput
+from pysim.effects import law_class
+from pysim.types import BadInput, EffectParameter
 from pysim.workflow import Variants
 from tests.pysim.diagnose.toy import CATALOGUE, library
 
@@ -39,3 +40,15 @@ def test_each_is_built_once_and_says_where_its_parameters_are() -> None:
     assert model["force.F_c"].unit == "N"
     assert variants.build([CATALOGUE["toy.friction"]])[0] is model
     assert [slot.name for slot in variants.slots] == ["force"]
+
+
+def test_a_law_stands_in_its_slot_behind_the_effects_that_are_there() -> None:
+    variants = Variants("Toy.Mass", (library(),))
+    (force,) = variants.slots
+    k_3 = EffectParameter("k_3", "N/m3", 0.0, 100.0, 5.0, 0.0, 0.0)
+    text = law_class("Cubic", force, "-k_3*x^3", [k_3], [library()], effect="own.cubic")
+    model, places = variants.build_term(text, [CATALOGUE["toy.friction"]])
+    assert places == {"toy.friction": "force.first", "own.cubic": "force.second"}
+    assert (model["force.second.k_3"].max, model["force.first.F_c"].unit) == (100.0, "N")
+    with pytest.raises(BadInput, match="nowhere"):
+        variants.build_term(text.replace("-k_3*x^3", "-k_3*nowhere"))
