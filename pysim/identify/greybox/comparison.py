@@ -33,7 +33,11 @@ class Compared:
 
 
 def compared(
-    problem: Problem, x: Array, simulation: Simulation, carried: Mapping[int, Array | None] | None = None
+    problem: Problem,
+    x: Array,
+    simulation: Simulation,
+    carried: Mapping[int, Array | None] | None = None,
+    given: Mapping[int, Simulated] | None = None,
 ) -> Compared:
     """Simulate every observation at x (n,); one that cannot be simulated is noted and left out.
 
@@ -42,6 +46,7 @@ def compared(
 
     Args:
         carried: id of a run -> where its orbit is sought or its log begins, of the runs that were fitted.
+        given: id of a run -> what it gave at x, so that it need not be simulated again.
     """
     known = dict(carried or {})
     residuals = problem.residuals(simulation=simulation, use="validate")
@@ -52,7 +57,7 @@ def compared(
     records: list[RecordFit] = []
     responses: list[ResponseFit] = []
     experiments, notes, lost = [], list[Note](), 0
-    for one, simulated, failure in _simulated(problem, x, simulation, known):
+    for one, simulated, failure in _simulated(problem, x, simulation, known, given or {}):
         if one.domain == "time":
             overrides = [problem.space.overrides(x, run.record) for run in one.runs]
             experiments += [r.over_time(o, known.get(id(r))) for r, o in zip(one.runs, overrides, strict=True)]
@@ -82,9 +87,13 @@ def settled_initial_states(residuals: WeightedResiduals, model: Model, space: Pa
 
 
 def _simulated(
-    problem: Problem, x: Array, simulation: Simulation, known: Mapping[int, Array | None]
+    problem: Problem,
+    x: Array,
+    simulation: Simulation,
+    known: Mapping[int, Array | None],
+    given: Mapping[int, Simulated],
 ) -> list[tuple[Observation, tuple[Simulated, ...], Failure | None]]:
-    """All observations at once; where that fails, one by one."""
+    """All observations that are not given, at once; where that fails, one by one."""
 
     def answers(observations: Sequence[Observation]) -> tuple[list[Simulated], Failure | None]:
         runs = [run for one in observations for run in one.runs]
@@ -92,13 +101,21 @@ def _simulated(
         answer = simulate_runs(problem.model, problem.space, runs, x, guesses, simulation, slopes=False, initial=False)
         return list(answer.simulated), answer.failure
 
-    everything, failure = answers(problem.observations)
+    left = [one for one in problem.observations if not all(_is_whole(given.get(id(run))) for run in one.runs)]
+    everything, failure = answers(left) if left else ([], None)
     found = []
     for one in problem.observations:
         why: Failure | None = None
-        if failure is None:
+        if not any(one is other for other in left):
+            own = [Simulated(given[id(run)].values, given[id(run)].slopes[..., :0]) for run in one.runs]
+        elif failure is None:
             own, everything = everything[: len(one.runs)], everything[len(one.runs) :]
         else:
             own, why = answers([one])
         found.append((one, tuple(own), why))
     return found
+
+
+def _is_whole(simulated: Simulated | None) -> bool:
+    """Whether a run was simulated and kept its rows."""
+    return simulated is not None and simulated.reduction is None

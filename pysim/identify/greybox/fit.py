@@ -16,7 +16,7 @@ from pysim.identify.greybox.interior_point import InteriorPoint
 from pysim.identify.greybox.least_squares import GaussNewton, blur_of
 from pysim.identify.greybox.noise import white_floor
 from pysim.identify.greybox.objective import NOISE, Objective
-from pysim.identify.greybox.observation import Measure
+from pysim.identify.greybox.observation import Measure, Simulated
 from pysim.identify.greybox.optimiser import Bounds, Optimiser, State
 from pysim.identify.greybox.problem import Problem
 from pysim.identify.greybox.residuals import Carried, Channel, Point, WeightedResiduals
@@ -242,12 +242,13 @@ def _result(
 ) -> Fit:
     space, best = problem.space, state.best
     residuals = problem.residuals(replace(NOISE, domains=objective.domains), simulation)
-    point = _at_levels(residuals, problem, objective, optimiser, state)
+    point, simulated = _at_levels(residuals, problem, objective, optimiser, state)
     doubt = uncertainty(space, point)
     if not objective.squares:
         doubt = _of_sizes(doubt)
     carried = dict(zip(map(id, residuals.runs), point.carried.states, strict=True))
-    beside = compared(problem, point.x, simulation, carried)
+    given = dict(zip(map(id, residuals.runs), simulated, strict=False))
+    beside = compared(problem, point.x, simulation, carried, given)
     noise = _noise(problem, beside)
     return Fit(
         model=problem.model.name,
@@ -329,8 +330,9 @@ def _outcome(state: State) -> FitOutcome:
 
 def _at_levels(
     residuals: WeightedResiduals, problem: Problem, objective: Objective, optimiser: Optimiser, state: State
-) -> Point:
-    """The optimum simulated once more, as finely as intervals need it, and counted in the levels of its residuals.
+) -> tuple[Point, tuple[Simulated, ...]]:
+    """The optimum simulated once more, as finely as intervals need it, and counted in the levels of its residuals; with
+    what was simulated.
 
     Of a smooth objective it is where the next step leads, which promises less than the tolerance and is taken for
     nothing; the end of the search where that is worse, and where steps from it were seen to fail.
@@ -338,8 +340,13 @@ def _at_levels(
     best, model, space = state.best, problem.model, problem.space
     if optimiser.smooth_only and objective.measure is Measure.SIGNAL and not state.memory.get("turned"):
         last = optimiser.propose(state, Bounds(*space.bounds()))
-        point = residuals.evaluate(model, space, last.x, best.carried_to(last.x, last.share))
+        carried = best.carried_to(last.x, last.share)
+        answer = residuals.simulate(model, space, last.x, carried)
+        point = residuals.weigh(last.x, answer, carried, last.x.size)
         if point.good and point.cost < best.cost + blur_of(best):
-            return point
-    point = residuals.evaluate(model, space, best.x, best.carried_to(best.x))
-    return point if point.good or objective.measure is not Measure.SIGNAL else best
+            return point, answer.simulated
+    answer = residuals.simulate(model, space, best.x, best.carried_to(best.x))
+    point = residuals.weigh(best.x, answer, best.carried_to(best.x), best.x.size)
+    if point.good:
+        return point, answer.simulated
+    return (point if objective.measure is not Measure.SIGNAL else best), ()

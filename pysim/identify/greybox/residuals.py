@@ -172,8 +172,16 @@ class WeightedResiduals:
             carried: initial states, guesses of orbits and nuisances to be at; rest and none where None.
             jacobian: whether that of the parameters is wanted; it has no columns where not.
         """
-        runs, carried = self.runs, carried or Carried()
-        answer = simulate_runs(
+        carried = carried or Carried()
+        answer = self.simulate(model, space, x, carried, jacobian=jacobian)
+        return self.weigh(x, answer, carried, x.size if jacobian else 0)
+
+    def simulate(
+        self, model: Model, space: ParameterSpace, x: Array, carried: Carried, *, jacobian: bool = True
+    ) -> Answer:
+        """All runs at x (n,), as `evaluate` weighs them."""
+        runs = self.runs
+        return simulate_runs(
             model,
             space,
             runs,
@@ -184,7 +192,6 @@ class WeightedResiduals:
             initial=not self.absolute,
             reductions=self._reductions(carried),
         )
-        return self.weigh(x, answer, carried, x.size if jacobian else 0)
 
     def _reductions(self, carried: Carried) -> list[Reduction | None]:
         """For each run that is too long to keep its rows."""
