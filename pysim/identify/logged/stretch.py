@@ -54,8 +54,9 @@ class Log:
         if t.size < 8 or np.ptp(y) == 0:
             moved = f"has {t.size} samples and moves by {np.ptp(y):g}"
             raise BadInput(f"{record.origin or 'record'}: {column} {moved}; there is no wave in it")
-        k = np.arange(t.size)
-        uneven = t - np.polyval(np.polyfit(k, t, 1), k)
+        k = np.arange(t.size) - 0.5 * (t.size - 1)
+        even = t - t.mean()
+        uneven = even - float(k @ even) / float(k @ k) * k
         jitter = float(np.std(uneven))
         found = sampling(t)
         longest = max(found.gaps.tolist(), key=lambda k: t[k + 1] - t[k], default=None)
