@@ -13,7 +13,6 @@ from pysim.identify.greybox.identifiability import EXACT
 from pysim.identify.greybox.optimiser import Bounds, Proposal, State
 from pysim.identify.greybox.residuals import Point
 from pysim.identify.greybox.settings import FitSettings
-from pysim.identify.greybox.triangle import ROWS, triangle
 from pysim.types import BadInput, FitOutcome
 
 Array = NDArray[np.float64]
@@ -183,9 +182,7 @@ class _Step:
 
     @classmethod
     def at(cls, point: Point, bounds: Bounds) -> _Step:
-        n, rows = point.x.size, range(0, max(point.residual.size, 1), ROWS)
-        parts = (np.column_stack([point.jacobian[i : i + ROWS], point.residual[i : i + ROWS]]) for i in rows)
-        r = triangle(parts)
+        n, r = point.x.size, point.triangle
         low, high = np.minimum(bounds.lower - point.x, 0.0), np.maximum(bounds.upper - point.x, 0.0)
         return cls(r[:n, :n], -r[:n, n], low, high)
 

@@ -12,6 +12,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -100,6 +101,12 @@ class Point:
     def count(self) -> float:
         """Rows of all observations, and priors."""
         return self.residual.size + self.more
+
+    @cached_property
+    def triangle(self) -> Array:
+        """R (n + 1, n + 1) of the QR factors of the Jacobian with the residual beside it."""
+        slices = [slice(first, first + ROWS) for first in range(0, max(self.residual.size, 1), ROWS)]
+        return triangle(np.column_stack([self.jacobian[own], self.residual[own]]) for own in slices)
 
     def carried_to(self, x: Array, share: float = 1.0) -> Carried:
         """What goes along with another point x (n,), to first order; `share` of the step of what is free here."""
