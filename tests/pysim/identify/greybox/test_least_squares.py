@@ -1,10 +1,12 @@
 import zlib
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from scipy.optimize import lsq_linear
 
 from pysim.identify.greybox.least_squares import GaussNewton
+from pysim.identify.greybox.residuals import Carried, Point
 from pysim.identify.greybox.search import search
 from pysim.types import BadInput, FitOutcome
 from tests.pysim.identify.greybox.functions import evaluating, linear, rosenbrock, rosenbrock_slopes, space
@@ -100,6 +102,22 @@ def test_costs_that_jump_from_point_to_point_end_the_search_near_the_optimum(see
     assert state.outcome is FitOutcome.CONVERGED, state.message
     assert np.linalg.norm(a @ (state.best.x - optimum)) < 0.1  # standard deviations of the estimates
     assert state.tried <= 6
+
+
+def test_a_start_whose_cost_is_low_by_luck_ends_the_search() -> None:
+    """What it promises is 0.2 nats, which a cost that is too low by 1 hides: shorter steps would find it no sooner."""
+    a, b = linear(1, 10_000, 4)
+    optimum = np.linalg.lstsq(a, b, rcond=None)[0]
+    away = np.array([1.0, 0.0, 0.0, 0.0])
+    s = space((optimum + away * np.sqrt(0.4) / np.linalg.norm(a @ away)).tolist())
+    exact = evaluating(lambda x: a @ x - b, lambda x: a)
+
+    def lucky(x: np.ndarray, carried: Carried) -> Point:
+        point = exact(x, carried)
+        return replace(point, cost=point.cost - 1.0) if np.array_equal(x, s.start) else point
+
+    state = search(lucky, GaussNewton(), s, s.start, squares=True)
+    assert (state.outcome, state.tried) == (FitOutcome.CONVERGED, 1)
 
 
 def test_a_slope_that_lies_ends_in_a_stall() -> None:
