@@ -47,6 +47,17 @@ def inflation(left: Sequence[Array], changed: Sequence[Array]) -> float:
     return max(found / total, 1.0)
 
 
+def independent_pieces(residual: Array, shortest: float) -> int:
+    """Into how many stretches a log's residual (n_t, n_y) can be cut that are independent of each other.
+
+    Args:
+        shortest: length of a stretch, in memories of the slowest channel.
+    """
+    mean = [np.ones((len(residual), 1))]
+    slowest = max(inflation([column], mean) for column in np.split(residual, residual.shape[1], axis=1))
+    return max(int(len(residual) / (shortest * slowest)), 1)
+
+
 def _products(rows: Sequence[Array], count: int) -> Array:
     """Sums over t of row[t] row[t + k], for k = 0 ... count - 1, over all rows (n_t,)."""
     found = np.zeros(count)

@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from pysim.identify.greybox.effective_size import inflation
+from pysim.identify.greybox.effective_size import independent_pieces
 
 Array = NDArray[np.float64]
 Rows = NDArray[np.intp]
@@ -78,8 +78,4 @@ class Reduction:
 
     def pieces(self, shortest: float) -> int:
         """How many pieces the residual asks for, each as long as so many of its memories."""
-        one = [np.ones((len(self._residual), 1))]
-        length = shortest * max(
-            inflation([column], one) for column in np.split(self._residual, self._residual.shape[1], axis=1)
-        )
-        return max(int(len(self._residual) / length), 1)
+        return independent_pieces(self._residual, shortest)

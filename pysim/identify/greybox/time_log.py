@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from pysim.identify.accuracy import time_deviations
 from pysim.identify.greybox.context import Context
-from pysim.identify.greybox.effective_size import inflation
+from pysim.identify.greybox.effective_size import independent_pieces
 from pysim.identify.greybox.nuisance import Nuisance, NuisanceKind
 from pysim.identify.greybox.observation import Measure, Run, Simulated
 from pysim.identify.logged import logged_command
@@ -113,9 +113,7 @@ class TimeLog:
     def pieces(self, residual: Array, shortest: float) -> NDArray[np.intp]:
         """Contiguous stretches of whole samples, as long as the slowest channel needs them to be."""
         rows = residual.reshape(-1, len(self.channels))
-        mean = [np.ones((len(rows), 1))]
-        length = shortest * max(inflation([column[:, None]], mean) for column in rows.T)
-        count = max(int(len(rows) / length), 1)
+        count = independent_pieces(rows, shortest)
         return np.repeat(np.arange(len(rows)) * count // len(rows), len(self.channels))
 
     def beside(self, answers: Sequence[Simulated]) -> tuple[tuple[RecordFit, ...], tuple[ResponseFit, ...]]:
