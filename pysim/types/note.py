@@ -40,6 +40,7 @@ class NoteCode(Enum):
     UNSTABLE = "unstable"  # count, poles: so many of the poles
     NOT_DETERMINED = "not_determined"  # names: of coefficients that the data leave open
     CANCELLING = "cancelling"  # pole, zero (Hz): alike within their errors
+    UNBOUNDED = "unbounded"  # parameters: refitted without bounds on both sides, since nothing gives any
     OTHER = "other"  # text: of a program part that has no codes yet
 
 

@@ -1,0 +1,73 @@
+"""What measurements can carry: those that cannot carry a diagnosis are refused, what weakens the answer is noted."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from pysim.types import BadInput, Dataset, FrequencyResponse, MeasuredRecord, Record
+
+# Fewest samples to fit per free parameter.
+FEWEST = 10
+
+
+def shortcomings(dataset: Dataset, free: Sequence[str]) -> tuple[str, ...]:
+    """Look at the records before anything is run.
+
+    Args:
+        free: parameters that will be refitted.
+    Returns:
+        notes on what the answer lacks: no record held out, one signal alone, an input that never moves.
+    Raises:
+        BadInput: too few samples for the parameters, or no input moves.
+    """
+    fitted = [record for record in dataset.records if record.use == "fit"]
+    count = sum(_samples(record, dataset) for record in fitted)
+    if count < FEWEST * len(free):
+        raise BadInput(
+            f"data set {dataset.name!r} has {count} samples to fit for {len(free)} free parameters; log at least "
+            f"{FEWEST * len(free)}, hold less out, or name fewer parameters with --free"
+        )
+    notes = list(_still(dataset, fitted))
+    if not any(record.use != "fit" for record in dataset.records):
+        notes.append(
+            'no record is held out (use = "validate"), so nothing tells how far the answer holds for other tests'
+        )
+    outputs = {name for record in fitted for name in _outputs(record, dataset)}
+    if len(outputs) == 1:
+        notes.append(
+            f"only {outputs.pop()} was logged: effects that act alike on it cannot be told apart; log its drive too"
+        )
+    return tuple(notes)
+
+
+def _samples(record: MeasuredRecord, dataset: Dataset) -> int:
+    """Numbers that can be fitted."""
+    if isinstance(record.data, FrequencyResponse):
+        return 2 * record.data.frequency.size
+    return record.data.time.size * len(dataset.columns(record, "output"))
+
+
+def _outputs(record: MeasuredRecord, dataset: Dataset) -> Sequence[str]:
+    if isinstance(record.data, FrequencyResponse):
+        return (record.data.test.output,)
+    return dataset.columns(record, "output")
+
+
+def _still(dataset: Dataset, fitted: Sequence[MeasuredRecord]) -> Sequence[str]:
+    """A note on inputs that never move; refuses where none does."""
+    if any(isinstance(record.data, FrequencyResponse) for record in fitted):
+        return ()
+    moves: dict[str, bool] = {}
+    for record in fitted:
+        assert isinstance(record.data, Record)
+        for name in dataset.columns(record, "input"):
+            moves[name] = moves.get(name, False) or bool(np.ptp(record.data[name]) > 0)
+    still = [name for name, moved in moves.items() if not moved]
+    if still and len(still) == len(moves):
+        raise BadInput(
+            f"data set {dataset.name!r}: the input {', '.join(still)} is constant in every record to fit, so nothing "
+            "can be told of what moves; log a test that excites it"
+        )
+    return [f"the input {name} never moves in the records that were fitted" for name in still]

@@ -1,0 +1,193 @@
+"""What a model leaves: how large it is over the floor, and whether it follows the model's own signals.
+
+Source: Ljung 1999, Lecture Notes in Control and Information Sciences 245:97 (the model-error model).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pysim.diagnosis.refit import FinalFit
+from pysim.diagnosis.rivals import Rows, of
+from pysim.identify.greybox.noise import white_floor
+from pysim.identify.greybox.residuals import Channel
+from pysim.types import Dataset, Record
+from pysim.types.answer import FloorSource, NoiseFloor
+
+Array = NDArray[np.float64]
+
+# Of the regression: samples by which signals are shifted, penalties that are tried, over the mean information of a
+# regressor, and samples that a regressor needs.
+_LAGS = (0, 1, 2, 4, 8, 16, 32, 64)
+_RIDGES = (1e-3, 1e-2, 1e-1, 1.0, 10.0)
+_SAMPLES = 30
+
+
+@dataclass(frozen=True)
+class Follows:
+    """How far a residual follows the model's own signals.
+
+    Args:
+        share: of its sum of squares that a regression explains on blocks it did not see, 0 ... 1.
+        t: of that share over blocks.
+    """
+
+    share: float
+    t: float
+
+
+@dataclass(frozen=True)
+class Floors:
+    """The noise of each channel, as the models so far tell.
+
+    Args:
+        floors: channel -> the least level that any model's residual shows, or what is specified where that is larger.
+    """
+
+    floors: Mapping[Channel, NoiseFloor] = field(default_factory=dict)
+
+    def with_(self, fit: FinalFit) -> Floors:
+        """As another model tells."""
+        found = dict(self.floors)
+        for channel, floor in white_floors(fit).items():
+            if channel not in found or floor.sd < found[channel].sd:
+                found[channel] = floor
+        return Floors(found)
+
+    def over(self, fit: FinalFit) -> dict[Channel, float]:
+        """Root mean square residual over the floor, per channel."""
+        residuals = fit.candidate.residuals(fit.simulation)
+        sizes = np.sqrt(fit.point.squares / np.maximum(residuals.samples, 1.0))
+        return {c: float(size) / self.floors[c].sd for c, size in zip(residuals.channels, sizes, strict=True)}
+
+    def potential(self, fit: FinalFit) -> float:
+        """Nats that a model which left nothing but the floor would gain."""
+        residuals = fit.candidate.residuals(fit.simulation)
+        counts = dict(zip(residuals.channels, residuals.samples.tolist(), strict=True))
+        return sum(counts[c] * math.log(max(ratio, 1.0)) for c, ratio in self.over(fit).items())
+
+
+def white_floors(fit: FinalFit) -> dict[Channel, NoiseFloor]:
+    """The white part of what a model leaves, of each channel, never below the least level it can have."""
+    residuals = fit.candidate.residuals(fit.simulation)
+    problem, found = fit.candidate.problem, dict[Channel, NoiseFloor]()
+    parts = _columns(fit)
+    rests: dict[Channel, tuple[float, float]] = {}
+    for one in residuals.observations:
+        if one.domain == "time":
+            continue
+        rows = np.bincount(one.channel_of_row, minlength=len(one.channels)) if one.channels else ()
+        for name, rest, samples, count in zip(one.channels, one.rest, one.samples, rows, strict=True):
+            square, number = rests.get((one.dataset, name), (0.0, 0.0))
+            rests[one.dataset, name] = square + float(rest), number + float(samples) - float(count)
+    for channel, least in problem.floors.items():
+        seen = [value for value in (white_floor(parts.get(channel, []), problem.settings),) if value is not None]
+        if channel in rests and rests[channel][1] > 0:
+            seen.append(math.sqrt(rests[channel][0] / rests[channel][1]))
+        if seen and min(seen) > least.sd:
+            found[channel] = NoiseFloor(min(seen), FloorSource.SPECTRUM)
+        else:
+            found[channel] = least
+    return found
+
+
+def follows(fit: FinalFit, dataset: Dataset, blocks: int) -> Follows | None:
+    """Whether the residual of logs over time depends on the model's own inputs and outputs.
+
+    Args:
+        dataset: that was fitted, with its inputs.
+        blocks: contiguous pieces over which the regression is cross-validated.
+    Returns:
+        the strongest of all channels; None where there are too few samples to say.
+    """
+    tables = list(_regressors(fit, dataset))
+    if not tables:
+        return None
+    names = {channel for _, rests in tables for channel in rests}
+    found = [one for name in sorted(names) if (one := _regression(tables, name, blocks)) is not None]
+    return max(found, key=lambda one: one.t, default=None)
+
+
+def _columns(fit: FinalFit) -> dict[Channel, list[Array]]:
+    """Residuals of the logs over time, (n_t,) each, in the channels' units."""
+    found: dict[Channel, list[Array]] = {}
+    for _, rests in _logs(fit):
+        for channel, rest in rests.items():
+            found.setdefault(channel, []).append(rest)
+    return found
+
+
+def _logs(fit: FinalFit) -> Iterator[tuple[str, dict[Channel, Array]]]:
+    """Source of each log over time that was fitted, and its residuals by channel."""
+    residuals, left, number = fit.candidate.residuals(fit.simulation), of(fit), 0
+    for one in residuals.observations:
+        if one.domain == "time":
+            rests = {(one.dataset, n): left.residual[left.series == number + j] for j, n in enumerate(one.channels)}
+            yield one.sources[0], rests
+        number += max(len(one.channels), 1)
+
+
+def _regressors(fit: FinalFit, dataset: Dataset) -> Iterator[tuple[Array, dict[Channel, Array]]]:
+    """Per log what its residuals may follow (n_t, m), before scaling, and the residuals."""
+    records = {record.source: record.data for record in dataset.records}
+    logs = []
+    for source, rests in _logs(fit):
+        record = records[source]
+        if not isinstance(record, Record) or any(rest.size != record.time.size for rest in rests.values()):
+            continue
+        simulated = {name: record[name] - rest for (_, name), rest in rests.items() if name in record.names}
+        others = [record[name] for name in record.names if name not in simulated]
+        logs.append((np.column_stack([*others, *simulated.values()]), rests))
+    if not logs:
+        return
+    whole = np.concatenate([signals for signals, _ in logs])
+    scale = whole.mean(axis=0), np.maximum(whole.std(axis=0), np.finfo(float).tiny)
+    for signals, rests in logs:
+        yield _features((signals - scale[0]) / scale[1]), rests
+
+
+def _features(signals: Array) -> Array:
+    """Lagged, squared, absolute and signed copies of scaled signals (n_t, k)."""
+    n = len(signals)
+    parts = [np.ones((n, 1))]
+    for lag in _LAGS:
+        if lag < n // 4:
+            parts.append(np.vstack([np.repeat(signals[:1], lag, axis=0), signals[: n - lag]]))
+    rate = np.gradient(signals, axis=0)
+    rate = rate / np.maximum(rate.std(axis=0), np.finfo(float).tiny)
+    sign = np.tanh(3 * rate)
+    parts += [rate, sign, np.abs(rate), signals**2, signals**3, rate * np.abs(rate), np.abs(signals)]
+    parts += [np.maximum(signals - 1, 0), np.minimum(signals + 1, 0), signals * np.abs(rate), sign * signals]
+    return np.column_stack(parts)
+
+
+def _regression(tables: list[tuple[Array, dict[Channel, Array]]], channel: Channel, count: int) -> Follows | None:
+    """Ridge regression of one channel's residual, its penalty chosen and its gain counted over blocks left out."""
+    own = [(table, rests[channel]) for table, rests in tables if channel in rests]
+    table = np.concatenate([rows for rows, _ in own])
+    rest = np.concatenate([values for _, values in own])
+    n, m = table.shape
+    if n < _SAMPLES * m:
+        return None
+    table = table / np.maximum(np.sqrt(np.mean(table**2, axis=0)), np.finfo(float).tiny)
+    blocks = np.arange(n) * count // n
+    inner = [table[blocks == b].T @ table[blocks == b] for b in range(count)]
+    outer = [table[blocks == b].T @ rest[blocks == b] for b in range(count)]
+    best = Follows(0.0, 0.0)
+    for ridge in _RIDGES:
+        gains = np.empty(count)
+        for b in range(count):
+            kept = sum(inner) - inner[b] + ridge * n / count * np.eye(m)
+            moved = np.linalg.solve(kept, sum(outer) - outer[b])
+            part = rest[blocks == b]
+            gains[b] = float(part @ part) - float(np.sum((part - table[blocks == b] @ moved) ** 2))
+        spread = float(gains.std(ddof=1)) * math.sqrt(count)
+        share = float(gains.sum()) / max(float(rest @ rest), np.finfo(float).tiny)
+        if share > best.share:
+            best = Follows(share, float(gains.sum()) / spread if spread > 0 else 0.0)
+    return best

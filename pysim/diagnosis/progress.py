@@ -1,0 +1,44 @@
+"""What a diagnosis says while it works, and how long its stages took."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+from pysim.diagnosis.refit import FinalFit
+from pysim.types import Told
+from pysim.types.answer import GainTest
+
+Say = Callable[[Told], None]
+
+
+@dataclass
+class Progress:
+    """Where the diagnosis stands.
+
+    Args:
+        tell: gets it; what it raises ends the diagnosis.
+        seconds: wall time by stage.
+    """
+
+    tell: Say
+    seconds: dict[str, float] = field(default_factory=dict)
+    now: str = ""
+    since: float = field(default_factory=time.monotonic)
+
+    def doing(self, what: str) -> None:
+        """A new stage begins, in a few words."""
+        self.now = what
+        self.tell(Told(what))
+
+    def learned(self, model: FinalFit, test: GainTest) -> None:
+        """A model was kept for now."""
+        name = " + ".join(model.names) or "the base model"
+        self.tell(Told(self.now, f"{name}: gains {test.gain:.4g} nats (p = {test.p_value:.2g})"))
+
+    def stage(self, name: str) -> None:
+        """A stage of that name has ended."""
+        now = time.monotonic()
+        self.seconds[name] = self.seconds.get(name, 0.0) + now - self.since
+        self.since = now

@@ -1,0 +1,149 @@
+"""Refits of candidates: a few points each, then the promising ones to the end."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pysim.diagnosis.candidate import Candidate, Values
+from pysim.diagnosis.settings import Settings
+from pysim.identify.greybox import GaussNewton, Point, Simulation
+from pysim.identify.greybox.optimiser import Bounds, State
+from pysim.identify.greybox.residuals import Carried
+from pysim.types import FitOutcome
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class FinalFit:
+    """A candidate refitted, as far as it came.
+
+    Args:
+        candidate: the model.
+        state: of the search: its best point, and how it ended.
+        simulation: what the point was simulated by.
+        start: name of the start that won.
+    """
+
+    candidate: Candidate
+    state: State = field(repr=False)
+    simulation: Simulation = field(repr=False)
+    start: str = ""
+
+    @property
+    def point(self) -> Point:
+        """The best one."""
+        return self.state.best
+
+    @property
+    def good(self) -> bool:
+        """Whether the model could be simulated."""
+        return self.point.good
+
+    @property
+    def ended(self) -> bool:
+        """Whether the search has come to an end of its own: only then the candidate counts as refitted."""
+        return self.state.outcome is FitOutcome.CONVERGED
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Of what the base model lacks."""
+        return self.candidate.names
+
+    @property
+    def values(self) -> Values:
+        """The free parameters."""
+        return self.candidate.values(self.point.x)
+
+    @property
+    def expected(self) -> float:
+        """Cost that the search will end at, as far as a full step from here tells, nats."""
+        return self.point.cost - (self.state.memory.get("expected", 0.0) if not self.ended else 0.0)
+
+
+def begin(
+    candidate: Candidate, values: Values, carried: Carried | None, simulation: Simulation, start: str = ""
+) -> FinalFit:
+    """The candidate at a start; not good where it could not be simulated there."""
+    x = candidate.at(values)
+    point = candidate.residuals(simulation).evaluate(candidate.model, candidate.space, x, carried)
+    if not point.good:
+        state = State(point, outcome=FitOutcome.NO_START, message=str(point.failure))
+        return FinalFit(candidate, state, simulation, start)
+    state = _optimiser().begin(point, _bounds(candidate), squares=True)
+    return FinalFit(candidate, replace(state, first_cost=point.cost), simulation, start)
+
+
+def advance(fit: FinalFit, points: int) -> FinalFit:
+    """So many points on, or to the end of the search."""
+    candidate, state, optimiser = fit.candidate, fit.state, _optimiser()
+    bounds, residuals = _bounds(candidate), candidate.residuals(fit.simulation)
+    for _ in range(points):
+        if state.outcome is not None:
+            break
+        proposal = optimiser.propose(state, bounds)
+        carried = state.best.carried_to(proposal.x, proposal.share)
+        trial = residuals.evaluate(candidate.model, candidate.space, proposal.x, carried)
+        state = optimiser.tell(state, proposal, trial, bounds)
+    if state.outcome is None:
+        expected = optimiser.propose(replace(state, memory={**state.memory, "radius": 1e6}), bounds).predicted
+        state = replace(state, memory={**state.memory, "expected": expected})
+    return replace(fit, state=state)
+
+
+def converged(fit: FinalFit, simulation: Simulation | None = None) -> FinalFit:
+    """The end of the search, by finer simulations where they are given."""
+    fit = advance(fit, _optimiser().max_iterations)
+    if simulation is None or simulation == fit.simulation or not fit.good:
+        return fit
+    again = begin(fit.candidate, fit.values, fit.point.carried, simulation, fit.start)
+    return advance(again, _optimiser().max_iterations) if again.good else fit
+
+
+def race(runners: Iterable[FinalFit], settings: Settings, fine: Simulation) -> list[FinalFit]:
+    """Refits of rivals, the lowest cost first: those that still promise enough go on, the best of them to the end.
+
+    Of several starts of one candidate the better one goes on.
+
+    Args:
+        fine: simulation by which the best end.
+    """
+    running = [fit for fit in runners if fit.good]
+    if not running:
+        return []
+    before = max(fit.state.first_cost for fit in running)
+    while True:
+        running = _best_starts([advance(fit, settings.heat) for fit in running])
+        least = min(fit.expected for fit in running)
+        enough = before - settings.promising * max(before - least, 0.0)
+        going = [fit for fit in running if fit.state.outcome is None and fit.expected <= enough]
+        if len(going) <= settings.finalists:
+            break
+        done = [fit for fit in running if fit not in going]
+        running = [*done, *going]
+        if not going:
+            break
+    order = sorted(running, key=lambda fit: fit.expected)
+    ended = [converged(fit, fine) if k < settings.finalists else fit for k, fit in enumerate(order)]
+    return sorted(ended, key=lambda fit: fit.point.cost)
+
+
+def _best_starts(running: Sequence[FinalFit]) -> list[FinalFit]:
+    best: dict[tuple[str, ...], FinalFit] = {}
+    for fit in running:
+        other = best.get(fit.names)
+        if other is None or fit.expected < other.expected:
+            best[fit.names] = fit
+    return list(best.values())
+
+
+def _optimiser() -> GaussNewton:
+    return GaussNewton()
+
+
+def _bounds(candidate: Candidate) -> Bounds:
+    return Bounds(*candidate.space.bounds())

@@ -1,0 +1,185 @@
+"""Where the refits of candidates begin: what each does to the residual at some sizes, refitting allowed for.
+
+It is a start for the refit and no judgement: at biased parameters the gain it promises errs by orders of magnitude.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pysim.diagnosis.candidate import Candidate, Models, Values
+from pysim.diagnosis.refit import FinalFit
+from pysim.diagnosis.rivals import Rows, of, rows
+from pysim.identify.greybox import Simulation
+from pysim.identify.greybox.identifiability import EXACT
+from pysim.simulate import Rodas, simulate_many
+from pysim.types import BadInput, Effect, EffectParameter, Outcome
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Screened:
+    """One effect at one size in the present model.
+
+    Args:
+        candidate: the present model with the effect.
+        values: where a refit may begin.
+        gain: nats that it promises, refitting allowed for, to first order.
+        change: (n_r,) by which it changes the residual, in the units of the channels, refitting allowed for.
+    """
+
+    candidate: Candidate
+    values: Values
+    gain: float
+    change: Array = field(repr=False)
+
+    @property
+    def effect(self) -> Effect:
+        """The one that is new."""
+        return self.candidate.effects[-1]
+
+
+@dataclass(frozen=True)
+class Sizes:
+    """At which sizes an effect is tried, over its usual one.
+
+    Args:
+        usual: of an amount.
+        bypassed: of one whose off is a limit of its equations.
+        limits: of a limit, over the largest value that the limited variable reaches.
+        limits_unknown: of a limit of which that is not known, over its usual value.
+    """
+
+    usual: tuple[float, ...] = (0.3,)
+    bypassed: tuple[float, ...] = (0.5, 2.0)
+    limits: tuple[float, ...] = (0.92, 0.75, 0.55, 0.35)
+    limits_unknown: tuple[float, ...] = (0.25, 0.6, 1.0, 2.0)
+
+
+def screen(models: Models, present: FinalFit, simulation: Simulation, sizes: Sizes | None = None) -> list[Screened]:
+    """Every effect of the catalogue at each size in the present model, the best gain first.
+
+    Effects that cannot be built or simulated are left out; `models.refused` says which.
+    """
+    found: list[Screened] = []
+    before = of(present)
+    span = _span(before)
+    have = {effect.name for effect in present.candidate.effects}
+    for effect in models.session.catalogue:
+        if effect.name in have:
+            continue
+        try:
+            candidate = models.of((*present.candidate.effects, effect), present.candidate.nuisances)
+        except BadInput as error:
+            models.refused.setdefault(effect.name, str(error))
+            continue
+        own = list(_screened(candidate, effect, present, before, span, simulation, sizes or Sizes()))
+        if not own:
+            models.refused.setdefault(effect.name, "the model could not be simulated with it")
+        found += own
+    return sorted(found, key=lambda one: -one.gain)
+
+
+def best_of_each(screened: Sequence[Screened]) -> list[Screened]:
+    """The best size of each effect."""
+    best: dict[str, Screened] = {}
+    for one in screened:
+        best.setdefault(one.effect.name, one)
+    return list(best.values())
+
+
+def _screened(
+    candidate: Candidate,
+    effect: Effect,
+    present: FinalFit,
+    before: Rows,
+    span: Array,
+    simulation: Simulation,
+    sizes: Sizes,
+) -> Iterator[Screened]:
+    residual = before.residual / before.level
+    carried = candidate.carried(present.candidate, present.point)
+    residuals = candidate.residuals(simulation)
+    for tried in _values(effect, _largest(candidate, effect, present, simulation), sizes):
+        values = {**present.values, **{(effect.name, name): value for name, value in tried.items()}}
+        space = candidate.held(values)
+        point = residuals.evaluate(candidate.model, space, np.zeros(0), carried, jacobian=False)
+        if point.good and point.gain > 0:  # the initial states move along
+            again = residuals.evaluate(
+                candidate.model, space, np.zeros(0), point.carried_to(np.zeros(0)), jacobian=False
+            )
+            point = again if again.good and again.cost < point.cost else point
+        if not point.good:
+            continue
+        change = (rows(residuals, point).residual - before.residual) / before.level
+        left = change - span @ (span.T @ change)
+        size = float(left @ left)
+        if not size > EXACT * float(change @ change):
+            continue
+        amount = -float(left @ residual) / size
+        if amount < 0 and not _signed(effect):
+            amount = 0.0
+        scaled = _amounted(effect, tried, amount)
+        start = {**present.values, **{(effect.name, name): value for name, value in scaled.items()}}
+        yield Screened(candidate, start, 0.5 * amount**2 * size, left * before.level)
+
+
+def _span(found: Rows) -> Array:
+    """Orthonormal columns (n_r, rank) that span what refitting can reach, to first order."""
+    size = np.linalg.norm(found.jacobian, axis=0)
+    used = found.jacobian[:, size > 0] / size[size > 0]
+    if not used.shape[1]:
+        return np.zeros((found.residual.size, 0))
+    u, sigma, _ = np.linalg.svd(used, full_matrices=False)
+    return np.asarray(u[:, sigma > EXACT * sigma[0]])
+
+
+def _signed(effect: Effect) -> bool:
+    return any(p.min < (p.off or 0.0) for p in effect.strengths)
+
+
+def _values(effect: Effect, largest: float | None, sizes: Sizes) -> Iterator[dict[str, float]]:
+    """Values of all its parameters: its strengths at each size, its shapes as declared."""
+    declared = {p.name: p.default for p in effect.parameters}
+    limit = next((p for p in effect.strengths if p.inverse), None)
+    if limit is not None and largest:
+        for share in sizes.limits:
+            yield {**declared, limit.name: _within(limit, 1 / (share * largest))}
+        return
+    shares = sizes.limits_unknown if limit is not None else sizes.bypassed if effect.bypass else sizes.usual
+    for share in shares:
+        yield {**declared, **{p.name: _within(p, (p.off or 0.0) + share * p.nominal) for p in effect.strengths}}
+
+
+def _amounted(effect: Effect, tried: Mapping[str, float], amount: float) -> dict[str, float]:
+    """At the amount that looked best, within what first order can tell; limits, lags and clocks as they were tried."""
+    if effect.bypass or any(p.inverse for p in effect.strengths):
+        return dict(tried)
+    amount = math.copysign(min(max(abs(amount), 0.2), 3.0), amount) if amount else 0.5
+    scaled = {p.name: _within(p, (p.off or 0.0) + amount * (tried[p.name] - (p.off or 0.0))) for p in effect.strengths}
+    return {**tried, **scaled}
+
+
+def _largest(candidate: Candidate, effect: Effect, present: FinalFit, simulation: Simulation) -> float | None:
+    """Size in the fitted tests of the variable that the effect limits; None where it does not say which that is."""
+    limit = next((p for p in effect.strengths if p.limits), None)
+    if limit is None or len(effect.strengths) > 1:
+        return None
+    off = {(effect.name, p.name): p.default for p in effect.parameters} | {(effect.name, limit.name): limit.off or 0.0}
+    overrides = candidate.held({**present.values, **off}).fixed
+    name = f"{candidate.places[effect.name]}.{limit.limits}"
+    runs = [run.experiment.override(**overrides) for run in candidate.residuals(simulation).runs]
+    runs = [replace(run, record=(name,)) for run in runs]
+    records = simulate_many(candidate.model, runs, solver=Rodas(1e-3, 1e-3))
+    done = [float(np.max(np.abs(r.values))) for r in records if r.outcome is Outcome.DONE and r.values.size]
+    return max(done, default=None)
+
+
+def _within(p: EffectParameter, value: float) -> float:
+    return float(np.clip(value, p.min, p.max))

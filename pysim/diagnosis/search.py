@@ -1,0 +1,327 @@
+"""Which effects the data demand: forward without asking for significance, then backward from the richest model.
+
+Source: general to specific: Hendry and Krolzig 2005, The Economic Journal 115:C32; Mallows 1973, Technometrics 15:661.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from pysim.diagnosis import rivals
+from pysim.diagnosis.candidate import Candidate, Key, Models
+from pysim.diagnosis.left import Floors
+from pysim.diagnosis.progress import Progress
+from pysim.diagnosis.refit import FinalFit, begin, converged, race
+from pysim.diagnosis.screen import Screened, best_of_each, screen
+from pysim.diagnosis.sensors import sensor_candidates
+from pysim.diagnosis.settings import Settings
+from pysim.identify.greybox import Nuisance, Simulation
+from pysim.identify.greybox.comparison import settled_initial_states
+from pysim.types import BadInput, Effect
+from pysim.types.answer import GainTest, Verdict
+
+
+@dataclass(frozen=True)
+class Compared:
+    """A candidate of one step against the model it extends.
+
+    Args:
+        fit: the candidate.
+        test: what it gains.
+        ties: others of the step that the data do not tell from it.
+    """
+
+    fit: FinalFit
+    test: GainTest
+    ties: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Step:
+    """One step forward.
+
+    Args:
+        model: with what was added.
+        on_trial: whether it was not significant by itself.
+        rivals: all that were refitted, best first.
+        screened: the others.
+    """
+
+    model: FinalFit
+    test: GainTest
+    on_trial: bool
+    rivals: tuple[Compared, ...]
+    screened: tuple[Screened, ...] = ()
+
+
+@dataclass(frozen=True)
+class Found:
+    """What the search came to.
+
+    Args:
+        base: the refitted base model.
+        final: the model that is kept; the base where nothing is.
+        steps: forward, in the order they were made.
+        losses: name of each effect kept -> what leaving it out costs.
+        undecidable: whether too few independent samples are there to decide anything.
+    """
+
+    base: FinalFit
+    final: FinalFit
+    steps: tuple[Step, ...]
+    floors: Floors
+    losses: dict[str, GainTest] = field(default_factory=dict)
+    undecidable: bool = False
+
+
+class Search:
+    """One search; it remembers what was refitted.
+
+    Args:
+        models: makes candidates.
+        rough, fine: simulations of candidates, and of what is kept.
+        settings: its numbers.
+    """
+
+    def __init__(self, models: Models, rough: Simulation, fine: Simulation, settings: Settings, say: Progress) -> None:
+        self.models, self.rough, self.fine, self.settings, self.say = models, rough, fine, settings, say
+        self.floors, self.tried = Floors(), 0
+        self._fits: dict[frozenset[str], FinalFit] = {}
+
+    def fit_base(self) -> FinalFit:
+        """The base model refitted.
+
+        Raises:
+            BadInput: it cannot be simulated at its own parameters.
+        """
+        candidate = self.models.base()
+        first = begin(candidate, {}, None, self.rough)
+        if not first.good:
+            raise BadInput(f"{candidate.model.label} cannot be simulated at its own parameters: {first.state.message}")
+        return self._keep(converged(first, self.fine))
+
+    def run(self, base: FinalFit, most: int) -> Found:
+        """Forward along the best first steps, then backward from each end; the better end is kept."""
+        self.floors = self.floors.with_(base)
+        ends: list[Found] = []
+        for way in range(self.settings.beam):
+            steps = self._forward(base, most, way)
+            if not steps:
+                break
+            ends.append(self._backward(base, steps))
+            if way == 0 and self._is_done(ends[0].final):
+                break
+        if not ends:
+            return Found(base, base, (), self.floors)
+        return max(ends, key=lambda end: self._worth(base, end))
+
+    def _worth(self, base: FinalFit, end: Found) -> float:
+        """Penalised gain of a model that is kept."""
+        if end.final is base:
+            return 0.0
+        df = end.final.candidate.size - base.candidate.size
+        left = rivals.of(end.final)
+        inflated = rivals.effective(left, rivals.of(base).residual - left.residual)
+        return rivals.penalised(base.point.cost - end.final.point.cost, df, inflated, rivals.samples(base))
+
+    def _is_done(self, fit: FinalFit) -> bool:
+        """Whether a model leaves the floor, within what its levels can tell."""
+        return self.floors.potential(fit) < 0.5 * math.sqrt(rivals.samples(fit))
+
+    def _forward(self, base: FinalFit, most: int, way: int) -> list[Step]:
+        """Steps along one way: the first goes to the best rival or to the next best, the others to the best."""
+        steps: list[Step] = []
+        present, in_vain, worth = base, 0, self.floors.potential(base)
+        while len(steps) < most:
+            compared, screened = self.expand(present)
+            place = way if not steps else 0
+            if len(compared) <= place:
+                break
+            best = compared[place]
+            sure = best.test.verdict is Verdict.BETTER
+            in_vain = 0 if sure else in_vain + 1
+            gained = sum(s.test.gain for s in steps[len(steps) - in_vain + 1 :]) if in_vain > 1 else 0.0
+            if in_vain > self.settings.on_trial or best.test.gain <= 0:
+                break
+            if in_vain == self.settings.on_trial and gained + best.test.gain < self.settings.small * worth:
+                break
+            present = self._keep(converged(best.fit, self.fine))
+            self.floors = self.floors.with_(present)
+            steps.append(Step(present, best.test, not sure, tuple(compared), tuple(screened)))
+            self.say.learned(present, best.test)
+        return steps
+
+    def expand(self, present: FinalFit) -> tuple[list[Compared], list[Screened]]:
+        """All that may be added to a model, refitted, the best first; and what was only screened."""
+        self.say.doing(f"trying effects beside {' + '.join(present.names) or 'the base model'}")
+        screened = best_of_each(screen(self.models, present, self.rough))
+        sensors = sensor_candidates(present, self.models)
+        self.tried = max(self.tried, len(screened) + len(sensors))
+        going, aside = self._put_aside(present, screened)
+        simulation = self.fine if self._is_near(present) else self.rough
+        starts = [(one.candidate, one.values) for one in going] + [(one, present.values) for one in sensors]
+        fits = race(
+            (begin(c, values, c.carried(present.candidate, present.point), simulation) for c, values in starts),
+            self.settings,
+            self.fine,
+        )
+        here = {self.fine: present}
+        if simulation != self.fine:
+            here[simulation] = begin(present.candidate, present.values, present.point.carried, simulation)
+        compared = [Compared(fit, self.test(here[fit.simulation], fit)) for fit in fits]
+        return self._ordered(compared), aside
+
+    def _put_aside(self, present: FinalFit, screened: Sequence[Screened]) -> tuple[list[Screened], list[Screened]]:
+        """What is refitted and what is not: near the floor first-order gains are good enough to tell."""
+        if not self._is_near(present):
+            return list(screened), []
+        left, count = rivals.of(present), rivals.samples(present)
+        going, aside = [], []
+        for one in screened:
+            inflated = rivals.effective(left, one.change)
+            df = len(one.effect.parameters)
+            gain = self.settings.first_order_error * one.gain
+            p = rivals.p_value(gain, df, count, present.candidate.size + df, inflated)
+            (going if p * self.tried < self.settings.false_alarm else aside).append(one)
+        return going, aside
+
+    def _is_near(self, present: FinalFit) -> bool:
+        """Whether every level is near its white floor."""
+        return all(ratio < self.settings.near for ratio in self.floors.over(present).values())
+
+    def test(self, smaller: FinalFit, larger: FinalFit, choices: int | None = None) -> GainTest:
+        """The larger model against the smaller by what was fitted alone.
+
+        Args:
+            choices: ways to have come to the larger model by chance; all that was tried where None.
+        """
+        gain = smaller.point.cost - larger.point.cost
+        df = max(larger.candidate.size - smaller.candidate.size, 1)
+        left = rivals.of(larger)
+        inflated = rivals.effective(left, rivals.of(smaller).residual - left.residual)
+        count = rivals.samples(larger)
+        size = larger.candidate.size
+        chance = rivals.p_value(gain, df, count, size, inflated)
+        chance = min(chance * (choices or max(self.tried, 1)), 1.0)
+        free = count / inflated - size
+        verdict = (
+            Verdict.UNDECIDABLE if free < self.settings.decidable
+            else Verdict.BETTER if chance < self.settings.false_alarm
+            else Verdict.NO_BETTER
+        )  # fmt: skip
+        worth = rivals.penalised(gain, df, inflated, count)
+        return GainTest(gain, df, count / inflated, chance, worth, None, None, verdict)
+
+    def _ordered(self, compared: list[Compared]) -> list[Compared]:
+        """By gain less penalty, one lambda for all; with what the data do not tell from each."""
+        good = [one for one in compared if one.test.gain > 0]
+        if not good:
+            return []
+        count = rivals.samples(good[0].fit)
+        inflated = count / float(np.median([one.test.effective_size for one in good]))
+        scored = [
+            replace(one, test=replace(one.test, penalised=rivals.penalised(one.test.gain, one.test.df, inflated, count)))
+            for one in good
+        ]
+        scored.sort(key=lambda one: -one.test.penalised)
+        return [replace(one, ties=self._ties(one, scored)) for one in scored[:1]] + scored[1:]
+
+    def _ties(self, best: Compared, others: Sequence[Compared]) -> tuple[str, ...]:
+        """Names of those that the data do not tell from the best."""
+        own, found = rivals.of(best.fit), []
+        for one in others:
+            if one is best or not (one.fit.ended and best.fit.ended):
+                continue
+            apart = rivals.of(one.fit).residual - own.residual
+            inflated = rivals.effective(own, apart)
+            reach = rivals.tolerance(inflated, apart, own.level, self.settings.tie)
+            if abs(best.test.penalised - one.test.penalised) < reach and one.test.gain > 0.5 * best.test.gain:
+                found.append(one.fit.names[-1])
+        return tuple(found)
+
+    def _backward(self, base: FinalFit, steps: Sequence[Step]) -> Found:
+        """What of the richest model is needed: the worst goes until leaving any out costs."""
+        richest = steps[-1].model
+        on_trial = {step.model.names[-1] for step in steps if step.on_trial}
+        final, losses, undecidable = richest, dict[str, GainTest](), False
+        while final.names:
+            losses = {name: self._loss(final, name, on_trial) for name in final.names}
+            undecidable |= any(one.verdict is Verdict.UNDECIDABLE for one in losses.values())
+            worst = max(losses, key=lambda name: (losses[name].verdict is not Verdict.BETTER, losses[name].p_value))
+            if losses[worst].verdict is Verdict.BETTER:
+                break
+            final = self._without(final, worst)
+        if not final.names:
+            return Found(base, base, tuple(steps), self.floors, {}, undecidable)
+        return Found(base, final, tuple(steps), self.floors, losses, undecidable)
+
+    def _loss(self, final: FinalFit, name: str, on_trial: set[str]) -> GainTest:
+        """What leaving one out costs: the F test, then what logs and blocks that were not fitted say."""
+        smaller = self._without(final, name)
+        chosen = sum(one in on_trial for one in final.names)
+        choices = math.comb(max(self.tried, 1), chosen + 1) if name in on_trial else max(self.tried, 1)
+        test = self.test(smaller, final, choices)
+        if test.verdict is not Verdict.BETTER:
+            return test
+        return self._vetoed(smaller, final, test)
+
+    def _vetoed(self, smaller: FinalFit, larger: FinalFit, test: GainTest) -> GainTest:
+        own, other = rivals.of(larger), rivals.of(smaller)
+        apart = other.residual - own.residual
+        inflated = rivals.effective(own, apart)
+        blocks = own.blocks
+        worse = float(
+            rivals.left_out_error(own, blocks, own.level).sum() - rivals.left_out_error(other, blocks, own.level).sum()
+        )
+        share = rivals.shares_of_blocks(apart, own.level, blocks)
+        reach = rivals.tolerance(inflated, apart, own.level, self.settings.tie)
+        vetoed = int(np.sum(share >= 0.1)) >= 3 and worse > reach
+        held = self._held_out(smaller, larger)
+        if held is not None:
+            vetoed |= held[0] > held[1]
+        test = replace(test, left_out_blocks=worse, held_out=None if held is None else held[0])
+        return replace(test, verdict=Verdict.VETOED) if vetoed else test
+
+    def _held_out(self, smaller: FinalFit, larger: FinalFit) -> tuple[float, float] | None:
+        """By how many nats the logs that may choose get worse, and how many chance makes of it; None without such."""
+        ends = []
+        for fit in (larger, smaller):
+            residuals = fit.candidate.residuals(fit.simulation, "validate")
+            if not residuals.observations:
+                return None
+            space = fit.candidate.space
+            point = settled_initial_states(residuals, fit.candidate.model, space, fit.point.x)
+            if not point.good:
+                return None if fit is larger else (-math.inf, 0.0)
+            ends.append((rivals.rows(residuals, point), point.cost))
+        (own, cost), (other, before) = ends
+        apart = other.residual - own.residual
+        reach = rivals.tolerance(rivals.effective(own, apart), apart, own.level, self.settings.tie)
+        return cost - before, reach
+
+    def _without(self, fit: FinalFit, name: str) -> FinalFit:
+        """The model without one effect or sensor error, refitted."""
+        kept = frozenset(fit.names) - {name}
+        if kept in self._fits:
+            return self._fits[kept]
+        effects = [e for e in fit.candidate.effects if e.name != name]
+        nuisances = [n for n, own in zip(fit.candidate.nuisances, fit.names[len(fit.candidate.effects):], strict=True)
+                     if own != name]
+        candidate = self.models.of(effects, nuisances)
+        values = {key: value for key, value in fit.values.items() if not (isinstance(key, tuple) and key[0] == name)}
+        start = begin(candidate, values, candidate.carried(fit.candidate, fit.point), self.rough)
+        return self._keep(converged(start, self.fine))
+
+    def _keep(self, fit: FinalFit) -> FinalFit:
+        key = frozenset(fit.names)
+        if key not in self._fits or fit.point.cost < self._fits[key].point.cost:
+            self._fits[key] = fit
+        return self._fits[key]
+
+    def model_of(self, effects: Sequence[Effect], nuisances: Sequence[Nuisance], values: dict[Key, float]) -> Candidate:
+        """The model with these and no others."""
+        return self.models.alone(effects, nuisances)

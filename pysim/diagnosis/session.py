@@ -1,0 +1,146 @@
+"""What is diagnosed: a model, its measurements, a catalogue, and a way to make models with effects."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+
+from pysim.diagnosis.adequacy import shortcomings
+from pysim.diagnosis.settings import Settings
+from pysim.effects import Slot
+from pysim.identify import THESIS_REFERENCE_HZ
+from pysim.identify.greybox import Measurements, Parameter, Problem, Rest, Threads, Treatment, problem
+from pysim.types import BadInput, Dataset, Effect, MeasuredRecord, Model, Note, NoteCode
+
+# Effects -> the model that has them, and effect name -> the name ahead of its parameters there.
+BuildVariant = Callable[[Sequence[Effect]], tuple[Model, Mapping[str, str]]]
+
+TEST = "test"
+
+
+@dataclass(frozen=True)
+class Session:
+    """Checked once; every step takes it.
+
+    Args:
+        model: the base model.
+        data: what is fitted and what may choose, with the parameters that differ in these tests.
+        unseen: logs of use "test", which nothing looks at before the verdict; None where there are none.
+        parameters: of the base model that may be refitted.
+        catalogue: effects to consider.
+        build: makes models with effects; None where the model's source is not at hand.
+        slots: replaceable parts of the model.
+        treatment: how logs are compared.
+        notes: what was assumed.
+        settings: the numbers of the search.
+        workers: where runs go.
+    """
+
+    model: Model
+    data: Measurements
+    unseen: Measurements | None
+    parameters: tuple[Parameter, ...]
+    catalogue: tuple[Effect, ...]
+    build: BuildVariant | None
+    slots: tuple[Slot, ...] = ()
+    treatment: Treatment = field(default_factory=Treatment)
+    notes: tuple[Note, ...] = ()
+    settings: Settings = field(default_factory=Settings)
+    workers: Threads = field(default_factory=Threads)
+
+    @property
+    def dataset(self) -> Dataset:
+        """What is fitted and what may choose."""
+        return self.data.dataset
+
+    def problem(self, model: Model, own: Sequence[Parameter] = ()) -> Problem:
+        """A model with effects beside the measurements; `own` are the effects' parameters."""
+        return problem(model, [self.data], [*self.parameters, *own], treatment=self.treatment)
+
+
+def session(
+    model: Model,
+    dataset: Dataset,
+    catalogue: Sequence[Effect] = (),
+    build: BuildVariant | None = None,
+    *,
+    free: Sequence[str] | None = None,
+    bounds: Mapping[str, tuple[float, float]] | None = None,
+    overrides: Mapping[str, float] | None = None,
+    slots: Sequence[Slot] = (),
+    rest: Rest | None = None,
+    reference_hz: float | None = THESIS_REFERENCE_HZ,
+    initial: str = "near rest",
+    notes: Sequence[Note] = (),
+    settings: Settings | None = None,
+    workers: int | None = None,
+) -> Session:
+    """Bring everything together.
+
+    Args:
+        free: parameters that may be refitted; all that the model gives min, max and nominal where None.
+        bounds: free parameter -> lower and upper bound in its unit, in place of the model's min and max.
+        overrides: parameters of the model that differ in these tests.
+        rest: how the model comes to rest ahead of a log.
+        reference_hz: whose gain counts as 0 dB in measured responses (Eq. 2.12); None takes gains as they are.
+        initial: what is known of the plant at a log's first sample: "near rest", "rest" or "estimate".
+        workers: runs at a time; all cores where None.
+    Raises:
+        BadInput: no free parameter, bounds of what is not free, a data set and a model that do not fit together, or
+            measurements that cannot carry a diagnosis.
+    """
+    names = identifiable(model) if free is None else tuple(free)
+    for name in bounds or {}:
+        if name not in names:
+            raise BadInput(f"{name} has bounds but is not free; free are {', '.join(names) or 'none'}")
+    parameters = tuple(Parameter(name, None, *(bounds or {}).get(name, (None, None))) for name in names)
+    read, unseen = _withheld(dataset)
+    given = Session(
+        model,
+        Measurements(read, overrides=overrides or {}),
+        None if unseen is None else Measurements(unseen, overrides=overrides or {}),
+        parameters,
+        tuple(catalogue),
+        build,
+        tuple(slots),
+        Treatment(rest=rest or Rest(), reference_hz=reference_hz, initial=initial),
+        settings=settings or Settings(),
+        workers=Threads(workers),
+    )
+    checked = given.problem(model)
+    more = [Note(NoteCode.OTHER, {"text": text}) for text in (*shortcomings(read, names), *checked.notes)]
+    ends = zip(checked.space.keys, checked.space.lower, checked.space.upper, strict=True)
+    open_ = [name for name, lower, upper in ends if not (math.isfinite(lower) and math.isfinite(upper))]
+    more += [Note(NoteCode.UNBOUNDED, {"parameters": ", ".join(open_)})] if open_ else []
+    return replace(given, notes=(*notes, *more))
+
+
+def _withheld(dataset: Dataset) -> tuple[Dataset, Dataset | None]:
+    """What may be read, and what nothing looks at before the verdict; that as records to compare, never to fit."""
+    unseen: list[MeasuredRecord] = [record for record in dataset.records if record.use == TEST]
+    if not unseen:
+        return dataset, None
+    read = tuple(record for record in dataset.records if record.use != TEST)
+    return replace(dataset, records=read), replace(dataset, records=tuple(unseen))
+
+
+def identifiable(model: Model) -> tuple[str, ...]:
+    """Parameters that the model gives min, max and nominal: what it says may differ from one unit to the next.
+
+    Raises:
+        BadInput: there is none.
+    """
+    found = tuple(
+        v.name
+        for v in model.variables
+        if v.causality == "parameter"
+        and v.type in ("Real", "Float64")
+        and v.min is not None
+        and v.max is not None
+        and v.nominal is not None
+        and v.start is not None
+    )
+    if not found:
+        raise BadInput(f"{model.label} gives no parameter min, max and nominal; name those to refit, and their bounds")
+    return found
