@@ -104,7 +104,7 @@ def session(
         tuple(catalogue),
         build,
         tuple(slots),
-        Treatment(rest=rest or Rest(), reference_hz=reference_hz, initial=initial),
+        Treatment(steady="transient", rest=rest or Rest(), reference_hz=reference_hz, initial=initial),
         settings=settings or Settings(),
         workers=Threads(workers),
     )

@@ -171,13 +171,21 @@ class WeightedResiduals:
         return replace(self, observations=tuple(one for one in self.observations if one.use == use))
 
     def evaluate(
-        self, model: Model, space: ParameterSpace, x: Array, carried: Carried | None = None, *, jacobian: bool = True
+        self,
+        model: Model,
+        space: ParameterSpace,
+        x: Array,
+        carried: Carried | None = None,
+        *,
+        jacobian: bool = True,
+        states: bool = True,
     ) -> Point:
         """The objective at x (n,); never raises for what a model does there.
 
         Args:
             carried: initial states, guesses of orbits and nuisances to be at; rest and none where None.
             jacobian: whether that of the parameters is wanted; it has no columns where not.
+            states: whether initial states are free; else they are held where they are carried to.
         """
         carried = carried or Carried()
         answer = self.simulate(model, space, x, carried, jacobian=jacobian)
@@ -196,7 +204,7 @@ class WeightedResiduals:
             carried.states or (None,) * len(runs),
             self.simulation,
             slopes=jacobian,
-            initial=not self.absolute,
+            initial=states and not self.absolute,
             reductions=self._reductions(carried),
         )
 
@@ -265,12 +273,14 @@ class WeightedResiduals:
                 known += float(table[:, 0] @ table[:, 0])
             more = errors[k] / size if errors else np.zeros((len(table), 0))
             free = table.shape[1] - 1 - n
-            sd = one.runs[0].initial[one.runs[0].free] if free else np.zeros(0)
-            offset = carried.states[run] if carried.states and free else None
-            offset = np.zeros(free) if offset is None else offset
-            parts.append(_eliminated(table, more, n, offset, sd))
+            count = len(one.runs[0].free) if one.runs else 0
+            sd = one.runs[0].initial[one.runs[0].free] if count else np.zeros(0)
+            offset = carried.states[run] if carried.states and count else None
+            offset = np.zeros(count) if offset is None else offset
+            is_free = bool(free) or not count
+            parts.append(_eliminated(table, more, n, offset, sd) if is_free else _held(table, more, offset, sd))
             cost += 0.5 * float(np.sum((offset / sd) ** 2))
-            if free:
+            if count:
                 states[run] = offset
             run += len(one.runs)
         point = self._joined(x, parts, states, steps, sizes, n, tables)
@@ -433,6 +443,15 @@ def _eliminated(table: Array, more: Array, n: int, values: Array, sd: Array) -> 
     for part in slices:
         rows[count:][part] -= columns[part] @ solution
     return _Eliminated(residual, rows, solution, 0.5 * float(inner[:, 0] @ inner[:, 0]), count)
+
+
+def _held(table: Array, more: Array, values: Array, sd: Array) -> _Eliminated:
+    """Rows with the numbers that are not free held at `values`, their priors ahead of them."""
+    rows = np.column_stack([table, more])
+    ahead = np.zeros((values.size, rows.shape[1]))
+    ahead[:, 0] = -values / sd
+    rows = np.concatenate([ahead, rows])
+    return _Eliminated(rows[:, 0].copy(), rows, np.zeros((0, rows.shape[1])), 0.0, values.size)
 
 
 def _squares(one: Observation, table: _Rows) -> Array:
