@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -37,12 +38,14 @@ class Candidate:
         nuisances: sensor errors that are free.
         problem: the model, its free numbers and the measurements beside it.
         places: effect name -> name ahead of its parameters in the model.
+        transient: whether stepped sines run as the bench ran them, since the model may have no periodic orbit.
     """
 
     effects: tuple[Effect, ...]
     nuisances: tuple[Nuisance, ...]
     problem: Problem = field(repr=False)
     places: Mapping[str, str] = field(default_factory=dict)
+    transient: bool = False
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "places", FrozenMapping(self.places))
@@ -51,6 +54,11 @@ class Candidate:
     def names(self) -> tuple[str, ...]:
         """Of all that the base model lacks."""
         return (*(effect.name for effect in self.effects), *map(sensor_name, self.nuisances))
+
+    @property
+    def has_events(self) -> bool:
+        """Whether an effect's law has: its slopes are then those of secants."""
+        return any(map(switches, self.effects))
 
     @property
     def model(self) -> Model:
@@ -92,6 +100,19 @@ class Candidate:
         named = {key if isinstance(key, str) else f"{self.places[key[0]]}.{key[1]}": v for key, v in values.items()}
         return ParameterSpace.held(named)
 
+    def levels(self, residuals: WeightedResiduals, point: Point) -> Array:
+        """(n_r,) level of each row of a good point; 1 of priors and of what has a known one."""
+        place = {channel: i for i, channel in enumerate(residuals.channels)}
+        size = [1.0]
+        for one in residuals.observations:
+            size += [float(point.levels[place[one.dataset, name]]) for name in one.channels] or [1.0]
+        return np.array(size)[point.series + 1]
+
+    def slopes(self, simulation: Simulation, point: Point) -> dict[Key, Array]:
+        """(n_r,) by each free parameter, in the units of the channels."""
+        size = self.levels(self.residuals(simulation), point)
+        return {key: point.jacobian[:, j] * size for j, key in enumerate(self.keys)} if point.jacobian.size else {}
+
     def carried(self, other: Candidate, point: Point) -> Carried:
         """What a point of another model carries along, for this one: states by name, sensor errors by what they are."""
         mine, its = self.model.abilities.states, other.model.abilities.states
@@ -129,26 +150,30 @@ class Models:
 
     def __init__(self, session: Session) -> None:
         self.session, self.builds = session, 0
-        self._problems: dict[tuple[str, ...], tuple[Problem, Mapping[str, str]]] = {}
-        self._smooth: tuple[Effect, ...] = tuple(e for e in session.catalogue if not (e.bypass or switches(e)))
+        self._built: dict[tuple[str, ...], tuple[Model, Mapping[str, str]]] = {}
+        self._problems: dict[tuple[tuple[str, ...], bool], Problem] = {}
+        self._together = list(_groups([e for e in session.catalogue if not (e.bypass or switches(e))]))
         self.refused: dict[str, str] = {}
 
-    def base(self) -> Candidate:
-        """The model as it is."""
-        return Candidate((), (), self._problem(())[0])
-
-    def of(self, effects: Sequence[Effect], nuisances: Sequence[Nuisance] = ()) -> Candidate:
+    def of(
+        self, effects: Sequence[Effect], nuisances: Sequence[Nuisance] = (), *, transient: bool = False
+    ) -> Candidate:
         """The model with these effects, in one that has more where there is one.
 
+        Args:
+            transient: as models with events are compared in any case.
         Raises:
             BadInput: it cannot be made.
         """
-        effects, together = tuple(effects), self._together(effects)
-        problem, places = self._problem(together)
+        effects = tuple(effects)
+        built = self._with_others(effects)
+        transient |= any(map(switches, effects)) or self.all_transient
+        model, places = self._variant(built)
+        problem = self._problem(built, transient)
         own = [parameter(places[e.name], p) for e in effects for p in e.parameters]
-        space = parameter_space(problem.model, [*self.session.parameters, *own])
+        space = parameter_space(model, [*self.session.parameters, *own])
         kept = {effect.name: places[effect.name] for effect in effects}
-        return Candidate(effects, tuple(nuisances), replace(problem, space=space), kept)
+        return Candidate(effects, tuple(nuisances), replace(problem, space=space), kept, transient)
 
     def alone(self, effects: Sequence[Effect], nuisances: Sequence[Nuisance] = ()) -> Candidate:
         """The model with these effects and no others.
@@ -156,39 +181,65 @@ class Models:
         Raises:
             BadInput: it cannot be made.
         """
-        problem, places = self._problem(tuple(effects))
-        return Candidate(tuple(effects), tuple(nuisances), problem, places)
+        effects = tuple(effects)
+        transient = any(map(switches, effects)) or self.all_transient
+        _, places = self._variant(effects)
+        return Candidate(effects, tuple(nuisances), self._problem(effects, transient), places, transient)
 
-    def are_together(self, effects: Sequence[Effect]) -> bool:
-        """Whether the effects are in a model with others."""
-        return len(self._together(tuple(effects))) > len(effects)
+    @cached_property
+    def all_transient(self) -> bool:
+        """Whether some stepped sine is compared sample by sample, since the plant had not settled."""
+        counts = [sum(one.domain == "time" for one in self._problem((), t).observations) for t in (False, True)]
+        return counts[0] != counts[1]
 
-    def _together(self, effects: tuple[Effect, ...]) -> tuple[Effect, ...]:
-        """The effects that are built with these: all smooth ones where the last of these is smooth too."""
-        if not effects or effects[-1] not in self._smooth:
+    def _with_others(self, effects: tuple[Effect, ...]) -> tuple[Effect, ...]:
+        """The effects that are built with these: a group of smooth ones where the last of these is smooth too."""
+        group = next((g for g in self._together if effects and effects[-1] in g), None)
+        if group is None:
             return effects
-        others = tuple(e for e in effects if e not in self._smooth)
-        whole = (*others, *self._smooth)
+        whole = (*(e for e in effects if e not in group), *group)
         try:
-            self._problem(whole)
+            self._variant(whole)
         except BadInput:
-            self._smooth = ()
-            return effects
+            self._together = [g for g in self._together if g is not group] + list(_split(group))
+            return self._with_others(effects)
         return whole
 
-    def _problem(self, effects: tuple[Effect, ...]) -> tuple[Problem, Mapping[str, str]]:
+    def _variant(self, effects: tuple[Effect, ...]) -> tuple[Model, Mapping[str, str]]:
+        if not effects:
+            return self.session.model, {}
         key = tuple(effect.name for effect in effects)
-        if key in self._problems:
-            return self._problems[key]
-        model, places = self.session.model, {}
-        if effects:
+        if key not in self._built:
             if self.session.build is None:
                 raise BadInput("no effect can be added: the model's Modelica class is not at hand; name its library")
-            model, places = self.session.build(effects)
+            self._built[key] = self.session.build(effects)
             self.builds += 1
-        own = [parameter(places[e.name], p) for e in effects for p in e.parameters]
-        self._problems[key] = found = self.session.problem(model, own), dict(places)
-        return found
+        return self._built[key]
+
+    def _problem(self, effects: tuple[Effect, ...], transient: bool) -> Problem:
+        key = tuple(effect.name for effect in effects), transient
+        if key not in self._problems:
+            model, places = self._variant(effects)
+            own = [parameter(places[e.name], p) for e in effects for p in e.parameters]
+            self._problems[key] = self.session.problem(model, own, transient=transient)
+        return self._problems[key]
+
+
+def _groups(effects: Sequence[Effect]) -> Iterator[tuple[Effect, ...]]:
+    if effects:
+        yield tuple(effects)
+
+
+def _split(group: tuple[Effect, ...]) -> Iterator[tuple[Effect, ...]]:
+    """Groups of a group that cannot be built: one effect of each slot in each; each alone where that was so already."""
+    slots: dict[str, list[Effect]] = {}
+    for effect in group:
+        slots.setdefault(effect.slot, []).append(effect)
+    longest = max(map(len, slots.values()))
+    if longest == 1:
+        return
+    for k in range(longest):
+        yield tuple(own[k] for own in slots.values() if k < len(own))
 
 
 def parameter(place: str, p: EffectParameter) -> Parameter:

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from pysim.diagnosis.candidate import Candidate, Values
+from pysim.diagnosis.secants import Secants
 from pysim.diagnosis.settings import Settings
 from pysim.identify.greybox import GaussNewton, Point, Simulation
 from pysim.identify.greybox.optimiser import Bounds, State
@@ -16,6 +17,10 @@ from pysim.identify.greybox.residuals import Carried
 from pysim.types import FitOutcome
 
 Array = NDArray[np.float64]
+
+
+# A point (n,) and what goes along with it -> the objective there, with slopes.
+Evaluate = Callable[[Array, Carried], Point]
 
 
 @dataclass(frozen=True)
@@ -26,13 +31,13 @@ class FinalFit:
         candidate: the model.
         state: of the search: its best point, and how it ended.
         simulation: what the point was simulated by.
-        start: name of the start that won.
+        evaluate: the objective at another point.
     """
 
     candidate: Candidate
     state: State = field(repr=False)
     simulation: Simulation = field(repr=False)
-    start: str = ""
+    evaluate: Evaluate = field(repr=False)
 
     @property
     def point(self) -> Point:
@@ -65,29 +70,46 @@ class FinalFit:
         return self.point.cost - (self.state.memory.get("expected", 0.0) if not self.ended else 0.0)
 
 
-def begin(
-    candidate: Candidate, values: Values, carried: Carried | None, simulation: Simulation, start: str = ""
-) -> FinalFit:
-    """The candidate at a start; not good where it could not be simulated there."""
+def begin(candidate: Candidate, values: Values, simulation: Simulation, present: FinalFit | None = None) -> FinalFit:
+    """The candidate at a start; not good where it could not be simulated there.
+
+    Args:
+        present: the model that it extends, compared in the same way: its initial states are the start's, and its slopes
+            the first ones of a model with events.
+    """
     x = candidate.at(values)
-    point = candidate.residuals(simulation).evaluate(candidate.model, candidate.space, x, carried)
+    carried = Carried() if present is None else candidate.carried(present.candidate, present.point)
+    evaluate = exact(candidate, simulation)
+    if candidate.has_events:
+        known = None if present is None else present.candidate.slopes(present.simulation, present.point)
+        evaluate = Secants(candidate, simulation, known).evaluate
+    point = evaluate(x, carried)
     if not point.good:
-        state = State(point, outcome=FitOutcome.NO_START, message=str(point.failure))
-        return FinalFit(candidate, state, simulation, start)
+        return FinalFit(candidate, State(point, outcome=FitOutcome.NO_START), simulation, evaluate)
     state = _optimiser().begin(point, _bounds(candidate), squares=True)
-    return FinalFit(candidate, replace(state, first_cost=point.cost), simulation, start)
+    return FinalFit(candidate, replace(state, first_cost=point.cost), simulation, evaluate)
+
+
+def exact(candidate: Candidate, simulation: Simulation) -> Evaluate:
+    """The objective with slopes that come along with the runs."""
+    residuals = candidate.residuals(simulation)
+
+    def evaluate(x: Array, carried: Carried) -> Point:
+        return residuals.evaluate(candidate.model, candidate.space, x, carried)
+
+    return evaluate
 
 
 def advance(fit: FinalFit, points: int) -> FinalFit:
     """So many points on, or to the end of the search."""
     candidate, state, optimiser = fit.candidate, fit.state, _optimiser()
-    bounds, residuals = _bounds(candidate), candidate.residuals(fit.simulation)
+    bounds = _bounds(candidate)
     for _ in range(points):
         if state.outcome is not None:
             break
         proposal = optimiser.propose(state, bounds)
         carried = state.best.carried_to(proposal.x, proposal.share)
-        trial = residuals.evaluate(candidate.model, candidate.space, proposal.x, carried)
+        trial = fit.evaluate(proposal.x, carried)
         state = optimiser.tell(state, proposal, trial, bounds)
     if state.outcome is None:
         expected = optimiser.propose(replace(state, memory={**state.memory, "radius": 1e6}), bounds).predicted
@@ -100,7 +122,7 @@ def converged(fit: FinalFit, simulation: Simulation | None = None) -> FinalFit:
     fit = advance(fit, _optimiser().max_iterations)
     if simulation is None or simulation == fit.simulation or not fit.good:
         return fit
-    again = begin(fit.candidate, fit.values, fit.point.carried, simulation, fit.start)
+    again = begin(fit.candidate, fit.values, simulation, fit)
     return advance(again, _optimiser().max_iterations) if again.good else fit
 
 

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import stats
 
+from pysim.diagnosis.candidate import Candidate
 from pysim.diagnosis.refit import FinalFit
 from pysim.identify.greybox import Point, WeightedResiduals
 from pysim.identify.greybox.effective_size import inflation
@@ -41,25 +42,23 @@ class Rows:
     ordered: frozenset[int]
 
 
-def rows(residuals: WeightedResiduals, point: Point) -> Rows:
+def rows(candidate: Candidate, residuals: WeightedResiduals, point: Point) -> Rows:
     """Of a good point."""
-    place = {channel: i for i, channel in enumerate(residuals.channels)}
-    level_of: list[float] = []
-    ordered: set[int] = set()
+    own, first, ordered = point.series >= 0, 0, set[int]()
     for one in residuals.observations:
-        first = len(level_of)
-        level_of += [float(point.levels[place[one.dataset, name]]) for name in one.channels] or [1.0]
-        if one.domain == "time":
-            ordered |= set(range(first, len(level_of)))
-    own = point.series >= 0
-    series, level = point.series[own], np.array(level_of)[point.series[own]]
+        count = max(len(one.channels), 1)
+        ordered |= set(range(first, first + count)) if one.domain == "time" else set()
+        first += count
+    level = candidate.levels(residuals, point)[own]
     jacobian = point.jacobian[own] if point.jacobian.size else np.zeros((int(own.sum()), 0))
-    return Rows(point.residual[own] * level, jacobian, level, series, point.blocks[own], frozenset(ordered))
+    return Rows(
+        point.residual[own] * level, jacobian, level, point.series[own], point.blocks[own], frozenset(ordered)
+    )
 
 
 def of(fit: FinalFit) -> Rows:
     """The rows of what was fitted."""
-    return rows(fit.candidate.residuals(fit.simulation), fit.point)
+    return rows(fit.candidate, fit.candidate.residuals(fit.simulation), fit.point)
 
 
 def effective(left: Rows, changed: Array) -> float:

@@ -6,7 +6,7 @@ It is a start for the refit and no judgement: at biased parameters the gain it p
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -62,15 +62,20 @@ class Sizes:
     limits_unknown: tuple[float, ...] = (0.25, 0.6, 1.0, 2.0)
 
 
-def screen(models: Models, present: FinalFit, simulation: Simulation, sizes: Sizes | None = None) -> list[Screened]:
+def screen(
+    models: Models, beside: Callable[[bool], FinalFit], simulation: Simulation, sizes: Sizes | None = None
+) -> list[Screened]:
     """Every effect of the catalogue at each size in the present model, the best gain first.
 
     Effects that cannot be built or simulated are left out; `models.refused` says which.
+
+    Args:
+        beside: the present model, compared by orbits (False) or by transients (True).
     """
     found: list[Screened] = []
-    before = of(present)
-    span = _span(before)
+    present = beside(False)
     have = {effect.name for effect in present.candidate.effects}
+    befores: dict[bool, tuple[FinalFit, Rows, Array]] = {}
     for effect in models.session.catalogue:
         if effect.name in have:
             continue
@@ -79,7 +84,10 @@ def screen(models: Models, present: FinalFit, simulation: Simulation, sizes: Siz
         except BadInput as error:
             models.refused.setdefault(effect.name, str(error))
             continue
-        own = list(_screened(candidate, effect, present, before, span, simulation, sizes or Sizes()))
+        if candidate.transient not in befores:
+            present = beside(candidate.transient)
+            befores[candidate.transient] = present, of(present), _span(of(present))
+        own = list(_screened(candidate, effect, *befores[candidate.transient], simulation, sizes or Sizes()))
         if not own:
             models.refused.setdefault(effect.name, "the model could not be simulated with it")
         found += own
@@ -109,7 +117,8 @@ def _screened(
     for tried in _values(effect, _largest(candidate, effect, present, simulation), sizes):
         values = {**present.values, **{(effect.name, name): value for name, value in tried.items()}}
         space = candidate.held(values)
-        point = residuals.evaluate(candidate.model, space, np.zeros(0), carried, jacobian=False)
+        free = not candidate.has_events
+        point = residuals.evaluate(candidate.model, space, np.zeros(0), carried, jacobian=False, states=free)
         if point.good and point.gain > 0:  # the initial states move along
             again = residuals.evaluate(
                 candidate.model, space, np.zeros(0), point.carried_to(np.zeros(0)), jacobian=False
@@ -117,7 +126,7 @@ def _screened(
             point = again if again.good and again.cost < point.cost else point
         if not point.good:
             continue
-        change = (rows(residuals, point).residual - before.residual) / before.level
+        change = (rows(candidate, residuals, point).residual - before.residual) / before.level
         left = change - span @ (span.T @ change)
         size = float(left @ left)
         if not size > EXACT * float(change @ change):

@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
+from functools import partial
 
 import numpy as np
 
@@ -90,7 +91,7 @@ class Search:
     def __init__(self, models: Models, rough: Simulation, fine: Simulation, settings: Settings, say: Progress) -> None:
         self.models, self.rough, self.fine, self.settings, self.say = models, rough, fine, settings, say
         self.floors, self.tried = Floors(), 0
-        self._fits: dict[frozenset[str], FinalFit] = {}
+        self._fits: dict[tuple[frozenset[str], bool], FinalFit] = {}
 
     def fit_base(self) -> FinalFit:
         """The base model refitted.
@@ -98,8 +99,8 @@ class Search:
         Raises:
             BadInput: it cannot be simulated at its own parameters.
         """
-        candidate = self.models.base()
-        first = begin(candidate, {}, None, self.rough)
+        candidate = self.models.of(())
+        first = begin(candidate, {}, self.rough)
         if not first.good:
             raise BadInput(f"{candidate.model.label} cannot be simulated at its own parameters: {first.state.message}")
         return self._keep(converged(first, self.fine))
@@ -123,6 +124,7 @@ class Search:
         """Penalised gain of a model that is kept."""
         if end.final is base:
             return 0.0
+        base = self._beside(base, end.final.candidate.transient)
         df = end.final.candidate.size - base.candidate.size
         left = rivals.of(end.final)
         inflated = rivals.effective(left, rivals.of(base).residual - left.residual)
@@ -158,22 +160,33 @@ class Search:
     def expand(self, present: FinalFit) -> tuple[list[Compared], list[Screened]]:
         """All that may be added to a model, refitted, the best first; and what was only screened."""
         self.say.doing(f"trying effects beside {' + '.join(present.names) or 'the base model'}")
-        screened = best_of_each(screen(self.models, present, self.rough))
+        beside = partial(self._beside, present)
+        screened = best_of_each(screen(self.models, beside, self.rough))
         sensors = sensor_candidates(present, self.models)
         self.tried = max(self.tried, len(screened) + len(sensors))
         going, aside = self._put_aside(present, screened)
         simulation = self.fine if self._is_near(present) else self.rough
         starts = [(one.candidate, one.values) for one in going] + [(one, present.values) for one in sensors]
         fits = race(
-            (begin(c, values, c.carried(present.candidate, present.point), simulation) for c, values in starts),
-            self.settings,
-            self.fine,
+            (begin(c, values, simulation, beside(c.transient)) for c, values in starts), self.settings, self.fine
         )
-        here = {self.fine: present}
-        if simulation != self.fine:
-            here[simulation] = begin(present.candidate, present.values, present.point.carried, simulation)
-        compared = [Compared(fit, self.test(here[fit.simulation], fit)) for fit in fits]
+        compared = [Compared(fit, self.test(self._simulated(beside(fit.candidate.transient), fit.simulation), fit))
+                    for fit in fits]
         return self._ordered(compared), aside
+
+    def _simulated(self, fit: FinalFit, simulation: Simulation) -> FinalFit:
+        """A fit as other simulations see it."""
+        return fit if fit.simulation == simulation else begin(fit.candidate, fit.values, simulation, fit)
+
+    def _beside(self, fit: FinalFit, transient: bool) -> FinalFit:
+        """A fit compared by orbits or by transients, as a rival is."""
+        if fit.candidate.transient == transient or fit.candidate.transient:
+            return fit
+        key = frozenset(fit.names), True
+        if key not in self._fits:
+            other = self.models.of(fit.candidate.effects, fit.candidate.nuisances, transient=True)
+            self._fits[key] = converged(begin(other, fit.values, self.fine, fit))
+        return self._fits[key]
 
     def _put_aside(self, present: FinalFit, screened: Sequence[Screened]) -> tuple[list[Screened], list[Screened]]:
         """What is refitted and what is not: near the floor first-order gains are good enough to tell."""
@@ -199,6 +212,7 @@ class Search:
         Args:
             choices: ways to have come to the larger model by chance; all that was tried where None.
         """
+        smaller = self._beside(smaller, larger.candidate.transient)
         gain = smaller.point.cost - larger.point.cost
         df = max(larger.candidate.size - smaller.candidate.size, 1)
         left = rivals.of(larger)
@@ -236,6 +250,8 @@ class Search:
         for one in others:
             if one is best or not (one.fit.ended and best.fit.ended):
                 continue
+            if one.fit.candidate.transient != best.fit.candidate.transient:
+                continue
             apart = rivals.of(one.fit).residual - own.residual
             inflated = rivals.effective(own, apart)
             reach = rivals.tolerance(inflated, apart, own.level, self.settings.tie)
@@ -270,6 +286,7 @@ class Search:
         return self._vetoed(smaller, final, test)
 
     def _vetoed(self, smaller: FinalFit, larger: FinalFit, test: GainTest) -> GainTest:
+        smaller = self._beside(smaller, larger.candidate.transient)
         own, other = rivals.of(larger), rivals.of(smaller)
         apart = other.residual - own.residual
         inflated = rivals.effective(own, apart)
@@ -297,7 +314,7 @@ class Search:
             point = settled_initial_states(residuals, fit.candidate.model, space, fit.point.x)
             if not point.good:
                 return None if fit is larger else (-math.inf, 0.0)
-            ends.append((rivals.rows(residuals, point), point.cost))
+            ends.append((rivals.rows(fit.candidate, residuals, point), point.cost))
         (own, cost), (other, before) = ends
         apart = other.residual - own.residual
         reach = rivals.tolerance(rivals.effective(own, apart), apart, own.level, self.settings.tie)
@@ -306,18 +323,19 @@ class Search:
     def _without(self, fit: FinalFit, name: str) -> FinalFit:
         """The model without one effect or sensor error, refitted."""
         kept = frozenset(fit.names) - {name}
-        if kept in self._fits:
-            return self._fits[kept]
+        for transient in (False, True):
+            if (kept, transient) in self._fits:
+                return self._fits[kept, transient]
         effects = [e for e in fit.candidate.effects if e.name != name]
         nuisances = [n for n, own in zip(fit.candidate.nuisances, fit.names[len(fit.candidate.effects):], strict=True)
                      if own != name]
         candidate = self.models.of(effects, nuisances)
         values = {key: value for key, value in fit.values.items() if not (isinstance(key, tuple) and key[0] == name)}
-        start = begin(candidate, values, candidate.carried(fit.candidate, fit.point), self.rough)
+        start = begin(candidate, values, self.rough, fit if fit.candidate.transient == candidate.transient else None)
         return self._keep(converged(start, self.fine))
 
     def _keep(self, fit: FinalFit) -> FinalFit:
-        key = frozenset(fit.names)
+        key = frozenset(fit.names), fit.candidate.transient
         if key not in self._fits or fit.point.cost < self._fits[key].point.cost:
             self._fits[key] = fit
         return self._fits[key]

@@ -54,9 +54,14 @@ class Session:
         """What is fitted and what may choose."""
         return self.data.dataset
 
-    def problem(self, model: Model, own: Sequence[Parameter] = ()) -> Problem:
-        """A model with effects beside the measurements; `own` are the effects' parameters."""
-        return problem(model, [self.data], [*self.parameters, *own], treatment=self.treatment)
+    def problem(self, model: Model, own: Sequence[Parameter] = (), *, transient: bool = False) -> Problem:
+        """A model with effects beside the measurements; `own` are the effects' parameters.
+
+        Args:
+            transient: stepped sines run as the bench ran them, for models that have no periodic orbit.
+        """
+        treatment = replace(self.treatment, steady="transient" if transient else "orbit")
+        return problem(model, [self.data], [*self.parameters, *own], treatment=treatment)
 
 
 def session(
@@ -104,7 +109,7 @@ def session(
         tuple(catalogue),
         build,
         tuple(slots),
-        Treatment(steady="transient", rest=rest or Rest(), reference_hz=reference_hz, initial=initial),
+        Treatment(rest=rest or Rest(), reference_hz=reference_hz, initial=initial),
         settings=settings or Settings(),
         workers=Threads(workers),
     )

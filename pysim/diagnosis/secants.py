@@ -1,0 +1,83 @@
+"""Slopes of a model with events: from its answers themselves, since events leave no others that are cheap.
+
+Source: Broyden 1965, Mathematics of Computation 19:577.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pysim.diagnosis.candidate import Candidate, Key
+from pysim.identify.greybox import Point, Simulation
+from pysim.identify.greybox.residuals import Carried
+
+Array = NDArray[np.float64]
+
+# Step of a difference, in the numbers of the search: its square root of rounding is that of integration, 1e-5.
+_STEP = 3e-3
+
+
+class Secants:
+    """The objective with slopes that are known at a start, or found there by differences, and corrected by each point.
+
+    Initial states stay where they are carried to: they have no slopes here.
+
+    Args:
+        candidate: a model with events.
+        simulation: of its runs.
+        known: (n_r,) slopes by parameter, in the units of the channels, at a point nearby; None where there are none.
+    """
+
+    def __init__(self, candidate: Candidate, simulation: Simulation, known: Mapping[Key, Array] | None) -> None:
+        self._candidate, self._residuals = candidate, candidate.residuals(simulation)
+        self._known = known or {}
+        self._slopes: Array | None = None
+        self._at: tuple[Array, Array] | None = None  # the last point (n,), and its residual (n_r,) in units
+
+    def evaluate(self, x: Array, carried: Carried) -> Point:
+        """The objective at x (n,)."""
+        point = self._plain(x, carried)
+        if not point.good:
+            return point
+        size = self._candidate.levels(self._residuals, point)
+        residual = point.residual * size
+        if self._slopes is None or self._slopes.shape[0] != residual.size:
+            self._slopes = self._first(x, carried, residual)
+        elif self._at is not None:
+            step = x - self._at[0]
+            square = float(step @ step)
+            if square > 0:
+                self._slopes += np.outer(residual - self._at[1] - self._slopes @ step, step) / square
+        self._at = x, residual
+        return replace(point, jacobian=self._slopes / size[:, None], steps=self._no_steps(point, x.size))
+
+    def _plain(self, x: Array, carried: Carried) -> Point:
+        candidate = self._candidate
+        return self._residuals.evaluate(candidate.model, candidate.space, x, carried, jacobian=False, states=False)
+
+    def _first(self, x: Array, carried: Carried, residual: Array) -> Array:
+        """(n_r, n): columns that are known, and differences for the others."""
+        columns = []
+        upper = self._candidate.space.bounds()[1]
+        for j, key in enumerate(self._candidate.keys):
+            known = self._known.get(key)
+            if known is not None and known.size == residual.size:
+                columns.append(known)
+                continue
+            step = _STEP if x[j] + _STEP <= upper[j] else -_STEP
+            moved = x.copy()
+            moved[j] += step
+            there = self._plain(moved, carried)
+            own = there.residual * self._candidate.levels(self._residuals, there) if there.good else residual
+            columns.append((own - residual) / step)
+        return np.column_stack(columns) if columns else np.zeros((residual.size, 0))
+
+    @staticmethod
+    def _no_steps(point: Point, n: int) -> tuple[tuple[Array, Array] | None, ...]:
+        return tuple(
+            None if step is None else (step[0], np.zeros((step[0].size, n))) for step in point.steps
+        )
