@@ -56,6 +56,11 @@ class Candidate:
         return (*(effect.name for effect in self.effects), *map(sensor_name, self.nuisances))
 
     @property
+    def labels(self) -> tuple[str, ...]:
+        """The same, each of them told from all others: sensor errors with their signal."""
+        return (*(e.name for e in self.effects), *(f"{sensor_name(n)} {n.dataset}.{n.signal}" for n in self.nuisances))
+
+    @property
     def has_events(self) -> bool:
         """Whether an effect's law has: its slopes are then those of secants."""
         return any(map(switches, self.effects))
@@ -109,9 +114,10 @@ class Candidate:
         return np.array(size)[point.series + 1]
 
     def slopes(self, simulation: Simulation, point: Point) -> dict[Key, Array]:
-        """(n_r,) by each free parameter, in the units of the channels."""
-        size = self.levels(self.residuals(simulation), point)
-        return {key: point.jacobian[:, j] * size for j, key in enumerate(self.keys)} if point.jacobian.size else {}
+        """(n_r,) of the measurements' rows by each free parameter, in the units of the channels."""
+        own = point.series >= 0
+        size = self.levels(self.residuals(simulation), point)[own]
+        return {key: point.jacobian[own, j] * size for j, key in enumerate(self.keys)} if point.jacobian.size else {}
 
     def carried(self, other: Candidate, point: Point) -> Carried:
         """What a point of another model carries along, for this one: states by name, sensor errors by what they are."""

@@ -126,40 +126,40 @@ def converged(fit: FinalFit, simulation: Simulation | None = None) -> FinalFit:
     return advance(again, _optimiser().max_iterations) if again.good else fit
 
 
-def race(runners: Iterable[FinalFit], settings: Settings, fine: Simulation) -> list[FinalFit]:
-    """Refits of rivals, the lowest cost first: those that still promise enough go on, the best of them to the end.
+def race(runners: Iterable[tuple[FinalFit, float]], settings: Settings, fine: Simulation) -> list[FinalFit]:
+    """Refits of rivals, the largest gain first: those that still promise enough go on, the best of them to the end.
 
     Of several starts of one candidate the better one goes on.
 
     Args:
+        runners: at their starts, each with the cost of the present model as it is compared.
         fine: simulation by which the best end.
     """
-    running = [fit for fit in runners if fit.good]
-    if not running:
-        return []
-    before = max(fit.state.first_cost for fit in running)
-    while True:
-        running = _best_starts([advance(fit, settings.heat) for fit in running])
-        least = min(fit.expected for fit in running)
-        enough = before - settings.promising * max(before - least, 0.0)
-        going = [fit for fit in running if fit.state.outcome is None and fit.expected <= enough]
+    running = [(fit, before) for fit, before in runners if fit.good]
+    while running:
+        running = _best_starts([(advance(fit, settings.heat), before) for fit, before in running])
+        most = max(before - fit.expected for fit, before in running)
+        going = [
+            (fit, before)
+            for fit, before in running
+            if fit.state.outcome is None and before - fit.expected >= settings.promising * max(most, 0.0)
+        ]
         if len(going) <= settings.finalists:
             break
-        done = [fit for fit in running if fit not in going]
-        running = [*done, *going]
-        if not going:
-            break
-    order = sorted(running, key=lambda fit: fit.expected)
-    ended = [converged(fit, fine) if k < settings.finalists else fit for k, fit in enumerate(order)]
-    return sorted(ended, key=lambda fit: fit.point.cost)
+        running = [one for one in running if one not in going] + going
+    running.sort(key=lambda one: one[0].expected - one[1])
+    ended = [
+        (converged(fit, fine) if k < settings.finalists else fit, before) for k, (fit, before) in enumerate(running)
+    ]
+    return [fit for fit, before in sorted(ended, key=lambda one: one[0].point.cost - one[1])]
 
 
-def _best_starts(running: Sequence[FinalFit]) -> list[FinalFit]:
-    best: dict[tuple[str, ...], FinalFit] = {}
-    for fit in running:
-        other = best.get(fit.names)
-        if other is None or fit.expected < other.expected:
-            best[fit.names] = fit
+def _best_starts(running: Sequence[tuple[FinalFit, float]]) -> list[tuple[FinalFit, float]]:
+    best: dict[tuple[str, ...], tuple[FinalFit, float]] = {}
+    for fit, before in running:
+        other = best.get(fit.candidate.labels)
+        if other is None or fit.expected < other[0].expected:
+            best[fit.candidate.labels] = fit, before
     return list(best.values())
 
 

@@ -167,8 +167,8 @@ def _values(effect: Effect, largest: float | None, sizes: Sizes) -> Iterator[dic
 
 
 def _amounted(effect: Effect, tried: Mapping[str, float], amount: float) -> dict[str, float]:
-    """At the amount that looked best, within what first order can tell; limits, lags and clocks as they were tried."""
-    if effect.bypass or any(p.inverse for p in effect.strengths):
+    """At the amount that looked best, within what first order can tell; limits as they were tried."""
+    if any(p.inverse for p in effect.strengths):
         return dict(tried)
     amount = math.copysign(min(max(abs(amount), 0.2), 3.0), amount) if amount else 0.5
     scaled = {p.name: _within(p, (p.off or 0.0) + amount * (tried[p.name] - (p.off or 0.0))) for p in effect.strengths}

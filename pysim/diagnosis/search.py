@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
-from functools import partial
+from functools import cache, partial
 
 import numpy as np
 
@@ -32,11 +32,13 @@ class Compared:
 
     Args:
         fit: the candidate.
+        added: what it has more; a sensor's error with its signal.
         test: what it gains.
         ties: others of the step that the data do not tell from it.
     """
 
     fit: FinalFit
+    added: str
     test: GainTest
     ties: tuple[str, ...] = ()
 
@@ -47,12 +49,14 @@ class Step:
 
     Args:
         model: with what was added.
+        added: what that was.
         on_trial: whether it was not significant by itself.
         rivals: all that were refitted, best first.
         screened: the others.
     """
 
     model: FinalFit
+    added: str
     test: GainTest
     on_trial: bool
     rivals: tuple[Compared, ...]
@@ -132,7 +136,7 @@ class Search:
 
     def _is_done(self, fit: FinalFit) -> bool:
         """Whether a model leaves the floor, within what its levels can tell."""
-        return self.floors.potential(fit) < 0.5 * math.sqrt(rivals.samples(fit))
+        return self.floors.potential(fit) < math.sqrt(rivals.samples(fit))
 
     def _forward(self, base: FinalFit, most: int, way: int) -> list[Step]:
         """Steps along one way: the first goes to the best rival or to the next best, the others to the best."""
@@ -147,13 +151,13 @@ class Search:
             sure = best.test.verdict is Verdict.BETTER
             in_vain = 0 if sure else in_vain + 1
             gained = sum(s.test.gain for s in steps[len(steps) - in_vain + 1 :]) if in_vain > 1 else 0.0
-            if in_vain > self.settings.on_trial or best.test.gain <= 0:
+            if in_vain > self.settings.on_trial or (not sure and self._is_done(present)):
                 break
             if in_vain == self.settings.on_trial and gained + best.test.gain < self.settings.small * worth:
                 break
             present = self._keep(converged(best.fit, self.fine))
             self.floors = self.floors.with_(present)
-            steps.append(Step(present, best.test, not sure, tuple(compared), tuple(screened)))
+            steps.append(Step(present, best.added, best.test, not sure, tuple(compared), tuple(screened)))
             self.say.learned(present, best.test)
         return steps
 
@@ -166,23 +170,38 @@ class Search:
         self.tried = max(self.tried, len(screened) + len(sensors))
         going, aside = self._put_aside(present, screened)
         simulation = self.fine if self._is_near(present) else self.rough
+
+        @cache
+        def here(transient: bool, simulation: Simulation) -> FinalFit:
+            """The present model as a rival is compared and simulated."""
+            fit = beside(transient)
+            return fit if fit.simulation == simulation else begin(fit.candidate, fit.values, simulation, fit)
+
         starts = [(one.candidate, one.values) for one in going] + [(one, present.values) for one in sensors]
         fits = race(
-            (begin(c, values, simulation, beside(c.transient)) for c, values in starts), self.settings, self.fine
+            (
+                (begin(c, values, simulation, beside(c.transient)), here(c.transient, simulation).point.cost)
+                for c, values in starts
+            ),
+            self.settings,
+            self.fine,
         )
-        compared = [Compared(fit, self.test(self._simulated(beside(fit.candidate.transient), fit.simulation), fit))
-                    for fit in fits]
+        have = set(present.candidate.labels)
+        compared = [
+            Compared(
+                fit,
+                next(label for label in fit.candidate.labels if label not in have),
+                self.test(here(fit.candidate.transient, fit.simulation), fit),
+            )
+            for fit in fits
+        ]
         return self._ordered(compared), aside
-
-    def _simulated(self, fit: FinalFit, simulation: Simulation) -> FinalFit:
-        """A fit as other simulations see it."""
-        return fit if fit.simulation == simulation else begin(fit.candidate, fit.values, simulation, fit)
 
     def _beside(self, fit: FinalFit, transient: bool) -> FinalFit:
         """A fit compared by orbits or by transients, as a rival is."""
         if fit.candidate.transient == transient or fit.candidate.transient:
             return fit
-        key = frozenset(fit.names), True
+        key = frozenset(fit.candidate.labels), True
         if key not in self._fits:
             other = self.models.of(fit.candidate.effects, fit.candidate.nuisances, transient=True)
             self._fits[key] = converged(begin(other, fit.values, self.fine, fit))
@@ -256,16 +275,16 @@ class Search:
             inflated = rivals.effective(own, apart)
             reach = rivals.tolerance(inflated, apart, own.level, self.settings.tie)
             if abs(best.test.penalised - one.test.penalised) < reach and one.test.gain > 0.5 * best.test.gain:
-                found.append(one.fit.names[-1])
+                found.append(one.added)
         return tuple(found)
 
     def _backward(self, base: FinalFit, steps: Sequence[Step]) -> Found:
         """What of the richest model is needed: the worst goes until leaving any out costs."""
         richest = steps[-1].model
-        on_trial = {step.model.names[-1] for step in steps if step.on_trial}
+        on_trial = {step.added for step in steps if step.on_trial}
         final, losses, undecidable = richest, dict[str, GainTest](), False
         while final.names:
-            losses = {name: self._loss(final, name, on_trial) for name in final.names}
+            losses = {label: self._loss(final, label, on_trial) for label in final.candidate.labels}
             undecidable |= any(one.verdict is Verdict.UNDECIDABLE for one in losses.values())
             worst = max(losses, key=lambda name: (losses[name].verdict is not Verdict.BETTER, losses[name].p_value))
             if losses[worst].verdict is Verdict.BETTER:
@@ -278,7 +297,7 @@ class Search:
     def _loss(self, final: FinalFit, name: str, on_trial: set[str]) -> GainTest:
         """What leaving one out costs: the F test, then what logs and blocks that were not fitted say."""
         smaller = self._without(final, name)
-        chosen = sum(one in on_trial for one in final.names)
+        chosen = sum(one in on_trial for one in final.candidate.labels)
         choices = math.comb(max(self.tried, 1), chosen + 1) if name in on_trial else max(self.tried, 1)
         test = self.test(smaller, final, choices)
         if test.verdict is not Verdict.BETTER:
@@ -320,22 +339,23 @@ class Search:
         reach = rivals.tolerance(rivals.effective(own, apart), apart, own.level, self.settings.tie)
         return cost - before, reach
 
-    def _without(self, fit: FinalFit, name: str) -> FinalFit:
+    def _without(self, fit: FinalFit, label: str) -> FinalFit:
         """The model without one effect or sensor error, refitted."""
-        kept = frozenset(fit.names) - {name}
+        own, labels = fit.candidate, fit.candidate.labels
+        kept = frozenset(labels) - {label}
         for transient in (False, True):
             if (kept, transient) in self._fits:
                 return self._fits[kept, transient]
-        effects = [e for e in fit.candidate.effects if e.name != name]
-        nuisances = [n for n, own in zip(fit.candidate.nuisances, fit.names[len(fit.candidate.effects):], strict=True)
-                     if own != name]
-        candidate = self.models.of(effects, nuisances)
-        values = {key: value for key, value in fit.values.items() if not (isinstance(key, tuple) and key[0] == name)}
-        start = begin(candidate, values, self.rough, fit if fit.candidate.transient == candidate.transient else None)
-        return self._keep(converged(start, self.fine))
+        effects = [e for e, own_label in zip(own.effects, labels, strict=False) if own_label != label]
+        others = zip(own.nuisances, labels[len(own.effects) :], strict=True)
+        candidate = self.models.of(effects, [one for one, own_label in others if own_label != label])
+        values = {key: value for key, value in fit.values.items() if not (isinstance(key, tuple) and key[0] == label)}
+        return self._keep(
+            converged(begin(candidate, values, self.rough, self._beside(fit, candidate.transient)), self.fine)
+        )
 
     def _keep(self, fit: FinalFit) -> FinalFit:
-        key = frozenset(fit.names), fit.candidate.transient
+        key = frozenset(fit.candidate.labels), fit.candidate.transient
         if key not in self._fits or fit.point.cost < self._fits[key].point.cost:
             self._fits[key] = fit
         return self._fits[key]

@@ -29,7 +29,8 @@ class Secants:
     Args:
         candidate: a model with events.
         simulation: of its runs.
-        known: (n_r,) slopes by parameter, in the units of the channels, at a point nearby; None where there are none.
+        known: slopes of the measurements' rows by parameter, in the units of the channels, at a point nearby; None where
+            there are none.
     """
 
     def __init__(self, candidate: Candidate, simulation: Simulation, known: Mapping[Key, Array] | None) -> None:
@@ -46,7 +47,7 @@ class Secants:
         size = self._candidate.levels(self._residuals, point)
         residual = point.residual * size
         if self._slopes is None or self._slopes.shape[0] != residual.size:
-            self._slopes = self._first(x, carried, residual)
+            self._slopes = self._first(x, carried, residual, point.series >= 0)
         elif self._at is not None:
             step = x - self._at[0]
             square = float(step @ step)
@@ -59,14 +60,16 @@ class Secants:
         candidate = self._candidate
         return self._residuals.evaluate(candidate.model, candidate.space, x, carried, jacobian=False, states=False)
 
-    def _first(self, x: Array, carried: Carried, residual: Array) -> Array:
+    def _first(self, x: Array, carried: Carried, residual: Array, own: NDArray[np.bool_]) -> Array:
         """(n_r, n): columns that are known, and differences for the others."""
         columns = []
         upper = self._candidate.space.bounds()[1]
         for j, key in enumerate(self._candidate.keys):
             known = self._known.get(key)
-            if known is not None and known.size == residual.size:
-                columns.append(known)
+            if known is not None and known.size == np.count_nonzero(own):
+                column = np.zeros(residual.size)
+                column[own] = known
+                columns.append(column)
                 continue
             step = _STEP if x[j] + _STEP <= upper[j] else -_STEP
             moved = x.copy()
