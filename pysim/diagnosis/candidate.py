@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from pysim.diagnosis.session import Session
 from pysim.identify.greybox import Nuisance, Parameter, Point, Problem, Simulation, WeightedResiduals
 from pysim.identify.greybox.objective import NOISE
+from pysim.identify.greybox.problem import beside
 from pysim.identify.greybox.parameters import ParameterSpace, parameter_space
 from pysim.identify.greybox.residuals import Carried
 from pysim.types import BadInput, Effect, EffectParameter, Model
@@ -227,7 +228,7 @@ class Models:
         if key not in self._problems:
             model, places = self._variant(effects)
             own = [parameter(places[e.name], p) for e in effects for p in e.parameters]
-            self._problems[key] = self.session.problem(model, own, transient=transient)
+            self._problems[key] = beside(self.session.problems[transient], model, [*self.session.parameters, *own])
         return self._problems[key]
 
 

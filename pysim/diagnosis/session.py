@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 from pysim.diagnosis.adequacy import shortcomings
 from pysim.diagnosis.settings import Settings
@@ -54,14 +55,12 @@ class Session:
         """What is fitted and what may choose."""
         return self.data.dataset
 
-    def problem(self, model: Model, own: Sequence[Parameter] = (), *, transient: bool = False) -> Problem:
-        """A model with effects beside the measurements; `own` are the effects' parameters.
-
-        Args:
-            transient: stepped sines run as the bench ran them, for models that have no periodic orbit.
-        """
-        treatment = replace(self.treatment, steady="transient" if transient else "orbit")
-        return problem(model, [self.data], [*self.parameters, *own], treatment=treatment)
+    @cached_property
+    def problems(self) -> tuple[Problem, Problem]:
+        """The base model beside the measurements: stepped sines as periodic orbits, and run as the bench ran them."""
+        ways = (replace(self.treatment, steady=steady) for steady in ("orbit", "transient"))
+        one, other = (problem(self.model, [self.data], self.parameters, treatment=way) for way in ways)
+        return one, other
 
 
 def session(
@@ -113,7 +112,7 @@ def session(
         settings=settings or Settings(),
         workers=Threads(workers),
     )
-    checked = given.problem(model)
+    checked = given.problems[0]
     more = [Note(NoteCode.OTHER, {"text": text}) for text in (*shortcomings(read, names), *checked.notes)]
     ends = zip(checked.space.keys, checked.space.lower, checked.space.upper, strict=True)
     open_ = [name for name, lower, upper in ends if not (math.isfinite(lower) and math.isfinite(upper))]

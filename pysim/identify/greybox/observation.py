@@ -106,6 +106,10 @@ class Observation(Protocol):
         """What has to be simulated."""
         ...
 
+    def with_runs(self, runs: Sequence[Run]) -> Observation:
+        """The same measurements beside other runs, one for each of `runs`."""
+        ...
+
     @property
     def channels(self) -> tuple[str, ...]:
         """Signals with a level of their own; none where the residuals have a known one, 1."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from types import MappingProxyType
 
 import numpy as np
@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from pysim.identify.greybox.context import Context
 from pysim.identify.greybox.noise import noise_floor, signal_noise
 from pysim.identify.greybox.objective import NOISE, Objective
-from pysim.identify.greybox.observation import Observation
+from pysim.identify.greybox.observation import Observation, Run
 from pysim.identify.greybox.parameters import Parameter, ParameterSpace, Tie, parameter_space
 from pysim.identify.greybox.residuals import Channel, WeightedResiduals
 from pysim.identify.greybox.response_table import UNSPECIFIED_DB, UNSPECIFIED_DEG, ResponseTable, response_table
@@ -71,6 +71,29 @@ class Problem:
             not objective.squares,
             settings=self.settings,
         )
+
+
+def beside(problem: Problem, model: Model, free: Sequence[Parameter | str]) -> Problem:
+    """The same measurements beside a model that has more in it; what was worked out of them is not worked out again.
+
+    States that are new are as free at a log's start as their nominal size lets them be, where others are free.
+
+    Args:
+        model: has all variables of the problem's model.
+    """
+    parameters = [Parameter(p) if isinstance(p, str) else p for p in free]
+    space = parameter_space(model, parameters, fixed=problem.space.fixed, ties=problem.space.ties)
+    known = problem.model.abilities.states
+
+    def moved(run: Run) -> Run:
+        if not run.free.size:
+            return run if not run.initial.size else replace(run, initial=np.zeros(len(model.abilities.states)))
+        sd = dict(zip(known, run.initial.tolist(), strict=True))
+        nominal = {name: abs(model[name].nominal or 1.0) for name in model.abilities.states}
+        return replace(run, initial=np.array([sd.get(name, nominal[name]) for name in model.abilities.states]))
+
+    observations = tuple(one.with_runs([moved(run) for run in one.runs]) for one in problem.observations)
+    return replace(problem, model=model, space=space, observations=observations)
 
 
 def problem(

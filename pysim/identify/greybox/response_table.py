@@ -59,6 +59,10 @@ class ResponseTable:
         """The one table."""
         return (self.source,)
 
+    def with_runs(self, runs: Sequence[Run]) -> ResponseTable:
+        """See Observation."""
+        return replace(self, runs=tuple(runs))
+
     @property
     def specified(self) -> bool:
         """Whether the table says how uncertain it is."""

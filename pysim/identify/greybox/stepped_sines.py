@@ -61,6 +61,10 @@ class SteppedSines:
         """Of the logs."""
         return tuple(log.source for log in self.logs)
 
+    def with_runs(self, runs: Sequence[Run]) -> SteppedSines:
+        """See Observation."""
+        return replace(self, runs=tuple(runs))
+
     @property
     def channels(self) -> tuple[str, ...]:
         """The compared columns."""

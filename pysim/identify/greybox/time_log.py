@@ -59,6 +59,10 @@ class TimeLog:
         """The one run."""
         return (self.run,)
 
+    def with_runs(self, runs: Sequence[Run]) -> TimeLog:
+        """See Observation."""
+        return replace(self, run=runs[0])
+
     @property
     def channels(self) -> tuple[str, ...]:
         """The compared columns."""
