@@ -135,8 +135,8 @@ class Search:
         return rivals.penalised(base.point.cost - end.final.point.cost, df, inflated, rivals.samples(base))
 
     def _is_done(self, fit: FinalFit) -> bool:
-        """Whether a model leaves the floor, within what its levels can tell."""
-        return self.floors.potential(fit) < math.sqrt(rivals.samples(fit))
+        """Whether a model leaves so little over the floor that no two effects together are worth a trial."""
+        return all(ratio < self.settings.held_out for ratio in self.floors.over(fit).values())
 
     def _forward(self, base: FinalFit, most: int, way: int) -> list[Step]:
         """Steps along one way: the first goes to the best rival or to the next best, the others to the best."""

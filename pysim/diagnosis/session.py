@@ -113,7 +113,7 @@ def session(
         workers=Threads(workers),
     )
     checked = given.problems[0]
-    more = [Note(NoteCode.OTHER, {"text": text}) for text in (*shortcomings(read, names), *checked.notes)]
+    more = [*(Note(NoteCode.OTHER, {"text": text}) for text in shortcomings(read, names)), *checked.notes]
     ends = zip(checked.space.keys, checked.space.lower, checked.space.upper, strict=True)
     open_ = [name for name, lower, upper in ends if not (math.isfinite(lower) and math.isfinite(upper))]
     more += [Note(NoteCode.UNBOUNDED, {"parameters": ", ".join(open_)})] if open_ else []
