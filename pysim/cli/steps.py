@@ -24,9 +24,9 @@ from pysim.cli.options import (
 from pysim.cli.outputs import JOURNAL
 
 if TYPE_CHECKING:
-    from pysim.diagnose import Subject
     from pysim.present.diagnosis import Diagnosed
     from pysim.types import Diagnosis, Told
+    from pysim.types.answer import Diagnosis as Answer
     from pysim.workflow import SessionParts
 
 SUBJECT = (
@@ -82,7 +82,7 @@ def read_parts(given: Given, *, refits: bool = True, only: Sequence[str] = ()) -
 def run_step(
     given: Given,
     parts: SessionParts,
-    work: Callable[[Subject, Callable[[Told], None], Path | None], Diagnosis],
+    work: Callable[[Callable[[Told], None], Path | None], Diagnosis],
     *,
     question: str = "Which effect is missing?",
     answer: Callable[[Diagnosis], str] | None = None,
@@ -90,7 +90,7 @@ def run_step(
     """Run a step of the diagnosis and show it; in `--output` lies a journal from which a stopped run goes on.
 
     Args:
-        work: the step; takes the session, what tells, and the journal's place.
+        work: the step; takes what tells, and the journal's place.
         question, answer: what leads text and page; the verdict by default.
     Raises:
         KeyboardInterrupt: stopped by the user; says how to go on.
@@ -99,9 +99,7 @@ def run_step(
     from pysim.cli.progress import announce_compilation
     from pysim.present.diagnosis import Diagnosed
     from pysim.types import Told
-    from pysim.workflow import session_of
 
-    session = session_of(parts)
     announce_compilation()
     journal = given.output / JOURNAL if given.output else None
     try:
@@ -112,7 +110,7 @@ def run_step(
                 for one in told:
                     one(what)
 
-            found = work(session, tell, journal)
+            found = work(tell, journal)
             for one in told[1:]:  # a program that follows is told why it does not end yet
                 one(Told("writing report and files"))
     except KeyboardInterrupt:
@@ -122,6 +120,15 @@ def run_step(
     said = answer(found) if answer is not None else ""
     given.opened = parts
     return Diagnosed(found, parts.dataset, parts.model_name, question, said)
+
+
+def shown(found: Answer) -> Diagnosis:
+    """An answer as text, pages and reports take it, its reason in words."""
+    from pysim.present.diagnosis.words import what_is_left_sentence
+    from pysim.types._between_answers import from_answer
+
+    old = from_answer(found)
+    return replace(old, reason=what_is_left_sentence(old))
 
 
 def write_model(given: Given, result: Diagnosed, folder: Path) -> Diagnosed:

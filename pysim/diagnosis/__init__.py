@@ -1,1 +1,21 @@
-"""Which physical effect is missing: the steps in a row, and each of them alone."""
+"""Which physical effect is missing: the steps in a row, and each of them alone.
+
+`diagnose` searches, `add` adds given effects, `rank` tries each beside the base model, `compare` holds the model beside
+the measurements. Each takes a `Session`, which `pysim.open_session` opens by names and `session` from objects.
+"""
+
+from pysim.diagnosis.engine import add, compare, diagnose, rank
+from pysim.diagnosis.session import BuildVariant, Session, identifiable, session
+from pysim.diagnosis.settings import Settings
+
+__all__ = [
+    "BuildVariant",
+    "Session",
+    "Settings",
+    "add",
+    "compare",
+    "diagnose",
+    "identifiable",
+    "rank",
+    "session",
+]

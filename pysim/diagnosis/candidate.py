@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 from pysim.diagnosis.session import Session
 from pysim.identify.greybox import Nuisance, Parameter, Point, Problem, Simulation, WeightedResiduals
 from pysim.identify.greybox.objective import NOISE
-from pysim.identify.greybox.problem import beside
 from pysim.identify.greybox.parameters import ParameterSpace, parameter_space
+from pysim.identify.greybox.problem import beside
 from pysim.identify.greybox.residuals import Carried
 from pysim.types import BadInput, Effect, EffectParameter, Model
 from pysim.types._frozen import FrozenMapping

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pysim.diagnosis.refit import FinalFit
-from pysim.diagnosis.rivals import Rows, of
+from pysim.diagnosis.rivals import of
 from pysim.identify.greybox.noise import white_floor
 from pysim.identify.greybox.residuals import Channel
 from pysim.types import Dataset, Record

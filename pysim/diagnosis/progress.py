@@ -8,7 +8,8 @@ from dataclasses import dataclass, field
 
 from pysim.diagnosis.refit import FinalFit
 from pysim.types import Told
-from pysim.types.answer import GainTest
+from pysim.types.answer import ErrorStep, GainTest
+from pysim.types.diagnosis import LedgerStep
 
 Say = Callable[[Told], None]
 
@@ -37,8 +38,17 @@ class Progress:
         name = " + ".join(model.names) or "the base model"
         self.tell(Told(self.now, f"{name}: gains {test.gain:.4g} nats (p = {test.p_value:.2g})"))
 
+    def entered(self, step: ErrorStep, text: str) -> None:
+        """A model joins the error history."""
+        self.tell(Told(self.now, text, as_ledger(step)))
+
     def stage(self, name: str) -> None:
         """A stage of that name has ended."""
         now = time.monotonic()
         self.seconds[name] = self.seconds.get(name, 0.0) + now - self.since
         self.since = now
+
+
+def as_ledger(step: ErrorStep) -> LedgerStep:
+    """As the pages that follow a diagnosis read it."""
+    return LedgerStep(step.step, step.fit, step.validate, step.criteria, step.passes, step.cost, step.not_simulated)

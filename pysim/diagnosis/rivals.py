@@ -1,7 +1,7 @@
 """A larger model against a smaller one: what it gains, whether chance could do that, and what argues against it.
 
-Source: the F test with the number of samples that coloured residuals are worth: Bartlett 1946, Supplement to the Journal
-of the Royal Statistical Society 8:27; Kish 1965, Survey Sampling, Section 8.2.
+Source: the F test with the number of samples that coloured residuals are worth: Bartlett 1946, Supplement to the
+Journal of the Royal Statistical Society 8:27; Kish 1965, Survey Sampling, Section 8.2.
 """
 
 from __future__ import annotations
@@ -51,9 +51,7 @@ def rows(candidate: Candidate, residuals: WeightedResiduals, point: Point) -> Ro
         first += count
     level = candidate.levels(residuals, point)[own]
     jacobian = point.jacobian[own] if point.jacobian.size else np.zeros((int(own.sum()), 0))
-    return Rows(
-        point.residual[own] * level, jacobian, level, point.series[own], point.blocks[own], frozenset(ordered)
-    )
+    return Rows(point.residual[own] * level, jacobian, level, point.series[own], point.blocks[own], frozenset(ordered))
 
 
 def of(fit: FinalFit) -> Rows:

@@ -87,11 +87,20 @@ def screen(
         if candidate.transient not in befores:
             present = beside(candidate.transient)
             befores[candidate.transient] = present, of(present), _span(of(present))
-        own = list(_screened(candidate, effect, *befores[candidate.transient], simulation, sizes or Sizes()))
+        before, span = befores[candidate.transient][1:]
+        own = list(
+            _screened(candidate, effect, befores[candidate.transient][0], before, span, simulation, sizes or Sizes())
+        )
         if not own:
             models.refused.setdefault(effect.name, "the model could not be simulated with it")
         found += own
     return sorted(found, key=lambda one: -one.gain)
+
+
+def screened(candidate: Candidate, effect: Effect, present: FinalFit, simulation: Simulation) -> list[Screened]:
+    """One effect at each of its sizes; none where the model cannot be simulated with it."""
+    before = of(present)
+    return list(_screened(candidate, effect, present, before, _span(before), simulation, Sizes()))
 
 
 def best_of_each(screened: Sequence[Screened]) -> list[Screened]:

@@ -17,7 +17,7 @@ from pysim.diagnosis.candidate import Candidate, Key, Models
 from pysim.diagnosis.left import Floors
 from pysim.diagnosis.progress import Progress
 from pysim.diagnosis.refit import FinalFit, begin, converged, race
-from pysim.diagnosis.screen import Screened, best_of_each, screen
+from pysim.diagnosis.screen import Screened, best_of_each, screen, screened
 from pysim.diagnosis.sensors import sensor_candidates
 from pysim.diagnosis.settings import Settings
 from pysim.identify.greybox import Nuisance, Simulation
@@ -41,6 +41,22 @@ class Compared:
     added: str
     test: GainTest
     ties: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Table:
+    """All that was tried beside one model.
+
+    Args:
+        names: what the model has already.
+        avoidable: nats that could be gained.
+        rivals: refitted, best first; screened: only that.
+    """
+
+    names: tuple[str, ...]
+    avoidable: float
+    rivals: Sequence[Compared]
+    screened: Sequence[Screened]
 
 
 @dataclass(frozen=True)
@@ -73,6 +89,7 @@ class Found:
         steps: forward, in the order they were made.
         losses: name of each effect kept -> what leaving it out costs.
         undecidable: whether too few independent samples are there to decide anything.
+        more: whether something passes its test that is not kept, since unseen logs or blocks argue against it.
     """
 
     base: FinalFit
@@ -81,6 +98,7 @@ class Found:
     floors: Floors
     losses: dict[str, GainTest] = field(default_factory=dict)
     undecidable: bool = False
+    more: bool = False
 
 
 class Search:
@@ -95,6 +113,7 @@ class Search:
     def __init__(self, models: Models, rough: Simulation, fine: Simulation, settings: Settings, say: Progress) -> None:
         self.models, self.rough, self.fine, self.settings, self.say = models, rough, fine, settings, say
         self.floors, self.tried = Floors(), 0
+        self._tables: dict[frozenset[str], Table] = {}
         self._fits: dict[tuple[frozenset[str], bool], FinalFit] = {}
 
     def fit_base(self) -> FinalFit:
@@ -106,8 +125,39 @@ class Search:
         candidate = self.models.of(())
         first = begin(candidate, {}, self.rough)
         if not first.good:
-            raise BadInput(f"{candidate.model.label} cannot be simulated at its own parameters: {first.state.message}")
+            raise BadInput(f"{candidate.model.label} cannot be simulated at its own parameters: {first.point.failure}")
         return self._keep(converged(first, self.fine))
+
+    @property
+    def tables(self) -> tuple[Table, ...]:
+        """All that was tried, in order."""
+        return tuple(self._tables.values())
+
+    def as_it_is(self) -> FinalFit:
+        """The base model with its own parameters.
+
+        Raises:
+            BadInput: it cannot be simulated.
+        """
+        candidate = self.models.of(())
+        first = begin(candidate, {}, self.fine)
+        if not first.good:
+            raise BadInput(f"{candidate.model.label} cannot be simulated at its own parameters: {first.point.failure}")
+        return first
+
+    def with_effects(self, present: FinalFit, effects: Sequence[Effect]) -> FinalFit:
+        """The model with given effects, refitted from the best of their sizes.
+
+        Raises:
+            BadInput: one cannot be built or simulated.
+        """
+        candidate = self.models.of(effects, present.candidate.nuisances)
+        found = screened(candidate, effects[-1], self._beside(present, candidate.transient), self.rough)
+        if not found:
+            raise BadInput(f"{effects[-1].name}: the model cannot be simulated with it")
+        starts = [begin(candidate, one.values, self.rough, self._beside(present, candidate.transient)) for one in found]
+        best = min((fit for fit in starts if fit.good), key=lambda fit: fit.point.cost)
+        return self._keep(converged(best, self.fine))
 
     def run(self, base: FinalFit, most: int) -> Found:
         """Forward along the best first steps, then backward from each end; the better end is kept."""
@@ -143,7 +193,8 @@ class Search:
         steps: list[Step] = []
         present, in_vain, worth = base, 0, self.floors.potential(base)
         while len(steps) < most:
-            compared, screened = self.expand(present)
+            tried = self.expand(present)
+            compared = tried.rivals
             place = way if not steps else 0
             if len(compared) <= place:
                 break
@@ -157,18 +208,24 @@ class Search:
                 break
             present = self._keep(converged(best.fit, self.fine))
             self.floors = self.floors.with_(present)
-            steps.append(Step(present, best.added, best.test, not sure, tuple(compared), tuple(screened)))
+            steps.append(Step(present, best.added, best.test, not sure, tuple(compared), tuple(tried.screened)))
             self.say.learned(present, best.test)
         return steps
 
-    def expand(self, present: FinalFit) -> tuple[list[Compared], list[Screened]]:
+    def expand(self, present: FinalFit) -> Table:
         """All that may be added to a model, refitted, the best first; and what was only screened."""
+        key = frozenset(present.candidate.labels)
+        if key not in self._tables:
+            self._tables[key] = self._expanded(present)
+        return self._tables[key]
+
+    def _expanded(self, present: FinalFit) -> Table:
         self.say.doing(f"trying effects beside {' + '.join(present.names) or 'the base model'}")
         beside = partial(self._beside, present)
-        screened = best_of_each(screen(self.models, beside, self.rough))
+        tried = best_of_each(screen(self.models, beside, self.rough))
         sensors = sensor_candidates(present, self.models)
-        self.tried = max(self.tried, len(screened) + len(sensors))
-        going, aside = self._put_aside(present, screened)
+        self.tried = max(self.tried, len(tried) + len(sensors))
+        going, aside = self._put_aside(present, tried)
         simulation = self.fine if self._is_near(present) else self.rough
 
         @cache
@@ -187,15 +244,17 @@ class Search:
             self.fine,
         )
         have = set(present.candidate.labels)
-        compared = [
-            Compared(
-                fit,
-                next(label for label in fit.candidate.labels if label not in have),
-                self.test(here(fit.candidate.transient, fit.simulation), fit),
-            )
-            for fit in fits
-        ]
-        return self._ordered(compared), aside
+        compared = self._ordered(
+            [
+                Compared(
+                    fit,
+                    next(label for label in fit.candidate.labels if label not in have),
+                    self.test(here(fit.candidate.transient, fit.simulation), fit),
+                )
+                for fit in fits
+            ]
+        )
+        return Table(present.candidate.labels, self.floors.potential(present), compared, aside)
 
     def _beside(self, fit: FinalFit, transient: bool) -> FinalFit:
         """A fit compared by orbits or by transients, as a rival is."""
@@ -257,7 +316,9 @@ class Search:
         count = rivals.samples(good[0].fit)
         inflated = count / float(np.median([one.test.effective_size for one in good]))
         scored = [
-            replace(one, test=replace(one.test, penalised=rivals.penalised(one.test.gain, one.test.df, inflated, count)))
+            replace(
+                one, test=replace(one.test, penalised=rivals.penalised(one.test.gain, one.test.df, inflated, count))
+            )
             for one in good
         ]
         scored.sort(key=lambda one: -one.test.penalised)
@@ -282,17 +343,18 @@ class Search:
         """What of the richest model is needed: the worst goes until leaving any out costs."""
         richest = steps[-1].model
         on_trial = {step.added for step in steps if step.on_trial}
-        final, losses, undecidable = richest, dict[str, GainTest](), False
+        final, losses, undecidable, more = richest, dict[str, GainTest](), False, False
         while final.names:
             losses = {label: self._loss(final, label, on_trial) for label in final.candidate.labels}
             undecidable |= any(one.verdict is Verdict.UNDECIDABLE for one in losses.values())
             worst = max(losses, key=lambda name: (losses[name].verdict is not Verdict.BETTER, losses[name].p_value))
             if losses[worst].verdict is Verdict.BETTER:
                 break
+            more |= losses[worst].verdict is Verdict.VETOED
             final = self._without(final, worst)
         if not final.names:
-            return Found(base, base, tuple(steps), self.floors, {}, undecidable)
-        return Found(base, final, tuple(steps), self.floors, losses, undecidable)
+            return Found(base, base, tuple(steps), self.floors, {}, undecidable, more)
+        return Found(base, final, tuple(steps), self.floors, losses, undecidable, more)
 
     def _loss(self, final: FinalFit, name: str, on_trial: set[str]) -> GainTest:
         """What leaving one out costs: the F test, then what logs and blocks that were not fitted say."""

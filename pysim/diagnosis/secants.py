@@ -29,8 +29,8 @@ class Secants:
     Args:
         candidate: a model with events.
         simulation: of its runs.
-        known: slopes of the measurements' rows by parameter, in the units of the channels, at a point nearby; None where
-            there are none.
+        known: slopes of the measurements' rows by parameter, in the units of the channels, at a point nearby; None
+            where there are none.
     """
 
     def __init__(self, candidate: Candidate, simulation: Simulation, known: Mapping[Key, Array] | None) -> None:
@@ -81,6 +81,4 @@ class Secants:
 
     @staticmethod
     def _no_steps(point: Point, n: int) -> tuple[tuple[Array, Array] | None, ...]:
-        return tuple(
-            None if step is None else (step[0], np.zeros((step[0].size, n))) for step in point.steps
-        )
+        return tuple(None if step is None else (step[0], np.zeros((step[0].size, n))) for step in point.steps)

@@ -12,6 +12,7 @@ from pysim.diagnosis.settings import Settings
 from pysim.effects import Slot
 from pysim.identify import THESIS_REFERENCE_HZ
 from pysim.identify.greybox import Measurements, Parameter, Problem, Rest, Threads, Treatment, problem
+from pysim.identify.greybox.parameters import ParameterSpace
 from pysim.types import BadInput, Dataset, Effect, MeasuredRecord, Model, Note, NoteCode
 
 # Effects -> the model that has them, and effect name -> the name ahead of its parameters there.
@@ -54,6 +55,13 @@ class Session:
     def dataset(self) -> Dataset:
         """What is fitted and what may choose."""
         return self.data.dataset
+
+    def unseen_beside(self, model: Model, space: ParameterSpace) -> Problem:
+        """The logs that nothing has looked at, beside a model."""
+        assert self.unseen is not None
+        records = tuple(replace(record, use="fit") for record in self.unseen.dataset.records)
+        data = replace(self.unseen, dataset=replace(self.unseen.dataset, records=records))
+        return replace(problem(self.model, [data], self.parameters, treatment=self.treatment), model=model, space=space)
 
     @cached_property
     def problems(self) -> tuple[Problem, Problem]:

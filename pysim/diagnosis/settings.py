@@ -61,5 +61,11 @@ class Settings:
         1.05, unit="1", meaning="error on logs not fitted over that on those fitted, up to which a model is complete",
         source="measured: coloured nulls",
     )  # fmt: skip
-    max_effects: int = setting(4, unit="1", meaning="effects in a model at most", source="more have no name to a reader")
+    follows_t: float = setting(
+        3.0, unit="1", meaning="standard deviations from which on a residual follows the model's own signals",
+        source="a chance of 0.1 %",
+    )  # fmt: skip
+    max_effects: int = setting(
+        4, unit="1", meaning="effects in a model at most", source="more have no name to a reader"
+    )
     seed: int = setting(0, unit="1", meaning="of every draw", source="convention")

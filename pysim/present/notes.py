@@ -81,6 +81,9 @@ _WORDS = {
         "The pole at {pole:.4g} Hz and the zero at {zero:.4g} Hz cannot be told apart and cancel: the data support "
         "fewer of both."
     ),
+    NoteCode.UNBOUNDED: (
+        "{parameters}: refitted without bounds on both sides, since neither the model nor the call gives any."
+    ),
     NoteCode.OTHER: "{text}",
 }
 

@@ -14,11 +14,13 @@ def to_answer(old: diagnosis.Diagnosis) -> answer.Diagnosis:
     """The same as numbers and codes; sentences become notes of the code OTHER, the reason first."""
     names = tuple(added.effect.name for added in old.added)
     last = old.error[-1] if old.error else None
+    complete = old.complete if old.complete is not None else old.verdict == diagnosis.NONE or old.verdict in names
+    left = old.left or (last.fit if last else None, last.validate if last else None, None, None)
     stages = {stage.step: stage for stage in old.stages}
     return answer.Diagnosis(
         effects=tuple(answer.FoundEffect(one.effect, one.place, one.estimates) for one in old.added),
-        complete=old.verdict == diagnosis.NONE or old.verdict in names,
-        left=answer.Left({}, last.fit if last else None, last.validate if last else None),
+        complete=complete,
+        left=answer.Left({}, *left),
         rivals=tuple(
             answer.Rival(
                 (*names[: c.round - 1], c.effect), c.score / 2, c.p_value, c.explained, c.refitted, c.parameters
@@ -44,7 +46,7 @@ def from_answer(new: answer.Diagnosis) -> diagnosis.Diagnosis:
     notes = [str(one.values["text"]) if one.code is NoteCode.OTHER else one for one in new.notes]
     reason = notes.pop(0) if notes and isinstance(notes[0], str) else ""
     return diagnosis.Diagnosis(
-        verdict=new.verdict if new.complete else diagnosis.UNKNOWN,
+        verdict=new.verdict,
         reason=str(reason),
         added=tuple(diagnosis.AddedEffect(one.effect, one.place, one.estimates) for one in new.effects),
         ranking=tuple(
@@ -69,6 +71,8 @@ def from_answer(new: answer.Diagnosis) -> diagnosis.Diagnosis:
             for s in new.history
         ),
         conditions=new.conditions,
+        complete=new.complete,
+        left=(new.left.fit, new.left.validate, new.left.share_explained, new.left.t),
     )
 
 

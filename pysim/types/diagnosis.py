@@ -258,6 +258,9 @@ class Diagnosis:
         next_test: where two answers are left that another experiment would tell apart.
         stages: the models of the ledger beside every record.
         conditions: what it takes to repeat it, in words: model, data, seed, solver, versions.
+        complete: whether nothing but noise is left after `added`; None where that was not judged.
+        left: rms over floor of what is left, fitted and held out; share of it that follows the model's own signals, and
+            its t.
     """
 
     verdict: str
@@ -274,6 +277,8 @@ class Diagnosis:
     next_test: NextTest | None = None
     stages: tuple[Stage, ...] = field(default=(), repr=False)
     conditions: Mapping[str, str] = field(default_factory=dict)
+    complete: bool | None = None
+    left: tuple[float | None, float | None, float | None, float | None] | None = None
 
     def __post_init__(self) -> None:
         for name in ("seconds", "conditions"):

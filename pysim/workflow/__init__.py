@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from pysim.workflow.fitting import fit_problem
     from pysim.workflow.free import free_parameters
     from pysim.workflow.model import ModelInside, inside, is_fmu, model_of
-    from pysim.workflow.session import SessionParts, effects_of, open_session, session_of, session_parts
+    from pysim.workflow.session import SessionParts, effects_of, open_session, session_of, session_parts, subject_of
     from pysim.workflow.shell import command_line
     from pysim.workflow.variants import Variants
 
@@ -30,7 +30,7 @@ _FILES = {
     "fitting": ("fit_problem",),
     "free": ("free_parameters",),
     "model": ("ModelInside", "inside", "is_fmu", "model_of"),
-    "session": ("SessionParts", "effects_of", "open_session", "session_of", "session_parts"),
+    "session": ("SessionParts", "effects_of", "open_session", "session_of", "session_parts", "subject_of"),
     "shell": ("command_line",),
     "variants": ("Variants",),
 }
@@ -51,6 +51,7 @@ __all__ = [
     "reference_of",
     "session_of",
     "session_parts",
+    "subject_of",
     "write_extended",
 ]
 

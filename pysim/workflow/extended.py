@@ -31,10 +31,10 @@ def write_extended(
     """
     fitted = {e.name: e.value for e in found.parameters if "@" not in e.name}
     files: dict[str, Path] = {}
-    if found.added and parts.variants is not None:
-        name = extended_name(parts.variants.class_name, [one.effect.class_name for one in found.added])
-        values = {**parts.overrides, **fitted}
-        effects, fmu = [one.effect for one in found.added], folder / f"{name}.fmu"
+    effects = [one.effect for one in found.added if one.effect.class_name]  # a sensor's error has none
+    if effects and parts.variants is not None:
+        name = extended_name(parts.variants.class_name, [effect.class_name for effect in effects])
+        values, fmu = {**parts.overrides, **fitted}, folder / f"{name}.fmu"
         parts.variants.write(effects, folder, fmu, name, values, _comment(found, parts, place or folder, name))
         files = {"modelica": folder / f"{name}.mo", "fmu": fmu}
         about = f"{name}, the class in {name}.mo, fitted to data set {parts.dataset.name}."

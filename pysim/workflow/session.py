@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Literal
 
 from pysim.diagnose import Inside, Subject, subject
+from pysim.diagnosis import Session, Settings, session
 from pysim.io import in_model_units
 from pysim.present.notes import words
 from pysim.types import BadInput, Dataset, Effect, Model, Note, NoteCode
@@ -65,7 +66,8 @@ def open_session(
     values: Mapping[str, float] | None = None,
     effects: Sequence[str] = (),
     reference_hz: float | Literal["by data"] | None = BY_DATA,
-) -> Subject:
+    settings: Settings | None = None,
+) -> Session:
     """Open a model and its measurements for a diagnosis.
 
     Args:
@@ -78,6 +80,7 @@ def open_session(
         effects: consider only these; all that the model's slots take by default.
         reference_hz: whose gain counts as 0 dB in measured responses; None for absolute gains; by default 0.1 Hz where
             every test measured it, as in the thesis (Eq. 2.12).
+        settings: numbers of the diagnosis; its own where None.
     Raises:
         BadInput: what cannot be read, does not compile, or does not go together.
     """
@@ -94,7 +97,7 @@ def open_session(
         effects=effects,
         reference_hz=reference_of(dataset.responses(), reference_hz),
     )
-    return session_of(parts)
+    return session_of(parts, settings)
 
 
 def session_parts(
@@ -141,11 +144,32 @@ def session_parts(
     )
 
 
-def session_of(parts: SessionParts) -> Subject:
+def session_of(parts: SessionParts, settings: Settings | None = None) -> Session:
     """The session of these parts.
 
     Raises:
         BadInput: bounds of what is not free, or measurements that cannot carry a diagnosis.
+    """
+    return session(
+        parts.model,
+        parts.dataset,
+        parts.catalogue,
+        parts.variants.build if parts.variants else None,
+        free=parts.free,
+        bounds=parts.bounds,
+        overrides=parts.overrides,
+        slots=parts.inside.slots,
+        reference_hz=parts.reference_hz,
+        notes=parts.notes,
+        settings=settings,
+    )
+
+
+def subject_of(parts: SessionParts) -> Subject:
+    """What locating takes, of these parts.
+
+    Raises:
+        BadInput: as `session_of`.
     """
     variants = parts.variants
     return subject(

@@ -39,7 +39,7 @@ def shares(case: Case, answer: Answer) -> Iterator[str]:
 
 def refit(case: Case, answer: Answer) -> Iterator[str]:
     """The error that the refitted base model leaves of the fitted logs, over the noise that is there."""
-    found = answer.data["error"][1]["fit"] * (case.logs.stated or 1.0)
+    found = answer.data["error"][1]["fit"] * (max(case.logs.stated, 1.0))
     if abs(found / case.right["refit"] - 1) > _REFIT:
         yield f"the refitted base model leaves {found:.3f} times the noise, right is {case.right['refit']}"
 
@@ -65,7 +65,7 @@ def unseen(case: Case, answer: Answer) -> Iterator[str]:
 
 def held_out(case: Case, answer: Answer) -> Iterator[str]:
     """The product's own account of the held-out logs falls to the noise, counted in the noise that is there."""
-    stated = case.logs.stated or 1.0
+    stated = max(case.logs.stated, 1.0)
     last = answer.data["error"][-1]["validate"]
     if case.logs.validate and not last * stated <= _HELD:
         yield f"held out {last * stated:.3f} times the noise, by its own account"

@@ -102,7 +102,7 @@ def _below(desk: Desk) -> None:
     _criteria(answer, settings.added)
     _parameters(answer)
     for line in answer.data["notes"]:
-        note(str(line))
+        note(str(line["text"]))
 
 
 def _criteria(answer: Answer, added: Sequence[str]) -> None:

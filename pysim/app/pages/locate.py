@@ -126,7 +126,7 @@ def _below(desk: Desk, chosen: dict[str, str]) -> None:
     _effects(desk, name)
     answer = desk.answers.newest("missing")
     for line in answer.data["notes"] if answer is not None else ():
-        note(str(line))
+        note(str(line["text"]))
 
 
 def _term(one: Mapping[str, Any]) -> None:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from pysim.cli.command import Command, Given
 from pysim.cli.option import names
 from pysim.cli.outputs import JOURNAL
-from pysim.cli.steps import SUBJECT, end_step, read_parts, results, run_step, write_model
+from pysim.cli.steps import SUBJECT, end_step, read_parts, results, run_step, shown, write_model
 
 if TYPE_CHECKING:
     from pysim.present.diagnosis import Diagnosed
@@ -15,16 +15,17 @@ if TYPE_CHECKING:
 
 def run(given: Given) -> Diagnosed:
     """What each effect does to the error, on fitted and held-out data."""
-    from pysim.diagnose import add
+    from pysim.diagnosis import add
     from pysim.present.diagnosis.words import added_sentence
-    from pysim.workflow import effects_of
+    from pysim.workflow import effects_of, session_of
 
     parts = read_parts(given)
     effects = effects_of(given.effects, parts)
+    session = session_of(parts)
     return run_step(
         given,
         parts,
-        lambda session, story, journal: add(session, effects, progress=story, journal=journal),
+        lambda tell, journal: shown(add(session, effects, progress=tell)),
         question="What do the effects mend?",
         answer=added_sentence,
     )

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from pysim.cli.command import Command, Given
 from pysim.cli.option import switch
 from pysim.cli.outputs import JOURNAL
-from pysim.cli.steps import SUBJECT, end_step, read_parts, results, run_step, write_model
+from pysim.cli.steps import SUBJECT, end_step, read_parts, results, run_step, shown, write_model
 
 if TYPE_CHECKING:
     from pysim.present.diagnosis import Diagnosed
@@ -44,19 +44,16 @@ def _refuse_idle(given: Given) -> None:
 
 def _logs(given: Given) -> Diagnosed:
     """Every record beside the model as it is, and refitted where that is asked for."""
-    from pysim.diagnose import against
+    from pysim.diagnosis import compare
     from pysim.present.diagnosis.words import comparison_sentence
+    from pysim.workflow import session_of
 
     parts = read_parts(given, refits=given.refit)
+    session = session_of(parts)
     return run_step(
         given,
         parts,
-        lambda session, story, journal: against(
-            session,
-            refitted=given.refit,
-            progress=lambda told: None if told.text.startswith("verdict:") else story(told),  # of a diagnosis
-            journal=journal,
-        ),
+        lambda tell, journal: shown(compare(session, refitted=given.refit, progress=tell)),
         question="How far is the model from its measurements?",
         answer=comparison_sentence,
     )

@@ -2,40 +2,59 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from pysim.cli.command import Command, Given
 from pysim.cli.option import number
 from pysim.cli.outputs import JOURNAL
-from pysim.cli.steps import EFFECTS, SUBJECT, end_step, read_parts, results, run_step, write_model
+from pysim.cli.steps import EFFECTS, SUBJECT, end_step, read_parts, results, run_step, shown, write_model
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+    from pathlib import Path
+
     from pysim.present.diagnosis import Diagnosed
+    from pysim.types import Diagnosis, Told
+    from pysim.workflow import SessionParts
 
 
 def run(given: Given) -> Diagnosed:
     """The verdict; without effects to add, what each candidate gains, screened or refitted."""
-    from pysim.diagnose import diagnose, rank
+    from pysim.diagnosis import Settings, diagnose, rank
     from pysim.present.diagnosis.words import ranking_sentence
     from pysim.types import BadInput
+    from pysim.workflow import session_of
 
-    most, seed = given.max_effects, given.seed
+    most = given.max_effects
     if most < 0:
         raise BadInput(f"--max-effects {most}: write how many effects may be added, 0 or more")
     parts = read_parts(given, only=given.effects)
+    session = session_of(parts, Settings(max_effects=most, seed=given.seed))
     if most:
-        return run_step(
-            given,
-            parts,
-            lambda session, story, journal: diagnose(session, seed=seed, most=most, progress=story, journal=journal),
-        )
+
+        def work(tell: Callable[[Told], None], journal: Path | None) -> Diagnosis:
+            return _with_places(shown(diagnose(session, progress=tell)), parts)
+
+        return run_step(given, parts, work)
     return run_step(
         given,
         parts,
-        lambda session, story, journal: rank(session, seed=seed, progress=story, journal=journal),
+        lambda tell, journal: shown(rank(session, progress=tell)),
         question="What would each effect gain?",
         answer=ranking_sentence,
     )
+
+
+def _with_places(found: Diagnosis, parts: SessionParts) -> Diagnosis:
+    """Where no effect of the catalogue explains the data: the term that each place of the model would need."""
+    from pysim.diagnose import located
+    from pysim.types.diagnosis import UNKNOWN
+    from pysim.workflow import subject_of
+
+    if found.verdict != UNKNOWN or parts.variants is None or not parts.inside.slots:
+        return found
+    return replace(found, missing=located(subject_of(parts)).missing)
 
 
 COMMAND = Command(

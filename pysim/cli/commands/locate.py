@@ -17,14 +17,15 @@ def run(given: Given) -> Diagnosed:
     """The places with the term that each would need."""
     from pysim.diagnose import located
     from pysim.present.diagnosis.words import missing_sentence
-    from pysim.workflow import effects_of
+    from pysim.workflow import effects_of, subject_of
 
     parts, there = read_parts(given), getattr(given, "with")  # a word of Python
     effects = effects_of(there, parts) if there else ()
+    subject = subject_of(parts)
     return run_step(
         given,
         parts,
-        lambda session, story, journal: located(session, effects, progress=story, journal=journal),
+        lambda tell, journal: located(subject, effects, progress=tell, journal=journal),
         question="Where is what missing?",
         answer=missing_sentence,
     )

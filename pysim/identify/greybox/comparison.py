@@ -18,7 +18,7 @@ from pysim.types import Experiment, Model, Note, NoteCode, RecordFit, ResponseFi
 
 Array = NDArray[np.float64]
 
-_ROUNDS = 4  # steps of the initial states of a log that was not fitted
+_ROUNDS = 40  # steps of the initial states of a log that was not fitted
 
 
 @dataclass(frozen=True)

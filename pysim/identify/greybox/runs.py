@@ -42,6 +42,11 @@ class Simulation:
         solver = replace(self.solver, rtol=max(self.solver.rtol, tolerance), atol=max(self.solver.atol, tolerance))
         return replace(self, solver=solver).searching()
 
+    def finer(self, factor: float = 0.1) -> Simulation:
+        """Settings for a last look, where what is compared must not be the error of the integration."""
+        solver = replace(self.solver, rtol=factor * self.solver.rtol, atol=factor * self.solver.atol)
+        return replace(self, solver=solver, mismatch=factor * self.mismatch)
+
     def searching(self) -> Simulation:
         """Settings for points that are only passed.
 

@@ -6,10 +6,12 @@ import math
 import textwrap
 from collections.abc import Mapping, Sequence
 
+import numpy as np
+
 from pysim.io import json_number
 from pysim.present.diagnosis.words import limits_words, next_test_sentence, verdict_sentence
 from pysim.present.notes import words
-from pysim.types import Estimate
+from pysim.types import Estimate, Note, NoteCode
 from pysim.types.diagnosis import AddedEffect, Candidate, Diagnosis, LedgerStep, Missing, NextTest
 
 _WIDTH = 100
@@ -37,9 +39,41 @@ def diagnosis_data(diagnosis: Diagnosis, files: Mapping[str, str] | None = None)
         "next_test": _next_test(diagnosis.next_test),
         "seconds": {name: json_number(value) for name, value in diagnosis.seconds.items()},
         "files": dict(files or {}),
-        "notes": [words(note) for note in diagnosis.notes],
+        "notes": [_note(note) for note in diagnosis.notes],
         "conditions": dict(diagnosis.conditions),
+        **_completeness(diagnosis),
     }
+
+
+def _note(note: Note | str) -> dict[str, object]:
+    """Code and values for a program, the sentence for a person."""
+    if isinstance(note, str):
+        return {"code": NoteCode.OTHER.value, "values": {}, "text": note}
+    return {"code": note.code.value, "values": dict(note.values), "text": words(note)}
+
+
+def _completeness(diagnosis: Diagnosis) -> dict[str, object]:
+    """Whether anything is left; nothing where that was not judged."""
+    if diagnosis.complete is None or diagnosis.left is None:
+        return {}
+    fit, validate, share, t = map(json_number, diagnosis.left)
+    left = {"rms_over_floor": {"fit": fit, "validate": validate}, "share_explained": share, "t": t}
+    return {"complete": diagnosis.complete, "left": left, "fit_percent": _fit_percent(diagnosis)}
+
+
+def _fit_percent(diagnosis: Diagnosis) -> list[dict[str, object]]:
+    """NRMSE of every log and signal at each step, in percent: 100 where the model is the log."""
+    found: list[dict[str, object]] = []
+    for stage in diagnosis.stages:
+        rows: dict[str, dict[str, float | None]] = {}
+        for record in stage.records:
+            for j, name in enumerate(record.measured.names):
+                measured = record.measured.values[:, j]
+                size = float(np.linalg.norm(measured - measured.mean()))
+                away = float(np.linalg.norm(measured - record.simulated.values[:, j]))
+                rows.setdefault(record.source, {})[name] = json_number(100 * (1 - away / size) if size else None)
+        found.append({"step": stage.step, "records": rows})
+    return found
 
 
 def _interval(interval: tuple[float, float]) -> list[float | None]:

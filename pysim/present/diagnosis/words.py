@@ -30,7 +30,21 @@ def verdict_sentence(diagnosis: Diagnosis) -> str:
         verb = "is" if len(names) == 1 else "are"
         return f"More is missing than could be named: {listed(names)} {verb} asked for, and is not all.{fall}"
     count = "an effect" if len(names) == 1 else f"{len(names)} effects"
-    return f"The model lacks {count}: {listed(names)}.{_tie(diagnosis)}{fall}"
+    more = "" if diagnosis.complete is not False else " More is missing than that."
+    return f"The model lacks {count}: {listed(names)}.{more}{_tie(diagnosis)}{fall}"
+
+
+def what_is_left_sentence(diagnosis: Diagnosis) -> str:
+    """Why a verdict without effects is what it is: how large the residual is, and whether it follows the signals."""
+    fit, _, share, _ = diagnosis.left or (None, None, None, None)
+    size = "" if fit is None else f"the residual is {fit:.3g} times its noise floor"
+    if share is None:
+        follows = "the logs are too short to say whether it follows the model's own signals"
+    elif share > 0.02:
+        follows = f"{100 * share:.0f} % of it follows the model's own signals"
+    else:
+        follows = "it does not follow the model's own signals"
+    return f"{size or 'the residual was judged by responses alone'}, and {follows}"
 
 
 def comparison_sentence(diagnosis: Diagnosis) -> str:

@@ -78,7 +78,7 @@ def test_ranking_tells_what_each_gains_and_decides_nothing(rubbing: Path, toy: l
     assert found["ranking"][0]["explained"] > 0.9
     assert found["added"] == []
     assert [row["step"] for row in found["error"]] == ["prior", "refit"]
-    assert any("mine.broken" in note for note in found["notes"])
+    assert any("mine.broken" in note["text"] for note in found["notes"])
 
 
 @pytest.mark.slow

@@ -128,7 +128,7 @@ def test_tables_beside_logs_are_left_out_and_said_to_be(toy: list[str], tmp_path
     assert main(["compare", str(tmp_path / "both"), *toy, "--refit", "--json", str(answer)]) == 0
     found = json.loads(answer.read_text())
     assert found["error"][-1]["fit"] == pytest.approx(1.0, abs=0.1)
-    assert any("tables of frequency responses (1)" in note for note in found["notes"])
+    assert any("tables of frequency responses (1)" in note["text"] for note in found["notes"])
 
 
 def test_compare_does_not_pass_a_model_that_fails_in_a_record(
@@ -144,7 +144,7 @@ def test_compare_does_not_pass_a_model_that_fails_in_a_record(
     assert main(["compare", str(rubbing), *toy, "--refit", "--json", str(tmp_path / "a.json")]) == 1
     found = json.loads((tmp_path / "a.json").read_text())
     assert (found["error"][-1]["passes"], found["error"][-1]["not_simulated"]) == (False, 1)
-    assert any("ends early" in note for note in found["notes"])
+    assert any("ends early" in note["text"] for note in found["notes"])
 
 
 def test_locate_tells_the_place_and_the_shape_of_what_is_missing(rubbing: Path, toy: list[str], tmp_path: Path) -> None:

@@ -1,0 +1,156 @@
+"""The steps of a diagnosis in a row, and each of them alone."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from pysim.diagnosis import verdict
+from pysim.diagnosis.candidate import Models
+from pysim.diagnosis.error_history import error_step, held_still
+from pysim.diagnosis.left import follows
+from pysim.diagnosis.progress import Progress, Say
+from pysim.diagnosis.refit import FinalFit, begin, converged
+from pysim.diagnosis.search import Found, Search
+from pysim.diagnosis.session import Session
+from pysim.identify.greybox import Simulation
+from pysim.types import BadInput, Effect
+from pysim.types.answer import Diagnosis, ErrorStep
+
+
+def diagnose(session: Session, *, progress: Say | None = None) -> Diagnosis:
+    """Answer which effects the data demand, in order, that they demand none, or that what is missing is not known.
+
+    Args:
+        progress: gets what is being done and what was learned; what it raises ends the diagnosis.
+    Raises:
+        BadInput: the base model cannot be simulated at its own parameters.
+    """
+    search = _search(session, progress)
+    base = search.fit_base()
+    search.say.stage("refit")
+    most = session.settings.max_effects if session.build is not None and session.catalogue else 0
+    found = search.run(base, most)
+    search.say.stage("search")
+    return _answer(session, search, found)
+
+
+def compare(session: Session, *, refitted: bool = True, progress: Say | None = None) -> Diagnosis:
+    """Hold the model against the measurements, as it is and refitted.
+
+    Args:
+        refitted: without, the model is only compared as it is.
+    """
+    search = _search(session, progress)
+    base = search.fit_base() if refitted else search.as_it_is()
+    search.floors = search.floors.with_(base)
+    return _answer(session, search, Found(base, base, (), search.floors), refitted=refitted)
+
+
+def rank(session: Session, *, progress: Say | None = None) -> Diagnosis:
+    """What each effect would gain beside the refitted base model; nothing is added."""
+    search = _search(session, progress)
+    base = search.fit_base()
+    search.floors = search.floors.with_(base)
+    search.expand(base)
+    return _answer(session, search, Found(base, base, (), search.floors))
+
+
+def add(session: Session, effects: Sequence[Effect], *, progress: Say | None = None) -> Diagnosis:
+    """Add given effects one after the other and refit everything each time.
+
+    Raises:
+        BadInput: the model's class is not at hand, or one cannot be built or simulated.
+    """
+    search = _search(session, progress)
+    base = search.fit_base()
+    steps, present = [base], base
+    for k, effect in enumerate(effects, start=1):
+        search.say.doing(f"adding {effect.name}")
+        present = search.with_effects(present, effects[:k])
+        steps.append(present)
+    search.floors = search.floors.with_(base).with_(present)
+    losses = {e.name: search.test(steps[k], steps[k + 1]) for k, e in enumerate(effects)}
+    return _answer(session, search, Found(base, present, (), search.floors, losses), models=steps[1:])
+
+
+def _search(session: Session, progress: Say | None) -> Search:
+    fine = Simulation(workers=session.workers)
+    return Search(Models(session), fine.rough(), fine, session.settings, Progress(progress or (lambda told: None)))
+
+
+def _answer(
+    session: Session,
+    search: Search,
+    found: Found,
+    *,
+    refitted: bool = True,
+    models: Sequence[FinalFit] = (),
+) -> Diagnosis:
+    """Everything that was found.
+
+    Args:
+        models: with effects, in the order they came in; those of the search where none are given.
+    """
+    search.say.doing("counting what is left")
+    final = _alone(found.final, search) if found.final.names else found.final
+    found = replace(found, final=final)
+    floors = found.floors.floors
+    history = [error_step("prior", search.as_it_is(), session, floors, fitted=False)]
+    if refitted:
+        history.append(error_step("refit", found.base, session, floors))
+    for name, fit in _kept(found, models, final):
+        history.append(error_step(name, fit, session, floors))
+    _said(search.say, history)
+    rest = follows(final, session.dataset, session.treatment.noise.blocks)
+    last = history[-1]
+    left = verdict.what_is_left(found, rest, {"fit": last.fit, "validate": last.validate})
+    estimates = held_still(final)[0] if refitted else ()
+    search.say.stage("intervals")
+    return Diagnosis(
+        effects=verdict.found_effects(found, estimates, session),
+        complete=verdict.is_complete(found, rest, left, session.settings),
+        left=left,
+        rivals=verdict.ranking(search.tables),
+        ties=verdict.ties(found),
+        history=tuple(history),
+        failures=history[min(1, len(history) - 1)].failures,
+        estimates=estimates,
+        notes=(*session.notes, *verdict.notes_of(found, estimates, search.models.refused, session)),
+        seconds=search.say.seconds,
+    )
+
+
+def _alone(fit: FinalFit, search: Search) -> FinalFit:
+    """The model with its effects and no others, refitted to the end from where it stands; slopes as they are there."""
+    try:
+        candidate = search.models.alone(fit.candidate.effects, fit.candidate.nuisances)
+    except BadInput:
+        return fit
+    finest = search.fine.finer()
+    again = converged(begin(candidate, fit.values, finest, None if candidate.has_events else fit))
+    return again if again.good else fit
+
+
+def _kept(found: Found, models: Sequence[FinalFit], final: FinalFit) -> list[tuple[str, FinalFit]]:
+    """Names and models of the steps of the error history; effects that came in together are one step."""
+    if models:
+        return [(fit.names[-1], final if fit is models[-1] else fit) for fit in models]
+    kept, steps, waiting = set(final.candidate.labels), list[tuple[str, FinalFit]](), list[str]()
+    for step in found.steps:
+        if step.added not in kept:
+            continue
+        waiting.append(step.added)
+        if set(step.model.candidate.labels) <= kept and not step.on_trial:
+            steps.append((" + ".join(waiting), step.model))
+            waiting = []
+    if final.names:
+        last = " + ".join([*(waiting or [steps.pop()[0] if steps else " + ".join(final.names)])])
+        steps.append((last, final))
+    return steps
+
+
+def _said(say: Progress, history: Sequence[ErrorStep]) -> None:
+    for step in history:
+        parts = [f"{name} {value:.3f}" for name, value in (("fitted", step.fit), ("held out", step.validate)) if value]
+        say.entered(step, f"{step.step}: residual over noise, {', '.join(parts)}")

@@ -1,0 +1,106 @@
+"""The error history: a model beside every record, counted in the floors that all models share."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pysim.diagnosis.failures import failures
+from pysim.diagnosis.refit import FinalFit
+from pysim.diagnosis.session import TEST, Session
+from pysim.identify.greybox import Simulation
+from pysim.identify.greybox.comparison import Compared, compared
+from pysim.identify.greybox.residuals import Channel
+from pysim.identify.greybox.uncertainty import uncertainty
+from pysim.types import Deviation, Direction, Estimate, RecordFit
+from pysim.types.answer import ErrorStep, NoiseFloor
+
+Array = NDArray[np.float64]
+
+
+def error_step(
+    name: str, fit: FinalFit, session: Session, floors: Mapping[Channel, NoiseFloor], *, fitted: bool = True
+) -> ErrorStep:
+    """One model beside every record, those of use "test" too.
+
+    Args:
+        floors: what the errors are counted in.
+        fitted: whether the model was fitted; the untouched one has no intervals.
+    """
+    parts = [_beside(fit, fit.simulation)]
+    if session.unseen is not None:
+        parts.append(_unseen(fit, session, fit.simulation))
+    records = [_over(record, floors) for part in parts for record in part.records]
+    responses = tuple(response for part in parts for response in part.responses)
+    deviations = [d for record in records for own in record.deviations.values() for d in own]
+    deviations += [d for response in responses for d in response.comparison.deviations]
+    lost = sum(part.lost for part in parts)
+    estimates, open_ = held_still(fit) if fitted else ((), ())
+    return ErrorStep(
+        name,
+        *(root_mean_square(records, use) for use in ("fit", "validate", "test")),
+        criteria={d.criterion.symbol: d.value for d in _worst(deviations)},
+        passes=not lost and all(d.passes for d in deviations),
+        cost=fit.point.cost,
+        not_simulated=lost,
+        estimates=estimates,
+        undetermined=open_,
+        records=tuple(records),
+        responses=responses,
+        failures=failures(records, session.dataset),
+    )
+
+
+def held_still(fit: FinalFit) -> tuple[tuple[Estimate, ...], tuple[Direction, ...]]:
+    """Estimates with one parameter of each exactly undetermined direction held where it stands, and those directions.
+
+    A direction that scales every force leaves no force an interval of its own, though an effect is there for certain.
+    """
+    space, point, held = fit.candidate.space, fit.point, []
+    found, slopes = uncertainty(space, point), point.jacobian.copy()
+    own = {name for name, key in zip(space.keys, fit.candidate.keys, strict=True) if isinstance(key, str)}
+    for direction in found.known.directions:
+        name = next((name for name in direction.exponents if name in own), "")
+        if np.isinf(direction.spread) and name:
+            slopes[:, space.keys.index(name)] = 0.0
+            order = dict(sorted(direction.exponents.items(), key=lambda item: item[0] != name))
+            held.append(replace(direction, exponents=order))
+    if not held:
+        return found.estimates, ()
+    return uncertainty(space, replace(point, jacobian=slopes)).estimates, tuple(held)
+
+
+def root_mean_square(records: Sequence[RecordFit], use: str) -> float | None:
+    """Of all samples over their floors, of records of one use; None where there are none."""
+    values = [record.residual.values.ravel() for record in records if record.use == use]
+    return float(np.sqrt(np.mean(np.concatenate(values) ** 2))) if values else None
+
+
+def _beside(fit: FinalFit, simulation: Simulation) -> Compared:
+    residuals = fit.candidate.residuals(simulation)
+    carried = dict(zip(map(id, residuals.runs), fit.point.carried.states, strict=False))
+    return compared(fit.candidate.problem, fit.point.x, simulation, carried)
+
+
+def _unseen(fit: FinalFit, session: Session, simulation: Simulation) -> Compared:
+    found = compared(session.unseen_beside(fit.candidate.model, fit.candidate.space), fit.point.x, simulation)
+    return replace(found, records=tuple(replace(record, use=TEST) for record in found.records), responses=())
+
+
+def _over(record: RecordFit, floors: Mapping[Channel, NoiseFloor]) -> RecordFit:
+    """The record with its residual counted in the floors."""
+    sizes = tuple(
+        floors[record.dataset, name].sd if (record.dataset, name) in floors else own
+        for name, own in zip(record.measured.names, record.noise, strict=True)
+    )
+    scale = {n: new / old for n, new, old in zip(record.measured.names, sizes, record.noise, strict=True)}
+    harmonics = tuple(replace(one, std=one.std * scale[one.signal]) for one in record.harmonics)
+    return replace(record, noise=sizes, harmonics=harmonics)
+
+
+def _worst(deviations: Sequence[Deviation]) -> Iterator[Deviation]:
+    for symbol in dict.fromkeys(d.criterion.symbol for d in deviations):
+        yield max((d for d in deviations if d.criterion.symbol == symbol), key=lambda d: d.value)

@@ -1,0 +1,135 @@
+"""Where a model fails: by record, frequency, offset, amplitude, window, and range of each signal and its rate."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pysim.identify.residual_spectrum import FEWEST, residual_spectrum
+from pysim.types import Dataset, MeasuredRecord, RecordFit
+from pysim.types.diagnosis import Failure
+
+Array = NDArray[np.float64]
+
+# What stands for a record where a region gathers several.
+ALL_SINES, ALL_LOGS = "all stepped sines", "all logs over time"
+_WINDOWS = 6  # of a log over time
+_BANDS = 10  # of a log's spectrum, at most
+_LINES = 8  # of the spectrum in a band, at least: fewer, and chance would lead the list
+_RANGES = 5  # of a signal
+_TONE = 15.0  # times the power beside it, or of noise, makes a line a tone: noise comes nowhere near
+
+
+def failures(records: Sequence[RecordFit], dataset: Dataset | None = None) -> tuple[Failure, ...]:
+    """Root-mean-square residual over noise by region, the worst first; 1 is noise alone.
+
+    Stepped sines count one by one and together by frequency, offset and amplitude; other logs by time window, by
+    frequency band, and by a tone that stands alone; all of them together by the range of each signal, and of its rate,
+    as the model has it.
+
+    Args:
+        records: a model beside its logs.
+        dataset: tells offset and amplitude of the stepped sines.
+    """
+    rows = [row for record in records for row in _own(record)]
+    rows += _together(records, {r.source: r for r in dataset.records} if dataset else {})
+    rows += _ranges(records)
+    return tuple(sorted(rows, key=lambda row: -row.error))
+
+
+def _own(record: RecordFit) -> Iterator[Failure]:
+    """A stepped sine by its frequency, another log by window and by frequency band."""
+    residual = record.residual
+    for j, signal in enumerate(residual.names):
+        values = residual.values[:, j]
+        if record.harmonics:
+            yield Failure(record.source, signal, f"{record.harmonics[j].frequency:g} Hz", _size(values))
+            continue
+        for part in np.array_split(np.arange(values.size), min(_WINDOWS, values.size)):
+            window = f"{residual.time[part[0]]:.4g} to {residual.time[part[-1]]:.4g} s"
+            yield Failure(record.source, signal, window, _size(values[part]))
+        if values.size >= FEWEST:
+            frequency, power, _ = residual_spectrum(residual.time, values)
+            line = tone(power)
+            if line is not None:
+                yield Failure(record.source, signal, f"{frequency[line]:.3g} Hz alone", math.sqrt(float(power[line])))
+            for band in bands(frequency):
+                region = f"{frequency[band][0]:.3g} to {frequency[band][-1]:.3g} Hz"
+                yield Failure(record.source, signal, region, math.sqrt(float(np.mean(power[band]))))
+
+
+def tone(power: Array) -> int | None:
+    """Index of a line (n_f,) that stands alone far above its neighbours; None where there is none."""
+    top = int(np.argmax(power))
+    beside = np.concatenate([power[max(0, top - 12) : max(0, top - 2)], power[top + 3 : top + 13]])
+    alone = beside.size >= _LINES and power[top] > _TONE * max(1.0, float(np.median(beside)))
+    return top if alone else None
+
+
+def bands(frequency: Array) -> Iterator[slice]:
+    """Stretches of an even axis (n_f,) that widen like its logarithm, each of several lines."""
+    edges = np.geomspace(1, frequency.size + 1, _BANDS + 1)
+    start = 0
+    for edge in edges[1:]:
+        stop = round(float(edge)) - 1
+        if stop - start >= _LINES or (stop >= frequency.size > start):
+            yield slice(start, stop)
+            start = stop
+
+
+def _together(records: Sequence[RecordFit], tests: dict[str, MeasuredRecord]) -> Iterator[Failure]:
+    """Stepped sines by what they have in common."""
+    sines = [record for record in records if record.harmonics]
+    ways: list[tuple[str, Callable[[RecordFit], float | None]]] = [
+        ("frequency {:g} Hz", lambda r: r.harmonics[0].frequency),
+        ("offset {:g}", lambda r: tests[r.source].offset if r.source in tests else None),
+        ("amplitude {:g}", lambda r: tests[r.source].amplitude if r.source in tests else None),
+    ]
+    for words, of in ways:
+        groups: dict[tuple[str, float], list[Array]] = {}
+        for record in sines:
+            value = of(record)
+            if value is not None:
+                for j, name in enumerate(record.measured.names):
+                    groups.setdefault((name, value), []).append(record.residual.values[:, j])
+        if len({value for _, value in groups}) > 1:
+            for (name, value), parts in groups.items():
+                yield Failure(ALL_SINES, name, words.format(value), _size(np.concatenate(parts)))
+
+
+def _ranges(records: Sequence[RecordFit]) -> Iterator[Failure]:
+    """Residuals of a signal by its own size and rate in the model, in fifths of the samples."""
+    logs = [record for record in records if not record.harmonics] or list(records)
+    where = ALL_LOGS if not logs or not logs[0].harmonics else ALL_SINES
+    for name, unit in dict.fromkeys(
+        (n, u) for r in logs for n, u in zip(r.measured.names, r.measured.units, strict=True)
+    ):
+        own = [(record, record.measured.names.index(name)) for record in logs if name in record.measured.names]
+        residual = np.concatenate([record.residual.values[:, j] for record, j in own])
+        value = np.concatenate([record.simulated.values[:, j] for record, j in own])
+        rate = np.concatenate([_rate(record, j) for record, j in own])
+        label = "" if unit == "1" else f" {unit}"
+        for what, of, per in ((name, value, label), (f"rate of {name}", rate, f"{label or ' 1'}/s")):
+            for part in np.array_split(np.argsort(of, kind="stable"), _RANGES):
+                if part.size:
+                    region = f"{what} {_three_digits(of[part[0]])} to {_three_digits(of[part[-1]])}{per}"
+                    yield Failure(where, name, region, _size(residual[part]))
+
+
+def _three_digits(value: float) -> str:
+    """Large ones without an exponent: -1350 and not -1.35e+03."""
+    text = f"{value:.3g}"
+    return f"{float(text):.0f}" if "e+" in text else text
+
+
+def _rate(record: RecordFit, column: int) -> Array:
+    """Of the simulated signal, (n_t,)."""
+    values = record.simulated.values[:, column]
+    return np.asarray(np.gradient(values, record.simulated.time)) if values.size > 1 else np.zeros_like(values)
+
+
+def _size(values: Array) -> float:
+    return math.sqrt(float(np.mean(values**2)))

@@ -1,0 +1,133 @@
+"""The verdict: effects in the order of what leaving each out costs, what is left, and whether anything is missing."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+
+from pysim.diagnosis import rivals
+from pysim.diagnosis.candidate import sensor_name
+from pysim.diagnosis.left import Floors, Follows
+from pysim.diagnosis.refit import FinalFit
+from pysim.diagnosis.search import Compared, Found, Table
+from pysim.diagnosis.session import Session
+from pysim.diagnosis.settings import Settings
+from pysim.identify.greybox import Nuisance, NuisanceKind
+from pysim.types import Effect, EffectParameter, Estimate, Note, NoteCode
+from pysim.types.answer import FoundEffect, GainTest, Left, Rival
+
+_Z95 = 1.959963984540054
+
+
+def found_effects(found: Found, estimates: Sequence[Estimate], session: Session) -> tuple[FoundEffect, ...]:
+    """What is kept, the one that costs most to leave out first; sensor errors as effects at their signal."""
+    candidate = found.final.candidate
+    by_name = {one.name: one for one in estimates}
+    avoidable = max(sum(test.gain for test in found.losses.values()), 1e-9)
+    rows: list[tuple[float, FoundEffect]] = []
+    for effect in candidate.effects:
+        place, loss = candidate.places[effect.name], found.losses[effect.name]
+        own = tuple(by_name[f"{place}.{p.name}"] for p in effect.parameters)
+        rows.append((loss.gain, FoundEffect(effect, place, own, min(loss.gain / avoidable, 1.0), None)))
+    labels = candidate.labels[len(candidate.effects) :]
+    sizes = found.final.point.carried.nuisances.tolist()
+    for nuisance, label, size in zip(candidate.nuisances, labels, sizes, strict=True):
+        loss = found.losses[label]
+        rows.append((loss.gain, _sensor(nuisance, size, loss, min(loss.gain / avoidable, 1.0), found.final, session)))
+    return tuple(one for _, one in sorted(rows, key=lambda row: -row[0]))
+
+
+def _sensor(
+    nuisance: Nuisance, size: float, loss: GainTest, share: float, final: FinalFit, session: Session
+) -> FoundEffect:
+    """A sensor's error, its interval from what leaving it out costs (Wald)."""
+    unit = session.dataset.signal(nuisance.signal).unit
+    unit = {NuisanceKind.GAIN: "1", NuisanceKind.DELAY: "s", NuisanceKind.DRIFT: f"{unit}/s"}.get(nuisance.kind, unit)
+    far = 100 * max(abs(size), nuisance.prior_sd)
+    parameter = EffectParameter("size", unit, -far, far, nuisance.prior_sd, 0.0, 0.0, f"{nuisance.kind.value} error")
+    inflated = rivals.samples(final) / loss.effective_size
+    sd = abs(size) / math.sqrt(max(2 * loss.gain, 1e-9)) * math.sqrt(inflated)
+    estimate = Estimate("size", unit, size, 0.0, -far, far, sd, (size - _Z95 * sd, size + _Z95 * sd), "")
+    return FoundEffect(
+        Effect(sensor_name(nuisance), nuisance.signal, "", (parameter,)), nuisance.signal, (estimate,), share
+    )
+
+
+def what_is_left(found: Found, follows: Follows | None, held_out: Mapping[str, float | None]) -> Left:
+    """Of the final model."""
+    floors = {f"{dataset}/{signal}": floor for (dataset, signal), floor in found.floors.floors.items()}
+    return Left(
+        floors,
+        held_out.get("fit"),
+        held_out.get("validate"),
+        None if follows is None else follows.share,
+        None if follows is None else follows.t,
+    )
+
+
+def is_complete(found: Found, follows: Follows | None, left: Left, settings: Settings) -> bool:
+    """Whether nothing but noise is left.
+
+    No candidate passes its test, the residual does not follow the model's signals, and the error on logs that were not
+    fitted is within a few percent of that on those that were.
+    """
+    if found.undecidable or found.more:
+        return False
+    if follows is not None and follows.share > settings.small and follows.t > settings.follows_t:
+        return False
+    if left.fit is not None and left.validate is not None and left.validate > settings.held_out * max(left.fit, 1.0):
+        return False
+    return follows is not None or is_white(found.floors, found.final, settings)
+
+
+def is_white(floors: Floors, fit: FinalFit, settings: Settings) -> bool:
+    """Whether levels are near the floor; where regression is silent, a larger one is all that tells of misfit."""
+    return all(ratio < settings.near for ratio in floors.over(fit).values())
+
+
+def ranking(tables: Sequence[Table]) -> tuple[Rival, ...]:
+    """All that was tried, model by model, best first."""
+    rows: list[Rival] = []
+    for one in tables:
+        rows += [_row(one.names, rival, one.avoidable) for rival in one.rivals]
+        rows += [
+            Rival((*one.names, s.effect.name), s.gain, 1.0, _share(s.gain, one.avoidable), False) for s in one.screened
+        ]
+    return tuple(rows)
+
+
+def _share(gain: float, avoidable: float) -> float:
+    return max(min(gain / max(avoidable, 1e-9), 1.0), 0.0)
+
+
+def _row(names: tuple[str, ...], one: Compared, avoidable: float) -> Rival:
+    own = {key[1]: value for key, value in one.fit.values.items() if isinstance(key, tuple) and key[0] == one.added}
+    share = _share(one.test.gain, avoidable)
+    return Rival((*names, one.added), one.test.penalised, one.test.p_value, share, one.fit.ended, own, one.test)
+
+
+def ties(found: Found) -> tuple[tuple[str, ...], ...]:
+    """Groups of names that these data do not tell apart, of effects that are kept."""
+    kept = set(found.final.candidate.labels)
+    return tuple(
+        (step.added, *step.rivals[0].ties)
+        for step in found.steps
+        if step.rivals and step.rivals[0].ties and step.added in kept
+    )
+
+
+def notes_of(found: Found, estimates: Sequence[Estimate], refused: Mapping[str, str], session: Session) -> list[Note]:
+    """What a reader must know of the answer."""
+    notes = [Note(NoteCode.NOT_TRIED, {"effect": name, "reason": why}) for name, why in refused.items()]
+    for one in estimates:
+        if one.at:
+            bound = one.lower if one.at == "lower" else one.upper
+            notes.append(
+                Note(NoteCode.AT_BOUND, {"parameter": one.name, "bound": bound, "value": one.value, "unit": one.unit})
+            )
+    if found.final.names:
+        notes.append(Note(NoteCode.INTERVAL_CONDITIONAL, {}))
+        chosen = [r.source for r in session.dataset.records if r.use == "validate"]
+        if chosen and session.unseen is None:
+            notes.append(Note(NoteCode.USED_TO_CHOOSE, {"records": ", ".join(chosen)}))
+    return notes
