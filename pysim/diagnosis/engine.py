@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from pathlib import Path
 
 from pysim.diagnosis import verdict
 from pysim.diagnosis.candidate import Models
+from pysim.diagnosis.checkpoint import Checkpoint, whose
 from pysim.diagnosis.error_history import error_step, held_still
 from pysim.diagnosis.left import follows
 from pysim.diagnosis.progress import Progress, Say
@@ -18,15 +20,16 @@ from pysim.types import BadInput, Effect
 from pysim.types.answer import Diagnosis, ErrorStep
 
 
-def diagnose(session: Session, *, progress: Say | None = None) -> Diagnosis:
+def diagnose(session: Session, *, progress: Say | None = None, checkpoint: Path | None = None) -> Diagnosis:
     """Answer which effects the data demand, in order, that they demand none, or that what is missing is not known.
 
     Args:
         progress: gets what is being done and what was learned; what it raises ends the diagnosis.
+        checkpoint: file that a diagnosis which was stopped goes on from.
     Raises:
         BadInput: the base model cannot be simulated at its own parameters.
     """
-    search = _search(session, progress)
+    search = _search(session, progress, checkpoint, "diagnose")
     base = search.fit_base()
     search.say.stage("refit")
     most = session.settings.max_effects if session.build is not None and session.catalogue else 0
@@ -35,34 +38,44 @@ def diagnose(session: Session, *, progress: Say | None = None) -> Diagnosis:
     return _answer(session, search, found)
 
 
-def compare(session: Session, *, refitted: bool = True, progress: Say | None = None) -> Diagnosis:
+def compare(
+    session: Session, *, refitted: bool = True, progress: Say | None = None, checkpoint: Path | None = None
+) -> Diagnosis:
     """Hold the model against the measurements, as it is and refitted.
 
     Args:
         refitted: without, the model is only compared as it is.
     """
-    search = _search(session, progress)
+    search = _search(session, progress, checkpoint, "compare")
     base = search.fit_base() if refitted else search.as_it_is()
     search.floors = search.floors.with_(base)
     return _answer(session, search, Found(base, base, (), search.floors), refitted=refitted)
 
 
-def rank(session: Session, *, progress: Say | None = None) -> Diagnosis:
-    """What each effect would gain beside the refitted base model; nothing is added."""
-    search = _search(session, progress)
+def rank(session: Session, *, progress: Say | None = None, checkpoint: Path | None = None) -> Diagnosis:
+    """What each effect would gain beside the refitted base model; nothing is added.
+
+    Raises:
+        BadInput: the model's class is not at hand.
+    """
+    _needs_class(session)
+    search = _search(session, progress, checkpoint, "rank")
     base = search.fit_base()
     search.floors = search.floors.with_(base)
     search.expand(base)
     return _answer(session, search, Found(base, base, (), search.floors))
 
 
-def add(session: Session, effects: Sequence[Effect], *, progress: Say | None = None) -> Diagnosis:
+def add(
+    session: Session, effects: Sequence[Effect], *, progress: Say | None = None, checkpoint: Path | None = None
+) -> Diagnosis:
     """Add given effects one after the other and refit everything each time.
 
     Raises:
         BadInput: the model's class is not at hand, or one cannot be built or simulated.
     """
-    search = _search(session, progress)
+    _needs_class(session)
+    search = _search(session, progress, checkpoint, "add")
     base = search.fit_base()
     steps, present = [base], base
     for k, effect in enumerate(effects, start=1):
@@ -74,9 +87,15 @@ def add(session: Session, effects: Sequence[Effect], *, progress: Say | None = N
     return _answer(session, search, Found(base, present, (), search.floors, losses), models=steps[1:])
 
 
-def _search(session: Session, progress: Say | None) -> Search:
-    fine = Simulation(workers=session.workers)
-    return Search(Models(session), fine.rough(), fine, session.settings, Progress(progress or (lambda told: None)))
+def _needs_class(session: Session) -> None:
+    if session.build is None:
+        raise BadInput("no effect can be added: the model's Modelica class is not at hand; name it with its library")
+
+
+def _search(session: Session, progress: Say | None, checkpoint: Path | None, step: str) -> Search:
+    kept = Checkpoint(checkpoint, whose(session, step))
+    say = Progress(progress or (lambda told: None))
+    return Search(Models(session), Simulation(workers=session.workers), session.settings, say, kept)
 
 
 def _answer(

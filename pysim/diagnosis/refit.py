@@ -90,6 +90,15 @@ def begin(candidate: Candidate, values: Values, simulation: Simulation, present:
     return FinalFit(candidate, replace(state, first_cost=point.cost), simulation, evaluate)
 
 
+def again(
+    candidate: Candidate, x: Array, carried: Carried, simulation: Simulation, outcome: FitOutcome | None, tried: int
+) -> FinalFit:
+    """A refit as it ended before, simulated once where it did."""
+    evaluate = Secants(candidate, simulation, None).evaluate if candidate.has_events else exact(candidate, simulation)
+    point = evaluate(x, carried)
+    return FinalFit(candidate, State(point, tried, point.cost, outcome=outcome), simulation, evaluate)
+
+
 def exact(candidate: Candidate, simulation: Simulation) -> Evaluate:
     """The objective with slopes that come along with the runs."""
     residuals = candidate.residuals(simulation)

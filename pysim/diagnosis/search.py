@@ -6,21 +6,22 @@ Source: general to specific: Hendry and Krolzig 2005, The Economic Journal 115:C
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cache, partial
 
 import numpy as np
 
 from pysim.diagnosis import rivals
-from pysim.diagnosis.candidate import Candidate, Key, Models
+from pysim.diagnosis.candidate import Candidate, Models
+from pysim.diagnosis.checkpoint import Checkpoint
 from pysim.diagnosis.left import Floors
 from pysim.diagnosis.progress import Progress
 from pysim.diagnosis.refit import FinalFit, begin, converged, race
 from pysim.diagnosis.screen import Screened, best_of_each, screen, screened
 from pysim.diagnosis.sensors import sensor_candidates
 from pysim.diagnosis.settings import Settings
-from pysim.identify.greybox import Nuisance, Simulation
+from pysim.identify.greybox import Simulation
 from pysim.identify.greybox.comparison import settled_initial_states
 from pysim.types import BadInput, Effect
 from pysim.types.answer import GainTest, Verdict
@@ -106,12 +107,17 @@ class Search:
 
     Args:
         models: makes candidates.
-        rough, fine: simulations of candidates, and of what is kept.
+        fine: simulation of what is kept; candidates are simulated more roughly.
         settings: its numbers.
+        say: gets what is being done.
+        checkpoint: keeps what was refitted.
     """
 
-    def __init__(self, models: Models, rough: Simulation, fine: Simulation, settings: Settings, say: Progress) -> None:
-        self.models, self.rough, self.fine, self.settings, self.say = models, rough, fine, settings, say
+    def __init__(
+        self, models: Models, fine: Simulation, settings: Settings, say: Progress, checkpoint: Checkpoint
+    ) -> None:
+        self.models, self.rough, self.fine, self.settings, self.say = models, fine.rough(), fine, settings, say
+        self._checkpoint = checkpoint
         self.floors, self.tried = Floors(), 0
         self._tables: dict[frozenset[str], Table] = {}
         self._fits: dict[tuple[frozenset[str], bool], FinalFit] = {}
@@ -123,10 +129,23 @@ class Search:
             BadInput: it cannot be simulated at its own parameters.
         """
         candidate = self.models.of(())
-        first = begin(candidate, {}, self.rough)
-        if not first.good:
-            raise BadInput(f"{candidate.model.label} cannot be simulated at its own parameters: {first.point.failure}")
-        return self._keep(converged(first, self.fine))
+
+        def found() -> FinalFit:
+            first = begin(candidate, {}, self.rough)
+            if not first.good:
+                failure = first.point.failure
+                raise BadInput(f"{candidate.model.label} cannot be simulated at its own parameters: {failure}")
+            return converged(first, self.fine)
+
+        return self._keep(self._once("base", found, candidate))
+
+    def _once(self, part: str, find: Callable[[], FinalFit], candidate: Candidate) -> FinalFit:
+        """One refit of the checkpoint."""
+        return self._checkpoint.once(part, lambda: [find()], [candidate], self._simulations)[0]
+
+    @property
+    def _simulations(self) -> tuple[Simulation, ...]:
+        return self.rough, self.fine
 
     @property
     def tables(self) -> tuple[Table, ...]:
@@ -134,7 +153,7 @@ class Search:
         return tuple(self._tables.values())
 
     def as_it_is(self) -> FinalFit:
-        """The base model with its own parameters.
+        """The base model with its own parameters, initial states estimated.
 
         Raises:
             BadInput: it cannot be simulated.
@@ -143,7 +162,10 @@ class Search:
         first = begin(candidate, {}, self.fine)
         if not first.good:
             raise BadInput(f"{candidate.model.label} cannot be simulated at its own parameters: {first.point.failure}")
-        return first
+        residuals = candidate.residuals(self.fine)
+        settled = settled_initial_states(residuals, candidate.model, candidate.space, first.point.x)
+        point = first.evaluate(first.point.x, settled.carried)
+        return replace(first, state=replace(first.state, best=point)) if point.good else first
 
     def with_effects(self, present: FinalFit, effects: Sequence[Effect]) -> FinalFit:
         """The model with given effects, refitted from the best of their sizes.
@@ -235,14 +257,16 @@ class Search:
             return fit if fit.simulation == simulation else begin(fit.candidate, fit.values, simulation, fit)
 
         starts = [(one.candidate, one.values) for one in going] + [(one, present.values) for one in sensors]
-        fits = race(
-            (
+
+        def raced() -> list[FinalFit]:
+            runners = (
                 (begin(c, values, simulation, beside(c.transient)), here(c.transient, simulation).point.cost)
                 for c, values in starts
-            ),
-            self.settings,
-            self.fine,
-        )
+            )
+            return race(runners, self.settings, self.fine)
+
+        part = f"beside {' + '.join(present.candidate.labels) or 'the base model'}"
+        fits = self._checkpoint.once(part, raced, [candidate for candidate, _ in starts], self._simulations)
         have = set(present.candidate.labels)
         compared = self._ordered(
             [
@@ -263,7 +287,9 @@ class Search:
         key = frozenset(fit.candidate.labels), True
         if key not in self._fits:
             other = self.models.of(fit.candidate.effects, fit.candidate.nuisances, transient=True)
-            self._fits[key] = converged(begin(other, fit.values, self.fine, fit))
+            part = f"transient {' + '.join(fit.candidate.labels)}"
+            find = partial(_converged_from, other, fit, self.fine)
+            self._fits[key] = self._once(part, find, other)
         return self._fits[key]
 
     def _put_aside(self, present: FinalFit, screened: Sequence[Screened]) -> tuple[list[Screened], list[Screened]]:
@@ -412,9 +438,11 @@ class Search:
         others = zip(own.nuisances, labels[len(own.effects) :], strict=True)
         candidate = self.models.of(effects, [one for one, own_label in others if own_label != label])
         values = {key: value for key, value in fit.values.items() if not (isinstance(key, tuple) and key[0] == label)}
-        return self._keep(
-            converged(begin(candidate, values, self.rough, self._beside(fit, candidate.transient)), self.fine)
-        )
+
+        def found() -> FinalFit:
+            return converged(begin(candidate, values, self.rough, self._beside(fit, candidate.transient)), self.fine)
+
+        return self._keep(self._once(f"without {label} of {' + '.join(labels)}", found, candidate))
 
     def _keep(self, fit: FinalFit) -> FinalFit:
         key = frozenset(fit.candidate.labels), fit.candidate.transient
@@ -422,6 +450,6 @@ class Search:
             self._fits[key] = fit
         return self._fits[key]
 
-    def model_of(self, effects: Sequence[Effect], nuisances: Sequence[Nuisance], values: dict[Key, float]) -> Candidate:
-        """The model with these and no others."""
-        return self.models.alone(effects, nuisances)
+
+def _converged_from(candidate: Candidate, fit: FinalFit, simulation: Simulation) -> FinalFit:
+    return converged(begin(candidate, fit.values, simulation, fit))

@@ -25,7 +25,7 @@ def run(given: Given) -> Diagnosed:
     return run_step(
         given,
         parts,
-        lambda tell, journal: shown(add(session, effects, progress=tell)),
+        lambda tell, journal: shown(add(session, effects, progress=tell, checkpoint=journal)),
         question="What do the effects mend?",
         answer=added_sentence,
     )

@@ -53,7 +53,7 @@ def _logs(given: Given) -> Diagnosed:
     return run_step(
         given,
         parts,
-        lambda tell, journal: shown(compare(session, refitted=given.refit, progress=tell)),
+        lambda tell, journal: shown(compare(session, refitted=given.refit, progress=tell, checkpoint=journal)),
         question="How far is the model from its measurements?",
         answer=comparison_sentence,
     )

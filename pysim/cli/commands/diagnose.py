@@ -34,13 +34,13 @@ def run(given: Given) -> Diagnosed:
     if most:
 
         def work(tell: Callable[[Told], None], journal: Path | None) -> Diagnosis:
-            return _with_places(shown(diagnose(session, progress=tell)), parts)
+            return _with_places(shown(diagnose(session, progress=tell, checkpoint=journal)), parts)
 
         return run_step(given, parts, work)
     return run_step(
         given,
         parts,
-        lambda tell, journal: shown(rank(session, progress=tell)),
+        lambda tell, journal: shown(rank(session, progress=tell, checkpoint=journal)),
         question="What would each effect gain?",
         answer=ranking_sentence,
     )

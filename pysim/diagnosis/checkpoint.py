@@ -1,0 +1,119 @@
+"""What a diagnosis has found so far, a line per finished part: a stopped one goes on from there."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from pysim.diagnosis.candidate import Candidate
+from pysim.diagnosis.refit import FinalFit, again
+from pysim.diagnosis.session import Session
+from pysim.identify.greybox import Simulation
+from pysim.identify.greybox.checkpoint import digest
+from pysim.identify.greybox.residuals import Carried
+from pysim.io import write_file
+from pysim.types import BadInput, FitOutcome
+
+_FORM = 3  # raised whenever the same line would mean something else
+
+
+class Checkpoint:
+    """Refits by the name of their part, kept in a file of JSON lines if there is one; the first line says whose.
+
+    Args:
+        path: made where it is missing; None keeps nothing.
+        whose: text that tells this diagnosis from any other.
+    Raises:
+        BadInput: the file belongs to another diagnosis, or is none.
+    """
+
+    def __init__(self, path: Path | None, whose: str) -> None:
+        self._path, self._known = path, dict[str, list[dict[str, Any]]]()
+        if path is None:
+            return
+        head = {"diagnosis": hashlib.sha256(whose.encode()).hexdigest(), "form": _FORM}
+        lines = _whole_lines(path)
+        if lines and lines[0] != head:
+            raise BadInput(
+                f"{path} is the checkpoint of another diagnosis: other model, data, libraries or options, or an older "
+                "program; delete it to begin anew, or write to another folder"
+            )
+        self._known = {line["part"]: line["fits"] for line in lines[1:]}
+        path.parent.mkdir(parents=True, exist_ok=True)
+        write_file(path, "".join(json.dumps(line) + "\n" for line in (lines or [head])))
+
+    def once(
+        self,
+        part: str,
+        find: Callable[[], Sequence[FinalFit]],
+        candidates: Sequence[Candidate],
+        simulations: Sequence[Simulation],
+    ) -> list[FinalFit]:
+        """The refits of a part: from the file, simulated once at where they ended, or found now and written there.
+
+        Args:
+            part: its name, the same in every run.
+            candidates: that may be among them.
+            simulations: that they may have ended by.
+        """
+        known = {(candidate.labels, candidate.transient): candidate for candidate in candidates}
+        if part in self._known:
+            rows = self._known[part]
+            return [
+                again(
+                    known[tuple(row["labels"]), row["transient"]],
+                    np.array(row["x"]),
+                    Carried(tuple(None if s is None else np.array(s) for s in row["states"]), np.array(row["sizes"])),
+                    simulations[row["simulation"]],
+                    FitOutcome[row["outcome"]] if row["outcome"] else None,
+                    row["tried"],
+                )
+                for row in rows
+            ]
+        found = list(find())
+        if self._path is not None:
+            rows = [_row(fit, simulations) for fit in found]
+            with self._path.open("a", encoding="utf-8") as file:
+                file.write(json.dumps({"part": part, "fits": rows}) + "\n")
+        return found
+
+
+def _row(fit: FinalFit, simulations: Sequence[Simulation]) -> dict[str, Any]:
+    carried, outcome = fit.point.carried, fit.state.outcome
+    return {
+        "labels": fit.candidate.labels,
+        "transient": fit.candidate.transient,
+        "x": fit.point.x.tolist(),
+        "states": [None if state is None else state.tolist() for state in carried.states],
+        "sizes": carried.nuisances.tolist(),
+        "simulation": list(simulations).index(fit.simulation),
+        "outcome": outcome.name if outcome else None,
+        "tried": fit.state.tried,
+    }
+
+
+def _whole_lines(path: Path) -> list[dict[str, Any]]:
+    """Lines up to the first that a kill has cut."""
+    found: list[dict[str, Any]] = []
+    for line in path.read_text(encoding="utf-8").splitlines() if path.is_file() else ():
+        try:
+            found.append(json.loads(line))
+        except json.JSONDecodeError:
+            if not found:
+                raise BadInput(f"{path} is no checkpoint of a diagnosis; name another file") from None
+            break
+    return found
+
+
+def whose(session: Session, step: str) -> str:
+    """Text that is the same for the same model, data, catalogue and settings only."""
+    model = hashlib.sha256(session.model.path.read_bytes()).hexdigest()
+    data = session.dataset
+    measured = digest((data.signals, data.records, tuple(sorted(session.data.overrides.items()))))
+    catalogue = [(e.name, e.class_name, e.law, repr(e.parameters)) for e in session.catalogue]
+    return repr((step, model, measured, session.parameters, catalogue, session.treatment, session.settings))
