@@ -115,11 +115,13 @@ def _answer(
     final = _alone(found.final, search) if found.final.names else found.final
     found = replace(found, final=final)
     floors = found.floors.floors
-    history = [error_step("prior", search.as_it_is(), session, floors, fitted=False)]
-    if refitted:
-        history.append(error_step("refit", found.base, session, floors))
-    for name, fit in _kept(found, models, final):
-        history.append(error_step(name, fit, session, floors))
+    models_of = [("prior", search.as_it_is()), *([("refit", found.base)] if refitted else [])]
+    steps = [
+        error_step(name, fit, session, floors, fitted=name != "prior")
+        for name, fit in (*models_of, *_kept(found, models, final))
+    ]
+    history = [step for step, _ in steps]
+    lost = dict.fromkeys(note for _, notes in steps for note in notes)
     _said(search.say, history)
     rest = follows(final, session.dataset, session.treatment.noise.blocks)
     last = history[-1]
@@ -135,7 +137,7 @@ def _answer(
         history=tuple(history),
         failures=history[min(1, len(history) - 1)].failures,
         estimates=estimates,
-        notes=(*session.notes, *verdict.notes_of(found, estimates, search.models.refused, session)),
+        notes=(*session.notes, *lost, *verdict.notes_of(found, estimates, search.models.refused, session)),
         seconds=search.say.seconds,
     )
 

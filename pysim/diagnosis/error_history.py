@@ -15,7 +15,7 @@ from pysim.identify.greybox import Simulation
 from pysim.identify.greybox.comparison import Compared, compared
 from pysim.identify.greybox.residuals import Channel
 from pysim.identify.greybox.uncertainty import uncertainty
-from pysim.types import Deviation, Direction, Estimate, RecordFit
+from pysim.types import Deviation, Direction, Estimate, Note, RecordFit
 from pysim.types.answer import ErrorStep, NoiseFloor
 
 Array = NDArray[np.float64]
@@ -23,14 +23,14 @@ Array = NDArray[np.float64]
 
 def error_step(
     name: str, fit: FinalFit, session: Session, floors: Mapping[Channel, NoiseFloor], *, fitted: bool = True
-) -> ErrorStep:
-    """One model beside every record, those of use "test" too.
+) -> tuple[ErrorStep, tuple[Note, ...]]:
+    """One model beside every record, those of use "test" too; and what could not be simulated.
 
     Args:
         floors: what the errors are counted in.
         fitted: whether the model was fitted; the untouched one has no intervals.
     """
-    parts = [_beside(fit, fit.simulation)]
+    parts = [beside(fit, fit.simulation)]
     if session.unseen is not None:
         parts.append(_unseen(fit, session, fit.simulation))
     records = [_over(record, floors) for part in parts for record in part.records]
@@ -39,7 +39,7 @@ def error_step(
     deviations += [d for response in responses for d in response.comparison.deviations]
     lost = sum(part.lost for part in parts)
     estimates, open_ = held_still(fit) if fitted else ((), ())
-    return ErrorStep(
+    step = ErrorStep(
         name,
         *(root_mean_square(records, use) for use in ("fit", "validate", "test")),
         criteria={d.criterion.symbol: d.value for d in _worst(deviations)},
@@ -52,6 +52,7 @@ def error_step(
         responses=responses,
         failures=failures(records, session.dataset),
     )
+    return step, tuple(note for part in parts for note in part.notes)
 
 
 def held_still(fit: FinalFit) -> tuple[tuple[Estimate, ...], tuple[Direction, ...]]:
@@ -79,7 +80,8 @@ def root_mean_square(records: Sequence[RecordFit], use: str) -> float | None:
     return float(np.sqrt(np.mean(np.concatenate(values) ** 2))) if values else None
 
 
-def _beside(fit: FinalFit, simulation: Simulation) -> Compared:
+def beside(fit: FinalFit, simulation: Simulation) -> Compared:
+    """The model beside every record that is fitted or may choose."""
     residuals = fit.candidate.residuals(simulation)
     carried = dict(zip(map(id, residuals.runs), fit.point.carried.states, strict=False))
     return compared(fit.candidate.problem, fit.point.x, simulation, carried)

@@ -13,7 +13,7 @@ from functools import cache, partial
 import numpy as np
 
 from pysim.diagnosis import rivals
-from pysim.diagnosis.candidate import Candidate, Models
+from pysim.diagnosis.candidate import Candidate, Models, Values
 from pysim.diagnosis.checkpoint import Checkpoint
 from pysim.diagnosis.left import Floors
 from pysim.diagnosis.progress import Progress
@@ -288,7 +288,7 @@ class Search:
         if key not in self._fits:
             other = self.models.of(fit.candidate.effects, fit.candidate.nuisances, transient=True)
             part = f"transient {' + '.join(fit.candidate.labels)}"
-            find = partial(_converged_from, other, fit, self.fine)
+            find = partial(self._refitted, other, fit.values, fit)
             self._fits[key] = self._once(part, find, other)
         return self._fits[key]
 
@@ -428,28 +428,23 @@ class Search:
         return cost - before, reach
 
     def _without(self, fit: FinalFit, label: str) -> FinalFit:
-        """The model without one effect or sensor error, refitted."""
+        """The model without one effect or sensor error: refitted from where the larger one stands, which a fit of its
+        own may not have come to, and the better of the two."""
         own, labels = fit.candidate, fit.candidate.labels
-        kept = frozenset(labels) - {label}
-        for transient in (False, True):
-            if (kept, transient) in self._fits:
-                return self._fits[kept, transient]
         effects = [e for e, own_label in zip(own.effects, labels, strict=False) if own_label != label]
         others = zip(own.nuisances, labels[len(own.effects) :], strict=True)
-        candidate = self.models.of(effects, [one for one, own_label in others if own_label != label])
+        candidate = self.models.of(
+            effects, [one for one, own_label in others if own_label != label], transient=own.transient
+        )
         values = {key: value for key, value in fit.values.items() if not (isinstance(key, tuple) and key[0] == label)}
+        find = partial(self._refitted, candidate, values, fit)
+        return self._keep(self._once(f"without {label} of {' + '.join(labels)}", find, candidate))
 
-        def found() -> FinalFit:
-            return converged(begin(candidate, values, self.rough, self._beside(fit, candidate.transient)), self.fine)
-
-        return self._keep(self._once(f"without {label} of {' + '.join(labels)}", found, candidate))
+    def _refitted(self, candidate: Candidate, values: Values, present: FinalFit) -> FinalFit:
+        return converged(begin(candidate, values, self.fine, present))
 
     def _keep(self, fit: FinalFit) -> FinalFit:
         key = frozenset(fit.candidate.labels), fit.candidate.transient
         if key not in self._fits or fit.point.cost < self._fits[key].point.cost:
             self._fits[key] = fit
         return self._fits[key]
-
-
-def _converged_from(candidate: Candidate, fit: FinalFit, simulation: Simulation) -> FinalFit:
-    return converged(begin(candidate, fit.values, simulation, fit))

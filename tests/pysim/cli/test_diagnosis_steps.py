@@ -13,12 +13,11 @@ import pytest
 from pysim.cli import main
 from pysim.cli.live import Story
 from pysim.cli.outputs import JOURNAL, MARKER
-from pysim.diagnose import ledger
-from pysim.diagnose import story as diagnosis_story
+from pysim.diagnosis import error_history
 from pysim.identify.greybox.comparison import Compared
 from pysim.io import read_model, write_dataset
 from pysim.present.diagnosis import shown
-from pysim.types import FrequencyResponse, MeasuredRecord, SineTest, Told
+from pysim.types import FrequencyResponse, MeasuredRecord, Note, NoteCode, SineTest, Told
 from tests.pysim.cli.ran import Ran, refused
 from tests.pysim.diagnose.toy import measured
 from tests.pysim.diagnosis_story import story
@@ -134,13 +133,20 @@ def test_tables_beside_logs_are_left_out_and_said_to_be(toy: list[str], tmp_path
 def test_compare_does_not_pass_a_model_that_fails_in_a_record(
     rubbing: Path, toy: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    original = error_history.beside
+
     def beside(*args: Any) -> Compared:
-        found = ledger.beside(*args)
+        found = original(*args)
         (lost,) = (record for record in found.records if record.use == "validate")
         rest = tuple(record for record in found.records if record is not lost)
-        return replace(found, records=rest, notes=(f"not simulated: {lost.source} ends early",), lost=1)
+        return replace(
+            found,
+            records=rest,
+            notes=(Note(NoteCode.NOT_SIMULATED, {"record": lost.source, "reason": "ends early"}),),
+            lost=1,
+        )
 
-    monkeypatch.setattr(diagnosis_story, "beside", beside)
+    monkeypatch.setattr(error_history, "beside", beside)
     assert main(["compare", str(rubbing), *toy, "--refit", "--json", str(tmp_path / "a.json")]) == 1
     found = json.loads((tmp_path / "a.json").read_text())
     assert (found["error"][-1]["passes"], found["error"][-1]["not_simulated"]) == (False, 1)

@@ -37,6 +37,7 @@ VALUES = {
     NoteCode.UNSTABLE: {"count": 1.0, "poles": 3.0},
     NoteCode.NOT_DETERMINED: {"names": "b0, a2"},
     NoteCode.CANCELLING: {"pole": 3.0, "zero": 3.1},
+    NoteCode.UNBOUNDED: {"parameters": "m, d"},
     NoteCode.OTHER: {"text": "as it stands"},
 }
 

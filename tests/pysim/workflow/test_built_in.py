@@ -56,4 +56,4 @@ def test_candidates_of_an_fmu_have_the_values_that_it_was_built_with(rubbing: Pa
         parts = read_parts(parsed([*words, *model]))
         assert parts.overrides == {"m": 1.3}
         assert parts.free == ("d", "k")
-        assert all(run.experiment.overrides["m"] == 1.3 for target in session_of(parts).targets for run in target.runs)
+        assert session_of(parts).data.overrides["m"] == 1.3

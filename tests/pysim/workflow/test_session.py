@@ -35,9 +35,9 @@ def parts(*, model: Path | str = "Toy.Mass", effects: tuple[str, ...] = ()) -> S
 
 def test_names_and_paths_are_enough(rubbing: Path) -> None:
     session = open_session("Toy.Mass", rubbing, library=library(), free=["m", "d"], values={"d": 0.5, "k": 19.0})
-    assert (session.model["d"].start, session.free) == (0.5, ("m", "d"))
+    assert (session.model["d"].start, [p.name for p in session.parameters]) == (0.5, ["m", "d"])
     assert {effect.name for effect in session.catalogue} == set(CATALOGUE)
-    assert all(run.experiment.overrides == {"k": 19.0} for target in session.targets for run in target.runs)
+    assert session.data.overrides == {"k": 19.0}
 
 
 def test_the_package_opens_a_session_itself(rubbing: Path) -> None:
@@ -51,7 +51,7 @@ def test_what_is_open_already_is_taken_as_it_is(rubbing: Path) -> None:
     model = model_of("Toy.Mass", [library()])
     named = open_session("Toy.Mass", str(rubbing), library=[library()])
     opened = open_session(model, data_of(rubbing / "dataset.toml"), library=library())
-    assert (opened.free, opened.catalogue, opened.notes) == (named.free, named.catalogue, named.notes)
+    assert (opened.parameters, opened.catalogue, opened.notes) == (named.parameters, named.catalogue, named.notes)
 
 
 @pytest.mark.parametrize(
