@@ -3,7 +3,7 @@ partial model PartialPumpFlow "Slot for the flow of a pump and the torque it tak
   extends Icons.Slot;
   parameter Types.Volume V_d_max "Displacement per revolution at the largest angle";
   parameter Types.Angle alphaMAX "Largest swash plate angle";
-  parameter Integer N_p "Number of pistons";
+  parameter Integer N_p = 9 "Number of pistons, those of the A4VSG";
   parameter Real eta_r(final unit="1") "Depth of the ripple's spikes over the mean flow";
   parameter Real psi(final unit="1") "Amplitude of the simplified ripple over the depth of the spikes";
   parameter Types.Angle theta_0 "Angle of piston 1 where that of the shaft is 0";

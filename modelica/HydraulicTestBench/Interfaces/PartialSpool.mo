@@ -5,9 +5,9 @@ partial model PartialSpool "Slot for the dynamics of the valve spool"
   parameter Types.DampingRatio zeta_v "Damping ratio";
   RealInput u_ref(unit="1") "Spool command behind the dead time"
     annotation(Placement(transformation(extent={{-140, -20}, {-100, 20}})));
-  RealOutput u(unit="1") "Spool position"
+  RealOutput u(unit="1", nominal=1) "Spool position"
     annotation(Placement(transformation(extent={{100, 50}, {120, 70}})));
-  RealOutput u_t(unit="1/s") "Spool velocity"
+  RealOutput u_t(unit="1/s", nominal=100) "Spool velocity"
     annotation(Placement(transformation(extent={{100, -10}, {120, 10}})));
   RealOutput u_tt(unit="1/s2") "Spool acceleration"
     annotation(Placement(transformation(extent={{100, -70}, {120, -50}})));

@@ -16,7 +16,7 @@ block LoadController "Load pressure by the servo valve: PI and feed forward, the
     annotation(Placement(transformation(extent={{-140, -100}, {-100, -60}})));
   Interfaces.RealOutput limit1(unit="1") "Command of the servo valve, within -1 ... 1"
     annotation(Placement(transformation(extent={{100, -10}, {120, 10}})));
-  Real I(unit="1", start=0, fixed=true) "Integral part";
+  Real I(unit="1", nominal=1, start=0, fixed=true) "Integral part";
   Real pI2(unit="1") "Output of the PI controller";
   Real u_feed(unit="1") "Feed forward, Eq. 5.37";
   Real Negate(unit="1") "Negated command, for a valve whose ports A and B are exchanged";

@@ -21,7 +21,8 @@ equation
   annotation(Documentation(info="<html>
 <p>F = max(0, k e + d de/dt) where the wire is stretched and 0 where it is slack, with a smooth beginning
 (<code>Functions.endStopForce</code>). Positions point upwards: the lower end hangs at s<sub>a</sub> - l<sub>0</sub>
-- e.</p>
+- e. Where both ends' positions are states, as those of a drum and of a mass are, no tool has to differentiate an
+equation to get the rate of the stretch.</p>
 <p><b>Source:</b> thesis Section 5.7, where the wire is a spring and a damper.</p>
 <p><b>Valid:</b> taut and slack. The beginning takes k e<sub>soft</sub><sup>2</sup>/e from the tension.</p>
 <p><b>Leaves out:</b> mass of the wire, change of stiffness with the length paid out.</p>

@@ -1,6 +1,7 @@
 within HydraulicTestBenchMSL.Adapters;
 model FluidAdapter "Hydraulic port of this library to a fluid port of Modelica.Fluid"
-  replaceable package Medium = Modelica.Media.Interfaces.PartialMedium "Medium on the side of Modelica.Fluid"
+  replaceable package Medium = Modelica.Media.Incompressible.Examples.Essotherm650
+    constrainedby Modelica.Media.Interfaces.PartialMedium "Medium on the side of Modelica.Fluid"
     annotation(choicesAllMatching=true);
   parameter Modelica.Units.SI.Density rho = 875 "Density by which volume becomes mass";
   parameter Modelica.Units.SI.AbsolutePressure p_ambient = 101325 "Absolute pressure of the surrounding air";
@@ -17,7 +18,7 @@ equation
   fluidPort.C_outflow = zeros(Medium.nC);
   annotation(Documentation(info="<html>
 <p>p = p<sub>gauge</sub> + p<sub>ambient</sub>, m = &rho;q. Oil that leaves towards <code>Modelica.Fluid</code> has the
-medium's default enthalpy.</p>
+medium's default enthalpy. The default medium is a thermal oil of 884 kg/m<sup>3</sup> at 40 degrees Celsius.</p>
 <p><b>Source:</b> connectors of both libraries.</p>
 <p><b>Valid:</b> liquids. The density is one number, so that no oil is lost between a side that counts volume and one
 that counts mass; choose that of the medium at its mean pressure.</p>
