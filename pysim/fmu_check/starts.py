@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 from fmpy.model_description import ModelVariable
+from numpy.typing import NDArray
 
 from pysim.fmu_check.instance import CallFailed, opened
 from pysim.fmu_check.result import DOUBTFUL, CheckResult, none_of, skipped
 from pysim.fmu_check.subject import Subject, moved, number, references
 
+Array = NDArray[np.float64]
 NAME = "start values"
 _CLOSE = 1e-12  # relative; a start value goes through decimal text
 
@@ -21,10 +23,9 @@ def check_starts(subject: Subject) -> Iterator[CheckResult]:
     if not variables:
         yield skipped(NAME, "start values that are set are taken", "no real variable has a start value that can be set")
         return
-    kind, rows = subject.kinds[0], references(variables)
+    kind = subject.kinds[0]
     declared = np.array([number(v.start) for v in variables])
-    with opened(subject, kind) as instance:
-        found = instance.start().get(rows)
+    found = _in_force(subject, kind, variables)
     other = [
         f"{v.name} is {value:g}, declared {start:g}"
         for v, value, start in zip(variables, found, declared, strict=True)
@@ -35,8 +36,7 @@ def check_starts(subject: Subject) -> Iterator[CheckResult]:
     for variable, start in zip(variables, declared, strict=True):
         wanted = moved([variable], np.array([start]), 0.05)
         try:
-            with opened(subject, kind) as instance:
-                value = instance.start([variable.valueReference], wanted).get([variable.valueReference])
+            value = _in_force(subject, kind, [variable], wanted)
         except CallFailed:
             refused.append(variable.name)
             continue
@@ -44,6 +44,20 @@ def check_starts(subject: Subject) -> Iterator[CheckResult]:
             ignored.append(f"{variable.name} is {value[0]:g} after {wanted[0]:g} was set")
     yield none_of(NAME, "start values that are set are taken", ignored, note=f"{len(variables)} variables tried")
     yield none_of(NAME, "start values a little off the declared ones can be set", refused, otherwise=DOUBTFUL)
+
+
+def _in_force(subject: Subject, kind: str, variables: Sequence[ModelVariable], given: Sequence[float] = ()) -> Array:
+    """Values (n,) after initialisation; of discrete variables before its end, as the first event may change them.
+
+    Args:
+        given: what the variables are set to before (n,); by default nothing is set.
+    """
+    rows = references(variables)
+    with opened(subject, kind) as instance:
+        instance.begin(rows if len(given) else (), given)
+        before = instance.get(rows)
+        instance.finish()
+        return np.where([v.variability == "discrete" for v in variables], before, instance.get(rows))
 
 
 def _settable(variable: ModelVariable) -> bool:
