@@ -11,7 +11,12 @@
 static const double SAME_POINT = 1e-9;  /* of the time, or of 1 s: an importer may add up its steps */
 static const double STEPS_WITHOUT_STATES = 10.0; /* per communication step, to look for events */
 static const double NO_PROGRESS = 1e-10; /* of the communication step */
-enum { MAX_EVENTS_AT_ONCE = 100, MAX_STEPS_WITHOUT_PROGRESS = 100000 };
+enum {
+    MAX_EVENTS_AT_ONCE = 100,
+    MAX_STEPS_WITHOUT_PROGRESS = 100000,
+    MAX_STEPS = 200000,      /* per communication step */
+    MAX_STEPS_OF_DELAY = 20000 /* of those, that a delay alone may ask for */
+};
 
 static bool can_step(Instance *s, const char *function, double point, double size) {
     const double slack = SAME_POINT * fmax(1.0, fabs(*s->t));
@@ -41,7 +46,7 @@ Status cosim_start(Instance *s) {
 /* The progress of one communication step. */
 typedef struct {
     double target; /* where it ends, s; an importer may shorten it */
-    int events_at_once, steps_without_progress;
+    int events_at_once, steps, steps_without_progress;
     StepResult *result;
 } Run;
 
@@ -100,13 +105,18 @@ static bool is_done(const Instance *s, const Run *run) {
     return *s->t >= run->target || run->result->event_needed || run->result->terminate;
 }
 
-/* Error control that never comes through, or events that pile up: better a discarded step than an endless one. */
+/* Error control that never comes through, or events that pile up: better an error than an endless step. */
 static Status check_progress(Instance *s, Run *run, double before, double size) {
+    run->steps++;
     run->steps_without_progress = *s->t - before < NO_PROGRESS * size ? run->steps_without_progress + 1 : 0;
-    if (run->steps_without_progress <= MAX_STEPS_WITHOUT_PROGRESS) return STATUS_OK;
-    log_message(s, LOG_DISCARD, "After %d tiny steps in a row the time is still %.16g s.", MAX_STEPS_WITHOUT_PROGRESS,
-                *s->t);
-    return STATUS_DISCARD;
+    const bool is_stuck = run->steps_without_progress > MAX_STEPS_WITHOUT_PROGRESS;
+    if (!is_stuck && (run->steps <= MAX_STEPS || is_done(s, run))) return STATUS_OK;
+    const int count = is_stuck ? MAX_STEPS_WITHOUT_PROGRESS : MAX_STEPS;
+    log_message(s, LOG_ERROR,
+                "%d steps inside one communication step of %g s have come to %.16g s only; %s asks for the shortest: "
+                "check the parameters and the tolerance, or take shorter communication steps.",
+                count, size, *s->t, integrate_culprit(s));
+    return STATUS_ERROR;
 }
 
 /* Nothing happens after the model's end: FMI 2 and FMI 3 report it for each step tried. */
@@ -135,6 +145,7 @@ Status cosim_step(Instance *s, const char *function, double point, double size, 
     if (!can_step(s, function, point, size)) return STATUS_ERROR;
     memcpy(s->backup, s->memory, s->memory_size);
     Run run = {.target = point + size, .result = result};
+    s->integrator.least_for_delay = size / (double)MAX_STEPS_OF_DELAY;
     const Status status = run_step(s, &run, size);
     if (status == STATUS_DISCARD) undo(s);
     if (status == STATUS_ERROR) set_phase(s, PHASE_FAILED);

@@ -75,6 +75,7 @@ typedef struct {
 /* Work space of the co-simulation's integrator. */
 typedef struct {
     double begin, end;                       /* of the step, s */
+    double least_for_delay;                  /* s: a shorter delay does not shorten a step, and is interpolated in it */
     double *x_start, *x_end, *x_stage;       /* n_x */
     double *stages;                          /* n_x for each stage of the method */
     double *rate, *dg_dt;                    /* df/dt (n_x), dg/dt (n_q) */

@@ -42,7 +42,8 @@ static double smallest_step(const Instance *s, double limit) {
 /* Where the next step ends: the limit itself if that is near. */
 static double step_end(const Instance *s, double limit) {
     const double begin = s->integrator.begin;
-    const double step = fmin(s->memory->step_size, delay_smallest(s));
+    const double delay = fmax(delay_smallest(s), s->integrator.least_for_delay);
+    const double step = fmin(s->memory->step_size, delay);
     if (begin + STRETCH * step >= limit) return limit;
     return begin + 2.0 * step >= limit ? begin + 0.5 * (limit - begin) : begin + step;
 }
@@ -66,11 +67,15 @@ static double next_step_size(Memory *memory, double step, double error, bool aft
     return step * (after_rejection ? fmin(factor, 1.0) : factor);
 }
 
+const char *integrate_culprit(const Instance *s) {
+    return s->model->n_x > 0 ? variable_name(s, VECTOR_X, rodas_worst(s)) : "an event";
+}
+
 static Status give_up(Instance *s, double step, bool evaluated) {
     if (!evaluated) (void)evaluate_derivatives(s); /* where the trial failed: now it may say why */
     if (evaluated)
-        log_message(s, LOG_DISCARD, "At time %.16g s even a step of %.3g s misses the tolerance of %.3g.",
-                    s->integrator.begin, step, s->memory->tolerance);
+        log_message(s, LOG_DISCARD, "At time %.16g s even a step of %.3g s misses the tolerance of %.3g, most of all %s.",
+                    s->integrator.begin, step, s->memory->tolerance, integrate_culprit(s));
     else
         log_message(s, LOG_DISCARD, "At time %.16g s even a step of %.3g s cannot be evaluated.", s->integrator.begin, step);
     return STATUS_DISCARD;

@@ -8,4 +8,7 @@
    no step is small enough; Error or Warning from assert(). */
 Status integrate_step(Instance *s, double limit, bool *event);
 
+/* For messages: the state whose error made the last step short. */
+const char *integrate_culprit(const Instance *s);
+
 #endif

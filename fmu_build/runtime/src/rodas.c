@@ -114,17 +114,28 @@ static Status stage(Instance *s, size_t i, double h) {
 }
 
 /* The last stage is the difference to the embedded solution of order 4. */
-static double error_norm(const Instance *s) {
+static double scaled_error(const Instance *s, size_t k) {
     const size_t n = s->model->n_x;
     const IntegratorWork *w = &s->integrator;
-    const double *last = w->stages + (RODAS_STAGES - 1) * n;
+    const double size = fmax(fabs(w->x_start[k]), fabs(w->x_end[k]));
+    return w->stages[(RODAS_STAGES - 1) * n + k] / (s->memory->tolerance * (s->model->nominal_x[k] + size));
+}
+
+static double error_norm(const Instance *s) {
+    const size_t n = s->model->n_x;
     double sum = 0.0;
     for (size_t k = 0; k < n; k++) {
-        const double size = fmax(fabs(w->x_start[k]), fabs(w->x_end[k]));
-        const double ratio = last[k] / (s->memory->tolerance * (s->model->nominal_x[k] + size));
+        const double ratio = scaled_error(s, k);
         sum += ratio * ratio;
     }
     return sqrt(sum / (double)n);
+}
+
+size_t rodas_worst(const Instance *s) {
+    size_t worst = 0;
+    for (size_t k = 1; k < s->model->n_x; k++)
+        if (fabs(scaled_error(s, k)) > fabs(scaled_error(s, worst))) worst = k;
+    return worst;
 }
 
 Status rodas_try(Instance *s, double end, double *error) {

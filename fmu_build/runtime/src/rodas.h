@@ -15,6 +15,9 @@ Status rodas_begin(Instance *s);
    tolerance (root mean square over the states). Discard where the model cannot be evaluated on the way. */
 Status rodas_try(Instance *s, double end, double *error);
 
+/* The state with the largest error in the step that was tried last; 0 where there is none. */
+size_t rodas_worst(const Instance *s);
+
 /* Moves the instance to the fraction `part` (0 to 1) of the step that was tried last. */
 void rodas_move(Instance *s, double part);
 

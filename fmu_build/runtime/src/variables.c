@@ -136,6 +136,10 @@ Status variable_set(Instance *s, const char *function, uint32_t reference, Scala
         log_message(s, LOG_ERROR, "%s: %s cannot be set now: %s.", function, v->name, why);
         return STATUS_ERROR;
     }
+    if (!isfinite(value)) {
+        log_message(s, LOG_ERROR, "%s: %s cannot be set to %g; give it a number.", function, v->name, value);
+        return STATUS_ERROR;
+    }
     store(s, v, value);
     return STATUS_OK;
 }

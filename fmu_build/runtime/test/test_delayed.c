@@ -79,11 +79,39 @@ static void no_delay_is_no_delay(void) {
     fmi2FreeInstance(c);
 }
 
+/* One step of 1 s, in which a delay is followed by at most 20000 steps: shorter ones are interpolated. */
+static void a_tiny_delay_is_no_hang(void) {
+    const double delays[] = {1e-5, 1e-9, 1e-15};
+    for (size_t k = 0; k < COUNT(delays); k++) {
+        fmi2Component c = instantiate(fmi2CoSimulation);
+        CHECK(set(c, "T", delays[k]) == fmi2OK && set(c, "u", 2.0) == fmi2OK);
+        initialise_from(c, 0.0, 1e-8);
+        run_steps(c, 0.0, 1.0, 1.0);
+        CHECK_NEAR(get(c, "x"), exp(-1.0 - delays[k]), 1e-6);
+        CHECK_NEAR(get(c, "y"), 2.0, 1e-12);
+        fmi2FreeInstance(c);
+    }
+}
+
+static void only_numbers_are_inputs(void) {
+    const double values[] = {NAN, INFINITY, -INFINITY};
+    fmi2Component c = instantiate(fmi2CoSimulation);
+    initialise_from(c, 0.0, 1e-6);
+    for (size_t k = 0; k < COUNT(values); k++) {
+        CHECK(set(c, "u", values[k]) == fmi2Error && logged("give it a number"));
+        CHECK(get(c, "u") == 0.0);
+    }
+    run_steps(c, 0.0, 1.0, 0.5);
+    fmi2FreeInstance(c);
+}
+
 int main(void) {
     cosimulation_follows();
     jumps_stay_jumps();
     model_exchange_announces_breaks();
     a_bad_delay_time_is_refused();
     no_delay_is_no_delay();
+    a_tiny_delay_is_no_hang();
+    only_numbers_are_inputs();
     return 0;
 }

@@ -1,7 +1,7 @@
 /* What fails ends in a status and a message, and an instance that can be used again. */
 #include "importer.h"
 
-enum { QUIET, RESTLESS, NOT_A_NUMBER, NO_SOLUTION, INFINITE, NO_SHARE };
+enum { QUIET, RESTLESS, NOT_A_NUMBER, NO_SOLUTION, INFINITE, NO_SHARE, ROUGH };
 
 static fmi2Component with_trouble(fmi2Type type, int kind) {
     fmi2Component c = instantiate(type);
@@ -33,6 +33,15 @@ static void impossible_steps_are_undone(int kind) {
     CHECK(fmi2SetFMUstate(c, before) == fmi2OK);
     CHECK(fmi2DoStep(c, 0.1, 0.1, fmi2False) == fmi2OK);
     CHECK(fmi2FreeFMUstate(c, &before) == fmi2OK && !before);
+    fmi2FreeInstance(c);
+}
+
+/* Each step gets on a little, and a second would take 1e10 of them. */
+static void an_endless_step_is_an_error(void) {
+    fmi2Component c = with_trouble(fmi2CoSimulation, ROUGH);
+    initialise_from(c, 0.0, 1e-8);
+    CHECK(fmi2DoStep(c, 0.0, 1.0, fmi2True) == fmi2Error && logged("inside one communication step of 1 s"));
+    CHECK(logged("x asks for the shortest"));
     fmi2FreeInstance(c);
 }
 
@@ -162,6 +171,7 @@ int main(void) {
     impossible_steps_are_undone(NO_SOLUTION);
     impossible_points_are_discarded(NOT_A_NUMBER);
     impossible_points_are_discarded(NO_SOLUTION);
+    an_endless_step_is_an_error();
     infinite_outputs_are_discarded();
     infinite_discrete_values_are_discarded();
     infinite_calculated_parameters_are_discarded();

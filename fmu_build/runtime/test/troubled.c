@@ -1,9 +1,9 @@
 /* A model that can be asked for trouble: 1: discrete equations that never rest; 2: a derivative that is not a number
    where x < 0.5; 3: a non-linear equation without a solution where x < 0.5; 4: a discrete variable that becomes
-   infinite. The output reciprocal is 1/(x - 0.75), the calculated parameter share is 1/(trouble - 5). */
+   infinite; 6: a derivative that changes faster than any step can follow. The output reciprocal is 1/(x - 0.75), the calculated parameter share is 1/(trouble - 5). */
 #include "model_by_hand.h"
 
-enum { QUIET, RESTLESS, NOT_A_NUMBER, NO_SOLUTION, INFINITE };
+enum { QUIET, RESTLESS, NOT_A_NUMBER, NO_SOLUTION, INFINITE, NO_SHARE, ROUGH };
 
 static int is_trouble(const double **arg, int kind) { return (int)*arg[ARG_P] == kind; }
 
@@ -19,6 +19,7 @@ FUNCTION(start) {
 
 FUNCTION(derivatives) {
     if (res[0]) res[0][0] = is_trouble(arg, NOT_A_NUMBER) ? -sqrt(arg[ARG_X][0] - 0.5) - 1.0 : -1.0;
+    if (res[0] && is_trouble(arg, ROUGH)) res[0][0] += 1e6 * sin(1e9 * arg[ARG_T][0]);
 }
 
 FUNCTION(residual) {
