@@ -13,6 +13,7 @@ from pysim.types import BadInput
 
 Array = NDArray[np.float64]
 
+MOST_ROWS = 20_000_000  # of one log
 _ROUNDING = 1e-9  # of a sampling interval
 _MOST_JITTER = 0.4  # of an interval: neighbouring samples keep their order
 
@@ -57,8 +58,17 @@ class Logger:
         return float(1 / (intervals[-1] + slope * (signals - counts[-1])))
 
     def instants(self, start: float, end: float, signals: int, random: np.random.Generator) -> Array:
-        """When samples are taken from start to end (s), both included where they fall on one: (n_t,) s, increasing."""
+        """When samples are taken from start to end (s), both included where they fall on one: (n_t,) s, increasing.
+
+        Raises:
+            BadInput: more rows than a log can have.
+        """
         rate = self.rate(signals)
+        if not (end - start) * rate < MOST_ROWS:
+            raise BadInput(
+                f"logger: {(end - start) * rate:.3g} rows at {rate:.4g} Hz are more than {MOST_ROWS:,}; make the test "
+                "shorter, or log more slowly"
+            )
         count = math.floor((end - start) * rate + _ROUNDING) + 1
         times = start + np.arange(count) / rate
         if not self.jitter:

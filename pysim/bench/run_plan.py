@@ -14,12 +14,25 @@ from pysim.bench.plan import Plan
 from pysim.bench.truth import Truth
 from pysim.excitation import Multisine, SteppedSineCommand
 from pysim.simulate import Rodas, Solver, simulate_many
-from pysim.types import BadInput, Dataset, Experiment, MeasuredRecord, Model, Outcome, Record, Signal, SimulationError
+from pysim.types import (
+    BadInput,
+    Dataset,
+    Experiment,
+    MeasuredRecord,
+    Model,
+    Outcome,
+    Record,
+    Signal,
+    SimulationError,
+    Variable,
+)
 
 Array = NDArray[np.float64]
 
 # The pump's records are within 0.0007 percent and 2e-6 of the stroke of those at 1e-7: a hundredth of the noise.
 SOLVER = Rodas(rtol=1e-6, atol=1e-6)
+_LARGEST = 1e12  # of a command in its variable's unit, where the variable has no nominal value
+_LARGEST_OVER_NOMINAL = 1e6  # of a command over its variable's nominal value, the scale that the model names
 
 
 @dataclass(frozen=True)
@@ -118,6 +131,8 @@ def _job(model: Model, plan: Plan, run: Run, seed: int, parameters: Mapping[str,
     sensors = [plan.sensor(name) for name in run.outputs]
     commands = {run.input: command} | {name: command.times(r) for name, r in plan.along(run.input).items()}
     driven = {plan.sensor(name).signal.variable: signal for name, signal in commands.items()}
+    for variable, signal in driven.items():
+        _refuse_absurd(run, model[variable], signal.value(instants))
     rates = {rate: variable for rate, variable in model.rate_inputs(driven).items() if rate not in plan.inputs}
     experiment = Experiment(
         np.unique(np.concatenate([instants, *(sensor.sampled_at(instants) for sensor in sensors)])),
@@ -127,6 +142,17 @@ def _job(model: Model, plan: Plan, run: Run, seed: int, parameters: Mapping[str,
         rates=rates,
     )
     return _Job(run, instants, commands, experiment)
+
+
+def _refuse_absurd(run: Run, variable: Variable, values: Array) -> None:
+    """No solver gets through a command that is out of all proportion."""
+    largest = float(np.abs(values).max())
+    limit = _LARGEST if variable.nominal is None else _LARGEST_OVER_NOMINAL * abs(variable.nominal)
+    if largest > limit:
+        raise BadInput(
+            f"{run.source}: its command takes {variable.name} to {largest:.3g} {variable.unit or ''}, beyond "
+            f"{limit:.3g}; make offset and amplitude smaller"
+        )
 
 
 def _refuse_folding(run: Run, rate: float) -> None:

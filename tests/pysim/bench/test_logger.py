@@ -66,3 +66,10 @@ def test_a_stamp_is_the_nearest_tick() -> None:
 def test_refuses_settings_that_make_no_sense(settings: dict[str, object], words: str) -> None:
     with pytest.raises(BadInput, match=words):
         Logger(**settings)  # type: ignore[arg-type]
+
+
+def test_a_log_that_fits_nowhere_is_refused() -> None:
+    random = np.random.default_rng(1)
+    for end in (1e40, np.inf):
+        with pytest.raises(BadInput, match="shorter, or log more slowly"):
+            Logger(((1, 250.0),)).instants(0.0, end, 1, random)

@@ -145,6 +145,16 @@ def test_refusals(oscillator: Model, plan: Plan) -> None:
         run_plan(oscillator, replace(plan, logger=replace(plan.logger, rates=((1, 0.01),))), 1)
 
 
+@pytest.mark.parametrize("words", [("offset = 0\nheight = 0.004", "offset = 1e40\nheight = 0.004"), ("0.004", "-1e30")])
+def test_a_command_out_of_all_proportion_is_refused(words: tuple[str, str], oscillator: Model, tmp_path: Path) -> None:
+    path = tmp_path / "plan.toml"
+    path.write_text(
+        PLAN.replace(*words, 1).replace("rest = 0.25\nramp = 0.0", "rest = 0.25\nramp = 0.5"), encoding="utf-8"
+    )
+    with pytest.raises(BadInput, match="takes u to"):
+        run_plan(oscillator, read_plan(path), 1)
+
+
 def test_a_run_that_stops_is_an_error_with_its_record(oscillator: Model, plan: Plan) -> None:
     with pytest.raises(SimulationError, match=r"step/O\+0_H\+0\.004\.txt: .* stopped early"):
         run_plan(oscillator, replace(plan, tests=plan.tests[:1]), 1, parameters={"w": 1e200})
