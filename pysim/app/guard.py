@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hmac
+import ipaddress
 from collections.abc import Awaitable, Callable, Iterable, MutableMapping
 from typing import Any
 from urllib.parse import parse_qsl, quote, urlencode, urlsplit
@@ -24,6 +25,7 @@ _HEADERS = (
     (b"referrer-policy", b"no-referrer"),
 )
 _REFUSED = b"This page needs the address with its token, as pysim app printed it in the terminal.\n"
+_NO_PATH = b"This page has no address with a zero byte.\n"
 
 
 def host_names(names: Iterable[str], port: int) -> frozenset[str]:
@@ -40,23 +42,28 @@ class Guard:
     Args:
         app: behind it.
         token: that has to be shown.
-        hosts: `host_names` of this server; empty: any.
+        hosts: `host_names` of this server.
         cookie: name under which the browser keeps the token.
+        numbers: whether any IP address is ours too, as for a server that others may reach. The check is there for a
+            name of another site that leads here, and that is never an IP address.
     """
 
-    def __init__(self, app: App, token: str, hosts: frozenset[str], cookie: str) -> None:
-        self._app, self._token, self._hosts, self._cookie = app, token, hosts, cookie
+    def __init__(self, app: App, token: str, hosts: frozenset[str], cookie: str, *, numbers: bool = False) -> None:
+        self._app, self._token, self._hosts, self._cookie, self._numbers = app, token, hosts, cookie, numbers
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """One request or connection."""
         if scope["type"] not in ("http", "websocket"):
             await self._app(scope, receive, send)
             return
+        if "\0" in scope["path"]:  # no file has such a name, and asking for one raises
+            await _refuse(scope, send, 400, _NO_PATH)
+            return
         headers = {key.decode("latin-1").lower(): value.decode("latin-1") for key, value in scope["headers"]}
         words = parse_qsl(scope["query_string"].decode("latin-1"), keep_blank_values=True)
         shown = dict(words).get("token", "")
         if self._foreign(headers) or not (self._right(shown) or any(map(self._right, self._kept(scope)))):
-            await _refuse(scope, send)
+            await _refuse(scope, send, 403, _REFUSED)
         elif shown and scope["type"] == "http" and scope["method"] == "GET":
             rest = urlencode([(key, value) for key, value in words if key != "token"])
             place = quote(scope["path"].lstrip("/"), errors="replace")
@@ -76,7 +83,7 @@ class Guard:
     def _foreign(self, headers: dict[str, str]) -> bool:
         """Whether a name was asked for that is not ours, or another site's page asks."""
         host = headers.get("host", "")
-        if self._hosts and host not in self._hosts:
+        if host not in self._hosts and not (self._numbers and _is_number(host)):
             return True
         origin = headers.get("origin")
         try:
@@ -96,6 +103,16 @@ class Guard:
         await send({"type": "http.response.body", "body": b""})
 
 
+def _is_number(host: str) -> bool:
+    """Whether it is an IP address, with or without a port."""
+    name = host[1:].partition("]")[0] if host.startswith("[") else host.partition(":")[0]
+    try:
+        ipaddress.ip_address(name)
+    except ValueError:
+        return False
+    return True
+
+
 def _with_headers(send: Send) -> Send:
     async def more(message: MutableMapping[str, Any]) -> None:
         if message["type"] == "http.response.start":
@@ -105,10 +122,10 @@ def _with_headers(send: Send) -> Send:
     return more
 
 
-async def _refuse(scope: Scope, send: Send) -> None:
+async def _refuse(scope: Scope, send: Send, status: int, words: bytes) -> None:
     if scope["type"] == "websocket":
         await send({"type": "websocket.close", "code": 4403})
         return
     headers = [(b"content-type", b"text/plain; charset=utf-8"), *_HEADERS]
-    await send({"type": "http.response.start", "status": 403, "headers": headers})
-    await send({"type": "http.response.body", "body": _REFUSED})
+    await send({"type": "http.response.start", "status": status, "headers": headers})
+    await send({"type": "http.response.body", "body": words})

@@ -30,6 +30,7 @@ from pysim.types import BadInput
 
 _STATIC = Path(__file__).parent / "static"
 _LOOPBACK = ("127.0.0.1", "localhost", "::1")
+_ANY = ("0.0.0.0", "::", "")
 _TICK = 0.2  # s
 _BROKE_OFF = "the drop broke off, or another one has begun since; drop it again"
 
@@ -68,10 +69,10 @@ def serve(
 
 def _run(desk: Desk, host: str, port: int, *, show: bool) -> None:
     token = token_urlsafe(24)
-    known = host_names(("127.0.0.1", "localhost", "[::1]") if host in _LOOPBACK else (), port)
-    app.add_middleware(Guard, token=token, hosts=known, cookie=f"pysim_app_{port}")
+    known = host_names(own_names(host), port)
+    app.add_middleware(Guard, token=token, hosts=known, cookie=f"pysim_app_{port}", numbers=bool(opened(host)))
     address = f"{page_address(host, port)}/?token={token}"
-    words = f"Workbench: {address}\nProject: {desk.project.folder}\nCtrl-C ends it."
+    words = f"Workbench: {address}\nProject: {desk.project.folder}\n{opened(host)}Ctrl-C ends it."
     _routes(desk)
     app.add_static_files("/static", _STATIC)
     app.timer(_TICK, desk.tick)
@@ -92,6 +93,23 @@ def _run(desk: Desk, host: str, port: int, *, show: bool) -> None:
         show_welcome_message=False,
         reconnect_timeout=60.0,
     )
+
+
+def own_names(host: str) -> tuple[str, ...]:
+    """How a browser may name a server that listens there; one that listens everywhere goes by this machine's names."""
+    loopback = ("127.0.0.1", "localhost", "[::1]")
+    if host in _LOOPBACK:
+        return loopback
+    if host in _ANY:
+        return (*loopback, socket.gethostname(), socket.getfqdn())
+    return (f"[{host}]" if ":" in host else host,)
+
+
+def opened(host: str) -> str:
+    """A line for whoever lets others in; nothing where only this machine is."""
+    if host in _LOOPBACK:
+        return ""
+    return "Open to the network, without encryption: whoever sees the token can run code here in your name.\n"
 
 
 def _reached(host: str) -> str:
