@@ -234,6 +234,7 @@ CASES: Mapping[str, Case] = MappingProxyType(
         "table-4-2": Case(_THESIS + "table_4_2.case", "pressure drop over the orifice", "thesis", quick=True),
         "table-4-4": Case(_THESIS + "table_4_4.case", "black boxes of a known plant", "thesis", quick=True),
         "table-5-1": Case(_THESIS + "table_5_1.case", "parameters of the linear models", "thesis", quick=True),
+        "readers": Case("validation.readers.case", "10,000 spoiled inputs for each reader of files"),
         "importers": Case("validation.importers.case", "what importers and the checker make of our FMUs", "fmus"),
     }
 )

@@ -33,7 +33,7 @@ def read_model(path: Path | str, *, faulty: bool = False) -> Model:
     except BadInput:
         raise
     except Exception as error:  # FMPy raises bare exceptions for whatever it cannot read
-        raise BadInput(f"{path}: its modelDescription.xml cannot be read: {error}") from error
+        raise BadInput(f"{path}: its modelDescription.xml cannot be read: {' '.join(str(error).split())}") from error
     if description.fmiMajorVersion not in (2, 3):
         raise BadInput(f"{path} is an FMI {description.fmiVersion} FMU; export it as FMI 2.0 or 3.0")
     return Model(
@@ -158,5 +158,8 @@ def _dependencies(unknown: Unknown) -> frozenset[str] | None:
 def _provides_derivatives_3(path: Path, kind: str) -> bool:
     """FMI 3 writes providesDirectionalDerivatives, with an s that FMPy 0.3.32 does not look for."""
     with zipfile.ZipFile(path) as archive:
-        element = ElementTree.fromstring(archive.read("modelDescription.xml")).find(kind)
+        try:
+            element = ElementTree.fromstring(archive.read("modelDescription.xml")).find(kind)
+        except (ElementTree.ParseError, LookupError, ValueError) as error:  # such as UTF-16 that calls itself UTF-8
+            raise BadInput(f"{path}: its modelDescription.xml cannot be read: {error}; export it in UTF-8") from error
     return element is not None and element.get("providesDirectionalDerivatives") in ("true", "1")

@@ -163,4 +163,5 @@ def _syntax_error(file: str, line: int, message: str) -> BuildError:
     place = re.search(r"\.mo:(\d+):\d+\]", message)
     what = re.search(r"(unexpected [^\n]*|expected [^\n]*)", message)
     line = int(place.group(1)) if place else line
-    return BuildError(f"syntax error: {what.group(1) if what else message}", Path(file), line)
+    words = what.group(1) if what else " ".join(message.split())
+    return BuildError(f"syntax error: {words}", Path(file), line)

@@ -87,7 +87,7 @@ def _file(path: Path, folder: Path, owner: str, source: str, base: str) -> Eleme
     file = inside(path, folder, f"a parameter file of {owner}", source)
     try:
         return ElementTree.parse(file).getroot()
-    except ElementTree.ParseError as error:
+    except (ElementTree.ParseError, LookupError, ValueError) as error:
         raise BadInput(f"{path}: {source} cannot be read ({error}); export it again") from error
 
 

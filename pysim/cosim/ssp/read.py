@@ -66,7 +66,7 @@ def _parsed(path: Path, folder: Path) -> Element:
         root = ElementTree.parse(folder / DESCRIPTION).getroot()
     except OSError as error:
         raise BadInput(f"{path} holds no {DESCRIPTION}; it is no SSP package") from error
-    except ElementTree.ParseError as error:
+    except (ElementTree.ParseError, LookupError, ValueError) as error:  # the last two: of an encoding
         raise BadInput(f"{path}: its {DESCRIPTION} cannot be read ({error}); export it again") from error
     if root.tag != f"{{{SSD}}}SystemStructureDescription":
         raise BadInput(f"{path}: its {DESCRIPTION} begins with {root.tag}, which is not SSP 1.0; export it as that")

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import pytest
 
+from fmu_build.errors import BuildError
 from fmu_build.front import load
 from fmu_build.front.rumoca.failures import UnresolvedName
 
@@ -36,3 +37,10 @@ def test_in_a_library_it_is_the_file_of_the_name(tmp_path: Path) -> None:
     with pytest.raises(UnresolvedName) as caught:
         load("L.Whole", [library])
     assert (caught.value.file, caught.value.line) == (part, 4)
+
+
+@pytest.mark.parametrize("text", ["model M Real x); equation x = 1; end M;", "model M Real x]; end M;"])
+def test_a_bracket_too_many_is_a_syntax_error_at_its_line(text: str, tmp_path: Path) -> None:
+    (tmp_path / "M.mo").write_text(text, encoding="utf-8")
+    with pytest.raises(BuildError, match=r"M\.mo:1: syntax error"):
+        load("M", [tmp_path / "M.mo"], {})

@@ -1,5 +1,6 @@
 import re
 import zipfile
+from contextlib import suppress
 from pathlib import Path
 
 import pytest
@@ -7,6 +8,7 @@ import pytest
 from pysim.io import read_model
 from pysim.types import BadInput
 from tests.foreign import made_foreign
+from tests.planted import planted
 from tests.pysim.simulate.fixture_fmus import BALL, OSCILLATOR, build
 from tests.pysim.simulate.text_models import LAG, text_model
 
@@ -111,3 +113,24 @@ def test_what_is_said_of_coupling(tmp_path, fmi):
     assert dict(foreign.feedthrough) == {"y": None, "power": None}
     assert not foreign.stepping.state_handling
     assert read_model(build(OSCILLATOR, fmi, tmp_path)).abilities.stepping is None
+
+
+@pytest.mark.parametrize("encoding", ["utf-16", "utf-16-be", "utf-32", "latin-1"])
+def test_a_description_in_another_encoding_is_read_or_refused(encoding: str, tmp_path: Path) -> None:
+    """FMI writes UTF-8; one reader takes some others, and another does not."""
+    path = tmp_path / "other.fmu"
+    with zipfile.ZipFile(planted("NONE", tmp_path)) as old, zipfile.ZipFile(path, "w") as new:
+        for item in old.infolist():
+            content = old.read(item)
+            if item.filename == "modelDescription.xml":
+                text = (
+                    content.decode("utf-8")
+                    .replace('"Mass"', '"Größe"')
+                    .replace(' providesDirectionalDerivative="true"', "")
+                )
+                content = text.encode(encoding)
+            new.writestr(item, content)
+    name = ""
+    with suppress(BadInput):
+        name = read_model(path).name
+    assert name in ("", "Größe")

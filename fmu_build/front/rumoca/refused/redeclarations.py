@@ -89,6 +89,8 @@ def _check_values(declaration: Declaration, here: ClassText) -> None:
         if token in "([{":
             opened.append(at)
         elif token in ")]}":
+            if not opened:  # the compiler says where the syntax is wrong
+                return
             name, offset = tokens[opened.pop() - 1]
             if len(opened) >= lost_at and at + 1 < len(tokens) and tokens[at + 1][0] == "=":
                 raise here.error(

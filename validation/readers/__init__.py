@@ -1,0 +1,1 @@
+"""Readers of what others have written: an answer or one sentence, whatever the input."""
