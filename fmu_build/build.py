@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
 
 from fmu_build.cache import cached, content_key, copy_whole, store
-from fmu_build.errors import BuildError, CannotCompile, WrongCall
+from fmu_build.errors import BuildError, CannotCompile, Underdetermined, WrongCall
 from fmu_build.pack import Platform, check_writable, host_platform, select_platforms
 
 if TYPE_CHECKING:
@@ -39,6 +39,7 @@ def build(
     probes: Sequence[str] = (),
     use_cache: bool = True,
     compiler: str = "rumoca",
+    omc_options: Sequence[str] = (),
 ) -> Path:
     """Compile a Modelica class to an FMU for model exchange and co-simulation.
 
@@ -55,6 +56,7 @@ def build(
         use_cache: False builds anew even where the same FMU has been built before.
         compiler: "rumoca", with our own run-time system, or "openmodelica", for an installed omc: that one builds FMI 2
             for this machine, without probes.
+        omc_options: for "openmodelica": of omc's command line, such as "--maxSizeLinearTearing=400".
     Returns:
         The FMU's path.
     Raises:
@@ -65,6 +67,7 @@ def build(
         raise BuildError(f'there is no compiler "{compiler}" here; choose among {", ".join(COMPILERS)}.')
     if fmi not in (2, 3):
         raise BuildError(f"there is no FMI version {fmi} here; choose 2 or 3.")
+    _check_options(omc_options, compiler)
     systems = select_platforms(platforms)
     target = None if output is None else Path(output)
     if target is not None:
@@ -72,12 +75,12 @@ def build(
     paths = [*_existing(libraries), bundled_library()]
     options = [f"FMI {fmi}", *(system.name for system in systems), *(f"probe {name}" for name in probes)]
     if compiler == "openmodelica":
-        options += [_openmodelica(fmi, systems, probes)]
+        options += [_openmodelica(fmi, systems, probes), *omc_options]
     content = partial(content_key, class_name, paths, overrides, options)
     key = content()
     fmu = cached(key) if use_cache else None
     if fmu is None and compiler == "openmodelica":
-        fmu = _build_with_openmodelica(class_name, paths, overrides, key, content)
+        fmu = _build_with_openmodelica(class_name, paths, overrides, omc_options, key, content)
     elif fmu is None:
         fmu = _build_anew(class_name, paths, overrides, probes, fmi, systems, key, content)
     if target is None:
@@ -119,6 +122,7 @@ def _compiled(
     class_name: str, libraries: Sequence[Path], overrides: Mapping[str, float | str], probes: Sequence[str]
 ) -> "OdeModel":
     from fmu_build.front import load
+    from fmu_build.front.open_connectors import refuse_open_connectors
     from fmu_build.lower import lower
 
     try:
@@ -132,6 +136,8 @@ def _compiled(
         raise
     except BuildError as error:
         if _is_there(class_name, libraries):
+            if isinstance(error, Underdetermined):
+                refuse_open_connectors(class_name, libraries)
             raise CannotCompile(error.message, error.file, error.line) from error
         raise
 
@@ -140,18 +146,24 @@ def _build_with_openmodelica(
     class_name: str,
     libraries: Sequence[Path],
     overrides: Mapping[str, float | str],
+    options: Sequence[str],
     key: str,
     content: Callable[[], str],
 ) -> Path:
     """Build into the cache; our own library goes first, since others may use it."""
     _check_installation("fmpy", "casadi")
+    from fmu_build.front.open_connectors import refuse_open_connectors
     from fmu_build.openmodelica.translate import translate
 
     own = bundled_library()
     ordered = [own, *(library for library in libraries if library != own)]
     with tempfile.TemporaryDirectory(prefix="fmu_build-") as folder:
         fmu = Path(folder) / "model.fmu"
-        _, key = _read_unchanged(lambda: translate(class_name, ordered, overrides, fmu), key, content)
+        try:
+            _, key = _read_unchanged(lambda: translate(class_name, ordered, overrides, fmu, options), key, content)
+        except Underdetermined:
+            refuse_open_connectors(class_name, ordered)
+            raise
         return store(key, fmu)
 
 
@@ -175,6 +187,16 @@ def _openmodelica(fmi: int, systems: Sequence[Platform], probes: Sequence[str]) 
     if probes:
         raise BuildError("probes are added by our own compiler only; write them into the model as inputs.")
     return f"openmodelica {omc_version()}"
+
+
+def _check_options(options: Sequence[str], compiler: str) -> None:
+    if options and compiler != "openmodelica":
+        raise BuildError("options of omc are for OpenModelica; choose it with --compiler openmodelica.")
+    for option in options:
+        if not option.startswith(("-", "+")) or not option.isprintable():
+            raise BuildError(
+                f"{option!r} is no option of omc; write it as on its command line, such as -d=initialization."
+            )
 
 
 def _is_there(class_name: str, libraries: Sequence[Path]) -> bool:

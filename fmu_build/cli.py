@@ -72,6 +72,7 @@ def _build_with(compiler: str, arguments: argparse.Namespace) -> Path:
         probes=arguments.probe,
         use_cache=not arguments.no_cache,
         compiler=compiler,
+        omc_options=[] if arguments.compiler == AUTO and compiler == "rumoca" else arguments.omc_option,
     )
 
 
@@ -108,6 +109,13 @@ def _parser() -> argparse.ArgumentParser:
         default=AUTO,
         help="rumoca with our own run-time system, or openmodelica (an installed omc, and pip install OMPython); "
         "auto, the default, asks the second for what the first cannot take",
+    )
+    parser.add_argument(
+        "--omc-option",
+        metavar="OPTION",
+        action="append",
+        default=[],
+        help="for OpenModelica: an option of omc's command line, as --omc-option=--maxSizeLinearTearing=400; repeat",
     )
     parser.add_argument("--no-cache", action="store_true", help="build even if the same FMU has been built before")
     return parser

@@ -25,3 +25,7 @@ class CannotCompile(BuildError):
 
 class WrongCall(BuildError):
     """A name or a value in the call that no compiler could use."""
+
+
+class Underdetermined(BuildError):
+    """Equations that leave something open, contradict each other, or say the same twice."""

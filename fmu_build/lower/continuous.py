@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import casadi as ca
 
-from fmu_build.errors import BuildError
+from fmu_build.errors import BuildError, Underdetermined
 from fmu_build.front.flat_model import FlatModel
 from fmu_build.lower.equations import Definition, ScalarEquation, eliminate_aliases, incidence
 from fmu_build.lower.evaluate import Evaluator, Frame
@@ -62,7 +62,7 @@ def solve_continuous(
     """
     algebraics = [variable.symbol for variable in scope.algebraics]
     if len(equations) != len(algebraics) + len(scope.derivatives):
-        raise BuildError(
+        raise Underdetermined(
             f"{flat.name} has {len(equations)} equations for {len(algebraics) + len(scope.derivatives)} unknowns",
             flat.span.file,
             flat.span.line,
@@ -129,7 +129,7 @@ def square_blocks(
 
 def _singular(equation: ScalarEquation, together: list[ScalarEquation], count: int) -> BuildError:
     lines = sorted({e.span.line for e in together if e.span.line is not None})
-    return BuildError(
+    return Underdetermined(
         f"{count} equations (lines {', '.join(map(str, lines))}) determine too few unknowns: the system is singular",
         equation.span.file,
         equation.span.line,

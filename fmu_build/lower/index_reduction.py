@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import casadi as ca
 
-from fmu_build.errors import BuildError
+from fmu_build.errors import BuildError, Underdetermined
 from fmu_build.lower.equations import ScalarEquation
 from fmu_build.lower.scope import ScalarVariable, Scope
 from fmu_build.lower.sorting import Matching
@@ -112,7 +112,7 @@ class _Pantelides:
     def _singular(self, number: int, met: set[int]) -> BuildError:
         spans = [self.equations[k].span for k in sorted(met)]
         lines = ", ".join(str(line) for line in sorted({s.line for s in spans if s.line is not None}))
-        return BuildError(
+        return Underdetermined(
             f"the system is singular: the equations of lines {lines} contradict each other or say the same twice",
             self.equations[number].span.file,
             self.equations[number].span.line,

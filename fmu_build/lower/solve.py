@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 
 import casadi as ca
 
-from fmu_build.errors import BuildError
+from fmu_build.errors import Underdetermined
 from fmu_build.lower.equations import Definition, ScalarEquation
 from fmu_build.lower.singular import Typical, is_singular
 from fmu_build.lower.values import Scalar, column
@@ -45,10 +45,10 @@ def solve_block(
     return solution
 
 
-def _contradictory(equations: Sequence[ScalarEquation]) -> BuildError:
+def _contradictory(equations: Sequence[ScalarEquation]) -> Underdetermined:
     span = next((e.span for e in equations if e.span.line is not None), equations[0].span)
     lines = sorted({e.span.line for e in equations if e.span.line is not None})
-    return BuildError(
+    return Underdetermined(
         f"{len(equations)} equations (lines {', '.join(map(str, lines))}) contradict or repeat each other: the system "
         "is singular; take one out and say something else in its place",
         span.file,

@@ -1,6 +1,8 @@
 """What an FMU of OpenModelica has to pass before it is taken: the checks of our own, and those of its known faults."""
 
 import json
+import logging
+import re
 import subprocess
 import sys
 import tempfile
@@ -10,16 +12,18 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from fmu_build.errors import BuildError
+from fmu_build.openmodelica.kinds import disagreement
 from fmu_build.pack.archive import write_archive
 from fmu_build.pack.platforms import Platform, host_platform
 from fmu_build.pack.validation import validate_foreign
 
+_log = logging.getLogger(__name__)
 _LOAD = "import ctypes, sys; ctypes.CDLL(sys.argv[1])"  # in a process of its own: a library may do anything
 _LONGEST_S = 60.0
 
 
 def accept(fmu: Path, output: Path) -> None:
-    """Check an FMU and write it, packed as our own are.
+    """Check an FMU and write it, packed as our own are; without co-simulation where that differs from model exchange.
 
     Raises:
         BuildError: it is no FMI 2 FMU for both kinds of simulation, holds no CVODE for co-simulation, its library for
@@ -33,7 +37,19 @@ def accept(fmu: Path, output: Path) -> None:
     identifier = _check_kinds(members)
     _check_solver(members)
     _check_library(members, identifier, host_platform())
+    different = disagreement(fmu)
+    if different:
+        members["modelDescription.xml"] = _without_co_simulation(members["modelDescription.xml"])
+        _log.warning(
+            "co-simulation by this FMU of OpenModelica %s: the FMU is left with model exchange alone", different
+        )
     write_archive(output, members, validate_foreign)
+
+
+def _without_co_simulation(description: bytes) -> bytes:
+    """The same text without its element CoSimulation."""
+    found = re.search(rb"<CoSimulation\b(?:[^>]*/>|.*?</CoSimulation\s*>)\s*", description, re.DOTALL)
+    return description if found is None else description[: found.start()] + description[found.end() :]
 
 
 def _check_kinds(members: Mapping[str, bytes]) -> str:

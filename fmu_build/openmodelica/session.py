@@ -12,7 +12,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
-from fmu_build.errors import BuildError
+from fmu_build.errors import BuildError, Underdetermined
 from fmu_build.openmodelica.installation import what_is_missing
 
 START_S = 30.0  # OMPython waits this long for omc's port, also where omc has ended at once
@@ -23,6 +23,7 @@ _RECORD = re.compile(
     r"\[(?P<file>[^\]\n]*):\w+:(?P<line>\d+):\d+:\d+:\d+\] (?P<text>.*?)(?=^\d+: \[|\Z)",
     re.MULTILINE | re.DOTALL,
 )
+_OPEN = re.compile(r"under-determined|over-determined|singular", re.IGNORECASE)  # what omc calls such a system
 _LOG = re.compile(r"Log-file says:\n(.*)", re.DOTALL)
 
 
@@ -82,10 +83,11 @@ def told(text: str) -> BuildError:
     if not errors:
         return BuildError(f"omc: {' '.join(text.split())}")
     message = "; ".join(dict.fromkeys(" ".join(found["text"].split()) for found in errors[:_SHOWN]))
+    kind = Underdetermined if _OPEN.search(message) else BuildError
     placed = next((found for found in errors if found["file"].endswith(".mo")), None)
     if placed is None:
-        return BuildError(f"omc: {message}")
-    return BuildError(f"omc: {message}", Path(placed["file"]), int(placed["line"]))
+        return kind(f"omc: {message}")
+    return kind(f"omc: {message}", Path(placed["file"]), int(placed["line"]))
 
 
 def quoted(text: Path | str) -> str:

@@ -14,27 +14,34 @@ from fmu_build.openmodelica.session import Session, open_session, quoted
 OPTIONS = ("--fmiFlags=s:cvode",)
 
 
-def translate(class_name: str, libraries: Sequence[Path], overrides: Mapping[str, Override], output: Path) -> None:
+def translate(
+    class_name: str,
+    libraries: Sequence[Path],
+    overrides: Mapping[str, Override],
+    output: Path,
+    options: Sequence[str] = (),
+) -> None:
     """Write the class's FMI 2 FMU, model exchange and co-simulation in one, for this machine.
 
     Args:
         libraries: directories with a package.mo, or single .mo files; one that uses another behind it.
         overrides: parameter values by name inside the class; they become modifications.
+        options: of omc's command line, such as "--maxSizeLinearTearing=400", behind our own.
     Raises:
         BuildError: OpenModelica is missing or refuses the class, or the FMU does not pass the checks.
     """
     place = tempfile.TemporaryDirectory(prefix="fmu_build-", ignore_cleanup_errors=True)  # omc may still be there
     with place as name, open_session() as session:
         folder = Path(name)
-        _prepare(session, folder, libraries)
+        _prepare(session, folder, libraries, options)
         built = _build(session, folder, class_name, modification(overrides))
         accept(built, output)
 
 
-def _prepare(session: Session, folder: Path, libraries: Sequence[Path]) -> None:
+def _prepare(session: Session, folder: Path, libraries: Sequence[Path], options: Sequence[str]) -> None:
     if not session.ask(f"cd({quoted(folder)})"):
         raise BuildError(f"omc cannot work in {folder}: {session.reason()}")
-    for option in OPTIONS:
+    for option in (*OPTIONS, *options):
         session.require(f"setCommandLineOptions({quoted(option)})")
     for library in libraries:
         file = library / "package.mo" if library.is_dir() else library

@@ -13,6 +13,7 @@ import fmu_build.front
 import fmu_build.lower
 from fmu_build import BuildError, CannotCompile, build
 from fmu_build.build import bundled_library
+from fmu_build.errors import WrongCall
 from tests import ode_models
 
 build_module = importlib.import_module("fmu_build.build")
@@ -194,3 +195,28 @@ def test_a_wrong_call_is_wrong_for_every_compiler(tmp_path, name, options, messa
     with pytest.raises(BuildError, match=message) as caught:
         build(name, libraries=[file], use_cache=False, **options)
     assert not isinstance(caught.value, CannotCompile)
+
+
+def test_open_connectors_are_refused_with_the_class_to_build():
+    """No compiler could do better, so no other is recommended."""
+    with pytest.raises(
+        WrongCall, match=r"shaft, port_A, port_B, port_D: .*build HydraulicTestBench\.Pump\.A4VSGSignals"
+    ):
+        build("HydraulicTestBench.Pump.A4VSG", use_cache=False)
+
+
+def test_open_connectors_without_a_model_around_them(tmp_path):
+    file = tmp_path / "Pipe.mo"
+    file.write_text(
+        "connector Port Real p; flow Real q; end Port;\n"
+        "model Pipe Port a, b; Real r; equation a.q + b.q = 0; r = 2; r = a.p; end Pipe;\n"
+    )
+    with pytest.raises(WrongCall, match=r"open connectors, a, b: .*in a model of yours"):
+        build("Pipe", libraries=[file], use_cache=False)
+
+
+def test_an_error_of_the_model_goes_before_its_open_connectors(tmp_path):
+    file = tmp_path / "Pipe.mo"
+    file.write_text("connector Port Real p; flow Real q; end Port;\nmodel Pipe Port a; Real r = nowhere; end Pipe;\n")
+    with pytest.raises(BuildError, match="nowhere"):
+        build("Pipe", libraries=[file], use_cache=False)

@@ -26,7 +26,7 @@ def calls(monkeypatch):
 def test_arguments_arrive(calls, capsys):
     command = ["A.B", "-o", "x.fmu", "--library", "L", "--library", "M.mo", "--fmi", "3", "--no-cache"]
     command += ["--platform", "all", "--set", "a.b=3", "--set", "on = true", "--probe", "x", "--probe", "a.f"]
-    command += ["--compiler", "openmodelica"]
+    command += ["--compiler", "openmodelica", "--omc-option=-d=x", "--omc-option=--y=2"]
     assert cli.main(command) == 0
     options = {
         "libraries": [Path("L"), Path("M.mo")],
@@ -36,6 +36,7 @@ def test_arguments_arrive(calls, capsys):
         "probes": ["x", "a.f"],
         "use_cache": False,
         "compiler": "openmodelica",
+        "omc_options": ["-d=x", "--y=2"],
     }
     assert calls == [("A.B", Path("x.fmu"), options)]
     assert capsys.readouterr().out.strip() == "x.fmu"
@@ -44,7 +45,7 @@ def test_arguments_arrive(calls, capsys):
 def test_defaults(calls):
     assert cli.main(["A.B"]) == 0
     options = {"libraries": [], "fmi": 2, "platforms": ["host"], "overrides": {}, "probes": [], "use_cache": True}
-    options["compiler"] = "rumoca"
+    options |= {"compiler": "rumoca", "omc_options": []}
     assert calls == [("A.B", Path("A.B.fmu"), options)]
 
 

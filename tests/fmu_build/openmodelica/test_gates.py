@@ -1,13 +1,17 @@
 """FMUs that are not taken."""
 
+import re
 import zipfile
 
 import pytest
+from fmpy import simulate_fmu
 
-from fmu_build import BuildError
+from fmu_build import BuildError, build
 from fmu_build.openmodelica.gates import accept
+from fmu_build.openmodelica.kinds import disagreement
 from fmu_build.pack import host_platform
-from tests.fmu_build.openmodelica.repack import FLAGS, repacked
+from tests.fmu_build.openmodelica.repack import FLAGS, as_of_omc, repacked
+from tests.planted import planted
 
 
 def description(fmu):
@@ -79,3 +83,32 @@ def test_a_file_that_is_no_fmu(tmp_path):
     (tmp_path / "x.fmu").write_bytes(b"nonsense")
     with pytest.raises(BuildError, match="cannot be read"):
         accept(tmp_path / "x.fmu", tmp_path / "a.fmu")
+
+
+def kinds_of(fmu):
+    text = description(fmu)
+    return {kind for kind in (b"ModelExchange", b"CoSimulation") if b"<" + kind in text}
+
+
+def test_a_co_simulation_that_differs_is_left_out(tmp_path, caplog):
+    """A mass whose damping is a fifth too large as soon as it steps by itself."""
+    wrong = as_of_omc(planted("WRONG_RUN", tmp_path), tmp_path / "wrong.fmu")
+    assert re.search(r"off by \d+ % of the range", disagreement(wrong))
+    accept(wrong, tmp_path / "a.fmu")
+    assert kinds_of(tmp_path / "a.fmu") == {b"ModelExchange"}
+    assert "model exchange alone" in caplog.text
+    simulate_fmu(str(tmp_path / "a.fmu"), stop_time=0.1)
+
+
+def test_kinds_that_agree_are_both_kept(tmp_path, caplog):
+    right = as_of_omc(planted("NONE", tmp_path), tmp_path / "right.fmu")
+    assert disagreement(right) == ""
+    accept(right, tmp_path / "a.fmu")
+    assert kinds_of(tmp_path / "a.fmu") == {b"ModelExchange", b"CoSimulation"}
+    assert not caplog.records
+
+
+def test_our_own_kinds_agree_on_a_model_with_events():
+    """The one whose co-simulation by OpenModelica is off by half of its range."""
+    own = build("HydraulicTestBench.LoadCircuit.TestBench")
+    assert disagreement(own) == ""

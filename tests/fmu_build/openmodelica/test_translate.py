@@ -102,3 +102,35 @@ def test_what_it_cannot_do_is_refused_at_once(omc, library, options, message):
 def test_an_unknown_compiler_is_refused():
     with pytest.raises(BuildError, match='no compiler "dymola" here; choose among rumoca, openmodelica'):
         build(CLASS, compiler="dymola")
+
+
+def test_options_of_the_user_go_to_omc_behind_ours(omc, library, tmp_path):
+    asked = omc()
+    build(CLASS, libraries=[library], compiler="openmodelica", omc_options=["--maxSizeLinearTearing=400", "-d=x"])
+    given = [line for line in asked.read_text().splitlines() if line.startswith("setCommandLineOptions")]
+    assert given == [
+        f'setCommandLineOptions("{o}")' for o in ("--fmiFlags=s:cvode", "--maxSizeLinearTearing=400", "-d=x")
+    ]
+    build(CLASS, libraries=[library], compiler="openmodelica")
+    assert asked.read_text().count("buildModelFMU") == 2  # another FMU
+
+
+def test_an_option_that_omc_refuses_is_said(omc, library, tmp_path):
+    omc(refuses={'setCommandLineOptions("--nonsense': ["false", []]})
+    with pytest.raises(BuildError, match="--nonsense"):
+        build(CLASS, libraries=[library], compiler="openmodelica", omc_options=["--nonsense=1"])
+
+
+@pytest.mark.parametrize(
+    ("option", "compiler"), [("-d=x", "rumoca"), ("quit()", "openmodelica"), ("-d=a\nb", "openmodelica")]
+)
+def test_what_is_no_option_of_omc_is_refused(library, option, compiler):
+    with pytest.raises(BuildError, match="omc"):
+        build(CLASS, libraries=[library], compiler=compiler, omc_options=[option])
+
+
+def test_open_connectors_are_named_when_omc_finds_too_few_equations(omc, tmp_path):
+    messages = [["error", "Too few equations, under-determined system.", "", 0]]
+    omc(refuses={"buildModelFMU": ['""', messages]})
+    with pytest.raises(BuildError, match=r"port_A, port_B, port_D: .*build HydraulicTestBench\.Pump\.A4VSGSignals"):
+        build("HydraulicTestBench.Pump.A4VSG", compiler="openmodelica")
