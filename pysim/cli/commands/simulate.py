@@ -63,8 +63,11 @@ def _experiment(given: Given, model: Model) -> Experiment:
 
 
 def _recorded(model: Model, names: list[str]) -> tuple[str, ...]:
-    """The variables asked for, else every output, else every state."""
-    outputs = tuple(variable.name for variable in model.variables if variable.causality == "output")
+    """The variables asked for, else every output that is a number, else every state."""
+    from pysim.simulate import is_number
+
+    numbers = (variable for variable in model.variables if is_number(model.abilities.fmi, variable.type))
+    outputs = tuple(variable.name for variable in numbers if variable.causality == "output")
     return tuple(names) or outputs or model.abilities.states
 
 

@@ -6,13 +6,11 @@ from pysim.simulate import check_override, is_number, value_objection
 from pysim.types import BadInput, Model, Port, Variable
 
 _INTERFACES = ("", "co-simulation", "model-exchange")
-_NOT_READ = frozenset(("Int8", "UInt8", "Int16", "UInt16", "UInt32", "UInt64"))  # by the native loop
 
 
-def fits(model: Model, variable: Variable, interface: str = "") -> bool:
-    """Whether it can be a port: a single number, no clock or text, and of a size that our own loop can read."""
-    is_read = interface == "model-exchange" and variable.causality != "input"
-    return is_number(model.abilities.fmi, variable.type) and not (is_read and variable.type in _NOT_READ)
+def fits(model: Model, variable: Variable) -> bool:
+    """Whether it can be a port: a single number, no clock or text."""
+    return is_number(model.abilities.fmi, variable.type)
 
 
 def output_port(variable: Variable) -> Port:
@@ -20,14 +18,14 @@ def output_port(variable: Variable) -> Port:
     return Port(variable.name, variable.unit, variable.start)
 
 
-def recorded(model: Model, names: tuple[str, ...], interface: str) -> list[Variable]:
+def recorded(model: Model, names: tuple[str, ...]) -> list[Variable]:
     """Variables that are no outputs yet.
 
     Raises:
         BadInput: an unknown name, or no single number.
     """
     for name in names:
-        if not fits(model, model[name], interface):
+        if not fits(model, model[name]):
             raise BadInput(f"{model.path.name}: {name} is {model[name].type} and cannot be recorded; record a number")
     return [model[name] for name in names if model[name].causality != "output"]
 

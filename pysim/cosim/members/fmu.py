@@ -65,8 +65,8 @@ class Fmu:
             check_value(model, parameter, value)
         self.interface = chosen_interface(name, model, interface)
         self.inputs = tuple(self._input(v) for v in model.variables if v.causality == "input" and fits(model, v))
-        outputs = [v for v in model.variables if v.causality == "output" and fits(model, v, self.interface)]
-        self.outputs = tuple(output_port(v) for v in (*outputs, *recorded(model, self.record, self.interface)))
+        outputs = [v for v in model.variables if v.causality == "output" and fits(model, v)]
+        self.outputs = tuple(output_port(v) for v in (*outputs, *recorded(model, self.record)))
         self.feedthrough = self._feedthrough(feedthrough)
         self._names = (tuple(p.name for p in self.inputs), tuple(p.name for p in self.outputs))
         self._run: FmuRun = Closed(name)

@@ -7,7 +7,19 @@ from typing import Any
 
 import numpy as np
 
-from pysim.simulate.kernel.layout import KIND_DOUBLE, KIND_INT, KIND_LONG, KIND_OCTET, KIND_SINGLE
+from pysim.simulate.kernel.layout import (
+    KIND_DOUBLE,
+    KIND_INT,
+    KIND_INT8,
+    KIND_INT16,
+    KIND_LONG,
+    KIND_OCTET,
+    KIND_SINGLE,
+    KIND_UINT8,
+    KIND_UINT16,
+    KIND_UINT32,
+    KIND_UINT64,
+)
 from pysim.types import Model
 
 # Field -> function, FMI 2 and FMI 3.
@@ -44,8 +56,14 @@ TYPES: dict[int, dict[str, tuple[str, int]]] = {
     3: {
         "Float64": ("Float64", KIND_DOUBLE),
         "Float32": ("Float32", KIND_SINGLE),
+        "Int8": ("Int8", KIND_INT8),
+        "UInt8": ("UInt8", KIND_UINT8),
+        "Int16": ("Int16", KIND_INT16),
+        "UInt16": ("UInt16", KIND_UINT16),
         "Int32": ("Int32", KIND_INT),
+        "UInt32": ("UInt32", KIND_UINT32),
         "Int64": ("Int64", KIND_LONG),
+        "UInt64": ("UInt64", KIND_UINT64),
         "Enumeration": ("Int64", KIND_LONG),
         "Boolean": ("Boolean", KIND_OCTET),
     },

@@ -73,6 +73,7 @@ FRAGILE = Fixture(
 )
 HOARDER = Fixture("hoarder", ("x",), inputs=("u",))
 CARELESS = Fixture("careless", ("x",), outputs=("level",))
+WHOLE = Fixture("whole", ("x",), outputs=("level",))
 FOLLOWER = Fixture("follower", ("x",), inputs=("u",), outputs=("events", "u_seen"))
 
 
@@ -128,9 +129,12 @@ def _xml_3(f: Fixture) -> str:
 """
 
 
-def _stubs() -> str:
-    """FMPy wants every function of the standard; those that front.c leaves out return an error."""
+def _stubs(source: str) -> str:
+    """FMPy wants every function of the standard; those that front.c and the source leave out return an error."""
     present = set(re.findall(r"fmi[23]\w+(?=\()", (_SOURCES / "front.c").read_text()))
+    own = (_SOURCES / f"{source}.c").read_text()
+    sizes = re.findall(r"^SIZE\((\w+),", own, re.MULTILINE)
+    present |= {f"fmi3{verb}{size}" for verb in ("Get", "Set") for size in sizes}
     wanted = {n for kind in (FMU2Model, FMU3Model) for n, _ in inspect.getmembers(kind) if re.match("fmi[23][A-Z]", n)}
     return "".join(f"EXPORT int {name}(void) {{ return ERROR; }}\n" for name in sorted(wanted - present))
 
@@ -138,7 +142,7 @@ def _stubs() -> str:
 @lru_cache
 def _library(source: str, folder: Path) -> Path:
     target, stubs = folder / f"{source}{sharedLibraryExtension}", folder / "stubs.c"
-    stubs.write_text(f'#define MODEL "{source}.c"\n#include "front.c"\n' + _stubs())
+    stubs.write_text(f'#define MODEL "{source}.c"\n#include "front.c"\n' + _stubs(source))
     compiler = [shutil.which("gcc")] if shutil.which("gcc") else [sys.executable, "-m", "ziglang", "cc"]
     options = ["-shared", "-fPIC", "-O2", "-Wall", "-Wextra", "-Werror", "-I", str(_SOURCES), "-o", str(target)]
     subprocess.run([*compiler, *options, str(stubs), "-lm"], check=True)

@@ -29,7 +29,8 @@ enum { FOUND, STOPPED_SEARCH, MET_EVENT, RUN_FAILED, NOT_CONVERGED, DRIFTS };
 enum { EXPLICIT, ROSENBROCK, ESDIRK };
 
 /* How a variable lies in memory. */
-enum { KIND_DOUBLE, KIND_SINGLE, KIND_INT, KIND_LONG, KIND_OCTET };
+enum { KIND_DOUBLE, KIND_SINGLE, KIND_INT, KIND_LONG, KIND_OCTET,
+       KIND_INT8, KIND_UINT8, KIND_INT16, KIND_UINT16, KIND_UINT32, KIND_UINT64 };
 
 /* How a recorded variable depends on the states, where it is none of them. */
 enum { ASKED = -1, FIXED = -2 }; /* the FMU is asked; it does not */

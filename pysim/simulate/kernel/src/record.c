@@ -7,6 +7,12 @@ static double converted(int64_t kind, const void *buffer, int64_t i) {
         case KIND_INT: return (double)((const int32_t *)buffer)[i];
         case KIND_LONG: return (double)((const int64_t *)buffer)[i];
         case KIND_OCTET: return (double)((const uint8_t *)buffer)[i];
+        case KIND_INT8: return (double)((const int8_t *)buffer)[i];
+        case KIND_UINT8: return (double)((const uint8_t *)buffer)[i];
+        case KIND_INT16: return (double)((const int16_t *)buffer)[i];
+        case KIND_UINT16: return (double)((const uint16_t *)buffer)[i];
+        case KIND_UINT32: return (double)((const uint32_t *)buffer)[i];
+        case KIND_UINT64: return (double)((const uint64_t *)buffer)[i];
         default: return ((const double *)buffer)[i];
     }
 }

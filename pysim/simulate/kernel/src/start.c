@@ -10,6 +10,12 @@ static void convert(int64_t kind, const double *values, const int64_t *places, i
             case KIND_INT: ((int32_t *)memory)[i] = (int32_t)value; break;
             case KIND_LONG: ((int64_t *)memory)[i] = (int64_t)value; break;
             case KIND_OCTET: ((uint8_t *)memory)[i] = value != 0.0; break;
+            case KIND_INT8: ((int8_t *)memory)[i] = (int8_t)value; break;
+            case KIND_UINT8: ((uint8_t *)memory)[i] = (uint8_t)value; break;
+            case KIND_INT16: ((int16_t *)memory)[i] = (int16_t)value; break;
+            case KIND_UINT16: ((uint16_t *)memory)[i] = (uint16_t)value; break;
+            case KIND_UINT32: ((uint32_t *)memory)[i] = (uint32_t)value; break;
+            case KIND_UINT64: ((uint64_t *)memory)[i] = (uint64_t)value; break;
             default: ((double *)memory)[i] = value;
         }
     }
