@@ -10,14 +10,17 @@ typedef void *Me;
 typedef unsigned int Ref;
 typedef struct { int more, end, nominals, values, timed; double next; } Events;
 typedef struct { void *logger, *allocate, *free_, *finished, *environment; } Callbacks;
-enum { OK = 0, ERROR = 3 };
+enum { OK = 0, DISCARD = 2, ERROR = 3 };
+#define GRID 0.04 /* s, of FIXED_STEP */
+#define END 0.5   /* s, of EARLY_END */
 enum { X, V, DX, DV, U, Y, M, K, D, G, COUNT };
 enum { MADE, STARTING, RUNNING, ENDED };
 enum {
     NONE, WRONG_SLOPE, WRONG_RUN, UNTOLD_DEPENDENCY, SHARED_DAMPING, IGNORED_START, OTHER_START, IDLE_GAIN, HALF_RESTORED,
-    HALF_RESET, CRASH_EARLY, CRASH_SAVE, MEMORY, EULER, ANY_REFERENCE, HANG, BENT, OTHER_DERIVATIVE, TALKATIVE, SLOW
+    HALF_RESET, CRASH_EARLY, CRASH_SAVE, MEMORY, EULER, ANY_REFERENCE, HANG, BENT, OTHER_DERIVATIVE, TALKATIVE, SLOW,
+    FIXED_STEP, EARLY_END
 };
-typedef struct { double v[COUNT], time, last; int fault, phase; } Mass;
+typedef struct { double v[COUNT], time, last, inner; int fault, phase, ended; } Mass;
 
 static const double START[COUNT] = {0.5, 0, 0, 0, 0, 0, 2, 80, 1, 3};
 static double shared_damping = 1;
@@ -48,7 +51,7 @@ static void start_values(Mass *c)
     memcpy(c->v, START, sizeof START);
     if (c->fault == HALF_RESET && c->phase == ENDED) c->v[D] = kept;
     if (c->fault == OTHER_START) c->v[X] = 0.4;
-    c->time = c->last = 0;
+    c->time = c->last = c->inner = c->ended = 0;
     c->phase = MADE;
 }
 
@@ -155,7 +158,21 @@ int fmi2GetDirectionalDerivative(Me me, const Ref *z, size_t nz, const Ref *w, s
 int fmi2EnterEventMode(Me c) { return ((Mass *)c)->phase == RUNNING ? OK : ERROR; }
 int fmi2NewDiscreteStates(Me c, Events *e) { memset(e, 0, sizeof *e); return ((Mass *)c)->phase == RUNNING ? OK : ERROR; }
 int fmi2EnterContinuousTimeMode(Me c) { return ((Mass *)c)->phase == RUNNING ? OK : ERROR; }
-int fmi2CompletedIntegratorStep(Me c, int n, int *e, int *t) { (void)c, (void)n; *e = *t = 0; return OK; }
+int fmi2CompletedIntegratorStep(Me me, int n, int *e, int *t)
+{
+    Mass *c = me;
+    (void)n;
+    *e = 0;
+    *t = c->fault == EARLY_END && c->time >= END - 1e-9;
+    return OK;
+}
+int fmi2GetBooleanStatus(Me me, int kind, int *value)
+{
+    Mass *c = me;
+    if (c->fault != EARLY_END || kind != 3) return ERROR;
+    *value = c->ended;
+    return OK;
+}
 int fmi2SetTime(Me c, double t)
 {
     if (((Mass *)c)->phase != RUNNING) return ERROR;
@@ -187,8 +204,15 @@ int fmi2GetNominalsOfContinuousStates(Me c, double *x, size_t n) { (void)c; whil
 int fmi2DoStep(Me me, double t, double h, int unused)
 {
     Mass *c = me;
+    double k0[2];
     (void)unused;
     if (!c || c->phase != RUNNING || !(h > 0)) return ERROR;
+    if (c->fault == EARLY_END && t + h > END + 1e-9) return c->ended = 1, DISCARD;
+    for (; c->fault == FIXED_STEP && c->inner + GRID <= t + h + 1e-9; c->inner += GRID) {
+        rates(c, c->v, k0, 1);
+        for (int m = 0; m < 2; m++) c->v[m] += GRID * k0[m];
+    }
+    if (c->fault == FIXED_STEP) return OK;
     int count = c->fault == EULER ? 1 : (int)ceil(h / 2e-3 - 1e-9);
     double s = h / count, *x = c->v, k[4][2], z[2];
     for (int i = 0; i < count; i++) {
@@ -209,4 +233,4 @@ int fmi2DoStep(Me me, double t, double h, int unused)
 REFUSED(fmi2GetInteger) REFUSED(fmi2GetBoolean) REFUSED(fmi2GetString) REFUSED(fmi2SetInteger) REFUSED(fmi2SetBoolean)
 REFUSED(fmi2SetString) REFUSED(fmi2SerializedFMUstateSize) REFUSED(fmi2SerializeFMUstate) REFUSED(fmi2DeSerializeFMUstate)
 REFUSED(fmi2SetRealInputDerivatives) REFUSED(fmi2GetRealOutputDerivatives) REFUSED(fmi2CancelStep) REFUSED(fmi2GetStatus)
-REFUSED(fmi2GetRealStatus) REFUSED(fmi2GetIntegerStatus) REFUSED(fmi2GetBooleanStatus) REFUSED(fmi2GetStringStatus)
+REFUSED(fmi2GetRealStatus) REFUSED(fmi2GetIntegerStatus) REFUSED(fmi2GetStringStatus)

@@ -19,6 +19,7 @@ Array = NDArray[np.float64]
 CallFailed = FMICallException
 TOLERANCE = 1e-6
 _CLASSES = {(2, "me"): FMU2Model, (2, "cs"): FMU2Slave, (3, "me"): FMU3Model, (3, "cs"): FMU3Slave}
+_TERMINATED = 3  # fmi2Terminated of fmi2StatusKind
 _ROUNDS = 1000  # of event iteration
 
 
@@ -73,6 +74,26 @@ class Instance:
         self.begin(references, values)
         self.finish()
         return self
+
+    def step(self, time: float, size: float) -> bool:
+        """One communication step; False where the FMU ends the simulation, with or instead of it."""
+        if self.subject.fmi == 3:
+            _, ends, _, _ = self.raw.doStep(time, size)
+            return not ends
+        try:
+            self.raw.doStep(time, size)
+        except CallFailed:
+            if not self._is_ended():
+                raise
+            return False
+        return True
+
+    def _is_ended(self) -> bool:
+        """FMI 2: whether the step was discarded because the simulation is over."""
+        try:
+            return bool(self.raw.getBooleanStatus(_TERMINATED))
+        except CallFailed:
+            return False
 
     def iterate_events(self) -> None:
         """Update discrete states until none needs another round."""

@@ -20,7 +20,8 @@ class Points:
     def __init__(self, subject: Subject, instance: Instance) -> None:
         self.instance = instance
         self.knowns = (*subject.states, *subject.inputs)
-        self.unknowns = (*subject.derivatives, *subject.outputs)
+        known = set(references(self.knowns))  # an output may be a state, or an input, under another name
+        self.unknowns = (*subject.derivatives, *(v for v in subject.outputs if v.valueReference not in known))
         self._rows, self._inputs = references(self.unknowns), references(subject.inputs)
         self._n = len(subject.states)
         self.home = np.concatenate([instance.x, instance.get(self._inputs)])

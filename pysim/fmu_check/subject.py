@@ -65,12 +65,15 @@ class Subject:
         """In the order of the state vector.
 
         Raises:
-            BadInput: a derivative does not say of which state; nothing of it can be run then.
+            BadInput: a derivative does not say of which state, or one is an array; nothing of it can be run then.
         """
         found = tuple(unknown.variable.derivative for unknown in self.description.derivatives)
         if None in found:
             name = self.derivatives[found.index(None)].name
             raise BadInput(f"{name} stands among the derivatives without the attribute derivative: of which state?")
+        array = next((state.name for state in found if state.dimensions), None)
+        if array is not None:
+            raise BadInput(f"{array} is an array; only scalar states are tried here")
         return found
 
     @cached_property

@@ -26,11 +26,12 @@ FOUND = {
     "MEMORY": ("derivatives", "fails", "nothing but time", "der(v)"),
     "EULER": ("runs", "doubtful", "steps four times as large", "bound to the step"),
     "ANY_REFERENCE": ("call order: an unknown value reference (cs)", "doubtful", "refused", "goes unnoticed"),
+    "FIXED_STEP": ("runs", "doubtful", "follows model exchange", "steps of a fixed size"),
     "BENT": ("dependencies", "fails", "constant or fixed are linear", "der(v) with x"),
     "OTHER_DERIVATIVE": ("derivatives", "fails", "what the call for derivatives gives", "der(v)"),
 }
 DEADLY = {"CRASH_EARLY", "CRASH_SAVE", "HANG"}
-HARMLESS = {"NONE", "SLOW", "TALKATIVE"}
+HARMLESS = {"NONE", "SLOW", "TALKATIVE", "EARLY_END"}
 
 
 def test_every_fault_is_expected_somewhere() -> None:
@@ -95,3 +96,8 @@ def test_many_slow_answers_are_no_hang(subject: Callable[[str], Subject]) -> Non
 def test_what_an_fmu_writes_to_the_standard_error_does_not_hold_it_up(subject: Callable[[str], Subject]) -> None:
     (result,) = check_fmu(subject("TALKATIVE").path, ("order",), patience=30.0).results
     assert result.verdict == "holds"
+
+
+def test_an_fmu_may_end_the_simulation(told: Told) -> None:
+    """After half of the default experiment, in both kinds."""
+    assert [result for check in QUIET for result in told("EARLY_END", check)] == []

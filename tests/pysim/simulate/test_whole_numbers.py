@@ -22,7 +22,7 @@ SIZES = {
 
 @pytest.fixture
 def fmu(tmp_path: Path) -> Path:
-    """With two outputs of each size, which hold its largest and its smallest number, a parameter of each, and a text."""
+    """Outputs of each size that hold its largest and its smallest number, a parameter of each, and a text."""
     variables, outputs = "", ""
     for k, size in enumerate(SIZES):
         for name, reference in ((f"high_{size}", 1000 + 2 * k), (f"low_{size}", 1001 + 2 * k)):
@@ -51,7 +51,7 @@ def ran(model: Model, **overrides: float) -> dict[str, float]:
 def test_every_size_is_read_as_it_lies_in_memory(fmu: Path) -> None:
     found = ran(read_model(fmu))
     assert found == {
-        f"{end}_{size}": value for size, ends in SIZES.items() for end, value in zip(("low", "high"), ends)
+        f"{end}_{size}": value for size, ends in SIZES.items() for end, value in zip(("low", "high"), ends, strict=True)
     }
 
 
