@@ -1,7 +1,6 @@
 """The whole way: a Modelica class to a checked .fmu."""
 
 import importlib.util
-import tempfile
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from importlib.resources import files
@@ -11,6 +10,7 @@ from typing import TYPE_CHECKING, TypeVar
 from fmu_build.cache import cached, content_key, copy_whole, store
 from fmu_build.errors import BuildError, CannotCompile, Underdetermined, WrongCall
 from fmu_build.pack import Platform, check_writable, host_platform, select_platforms
+from fmu_build.scratch import scratch
 
 if TYPE_CHECKING:
     from fmu_build.lower import OdeModel
@@ -112,8 +112,8 @@ def _build_anew(
     from fmu_build.pack.fmu import pack
 
     model, key = _read_unchanged(lambda: _compiled(class_name, libraries, overrides, probes), key, content)
-    with tempfile.TemporaryDirectory(prefix="fmu_build-") as folder:
-        fmu = Path(folder) / "model.fmu"
+    with scratch() as folder:
+        fmu = folder / "model.fmu"
         pack(model, fmu, fmi=fmi, platforms=targets)
         return store(key, fmu)
 
@@ -157,8 +157,8 @@ def _build_with_openmodelica(
 
     own = bundled_library()
     ordered = [own, *(library for library in libraries if library != own)]
-    with tempfile.TemporaryDirectory(prefix="fmu_build-") as folder:
-        fmu = Path(folder) / "model.fmu"
+    with scratch() as folder:
+        fmu = folder / "model.fmu"
         try:
             _, key = _read_unchanged(lambda: translate(class_name, ordered, overrides, fmu, options), key, content)
         except Underdetermined:

@@ -7,6 +7,7 @@ import sys
 import tomllib
 import traceback
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from pathlib import Path
 
 from fmu_build.build import COMPILERS, build
@@ -25,6 +26,7 @@ The first build for a platform compiles the C library's start-up code: seconds, 
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Exit code: 0 done, 2 wrong use or a model that cannot be built, 3 a mistake of ours."""
+    _plug_output()
     if isinstance(sys.stdout, io.TextIOWrapper):  # a path may have letters that a pipe of Windows has not
         sys.stdout.reconfigure(errors="replace")
     parser = _parser()
@@ -42,7 +44,23 @@ def main(argv: Sequence[str] | None = None) -> int:
         return WRONG_USE
     except Exception as error:
         return _report_our_bug(error)
-    print(path)
+    return _say(path)
+
+
+def _plug_output() -> None:
+    """Where standard output is closed, let nothing else be opened in its place: whatever is printed would go there."""
+    if sys.stdout is None:
+        sys.stdout = os.fdopen(os.open(os.devnull, os.O_RDONLY), "w", closefd=False)
+
+
+def _say(path: Path) -> int:
+    try:
+        print(path, flush=True)
+    except OSError as error:
+        print(f"fmu-build: {path} is there, but its name cannot be printed: {error.strerror}", file=sys.stderr)
+        with suppress(OSError):  # or Python would complain once more when it ends
+            os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
+        return WRONG_USE
     return DONE
 
 

@@ -5,7 +5,6 @@ import logging
 import re
 import subprocess
 import sys
-import tempfile
 import xml.etree.ElementTree as ElementTree
 import zipfile
 from collections.abc import Mapping
@@ -16,6 +15,7 @@ from fmu_build.openmodelica.kinds import disagreement
 from fmu_build.pack.archive import write_archive
 from fmu_build.pack.platforms import Platform, host_platform
 from fmu_build.pack.validation import validate_foreign
+from fmu_build.scratch import scratch
 
 _log = logging.getLogger(__name__)
 _LOAD = "import ctypes, sys; ctypes.CDLL(sys.argv[1])"  # in a process of its own: a library may do anything
@@ -91,12 +91,12 @@ def _check_library(members: Mapping[str, bytes], identifier: str, platform: Plat
     path = f"binaries/{platform.fmi2_folder}/{identifier}{platform.suffix}"
     if path not in members:
         raise BuildError(f"the FMU of omc holds no {path}; look into omc's own log for what its C compiler said")
-    with tempfile.TemporaryDirectory(prefix="fmu_build-") as folder:
+    with scratch() as folder:
         beside = f"binaries/{platform.fmi2_folder}/"
         for name, content in members.items():  # libraries that it brings along lie beside it
             if name.startswith(beside) and "/" not in name.removeprefix(beside):
-                (Path(folder) / name.removeprefix(beside)).write_bytes(content)
-        library = Path(folder) / Path(path).name
+                (folder / name.removeprefix(beside)).write_bytes(content)
+        library = folder / Path(path).name
         done = subprocess.run(
             [sys.executable, "-c", _LOAD, str(library)],
             capture_output=True,

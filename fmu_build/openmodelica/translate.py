@@ -1,6 +1,5 @@
 """A class to an FMU by OpenModelica."""
 
-import tempfile
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
@@ -9,6 +8,7 @@ from fmu_build.errors import BuildError
 from fmu_build.front.overrides import Override, modification
 from fmu_build.openmodelica.gates import accept
 from fmu_build.openmodelica.session import Session, open_session, quoted
+from fmu_build.scratch import scratch
 
 # Without it a co-simulation FMU of OpenModelica takes explicit Euler steps of the size of the communication step.
 OPTIONS = ("--fmiFlags=s:cvode",)
@@ -30,9 +30,7 @@ def translate(
     Raises:
         BuildError: OpenModelica is missing or refuses the class, or the FMU does not pass the checks.
     """
-    place = tempfile.TemporaryDirectory(prefix="fmu_build-", ignore_cleanup_errors=True)  # omc may still be there
-    with place as name, open_session() as session:
-        folder = Path(name)
+    with scratch() as folder, open_session() as session:
         _prepare(session, folder, libraries, options)
         built = _build(session, folder, class_name, modification(overrides))
         accept(built, output)

@@ -1,6 +1,8 @@
 """C sources to a shared library for any platform, by the C compiler in the Python package ziglang."""
 
+import errno
 import importlib.util
+import os
 import subprocess
 from collections.abc import Sequence
 from pathlib import Path
@@ -14,6 +16,7 @@ FLAGS = (
     *("-shared", "-fPIC", "-fvisibility=hidden"),
     *("-g0", "-s", "-fno-sanitize=all"),  # no debug data, and so no paths of this machine, in the binary
 )
+_NO_ROOM = "NoSpaceLeft"  # Zig's name for it
 _LONGEST_S = 900.0  # the very first build for Windows compiles zig's C library, some minutes on a slow machine
 
 
@@ -49,6 +52,8 @@ def compile_shared(sources: Sequence[Path], includes: Sequence[str], platform: P
             f"{platform.name}: the C compiler was not done after {_LONGEST_S:g} s; try again when the machine is less "
             "busy, or build a smaller model."
         ) from error
+    if done.returncode and _NO_ROOM in done.stderr:
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
     if done.returncode:
         raise CompilerError(f"{platform.name}: the C compiler failed.\n{done.stderr.strip()}")
     return library.read_bytes()

@@ -1,7 +1,6 @@
 """An OdeModel to a checked .fmu."""
 
 import hashlib
-import tempfile
 import uuid
 from collections.abc import Mapping, Sequence
 from itertools import groupby
@@ -24,6 +23,7 @@ from fmu_build.pack.mach_o import fat_library
 from fmu_build.pack.platforms import Platform
 from fmu_build.pack.sources import Sources, sources_for
 from fmu_build.pack.validation import validate_own
+from fmu_build.scratch import scratch
 
 _NO_TOKEN = "{00000000-0000-0000-0000-000000000000}"
 _LICENSE = Path(__file__).with_name("license.txt")
@@ -80,8 +80,7 @@ def _binaries(
         return f"binaries/{platform.folder(fmi)}/{identifier}{platform.suffix}"
 
     members = {}
-    with tempfile.TemporaryDirectory(prefix="fmu_build-") as name:
-        folder = Path(name)
+    with scratch() as folder:
         (folder / "model.c").write_bytes(model_c)
         files = (folder / "model.c", *sources.compiled)
         for path, group in groupby(sorted(platforms, key=place), key=place):
