@@ -1,4 +1,4 @@
-"""Plant forty faults, twenty by hand and twenty by a generator, and say which the tests do not notice.
+"""Plant some forty faults, half by hand and half by a generator, and say which the tests do not notice.
 
     python3 run.py python -m tests.mutations [--seed 1] [--only NUMBER ...] [--list]
 

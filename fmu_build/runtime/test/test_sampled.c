@@ -44,6 +44,17 @@ static void ticks_do_not_drift(void) {
     fmi2FreeInstance(c);
 }
 
+static void no_tick_comes_before_the_start_of_the_clock(void) {
+    fmi2Component c = instantiate(fmi2CoSimulation);
+    CHECK(set(c, "start", 0.55) == fmi2OK);
+    initialise_from(c, 0.0, 0.0);
+    run_steps(c, 0.0, 0.5, 0.05);
+    CHECK(get_integer(c, "n") == 0);
+    run_steps(c, 0.5, 1.0, 0.05);
+    CHECK(get_integer(c, "n") == 5); /* 0.55, 0.65, ... 0.95 */
+    fmi2FreeInstance(c);
+}
+
 static void a_tick_happens_once(void) {
     fmi2Component c = instantiate(fmi2ModelExchange);
     fmi2EventInfo info;
@@ -95,6 +106,7 @@ int main(void) {
     ticks_at_exact_times();
     a_tick_within_rounding_of_a_steps_end_belongs_to_the_step();
     ticks_do_not_drift();
+    no_tick_comes_before_the_start_of_the_clock();
     a_tick_happens_once();
     a_discrete_input_acts_between_steps();
     the_start_may_lie_anywhere();

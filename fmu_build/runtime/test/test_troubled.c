@@ -25,10 +25,11 @@ static void impossible_steps_are_undone(int kind) {
     initialise_from(c, 0.0, 1e-8);
     CHECK(fmi2DoStep(c, 0.0, 0.1, fmi2True) == fmi2OK);
     CHECK(fmi2GetFMUstate(c, &before) == fmi2OK);
-    const double x = get(c, "x");
+    const double x = get(c, "x"), q = get(c, "q"), slope = get(c, "der(x)"), reciprocal = get(c, "reciprocal");
     CHECK(fmi2DoStep(c, 0.1, 5.0, fmi2False) == fmi2Discard && logged("cannot be evaluated"));
     CHECK(fmi2GetRealStatus(c, fmi2LastSuccessfulTime, &time) == fmi2OK && time == 0.1);
     CHECK(get(c, "x") == x && get(c, "time") == 0.1);
+    CHECK(get(c, "q") == q && get(c, "der(x)") == slope && get(c, "reciprocal") == reciprocal);
     CHECK(fmi2DoStep(c, 0.1, 0.1, fmi2False) == fmi2Error && logged("not allowed in state"));
     CHECK(fmi2SetFMUstate(c, before) == fmi2OK);
     CHECK(fmi2DoStep(c, 0.1, 0.1, fmi2False) == fmi2OK);
