@@ -46,7 +46,9 @@ def check_starts(subject: Subject) -> Iterator[CheckResult]:
     yield none_of(NAME, "start values a little off the declared ones can be set", refused, otherwise=DOUBTFUL)
 
 
-def _in_force(subject: Subject, kind: str, variables: Sequence[ModelVariable], given: Sequence[float] = ()) -> Array:
+def _in_force(
+    subject: Subject, kind: str, variables: Sequence[ModelVariable], given: Sequence[float] | Array = ()
+) -> Array:
     """Values (n,) after initialisation; of discrete variables before its end, as the first event may change them.
 
     Args:

@@ -21,7 +21,7 @@ def stepped(
     Where the FMU ends the simulation, which is no fault, its last values stand for those of the steps that are left.
     """
     instance.set(references(subject.inputs), inputs)
-    found = []
+    found: list[Array] = []
     goes_on = True
     for k in range(first, first + count):
         goes_on = goes_on and instance.step(subject.start + k * size, size)

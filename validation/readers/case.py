@@ -19,7 +19,7 @@ def run() -> Iterator[Finding]:
     """For each reader, how many of the inputs end otherwise."""
     for name, kind in KINDS.items():
         right = kind.right()
-        taken, wrong = 0, {}
+        taken, wrong = 0, dict[str, int]()
         for seed in range(SEED, SEED + COUNT):
             fault = trouble(kind, spoiled(right, seed))
             taken += fault is None
