@@ -5,6 +5,7 @@ from __future__ import annotations
 import zipfile
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 from types import MappingProxyType
 
@@ -133,6 +134,7 @@ def _fmu(description: bytes, path: Path) -> Path:
     return path
 
 
+@cache
 def _right_description() -> bytes:
     with zipfile.ZipFile(fmu_build.build(_FMU)) as archive:
         return archive.read("modelDescription.xml")

@@ -109,7 +109,7 @@ static Status accepted_step(Instance *s, double limit, bool *event) {
         }
         rejected = true;
         memory->step_size = step * (evaluated ? fmin(factor_for(error), 1.0) : SHRINK_AFTER_FAILURE);
-        if (memory->step_size < smallest_step(s, limit)) return give_up(s, step, evaluated);
+        if (!(memory->step_size > smallest_step(s, limit))) return give_up(s, step, evaluated); /* both may be 0 */
     }
 }
 

@@ -36,6 +36,11 @@ def test_abuse_ends_in_a_status(c_test: Callable[..., str], model: str) -> None:
     c_test("test_abuse", model)
 
 
+@pytest.mark.parametrize("model", MODELS)
+def test_abuse_by_fmi_3_ends_in_a_status(c_test: Callable[..., str], model: str) -> None:
+    c_test("test_abuse3", model, fmi=3)
+
+
 def test_fmi_3_events_and_early_return(c_test: Callable[..., str]) -> None:
     c_test("test_fmi3", "ball", fmi=3)
 
