@@ -18,7 +18,10 @@ BASES = ("HydraulicTestBench.Pump.FreeGreyBox", "HydraulicTestBench.LoadCircuit.
 
 SHARED_SLOTS = (("valve.rate_limit", "valve.saturation"),)  # two effects that a class of their own joins
 # What a class says that needs surroundings: values for its parameters, or something at its connectors.
-_NEEDS = re.compile(r"has no value|the system is singular|has open connectors|would need the derivative of the input|initial condition")
+_NEEDS = re.compile(
+    r"has no value|the system is singular|has open connectors|would need the derivative of the input|"
+    r"initial condition"
+)
 _NEEDS_SIZES = re.compile(r"unresolved component dimension")
 
 

@@ -188,11 +188,18 @@ class WeightedResiduals:
             states: whether initial states are free; else they are held where they are carried to.
         """
         carried = carried or Carried()
-        answer = self.simulate(model, space, x, carried, jacobian=jacobian)
+        answer = self.simulate(model, space, x, carried, jacobian=jacobian, states=states)
         return self.weigh(x, answer, carried, x.size if jacobian else 0)
 
     def simulate(
-        self, model: Model, space: ParameterSpace, x: Array, carried: Carried, *, jacobian: bool = True
+        self,
+        model: Model,
+        space: ParameterSpace,
+        x: Array,
+        carried: Carried,
+        *,
+        jacobian: bool = True,
+        states: bool = True,
     ) -> Answer:
         """All runs at x (n,), as `evaluate` weighs them."""
         runs = self.runs
