@@ -56,16 +56,17 @@ def _outputs(record: MeasuredRecord, dataset: Dataset) -> Sequence[str]:
 
 
 def _still(dataset: Dataset, fitted: Sequence[MeasuredRecord]) -> Sequence[str]:
-    """A note on inputs that never move; refuses where none does."""
+    """A note on inputs that never move; refuses where none does, unless the plant moved when the logs began."""
     if any(isinstance(record.data, FrequencyResponse) for record in fitted):
         return ()
+    decays = any(record.initial == "estimate" for record in fitted)
     moves: dict[str, bool] = {}
     for record in fitted:
         assert isinstance(record.data, Record)
         for name in dataset.columns(record, "input"):
             moves[name] = moves.get(name, False) or bool(np.ptp(record.data[name]) > 0)
     still = [name for name, moved in moves.items() if not moved]
-    if still and len(still) == len(moves):
+    if still and len(still) == len(moves) and not decays:
         raise BadInput(
             f"data set {dataset.name!r}: the input {', '.join(still)} is constant in every record to fit, so nothing "
             "can be told of what moves; log a test that excites it"

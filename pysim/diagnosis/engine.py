@@ -118,7 +118,7 @@ def _answer(
     models_of = [("prior", search.as_it_is()), *([("refit", found.base)] if refitted else [])]
     steps = [
         error_step(name, fit, session, floors, fitted=name != "prior")
-        for name, fit in (*models_of, *_kept(found, models, final))
+        for name, fit in (*models_of, *_kept(found, models, final, search))
     ]
     history = [step for step, _ in steps]
     lost = dict.fromkeys(note for _, notes in steps for note in notes)
@@ -153,10 +153,12 @@ def _alone(fit: FinalFit, search: Search) -> FinalFit:
     return again if again.good else fit
 
 
-def _kept(found: Found, models: Sequence[FinalFit], final: FinalFit) -> list[tuple[str, FinalFit]]:
+def _kept(
+    found: Found, models: Sequence[FinalFit], final: FinalFit, search: Search
+) -> list[tuple[str, FinalFit]]:
     """Names and models of the steps of the error history; effects that came in together are one step."""
     if models:
-        return [(fit.names[-1], final if fit is models[-1] else fit) for fit in models]
+        return [(fit.names[-1], final if fit is models[-1] else _alone(fit, search)) for fit in models]
     kept, steps, waiting = set(final.candidate.labels), list[tuple[str, FinalFit]](), list[str]()
     for step in found.steps:
         if step.added not in kept:
@@ -168,7 +170,7 @@ def _kept(found: Found, models: Sequence[FinalFit], final: FinalFit) -> list[tup
     if final.names:
         last = " + ".join([*(waiting or [steps.pop()[0] if steps else " + ".join(final.names)])])
         steps.append((last, final))
-    return steps
+    return [(name, fit if fit is final else _alone(fit, search)) for name, fit in steps]
 
 
 def _said(say: Progress, history: Sequence[ErrorStep]) -> None:

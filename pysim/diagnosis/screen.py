@@ -148,6 +148,15 @@ def _screened(
         yield Screened(candidate, start, 0.5 * amount**2 * size, left * before.level)
 
 
+def own_values(one: Screened) -> Values:
+    """A start at the model's own parameters, the new effect at its usual size; a limit as it was screened."""
+    usual = {
+        p.name: one.values[one.effect.name, p.name] if p.inverse else _within(p, p.nominal)
+        for p in one.effect.strengths
+    }
+    return {(one.effect.name, name): value for name, value in usual.items()}
+
+
 def _span(found: Rows) -> Array:
     """Orthonormal columns (n_r, rank) that span what refitting can reach, to first order."""
     size = np.linalg.norm(found.jacobian, axis=0)

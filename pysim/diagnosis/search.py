@@ -18,7 +18,7 @@ from pysim.diagnosis.checkpoint import Checkpoint
 from pysim.diagnosis.left import Floors
 from pysim.diagnosis.progress import Progress
 from pysim.diagnosis.refit import FinalFit, begin, converged, race
-from pysim.diagnosis.screen import Screened, best_of_each, screen, screened
+from pysim.diagnosis.screen import Screened, best_of_each, own_values, screen, screened
 from pysim.diagnosis.sensors import sensor_candidates
 from pysim.diagnosis.settings import Settings
 from pysim.identify.greybox import Simulation
@@ -257,6 +257,8 @@ class Search:
             return fit if fit.simulation == simulation else begin(fit.candidate, fit.values, simulation, fit)
 
         starts = [(one.candidate, one.values) for one in going] + [(one, present.values) for one in sensors]
+        if simulation != self.fine:  # far from the floor the present parameters may be those of a wrong optimum
+            starts += [(one.candidate, own_values(one)) for one in going]
 
         def raced() -> list[FinalFit]:
             runners = (

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from pysim.diagnose import diagnose, subject
+from pysim.diagnosis import diagnose, session
 from pysim.types import Model
 from validation.mismatch.tasks import Task
 
@@ -42,9 +42,13 @@ class Answer:
 
 def answer(task: Task) -> Answer:
     """Diagnose a task without the logs that are withheld."""
-    found = diagnose(subject(task.model, task.given, task.catalogue, task.build), seed=0)
+    found = diagnose(session(task.model, task.given, task.catalogue, task.build))
+    effects = {one.effect.name: one.effect for one in found.effects if one.effect.class_name}
     steps: list[Step] = []
-    for stage in found.stages[1:]:  # the first is the untouched model
-        added = [one.effect for one in found.added[: len(steps)]]
-        steps.append(Step(stage.step, task.build(added)[0], {e.name: e.value for e in stage.estimates}))
-    return Answer(tuple(one.effect.name for one in found.added), None, tuple(steps))
+    names: list[str] = []
+    for step in found.history[1:]:  # the first is the untouched model
+        if steps:
+            names += step.step.split(" + ")
+        built = task.build([effects[name] for name in names if name in effects])[0]
+        steps.append(Step(step.step, built, {e.name: e.value for e in step.estimates}))
+    return Answer(tuple(one.effect.name for one in found.effects), found.complete, tuple(steps))
