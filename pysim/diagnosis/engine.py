@@ -130,7 +130,7 @@ def _answer(
     search.say.stage("intervals")
     return Diagnosis(
         effects=verdict.found_effects(found, estimates, session),
-        complete=verdict.is_complete(found, rest, left, session.settings),
+        complete=verdict.is_complete(found, rest, left, last, session.settings),
         left=left,
         rivals=verdict.ranking(search.tables),
         ties=verdict.ties(found),
@@ -153,9 +153,7 @@ def _alone(fit: FinalFit, search: Search) -> FinalFit:
     return again if again.good else fit
 
 
-def _kept(
-    found: Found, models: Sequence[FinalFit], final: FinalFit, search: Search
-) -> list[tuple[str, FinalFit]]:
+def _kept(found: Found, models: Sequence[FinalFit], final: FinalFit, search: Search) -> list[tuple[str, FinalFit]]:
     """Names and models of the steps of the error history; effects that came in together are one step."""
     if models:
         return [(fit.names[-1], final if fit is models[-1] else _alone(fit, search)) for fit in models]

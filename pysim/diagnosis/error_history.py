@@ -40,8 +40,10 @@ def error_step(
     lost = sum(part.lost for part in parts)
     estimates, open_ = held_still(fit) if fitted else ((), ())
     step = ErrorStep(
-        name,
-        *(root_mean_square(records, use) for use in ("fit", "validate", "test")),
+        step=name,
+        fit=root_mean_square(records, "fit"),
+        validate=root_mean_square(records, "validate"),
+        test=root_mean_square(records, TEST),
         criteria={d.criterion.symbol: d.value for d in _worst(deviations)},
         passes=not lost and all(d.passes for d in deviations),
         cost=fit.point.cost,

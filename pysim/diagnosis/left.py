@@ -65,6 +65,13 @@ class Floors:
         sizes = np.sqrt(fit.point.squares / np.maximum(residuals.samples, 1.0))
         return {c: float(size) / self.floors[c].sd for c, size in zip(residuals.channels, sizes, strict=True)}
 
+    def rows(self, fit: FinalFit) -> Array:
+        """(n_r,) the floor of each row of the measurements."""
+        residuals, sizes = fit.candidate.residuals(fit.simulation), list[float]()
+        for one in residuals.observations:
+            sizes += [self.floors[one.dataset, name].sd for name in one.channels] or [1.0]
+        return np.array(sizes)[of(fit).series]
+
     def potential(self, fit: FinalFit) -> float:
         """Nats that a model which left nothing but the floor would gain."""
         residuals = fit.candidate.residuals(fit.simulation)

@@ -90,6 +90,32 @@ def begin(candidate: Candidate, values: Values, simulation: Simulation, present:
     return FinalFit(candidate, replace(state, first_cost=point.cost), simulation, evaluate)
 
 
+def from_first_samples(fit: FinalFit) -> FinalFit:
+    """The same start with states that are logged where their logs begin, if that is better: rest may be far away."""
+    if not fit.good:
+        return fit
+    candidate, states = fit.candidate, list(fit.point.carried.states)
+    residuals = candidate.residuals(fit.simulation)
+    rows = fit.point.residual * candidate.levels(residuals, fit.point)
+    names, run, number = candidate.model.abilities.states, 0, 0
+    for one in residuals.observations:
+        offset = states[run] if one.runs else None
+        if one.domain == "time" and offset is not None:
+            recorded, offset = one.runs[0].experiment.record, offset.copy()
+            for k, place in enumerate(one.runs[0].free.tolist()):
+                if names[place] in recorded:
+                    own = fit.point.series == number + recorded.index(names[place])
+                    offset[k] += rows[own][0]
+            states[run] = offset
+        run += len(one.runs)
+        number += max(len(one.channels), 1)
+    point = fit.evaluate(fit.point.x, replace(fit.point.carried, states=tuple(states)))
+    if not (point.good and point.cost < fit.point.cost):
+        return fit
+    state = _optimiser().begin(point, _bounds(candidate), squares=True)
+    return replace(fit, state=replace(state, first_cost=point.cost))
+
+
 def again(
     candidate: Candidate, x: Array, carried: Carried, simulation: Simulation, outcome: FitOutcome | None, tried: int
 ) -> FinalFit:

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from pysim.diagnosis.candidate import Candidate, Models, Values
+from pysim.diagnosis.candidate import Candidate, Key, Models, Values
 from pysim.diagnosis.refit import FinalFit
 from pysim.diagnosis.rivals import Rows, of, rows
 from pysim.identify.greybox import Simulation
@@ -124,7 +124,7 @@ def _screened(
     carried = candidate.carried(present.candidate, present.point)
     residuals = candidate.residuals(simulation)
     for tried in _values(effect, _largest(candidate, effect, present, simulation), sizes):
-        values = {**present.values, **{(effect.name, name): value for name, value in tried.items()}}
+        values = with_effect(present.values, effect, tried)
         space = candidate.held(values)
         free = not candidate.has_events
         point = residuals.evaluate(candidate.model, space, np.zeros(0), carried, jacobian=False, states=free)
@@ -144,7 +144,7 @@ def _screened(
         if amount < 0 and not _signed(effect):
             amount = 0.0
         scaled = _amounted(effect, tried, amount)
-        start = {**present.values, **{(effect.name, name): value for name, value in scaled.items()}}
+        start = with_effect(present.values, effect, scaled)
         yield Screened(candidate, start, 0.5 * amount**2 * size, left * before.level)
 
 
@@ -155,6 +155,13 @@ def own_values(one: Screened) -> Values:
         for p in one.effect.strengths
     }
     return {(one.effect.name, name): value for name, value in usual.items()}
+
+
+def with_effect(values: Values, effect: Effect, own: Mapping[str, float]) -> dict[Key, float]:
+    """Parameters of a model and of an effect that is new in it."""
+    found: dict[Key, float] = dict(values)
+    found.update({(effect.name, name): value for name, value in own.items()})
+    return found
 
 
 def _span(found: Rows) -> Array:
@@ -198,8 +205,8 @@ def _largest(candidate: Candidate, effect: Effect, present: FinalFit, simulation
     limit = next((p for p in effect.strengths if p.limits), None)
     if limit is None or len(effect.strengths) > 1:
         return None
-    off = {(effect.name, p.name): p.default for p in effect.parameters} | {(effect.name, limit.name): limit.off or 0.0}
-    overrides = candidate.held({**present.values, **off}).fixed
+    off = {**{p.name: p.default for p in effect.parameters}, limit.name: limit.off or 0.0}
+    overrides = candidate.held(with_effect(present.values, effect, off)).fixed
     name = f"{candidate.places[effect.name]}.{limit.limits}"
     runs = [run.experiment.override(**overrides) for run in candidate.residuals(simulation).runs]
     runs = [replace(run, record=(name,)) for run in runs]

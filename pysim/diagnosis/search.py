@@ -17,7 +17,7 @@ from pysim.diagnosis.candidate import Candidate, Models, Values
 from pysim.diagnosis.checkpoint import Checkpoint
 from pysim.diagnosis.left import Floors
 from pysim.diagnosis.progress import Progress
-from pysim.diagnosis.refit import FinalFit, begin, converged, race
+from pysim.diagnosis.refit import FinalFit, begin, converged, from_first_samples, race
 from pysim.diagnosis.screen import Screened, best_of_each, own_values, screen, screened
 from pysim.diagnosis.sensors import sensor_candidates
 from pysim.diagnosis.settings import Settings
@@ -131,13 +131,29 @@ class Search:
         candidate = self.models.of(())
 
         def found() -> FinalFit:
-            first = begin(candidate, {}, self.rough)
+            first = from_first_samples(begin(candidate, {}, self.rough))
             if not first.good:
                 failure = first.point.failure
                 raise BadInput(f"{candidate.model.label} cannot be simulated at its own parameters: {failure}")
             return converged(first, self.fine)
 
-        return self._keep(self._once("base", found, candidate))
+        return self._fine_enough(self._keep(self._once("base", found, candidate)))
+
+    def _fine_enough(self, base: FinalFit) -> FinalFit:
+        """From now on runs are integrated so finely that their error is small beside the floor; the base with it."""
+        floors = self.floors.with_(base)
+        for _ in range(self.settings.refinements):
+            finer = self.fine.finer()
+            other = begin(base.candidate, base.values, finer, base)
+            if not other.good:
+                break
+            error = rivals.of(other).residual - rivals.of(base).residual
+            if np.sqrt(np.mean((error / floors.rows(base)) ** 2)) < self.settings.fine:
+                break
+            self.fine, self.rough = finer, finer.finer(1 / self.settings.rougher)
+            base = self._keep(converged(other))
+            floors = floors.with_(base)
+        return base
 
     def _once(self, part: str, find: Callable[[], FinalFit], candidate: Candidate) -> FinalFit:
         """One refit of the checkpoint."""
@@ -299,7 +315,8 @@ class Search:
         if not self._is_near(present):
             return list(screened), []
         left, count = rivals.of(present), rivals.samples(present)
-        going, aside = [], []
+        going: list[Screened] = []
+        aside: list[Screened] = []
         for one in screened:
             inflated = rivals.effective(left, one.change)
             df = len(one.effect.parameters)

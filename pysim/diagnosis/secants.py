@@ -52,7 +52,8 @@ class Secants:
             step = x - self._at[0]
             square = float(step @ step)
             if square > 0:
-                self._slopes += np.outer(residual - self._at[1] - self._slopes @ step, step) / square
+                change = residual - self._at[1] - self._slopes @ step
+                self._slopes = np.asarray(self._slopes + np.outer(change, step) / square)
         self._at = x, residual
         return replace(point, jacobian=self._slopes / size[:, None], steps=self._no_steps(point, x.size))
 
@@ -60,15 +61,15 @@ class Secants:
         candidate = self._candidate
         return self._residuals.evaluate(candidate.model, candidate.space, x, carried, jacobian=False, states=False)
 
-    def _first(self, x: Array, carried: Carried, residual: Array, own: NDArray[np.bool_]) -> Array:
+    def _first(self, x: Array, carried: Carried, residual: Array, rows: NDArray[np.bool_]) -> Array:
         """(n_r, n): columns that are known, and differences for the others."""
         columns = []
         upper = self._candidate.space.bounds()[1]
         for j, key in enumerate(self._candidate.keys):
             known = self._known.get(key)
-            if known is not None and known.size == np.count_nonzero(own):
+            if known is not None and known.size == np.count_nonzero(rows):
                 column = np.zeros(residual.size)
-                column[own] = known
+                column[rows] = known
                 columns.append(column)
                 continue
             step = _STEP if x[j] + _STEP <= upper[j] else -_STEP

@@ -61,6 +61,19 @@ class Settings:
         1.05, unit="1", meaning="error on logs not fitted over that on those fitted, up to which a model is complete",
         source="measured: coloured nulls",
     )  # fmt: skip
+    fine: float = setting(
+        0.1, unit="1", meaning="error of the integration over the floor, above which it is refined",
+        source="adds half a percent to what is left",
+    )  # fmt: skip
+    rougher: float = setting(
+        30.0, unit="1", meaning="tolerance of candidates' runs over that of what is kept, once that was refined",
+        source="as between a fit's rough and fine search",
+    )  # fmt: skip
+    refinements: int = setting(3, unit="1", meaning="tenfold refinements at most", source="to 1e-8, near rounding")
+    unexplained: float = setting(
+        0.5, unit="1", meaning="residual over the signal's standard deviation from which on no model is complete",
+        source="half of fit percent: less is no description of the plant",
+    )  # fmt: skip
     follows_t: float = setting(
         3.0, unit="1", meaning="standard deviations from which on a residual follows the model's own signals",
         source="a chance of 0.1 %",

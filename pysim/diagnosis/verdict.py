@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 
+import numpy as np
+
 from pysim.diagnosis import rivals
 from pysim.diagnosis.candidate import sensor_name
 from pysim.diagnosis.left import Floors, Follows
@@ -14,7 +16,7 @@ from pysim.diagnosis.session import Session
 from pysim.diagnosis.settings import Settings
 from pysim.identify.greybox import Nuisance, NuisanceKind
 from pysim.types import Effect, EffectParameter, Estimate, Note, NoteCode
-from pysim.types.answer import FoundEffect, GainTest, Left, Rival
+from pysim.types.answer import ErrorStep, FoundEffect, GainTest, Left, Rival
 
 _Z95 = 1.959963984540054
 
@@ -65,7 +67,7 @@ def what_is_left(found: Found, follows: Follows | None, held_out: Mapping[str, f
     )
 
 
-def is_complete(found: Found, follows: Follows | None, left: Left, settings: Settings) -> bool:
+def is_complete(found: Found, follows: Follows | None, left: Left, last: ErrorStep, settings: Settings) -> bool:
     """Whether nothing but noise is left.
 
     No candidate passes its test, the residual does not follow the model's signals, and the error on logs that were not
@@ -77,7 +79,21 @@ def is_complete(found: Found, follows: Follows | None, left: Left, settings: Set
         return False
     if left.fit is not None and left.validate is not None and left.validate > settings.held_out * max(left.fit, 1.0):
         return False
-    return follows is not None or is_white(found.floors, found.final, settings)
+    if is_white(found.floors, found.final, settings):
+        return True
+    return follows is not None and not hardly_explains(last, settings)
+
+
+def hardly_explains(last: ErrorStep, settings: Settings) -> bool:
+    """Whether a signal is left with so large a residual that the model hardly describes it."""
+    return any(
+        float(np.std(record.measured.values[:, j] - record.simulated.values[:, j]))
+        > settings.unexplained * float(np.std(record.measured.values[:, j]))
+        for record in last.records
+        if record.use == "fit"
+        for j in range(record.measured.values.shape[1])
+        if float(np.std(record.measured.values[:, j])) > settings.near * record.noise[j]
+    )
 
 
 def is_white(floors: Floors, fit: FinalFit, settings: Settings) -> bool:

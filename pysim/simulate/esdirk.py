@@ -91,8 +91,8 @@ class Esdirk(Adaptive):
     Args:
         derivative_tol: tolerated error of a step in each column of derivatives, of the column's size. The steps that
             the states ask for are too long for the derivatives where the model has a kink, as where a valve saturates:
-            1e-3 divides their error there by three, for half as much time again. Infinite leaves the derivatives to
-            the steps of the states. Nothing to a plain run.
+            three times rtol divides their error there by ten, for half as much time again. Infinite leaves the
+            derivatives to the steps of the states. Nothing to a plain run.
         rtol, atol, max_step, max_steps: as of every solver that chooses its steps.
     """
 
