@@ -25,9 +25,10 @@ Array = NDArray[np.float64]
 Key = str | tuple[str, str]
 Values = Mapping[Key, float]
 
-# What only a model with events can say.
-_SWITCHES = re.compile(r"\b(when|pre|sample|reinit|edge|change)\b|[<>]")
-_NO_EVENT = re.compile(r"noEvent\s*\((?:[^()]|\((?:[^()]|\([^()]*\))*\))*\)")
+# What only a model with events can say, what keeps relations from being events, and what is for readers alone.
+_SWITCHES = re.compile(r"\b(when|pre|sample|reinit|edge|change|div|mod|rem|ceil|floor|integer)\b|[<>]")
+_NO_EVENT = re.compile(r"\b(noEvent|smooth)\s*\(")
+_WORDS = re.compile(r'"(?:[^"\\]|\\.)*"|//[^\n]*|/\*.*?\*/', re.DOTALL)
 
 
 @dataclass(frozen=True)
@@ -256,4 +257,11 @@ def parameter(place: str, p: EffectParameter) -> Parameter:
 
 def switches(effect: Effect) -> bool:
     """Whether the effect's law has events."""
-    return bool(_SWITCHES.search(_NO_EVENT.sub("", effect.law)))
+    law = _WORDS.sub("", effect.law)
+    while found := _NO_EVENT.search(law):
+        depth, end = 1, found.end()
+        while depth and end < len(law):
+            depth += {"(": 1, ")": -1}.get(law[end], 0)
+            end += 1
+        law = law[: found.start()] + law[end:]
+    return bool(_SWITCHES.search(law))
