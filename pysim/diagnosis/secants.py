@@ -17,8 +17,10 @@ from pysim.identify.greybox.residuals import Carried
 
 Array = NDArray[np.float64]
 
-# Step of a difference, in the numbers of the search: its square root of rounding is that of integration, 1e-5.
-_STEP = 3e-3
+# Steps of a difference, in the numbers of the search: the first one, the factor to the next, and the longest. A step is
+# long enough where it changes the residual by this share of its level, which integration errors do not.
+_FIRST, _LONGER, _LONGEST = 3e-3, 6.0, 0.11
+_SEEN = 0.1
 
 
 class Secants:
@@ -64,7 +66,6 @@ class Secants:
     def _first(self, x: Array, carried: Carried, residual: Array, rows: NDArray[np.bool_]) -> Array:
         """(n_r, n): columns that are known, and differences for the others."""
         columns = []
-        upper = self._candidate.space.bounds()[1]
         for j, key in enumerate(self._candidate.keys):
             known = self._known.get(key)
             if known is not None and known.size == np.count_nonzero(rows):
@@ -72,13 +73,25 @@ class Secants:
                 column[rows] = known
                 columns.append(column)
                 continue
-            step = _STEP if x[j] + _STEP <= upper[j] else -_STEP
-            moved = x.copy()
-            moved[j] += step
-            there = self._plain(moved, carried)
-            own = there.residual * self._candidate.levels(self._residuals, there) if there.good else residual
-            columns.append((own - residual) / step)
+            columns.append(self._difference(x, carried, residual, j))
         return np.column_stack(columns) if columns else np.zeros((residual.size, 0))
+
+    def _difference(self, x: Array, carried: Carried, residual: Array, j: int) -> Array:
+        """(n_r,) slope by the j-th number, over a step that is long enough to be seen; 0 where there is no answer."""
+        upper, column, step = self._candidate.space.bounds()[1][j], np.zeros(residual.size), _FIRST
+        while step <= _LONGEST:
+            moved = x.copy()
+            moved[j] += step if x[j] + step <= upper else -step
+            there = self._plain(moved, carried)
+            if not there.good:
+                break
+            size = self._candidate.levels(self._residuals, there)
+            change = there.residual * size - residual
+            column = change / (moved[j] - x[j])
+            if float(np.mean((change / size) ** 2)) >= _SEEN**2:
+                break
+            step *= _LONGER
+        return column
 
     @staticmethod
     def _no_steps(point: Point, n: int) -> tuple[tuple[Array, Array] | None, ...]:
