@@ -171,17 +171,17 @@ def race(runners: Iterable[tuple[FinalFit, float]], settings: Settings, fine: Si
         fine: simulation by which the best end.
     """
     running = [(fit, before) for fit, before in runners if fit.good]
+    resting: list[tuple[FinalFit, float]] = []
     while running:
         running = _best_starts([(advance(fit, settings.heat), before) for fit, before in running])
-        most = max(before - fit.expected for fit, before in running)
-        going = [
-            (fit, before)
-            for fit, before in running
-            if fit.state.outcome is None and before - fit.expected >= settings.promising * max(most, 0.0)
-        ]
+        most = max(before - fit.expected for fit, before in (*running, *resting))
+        least = settings.promising * max(most, 0.0)
+        going = [one for one in running if one[0].state.outcome is None and one[1] - one[0].expected >= least]
         if len(going) <= settings.finalists:
             break
-        running = [one for one in running if one not in going] + going
+        resting += [one for one in running if not any(one is other for other in going)]
+        running = going
+    running += resting
     running.sort(key=lambda one: one[0].expected - one[1])
     ended = [
         (converged(fit, fine) if k < settings.finalists else fit, before) for k, (fit, before) in enumerate(running)
