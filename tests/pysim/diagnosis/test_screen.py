@@ -1,0 +1,112 @@
+"""First-order gains against refits, for effects that are linear in their strength."""
+
+import math
+from dataclasses import replace
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from pysim.diagnosis import rivals
+from pysim.diagnosis.candidate import Models
+from pysim.diagnosis.refit import FinalFit, begin, converged
+from pysim.diagnosis.screen import Screened, Sizes, best_of_each, screen
+from pysim.diagnosis.session import session
+from pysim.effects import read_catalogue
+from pysim.workflow.variants import Variants
+from tests.known_answers.plants import PLANTS
+from tests.pysim.diagnosis.plants import FINE, given, measured, refitted
+
+STOPS = """
+package Stops
+  model Ends "End stops"
+    extends Mass.PartialForce;
+    parameter Real inverse_x_m(unit="1/m", min=0, max=50, nominal=5) = 0 "0 = off"
+      annotation(__HydraulicTestBench(inverse="x_m", limits="x"));
+  equation
+    f = noEvent(if x*inverse_x_m > 1 then -50*(x - 1/inverse_x_m)
+      elseif x*inverse_x_m < -1 then -50*(x + 1/inverse_x_m) else 0);
+    annotation(__HydraulicTestBench(effect="stops.ends", slot="force"));
+  end Ends;
+end Stops;
+"""
+FORCE = -0.02  # N, constant: it shifts the mass by half its noise
+
+
+@cache
+def models() -> Models:
+    return Models(given("mass", measured("mass", {"mass.bias": {"F_b": FORCE}}, {"d": 1.9})))
+
+
+@cache
+def base() -> FinalFit:
+    return refitted(models())
+
+
+def screened(sizes: Sizes | None = None) -> dict[str, Screened]:
+    return {one.effect.name: one for one in best_of_each(screen(models(), lambda transient: base(), FINE, sizes))}
+
+
+def test_of_a_linear_effect_it_foresees_what_a_refit_gains() -> None:
+    """With levels held it promises half the fall of the squares over them; the refit gains n/2 times a logarithm."""
+    found = screened()["mass.bias"]
+    refit = converged(begin(found.candidate, found.values, FINE, base()))
+    n = rivals.samples(base())
+    assert base().point.cost - refit.point.cost == pytest.approx(-n / 2 * math.log(1 - 2 * found.gain / n), rel=0.03)
+    assert refit.values["mass.bias", "F_b"] == pytest.approx(FORCE, abs=0.004)
+
+
+def test_at_whatever_size_a_linear_effect_is_tried_it_promises_the_same() -> None:
+    gains = [screened(Sizes(usual=(size,)))["mass.bias"].gain for size in (0.03, 0.3, 3.0)]
+    assert gains == pytest.approx([gains[0]] * 3, rel=0.02)
+
+
+def test_the_refit_begins_near_the_amount_that_is_best() -> None:
+    """Within a fifth and three times of what was tried, where first order is trusted."""
+    nominal = 0.3
+    near = screened(Sizes(usual=(0.1,)))["mass.bias"].values["mass.bias", "F_b"]
+    assert near == pytest.approx(FORCE, abs=0.005)
+    far = screened(Sizes(usual=(0.01,)))["mass.bias"].values["mass.bias", "F_b"]
+    assert far == pytest.approx(-3 * 0.01 * nominal)
+
+
+def test_the_change_is_what_refitting_cannot_do() -> None:
+    own = rivals.of(base())
+    for one in screened().values():
+        along = own.jacobian.T @ (one.change / own.level)
+        assert np.abs(along).max() < 1e-6 * np.linalg.norm(one.change / own.level) * np.linalg.norm(own.jacobian)
+
+
+def test_the_best_gain_comes_first_and_each_effect_once() -> None:
+    found = screen(models(), lambda transient: base(), FINE, Sizes(usual=(0.1, 0.3)))
+    assert [one.gain for one in found] == sorted((one.gain for one in found), reverse=True)
+    best = best_of_each(found)
+    assert len(best) == len({one.effect.name for one in found}) < len(found)
+    assert best[0].gain == found[0].gain
+    assert best[0].effect.name == "mass.bias"
+
+
+def test_a_strength_of_one_sign_gains_nothing_against_it() -> None:
+    """The plant damps less than a model whose damping may not fall: drag would have to be negative."""
+    data = measured("mass", {}, {"d": 1.5}, fit=(1,), length=4.0)
+    own = Models(given("mass", data, ("mass.drag",)))
+    held = begin(own.of(()), {"d": 3.0}, FINE)
+    point = replace(held.point, jacobian=np.zeros_like(held.point.jacobian))
+    blind = replace(held, state=replace(held.state, best=point))
+    (found,) = screen(own, lambda transient: blind, FINE)
+    assert found.gain == 0
+    assert found.values["mass.drag", "c_2"] > 0
+
+
+def test_a_limit_is_tried_below_what_its_variable_reaches(tmp_path: Path) -> None:
+    library = tmp_path / "Stops.mo"
+    library.write_text(STOPS, encoding="utf-8")
+    own = Variants("Mass.Design", (PLANTS["mass"].library, library))
+    data = measured("mass", length=4.0)
+    made = Models(session(own.build(())[0], data, read_catalogue(library), own.build, initial="rest", workers=1))
+    fit = refitted(made)
+    found = screen(made, lambda transient: fit, FINE, Sizes(limits=(0.9, 0.5)))
+    most = max(float(np.abs(record.data["x"]).max()) for record in data.records if record.use == "fit")
+    tried = sorted(1 / one.values["stops.ends", "inverse_x_m"] for one in found)
+    assert tried == pytest.approx([0.5 * most, 0.9 * most], rel=0.03)
