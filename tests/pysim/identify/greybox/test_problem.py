@@ -10,10 +10,11 @@ from pysim.effects import read_catalogue
 from pysim.identify.greybox import Measurements, Parameter, Problem, Treatment, problem
 from pysim.identify.greybox.problem import beside
 from pysim.identify.greybox.residuals import Point
-from pysim.types import Dataset
+from pysim.types import Dataset, Model
 from pysim.workflow.variants import Variants
 from tests.known_answers.plants import PLANTS
 from tests.pysim.diagnosis.plants import FINE, catalogue, measured, variants
+from tests.pysim.identify.greybox import measurements as m
 
 RELAXING = """
 package More
@@ -64,6 +65,16 @@ def test_it_counts_as_a_problem_that_is_made_anew(effects: tuple[str, ...], init
         assert one.cost == pytest.approx(other.cost, rel=1e-9)
         assert one.residual == pytest.approx(other.residual, rel=1e-6, abs=1e-9)
         assert np.abs(one.jacobian - other.jacobian).max() < 1e-6 * np.abs(other.jacobian).max()
+
+
+def test_tables_and_stepped_sines_go_along_too(lag: Model) -> None:
+    records = [m.table(1.5, 0.4, np.array([0.1, 1.0, 3.0])), m.sine_log(1.5, 0.4, 0.5, 1), m.ramp_log(1.5, 0.4, 2)]
+    base = problem(lag, [Measurements(m.dataset(records))], ["K", "T"])
+    moved = beside(base, lag, ["K", "T", "g"])
+    anew = problem(lag, [Measurements(m.dataset(records))], ["K", "T", "g"])
+    one, other = at(moved, 0.05), at(anew, 0.05)
+    assert one.cost == pytest.approx(other.cost, rel=1e-9)
+    assert one.jacobian == pytest.approx(other.jacobian)
 
 
 def test_states_that_are_new_are_as_free_as_their_size(tmp_path: Path) -> None:
