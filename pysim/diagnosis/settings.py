@@ -82,3 +82,54 @@ class Settings:
         4, unit="1", meaning="effects in a model at most", source="more have no name to a reader"
     )
     seed: int = setting(0, unit="1", meaning="of every draw", source="convention")
+
+
+@dataclass(frozen=True)
+class TestSettings:
+    """Which tests are looked at to separate two models, and when they are enough."""
+
+    enough: float = setting(
+        50.0, unit="1", meaning="expected difference of the sums of squares over noise that settles a tie",
+        source="three times the 16 of which half is two standard deviations of itself (`Settings.tie`)",
+    )  # fmt: skip
+    most: int = setting(3, unit="1", meaning="tests in a plan at most", source="more is a campaign of its own")
+    repeats: int = setting(4, unit="1", meaning="times that a test is repeated at most", source="half the noise")
+    parts: tuple[int, int] = setting(
+        (2, 4), unit="1", meaning="parts that the command's range is cut into: on one side of zero, and on both",
+        source="a mean and an amplitude on each side",
+    )  # fmt: skip
+    side: float = setting(
+        0.1, unit="1", meaning="share of its largest size that a command must reach on a side to count as there",
+        source="less is noise of the command",
+    )  # fmt: skip
+    amplitudes: tuple[float, ...] = setting(
+        (0.2, 1.0), unit="1", meaning="of a sine, over half the width of its part",
+        source="laws that depend on the amplitude show between them",
+    )  # fmt: skip
+    frequencies: int = setting(6, unit="1", meaning="of sines, in equal ratios", source="three a decade")
+    periods: int = setting(3, unit="1", meaning="whole periods of a sine at least", source="one is left to settle")
+    samples: int = setting(300, unit="1", meaning="of a sine's log at least", source="50 for each of six parameters")
+    peaks: tuple[float, ...] = setting(
+        (0.4, 0.7), unit="1", meaning="peaks of waves between the lowest and the highest frequency, in logarithms",
+        source="the spectrum falls to a tenth at twice its peak, and stays within the band",
+    )  # fmt: skip
+    height: float = setting(
+        0.8, unit="1", meaning="significant height of a wave over half the command's range",
+        source="Longuet-Higgins 1952: of 200 waves the highest is 1.6 times as high",
+    )  # fmt: skip
+    wave: int = setting(2000, unit="1", meaning="samples of a wave", source="as the thesis' waves")
+    wait: int = setting(10_000, unit="1", meaning="samples in which a step must settle", source="five waves")
+    still: float = setting(
+        0.2, unit="1", meaning="noise within which a system counts as settled", source="a hundred samples hide it"
+    )
+    unlogged: float = setting(
+        1e-3, unit="1", meaning="noise of a signal that was never logged, over its range", source="IEC 60770-1: class 0.1"
+    )
+    errors: float = setting(
+        10.0, unit="1", meaning="noise of a signal that was never logged, over the error of its simulation at least",
+        source="below it the error counts as evidence",
+    )  # fmt: skip
+    readable: float = setting(
+        0.1, unit="1", meaning="noise over range from which on a signal is not worth logging", source="nothing is read"
+    )
+    seed: int = setting(1, unit="1", meaning="of waves", source="convention")

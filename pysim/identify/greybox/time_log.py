@@ -112,7 +112,7 @@ class TimeLog:
                 columns[:, j, k] = -np.gradient(answer.values[:, j], time)
             else:
                 columns[:, j, k] = (self.begin or 0.0) + time - time[0]
-        return columns.reshape(-1, len(nuisances))
+        return columns.reshape(self.measured.values.size, len(nuisances))
 
     def pieces(self, residual: Array, shortest: float) -> NDArray[np.intp]:
         """Contiguous stretches of whole samples, as long as the slowest channel needs them to be."""

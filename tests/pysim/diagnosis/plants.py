@@ -46,10 +46,10 @@ def measured(
         for seed in getattr(case.logs, use):
             time, values = case.logged(seed)
             records.append(MeasuredRecord(f"{use}-{seed}.txt", "stochastic", use, Record(time, values, names, units)))
-    signals = [MeasuredSignal(own.command, "input", own.unit, "", own.command)]
+    signals = [MeasuredSignal(own.command, "input", own.unit, own.command, own.command)]
     for name, sensor in own.sensors.items():
         noise = case.logs.stated * case.logs.louder * sensor.noise or None
-        signals.append(MeasuredSignal(name, "output", sensor.unit, "", name, noise=noise))
+        signals.append(MeasuredSignal(name, "output", sensor.unit, name, name, noise=noise))
     return Dataset(plant, "of a known answer", "plant", tuple(signals), tuple(records))
 
 

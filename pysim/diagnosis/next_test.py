@@ -1,0 +1,250 @@
+"""The experiment that would tell two explanations apart.
+
+Each model in turn is taken for the truth, and the other is refitted, to first order, to the data at hand and to the new
+test together; the smaller of the two misfits that remain is the gain.
+
+Source: Atkinson and Fedorov 1975, Biometrika 62:57 (T-optimality), with the information of the data at hand.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pysim.diagnosis import rivals
+from pysim.diagnosis.candidate_tests import CandidateTest, candidate_tests, plan_text
+from pysim.diagnosis.refit import FinalFit
+from pysim.diagnosis.session import Session
+from pysim.diagnosis.settings import TestSettings
+from pysim.identify.greybox import Simulation
+from pysim.identify.greybox.observation import Run, Simulated
+from pysim.identify.greybox.runs import simulate_runs
+from pysim.identify.greybox.time_log import TimeLog
+from pysim.simulate import Esdirk, Rodas, simulate, simulate_many
+from pysim.types import BadInput, Experiment, MeasuredSignal, NextTest, Outcome, Record
+
+Array = NDArray[np.float64]
+Signals = Sequence[MeasuredSignal]
+Tests = Sequence[CandidateTest]
+Plan = Sequence[tuple[int, int]]  # number of a test, and how often it is run
+# Per test, by signal: products of the difference of the two models over noise (first) and of the second model's slopes,
+# (1 + n, 1 + n), and the same with the slopes of the first model. Nothing for a test that cannot be simulated.
+Table = Sequence[Mapping[str, tuple[Array, Array]]]
+
+# Relative tolerances: of a look ahead, and of what is compared, whose errors would count as evidence otherwise.
+_COARSE, _FINE = 1e-5, 1e-6
+# Units of numbers within a controller or a block, where nothing stands that a sensor could be put to.
+_WITHIN = ("", "1", "%", "%/s")
+
+
+def next_test(
+    session: Session, one: FinalFit, other: FinalFit, settings: TestSettings | None = None
+) -> NextTest | None:
+    """The shortest set of tests that is expected to separate two refitted models; None where none would.
+
+    Signals that are logged already are preferred; one more is asked for where they are not enough, an output of the
+    model rather than a state. Noise is as large as what the better of the two models leaves, and as coloured.
+
+    Args:
+        one, other: with slopes that are exact at their points.
+    Raises:
+        BadInput: no output that was fitted over time, other than one command, or one that never moves.
+    """
+    settings = settings or TestSettings()
+    settings = replace(settings, enough=_colour(one, other) * settings.enough)
+    noise = _levels(one, other)
+    logged = _logged(session, noise)
+    tests = candidate_tests(
+        session.dataset, lambda run: _settled(session, one, logged, run, settings.still), session.model, settings
+    )
+    outputs, states = loggable(session, one, other, tests, settings)
+    signals = (*logged, *outputs, *states)
+    noise |= {signal.name: signal.deviation for signal in (*outputs, *states)}
+    table, known = _table(session, (one, other), tests, signals, noise), (_known(other), _known(one))
+    own, seconds = tuple(signal.name for signal in logged), [test.seconds for test in tests]
+    best: tuple[float, Plan, Sequence[str]] = (0.0, (), ())
+    for tier in ([own], *([(*own, s.name) for s in new] for new in (outputs, states))):
+        for names in tier:
+            gain, plan = cheapest(seconds, table, names, known, settings)
+            if gain > best[0] * (1 if best[0] < settings.enough else 4):
+                best = gain, plan, names
+        if best[0] >= settings.enough:
+            chosen = [test for k, count in best[1] for test in tests[k].repeated(count)]
+            return _described(session, (one, other), chosen, [s for s in signals if s.name in best[2]], best[0])
+    return None
+
+
+def _levels(*fits: FinalFit) -> dict[str, float]:
+    """Level of the residual of each output, in its unit: the smallest that a model reaches."""
+    found: dict[str, float] = {}
+    for fit in fits:
+        channels = fit.candidate.residuals(fit.simulation).channels
+        for (_, name), level in zip(channels, fit.point.levels.tolist(), strict=True):
+            found[name] = min(level, found.get(name, math.inf))
+    return found
+
+
+def _logged(session: Session, level: Mapping[str, float]) -> tuple[MeasuredSignal, ...]:
+    """Compared outputs, with the noise that is specified; else with what a model leaves beside rounding."""
+    found = [signal for signal in session.dataset.signals if signal.name in level]
+    seen = [math.sqrt(max(level[s.name] ** 2 - s.deviation**2, 0.0)) if s.noise is None else s.noise for s in found]
+    return tuple(replace(signal, noise=noise) for signal, noise in zip(found, seen, strict=True))
+
+
+def _colour(one: FinalFit, other: FinalFit) -> float:
+    """lambda of the data at hand: by how much more than white noise the new residuals will scatter."""
+    own, its = rivals.of(one), rivals.of(other)
+    return rivals.effective(own, its.residual - own.residual) if rivals.aligned([own, its]) else 1.0
+
+
+def _known(fit: FinalFit) -> Array:
+    """(n, n) information of the data at hand on the parameters, and of priors alone on the sensors' errors."""
+    n, size = fit.point.x.size, fit.candidate.size
+    whole = np.diag([0.0] * n + [one.prior_sd**-2 for one in fit.candidate.nuisances]).reshape(size, size)
+    whole[:n, :n] = fit.point.jacobian.T @ fit.point.jacobian
+    return whole
+
+
+def _overrides(session: Session, fit: FinalFit) -> dict[str, float]:
+    return {**session.data.overrides, **fit.candidate.space.values(fit.point.x)}
+
+
+def _settled(session: Session, fit: FinalFit, signals: Signals, run: Experiment, still: float) -> float:
+    """When all signals stay within that share of their noise of where they end, s; the end where that is unknown."""
+    if not signals:
+        raise BadInput("a next test needs an output in a log over time to go by; log one")
+    asked = replace(run, record=tuple(s.variable for s in signals), overrides=_overrides(session, fit))
+    record = simulate(fit.candidate.model, asked, solver=Rodas(_COARSE, _COARSE), check=False)
+    if record.outcome is not Outcome.DONE or not np.isfinite(record.values).all():
+        return float(run.times[-1])
+    away = np.abs(record.values - record.values[-1]) > [still * s.deviation for s in signals]
+    last = np.flatnonzero(away.any(axis=1))
+    return float(record.time[last[-1]]) if last.size else 0.0
+
+
+def loggable(
+    session: Session, one: FinalFit, other: FinalFit, tests: Tests, settings: TestSettings
+) -> tuple[tuple[MeasuredSignal, ...], tuple[MeasuredSignal, ...]]:
+    """Outputs, and states in physical units, that all models have and that move; their noise a share of their range.
+
+    It is errors of the integration at least, which would count as evidence otherwise.
+    """
+    model, known = session.model, {signal.variable for signal in session.dataset.signals}
+    shared = {v.name for v in one.candidate.model.variables} & {v.name for v in other.candidate.model.variables}
+    outputs = [v.name for v in model.variables if v.causality == "output"]
+    states = [name for name in model.abilities.states if model[name].unit not in _WITHIN]
+    names = [name for name in dict.fromkeys([*outputs, *states]) if name in shared - known]
+    if not names:
+        return (), ()
+    runs = [test.experiment(one.candidate.model, tuple(names), _overrides(session, one)) for test in tests]
+    ends = []
+    for rtol in (_COARSE, _FINE):
+        records = simulate_many(one.candidate.model, runs, solver=Rodas(rtol=rtol, atol=rtol))
+        ends.append(np.concatenate([record.values for record in records]))
+        if any(r.outcome is not Outcome.DONE for r in records) or not np.isfinite(ends[-1]).all():
+            return (), ()
+    span, error = np.ptp(ends[1], axis=0), np.sqrt(np.mean((ends[0] - ends[1]) ** 2, axis=0))
+    noise = np.maximum(settings.unlogged * span, settings.errors * error)
+    found = [
+        MeasuredSignal(name, "output", model[name].unit, name, name, noise=float(own))
+        for name, own, wide in zip(names, noise, span, strict=True)
+        if 0 < own < settings.readable * wide
+    ]
+    return tuple(s for s in found if s.name in outputs), tuple(s for s in found if s.name not in outputs)
+
+
+def _table(
+    session: Session, fits: tuple[FinalFit, FinalFit], tests: Tests, signals: Signals, noise: Mapping[str, float]
+) -> Table:
+    """Test by test what each signal says."""
+    table: list[dict[str, tuple[Array, Array]]] = []
+    read = [_readings(session, fit, tests, signals) for fit in fits]
+    for test, first, second in zip(tests, *read, strict=True):
+        table.append({})
+        if first is None or second is None:
+            continue
+        apart = first[:, :, :1] - second[:, :, :1]
+        for j, signal in enumerate(signals):
+            own = [np.hstack([apart[:, j], slopes[:, j, 1:]]) / noise[signal.name] for slopes in (second, first)]
+            of_second, of_first = (test.counted(rows) for rows in own)
+            table[-1][signal.name] = of_second.T @ of_second, of_first.T @ of_first
+    return table
+
+
+def _readings(session: Session, fit: FinalFit, tests: Tests, signals: Signals) -> list[Array | None]:
+    """Per test what the sensors would read, and its slopes by all that is free (n_t, n_y, 1 + n); None without."""
+    candidate, simulation = fit.candidate, Simulation(Esdirk(_FINE, _FINE), workers=session.workers)
+    variables, overrides = tuple(s.variable for s in signals), dict(session.data.overrides)
+    runs = [Run(str(k), t.experiment(candidate.model, variables, overrides)) for k, t in enumerate(tests)]
+
+    def simulated(some: Sequence[Run]) -> tuple[Simulated, ...]:
+        none = [None] * len(some)
+        return simulate_runs(candidate.model, candidate.space, some, fit.point.x, none, simulation).simulated
+
+    names, units, ones = tuple(s.name for s in signals), tuple(s.unit for s in signals), (1.0,) * len(signals)
+    count = len(candidate.nuisances)
+
+    def read(run: Run, answer: Simulated) -> Array:
+        record = Record(run.experiment.times, answer.values, names, units)
+        log = TimeLog(session.dataset.name, run.record, "", "fit", record, ones, ones, run, index=0)
+        errors = log.nuisance_columns([answer], candidate.nuisances).reshape(*answer.values.shape, count)
+        values = answer.values + errors @ fit.point.carried.nuisances
+        return np.concatenate([values[:, :, None], answer.slopes, errors], axis=2)
+
+    every = simulated(runs) or [next(iter(simulated([run])), None) for run in runs]
+    return [None if answer is None else read(run, answer) for run, answer in zip(runs, every, strict=True)]
+
+
+def remaining(products: Array, known: Array) -> float:
+    """Squared misfit that is left once a model is refitted to a difference and to old data.
+
+    Args:
+        products: (1 + n, 1 + n) of the difference over noise, first, and of the model's slopes.
+        known: (n, n) information of the old data.
+    """
+    slope = products[1:, 0]
+    return float(products[0, 0] - slope @ np.linalg.lstsq(known + products[1:, 1:], slope, rcond=1e-12)[0])
+
+
+def cheapest(
+    seconds: Sequence[float], table: Table, names: Sequence[str], known: tuple[Array, Array], settings: TestSettings
+) -> tuple[float, Plan]:
+    """Tests, each the best for its time on the bench, until together they are enough; and what they gain.
+
+    Args:
+        seconds: of each test.
+        table: what each test says.
+        names: of the signals that are logged.
+        known: information of the data at hand on the second model (n, n), and on the first.
+    """
+    total = [np.zeros((len(own) + 1, len(own) + 1)) for own in known]
+    gain, chosen = 0.0, dict[int, int]()
+    while gain < settings.enough:
+        options = []
+        for k, time in enumerate(seconds):
+            full = len(chosen) == settings.most and k not in chosen
+            if not table[k] or full or chosen.get(k, 0) == settings.repeats:
+                continue
+            added = [whole + sum(table[k][name][side] for name in names) for side, whole in enumerate(total)]
+            worth = min(remaining(one, own) for one, own in zip(added, known, strict=True))
+            options.append(((min(worth, settings.enough) - gain) / time, k, worth, added))
+        _, k, worth, added = max(options, key=lambda option: option[:2], default=(0.0, 0, gain, total))
+        if worth <= gain:
+            break
+        total, gain = added, worth
+        chosen[k] = chosen.get(k, 0) + 1
+    return gain, sorted(chosen.items())
+
+
+def _described(session: Session, fits: Sequence[FinalFit], tests: Tests, signals: Signals, gain: float) -> NextTest:
+    """In a sentence, and as a test plan."""
+    one, other = (" + ".join(fit.names) or "none" for fit in fits)
+    have = {signal.name for signal in session.dataset.signals}
+    new = [f"{s.name}, {s.noise:.2g}{'' if s.unit == '1' else ' ' + s.unit}" for s in signals if s.name not in have]
+    also = f" (new: {new[0]} of noise assumed)" if new else ""
+    about = f"Run {'; '.join(map(str, tests))}. Log {', '.join(signal.name for signal in signals)}{also}."
+    return NextTest((one, other), gain, about, plan_text(tests, signals, session.dataset.system, (one, other)))
