@@ -438,10 +438,10 @@ class Search:
                 return None
             space = fit.candidate.space
             point = settled_initial_states(residuals, fit.candidate.model, space, fit.point.x)
-            if not point.good:
-                return None if fit is larger else (-math.inf, 0.0)
-            ends.append((rivals.rows(fit.candidate, residuals, point), point.cost))
+            ends.append((rivals.rows(fit.candidate, residuals, point) if point.good else None, point.cost))
         (own, cost), (other, before) = ends
+        if own is None or other is None:
+            return None if own is other else (cost - before, 0.0)  # one cannot be simulated there: infinite
         apart = other.residual - own.residual
         reach = rivals.tolerance(rivals.effective(own, apart), apart, own.level, self.settings.tie)
         return cost - before, reach

@@ -1,0 +1,68 @@
+"""What logs that may choose say of a larger model."""
+
+import math
+from dataclasses import replace
+from functools import cache
+from pathlib import Path
+from tempfile import mkdtemp
+
+import pytest
+
+from pysim.diagnosis.candidate import Models
+from pysim.diagnosis.progress import Progress
+from pysim.diagnosis.refit import FinalFit
+from pysim.diagnosis.search import Search
+from pysim.diagnosis.session import session
+from pysim.diagnosis.settings import Settings
+from pysim.effects import read_catalogue
+from pysim.types.answer import Verdict
+from pysim.workflow.variants import Variants
+from tests.known_answers.plants import PLANTS
+from tests.pysim.diagnosis.plants import FINE, measured, refitted
+
+FRAIL = """
+package Frail
+  model Drag "A law that ends at 0.15 m, whatever its size"
+    extends Mass.PartialForce;
+    parameter Real a(unit="N.s/m", min=0, max=5, nominal=1) = 0 "0 = off";
+  equation
+    f = -a*v*sqrt(1 - x/0.15);
+    annotation(__HydraulicTestBench(effect="frail.drag", slot="force"));
+  end Drag;
+end Frail;
+"""
+
+
+@cache
+def found(peak: float) -> tuple[Search, FinalFit, FinalFit]:
+    """The base model and one that can be simulated in small tests alone; commands of the choosing log up to a peak."""
+    library = Path(mkdtemp(prefix="frail-")) / "Frail.mo"
+    library.write_text(FRAIL, encoding="utf-8")
+    own = Variants("Mass.Design", (PLANTS["mass"].library, library))
+    small, other = (measured("mass", {}, {"d": 2.5}, fit=(1,), length=4.0, peak=p) for p in (2.0, peak))
+    data = replace(small, records=(small.records[0], other.records[1]))
+    models = Models(session(own.build(())[0], data, read_catalogue(library), own.build, initial="rest", workers=1))
+    search = Search(models, FINE.rough(), FINE, Settings(), Progress(lambda told: None))
+    return search, refitted(models), refitted(models, "frail.drag", values={("frail.drag", "a"): 0.5})
+
+
+def test_a_model_that_cannot_run_through_the_choosing_logs_is_vetoed() -> None:
+    search, base, frail = found(20.0)
+    assert search._vetoed(base, frail, search.test(base, frail)).verdict is Verdict.VETOED
+    worse = search._held_out(base, frail)
+    better = search._held_out(frail, base)
+    assert worse == (math.inf, 0.0)
+    assert better == (-math.inf, 0.0)
+    assert search._held_out(frail, frail) is None
+
+
+def test_the_choosing_logs_say_by_how_much_their_cost_rises() -> None:
+    search, base, frail = found(2.0)
+    answer = search._held_out(base, frail)
+    assert answer is not None
+    costs = []
+    for fit in (base, frail):
+        residuals = fit.candidate.residuals(FINE, "validate")
+        costs.append(residuals.evaluate(fit.candidate.model, fit.candidate.space, fit.point.x, jacobian=False).cost)
+    assert answer[0] == pytest.approx(costs[1] - costs[0], abs=1e-3)
+    assert answer[1] > 0
