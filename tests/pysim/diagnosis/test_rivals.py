@@ -1,6 +1,7 @@
 """Gains against chance: on linear models everything can be worked out another way."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -12,6 +13,7 @@ from pysim.diagnosis.rivals import (
     Rows,
     effective,
     left_out_error,
+    of,
     p_value,
     penalised,
     rows,
@@ -190,3 +192,17 @@ def test_rows_of_a_fit_are_its_samples_in_their_own_units() -> None:
         rest = found.residual[np.isin(found.series, own)]
         assert rest @ rest == pytest.approx(point.squares[k])
     assert found.ordered == {0, 1, 2, 3}
+
+
+def test_models_are_compared_sample_by_sample_however_long_the_logs_are() -> None:
+    """A fit alone reduces long logs to triangles, of which those of two models have nothing in common."""
+    data, answers = measured("mass", {"mass.drag": {"c_2": 1.0}}, fit=(1,), length=12.0), []
+    for longest in (200_000, 100):
+        own = given("mass", data, ("mass.drag",))
+        noise = replace(own.treatment.noise, whole=longest)
+        models = Models(replace(own, treatment=replace(own.treatment, noise=noise)))
+        base, drag = refitted(models), refitted(models, "mass.drag", values={("mass.drag", "c_2"): 0.5})
+        apart = of(base).residual - of(drag).residual
+        answers.append((apart.size, effective(of(drag), apart)))
+    assert answers[0][0] == answers[1][0] == 600
+    assert answers[0][1] == pytest.approx(answers[1][1])
