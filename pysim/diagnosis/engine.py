@@ -11,12 +11,13 @@ from pysim.diagnosis.candidate import Models
 from pysim.diagnosis.checkpoint import Checkpoint, whose
 from pysim.diagnosis.error_history import error_step, held_still
 from pysim.diagnosis.left import follows
+from pysim.diagnosis.next_test import next_test
 from pysim.diagnosis.progress import Progress, Say
 from pysim.diagnosis.refit import FinalFit, begin, converged
 from pysim.diagnosis.search import Found, Search
 from pysim.diagnosis.session import Session
 from pysim.identify.greybox import Simulation
-from pysim.types import BadInput, Effect
+from pysim.types import BadInput, Effect, NextTest
 from pysim.types.answer import Diagnosis, ErrorStep
 
 
@@ -136,10 +137,23 @@ def _answer(
         ties=verdict.ties(found),
         history=tuple(history),
         failures=history[min(1, len(history) - 1)].failures,
+        next_test=_next_test(session, found),
         estimates=estimates,
         notes=(*session.notes, *lost, *verdict.notes_of(found, estimates, search.models.refused, session)),
         seconds=search.say.seconds,
     )
+
+
+def _next_test(session: Session, found: Found) -> NextTest | None:
+    """That would tell the last effect from the best of those that these data do not tell from it."""
+    step = found.steps[-1] if found.steps else None
+    if step is None or step.added not in found.losses or not step.rivals[0].ties:
+        return None
+    rival = next(one.fit for one in step.rivals if one.added == step.rivals[0].ties[0])
+    try:
+        return next_test(session, step.model, rival)
+    except BadInput:  # these tests have no log over time, or not one command
+        return None
 
 
 def _alone(fit: FinalFit, search: Search) -> FinalFit:

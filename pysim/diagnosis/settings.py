@@ -123,7 +123,10 @@ class TestSettings:
         0.2, unit="1", meaning="noise within which a system counts as settled", source="a hundred samples hide it"
     )
     unlogged: float = setting(
-        1e-3, unit="1", meaning="noise of a signal that was never logged, over its range", source="IEC 60770-1: class 0.1"
+        1e-3,
+        unit="1",
+        meaning="noise of a signal that was never logged, over its range",
+        source="IEC 60770-1: class 0.1",
     )
     errors: float = setting(
         10.0, unit="1", meaning="noise of a signal that was never logged, over the error of its simulation at least",

@@ -9,6 +9,7 @@ from tempfile import mkdtemp
 import pytest
 
 from pysim.diagnosis.candidate import Models
+from pysim.diagnosis.checkpoint import Checkpoint
 from pysim.diagnosis.progress import Progress
 from pysim.diagnosis.refit import FinalFit
 from pysim.diagnosis.search import Search
@@ -42,7 +43,7 @@ def found(peak: float) -> tuple[Search, FinalFit, FinalFit]:
     small, other = (measured("mass", {}, {"d": 2.5}, fit=(1,), length=4.0, peak=p) for p in (2.0, peak))
     data = replace(small, records=(small.records[0], other.records[1]))
     models = Models(session(own.build(())[0], data, read_catalogue(library), own.build, initial="rest", workers=1))
-    search = Search(models, FINE.rough(), FINE, Settings(), Progress(lambda told: None))
+    search = Search(models, FINE, Settings(), Progress(lambda told: None), Checkpoint(None, ""))
     return search, refitted(models), refitted(models, "frail.drag", values={("frail.drag", "a"): 0.5})
 
 
