@@ -65,8 +65,13 @@ export default {
     },
   },
   methods: {
+    turn(work) {
+      // one call at a time: Plotly does not bear two at once in one place
+      const next = () => (this.$el.isConnected ? work() : undefined);
+      this.turns = (this.turns ?? Promise.resolve()).then(next, next);
+      return this.turns;
+    },
     draw() {
-      // one drawing at a time: Plotly does not bear two at once in one place
       this.wanted = true;
       this.drawing ??= this.redraw().finally(() => (this.drawing = null));
       return this.drawing;
@@ -77,7 +82,8 @@ export default {
         const { data, layout } = dressed(JSON.parse(JSON.stringify(this.figure)), palette(this.$el));
         const { clientWidth: width, clientHeight: height } = this.$el; // Plotly looks at it for the first drawing only
         if (width && height) Object.assign(layout, { width, height });
-        await this.Plotly.react(this.$el, data, layout, this.drawn ? undefined : settings(this.series));
+        const buttons = this.drawn ? undefined : settings(this.series);
+        await this.turn(() => this.Plotly.react(this.$el, data, layout, buttons));
         this.drawn = true;
         if (this.series && this.range) await this.fetch(this.range);
       }
@@ -99,7 +105,7 @@ export default {
       const answer = await fetch(url);
       if (!answer.ok || number !== this.asked) return; // another window was asked for since
       const { x, y, exact } = await answer.json();
-      await this.Plotly.restyle(this.$el, { x, y }, this.series.traces);
+      await this.turn(() => this.Plotly.restyle(this.$el, { x, y }, this.series.traces));
       this.$el.dataset.exact = exact ? "yes" : "no";
       this.$el.dataset.points = Math.max(...x.map((one) => one.length));
     },
@@ -116,7 +122,7 @@ export default {
       }[event.key];
       if (!to) return;
       event.preventDefault();
-      this.Plotly.relayout(this.$el, { "xaxis.range": to });
+      this.turn(() => this.Plotly.relayout(this.$el, { "xaxis.range": to }));
     },
   },
 };
