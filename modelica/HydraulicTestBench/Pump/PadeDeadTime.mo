@@ -3,9 +3,9 @@ model PadeDeadTime "Dead time as a Pade approximation of order 3"
   extends Interfaces.PartialDeadTime;
   constant Types.Duration tau_min = 0.1e-3 "Shorter dead times are held at this one";
   final parameter Types.Duration T = max(tau, tau_min) "Dead time in force";
-  Real z1(unit="1", nominal=0.1, start=0, fixed=true, stateSelect=StateSelect.always) "First state; equals s at rest";
-  Real z2(unit="1", nominal=0.1, start=0, fixed=true, stateSelect=StateSelect.always) "Second state, T der(z1)";
-  Real z3(unit="1", nominal=0.1, start=0, fixed=true, stateSelect=StateSelect.always) "Third state, T der(z2)";
+  Real z1(unit="1", nominal=1, start=0, fixed=true, stateSelect=StateSelect.always) "First state; equals s at rest";
+  Real z2(unit="1", nominal=1, start=0, fixed=true, stateSelect=StateSelect.always) "Second state, T der(z1)";
+  Real z3(unit="1", nominal=1, start=0, fixed=true, stateSelect=StateSelect.always) "Third state, T der(z2)";
 equation
   der(z1) = z2/T;
   der(z2) = z3/T;
