@@ -26,10 +26,6 @@ class Settings:
         0.02, unit="1", meaning="share of what can be gained below which steps on trial are not worth it",
         source="Mallows 1973, Technometrics 15:661: less does not pay for its parameters",
     )  # fmt: skip
-    not_in_catalogue: float = setting(
-        0.1, unit="1", meaning="share of the avoidable sum of squares below which effects do not explain the data",
-        source="measured: known-answers, unknown",
-    )  # fmt: skip
     near: float = setting(
         1.5, unit="1", meaning="levels over their white floor below which first-order gains put candidates aside",
         source="measured: there they err by 2 at most",
