@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from pysim.diagnose.subject import Subject
+from pysim.diagnosis.checkpoint import whole_lines
 from pysim.identify.greybox.checkpoint import digest
 from pysim.io import write_file
 from pysim.types import BadInput
@@ -35,7 +36,7 @@ class Journal:
         if path is None:
             return
         head = {"diagnosis": hashlib.sha256(identity.encode()).hexdigest(), "form": _FORM}
-        lines = _whole_lines(path)
+        lines = whole_lines(path, "journal")
         if lines and lines[0] != head:
             raise BadInput(
                 f"{path} is the journal of another diagnosis: other model, data, libraries or options, or an older "
@@ -66,19 +67,6 @@ class Journal:
     def afresh(self) -> None:
         """Parts from here on are others, though they have the names of earlier ones."""
         self._mark += "again: "
-
-
-def _whole_lines(path: Path) -> list[dict[str, Any]]:
-    """Lines up to the first that a kill has cut."""
-    found: list[dict[str, Any]] = []
-    for line in path.read_text(encoding="utf-8").splitlines() if path.is_file() else ():
-        try:
-            found.append(json.loads(line))
-        except json.JSONDecodeError:
-            if not found:
-                raise BadInput(f"{path} is no journal of a diagnosis; name another file") from None
-            break
-    return found
 
 
 def identity(subject: Subject, settings: Mapping[str, object]) -> str:

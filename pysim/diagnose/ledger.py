@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from pysim.diagnose.subject import Extended, Subject
+from pysim.diagnosis.error_history import worst
 from pysim.identify.greybox import Problem, Simulation, Threads
 from pysim.identify.greybox.comparison import Compared, compared
 from pysim.identify.greybox.parameters import ParameterSpace
 from pysim.simulate import Esdirk
-from pysim.types import Deviation, RecordFit
+from pysim.types import RecordFit
 from pysim.types.diagnosis import LedgerStep
 
 Array = NDArray[np.float64]
@@ -42,7 +43,7 @@ def ledger_step(name: str, found: Compared, cost: float, skips: Mapping[str, flo
         name,
         root_mean_square(found.records, "fit", skips or {}),
         root_mean_square(found.records, "validate", skips or {}),
-        {d.criterion.symbol: d.value for d in _worst(deviations)},
+        {d.criterion.symbol: d.value for d in worst(deviations)},
         not found.lost and all(d.passes for d in deviations),
         cost,
         found.lost,
@@ -59,11 +60,6 @@ def after(record: RecordFit, skips: Mapping[str, float]) -> RecordFit:
         replace(part, time=part.time[keep], values=part.values[keep]) for part in (record.measured, record.simulated)
     )
     return replace(record, measured=measured, simulated=simulated)
-
-
-def _worst(deviations: Sequence[Deviation]) -> Iterator[Deviation]:
-    for symbol in dict.fromkeys(d.criterion.symbol for d in deviations):
-        yield max((d for d in deviations if d.criterion.symbol == symbol), key=lambda d: d.value)
 
 
 def root_mean_square(records: Sequence[RecordFit], use: str, skips: Mapping[str, float]) -> float | None:

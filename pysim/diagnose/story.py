@@ -33,7 +33,7 @@ from pysim.diagnose.nuisance_words import counting_in_words, in_words
 from pysim.diagnose.residuals import Ruler, rulers
 from pysim.diagnose.steps import as_fine, with_tolerance
 from pysim.diagnose.subject import Extended, Subject, extended
-from pysim.diagnose.where import failures
+from pysim.diagnosis.failures import failures
 from pysim.identify.greybox.residuals import Point
 from pysim.identify.greybox.time_log import TimeLog
 from pysim.types import Candidate, Effect, LedgerStep, Note, Stage, Told

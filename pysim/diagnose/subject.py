@@ -7,8 +7,9 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 from pysim.diagnose.adapter import Target
-from pysim.diagnose.adequacy import shortcomings
 from pysim.diagnose.locating.laws import Term
+from pysim.diagnosis.adequacy import shortcomings
+from pysim.diagnosis.session import identifiable
 from pysim.effects import Slot
 from pysim.identify import THESIS_REFERENCE_HZ
 from pysim.identify.greybox import Measurements, Parameter, Rest, Treatment, problem
@@ -134,7 +135,12 @@ def subject(
     data = Measurements(dataset, overrides=overrides or {})
     treatment = Treatment(steady="transient", rest=rest or Rest(), reference_hz=reference_hz, initial="rest")
     checked = problem(model, [data], given.parameters, treatment=treatment)
-    told: tuple[Note | str, ...] = (*notes, *shortcomings(dataset, names), *_unbounded(checked.space), *checked.notes)
+    told: tuple[Note | str, ...] = (
+        *notes,
+        *shortcomings(dataset, names, at_rest=True),
+        *_unbounded(checked.space),
+        *checked.notes,
+    )
     return replace(given, targets=checked.observations, floors=checked.floors, specified=checked.specified, notes=told)
 
 
@@ -146,27 +152,6 @@ def _unbounded(space: ParameterSpace) -> tuple[str, ...]:
     return (
         f"{', '.join(names)}: refitted without bounds on both sides, since neither the model nor the call gives any",
     )
-
-
-def identifiable(model: Model) -> tuple[str, ...]:
-    """Parameters that the model gives min, max and nominal: what it says may differ from one unit to the next.
-
-    Raises:
-        BadInput: there is none.
-    """
-    found = tuple(
-        v.name
-        for v in model.variables
-        if v.causality == "parameter"
-        and v.type in ("Real", "Float64")
-        and v.min is not None
-        and v.max is not None
-        and v.nominal is not None
-        and v.start is not None
-    )
-    if not found:
-        raise BadInput(f"{model.label} gives no parameter min, max and nominal; name those to refit, and their bounds")
-    return found
 
 
 def extended(subject: Subject, effects: Sequence[Effect], *, model: Model | None = None) -> Extended:

@@ -12,11 +12,12 @@ from pysim.types import BadInput, Dataset, FrequencyResponse, MeasuredRecord, Re
 FEWEST = 10
 
 
-def shortcomings(dataset: Dataset, free: Sequence[str]) -> tuple[str, ...]:
+def shortcomings(dataset: Dataset, free: Sequence[str], *, at_rest: bool = False) -> tuple[str, ...]:
     """Look at the records before anything is run.
 
     Args:
         free: parameters that will be refitted.
+        at_rest: whether logs count as begun at rest, whatever they say.
     Returns:
         notes on what the answer lacks: no record held out, one signal alone, an input that never moves.
     Raises:
@@ -29,7 +30,7 @@ def shortcomings(dataset: Dataset, free: Sequence[str]) -> tuple[str, ...]:
             f"data set {dataset.name!r} has {count} samples to fit for {len(free)} free parameters; log at least "
             f"{FEWEST * len(free)}, hold less out, or name fewer parameters with --free"
         )
-    notes = list(_still(dataset, fitted))
+    notes = list(_still(dataset, fitted, at_rest))
     if not any(record.use != "fit" for record in dataset.records):
         notes.append(
             'no record is held out (use = "validate"), so nothing tells how far the answer holds for other tests'
@@ -55,11 +56,11 @@ def _outputs(record: MeasuredRecord, dataset: Dataset) -> Sequence[str]:
     return dataset.columns(record, "output")
 
 
-def _still(dataset: Dataset, fitted: Sequence[MeasuredRecord]) -> Sequence[str]:
+def _still(dataset: Dataset, fitted: Sequence[MeasuredRecord], at_rest: bool) -> Sequence[str]:
     """A note on inputs that never move; refuses where none does, unless the plant moved when the logs began."""
     if any(isinstance(record.data, FrequencyResponse) for record in fitted):
         return ()
-    decays = any(record.initial == "estimate" for record in fitted)
+    decays = not at_rest and any(record.initial == "estimate" for record in fitted)
     moves: dict[str, bool] = {}
     for record in fitted:
         assert isinstance(record.data, Record)

@@ -109,11 +109,9 @@ class Candidate:
 
     def levels(self, residuals: WeightedResiduals, point: Point) -> Array:
         """(n_r,) level of each row of a good point; 1 of priors and of what has a known one."""
-        place = {channel: i for i, channel in enumerate(residuals.channels)}
-        size = [1.0]
-        for one in residuals.observations:
-            size += [float(point.levels[place[one.dataset, name]]) for name in one.channels] or [1.0]
-        return np.array(size)[point.series + 1]
+        level = dict(zip(residuals.channels, point.levels.tolist(), strict=True))
+        sizes = [1.0 if name is None else level[one.dataset, name] for one, name in residuals.series]
+        return np.array([1.0, *sizes])[point.series + 1]
 
     def slopes(self, simulation: Simulation, point: Point) -> dict[Key, Array]:
         """(n_r,) of the measurements' rows by each free parameter, in the units of the channels."""
@@ -125,20 +123,15 @@ class Candidate:
         """What a point of another model carries along, for this one: states by name, sensor errors by what they are."""
         mine, its = self.model.abilities.states, other.model.abilities.states
         states: list[Array | None] = []
-        for run, old in zip(self.residuals(Simulation()).runs, point.carried.states, strict=True):
+        runs = (one.residuals(Simulation()).runs for one in (self, other))
+        for run, its_run, old in zip(*runs, point.carried.states, strict=True):
             if run.free.size:
-                of_name = {} if old is None else dict(zip([its[i] for i in _free(other, run.record)], old, strict=True))
+                of_name = {} if old is None else dict(zip([its[i] for i in its_run.free.tolist()], old, strict=True))
                 states.append(np.array([of_name.get(mine[i], 0.0) for i in run.free.tolist()]))
             else:
                 states.append(old if mine == its else None)
         sizes = dict(zip(other.nuisances, point.carried.nuisances.tolist(), strict=False))
         return Carried(tuple(states), np.array([sizes.get(one, 0.0) for one in self.nuisances]))
-
-
-def _free(candidate: Candidate, record: str) -> list[int]:
-    """Places of the states that are free at the start of a log."""
-    runs = candidate.residuals(Simulation()).runs
-    return next((run.free.tolist() for run in runs if run.record == record and run.free.size), [])
 
 
 def sensor_name(nuisance: Nuisance) -> str:
@@ -157,10 +150,11 @@ class Models:
     """
 
     def __init__(self, session: Session) -> None:
-        self.session, self.builds = session, 0
+        self.session = session
         self._built: dict[tuple[str, ...], tuple[Model, Mapping[str, str]]] = {}
         self._problems: dict[tuple[tuple[str, ...], bool], Problem] = {}
-        self._together = list(_groups([e for e in session.catalogue if not (e.bypass or switches(e))]))
+        smooth = tuple(e for e in session.catalogue if not (e.bypass or switches(e)))
+        self._together = [smooth] if smooth else []
         self.refused: dict[str, str] = {}
 
     def of(
@@ -221,7 +215,6 @@ class Models:
             if self.session.build is None:
                 raise BadInput("no effect can be added: the model's Modelica class is not at hand; name its library")
             self._built[key] = self.session.build(effects)
-            self.builds += 1
         return self._built[key]
 
     def _problem(self, effects: tuple[Effect, ...], transient: bool) -> Problem:
@@ -231,11 +224,6 @@ class Models:
             own = [parameter(places[e.name], p) for e in effects for p in e.parameters]
             self._problems[key] = beside(self.session.problems[transient], model, [*self.session.parameters, *own])
         return self._problems[key]
-
-
-def _groups(effects: Sequence[Effect]) -> Iterator[tuple[Effect, ...]]:
-    if effects:
-        yield tuple(effects)
 
 
 def _split(group: tuple[Effect, ...]) -> Iterator[tuple[Effect, ...]]:

@@ -37,7 +37,7 @@ class Checkpoint:
         if path is None:
             return
         head = {"diagnosis": hashlib.sha256(whose.encode()).hexdigest(), "form": _FORM}
-        lines = _whole_lines(path)
+        lines = whole_lines(path, "checkpoint")
         if lines and lines[0] != head:
             raise BadInput(
                 f"{path} is the checkpoint of another diagnosis: other model, data, libraries or options, or an older "
@@ -97,15 +97,19 @@ def _row(fit: FinalFit, simulations: Sequence[Simulation]) -> dict[str, Any]:
     }
 
 
-def _whole_lines(path: Path) -> list[dict[str, Any]]:
-    """Lines up to the first that a kill has cut."""
+def whole_lines(path: Path, what: str) -> list[dict[str, Any]]:
+    """Lines up to the first that a kill has cut; none where there is no file.
+
+    Raises:
+        BadInput: the first is none of a `what`.
+    """
     found: list[dict[str, Any]] = []
     for line in path.read_text(encoding="utf-8").splitlines() if path.is_file() else ():
         try:
             found.append(json.loads(line))
         except json.JSONDecodeError:
             if not found:
-                raise BadInput(f"{path} is no checkpoint of a diagnosis; name another file") from None
+                raise BadInput(f"{path} is no {what} of a diagnosis; name another file") from None
             break
     return found
 

@@ -12,7 +12,7 @@ from pysim.diagnosis.failures import failures
 from pysim.diagnosis.refit import FinalFit
 from pysim.diagnosis.session import TEST, Session
 from pysim.identify.greybox import Simulation
-from pysim.identify.greybox.comparison import Compared, compared
+from pysim.identify.greybox.comparison import Compared, compared, with_noise
 from pysim.identify.greybox.residuals import Channel
 from pysim.identify.greybox.uncertainty import uncertainty
 from pysim.types import Deviation, Direction, Estimate, Note, RecordFit
@@ -33,7 +33,8 @@ def error_step(
     parts = [beside(fit, fit.simulation)]
     if session.unseen is not None:
         parts.append(_unseen(fit, session, fit.simulation))
-    records = [_over(record, floors) for part in parts for record in part.records]
+    noise = {channel: floor.sd for channel, floor in floors.items()}
+    records = [with_noise(record, noise) for part in parts for record in part.records]
     responses = tuple(response for part in parts for response in part.responses)
     deviations = [d for record in records for own in record.deviations.values() for d in own]
     deviations += [d for response in responses for d in response.comparison.deviations]
@@ -44,7 +45,7 @@ def error_step(
         fit=root_mean_square(records, "fit"),
         validate=root_mean_square(records, "validate"),
         test=root_mean_square(records, TEST),
-        criteria={d.criterion.symbol: d.value for d in _worst(deviations)},
+        criteria={d.criterion.symbol: d.value for d in worst(deviations)},
         passes=not lost and all(d.passes for d in deviations),
         cost=fit.point.cost,
         not_simulated=lost,
@@ -94,17 +95,7 @@ def _unseen(fit: FinalFit, session: Session, simulation: Simulation) -> Compared
     return replace(found, records=tuple(replace(record, use=TEST) for record in found.records), responses=())
 
 
-def _over(record: RecordFit, floors: Mapping[Channel, NoiseFloor]) -> RecordFit:
-    """The record with its residual counted in the floors."""
-    sizes = tuple(
-        floors[record.dataset, name].sd if (record.dataset, name) in floors else own
-        for name, own in zip(record.measured.names, record.noise, strict=True)
-    )
-    scale = {n: new / old for n, new, old in zip(record.measured.names, sizes, record.noise, strict=True)}
-    harmonics = tuple(replace(one, std=one.std * scale[one.signal]) for one in record.harmonics)
-    return replace(record, noise=sizes, harmonics=harmonics)
-
-
-def _worst(deviations: Sequence[Deviation]) -> Iterator[Deviation]:
+def worst(deviations: Sequence[Deviation]) -> Iterator[Deviation]:
+    """The largest deviation of each criterion."""
     for symbol in dict.fromkeys(d.criterion.symbol for d in deviations):
         yield max((d for d in deviations if d.criterion.symbol == symbol), key=lambda d: d.value)

@@ -67,10 +67,13 @@ class Floors:
 
     def rows(self, fit: FinalFit) -> Array:
         """(n_r,) the floor of each row of the measurements."""
-        residuals, sizes = fit.candidate.residuals(fit.simulation), list[float]()
-        for one in residuals.observations:
-            sizes += [self.floors[one.dataset, name].sd for name in one.channels] or [1.0]
+        series = fit.candidate.residuals(fit.simulation).series
+        sizes = [1.0 if name is None else self.floors[one.dataset, name].sd for one, name in series]
         return np.array(sizes)[of(fit).series]
+
+    def within(self, fit: FinalFit, factor: float) -> bool:
+        """Whether every residual is within a factor of its floor."""
+        return all(ratio < factor for ratio in self.over(fit).values())
 
     def potential(self, fit: FinalFit) -> float:
         """Nats that a model which left nothing but the floor would gain."""
@@ -131,12 +134,11 @@ def _columns(fit: FinalFit) -> dict[Channel, list[Array]]:
 
 def _logs(fit: FinalFit) -> Iterator[tuple[str, dict[Channel, Array]]]:
     """Source of each log over time that was fitted, and its residuals by channel."""
-    residuals, left, number = fit.candidate.residuals(fit.simulation), of(fit), 0
-    for one in residuals.observations:
-        if one.domain == "time":
-            rests = {(one.dataset, n): left.residual[left.series == number + j] for j, n in enumerate(one.channels)}
-            yield one.sources[0], rests
-        number += max(len(one.channels), 1)
+    left, found = of(fit), dict[str, dict[Channel, Array]]()
+    for number, (one, name) in enumerate(fit.candidate.residuals(fit.simulation).series):
+        if one.domain == "time" and name is not None:
+            found.setdefault(one.sources[0], {})[one.dataset, name] = left.residual[left.series == number]
+    yield from found.items()
 
 
 def _regressors(fit: FinalFit, dataset: Dataset) -> Iterator[tuple[Array, dict[Channel, Array]]]:

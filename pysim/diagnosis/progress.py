@@ -8,8 +8,8 @@ from dataclasses import dataclass, field
 
 from pysim.diagnosis.refit import FinalFit
 from pysim.types import Told
+from pysim.types._between_answers import as_ledger
 from pysim.types.answer import ErrorStep, GainTest
-from pysim.types.diagnosis import LedgerStep
 
 Say = Callable[[Told], None]
 
@@ -47,8 +47,3 @@ class Progress:
         now = time.monotonic()
         self.seconds[name] = self.seconds.get(name, 0.0) + now - self.since
         self.since = now
-
-
-def as_ledger(step: ErrorStep) -> LedgerStep:
-    """As the pages that follow a diagnosis read it."""
-    return LedgerStep(step.step, step.fit, step.validate, step.criteria, step.passes, step.cost, step.not_simulated)

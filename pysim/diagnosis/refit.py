@@ -97,18 +97,18 @@ def from_first_samples(fit: FinalFit) -> FinalFit:
     candidate, states = fit.candidate, list(fit.point.carried.states)
     residuals = candidate.residuals(fit.simulation)
     rows = fit.point.residual * candidate.levels(residuals, fit.point)
-    names, run, number = candidate.model.abilities.states, 0, 0
-    for one in residuals.observations:
-        offset = states[run] if one.runs else None
-        if one.domain == "time" and offset is not None:
-            recorded, offset = one.runs[0].experiment.record, offset.copy()
-            for k, place in enumerate(one.runs[0].free.tolist()):
-                if names[place] in recorded:
-                    own = fit.point.series == number + recorded.index(names[place])
-                    offset[k] += rows[own][0]
-            states[run] = offset
-        run += len(one.runs)
-        number += max(len(one.channels), 1)
+    names, place = candidate.model.abilities.states, {id(run): i for i, run in enumerate(residuals.runs)}
+    for number, (one, name) in enumerate(residuals.series):
+        if one.domain != "time" or name is None:
+            continue
+        run = one.runs[0]
+        offset = states[place[id(run)]]
+        free = [names[i] for i in run.free.tolist()]
+        variable = run.experiment.record[one.channels.index(name)]
+        if offset is not None and variable in free:
+            moved = offset.copy()
+            moved[free.index(variable)] += rows[fit.point.series == number][0]
+            states[place[id(run)]] = moved
     point = fit.evaluate(fit.point.x, replace(fit.point.carried, states=tuple(states)))
     if not (point.good and point.cost < fit.point.cost):
         return fit

@@ -44,14 +44,11 @@ class Rows:
 
 def rows(candidate: Candidate, residuals: WeightedResiduals, point: Point) -> Rows:
     """Of a good point."""
-    own, first, ordered = point.series >= 0, 0, set[int]()
-    for one in residuals.observations:
-        count = max(len(one.channels), 1)
-        ordered |= set(range(first, first + count)) if one.domain == "time" else set()
-        first += count
+    own = point.series >= 0
+    ordered = frozenset(number for number, (one, _) in enumerate(residuals.series) if one.domain == "time")
     level = candidate.levels(residuals, point)[own]
     jacobian = point.jacobian[own] if point.jacobian.size else np.zeros((int(own.sum()), 0))
-    return Rows(point.residual[own] * level, jacobian, level, point.series[own], point.blocks[own], frozenset(ordered))
+    return Rows(point.residual[own] * level, jacobian, level, point.series[own], point.blocks[own], ordered)
 
 
 def of(fit: FinalFit) -> Rows:
@@ -110,8 +107,7 @@ def p_value(gain: float, df: int, samples: float, size: int, inflated: float) ->
 def samples(fit: FinalFit) -> float:
     """Independent numbers of all channels, and of what has a known level."""
     residuals = fit.candidate.residuals(fit.simulation)
-    known = sum(one.channel_of_row.size for one in residuals.observations if not one.channels)
-    return float(residuals.samples.sum()) + known
+    return float(residuals.samples.sum()) + residuals.known_rows
 
 
 def penalised(gain: float, df: int, inflated: float, samples: float) -> float:

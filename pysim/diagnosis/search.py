@@ -69,7 +69,6 @@ class Step:
         added: what that was.
         on_trial: whether it was not significant by itself.
         rivals: all that were refitted, best first.
-        screened: the others.
     """
 
     model: FinalFit
@@ -77,7 +76,6 @@ class Step:
     test: GainTest
     on_trial: bool
     rivals: tuple[Compared, ...]
-    screened: tuple[Screened, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -151,7 +149,7 @@ class Search:
             if np.sqrt(np.mean((error / floors.rows(base)) ** 2)) < self.settings.fine:
                 break
             self.fine, self.rough = finer, finer.finer(1 / self.settings.rougher)
-            base = self._keep(converged(other))
+            base = self._fits[_key(base)] = converged(other)  # costs of rougher runs are no match for it
             floors = floors.with_(base)
         return base
 
@@ -224,7 +222,7 @@ class Search:
 
     def _is_done(self, fit: FinalFit) -> bool:
         """Whether a model leaves so little over the floor that no two effects together are worth a trial."""
-        return all(ratio < self.settings.held_out for ratio in self.floors.over(fit).values())
+        return self.floors.within(fit, self.settings.held_out)
 
     def _forward(self, base: FinalFit, most: int, way: int) -> list[Step]:
         """Steps along one way: the first goes to the best rival or to the next best, the others to the best."""
@@ -246,7 +244,7 @@ class Search:
                 break
             present = self._keep(converged(best.fit, self.fine))
             self.floors = self.floors.with_(present)
-            steps.append(Step(present, best.added, best.test, not sure, tuple(compared), tuple(tried.screened)))
+            steps.append(Step(present, best.added, best.test, not sure, tuple(compared)))
             self.say.learned(present, best.test)
         return steps
 
@@ -264,7 +262,7 @@ class Search:
         sensors = sensor_candidates(present, self.models)
         self.tried = max(self.tried, len(tried) + len(sensors))
         going, aside = self._put_aside(present, tried)
-        simulation = self.fine if self._is_near(present) else self.rough
+        simulation = self.fine if self.floors.within(present, self.settings.near) else self.rough
 
         @cache
         def here(transient: bool, simulation: Simulation) -> FinalFit:
@@ -312,7 +310,7 @@ class Search:
 
     def _put_aside(self, present: FinalFit, screened: Sequence[Screened]) -> tuple[list[Screened], list[Screened]]:
         """What is refitted and what is not: near the floor first-order gains are good enough to tell."""
-        if not self._is_near(present):
+        if not self.floors.within(present, self.settings.near):
             return list(screened), []
         left, count = rivals.of(present), rivals.samples(present)
         going: list[Screened] = []
@@ -324,10 +322,6 @@ class Search:
             p = rivals.p_value(gain, df, count, present.candidate.size + df, inflated)
             (going if p * self.tried < self.settings.false_alarm else aside).append(one)
         return going, aside
-
-    def _is_near(self, present: FinalFit) -> bool:
-        """Whether every level is near its white floor."""
-        return all(ratio < self.settings.near for ratio in self.floors.over(present).values())
 
     def test(self, smaller: FinalFit, larger: FinalFit, choices: int | None = None) -> GainTest:
         """The larger model against the smaller by what was fitted alone.
@@ -422,7 +416,8 @@ class Search:
         )
         share = rivals.shares_of_blocks(apart, own.level, blocks)
         reach = rivals.tolerance(inflated, apart, own.level, self.settings.tie)
-        vetoed = int(np.sum(share >= 0.1)) >= 3 and worse > reach
+        enough = int(np.sum(share >= self.settings.seen_share)) >= self.settings.seen_blocks
+        vetoed = enough and worse > reach
         held = self._held_out(smaller, larger)
         if held is not None:
             vetoed |= held[0] > held[1]
@@ -463,7 +458,12 @@ class Search:
         return converged(begin(candidate, values, self.fine, present))
 
     def _keep(self, fit: FinalFit) -> FinalFit:
-        key = frozenset(fit.candidate.labels), fit.candidate.transient
+        key = _key(fit)
         if key not in self._fits or fit.point.cost < self._fits[key].point.cost:
             self._fits[key] = fit
         return self._fits[key]
+
+
+def _key(fit: FinalFit) -> tuple[frozenset[str], bool]:
+    """A model, whatever the order in which effects came into it, and how it is compared."""
+    return frozenset(fit.candidate.labels), fit.candidate.transient

@@ -70,6 +70,14 @@ class Settings:
         0.5, unit="1", meaning="residual over the signal's standard deviation from which on no model is complete",
         source="half of fit percent: less is no description of the plant",
     )  # fmt: skip
+    seen_share: float = setting(
+        0.1, unit="1", meaning="share of what an effect does, from which on a block of data sees it",
+        source="a block is a twenty-fourth: more than twice its part",
+    )  # fmt: skip
+    seen_blocks: int = setting(
+        3, unit="1", meaning="blocks that see an effect, below which blocks left out say nothing of it",
+        source="two have no scatter to speak of",
+    )  # fmt: skip
     follows_t: float = setting(
         3.0, unit="1", meaning="standard deviations from which on a residual follows the model's own signals",
         source="a chance of 0.1 %",

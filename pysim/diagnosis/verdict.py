@@ -9,7 +9,7 @@ import numpy as np
 
 from pysim.diagnosis import rivals
 from pysim.diagnosis.candidate import sensor_name
-from pysim.diagnosis.left import Floors, Follows
+from pysim.diagnosis.left import Follows
 from pysim.diagnosis.refit import FinalFit
 from pysim.diagnosis.search import Compared, Found, Table
 from pysim.diagnosis.session import Session
@@ -79,7 +79,7 @@ def is_complete(found: Found, follows: Follows | None, left: Left, last: ErrorSt
         return False
     if left.fit is not None and left.validate is not None and left.validate > settings.held_out * max(left.fit, 1.0):
         return False
-    if is_white(found.floors, found.final, settings):
+    if found.floors.within(found.final, settings.near):  # where regression is silent, it is all that tells of misfit
         return True
     return follows is not None and not hardly_explains(last, settings)
 
@@ -94,11 +94,6 @@ def hardly_explains(last: ErrorStep, settings: Settings) -> bool:
         for j in range(record.measured.values.shape[1])
         if float(np.std(record.measured.values[:, j])) > settings.near * record.noise[j]
     )
-
-
-def is_white(floors: Floors, fit: FinalFit, settings: Settings) -> bool:
-    """Whether levels are near the floor; where regression is silent, a larger one is all that tells of misfit."""
-    return all(ratio < settings.near for ratio in floors.over(fit).values())
 
 
 def ranking(tables: Sequence[Table]) -> tuple[Rival, ...]:

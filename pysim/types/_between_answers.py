@@ -56,10 +56,7 @@ def from_answer(new: answer.Diagnosis) -> diagnosis.Diagnosis:
             for r in new.rivals
         ),
         confusable=new.ties,
-        error=tuple(
-            diagnosis.LedgerStep(s.step, s.fit, s.validate, s.criteria, s.passes, s.cost, s.not_simulated)
-            for s in new.history
-        ),
+        error=tuple(as_ledger(step) for step in new.history),
         parameters=new.estimates,
         where=new.failures,
         seconds=new.seconds,
@@ -73,6 +70,13 @@ def from_answer(new: answer.Diagnosis) -> diagnosis.Diagnosis:
         conditions=new.conditions,
         complete=new.complete,
         left=(new.left.fit, new.left.validate, new.left.share_explained, new.left.t),
+    )
+
+
+def as_ledger(step: answer.ErrorStep) -> diagnosis.LedgerStep:
+    """As the pages that follow a diagnosis read it."""
+    return diagnosis.LedgerStep(
+        step.step, step.fit, step.validate, step.criteria, step.passes, step.cost, step.not_simulated
     )
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from pysim.diagnose.adequacy import shortcomings
+from pysim.diagnosis.adequacy import shortcomings
 from pysim.identify.greybox import Measurements, Parameter, Problem, Tie, Treatment, problem
 from pysim.io import in_model_units
 from pysim.types import BadInput, Dataset, Model

@@ -14,7 +14,7 @@ from pysim.diagnose.locating.laws import UNIT, Law, Term
 from pysim.diagnose.locating.shape import units
 from pysim.diagnose.residuals import Ruler
 from pysim.diagnose.screen import across, column_space
-from pysim.diagnose.where import tone
+from pysim.diagnosis.failures import tone
 from pysim.identify import HALF_95
 from pysim.identify.greybox.parameters import ParameterSpace
 from pysim.identify.greybox.time_log import TimeLog

@@ -12,7 +12,7 @@ from pysim.identify.greybox.least_squares import GaussNewton
 from pysim.identify.greybox.observation import Observation, Simulated
 from pysim.identify.greybox.parameters import ParameterSpace
 from pysim.identify.greybox.problem import Problem
-from pysim.identify.greybox.residuals import Point, WeightedResiduals
+from pysim.identify.greybox.residuals import Channel, Point, WeightedResiduals
 from pysim.identify.greybox.runs import Failure, Simulation, simulate_runs
 from pysim.types import Experiment, Model, Note, NoteCode, RecordFit, ResponseFit
 
@@ -69,6 +69,17 @@ def compared(
         own = one.beside(simulated)
         records, responses = [*records, *own[0]], [*responses, *own[1]]
     return Compared(tuple(records), tuple(responses), tuple(experiments), tuple(notes), lost)
+
+
+def with_noise(record: RecordFit, noise: Mapping[Channel, float]) -> RecordFit:
+    """The record with its residual counted in these standard deviations; those of other channels as they are."""
+    own = zip(record.measured.names, record.noise, strict=True)
+    sizes = tuple(noise.get((record.dataset, name), size) for name, size in own)
+    if sizes == record.noise:
+        return record
+    scale = {name: new / old for name, new, old in zip(record.measured.names, sizes, record.noise, strict=True)}
+    harmonics = tuple(replace(one, std=one.std * scale[one.signal]) for one in record.harmonics)
+    return replace(record, noise=sizes, harmonics=harmonics)
 
 
 def settled_initial_states(residuals: WeightedResiduals, model: Model, space: ParameterSpace, x: Array) -> Point:

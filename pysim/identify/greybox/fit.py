@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pysim.identify.greybox.checkpoint import Checkpoint, digest
-from pysim.identify.greybox.comparison import Compared, compared
+from pysim.identify.greybox.comparison import Compared, compared, with_noise
 from pysim.identify.greybox.interior_point import InteriorPoint
 from pysim.identify.greybox.least_squares import GaussNewton, blur_of
 from pysim.identify.greybox.noise import white_floor
@@ -25,7 +25,7 @@ from pysim.identify.greybox.search import Progress, search
 from pysim.identify.greybox.settings import FitSettings
 from pysim.identify.greybox.starts import starts
 from pysim.identify.greybox.uncertainty import Uncertainty, uncertainty
-from pysim.types import BadInput, Fit, FitOutcome, Note, NoteCode, RecordFit, Start
+from pysim.types import BadInput, Fit, FitOutcome, Note, NoteCode, Start
 from pysim.types.answer import FloorSource
 
 Array = NDArray[np.float64]
@@ -259,7 +259,7 @@ def _result(
         values=space.values(point.x),
         undetermined=doubt.known.directions,
         combinations=doubt.combinations,
-        records=tuple(_with_noise(record, noise) for record in beside.records),
+        records=tuple(with_noise(record, noise) for record in beside.records),
         responses=beside.responses,
         cost=point.cost if objective.measure is Measure.SIGNAL else best.cost,
         start_cost=state.first_cost,
@@ -312,15 +312,6 @@ def _noise(problem: Problem, beside: Compared) -> dict[Channel, float]:
             white = white_floor(rests[channel], problem.settings)
             noise[channel] = max(white or noise[channel], floor.sd)
     return {channel: noise.get(channel, floor.sd) for channel, floor in problem.floors.items()}
-
-
-def _with_noise(record: RecordFit, noise: Mapping[Channel, float]) -> RecordFit:
-    sizes = tuple(noise[record.dataset, name] for name in record.measured.names)
-    if sizes == record.noise:
-        return record
-    scale = {name: new / old for name, new, old in zip(record.measured.names, sizes, record.noise, strict=True)}
-    harmonics = tuple(replace(one, std=one.std * scale[one.signal]) for one in record.harmonics)
-    return replace(record, noise=sizes, harmonics=harmonics)
 
 
 def _outcome(state: State) -> FitOutcome:

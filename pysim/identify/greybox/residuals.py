@@ -162,6 +162,16 @@ class WeightedResiduals:
         return tuple(dict.fromkeys((o.dataset, name) for o in self.observations for name in o.channels))
 
     @property
+    def series(self) -> tuple[tuple[Observation, str | None], ...]:
+        """What each number of `Point.series` stands for: an observation and its signal, or None for known levels."""
+        return tuple((one, name) for one in self.observations for name in (one.channels or (None,)))
+
+    @property
+    def known_rows(self) -> int:
+        """Rows whose level is known."""
+        return sum(one.channel_of_row.size for one in self.observations if not one.channels)
+
+    @property
     def samples(self) -> Array:
         """(n_c,) independent numbers per channel."""
         return self._summed([one.samples for one in self.observations])
@@ -378,9 +388,8 @@ class WeightedResiduals:
     def misfit(self, point: Point, noise: Mapping[Channel, float]) -> float:
         """Root mean square residual over the noise, per degree of freedom: 1 where nothing but noise is left."""
         size = np.array([noise[channel] for channel in self.channels])
-        rows = sum(one.channel_of_row.size for one in self.observations if not one.channels)
         total = float(np.sum(point.squares / size**2)) + point.known
-        return math.sqrt(total / max(float(self.samples.sum()) + rows - point.x.size, 1.0))
+        return math.sqrt(total / max(float(self.samples.sum()) + self.known_rows - point.x.size, 1.0))
 
 
 class _Rows(NamedTuple):

@@ -40,10 +40,8 @@ def what_is_left_sentence(diagnosis: Diagnosis) -> str:
     size = "" if fit is None else f"the residual is {fit:.3g} times its noise floor"
     if share is None:
         follows = "the logs are too short to say whether it follows the model's own signals"
-    elif share > 0.02:
-        follows = f"{100 * share:.0f} % of it follows the model's own signals"
     else:
-        follows = "it does not follow the model's own signals"
+        follows = f"{100 * share:.0f} % of it follows the model's own signals"
     return f"{size or 'the residual was judged by responses alone'}, and {follows}"
 
 

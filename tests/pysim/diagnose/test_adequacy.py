@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from pysim.diagnose.adequacy import shortcomings
+from pysim.diagnosis.adequacy import shortcomings
 from pysim.types import BadInput, Dataset, FrequencyResponse, MeasuredRecord, MeasuredSignal, Record, SineTest
 
 FREE = ("m", "d", "k")

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from pysim.diagnose.where import ALL_LOGS, ALL_SINES, bands, failures, tone
+from pysim.diagnosis.failures import ALL_LOGS, ALL_SINES, bands, failures, tone
 from pysim.types import Record, RecordFit
 from tests.pysim.diagnosis_story import WAVE, dataset, stage
 
