@@ -17,7 +17,7 @@ from pysim.diagnosis.refit import FinalFit, begin, converged
 from pysim.diagnosis.search import Found, Search
 from pysim.diagnosis.session import Session
 from pysim.identify.greybox import Simulation
-from pysim.types import BadInput, Effect, NextTest
+from pysim.types import BadInput, Effect, NextTest, Note, NoteCode
 from pysim.types.answer import Diagnosis, ErrorStep
 
 
@@ -129,6 +129,7 @@ def _answer(
     left = verdict.what_is_left(found, rest, {"fit": last.fit, "validate": last.validate})
     estimates = held_still(final)[0] if refitted else ()
     search.say.stage("intervals")
+    settles, unsettled = _next_test(session, found)
     return Diagnosis(
         effects=verdict.found_effects(found, estimates, session),
         complete=verdict.is_complete(found, rest, left, last, session.settings),
@@ -137,23 +138,23 @@ def _answer(
         ties=verdict.ties(found),
         history=tuple(history),
         failures=history[min(1, len(history) - 1)].failures,
-        next_test=_next_test(session, found),
+        next_test=settles,
         estimates=estimates,
-        notes=(*session.notes, *lost, *verdict.notes_of(found, estimates, search.models.refused, session)),
+        notes=(*session.notes, *lost, *unsettled, *verdict.notes_of(found, estimates, search.models.refused, session)),
         seconds=search.say.seconds,
     )
 
 
-def _next_test(session: Session, found: Found) -> NextTest | None:
-    """That would tell the last effect from the best of those that these data do not tell from it."""
+def _next_test(session: Session, found: Found) -> tuple[NextTest | None, list[Note]]:
+    """That would tell the last effect from the best of those that these data do not tell from it, or why not."""
     step = found.steps[-1] if found.steps else None
     if step is None or step.added not in found.losses or not step.rivals[0].ties:
-        return None
+        return None, []
     rival = next(one.fit for one in step.rivals if one.added == step.rivals[0].ties[0])
     try:
-        return next_test(session, step.model, rival)
-    except BadInput:  # these tests have no log over time, or not one command
-        return None
+        return next_test(session, step.model, rival), []
+    except BadInput as error:  # these tests have no log over time, or not one command
+        return None, [Note(NoteCode.NO_NEXT_TEST, {"reason": str(error)})]
 
 
 def _alone(fit: FinalFit, search: Search) -> FinalFit:

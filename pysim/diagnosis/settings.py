@@ -85,7 +85,6 @@ class Settings:
     max_effects: int = setting(
         4, unit="1", meaning="effects in a model at most", source="more have no name to a reader"
     )
-    seed: int = setting(0, unit="1", meaning="of every draw", source="convention")
 
 
 @dataclass(frozen=True)

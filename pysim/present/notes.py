@@ -84,6 +84,7 @@ _WORDS = {
     NoteCode.UNBOUNDED: (
         "{parameters}: refitted without bounds on both sides, since neither the model nor the call gives any."
     ),
+    NoteCode.NO_NEXT_TEST: "No test that would settle the tie was looked for: {reason}.",
     NoteCode.OTHER: "{text}",
 }
 

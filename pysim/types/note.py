@@ -41,6 +41,7 @@ class NoteCode(Enum):
     NOT_DETERMINED = "not_determined"  # names: of coefficients that the data leave open
     CANCELLING = "cancelling"  # pole, zero (Hz): alike within their errors
     UNBOUNDED = "unbounded"  # parameters: refitted without bounds on both sides, since nothing gives any
+    NO_NEXT_TEST = "no_next_test"  # reason: no test that would settle a tie was looked for
     OTHER = "other"  # text: of a program part that has no codes yet
 
 

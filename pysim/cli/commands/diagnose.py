@@ -30,7 +30,7 @@ def run(given: Given) -> Diagnosed:
     if most < 0:
         raise BadInput(f"--max-effects {most}: write how many effects may be added, 0 or more")
     parts = read_parts(given, only=given.effects)
-    session = session_of(parts, Settings(max_effects=most, seed=given.seed))
+    session = session_of(parts, Settings(max_effects=most))
     if most:
 
         def work(tell: Callable[[Told], None], journal: Path | None) -> Diagnosis:
@@ -65,7 +65,7 @@ COMMAND = Command(
         *SUBJECT,
         EFFECTS,
         number("--max-effects", "N", 3, "effects to add at most; 0 ranks them and adds none", convert=int),
-        number("--seed", "S", 0, "seed of the random draws; the same seed gives the same answer", convert=int),
+        number("--seed", "S", 0, "stands in the answer; the search draws nothing at random", convert=int),
         *results(", parameters.toml, the extended class and its FMU"),
     ),
     files=write_model,

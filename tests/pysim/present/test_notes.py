@@ -38,6 +38,7 @@ VALUES = {
     NoteCode.NOT_DETERMINED: {"names": "b0, a2"},
     NoteCode.CANCELLING: {"pole": 3.0, "zero": 3.1},
     NoteCode.UNBOUNDED: {"parameters": "m, d"},
+    NoteCode.NO_NEXT_TEST: {"reason": "no log over time"},
     NoteCode.OTHER: {"text": "as it stands"},
 }
 
