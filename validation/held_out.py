@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
 
-from pysim.identify.greybox import Point, Problem, Simulation, WeightedResiduals, problem
+from pysim.identify.greybox import Nuisance, NuisanceKind, Point, Problem, Simulation, WeightedResiduals, problem
 from pysim.simulate import Esdirk
 from pysim.types import BadInput, Dataset, Model
+from pysim.types.answer import SensorError
 
 FINE = Simulation(solver=Esdirk(rtol=1e-7, atol=1e-7))
 """A lightly damped swing of nine seconds comes out within a tenth of its encoder's step."""
@@ -19,7 +20,12 @@ _SHORTEST = 1e-4  # share of a step, below which rounding decides
 
 
 def held_out_rms(
-    model: Model, dataset: Dataset, values: Mapping[str, float], use: str = "test", simulation: Simulation = FINE
+    model: Model,
+    dataset: Dataset,
+    values: Mapping[str, float],
+    use: str = "test",
+    simulation: Simulation = FINE,
+    sensors: Sequence[SensorError] = (),
 ) -> dict[str, float]:
     """Root mean square residual of each signal over all logs of one use, in the signal's unit.
 
@@ -29,12 +35,14 @@ def held_out_rms(
     Args:
         values: parameters that differ from the model's own.
         use: of the logs to judge.
+        sensors: their errors, as the model has them.
     Raises:
         BadInput: no log has that use, or the model cannot be simulated there.
     """
     records = tuple(replace(record, use="fit") for record in dataset.records if record.use == use)
     judged = problem(model, [replace(dataset, records=records)], (), fixed=values)
-    residuals = judged.residuals(simulation=simulation)
+    known = tuple((Nuisance(NuisanceKind(one.kind), one.dataset, one.signal, 1.0), one.size) for one in sensors)
+    residuals = replace(judged.residuals(simulation=simulation), known=known)
     found = _settled(judged, residuals)
     sizes = np.sqrt(found.squares / residuals.samples)
     return {name: float(size) for (_, name), size in zip(residuals.channels, sizes, strict=True)}

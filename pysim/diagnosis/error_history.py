@@ -16,7 +16,7 @@ from pysim.identify.greybox.comparison import Compared, compared, with_noise
 from pysim.identify.greybox.residuals import Channel
 from pysim.identify.greybox.uncertainty import uncertainty
 from pysim.types import Deviation, Direction, Estimate, Note, RecordFit
-from pysim.types.answer import ErrorStep, NoiseFloor
+from pysim.types.answer import ErrorStep, NoiseFloor, SensorError
 
 Array = NDArray[np.float64]
 
@@ -51,6 +51,7 @@ def error_step(
         not_simulated=lost,
         estimates=estimates,
         undetermined=open_,
+        sensors=tuple(SensorError(one.kind.value, one.dataset, one.signal, size) for one, size in fit.sensor_errors),
         records=tuple(records),
         responses=responses,
         failures=failures(records, session.dataset),
@@ -87,11 +88,12 @@ def beside(fit: FinalFit, simulation: Simulation) -> Compared:
     """The model beside every record that is fitted or may choose."""
     residuals = fit.candidate.residuals(simulation)
     carried = dict(zip(map(id, residuals.runs), fit.point.carried.states, strict=False))
-    return compared(fit.candidate.problem, fit.point.x, simulation, carried)
+    return compared(fit.candidate.problem, fit.point.x, simulation, carried, errors=fit.sensor_errors)
 
 
 def _unseen(fit: FinalFit, session: Session, simulation: Simulation) -> Compared:
-    found = compared(session.unseen_beside(fit.candidate.model, fit.candidate.space), fit.point.x, simulation)
+    problem = session.unseen_beside(fit.candidate.model, fit.candidate.space)
+    found = compared(problem, fit.point.x, simulation, errors=fit.sensor_errors)
     return replace(found, records=tuple(replace(record, use=TEST) for record in found.records), responses=())
 
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from pysim.diagnosis.candidate import Candidate, Values
 from pysim.diagnosis.secants import Secants
 from pysim.diagnosis.settings import Settings
-from pysim.identify.greybox import GaussNewton, Point, Simulation
+from pysim.identify.greybox import GaussNewton, Nuisance, Point, Simulation
 from pysim.identify.greybox.optimiser import Bounds, State
 from pysim.identify.greybox.residuals import Carried
 from pysim.types import FitOutcome
@@ -63,6 +63,11 @@ class FinalFit:
     def values(self) -> Values:
         """The free parameters."""
         return self.candidate.values(self.point.x)
+
+    @property
+    def sensor_errors(self) -> tuple[tuple[Nuisance, float], ...]:
+        """How large each of the candidate's sensor errors is."""
+        return tuple(zip(self.candidate.nuisances, self.point.carried.nuisances.tolist(), strict=True))
 
     @property
     def expected(self) -> float:

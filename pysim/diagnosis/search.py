@@ -429,6 +429,7 @@ class Search:
         ends = []
         for fit in (larger, smaller):
             residuals = fit.candidate.residuals(fit.simulation, "validate")
+            residuals = replace(residuals, nuisances=(), known=fit.sensor_errors)
             if not residuals.observations:
                 return None
             space = fit.candidate.space

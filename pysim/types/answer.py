@@ -128,6 +128,22 @@ class FoundEffect:
 
 
 @dataclass(frozen=True)
+class SensorError:
+    """An error of a sensor that a model has beside its parameters.
+
+    Args:
+        kind: "gain" (share of the signal), "offset" (in its unit), "delay" (s) or "drift" (its unit per s).
+        dataset, signal: where.
+        size: how large.
+    """
+
+    kind: str
+    dataset: str
+    signal: str
+    size: float
+
+
+@dataclass(frozen=True)
 class ErrorStep:
     """One model of the error history, from the untouched one to that with every effect.
 
@@ -142,6 +158,7 @@ class ErrorStep:
         estimates, undetermined: parameters of this model; what the data do not determine.
         records, responses: logs and frequency responses beside it.
         failures: where it fails, worst first.
+        sensors: errors of sensors that it has.
     """
 
     step: str
@@ -157,6 +174,7 @@ class ErrorStep:
     records: tuple[RecordFit, ...] = field(default=(), repr=False)
     responses: tuple[ResponseFit, ...] = field(default=(), repr=False)
     failures: tuple[Failure, ...] = field(default=(), repr=False)
+    sensors: tuple[SensorError, ...] = ()
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "criteria", FrozenMapping(self.criteria))

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from pysim.diagnosis import diagnose, session
 from pysim.types import Model
+from pysim.types.answer import SensorError
 from validation.mismatch.tasks import Task
 
 
@@ -18,11 +19,13 @@ class Step:
         name: "refit" of the base model, or the effects that the step added.
         model: with the effects so far.
         values: its parameters, by their names there.
+        sensors: errors of sensors that it has.
     """
 
     name: str
     model: Model
     values: Mapping[str, float]
+    sensors: tuple[SensorError, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -50,5 +53,5 @@ def answer(task: Task) -> Answer:
         if steps:
             names += step.step.split(" + ")
         built = task.build([effects[name] for name in names if name in effects])[0]
-        steps.append(Step(step.step, built, {e.name: e.value for e in step.estimates}))
+        steps.append(Step(step.step, built, {e.name: e.value for e in step.estimates}, step.sensors))
     return Answer(tuple(one.effect.name for one in found.effects), found.complete, tuple(steps))

@@ -54,5 +54,5 @@ def judged(task: Task, answer: Answer) -> Judged:
 
 def withheld_error(task: Task, step: Step) -> float:
     """Of one step's model: root mean square of all signals over their noise, or of the one signal in its unit."""
-    sizes = held_out_rms(step.model, task.dataset, step.values)
+    sizes = held_out_rms(step.model, task.dataset, step.values, sensors=step.sensors)
     return math.sqrt(sum((size / task.noise.get(name, 1.0)) ** 2 for name, size in sizes.items()) / len(sizes))

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pysim.identify.greybox.least_squares import GaussNewton
+from pysim.identify.greybox.nuisance import SensorErrors
 from pysim.identify.greybox.observation import Observation, Simulated
 from pysim.identify.greybox.parameters import ParameterSpace
 from pysim.identify.greybox.problem import Problem
@@ -38,6 +39,7 @@ def compared(
     simulation: Simulation,
     carried: Mapping[int, Array | None] | None = None,
     given: Mapping[int, Simulated] | None = None,
+    errors: SensorErrors = (),
 ) -> Compared:
     """Simulate every observation at x (n,); one that cannot be simulated is noted and left out.
 
@@ -47,9 +49,10 @@ def compared(
     Args:
         carried: id of a run -> where its orbit is sought or its log begins, of the runs that were fitted.
         given: id of a run -> what it gave at x, so that it need not be simulated again.
+        errors: of sensors; the model is shown as they show it.
     """
     known = dict(carried or {})
-    residuals = problem.residuals(simulation=simulation, use="validate")
+    residuals = replace(problem.residuals(simulation=simulation, use="validate"), known=tuple(errors))
     unknown = [o for o in problem.observations if any(run.free.size and id(run) not in known for run in o.runs)]
     for one in unknown:
         point = settled_initial_states(replace(residuals, observations=(one,)), problem.model, problem.space, x)
@@ -66,7 +69,7 @@ def compared(
             notes.append(Note(NoteCode.NOT_SIMULATED, {"record": failure.record, "reason": why}))
             lost += len(one.sources)
             continue
-        own = one.beside(simulated)
+        own = one.beside(one.sensed(simulated, errors) if errors else simulated)
         records, responses = [*records, *own[0]], [*responses, *own[1]]
     return Compared(tuple(records), tuple(responses), tuple(experiments), tuple(notes), lost)
 

@@ -81,10 +81,10 @@ class GaussNewton:
 
     def tell(self, state: State, proposal: Proposal, trial: Point, bounds: Bounds) -> State:
         """See Optimiser."""
-        length = float(np.linalg.norm(proposal.x - state.best.x))
+        radius, blur = state.memory["radius"], blur_of(state.best)
+        length = float(np.linalg.norm(proposal.x - state.best.x)) or radius  # 0 where initial states alone move
         actual = state.best.cost - trial.cost if trial.good else -math.inf
         ratio = actual / proposal.predicted if proposal.predicted > 0 else -math.inf
-        radius, blur = state.memory["radius"], blur_of(state.best)
         if proposal.predicted < blur and ratio <= _NONE and actual > -blur:
             memory = {**state.memory, "radius": _POOR * length}
             return self._lost(replace(state, best=trial, tried=state.tried + 1, memory=memory), bounds)
@@ -97,7 +97,7 @@ class GaussNewton:
         memory = {**state.memory, "radius": radius, "share": share if state.best.gain > 0 else 1.0}
         state = replace(state, tried=state.tried + 1, memory=memory)
         if ratio > _NONE:
-            taken = replace(state, best=trial, memory={**state.memory, "length": length or radius})
+            taken = replace(state, best=trial, memory={**state.memory, "length": length})
             return self._examined(taken, bounds)
         if trial.good and _turned(trial, proposal.x - state.best.x):
             state = replace(state, memory={**state.memory, "turned": 1.0})

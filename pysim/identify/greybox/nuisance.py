@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import Enum
+
+import numpy as np
+from numpy.typing import NDArray
 
 from pysim.types import BadInput
 
@@ -35,3 +39,16 @@ class Nuisance:
     def __post_init__(self) -> None:
         if not self.prior_sd > 0:
             raise BadInput(f"nuisance: {self.kind.value} of {self.signal} needs a size above 0, got {self.prior_sd}")
+
+
+# Errors of sensors, and how large each is.
+SensorErrors = Sequence[tuple[Nuisance, float]]
+
+
+def gains(errors: SensorErrors, dataset: str, channels: Sequence[str]) -> NDArray[np.float64]:
+    """(n_c,) by which the sensors multiply each channel of a data set."""
+    found = np.ones(len(channels))
+    for error, size in errors:
+        if error.kind is NuisanceKind.GAIN and error.dataset == dataset and error.signal in channels:
+            found[channels.index(error.signal)] += size
+    return found

@@ -10,7 +10,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from pysim.identify.greybox.nuisance import Nuisance
+from pysim.identify.greybox.nuisance import Nuisance, SensorErrors
 from pysim.identify.greybox.reduction import Reduction
 from pysim.simulate import Periodic
 from pysim.types import Experiment, RecordFit, ResponseFit
@@ -141,6 +141,10 @@ class Observation(Protocol):
 
     def nuisance_columns(self, answers: Sequence[Simulated], nuisances: Sequence[Nuisance]) -> Array:
         """What one unit of each nuisance adds to the measured rows, (n, k)."""
+        ...
+
+    def sensed(self, answers: Sequence[Simulated], errors: SensorErrors) -> tuple[Simulated, ...]:
+        """The answers as sensors with these errors show them."""
         ...
 
     def pieces(self, residual: Array, shortest: float) -> NDArray[np.intp]:

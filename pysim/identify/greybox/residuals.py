@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pysim.identify.greybox.identifiability import EXACT
-from pysim.identify.greybox.nuisance import Nuisance, NuisanceKind
+from pysim.identify.greybox.nuisance import Nuisance
 from pysim.identify.greybox.observation import Measure, Observation, Run, Simulated
 from pysim.identify.greybox.parameters import ParameterSpace
 from pysim.identify.greybox.reduction import Reduction
@@ -140,6 +140,7 @@ class WeightedResiduals:
         measure: in what residuals are counted. As the thesis counts them, levels are 1 and sizes are summed up.
         absolute: whether sizes are summed up instead of squares; initial states are held at rest then.
         nuisances: sensor errors that are free beside the parameters.
+        known: sensor errors that are there for certain, and how large they are.
         settings: of levels, priors and blocks.
     """
 
@@ -149,6 +150,7 @@ class WeightedResiduals:
     measure: Measure = Measure.SIGNAL
     absolute: bool = False
     nuisances: tuple[Nuisance, ...] = ()
+    known: tuple[tuple[Nuisance, float], ...] = ()
     settings: NoiseSettings = field(default_factory=NoiseSettings)
 
     @property
@@ -227,7 +229,7 @@ class WeightedResiduals:
 
     def _reductions(self, carried: Carried) -> list[Reduction | None]:
         """For each run that is too long to keep its rows."""
-        if self.absolute or self.measure is Measure.THESIS or self.nuisances:
+        if self.absolute or self.measure is Measure.THESIS or self.nuisances or self.known:
             return []
         runs, blocks = self.runs, self.settings.blocks
         pieces = carried.pieces or (0,) * len(runs)
@@ -240,15 +242,20 @@ class WeightedResiduals:
         """The point that simulated runs make, with `n` columns of the Jacobian."""
         if answer.failure is not None:
             return failed_point(x, answer.failure)
-        tables = [_rows(one, own, self.measure) for one, own in self._own(answer.simulated)]
+        sizes = carried.nuisances if carried.nuisances.size else np.zeros(len(self.nuisances))
+        errors = (*self.known, *zip(self.nuisances, sizes.tolist(), strict=True))
+        own = self._own(answer.simulated)
+        shown = [(one, one.sensed(answers, errors)) for one, answers in own] if errors else own
+        tables = [_rows(one, answers, self.measure) for one, answers in shown]
         if not all(_finite(table.rows) for table in tables):
             return failed_point(x, Failure("residual", Outcome.DONE, "it is not finite; an output may not move at all"))
         if self.absolute or self.measure is Measure.THESIS:
             return self._unlevelled(x, tables, answer, n)
-        return self._levelled(x, tables, answer, carried, n)
+        by_error = [-one.nuisance_columns(answers, self.nuisances) for one, answers in own] if self.nuisances else []
+        return self._levelled(x, tables, answer, replace(carried, nuisances=sizes), by_error, n)
 
-    def _own(self, simulated: Sequence[Simulated]) -> list[tuple[Observation, list[Simulated]]]:
-        rest, found = list(simulated), []
+    def _own(self, simulated: Sequence[Simulated]) -> list[tuple[Observation, Sequence[Simulated]]]:
+        rest, found = list(simulated), list[tuple[Observation, Sequence[Simulated]]]()
         for one in self.observations:
             found.append((one, rest[: len(one.runs)]))
             rest = rest[len(one.runs) :]
@@ -273,9 +280,20 @@ class WeightedResiduals:
             carried=Carried(tuple(states)), steps=(*steps, (np.zeros(0), np.zeros((0, n)))),
         )  # fmt: skip
 
-    def _levelled(self, x: Array, tables: Sequence[_Rows], answer: Answer, carried: Carried, n: int) -> Point:
-        sizes = carried.nuisances if carried.nuisances.size else np.zeros(len(self.nuisances))
-        errors = self._with_nuisances(tables, answer, sizes) if self.nuisances else []
+    def _levelled(
+        self,
+        x: Array,
+        tables: Sequence[_Rows],
+        answer: Answer,
+        carried: Carried,
+        by_error: Sequence[Array],
+        n: int,
+    ) -> Point:
+        """One point of all observations.
+
+        Args:
+            by_error: slopes (n, k) of each observation's residual by the sizes of the nuisances; none without these.
+        """
         squares = self._summed([_squares(one, table) for one, table in zip(self.observations, tables, strict=True)])
         levels, cost = self._levels(squares)
         place = {channel: i for i, channel in enumerate(self.channels)}
@@ -288,7 +306,7 @@ class WeightedResiduals:
             table /= size
             if not one.channels:
                 known += float(table[:, 0] @ table[:, 0])
-            more = errors[k] / size if errors else np.zeros((len(table), 0))
+            more = by_error[k] / size if by_error else np.zeros((len(table), 0))
             free = table.shape[1] - 1 - n
             count = len(one.runs[0].free) if one.runs else 0
             sd = one.runs[0].initial[one.runs[0].free] if count else np.zeros(0)
@@ -300,7 +318,7 @@ class WeightedResiduals:
             if count:
                 states[run] = offset
             run += len(one.runs)
-        point = self._joined(x, parts, states, steps, sizes, n, tables)
+        point = self._joined(x, parts, states, steps, carried.nuisances, n, tables)
         return replace(point, cost=cost + 0.5 * known + point.cost, levels=levels, squares=squares, known=known)
 
     def _joined(
@@ -337,18 +355,6 @@ class WeightedResiduals:
             x, cost, residual, jacobian, blocks=blocks, series=series, more=sum(table.more for table in tables),
             carried=Carried(tuple(states), sizes, pieces), steps=(*steps, (step, by)), gain=gain,
         )  # fmt: skip
-
-    def _with_nuisances(self, tables: Sequence[_Rows], answer: Answer, sizes: Array) -> list[Array]:
-        """Take the sensor errors off the residuals in place; slopes by their sizes, per observation (n, k)."""
-        found = []
-        for (one, own), (table, *_) in zip(self._own(answer.simulated), tables, strict=True):
-            columns = one.nuisance_columns(own, self.nuisances)
-            table[:, 0] -= columns @ sizes
-            for error, size in zip(self.nuisances, sizes, strict=True):
-                if error.kind is NuisanceKind.GAIN and one.dataset == error.dataset and error.signal in one.channels:
-                    table[one.channel_of_row == one.channels.index(error.signal), 1:] *= 1 + size
-            found.append(-columns)
-        return found
 
     def _levels(self, squares: Array) -> tuple[Array, float]:
         """Of every channel, and what they cost, nats."""

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from pysim.identify.accuracy import frequency_deviations
 from pysim.identify.greybox.context import Context
-from pysim.identify.greybox.nuisance import Nuisance
+from pysim.identify.greybox.nuisance import Nuisance, SensorErrors
 from pysim.identify.greybox.observation import Measure, Run, Simulated
 from pysim.identify.greybox.response import (
     DB,
@@ -98,6 +98,10 @@ class ResponseTable:
     def nuisance_columns(self, answers: Sequence[Simulated], nuisances: Sequence[Nuisance]) -> Array:
         """A table has no sensor that could be wrong."""
         return np.zeros((2 * self.measured.frequency.size, len(nuisances)))
+
+    def sensed(self, answers: Sequence[Simulated], errors: SensorErrors) -> tuple[Simulated, ...]:
+        """A table has no sensor that could be wrong."""
+        return tuple(answers)
 
     def pieces(self, residual: Array, shortest: float) -> NDArray[np.intp]:
         """Magnitude and phase of a frequency belong together."""

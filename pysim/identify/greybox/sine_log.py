@@ -16,6 +16,9 @@ from pysim.types import BadInput, Record
 Array = NDArray[np.float64]
 
 
+_CHANCE = 1e-3  # of a harmonic that seems to be there and is not
+
+
 @dataclass(frozen=True)
 class Sine:
     """offset + amplitude sin(2 pi frequency t + phase) from onset to end, s; frequency in Hz."""
@@ -165,7 +168,23 @@ def sine_log(source: str, data: Record, sine: Sine, noise: tuple[float, ...], pl
         )
     keep = (data.time > end - whole * period - 0.5 * gap) & (data.time < end - 0.5 * gap)
     cut = _kept(data, keep)
-    count = harmonic_count(sine.frequency, 1 / gap, plan.harmonics)
-    if cut.time.size < 2 * count + 2:
+    least, most = (harmonic_count(sine.frequency, 1 / gap, n) for n in (plan.harmonics, plan.points // 4))
+    if cut.time.size < 2 * least + 2:
         raise BadInput(f"{source}: {cut.time.size} samples in {whole} periods are too few; record faster")
+    count = max(least, _seen(cut.values, sine.at(cut.time), most))
     return SineLog(source, sine, cut, noise, count, plan.points, index=index)
+
+
+def _seen(values: Array, phase: Array, most: int) -> int:
+    """The highest of `most` harmonics that stands out of what all of them leave of some column of values (n_t, n_y).
+
+    A valve's dead band shows in harmonics that no sine has; where they are not compared, they count as noise.
+    """
+    freedom = len(phase) - 2 * most - 1
+    if freedom < most:
+        return 0
+    parts = np.linalg.qr(regressors(phase, most))[0].T @ values
+    rest = np.maximum(np.sum(values**2, axis=0) - np.sum(parts**2, axis=0), 0.0) / freedom
+    pairs = np.sum(parts[1:].reshape(most, 2, -1) ** 2, axis=1)
+    found = np.flatnonzero((pairs > -2 * np.log(_CHANCE) * rest).any(axis=1))
+    return int(found[-1]) + 1 if found.size else 0

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from pysim.identify.accuracy import frequency_deviations
 from pysim.identify.greybox.context import Context
 from pysim.identify.greybox.harmonics import interpolation
-from pysim.identify.greybox.nuisance import Nuisance, NuisanceKind
+from pysim.identify.greybox.nuisance import Nuisance, NuisanceKind, SensorErrors, gains
 from pysim.identify.greybox.observation import Measure, Run, Simulated
 from pysim.identify.greybox.response import LogResponse, beside_measured, log_response, thesis_deviation
 from pysim.identify.greybox.sine_log import Sine, SineLog, sine_log, steady_sine
@@ -140,6 +140,18 @@ class SteppedSines:
                     columns[:, j, k] = log.onto @ _effect(one.kind, answer.values[:, j], log.sine.frequency)
             parts.append(columns.reshape(-1, len(nuisances)))
         return np.concatenate(parts)
+
+    def sensed(self, answers: Sequence[Simulated], errors: SensorErrors) -> tuple[Simulated, ...]:
+        """See Observation."""
+        gain, found = gains(errors, self.dataset, self.channels)[:, None], []
+        for log, answer in zip(self.logs, answers, strict=True):
+            values = answer.values.copy()
+            for one, size in errors:
+                if one.dataset == self.dataset and one.signal in self.channels and one.kind is not NuisanceKind.DRIFT:
+                    j = self.channels.index(one.signal)
+                    values[:, j] += size * _effect(one.kind, answer.values[:, j], log.sine.frequency)
+            found.append(Simulated(values, answer.slopes * gain))
+        return tuple(found)
 
     def pieces(self, residual: Array, shortest: float) -> NDArray[np.intp]:
         """A steady sine is one cluster."""

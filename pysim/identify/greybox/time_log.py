@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from pysim.identify.accuracy import time_deviations
 from pysim.identify.greybox.context import Context
 from pysim.identify.greybox.effective_size import independent_pieces
-from pysim.identify.greybox.nuisance import Nuisance, NuisanceKind
+from pysim.identify.greybox.nuisance import Nuisance, NuisanceKind, SensorErrors, gains
 from pysim.identify.greybox.observation import Measure, Run, Simulated
 from pysim.identify.logged import logged_command
 from pysim.simulate import Rodas, simulate_many
@@ -113,6 +113,18 @@ class TimeLog:
             else:
                 columns[:, j, k] = (self.begin or 0.0) + time - time[0]
         return columns.reshape(self.measured.values.size, len(nuisances))
+
+    def sensed(self, answers: Sequence[Simulated], errors: SensorErrors) -> tuple[Simulated, ...]:
+        """See Observation."""
+        (answer,) = answers
+        moved = self.nuisance_columns(answers, [one for one, _ in errors]) @ np.array([size for _, size in errors])
+        gain = gains(errors, self.dataset, self.channels)[:, None]
+        values = answer.values + moved.reshape(answer.values.shape)
+        return (
+            Simulated(
+                values, answer.slopes * gain, answer.by_initial * gain if answer.by_initial.size else answer.by_initial
+            ),
+        )
 
     def pieces(self, residual: Array, shortest: float) -> NDArray[np.intp]:
         """Contiguous stretches of whole samples, as long as the slowest channel needs them to be."""

@@ -68,7 +68,8 @@ class SinePlan:
         settle_time: s of the sine that are left out, and
         settle_periods: whole periods, whichever is longer; more of them where `settle_time` is None and the first that
             is compared is unlike those after it.
-        harmonics: how many are compared, where the sampling tells them apart.
+        harmonics: how many are compared at least, where the sampling tells them apart; more where more are measured, a
+            quarter of `points` at most.
         points: samples over one period of the model's orbit.
     Raises:
         BadInput: fewer than one harmonic, or too few points for the harmonics.

@@ -16,6 +16,7 @@ from pysim.identify.greybox import (
     fit,
     problem,
 )
+from pysim.identify.greybox.comparison import compared
 from pysim.identify.greybox.residuals import Carried, Point
 from pysim.simulate import Esdirk
 from pysim.types import MeasuredRecord, Model
@@ -70,6 +71,20 @@ def test_initial_states_and_a_gain_take_what_they_can(lag: Model) -> None:
     assert here.gain > 0
     assert here.cost - there.cost == pytest.approx(here.gain, rel=1e-3)
     assert there.gain < 1e-3 * here.gain
+
+
+@pytest.mark.parametrize("kind", NuisanceKind)
+def test_an_error_that_is_known_counts_as_a_free_one_of_that_size(lag: Model, kind: NuisanceKind) -> None:
+    """Without its prior and its slopes; and what is shown beside the measurements is what the sensor shows."""
+    this, error, size = task(lag, "rest"), Nuisance(kind, "lag", "y", 0.05), 0.03
+    x = this.space.to_search(np.array([1.9, 0.6]))
+    free = at(this, x, Carried(nuisances=np.array([size])), nuisances=(error,))
+    known = at(this, x, known=((error, size),))
+    assert known.squares == pytest.approx(free.squares, rel=1e-12)
+    assert known.squares != pytest.approx(at(this, x).squares, rel=1e-3) or kind is NuisanceKind.DRIFT
+    shown = compared(this, x, TIGHT, errors=((error, size),)).records
+    apart = [record.measured["y"] - record.simulated["y"] for record in shown]
+    assert sum(float(rest @ rest) for rest in apart) == pytest.approx(float(known.squares.sum()), rel=1e-3)
 
 
 def test_a_level_never_falls_below_its_floor_nor_rises_above_its_residual(lag: Model) -> None:

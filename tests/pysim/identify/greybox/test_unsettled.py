@@ -38,6 +38,16 @@ def test_one_period_has_no_other_to_be_compared_with() -> None:
     assert swing(5.0, seconds=1.6).unlike > 5.0
 
 
+def test_harmonics_that_stand_out_are_compared_beyond_those_that_always_are() -> None:
+    time = np.arange(400) / RATE
+    noise = TOLD * np.random.default_rng(1).standard_normal(time.size)
+    for highest, count in ((3, 5), (9, 9), (30, 5)):
+        values = np.sin(2 * np.pi * F * time) + 0.1 * np.sin(2 * np.pi * F * highest * time + 1) + noise
+        data = Record(time, values[:, None], ("y",), ("1",))
+        log = sine_log("2Hz.txt", data, Sine(0.0, 1.0, F, 0.0, 0.0, 4.0), (TOLD,), SinePlan(), index=0)
+        assert log.count == count
+
+
 def started(K: float, T: float, f: float) -> MeasuredRecord:
     """The lag from rest, from the moment on when the sine begins."""
     t = np.arange(0, 3.0, 0.01)
