@@ -142,6 +142,7 @@ def _answer(
         estimates=estimates,
         notes=(*session.notes, *lost, *unsettled, *verdict.notes_of(found, estimates, search.models.refused, session)),
         seconds=search.say.seconds,
+        detectable=search.detectable(found.final),
     )
 
 

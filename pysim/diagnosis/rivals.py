@@ -104,6 +104,14 @@ def p_value(gain: float, df: int, samples: float, size: int, inflated: float) ->
     return float(stats.f.sf(ratio, df, freedom))
 
 
+def least_gain(chance: float, df: int, samples: float, size: int, inflated: float) -> float:
+    """nats whose `p_value` is this chance; infinite where too few samples are there to tell."""
+    freedom = samples / inflated - size
+    if freedom < 1:
+        return math.inf
+    return 0.5 * samples * math.log1p(float(stats.f.isf(chance, df, freedom)) * df / freedom)
+
+
 def samples(fit: FinalFit) -> float:
     """Independent numbers of all channels, and of what has a known level."""
     residuals = fit.candidate.residuals(fit.simulation)

@@ -30,12 +30,14 @@ class Screened:
     Args:
         candidate: the present model with the effect.
         values: where a refit may begin.
+        tried: values of the effect's parameters at which it was simulated.
         gain: nats that it promises, refitting allowed for, to first order.
         change: (n_r,) by which it changes the residual, in the units of the channels, refitting allowed for.
     """
 
     candidate: Candidate
     values: Values
+    tried: Mapping[str, float]
     gain: float
     change: Array = field(repr=False)
 
@@ -145,7 +147,7 @@ def _screened(
             amount = 0.0
         scaled = _amounted(effect, tried, amount)
         start = with_effect(present.values, effect, scaled)
-        yield Screened(candidate, start, 0.5 * amount**2 * size, left * before.level)
+        yield Screened(candidate, start, tried, 0.5 * amount**2 * size, left * before.level)
 
 
 def own_values(one: Screened) -> Values:

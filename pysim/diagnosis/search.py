@@ -24,7 +24,7 @@ from pysim.diagnosis.settings import Settings
 from pysim.identify.greybox import Simulation
 from pysim.identify.greybox.comparison import settled_initial_states
 from pysim.types import BadInput, Effect
-from pysim.types.answer import GainTest, Verdict
+from pysim.types.answer import Detectable, GainTest, Verdict
 
 
 @dataclass(frozen=True)
@@ -52,12 +52,14 @@ class Table:
         names: what the model has already.
         avoidable: nats that could be gained.
         rivals: refitted, best first; screened: only that.
+        looked: every effect at its best size.
     """
 
     names: tuple[str, ...]
     avoidable: float
     rivals: Sequence[Compared]
     screened: Sequence[Screened]
+    looked: Sequence[Screened]
 
 
 @dataclass(frozen=True)
@@ -165,6 +167,27 @@ class Search:
     def tables(self) -> tuple[Table, ...]:
         """All that was tried, in order."""
         return tuple(self._tables.values())
+
+    def detectable(self, fit: FinalFit) -> tuple[Detectable, ...]:
+        """From which size on each effect that a model lacks would have been found beside it.
+
+        An amount counts as what it does at the size that was tried, times its share of that; how a limit acts changes
+        with its size, so that none is given for it.
+        """
+        table = self._tables.get(frozenset(fit.candidate.labels))
+        if table is None or not self.floors.within(fit, self.settings.near):
+            return ()
+        left, count, found = rivals.of(fit), rivals.samples(fit), list[Detectable]()
+        for one in table.looked:
+            if one.change.size != left.residual.size or any(p.inverse for p in one.effect.strengths):
+                continue
+            df, inflated = len(one.effect.parameters), rivals.effective(left, one.change)
+            chance = self.settings.false_alarm / max(self.tried, 1)
+            least = rivals.least_gain(chance, df, count, fit.candidate.size + df, inflated)
+            share = math.sqrt(2 * least / float(np.sum((one.change / left.level) ** 2)))
+            sizes = {p.name: share * abs(one.tried[p.name] - (p.off or 0.0)) for p in one.effect.strengths}
+            found.append(Detectable(one.effect.name, sizes))
+        return tuple(found)
 
     def as_it_is(self) -> FinalFit:
         """The base model with its own parameters, initial states estimated.
@@ -294,7 +317,7 @@ class Search:
                 for fit in fits
             ]
         )
-        return Table(present.candidate.labels, self.floors.potential(present), compared, aside)
+        return Table(present.candidate.labels, self.floors.potential(present), compared, aside, tried)
 
     def _beside(self, fit: FinalFit, transient: bool) -> FinalFit:
         """A fit compared by orbits or by transients, as a rival is."""

@@ -233,6 +233,22 @@ class LearnedLaw:
 
 
 @dataclass(frozen=True)
+class Detectable:
+    """How large an effect that was not found would have to be for these logs to show it.
+
+    Args:
+        effect: its standard name.
+        sizes: of its strengths, by their names as declared, in SI units, to first order.
+    """
+
+    effect: str
+    sizes: Mapping[str, float]
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "sizes", FrozenMapping(self.sizes))
+
+
+@dataclass(frozen=True)
 class Left:
     """What is left after the last model.
 
@@ -266,6 +282,8 @@ class Diagnosis:
         history: the error, model by model.
         failures: where the refitted base model fails, worst first.
         learned: laws that no catalogue has, in the order they were added.
+        detectable: effects that were not found, and from which size on they would have been; none where the model
+            leaves more than noise, which hides them.
         next_test: where two answers are left that another test would tell apart.
         estimates: parameters of the final model.
         notes: what a reader must know.
@@ -286,6 +304,7 @@ class Diagnosis:
     notes: tuple[Note, ...] = ()
     conditions: Mapping[str, str] = field(default_factory=dict)
     seconds: Mapping[str, float] = field(default_factory=dict)
+    detectable: tuple[Detectable, ...] = ()
 
     def __post_init__(self) -> None:
         for name in ("seconds", "conditions"):
