@@ -9,15 +9,15 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
-from pysim.diagnose import diagnose, subject
+from pysim.diagnosis import diagnose, session
 from pysim.io import write_file
-from pysim.types import Diagnosis
+from pysim.types.answer import Diagnosis
 from validation.blind.benchmark.workshop import workshop
 from validation.commit import this_commit
+from validation.diagnosis.intervals import named
 from validation.diagnosis.sets import read_set
 
 ANSWERS = Path(__file__).parent / "answers.json"
-_SEED = 0
 
 
 @dataclass(frozen=True)
@@ -25,20 +25,18 @@ class Kept:
     """What is kept of one answer; numbers of four digits.
 
     Args:
-        verdict, added, confusable: as answered.
+        verdict, added, ties: as answered.
         values: "effect: parameter" -> estimate and 95 percent interval, in the unit of the class.
         fit, validate: residual over noise of the refitted base model and of the final one.
-        slot: that was located first.
         commit, day: of the checkout that answered, "" where that was not noted, and when.
     """
 
     verdict: str
     added: tuple[str, ...]
-    confusable: tuple[tuple[str, ...], ...]
+    ties: tuple[tuple[str, ...], ...]
     values: Mapping[str, tuple[float, float, float]]
     fit: tuple[float, float]
     validate: tuple[float, float]
-    slot: str
     commit: str
     day: str
 
@@ -46,26 +44,24 @@ class Kept:
 def answered(name: str, workers: int | None = None) -> Diagnosis:
     """Diagnose that set with the base model and the whole catalogue."""
     shop = workshop()
-    return diagnose(subject(shop.model, read_set(name), shop.catalogue, shop.variant), seed=_SEED, workers=workers)
+    return diagnose(session(shop.model, read_set(name), shop.catalogue, shop.variant, workers=workers))
 
 
 def kept(found: Diagnosis) -> Kept:
     """The part of a diagnosis that is stored."""
     values = {}
-    for added in found.added:
+    for added in named(found):
         for parameter, estimate in zip(added.effect.parameters, added.estimates, strict=True):
             row = (estimate.value, *estimate.interval)
             values[f"{added.effect.name}: {parameter.name}"] = (_short(row[0]), _short(row[1]), _short(row[2]))
-    base = next(step for step in found.error if step.step == "refit")
-    last = found.error[-1]
+    base, last = found.history[1], found.history[-1]
     return Kept(
         found.verdict,
-        tuple(added.effect.name for added in found.added),
-        found.confusable,
+        tuple(added.effect.name for added in named(found)),
+        found.ties,
         values,
         (_short(base.fit), _short(last.fit)),
         (_short(base.validate), _short(last.validate)),
-        found.missing[0].slot if found.missing else "",
         this_commit(),
         datetime.now(UTC).date().isoformat(),
     )

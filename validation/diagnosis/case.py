@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Sequence
 
-from pysim.types import Diagnosis
-from validation.blind.benchmark.intervals import estimated
+from pysim.types.answer import Diagnosis
 from validation.diagnosis.answers import Kept, answered, kept, read_answers
+from validation.diagnosis.intervals import estimated, named
 from validation.diagnosis.sets import NAMES, Told, read_told
 from validation.drawn import drawn, of_the_day
 from validation.findings import Finding
@@ -72,13 +72,13 @@ def _binomial(total: int) -> float:
 
 def against_truth(name: str, found: Diagnosis, told: Told) -> Iterator[Finding]:
     """Verdict, effects, strengths, and what is left on held-out records."""
-    added = tuple(one.effect.name for one in found.added)
+    added = tuple(one.effect.name for one in named(found))
     if told.names not in (("none",), ("unknown",)):
-        left = found.error[-1].validate
+        left = found.history[-1].validate
         yield Finding(f"{name}: held-out residual over noise", math.nan if left is None else left, _HELD, "")
     claim = f"{name}: {found.verdict} ({', '.join(added) or 'nothing added'}), truth {' and '.join(told.names)}; wrong"
     yield Finding(claim, float(not _right(found.verdict, added, told)), 0, "")
-    own = {f"{one.place}.{p.name}": one.effect.name for one in found.added for p in one.effect.parameters}
+    own = {f"{one.place}.{p.name}": one.effect.name for one in named(found) for p in one.effect.parameters}
     for estimate, true in estimated(told, found):
         if estimate.name in own and own[estimate.name] in told.names:
             half = (estimate.interval[1] - estimate.interval[0]) / 2

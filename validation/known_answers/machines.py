@@ -10,15 +10,11 @@ from typing import Any
 import numpy as np
 
 from pysim.types import Dataset
-from validation.blind.plant import BOUNDS, STANDARD, Case, Parameters, Strengths, measure
+from validation.blind.plant import BOUNDS, FEW_SINES, STANDARD, Case, Parameters, Strengths, measure
 from validation.rig_diagnosis import machines as rig
 
 # Of the blind plant's programme: a wave that is fitted, one that is held out, and eight of 65 stepped sines.
-_GIVEN = (
-    "stochastic/Tp1.0_fit.txt",
-    "stochastic/Tp0.5_heldout.txt",
-    *(f"frequency_response/{test}/{f}Hz.txt" for test in ("O+50_A20", "O-50_A10") for f in (1, 4, 10, 20)),
-)
+_GIVEN = ("stochastic/Tp1.0_fit.txt", "stochastic/Tp0.5_heldout.txt", *FEW_SINES)
 _UNSEEN = "chirp/O+50_A10.txt"
 _NOISE = 0.1  # percent, of the angle
 # Powers of s by which numbers change along the one direction that no signal shows: the stroke L grows by s.

@@ -10,23 +10,18 @@ from validation.findings import Finding
 from validation.real_measurements.explain import Explained, explain
 from validation.real_measurements.load import LoadDifference, couplings, load_differences
 from validation.real_measurements.reference import reference
-from validation.real_measurements.settle import settle
 
-# The known numbers that a test has to tell apart: the cylinder's area and the valve's opening near its middle.
+# Known numbers that mend the model: the cylinder's area and the valve's opening near its middle.
 _RIVALS = ("A_p", "k3")
 
 
 def run() -> Iterator[Finding]:
     """Every hypothesis, then the load."""
-    responses, done = reference(), []
-    for one in explain(responses):
+    done = []
+    for one in explain(reference()):
         print(one, flush=True)
         done.append(one)
     yield from _locked(done)
-    by_name = {one.hypothesis.name: one for one in done}
-    test = settle(by_name[_RIVALS[0]], by_name[_RIVALS[1]], responses)
-    print(f"to tell {' from '.join(_RIVALS)}: {test.about if test else 'no test found'}", flush=True)
-    yield Finding("no test tells the cylinder's area from the valve's size", float(test is None), 0, "")
     yield from _load()
 
 

@@ -1,4 +1,4 @@
-"""The diagnosis of the thesis' test bench: its linear friction is not enough (Section 5.5), and it is told so."""
+"""The diagnosis of the thesis' test bench: its linear friction is not enough (Section 5.5)."""
 
 from __future__ import annotations
 
@@ -6,8 +6,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from functools import cache
 from typing import TYPE_CHECKING
 
-from pysim.diagnose import diagnose
-from pysim.types import Diagnosis
+from pysim.diagnosis import diagnose
+from pysim.types.answer import Diagnosis
 from validation.findings import Finding
 from validation.rig_diagnosis.machines import MACHINES, asked, measured, truth
 
@@ -22,7 +22,7 @@ def run() -> Iterator[Finding]:
     """What is missing is named and nothing else, its numbers are the machine's, and the error falls to the noise."""
     for machine in MACHINES:
         found = answer(machine)
-        named = ", ".join(effect.effect.name for effect in found.added) or found.verdict
+        named = ", ".join(one.effect.name for one in found.effects) or found.verdict
         yield Finding(f"{machine}: answered with {named}", float(named != machine), 0, "wrong")
         yield from _errors(machine, found)
         yield from _numbers(machine, found)
@@ -31,12 +31,11 @@ def run() -> Iterator[Finding]:
 @cache
 def answer(machine: str) -> Diagnosis:
     """The diagnosis of a machine's logs."""
-    return diagnose(asked(measured(machine, SEED)), seed=SEED)
+    return diagnose(asked(measured(machine, SEED).dataset))
 
 
 def _errors(machine: str, found: Diagnosis) -> Iterator[Finding]:
-    steps = {step.step: step for step in found.error}
-    refit, last = steps["refit"], found.error[-1]
+    refit, last = found.history[1], found.history[-1]
     for what, before, after in (("fitted", refit.fit, last.fit), ("held out", refit.validate, last.validate)):
         assert before is not None
         assert after is not None
@@ -48,12 +47,10 @@ def _errors(machine: str, found: Diagnosis) -> Iterator[Finding]:
 def _numbers(machine: str, found: Diagnosis) -> Iterator[Finding]:
     """How far each estimate is off, in half widths of its 95 percent interval."""
     true = truth(machine)
-    estimates = {e.name: e for e in found.parameters}
-    for added in found.added:
-        estimates |= {f"{added.place}.{e.name}": e for e in added.estimates}
+    estimates = {e.name: e for e in found.estimates}
     for name, value in true.items():
         estimate = estimates.get(name)
-        if estimate is None or estimate.interval is None:
+        if estimate is None or not estimate.determined:
             yield Finding(f"{machine}: {name} has no interval", 1.0, 0, "missing")
             continue
         low, high = estimate.interval
@@ -62,17 +59,12 @@ def _numbers(machine: str, found: Diagnosis) -> Iterator[Finding]:
 
 
 def pictures() -> Mapping[str, Figure]:
-    """The staircase of the error, and the friction that was found on that of the machine."""
-    from pysim.present.diagnosis import diagnosis_ledger_figure
+    """The friction that was found on that of the machine."""
     from validation.rig_diagnosis.friction_figure import friction_figure
 
-    found = answer("shaft.friction")
     return {
-        "Error over noise: the model as it is, refitted, and with the friction that the diagnosis added": (
-            diagnosis_ledger_figure(found.error)
-        ),
         "The friction that the model lacked, as it was found, and as the machine has it; right: near standstill": (
-            friction_figure(found)
+            friction_figure(answer("shaft.friction"))
         ),
     }
 

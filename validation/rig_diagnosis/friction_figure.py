@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from pysim.present.style import BAND, COLOURS, DASHES, LIMIT, TEXT, legend_above, new_figure, quiet
-from pysim.types import Diagnosis
+from pysim.types.answer import Diagnosis
 from validation.rig_diagnosis.machines import truth
 
 _FASTEST = 40.0  # rad/s, about what the tests reach
@@ -30,9 +30,7 @@ def friction_torque(values: Mapping[str, float], speed: NDArray[np.float64]) -> 
 
 def friction_figure(found: Diagnosis) -> Figure:
     """Friction torque of the refitted model, of the one with the effect, and of the machine; all speeds and near 0."""
-    refit = next(stage for stage in found.stages if stage.step == "refit")
-    before = {estimate.name: estimate.value for estimate in refit.estimates}
-    after = {estimate.name: estimate.value for estimate in found.parameters}
+    before, after = ({one.name: one.value for one in found.history[k].estimates} for k in (1, -1))
     figure = new_figure(8.0, 3.8)
     wide, near = figure.subplots(1, 2, width_ratios=(2.0, 1.0))
     handles = {}

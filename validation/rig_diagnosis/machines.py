@@ -10,10 +10,10 @@ from types import MappingProxyType
 
 import fmu_build
 from pysim.bench import BenchData, run_plan
-from pysim.diagnose import Subject, subject
+from pysim.diagnosis import Session, session
 from pysim.effects import STANDARD_LIBRARY, fitting, read_catalogue, variant
 from pysim.io import read_model
-from pysim.types import Effect, Model
+from pysim.types import Dataset, Effect, Model
 from validation.rig_diagnosis.tests_of_bench import plan
 
 BASE = "HydraulicTestBench.LoadCircuit.OpenTestBench"
@@ -61,6 +61,6 @@ def measured(machine: str, seed: int) -> BenchData:
     return run_plan(model, plan(), seed, parameters=truth(machine))
 
 
-def asked(data: BenchData) -> Subject:
+def asked(dataset: Dataset) -> Session:
     """The model without any effect beside the logs of a machine, with the whole catalogue."""
-    return subject(build_variant([])[0], data.dataset, tuple(catalogue().values()), build_variant)
+    return session(build_variant([])[0], dataset, tuple(catalogue().values()), build_variant)

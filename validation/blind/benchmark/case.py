@@ -1,56 +1,57 @@
-"""A few cases of the blind benchmark answered by this commit, and the targets on all that it has answered."""
+"""Cases of the blind benchmark answered by this commit, and the targets on all that it has answered."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
-from pathlib import Path
+from collections.abc import Iterator, Sequence
+from fnmatch import fnmatchcase
+from zlib import crc32
 
-from scipy import stats
-
-from validation.blind.benchmark.answer import Answer
-from validation.blind.benchmark.examine import examine
-from validation.blind.benchmark.figures import Pair, detectable, figures, paired
-from validation.blind.benchmark.runs import answer_cases, choose, folder_of
+from validation.batch import answered, file_of, read_lines
+from validation.blind.benchmark.answer import Answer, read_answer
+from validation.blind.benchmark.figures import KINDS, figures
 from validation.blind.plant import Case, cases
-from validation.commit import this_commit
 from validation.findings import Finding
+from validation.shares import claims
 
-TABLE_SEED = 1
+BATCH = "blind-benchmark"
+SEED = 1
 SAMPLE = 12
 """Cases that are answered where the whole benchmark was not run; always the same."""
-_WRONG = 0.1  # share of wrong verdicts that the targets allow, all kinds together
+LIMIT = 3600  # s for one case
 
 
-def run(count: int = SAMPLE, task: Callable[[Case], Answer] = examine, folder: Path | None = None) -> Iterator[Finding]:
-    """Answer the first cases where this commit has not, then judge all that it has answered.
+def run() -> Iterator[Finding]:
+    """Answer the first cases where this commit has not, then judge all that it has answered."""
+    answer_cases(choose(cases(SEED), SEED, count=SAMPLE))
+    yield from claims(figures([read_answer(line) for line in read_lines(file_of(BATCH)).values()]))
+
+
+def answer_cases(names: Sequence[str], workers: int | None = None) -> list[Answer]:
+    """Of these cases, "seed/name"."""
+    lines = answered(
+        "validation.blind.benchmark.answer",
+        names,
+        file_of(BATCH),
+        workers=workers,
+        limit=LIMIT,
+        say=lambda line: str(read_answer(line)),
+    )
+    return [read_answer(line) for line in lines]
+
+
+def choose(
+    table: Sequence[Case], seed: int | str, *, kinds: Sequence[str] = KINDS, names: str = "*", count: int | None = None
+) -> list[str]:
+    """Cases in an order that mixes all kinds by their shares, so that the first of them stand for the whole.
 
     Args:
-        folder: of answers; this commit's where None.
+        seed: of the table, with "-few" behind it where only a few sines are to be given.
+        names: pattern of their names, with * and ?.
+        count: the first of them; None takes all.
     """
-    commit, table = this_commit(), cases(TABLE_SEED)
-    answers = answer_cases(choose(table, count=count), task, folder or folder_of(commit, TABLE_SEED), commit)
-    pairs = paired(table, answers)
-    yield wrong_verdicts(pairs)
-    yield from targets(pairs)
-
-
-def wrong_verdicts(pairs: Sequence[Pair]) -> Finding:
-    """Of all detectable cases; more wrong than the limit would happen once in a thousand times at `_WRONG`."""
-    large = [pair for pair in pairs if not pair[0].effects or detectable(pair)]
-    wrong = [f"{case.name} ({answer.verdict or answer.trouble})" for case, answer in large if not _right(case, answer)]
-    claim = f"wrong verdicts of {len(large)} detectable cases{': ' if wrong else ''}{', '.join(wrong[:5])}"
-    return Finding(claim, len(wrong), float(stats.binom.ppf(0.999, len(large), _WRONG)), "")
-
-
-def _right(case: Case, answer: Answer) -> bool:
-    """The verdict is right, and of a pair both are added."""
-    return answer.verdict in case.expected and (case.kind != "pair" or set(case.expected) <= set(answer.added))
-
-
-def targets(pairs: Sequence[Pair]) -> Iterator[Finding]:
-    """Every figure with a target as a claim; skipped where too few cases were answered to judge it."""
-    for figure in figures(pairs):
-        if figure.target is not None:
-            claim = f"{figure.label}: {figure.hits} of {figure.of}, {figure.words}; beyond by"
-            few = f"judged from {figure.least} cases on; run the whole benchmark" if figure.of < figure.least else ""
-            yield Finding(claim, figure.beyond, 0, "%", skipped=few)
+    place: dict[str, float] = {}
+    for kind in kinds:
+        own = [case.name for case in table if case.kind == kind and fnmatchcase(case.name, names)]
+        own.sort(key=lambda name: crc32(name.encode()))
+        place |= {f"{seed}/{name}": (i + 0.5) / len(own) for i, name in enumerate(own)}
+    return sorted(place, key=lambda name: place[name])[:count]

@@ -1,214 +1,96 @@
-"""The benchmark's figures: counts, shares with their intervals, and the targets they are held against."""
+"""The benchmark's figures: how often the diagnosis is right, and what the models that it finds are worth."""
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections import Counter
+from collections.abc import Callable, Iterator, Sequence
 
-from scipy import stats
+import numpy as np
 
-from pysim.types.diagnosis import NONE, UNKNOWN
 from validation.blind.benchmark.answer import Answer
-from validation.blind.benchmark.runs import KINDS
-from validation.blind.plant import Case
+from validation.shares import Share
 
+KINDS = ("none", "named", "beyond", "left-out", "pair")
 DETECTABLE = 100.0
 """Detectability from which an effect ought to be named."""
-WALL = 60.0  # s
 _NOISE_ONLY = 1.05  # residual over noise
-_TENTH, _TWICE = 0.1, 2.0  # of the base model's error, of the Cramer-Rao bound
-
-Pair = tuple[Case, Answer]
 
 
-@dataclass(frozen=True)
-class Figure:
-    """One figure.
-
-    Args:
-        label: what is counted, of what.
-        hits, of: how many, of how many.
-        target: percent, from and to; None where there is none.
-    """
-
-    label: str
-    hits: int
-    of: int
-    target: tuple[float, float] | None = None
-
-    @property
-    def percent(self) -> float:
-        """The share; not a number where nothing was counted."""
-        return 100.0 * self.hits / self.of if self.of else math.nan
-
-    @property
-    def interval(self) -> tuple[float, float]:
-        """95 percent, in percent (Clopper and Pearson 1934, Biometrika 26:404)."""
-        if not self.of:
-            return 0.0, 100.0
-        found = stats.binomtest(self.hits, self.of).proportion_ci(0.95, method="exact")
-        return 100.0 * float(found.low), 100.0 * float(found.high)
-
-    @property
-    def least(self) -> int:
-        """Cases to be counted before the target is judged, so that one of them cannot decide it."""
-        allowed = min(share for low, high in [self.target or (0.0, 100.0)] for share in (100.0 - low, high) if share)
-        return math.ceil(100.0 / allowed)
-
-    @property
-    def beyond(self) -> float:
-        """Percent by which the share misses its target; 0 where it is met."""
-        low, high = self.target or (0.0, 100.0)
-        return max(low - self.percent, self.percent - high, 0.0)
-
-    @property
-    def words(self) -> str:
-        """The target as a reader says it."""
-        if self.target is None:
-            return ""
-        low, high = self.target
-        return f"at least {low:g} %" if high == 100 else f"at most {high:g} %" if low == 0 else f"{low:g} to {high:g} %"
+def figures(answers: Sequence[Answer]) -> Iterator[Share]:
+    """How often names, their order and their absence are right."""
+    named, none, pairs = (_of_kind(answers, kind) for kind in ("named", "none", "pair"))
+    outside = _of_kind(answers, "beyond") + _of_kind(answers, "left-out")
+    large, small = [a for a in named if detectable(a)], [a for a in named if not detectable(a)]
+    yield _share("right effect named first, detectability 100 or more", large, right_first, (95, 100))
+    yield _share("right effect among the first two, detectability 100 or more", large, first_two, (99, 100))
+    yield _share("another named first, in a tie with the right one, detectability 100 or more", large, tied)
+    yield _share("an effect added beside the right one", named, lambda a: right_first(a) and len(a.named) > 1)
+    yield _share("right effect named first, detectability below 100", small, right_first)
+    yield _share("a wrong effect named, detectability below 100", small, _wrong)
+    yield _share("two effects at once, both named", pairs, lambda a: set(a.truth) <= set(a.named), (85, 100))
+    yield _share("an effect outside the catalogue answered with unknown", outside, lambda a: a.refuses, (90, 100))
+    yield _share("a name given to an effect outside the catalogue", outside, lambda a: bool(a.named), (0, 5))
+    yield _share("a physical effect named although none is missing", none, lambda a: bool(a.named), (0, 1))
+    yield _share("said to be incomplete although nothing is missing", none, lambda a: not a.complete, (0, 5))
+    repaired = [a for a in answers if a.named]
+    yield _share("held-out residual at most 1.05 of the noise once effects are named", repaired, _noise_only, (95, 100))
+    yield _share("cases without an answer", answers, lambda a: bool(a.trouble), (0, 0))
 
 
-def paired(table: Iterable[Case], answers: Mapping[str, Answer]) -> list[Pair]:
-    """Cases of the table that have an answer, with it."""
-    return [(case, answers[case.name]) for case in table if case.name in answers]
-
-
-def figures(pairs: Sequence[Pair]) -> tuple[Figure, ...]:
-    """How often a verdict is right, what the repaired model is worth, and how long it takes."""
-    of_kind = {kind: [p for p in pairs if p[0].kind == kind] for kind in KINDS}
-    return (
-        *_named(of_kind["named"]),
-        *_nulls(of_kind["none"]),
-        *_outside([*of_kind["beyond"], *of_kind["left-out"]]),
-        *_both(of_kind["pair"]),
-        *_repair(of_kind["named"]),
-        *_cover(of_kind),
-        _share("cases without an answer", pairs, lambda p: bool(p[1].trouble), (0, 0)),
-        _share(
-            f"diagnosed within {WALL:g} s, one core (models compiled)", pairs, lambda p: p[1].wall <= WALL, among=_timed
-        ),
-    )
-
-
-def right_first(pair: Pair) -> bool:
-    """The verdict is the effect."""
-    case, answer = pair
-    return bool(case.effects) and answer.verdict == case.effects[0][0]
-
-
-def tied(pair: Pair) -> bool:
-    """Another effect is named first, in a set that holds the right one."""
-    case, answer = pair
-    right = case.effects[0][0]
-    return not right_first(pair) and any(right in group and answer.verdict in group for group in answer.confusable)
-
-
-def detectable(pair: Pair) -> bool:
-    """Large enough for a name; one whose size is not known, for want of an answer, counts as such."""
-    return pair[1].detectability is None or pair[1].detectability >= DETECTABLE
-
-
-def names_something(pair: Pair) -> bool:
-    """The verdict is an effect, whether right or wrong."""
-    return pair[1].verdict not in ("", NONE, UNKNOWN)
-
-
-def _timed(pair: Pair) -> bool:
-    return pair[1].wall > 0
+def _of_kind(answers: Sequence[Answer], kind: str) -> list[Answer]:
+    return [one for one in answers if one.kind == kind]
 
 
 def _share(
-    label: str,
-    pairs: Sequence[Pair],
-    hit: Callable[[Pair], bool],
-    target: tuple[float, float] | None = None,
-    among: Callable[[Pair], bool] = lambda pair: True,
-) -> Figure:
-    chosen = [pair for pair in pairs if among(pair)]
-    return Figure(label, sum(hit(pair) for pair in chosen), len(chosen), target)
+    label: str, answers: Sequence[Answer], hit: Callable[[Answer], bool], target: tuple[float, float] | None = None
+) -> Share:
+    return Share(label, sum(hit(one) for one in answers), len(answers), target)
 
 
-def _named(pairs: Sequence[Pair]) -> Iterator[Figure]:
-    large, small = [p for p in pairs if detectable(p)], [p for p in pairs if not detectable(p)]
-    yield _share("right effect named first, detectability 100 or more", large, right_first, (95, 100))
-    yield _share("right effect among the first two, detectability 100 or more", large, _first_two, (99, 100))
-    yield _share("another named first, in a set with the right one, detectability 100 or more", large, tied)
-    yield _share("an effect added beside the right one", pairs, lambda p: len(p[1].added) > 1, None, right_first)
-    yield _share("right effect named first, detectability below 100", small, right_first)
-    yield _share("a wrong effect named, detectability below 100", small, _wrong)
+def detectable(answer: Answer) -> bool:
+    """Large enough for a name; one whose size is not known, for want of an answer, counts as such."""
+    return answer.detectability is None or answer.detectability >= DETECTABLE
 
 
-def _first_two(pair: Pair) -> bool:
-    return right_first(pair) or pair[0].effects[0][0] in pair[1].ranking
+def right_first(answer: Answer) -> bool:
+    """The first name is the effect's."""
+    return answer.named[:1] == answer.truth[:1]
 
 
-def _wrong(pair: Pair) -> bool:
-    return names_something(pair) and not right_first(pair) and not tied(pair)
+def tied(answer: Answer) -> bool:
+    """Another effect is named first, in a tie with the right one."""
+    return not right_first(answer) and any(
+        {answer.truth[0], *answer.named[:1], *answer.sensors[:1]} <= set(group) for group in answer.ties
+    )
 
 
-def _nulls(pairs: Sequence[Pair]) -> Iterator[Figure]:
-    yield _share("a physical effect named although none is missing", pairs, names_something, (0, 1))
-    yield _share("the same answered with unknown", pairs, lambda p: p[1].verdict == UNKNOWN)
-    for kind, words in (
-        ("", "white noise is there"),
-        ("coloured", "the noise is coloured"),
-        ("start", "logs begin before the plate is at rest"),
-        ("offset", "the sensor has an offset"),
-        ("gain", "the sensor's gain is off"),
-        ("shift", "outputs are logged late"),
-    ):
-        alone = [pair for pair in pairs if pair[0].nuisances == ((kind,) if kind else ())]
-        yield _share(f"named although only {words}", alone, names_something)
-    several = [pair for pair in pairs if len(pair[0].nuisances) > 1]
-    yield _share("named although two sensor errors or all five are in force", several, names_something)
+def first_two(answer: Answer) -> bool:
+    """The effect is the first or second name, or one of the best two beside the refitted base model."""
+    return answer.truth[0] in (*answer.named[:2], *answer.second)
 
 
-def _outside(pairs: Sequence[Pair]) -> Iterator[Figure]:
-    def unknown(pair: Pair) -> bool:
-        return pair[1].verdict == UNKNOWN
-
-    yield _share("an effect outside the catalogue answered with unknown", pairs, unknown, (90, 100))
-    yield _share("a name given to an effect outside the catalogue", pairs, names_something, (0, 5))
-    yield _share("answered with unknown, detectability 100 or more", pairs, unknown, None, detectable)
-    yield _share("a name given, detectability 100 or more", pairs, names_something, None, detectable)
+def _wrong(answer: Answer) -> bool:
+    return bool(answer.named) and not right_first(answer) and not tied(answer)
 
 
-def _both(pairs: Sequence[Pair]) -> Iterator[Figure]:
-    def named(pair: Pair) -> int:
-        return len({name for name, _ in pair[0].effects} & set(pair[1].added))
-
-    yield _share("two effects at once, both named", pairs, lambda p: named(p) == 2, (80, 100))
-    yield _share("one of the two named", pairs, lambda p: named(p) == 1)
+def _noise_only(answer: Answer) -> bool:
+    return bool(answer.held_out) and list((answer.held_out or {}).values())[-1] <= _NOISE_ONLY
 
 
-def _repair(pairs: Sequence[Pair]) -> Iterator[Figure]:
-    yield _share(
-        "error against the truth after adding at most the larger of a tenth and twice the bound",
-        pairs, repaired, (90, 100), lambda p: right_first(p) and None not in (p[1].base, p[1].final, p[1].bound),
-    )  # fmt: skip
-    yield _share(
-        "held-out residual after adding at most 1.05 of the noise",
-        pairs, lambda p: (p[1].residual or math.inf) <= _NOISE_ONLY, (95, 100), lambda p: bool(p[1].added),
-    )  # fmt: skip
-
-
-def repaired(pair: Pair) -> bool:
-    """The error after adding is at most the larger of a tenth of that before and twice the Cramer-Rao bound."""
-    answer = pair[1]
-    if answer.base is None or answer.final is None or answer.bound is None:
-        return False
-    return answer.final <= max(_TENTH * answer.base, _TWICE * answer.bound)
-
-
-def _cover(of_kind: Mapping[str, Sequence[Pair]]) -> Iterator[Figure]:
-    for label, kind, target in (
-        ("95 percent intervals after the repair that hold the truth", "named", (93.0, 97.0)),
-        ("the same of pairs, both named", "pair", None),
-        ("the same of the base model where nothing is missing and only white noise is there", "none", None),
-    ):
-        rows = [a for case, a in of_kind[kind] if a.determined and not case.nuisances]
-        total = sum(a.determined for a in rows)
-        yield Figure(label, total - sum(len(a.missed) for a in rows), total, target)
+def page(answers: Sequence[Answer], title: str) -> Iterator[str]:
+    """Lines of Markdown: shares, what was answered to what, and what it cost."""
+    yield from (f"# {title}", "", f"{len(answers)} cases.", "")
+    yield from (f"- {share}" for share in figures(answers) if share.of)
+    yield from ("", "| truth | answered |", "|---|---|")
+    rows: dict[str, Counter[str]] = {}
+    for one in answers:
+        said = " + ".join(one.named) or ("no answer" if one.trouble else "unknown" if one.refuses else "none")
+        rows.setdefault(f"{one.kind}: {' + '.join(one.truth) or '-'}", Counter())[said] += 1
+    for truth, counts in rows.items():
+        yield f"| {truth} | {', '.join(f'{said} {n}' for said, n in counts.most_common())} |"
+    yield from ("", "| kind | cases | CPU s: median | 95 % below | longest |", "|---|---|---|---|---|")
+    for kind in KINDS:
+        costs = [one.cpu for one in _of_kind(answers, kind) if one.cpu]
+        if costs:
+            middle, most, longest = np.quantile(costs, (0.5, 0.95, 1.0)).tolist()
+            yield f"| {kind} | {len(costs)} | {middle:.0f} | {most:.0f} | {longest:.0f} |"

@@ -24,12 +24,13 @@ class Workshop:
     Args:
         model: the base model.
         catalogue: every effect of the library that the pump's slots take.
-        seconds: spent on compiling.
+        wall, cpu: s spent on compiling, of the clock and of this process.
     """
 
     model: Model
     catalogue: tuple[Effect, ...]
-    seconds: float = 0.0
+    wall: float = 0.0
+    cpu: float = 0.0
     _built: dict[tuple[str, ...], tuple[Model, Mapping[str, str]]] = field(default_factory=dict)
 
     def variant(self, effects: Sequence[Effect]) -> tuple[Model, Mapping[str, str]]:
@@ -40,11 +41,12 @@ class Workshop:
         """
         key = tuple(effect.name for effect in effects)
         if key not in self._built:
-            begun = time.monotonic()
+            begun = time.monotonic(), time.process_time()
             try:
                 self._built[key] = _compiled(effects)
             finally:
-                self.seconds += time.monotonic() - begun
+                self.wall += time.monotonic() - begun[0]
+                self.cpu += time.process_time() - begun[1]
         return self._built[key]
 
     def effect(self, name: str) -> Effect:

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from typing import Protocol
 
-from pysim.types import Diagnosis, Effect, Estimate
+from pysim.types import Estimate
+from pysim.types.answer import Diagnosis, FoundEffect
+from validation.diagnosis.sets import Told
 
 # Powers of s by which numbers change along the one direction that no signal shows: the stroke grows by s and the area
 # shrinks, so that their product stays. A force goes with the area, a length with the stroke.
@@ -13,39 +14,21 @@ _BASE_POWERS = {"L": 1, "A_p": -1, "m_eff": -2, "k": -2, "b": -2}
 _UNIT_POWERS = {"N": -1, "m": 1, "m/s": 1, "N/m3": -4}
 
 
-class Known(Protocol):
-    """What is true of a plant."""
-
-    @property
-    def base(self) -> Mapping[str, float]:
-        """The identified parameters."""
-        ...
-
-    def strengths(self, effect: Effect) -> Mapping[str, float]:
-        """An effect's parameters as its class declares them."""
-        ...
+def named(found: Diagnosis) -> tuple[FoundEffect, ...]:
+    """Effects of the catalogue that were found; errors of sensors have no class."""
+    return tuple(one for one in found.effects if one.effect.class_name)
 
 
-def intervals(truth: Known, found: Diagnosis) -> Iterator[tuple[str, bool]]:
-    """Of what is determined and, in truth and estimate, away from its bounds: whether its interval holds the truth."""
-    for estimate, true in estimated(truth, found):
-        inside = estimate.lower * (1 + 1e-9) < true < estimate.upper * (1 - 1e-9)
-        if inside and not estimate.at:
-            yield estimate.name, bool(estimate.interval[0] <= true <= estimate.interval[1])
-
-
-def estimated(truth: Known, found: Diagnosis) -> Iterator[tuple[Estimate, float]]:
+def estimated(truth: Told, found: Diagnosis) -> Iterator[tuple[Estimate, float]]:
     """Each determined number of the final model with its truth.
 
     Where the direction that scales all forces is open, the diagnosis holds one of its parameters at the estimate: the
     truth is moved along that direction until it agrees there.
     """
-    if not found.stages:
-        return
-    last = found.stages[-1]
+    last = found.history[-1]
     held = {next(iter(direction.exponents)) for direction in last.undetermined}
     true = {name: (value, _BASE_POWERS.get(name, 0)) for name, value in truth.base.items()}
-    for added in found.added:
+    for added in named(found):
         own = truth.strengths(added.effect)
         for p in added.effect.parameters:
             true[f"{added.place}.{p.name}"] = own[p.name], _UNIT_POWERS.get(p.unit, 0)
