@@ -196,6 +196,11 @@ CASES: Mapping[str, Case] = MappingProxyType(
             "twelve of 1090 blind cases, or all that this commit has answered",
             "diagnosis",
         ),
+        "nulls": Case(
+            "validation.nulls.case",
+            "300 complete models: coloured noise, motion at the start, noise not or wrongly stated",
+            "diagnosis",
+        ),
         "diagnosis": Case(
             "validation.diagnosis.case",
             "sixteen data sets of another author's plant: five diagnosed again, the others as stored",
