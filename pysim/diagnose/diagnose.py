@@ -1,9 +1,8 @@
-"""Which physical effect is missing: the steps in a row, and each of them alone."""
+"""At which place of a model a term is missing."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -11,156 +10,18 @@ import numpy as np
 from pysim.diagnose.answer import answered, decided
 from pysim.diagnose.corrections import Settled, recounted
 from pysim.diagnose.fitted import Fitted
-from pysim.diagnose.jumps import jumping
 from pysim.diagnose.locating.locate import locate
-from pysim.diagnose.next_test import next_test
-from pysim.diagnose.ranking import rows
 from pysim.diagnose.refit import refit_from
-from pysim.diagnose.rounds import Tried, screened
+from pysim.diagnose.rounds import Tried
 from pysim.diagnose.screen import screen
-from pysim.diagnose.search import search
 from pysim.diagnose.settling import plausible, settle
 from pysim.diagnose.story import Say, Story, begin
 from pysim.diagnose.strengths import declared, setting
 from pysim.diagnose.subject import Subject, extended
 from pysim.diagnose.trials import refitted
-from pysim.types import BadInput, Diagnosis, Effect, Missing, NextTest
-from pysim.types.diagnosis import UNKNOWN
+from pysim.types import BadInput, Diagnosis, Effect, Missing
 
-# Effects that may be added one after the other.
-MOST = 3
-# How often a diagnosis is begun again without logs.
-_AGAIN = 2
-_JUMPS = (
-    "{log}: left out of the fit, because the model's answer jumps there where a parameter moves by 0.3 percent, as "
-    "where it has several steady states"
-)
 _NOT_AT_HAND = "the model's Modelica class is not at hand, so no effect of the catalogue could be tried"
-
-
-def diagnose(
-    subject: Subject,
-    *,
-    seed: int = 0,
-    most: int = MOST,
-    workers: int | None = None,
-    progress: Say | None = None,
-    journal: Path | None = None,
-) -> Diagnosis:
-    """Answer which effect of the catalogue the data demand, that they demand none, or that it is unknown.
-
-    Args:
-        subject: model, measurements, catalogue.
-        seed: of the bootstrap; the same seed gives the same answer.
-        most: effects that may be added one after the other.
-        workers: runs at a time; all cores where None. The answer does not depend on it.
-        progress: told what is being done and what was learned; what it raises ends the diagnosis.
-        journal: file that a diagnosis which was stopped goes on from, with the same answer.
-    Raises:
-        BadInput: the base model cannot be simulated at its own parameters, or a journal of another diagnosis.
-    """
-    told: dict[str, object] = {"step": "diagnose", "most": most}
-    story = begin(subject, seed=seed, workers=workers, progress=progress, journal=journal, settings=told)
-    base, final = _searched(story, most)
-    for _ in range(_AGAIN):
-        story.now("asking whether the model jumps")
-        sources = story.journal.once("jumps", partial(jumping, final.lean, final.at))
-        story.stage("jumps")
-        if not sources:
-            break
-        line = _JUMPS.format(log=", ".join(sources))
-        story.say(f"{line}; begun again")
-        story = story.without(sources)
-        story.note(line)
-        base, final = _searched(story, most)
-    verdict, reason = decided(story, base, final, why_none="" if most else "no effect was tried")
-    missing = _missing(story, final) if verdict == UNKNOWN else ()
-    return answered(story, final.at, verdict, reason, missing, _next_test(story))
-
-
-def _searched(story: Story, most: int) -> tuple[Settled, Settled]:
-    """The refitted base model, and with the effects that the data demand."""
-    nominal = _prior(story)
-    base = _refit(story, nominal)
-    if story.subject.build_variant is None:
-        story.note(_NOT_AT_HAND)
-    elif story.subject.catalogue:
-        return search(story, nominal, base, most)
-    return base, base
-
-
-def against(
-    subject: Subject,
-    *,
-    refitted: bool = True,
-    workers: int | None = None,
-    progress: Say | None = None,
-    journal: Path | None = None,
-) -> Diagnosis:
-    """Hold the model against the measurements, as it is and refitted.
-
-    Args:
-        refitted: without, the model is only compared as it is.
-    Returns:
-        the ledger's steps "prior" and "refit", where the model fails, and its parameters.
-    Raises:
-        BadInput: as `diagnose`.
-    """
-    told: dict[str, object] = {"step": "against"}
-    story = begin(subject, seed=0, workers=workers, progress=progress, journal=journal, settings=told)
-    prior = _prior(story)
-    last = _refit(story, prior) if refitted else Settled.as_is(story.ruler.plain, prior)
-    return answered(story, last.at, *decided(story, last, last, why_none="no effect was tried"))
-
-
-def rank(
-    subject: Subject,
-    *,
-    seed: int = 0,
-    workers: int | None = None,
-    progress: Say | None = None,
-    journal: Path | None = None,
-) -> Diagnosis:
-    """Screen the catalogue at the refitted model and refit the promising ones; nothing is added.
-
-    Returns:
-        as `against`, with the ranking.
-    Raises:
-        BadInput: as `diagnose`, or a model whose class is not at hand.
-    """
-    _needs_class(subject)
-    story = begin(subject, seed=seed, workers=workers, progress=progress, journal=journal, settings={"step": "rank"})
-    nominal = _prior(story)
-    base = _refit(story, nominal)
-    tried = screened(story, base.whole)
-    found = refitted(story, tried, nominal) if tried.promises else {}
-    story.ranking += rows(story, tried, found, 1)
-    return answered(story, base.at, *decided(story, base, base, why_none="effects were ranked, none was added"))
-
-
-def add(
-    subject: Subject,
-    effects: Sequence[Effect],
-    *,
-    workers: int | None = None,
-    progress: Say | None = None,
-    journal: Path | None = None,
-) -> Diagnosis:
-    """Add given effects one after the other and refit everything each time.
-
-    Args:
-        effects: in the order in which they are added.
-    Returns:
-        as `against`, with a step of the ledger per effect, and the effects' sizes.
-    Raises:
-        BadInput: as `rank`, an effect that the model has no place for, or one that cannot be simulated.
-    """
-    _needs_class(subject)
-    names = [effect.name for effect in effects]
-    told: dict[str, object] = {"step": "add", "effects": names}
-    story = begin(subject, seed=0, workers=workers, progress=progress, journal=journal, settings=told)
-    base, current = _with(story, effects)
-    return answered(story, current.at, *decided(story, base, current))
 
 
 def located(
@@ -176,9 +37,10 @@ def located(
     Args:
         effects: that the model is to have already.
     Returns:
-        as `add`, with the missing terms, the most likely place first.
+        with the missing terms, the most likely place first.
     Raises:
-        BadInput: as `add`.
+        BadInput: the base model cannot be simulated at its own parameters, an effect that the model has no place for or
+            that cannot be simulated, or a model whose class is not at hand where there are effects.
     """
     if effects:
         _needs_class(subject)
@@ -188,22 +50,6 @@ def located(
     return answered(
         story, current.at, *decided(story, base, current, why_none="no effect was tried"), _missing(story, current)
     )
-
-
-def _next_test(story: Story) -> NextTest | None:
-    """What would separate the last two that were tied; None where none were, or no test would."""
-    if story.tied is None:
-        return None
-    story.now("looking for a test that separates the tied")
-    try:
-        found = next_test(story.subject, *story.tied, workers=story.ruler.workers)
-    except BadInput as error:
-        story.note(f"no next test could be looked for: {error}")
-        found = None
-    story.stage("next test")
-    if found is not None:
-        story.say(f"next test: {found.about}")
-    return found
 
 
 def _missing(story: Story, current: Settled) -> tuple[Missing, ...]:

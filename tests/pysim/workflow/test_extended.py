@@ -13,14 +13,15 @@ import pytest
 import pysim
 from fmu_build.cli import main as fmu_build_main
 from pysim.cli.options import parameters_of
-from pysim.diagnose import add
+from pysim.cli.steps import shown
+from pysim.diagnosis import add
 from pysim.io import read_model
 from pysim.present.diagnosis import relative_files
 from pysim.types import Diagnosis, Effect
-from pysim.workflow import SessionParts, Variants, model_of, session_parts, write_extended
+from pysim.workflow import SessionParts, Variants, model_of, session_of, session_parts, write_extended
 from pysim.workflow.extended import extended_name
 from pysim.workflow.shell import quoted
-from tests.pysim.diagnose.toy import CATALOGUE, library, measured, toy_subject
+from tests.pysim.diagnose.toy import CATALOGUE, library, measured
 
 NAME = "MassWithRubbing"
 
@@ -42,7 +43,7 @@ class Unbuilt(Variants):
 
 @pytest.fixture(scope="module")
 def found() -> Diagnosis:
-    return add(toy_subject(measured(1, "toy.friction", F_c=0.4)), [CATALOGUE["toy.friction"]])
+    return shown(add(session_of(given(Variants)), [CATALOGUE["toy.friction"]]))
 
 
 def given(variants: type[Variants] = Unbuilt) -> SessionParts:
