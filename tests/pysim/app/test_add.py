@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from tests.pysim.app.browser import Show, Shown, Tab, artefacts
-from tests.pysim.diagnose.toy import TEXT
+from tests.toy import TEXT
 
 DESCRIPTION = """
 [dataset]

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from tests.pysim.app.browser import Show, Shown, Tab, artefacts
-from tests.pysim.diagnose.toy import CATALOGUE, TEXT
+from tests.toy import CATALOGUE, TEXT
 
 TIME = np.arange(0, 8, 0.005)
 

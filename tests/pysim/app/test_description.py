@@ -8,7 +8,7 @@ import pytest
 from pysim.app.description import change_description, described, hold_out, leave_out, read_description, refuse_outside
 from pysim.io import read_dataset, write_dataset
 from pysim.types import BadInput
-from tests.pysim.diagnose.toy import measured
+from tests.toy import measured
 
 
 @pytest.fixture

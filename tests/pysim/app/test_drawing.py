@@ -9,7 +9,7 @@ pytest.importorskip("nicegui", reason="the extra app is not installed")
 
 from pysim.app.flowchart import flowchart
 from tests.pysim.app.browser import Show, Shown, Tab, artefacts
-from tests.pysim.diagnose.toy import TEXT
+from tests.toy import TEXT
 
 
 def test_places_have_shapes_and_links_have_arrows() -> None:

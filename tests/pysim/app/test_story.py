@@ -8,7 +8,7 @@ import pytest
 
 from pysim.io import read_model, write_dataset
 from tests.pysim.app.browser import Shown, Tab, artefacts, server
-from tests.pysim.diagnose.toy import CATALOGUE, TEXT, measured
+from tests.toy import CATALOGUE, TEXT, measured
 
 pytestmark = pytest.mark.slow
 PATIENCE = 400.0  # s, on a machine that does other things too

@@ -14,7 +14,7 @@ from pysim.io import read_model, write_dataset
 from pysim.types import NoteCode, Record
 from pysim.workflow import SessionParts
 from tests.pysim.cli.ran import Ran, parsed, refused
-from tests.pysim.diagnose.toy import CATALOGUE, measured
+from tests.toy import CATALOGUE, measured
 
 KEYS = {
     "verdict", "added", "ranking", "confusable", "error", "parameters", "where", "missing", "next_test", "seconds",

@@ -19,8 +19,8 @@ from pysim.io import read_model, write_dataset
 from pysim.present.diagnosis import shown
 from pysim.types import FrequencyResponse, MeasuredRecord, Note, NoteCode, SineTest, Told
 from tests.pysim.cli.ran import Ran, refused
-from tests.pysim.diagnose.toy import measured
 from tests.pysim.diagnosis_story import story
+from tests.toy import measured
 
 
 @pytest.fixture

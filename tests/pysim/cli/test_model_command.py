@@ -7,7 +7,7 @@ import pytest
 
 from pysim.cli import main
 from tests.pysim.cli.ran import refused
-from tests.pysim.diagnose.toy import library
+from tests.toy import library
 
 
 def test_a_class_tells_its_slots_and_what_they_take(tmp_path: Path) -> None:

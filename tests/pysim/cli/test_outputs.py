@@ -76,7 +76,7 @@ def test_the_measurements_themselves_are_not_overwritten(data: Path, capsys: pyt
 
 def test_an_input_is_not_overwritten_by_the_run(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     from pysim.io import read_model
-    from tests.pysim.diagnose.toy import base
+    from tests.toy import base
 
     file = tmp_path / "F.csv"
     file.write_text("0,0\n1,1\n")

@@ -10,8 +10,8 @@ import pytest
 from pysim.cli import main
 from pysim.io import read_record
 from tests.pysim.cli.ran import refused
-from tests.pysim.diagnose.toy import base, library
 from tests.pysim.simulate.fixture_fmus import OSCILLATOR, build
+from tests.toy import base, library
 
 FREE = ["--set", "D=0", "--record", "x", "--record", "v"]
 

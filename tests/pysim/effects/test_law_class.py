@@ -13,7 +13,7 @@ from pysim.io import read_model
 from pysim.simulate import Rodas, simulate
 from pysim.types import BadInput, EffectParameter, Experiment, Signal
 from pysim.workflow import Variants
-from tests.pysim.diagnose.toy import CATALOGUE, library
+from tests.toy import CATALOGUE, library
 
 PLACES = [STANDARD_LIBRARY, library()]
 FORCE = next(slot for slot in slots("Toy.Mass", PLACES) if slot.name == "force")

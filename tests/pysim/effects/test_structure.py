@@ -6,7 +6,7 @@ import pytest
 
 from pysim.effects import STANDARD_LIBRARY, slots
 from pysim.effects.structure import Structure, structure
-from tests.pysim.diagnose.toy import library
+from tests.toy import library
 
 PUMP = "HydraulicTestBench.Pump.FreeGreyBox"
 

@@ -10,8 +10,8 @@ from fmu_build import build
 from pysim.effects import fitting, read_catalogue, variant, variant_text
 from pysim.io import read_model
 from pysim.types import BadInput
+from tests import toy
 from tests.modelica.library import LIBRARY
-from tests.pysim.diagnose import toy
 from tests.pysim.effects.test_catalogue import library
 
 EFFECTS = {effect.name: effect for effect in read_catalogue(LIBRARY)}

@@ -11,7 +11,7 @@ from pysim.types import BadInput
 from pysim.workflow import session_of
 from pysim.workflow.built_in import built_in
 from tests.pysim.cli.ran import parsed
-from tests.pysim.diagnose.toy import library
+from tests.toy import library
 
 
 def test_values_that_the_class_has_too_are_not_told(tmp_path: Path) -> None:

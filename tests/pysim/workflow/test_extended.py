@@ -21,7 +21,7 @@ from pysim.types import Diagnosis, Effect
 from pysim.workflow import SessionParts, Variants, model_of, session_of, session_parts, write_extended
 from pysim.workflow.extended import extended_name
 from pysim.workflow.shell import quoted
-from tests.pysim.diagnose.toy import CATALOGUE, library, measured
+from tests.toy import CATALOGUE, library, measured
 
 NAME = "MassWithRubbing"
 

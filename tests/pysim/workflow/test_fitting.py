@@ -8,7 +8,7 @@ import pytest
 from pysim.identify.greybox import Tie, fit
 from pysim.types import BadInput, Record
 from pysim.workflow import fit_problem, model_of
-from tests.pysim.diagnose.toy import library, measured
+from tests.toy import library, measured
 
 MASS = model_of("Toy.Mass", [library()])
 DATA = measured(1, "toy.friction", F_c=0.0)

@@ -10,7 +10,7 @@ from pysim.cli.steps import read_parts
 from pysim.types import BadInput, NoteCode
 from pysim.workflow import SessionParts, free_parameters
 from tests.pysim.cli.ran import parsed
-from tests.pysim.diagnose.toy import base
+from tests.toy import base
 
 
 def given(*words: str) -> SessionParts:

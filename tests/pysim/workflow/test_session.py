@@ -18,7 +18,7 @@ from pysim.workflow import (
     reference_of,
     session_parts,
 )
-from tests.pysim.diagnose.toy import CATALOGUE, library, measured
+from tests.toy import CATALOGUE, library, measured
 
 
 def parts(*, model: Path | str = "Toy.Mass", effects: tuple[str, ...] = ()) -> SessionParts:

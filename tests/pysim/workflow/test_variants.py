@@ -10,7 +10,7 @@ from fmu_build.pack import CompilerError
 from pysim.effects import law_class
 from pysim.types import BadInput, EffectParameter
 from pysim.workflow import Variants
-from tests.pysim.diagnose.toy import CATALOGUE, library
+from tests.toy import CATALOGUE, library
 
 LAW = SimpleNamespace(slot="force", text="", probes=())
 
