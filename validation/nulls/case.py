@@ -9,7 +9,7 @@ from validation.findings import Finding
 from validation.nulls.data import CONDITIONS, COUNT, names
 from validation.shares import Share, claims
 
-_LIMIT = 600  # s for one case
+_LIMIT = 1800  # s for one case
 _TOGETHER = 10
 
 
