@@ -27,7 +27,7 @@ def test_the_same_name_is_the_same_data_set(name: str) -> None:
     assert (stated == 1e-3) != name.endswith("unstated")
     assert (abs(log.values[0, 0]) > 1e-6) == name.endswith(
         "motion"
-    )  # the command at the first sample; from rest it is 0
+    )  # from rest the command is 0
 
 
 def test_an_answer_says_what_was_named_and_is_counted() -> None:
