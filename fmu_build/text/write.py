@@ -12,6 +12,7 @@ def class_text(
     classes: Sequence[str] = (),
     extends: Sequence[tuple[str, Sequence[str]]] = (),
     declarations: Sequence[str] = (),
+    protected: Sequence[str] = (),
     equations: Sequence[str] = (),
     annotation: str = "",
 ) -> str:
@@ -25,6 +26,7 @@ def class_text(
         classes: texts of classes inside.
         extends: a base and its modifications, each: ("Lib.Axis", ["m=3", "redeclare Lib.Dry friction"]).
         declarations: without semicolons: "parameter Real F(unit=\\"N\\") = 0".
+        protected: declarations that only the class itself uses.
         equations: without semicolons.
         annotation: what stands in its brackets; "" for none.
     """
@@ -36,6 +38,8 @@ def class_text(
         bracket = "(\n    " + ",\n    ".join(modifications) + ")" if modifications else ""
         lines.append(f"  extends {base}{bracket};")
     lines += [f"  {declaration};" for declaration in declarations]
+    if protected:
+        lines += ["protected", *(f"  {declaration};" for declaration in protected)]
     if equations:
         lines += ["equation", *(f"  {equation};" for equation in equations)]
     if annotation:

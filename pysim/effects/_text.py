@@ -6,8 +6,9 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
-from fmu_build.text import ClassText, Declaration, Libraries, TextError
+from fmu_build.text import ClassText, Declaration, Libraries, TextError, tokenise
 from fmu_build.text.declarations import Kind
+from fmu_build.text.tokens import is_name
 from pysim.types import BadInput
 
 
@@ -40,6 +41,20 @@ def declares(class_name: str, libraries: Sequence[Path]) -> bool:
     """
     with as_bad_input():
         return Libraries(libraries).full(class_name) is not None
+
+
+def with_full_names(part: str, text: ClassText, library: Libraries) -> str:
+    """Modelica text with the names of classes written in full, so that it means the same elsewhere."""
+    tokens = tokenise(part)
+    replaced, end = "", 0
+    for k, token in enumerate(tokens):
+        begins = is_name(token.text) and (k == 0 or tokens[k - 1].text != ".")
+        if begins and k + 1 < len(tokens) and tokens[k + 1].text == ".":
+            found = library.resolve(token.text, text)
+            if found is not None:
+                replaced += part[end : token.start] + found.full_name
+                end = token.end
+    return replaced + part[end:]
 
 
 def is_input(declaration: Declaration) -> bool:

@@ -42,7 +42,8 @@ def read_catalogue(*libraries: Path) -> tuple[Effect, ...]:
 
     A class is an effect when its annotation says `__HydraulicTestBench(effect="...", slot="...")`. Of its parameters
     those with the declared value 0 are strengths, with 0 for off (another off value is stated by `start`); `min`, `max`
-    and `nominal` are bounds and size. Of an array each element is a parameter, `c[1]`, `c[2]`, ...
+    and `nominal` are bounds and size. Of an array each element is a parameter, `c[1]`, `c[2]`, ... An input annotated
+    with `signal="chamber1.p"` takes this signal of the model where `variant` puts the effect in.
 
     Args:
         libraries: folders with a package.mo, or .mo files. A user's own go behind ours.
@@ -90,6 +91,12 @@ def law_constants(effect: Effect, libraries: Sequence[Path]) -> dict[str, str]:
         text = known_class(effect.class_name, Libraries(libraries))
     declared = [d for d in text.declarations if d.prefixes & {"constant", "parameter"}]
     return {d.name: d.text(d.value) for d in declared if d.value and d.name not in own and f"{d.name}[1]" not in own}
+
+
+def input_signal(declaration: Declaration) -> str:
+    """The model's signal that an input of an effect takes, annotated with `signal="chamber1.p"`; "" for none."""
+    said = modifiers(declaration.annotation).get(VENDOR)
+    return _string(modifiers(said.inside), "signal") if said is not None else ""
 
 
 def _annotated(library: Libraries) -> Iterator[tuple[ClassText, _Said]]:

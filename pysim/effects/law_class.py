@@ -79,7 +79,7 @@ def law_class(
         if one not in given:
             raise BadInput(f"law of {name}: nothing gives {one} of the slot {slot.name}; add {one} = expression")
     own = _local_units(name, law, equations, slot, units)
-    declared = [_declaration(one) for one in parameters]
+    declared = [parameter_text(one) for one in parameters]
     declared += [f'Real {one}(unit="{unit}")' for one, unit in own.items()]
     note = f"{VENDOR}(effect={quoted(effect)}, slot={quoted(slot.name)})" if effect else ""
     return class_text(
@@ -217,8 +217,8 @@ def _refusal(name: str, law: str, start: int, message: str) -> BadInput:
     return BadInput(f"law of {name}, line {line}, column {column}: {message}")
 
 
-def _declaration(one: EffectParameter) -> str:
-    """As `read_catalogue` reads it back."""
+def parameter_text(one: EffectParameter) -> str:
+    """A parameter's declaration, without semicolon, as `read_catalogue` reads it back."""
     numbers = {"min": one.min, "max": one.max, "nominal": one.nominal}
     if one.off is not None and (one.off or one.default):
         numbers["start"] = one.off

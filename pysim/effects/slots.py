@@ -9,9 +9,12 @@ from pathlib import Path
 
 from fmu_build.text import ClassText, Declaration, Libraries
 from fmu_build.text.declarations import Kind
-from pysim.effects._text import as_bad_input, changes, is_input, known_class
-from pysim.types import Effect
+from fmu_build.text.tokens import split
+from fmu_build.text.write import quoted
+from pysim.effects._text import as_bad_input, changes, is_input, known_class, with_full_names
+from pysim.types import BadInput, Effect
 
+_EQUALS = re.compile(r"(?<![<>=:])=(?!=)")  # of an equation
 _GIVEN = re.compile(r"(?:der\s*\(\s*(\w+)\s*\)|(\w+))\s*=")
 
 
@@ -75,6 +78,53 @@ def fitting(effects: Sequence[Effect], class_name: str, libraries: Sequence[Path
 
     with as_bad_input():
         return tuple(effect for effect in effects if fits(effect))
+
+
+@dataclass(frozen=True)
+class Filling:
+    """What fills a slot, in parts that a class with a further term can be written from, names of classes in full.
+
+    Args:
+        modifications: of the partial class that it extends.
+        declarations: its own, without semicolons.
+        equations: (left, right) of each; "" and the whole text of one that is no equation of two sides.
+    """
+
+    modifications: tuple[str, ...]
+    declarations: tuple[str, ...]
+    equations: tuple[tuple[str, str], ...]
+
+
+def filling(slot: Slot, libraries: Sequence[Path]) -> Filling:
+    """The class that fills a slot in the model as it is.
+
+    Raises:
+        BadInput: it inherits its law, or has more than declarations and plain equations.
+    """
+    library = Libraries(libraries)
+    with as_bad_input():
+        text = known_class(slot.filling, library)
+        bases = [library.resolve(one.class_name, text) for one in text.of_kind(Kind.EXTENDS)]
+        if [base.full_name for base in bases if base] != [slot.takes] and slot.filling != slot.takes:
+            raise BadInput(f"{slot.filling} inherits its law; write a class for the slot {slot.name} by hand")
+        has_more = any(token.text in ("initial", "algorithm") for token in text.own_tokens)
+        if has_more or any(one.branches for one in text.equations) or any(text.of_kind(Kind.CLASS)):
+            raise BadInput(f"{slot.filling} is more than equations; write a class for the slot {slot.name} by hand")
+        parts = [part for one in text.of_kind(Kind.EXTENDS) for part in split(one.arguments, ",")]
+        modifications = [with_full_names(text.text(part), text, library) for part in parts]
+        declared = [_declared(one, text, library) for one in text.of_kind(Kind.COMPONENT)]
+        equations = [with_full_names(text.text(one.tokens).rstrip("; \n"), text, library) for one in text.equations]
+    sides = [_EQUALS.split(one, maxsplit=1) for one in equations]
+    pairs = [(s[0].strip(), s[1].strip()) if len(s) == 2 else ("", s[0]) for s in sides]
+    return Filling(tuple(modifications), tuple(declared), tuple(pairs))
+
+
+def _declared(one: Declaration, owner: ClassText, library: Libraries) -> str:
+    known = library.resolve(one.class_name, owner)
+    words = [*sorted(one.prefixes - {"replaceable"}), known.full_name if known else one.class_name]
+    rest = with_full_names(owner.text(one.dimensions) + owner.text(one.modification), owner, library)
+    about = f" {quoted(one.description)}" if one.description else ""
+    return f"{' '.join(words)} {one.name}{rest}{about}"
 
 
 def _slot(declaration: Declaration, owner: ClassText, library: Libraries) -> Slot | None:

@@ -6,11 +6,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from fmu_build.text import ClassText, Libraries, class_text, tokenise, with_values
+from fmu_build.text import ClassText, Libraries, class_text, with_values
 from fmu_build.text.declarations import Kind
-from fmu_build.text.tokens import is_name, split
-from pysim.effects._text import as_bad_input, known_class
-from pysim.effects.catalogue import Pair, read_pairs
+from fmu_build.text.tokens import split
+from pysim.effects._text import as_bad_input, known_class, with_full_names
+from pysim.effects.catalogue import Pair, input_signal, read_pairs
 from pysim.types import BadInput, Effect
 
 
@@ -46,7 +46,7 @@ def variant(
 
     A base that only extends another with modifications is unrolled to the class that declares the slots, because the
     compiler passes over a redeclaration of an inherited slot. Two or more effects of one slot are put together by a
-    pair of the libraries, in the order given.
+    pair of the libraries, in the order given. An effect's inputs are bound to the signals that their annotations name.
 
     Args:
         base_class: full name, such as "HydraulicTestBench.Pump.FreeGreyBox".
@@ -68,8 +68,11 @@ def variant(
     inner: list[str] = []
     places: dict[str, str] = {}
     for slot in slots:
-        filling = _filling(slot, [effect for effect in effects if effect.slot == slot], pairs, inner, places)
-        modifications = [*modifications, f"redeclare {filling} {slot}"]
+        own = [effect for effect in effects if effect.slot == slot]
+        filling = _filling(slot, own, pairs, inner, places)
+        with as_bad_input():
+            bound = _bound_inputs(slot, own, places, Libraries(libraries))
+        modifications = [*modifications, f"redeclare {filling} {slot}{bound}"]
     with as_bad_input():
         modifications = with_values(modifications, values or {})
     about = f"{base_class.rpartition('.')[2]} with {', '.join(names) or 'no effect'}"
@@ -114,6 +117,19 @@ def _filling(
     return first
 
 
+def _bound_inputs(slot: str, effects: Sequence[Effect], places: Mapping[str, str], library: Libraries) -> str:
+    """The slot's modification that gives the effects' inputs: `(second(p = chamber1.p))`; "" where they have none."""
+    parts = []
+    for effect in effects:
+        text = library.full(effect.class_name)
+        signals = {d.name: input_signal(d) for d in text.of_kind(Kind.COMPONENT)} if text else {}
+        bound = ", ".join(f"{name} = {signal}" for name, signal in signals.items() if signal)
+        for part in reversed(places[effect.name].split(".")[1:]):
+            bound = f"{part}({bound})" if bound else ""
+        parts += [bound] if bound else []
+    return f"({', '.join(parts)})" if parts else ""
+
+
 def _unrolled(base_class: str, slots: Sequence[str], library: Libraries) -> tuple[str, list[str]]:
     """The class that declares the slots, and the modifications on the way to it with full names."""
     text = known_class(base_class, library)
@@ -128,24 +144,10 @@ def _unrolled(base_class: str, slots: Sequence[str], library: Libraries) -> tupl
                 "that has it; name a class that declares its slots itself"
             )
         here = [text.text(part) for part in split(bases[0].arguments, ",")]
-        modifications = [_with_full_names(part, text, library) for part in here] + modifications
+        modifications = [with_full_names(part, text, library) for part in here] + modifications
         text = parent
     return text.full_name, modifications
 
 
 def _declares(text: ClassText, slot: str) -> bool:
     return any(d.name == slot and "replaceable" in d.prefixes for d in text.declarations)
-
-
-def _with_full_names(part: str, text: ClassText, library: Libraries) -> str:
-    """A modification with the names of classes written in full, so that it means the same elsewhere."""
-    tokens = tokenise(part)
-    replaced, end = "", 0
-    for k, token in enumerate(tokens):
-        begins = is_name(token.text) and (k == 0 or tokens[k - 1].text != ".")
-        if begins and k + 1 < len(tokens) and tokens[k + 1].text == ".":
-            found = library.resolve(token.text, text)
-            if found is not None:
-                replaced += part[end : token.start] + found.full_name
-                end = token.end
-    return replaced + part[end:]
