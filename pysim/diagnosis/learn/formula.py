@@ -1,0 +1,397 @@
+"""A short expression for a learned curve: one or two of twenty shapes, by generalised least squares.
+
+A shape is first turned into the coefficients that a curve through the same knots would have for it, so that the curve's
+rounded corners and straight pieces do not count against it. Directions that the model's own parameters absorb are free.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from types import MappingProxyType
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fmu_build.text.expressions import NEGATE, Call, Name, Number, Tree, evaluate, parse
+from pysim.diagnosis.learn.curve import curve_basis
+from pysim.types import EffectParameter
+from pysim.types.answer import LearnedLaw
+
+Array = NDArray[np.float64]
+
+_DENSE = 20  # points between two knots
+_KINK = 0.05  # rounding of a kink over the shortest interval
+_COARSE = 0.01  # of the curve's size: what the knots cannot show of a smooth law, as one standard deviation
+_WIDTHS = 12  # tried of each width
+_REFINED = 16  # of all shapes and pairs of shapes, the sizes of which are refined
+_ABSORBED = 1e-6  # share of a shape below which nothing of it is left beside others
+_SURE = 3.09  # standard deviations of one chance in a thousand
+_STEPS = 20
+REACH = 10.0  # bounds of an amount over its size
+
+
+@dataclass(frozen=True)
+class Shape:
+    """One kind of curve, of size 1.
+
+    Args:
+        name: as people call it.
+        form: Modelica, of the argument z and, where it has a size of its own, of w.
+        power: of the argument's unit in it, as 2 for z^2; the amount's unit is that of the curve over it.
+        is_place: whether w is a place on the argument's axis, of either sign, rather than a width.
+    """
+
+    name: str
+    form: str
+    power: float = 0
+    is_place: bool = False
+
+    @property
+    def sized(self) -> bool:
+        return re.search(r"\bw\b", self.form) is not None
+
+
+SHAPES = (
+    Shape("constant", "1"),
+    Shape("line", "z", 1),
+    Shape("square", "z^2", 2),
+    Shape("signed square", "z*abs(z)", 2),
+    Shape("cube", "z^3", 3),
+    Shape("fourth power", "z^4", 4),
+    Shape("size", "abs(z)", 1),
+    Shape("root", "sqrt(abs(z))", 0.5),
+    Shape("signed root", "sign(z)*sqrt(abs(z))", 0.5),
+    Shape("sign", "sign(z)"),
+    Shape("smooth sign", "tanh(z/w)"),
+    Shape("decay", "exp(-abs(z)/w)"),
+    Shape("signed decay", "sign(z)*exp(-abs(z)/w)"),
+    Shape("bell", "exp(-(z/w)^2)"),
+    Shape("hyperbola", "1/(1 + abs(z)/w)"),
+    Shape("resonance", "1/(1 + (z/w)^2)"),
+    Shape("one side", "max(z, 0)", 1),
+    Shape("from a place on", "max(z - w, 0)", 1, is_place=True),
+    Shape("beyond a band", "sign(z)*max(abs(z) - w, 0)", 1),
+    Shape("limited", "sign(z)*min(abs(z), w)", 1),
+)
+
+
+@dataclass(frozen=True)
+class Formula:
+    """An expression for a learned curve.
+
+    Args:
+        shapes: names of its shapes.
+        expression: Modelica, of z and the parameters' names; sharp, as people write it.
+        parameters: amounts, 0 for off, and widths, with their values as defaults.
+        covariance: (k, k) of the parameters, in their order.
+        kink: half width over which `abs`, `sign`, `min` and `max` are rounded, in the argument's unit.
+        absorbed: (a,) amounts of the directions that the model's own parameters absorb, in the curve's unit.
+        score: gain over no curve less the penalty, nats.
+        explained: share of the curve, in its own metric, 0 ... 1.
+    """
+
+    shapes: tuple[str, ...]
+    expression: str
+    parameters: tuple[EffectParameter, ...]
+    covariance: Array = field(repr=False)
+    kink: float
+    absorbed: Array = field(repr=False)
+    score: float
+    explained: float
+
+    def text(self, argument: str) -> str:
+        """With numbers in place of parameters: `1.2e+04 + 3.1e+07*x^2`."""
+        numbers = {p.name: f"{p.default:.3g}" if p.default >= 0 else f"({p.default:.3g})" for p in self.parameters}
+        text = _replaced(self.expression, {**numbers, "z": argument})
+        return re.sub(r"(^| \+ )\(-([^()]*)\)", lambda found: ("-" if not found[1] else " - ") + found[2], text)
+
+    def written(self, argument: str) -> str:
+        """Of the parameters' names, once differentiable: kinks are rounded."""
+        return _text(_smooth(parse(_replaced(self.expression, {"z": argument})), self.kink))
+
+    def __call__(self, z: Array, values: Mapping[str, float] = MappingProxyType({})) -> Array:
+        """The curve at some arguments, kinks rounded.
+
+        Args:
+            values: of parameters, where they differ from those found.
+        """
+        known = {p.name: p.default for p in self.parameters} | dict(values) | {"z": np.asarray(z, dtype=float)}
+        return np.asarray(_value(_smooth(parse(self.expression), self.kink), known) + 0 * known["z"])
+
+
+def formulas(law: LearnedLaw) -> tuple[Formula, ...]:
+    """All that describe the curve as well as its coefficients are known, best first; none for a curve of noise.
+
+    Source: generalised least squares; penalty of Schwarz 1978, Annals of Statistics 6:461, and of the number tried.
+    """
+    target = _Target(law)
+    if not target.is_curve:
+        return ()
+    found = [target.fitted(*start) for start in target.starts()[:_REFINED]]
+    good = [one for one in found if one.score > 0 and target.describes(one)]
+    return tuple(sorted(good, key=lambda one: -one.score))
+
+
+class _Target:
+    """A learned curve in the metric of its covariance."""
+
+    def __init__(self, law: LearnedLaw) -> None:
+        self._law = law
+        knots, m = law.knots, law.knots.size
+        self._size = float(np.sqrt(np.mean(law.coefficients**2))) or 1.0
+        self._kink = _KINK * float(np.min(np.diff(knots)))
+        places = np.arange(m - 1)[:, None] + np.linspace(0, 1, _DENSE, endpoint=False)
+        self._dense = np.interp(np.append(places.ravel(), m - 1), np.arange(m), knots)
+        self._to_knots = np.linalg.pinv(curve_basis(self._dense, knots))
+        sizes, turned = np.linalg.eigh(law.covariance)
+        spread = np.sqrt(np.maximum(sizes, 0) + (_COARSE * self._size) ** 2)
+        self._white = (turned / spread) @ turned.T
+        absorbed = law.absorbed if law.absorbed.size else np.zeros((m, 0))
+        self._free = absorbed / np.maximum(np.linalg.norm(absorbed, axis=0), np.finfo(float).tiny)
+        self._values = self._white @ law.coefficients
+        self._alone = self._left(np.zeros((m, 0)))[0]
+        self._df = m - self._free.shape[1]
+
+    @property
+    def is_curve(self) -> bool:
+        """Whether it is more than noise beside what is absorbed."""
+        return self._df > 0 and self._alone > _chi_square(self._df)
+
+    def describes(self, one: Formula) -> bool:
+        """Whether what the formula leaves is no more than the coefficients are known to."""
+        left = (1 - one.explained) * self._alone
+        return left <= _chi_square(max(self._df - len(one.parameters), 1))
+
+    def starts(self) -> list[tuple[tuple[Shape, ...], Array]]:
+        """Every shape and every pair of shapes with the best sizes of a grid, in the order of their scores."""
+        grid = [(k, size) for k, shape in enumerate(SHAPES) for size in self._sizes(shape)]
+        columns = self._white @ self._columns([SHAPES[k] for k, _ in grid], [size for _, size in grid])
+        turned = np.linalg.qr(self._white @ self._free)[0]
+        lengths = np.linalg.norm(columns, axis=0)
+        columns, target = (one - turned @ (turned.T @ one) for one in (columns, self._values))
+        own = np.linalg.norm(columns, axis=0)
+        units = columns * np.where(own > _ABSORBED * lengths, 1 / np.maximum(own, np.finfo(float).tiny), 0)
+        along = units.T @ target
+        both = units.T @ units
+        rest = np.maximum(1 - both**2, _ABSORBED)
+        gains = (along[:, None] ** 2 + along**2 - 2 * both * along[:, None] * along) / rest
+        np.fill_diagonal(gains, along**2)
+        best: dict[tuple[int, ...], tuple[float, Array]] = {}
+        for i, j in zip(*np.triu_indices(len(grid)), strict=True):
+            pair = (grid[i][0],) if i == j else (grid[i][0], grid[j][0])
+            if len(set(pair)) == len(pair) and gains[i, j] > best.get(pair, (-1.0,))[0]:
+                best[pair] = float(gains[i, j]), np.array([grid[k][1] for k in ((i,) if i == j else (i, j))])
+        found = [(tuple(SHAPES[k] for k in pair), *one) for pair, one in best.items()]
+        found.sort(key=lambda one: self._penalty(one[0]) - 0.5 * one[1])
+        return [(shapes, sizes) for shapes, _, sizes in found]
+
+    def _penalty(self, shapes: tuple[Shape, ...]) -> float:
+        df = len(shapes) + sum(shape.sized for shape in shapes)
+        return 0.5 * df * math.log(max(self._df, 2)) + math.log(math.comb(len(SHAPES), len(shapes)))
+
+    def fitted(self, shapes: tuple[Shape, ...], start: Array) -> Formula:
+        """Some shapes with the best sizes near those given, and their amounts."""
+        sizes = self._refined(shapes, start)
+        left, amounts = self._left(self._columns(shapes, sizes))
+        own, absorbed = amounts[: len(shapes)], amounts[len(shapes) :]
+        score = 0.5 * (self._alone - left) - self._penalty(shapes)
+        expression, parameters = self._written(shapes, own, sizes)
+        jacobian = self._jacobian(shapes, sizes, own)
+        lengths = np.linalg.norm(jacobian, axis=0)
+        lengths[lengths == 0] = 1.0
+        covariance = np.linalg.pinv((jacobian / lengths).T @ (jacobian / lengths)) / np.outer(lengths, lengths)
+        covariance = covariance[: len(parameters), : len(parameters)]
+        names = tuple(shape.name for shape in shapes)
+        explained = 1 - left / self._alone if self._alone > 0 else 0.0
+        return Formula(names, expression, parameters, covariance, self._kink, absorbed, score, explained)
+
+    def _sizes(self, shape: Shape) -> Array:
+        """Sizes to try, (k,); one that means nothing for a shape without one."""
+        if not shape.sized:
+            return np.array([math.nan])
+        knots = self._law.knots
+        if shape.is_place:
+            return np.linspace(knots[0], knots[-1], _WIDTHS + 2)[1:-1]
+        return np.geomspace(0.25 * np.min(np.diff(knots)), np.max(np.abs(knots)), _WIDTHS)
+
+    def _columns(self, shapes: Sequence[Shape], sizes: Any) -> Array:
+        """The coefficients of each shape, (m, len(shapes)), for a size each."""
+        curves = [
+            _value(_smooth(parse(shape.form), self._kink), {"z": self._dense, "w": float(size)}) + 0 * self._dense
+            for shape, size in zip(shapes, sizes, strict=True)
+        ]
+        return np.asarray(self._to_knots @ np.column_stack(curves))
+
+    def _left(self, columns: Array) -> tuple[float, Array]:
+        """Sum of squares left, and the amounts of the columns and of what is absorbed.
+
+        A column that what is absorbed makes up as well, or that others do, gets nothing.
+        """
+        design = self._white @ np.hstack([columns, self._free])
+        lengths = np.linalg.norm(design, axis=0)
+        lengths[lengths == 0] = 1.0
+        amounts = np.linalg.lstsq(design / lengths, self._values, rcond=1e-9)[0] / lengths
+        return float(np.sum((self._values - design @ amounts) ** 2)), np.asarray(amounts)
+
+    def _refined(self, shapes: tuple[Shape, ...], sizes: Array) -> Array:
+        """Sizes between those of the grid: golden-section steps, one after the other."""
+        ratio = (math.sqrt(5) - 1) / 2
+        for k in [k for k, shape in enumerate(shapes) if shape.sized] * (1 if len(shapes) == 1 else 3):
+            grid = self._sizes(shapes[k])
+            at = int(np.argmin(np.abs(grid - sizes[k])))
+            low, high = float(grid[max(at - 1, 0)]), float(grid[min(at + 1, len(grid) - 1)])
+            for _ in range(_STEPS):
+                trials = high - ratio * (high - low), low + ratio * (high - low)
+                a, b = (self._left(self._columns(shapes, [*sizes[:k], w, *sizes[k + 1 :]]))[0] for w in trials)
+                low, high = (low, trials[1]) if a < b else (trials[0], high)
+            sizes = np.array([*sizes[:k], (low + high) / 2, *sizes[k + 1 :]])
+        return sizes
+
+    def _jacobian(self, shapes: tuple[Shape, ...], sizes: Array, own: Array) -> Array:
+        """Of the whitened curve by amounts and sizes, in the parameters' order, then by what is absorbed."""
+        columns = []
+        for k, shape in enumerate(shapes):
+            columns.append(self._columns((shape,), sizes[k : k + 1])[:, 0])
+            if shape.sized:
+                step = 1e-4 * (abs(sizes[k]) + self._kink)
+                either = [self._columns((shape,), [sizes[k] + sign * step])[:, 0] for sign in (1, -1)]
+                columns.append(own[k] * (either[0] - either[1]) / (2 * step))
+        return np.asarray(self._white @ np.hstack([np.column_stack(columns), self._free]))
+
+    def _written(self, shapes: tuple[Shape, ...], own: Array, sizes: Array) -> tuple[str, tuple[EffectParameter, ...]]:
+        """The expression of the parameters' names, and these."""
+        unit, argument = self._law.unit or "1", self._law.argument_unit or "1"
+        terms, parameters = [], []
+        for k, (shape, amount, size) in enumerate(zip(shapes, own, sizes, strict=True), start=1):
+            nominal, about = rounded_up(float(amount)), f"Amount of the {shape.name}, 0 = off"
+            bounds = (-REACH * nominal, REACH * nominal, nominal)
+            of = _over(unit, argument, shape.power)
+            parameters.append(EffectParameter(f"a_{k}", of, *bounds, _shortened(amount), 0.0, about))
+            terms.append(f"a_{k}" if shape.form == "1" else f"a_{k}*{_replaced(shape.form, {'w': f'w_{k}'})}")
+            if shape.sized:
+                nominal = rounded_up(max(abs(float(size)), self._kink))
+                about = f"{'Place' if shape.is_place else 'Width'} of the {shape.name}"
+                bounds = (-REACH * nominal if shape.is_place else nominal / 100, REACH * nominal, nominal)
+                parameters.append(EffectParameter(f"w_{k}", argument, *bounds, _shortened(size), None, about))
+        return " + ".join(terms), tuple(parameters)
+
+
+def rounded_up(value: float) -> float:
+    """A size to one digit; 1 for nothing."""
+    if value == 0:
+        return 1.0
+    power = 10.0 ** math.floor(math.log10(abs(value)))
+    return float(f"{math.ceil(abs(value) / power) * power:.1g}")
+
+
+def _shortened(value: float) -> float:
+    return float(f"{value:.8g}")
+
+
+def _over(unit: str, argument: str, power: float) -> str:
+    """The unit of an amount: that of the curve over a power of the argument's, in the symbols of both."""
+    if power != int(power):  # a root, which no unit of SI is written with
+        return "1"
+    powers = _symbols(unit)
+    for symbol, exponent in _symbols(argument).items():
+        powers[symbol] = powers.get(symbol, 0) - int(power) * exponent
+    above, below = (
+        [symbol + (f"{sign * n}" if sign * n > 1 else "") for symbol, n in powers.items() if sign * n > 0]
+        for sign in (1, -1)
+    )
+    divided = f"({'.'.join(below)})" if len(below) > 1 else "".join(below)
+    return ".".join(above or ["1"]) + (f"/{divided}" if below else "")
+
+
+def _symbols(unit: str) -> dict[str, int]:
+    """`N.s2/(m.Pa)` -> N: 1, s: 2, m: -1, Pa: -1."""
+    found: dict[str, int] = {}
+    above, _, below = unit.partition("/")
+    for part, sign in ((above, 1), (below.strip("()"), -1)):
+        for symbol, power in re.findall(r"([A-Za-z%]+)(-?\d*)", part):
+            found[symbol] = found.get(symbol, 0) + sign * int(power or 1)
+    return found
+
+
+def _chi_square(df: int) -> float:
+    """The value that one chance in a thousand exceeds.
+
+    Source: Wilson and Hilferty 1931, PNAS 17:684.
+    """
+    return df * (1 - 2 / (9 * df) + _SURE * math.sqrt(2 / (9 * df))) ** 3
+
+
+# --- expressions -----------------------------------------------------------------------------------------------------
+
+_FUNCTIONS: Mapping[str, Callable[..., Any]] = {
+    "+": np.add, "-": np.subtract, "*": np.multiply, "/": np.divide, "^": np.power, NEGATE: np.negative,
+    "exp": np.exp, "tanh": np.tanh, "sqrt": np.sqrt,
+}  # fmt: skip
+_RANKS = {"+": 0, "-": 0, "*": 1, "/": 1, NEGATE: 1, "^": 2}
+
+
+def _value(tree: Tree, known: Mapping[str, Any]) -> Any:
+    with np.errstate(all="ignore"):
+        return evaluate(tree, known.__getitem__, _FUNCTIONS)
+
+
+def _replaced(text: str, words: Mapping[str, str]) -> str:
+    return re.sub(r"[A-Za-z_]\w*", lambda found: words.get(found[0], found[0]), text)
+
+
+def _smooth(tree: Tree, kink: float) -> Tree:
+    """With kinks rounded: |z| as sqrt(z^2 + kink^2), and what follows from it."""
+    if not isinstance(tree, Call):
+        return tree
+    given = tuple(_smooth(one, kink) for one in tree.arguments)
+    match tree.function, given:
+        case "abs", (z,):
+            return _size(z, kink)
+        case "sign", (z,):
+            return Call("/", (z, _size(z, kink)))
+        case "max", (a, b):
+            return _half(Call("+", (a, _size(a, kink))) if b == Number(0.0) else _of_both(a, b, "+", kink))
+        case "min", (a, b):
+            return _half(_of_both(a, b, "-", kink))
+        case _:
+            return Call(tree.function, given)
+
+
+def _size(z: Tree, kink: float) -> Tree:
+    return Call("sqrt", (Call("+", (Call("^", (z, Number(2.0))), Number(kink**2))),))
+
+
+def _of_both(a: Tree, b: Tree, sign: str, kink: float) -> Tree:
+    return Call(sign, (Call("+", (a, b)), _size(Call("-", (a, b)), kink)))
+
+
+def _half(tree: Tree) -> Tree:
+    return Call("*", (Number(0.5), tree))
+
+
+def _text(tree: Tree, above: int = 0) -> str:
+    """A tree as Modelica text.
+
+    Args:
+        above: rank of the operator around it; one of lower rank is put into brackets.
+    """
+    match tree:
+        case Number(value):
+            return f"{value:.6g}"
+        case Name(name):
+            return name
+    rank = _RANKS.get(tree.function)
+    if rank is None:
+        return f"{tree.function}({', '.join(_text(one) for one in tree.arguments)})"
+    if tree.function == NEGATE:
+        text = f"-{_text(tree.arguments[0], 2)}"
+        return f"({text})" if above else text
+    first, second = tree.arguments
+    sign = f" {tree.function} " if rank == 0 else tree.function
+    behind = rank + (tree.function in "-/^")
+    text = f"{_text(first, rank + (rank == 2))}{sign}{_text(second, behind)}"
+    return f"({text})" if rank < above else text

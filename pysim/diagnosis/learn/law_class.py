@@ -1,0 +1,278 @@
+"""A learned law as a Modelica class that fills its slot: what the slot had, and `factor*h(argument)` added to it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from textwrap import fill as wrapped
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fmu_build.text import class_text
+from fmu_build.text.expressions import names_in, parse
+from fmu_build.text.write import quoted
+from pysim.diagnosis.learn.curve import widths
+from pysim.diagnosis.learn.formula import REACH, Formula, rounded_up
+from pysim.effects import VENDOR, Filling, Slot, filling, parameter_text, slot_units
+from pysim.effects.law import check_units, dimension, dimension_words
+from pysim.types import BadInput
+from pysim.types.answer import LearnedLaw
+
+Array = NDArray[np.float64]
+
+SIGN_WIDTHS = {"m/s": 1e-3, "rad/s": 0.1, "1/s": 0.05, "m": 1e-5, "rad": 1e-4, "Pa": 1e4, "m3/s": 1e-7}
+"""Width of a sign's change by its variable's unit; those of speeds are the catalogue's frictions'. 1e-3 for others."""
+_RAMP = """function ramp "0 below, s above, with a rounded corner in between"
+    input Real s "Distance from the corner";
+    input Real w "Width of the corner";
+    output Real y "Ramp";
+  algorithm
+    y := 0.5*(s + sqrt(s^2 + w^2));
+    annotation(Inline=true, smoothOrder=2);
+  end ramp"""
+_CURVE = """function curve "Straight lines through points, their corners rounded; constant beyond the ends"
+    input Real u "Where";
+    input Real x[:] "Knots, increasing";
+    input Real w[size(x, 1)] "Widths of the corners there";
+    input Real c[size(x, 1)] "Values there";
+    output Real y "Curve";
+  algorithm
+    y := c[1];
+    for i in 2:size(x, 1) loop
+      y := y + (c[i] - c[i - 1])/(x[i] - x[i - 1])*(ramp(u - x[i - 1], w[i - 1]) - ramp(u - x[i], w[i]));
+    end for;
+    annotation(Inline=true, smoothOrder=2);
+  end curve"""
+_SLOPE = """function slope "Derivative of curve"
+    input Real u "Where";
+    input Real x[:] "Knots, increasing";
+    input Real w[size(x, 1)] "Widths of the corners there";
+    input Real c[size(x, 1)] "Values there";
+    output Real y "Slope";
+  algorithm
+    y := 0;
+    for i in 2:size(x, 1) loop
+      y := y + (c[i] - c[i - 1])/(x[i] - x[i - 1])*0.5*((u - x[i - 1])/sqrt((u - x[i - 1])^2 + w[i - 1]^2)
+        - (u - x[i])/sqrt((u - x[i])^2 + w[i]^2));
+    end for;
+    annotation(Inline=true, smoothOrder=1);
+  end slope"""
+
+
+def law_class(
+    law: LearnedLaw,
+    slot: Slot,
+    name: str,
+    libraries: Sequence[Path],
+    *,
+    effect: str = "",
+    description: str = "",
+    formula: Formula | None = None,
+) -> str:
+    """The class of a learned law, to be put into a file of its own and named as a library.
+
+    The coefficients are parameters `c[1]` ... `c[m]`, as learned, with 0 for off; with a formula its amounts are.
+    Beyond the first and last knot the curve is constant. A signal that the slot does not offer becomes an input, which
+    `pysim.effects.variant` binds.
+
+    Args:
+        law: factor and argument name what the slot offers, `v` or `SLOT.v`, or any other signal of the model, or
+            `time`. A factor is "" for 1, or an expression; `sign(v)` is smooth. Where the slot gives several variables
+            of one kind, `q1` and `q2`, each gets the same curve, over `p2` where the argument is `p1`.
+        slot: that it fills; `pysim.effects.slots` reads them from a model.
+        name: of the class.
+        libraries: where the slot's filling and its partial class are.
+        effect: its name in the catalogue; "" for a class that is no candidate of a diagnosis.
+        formula: in place of the table; of `formula.formulas(law)`.
+    Raises:
+        BadInput: a slot whose filling does not give its variable by an equation `y = ...`, or units that do not fit.
+    """
+    parts = filling(slot, libraries)
+    writer = _Writer(law, slot, libraries, formula)
+    equations = []
+    sides = _sides(slot, parts)
+    for left, right in parts.equations:
+        term = next((writer.term(side) for side in sides if side.output == left), "")
+        rate = next((writer.rate(side) for side in sides if side.rate == left), "")
+        equations.append(f"{left} = {_sum(right, term or rate)}" if left else right)
+    argument, unit = writer.argument, law.argument_unit
+    reach = f"{law.knots[0]:.4g} to {law.knots[-1]:.4g} {unit}"
+    comment = f"Learned from measurements with {argument} from {reach}.\nBeyond that range the law is not known"
+    comment += "." if formula else "; the curve is constant there."
+    note = f"{VENDOR}(effect={quoted(effect)}, slot={quoted(slot.name)})" if effect else ""
+    return class_text(
+        name,
+        description=description or f"{slot.description or slot.name}: depends on {argument} (learned)",
+        comment=comment,
+        extends=[(slot.takes, parts.modifications)],
+        declarations=[*parts.declarations, *writer.declarations()],
+        protected=writer.protected(any(side.rate for side in sides)),
+        equations=equations,
+        annotation=note,
+    )
+
+
+@dataclass(frozen=True)
+class _Side:
+    """One variable that the slot gives.
+
+    Args:
+        output: the variable.
+        rate: the variable that is its derivative; "" where the slot gives none.
+        tags: end of the first side's names, and of this side's.
+    """
+
+    output: str
+    rate: str
+    tags: tuple[str, str]
+
+
+def _sides(slot: Slot, parts: Filling) -> list[_Side]:
+    """What the filling gives by equations, a variable and its rate as one."""
+    given = [left for left, _ in parts.equations if left in slot.gives]
+    outputs = [one for one in given if not (one.endswith("_t") and one[:-2] in given)]
+    kinds = {re.sub(r"(\d+|_\w)$", "", one) for one in outputs}
+    if not outputs or len(kinds) > 1:
+        what = f"gives {', '.join(outputs)}, which are of several kinds" if outputs else "gives nothing by an equation"
+        raise BadInput(f"slot {slot.name}: {slot.filling} {what}; a learned law cannot stand there")
+    (kind,) = kinds
+    first = outputs[0].removeprefix(kind)
+    return [_Side(one, f"{one}_t" if f"{one}_t" in given else "", (first, one.removeprefix(kind))) for one in outputs]
+
+
+def _sum(value: str, term: str) -> str:
+    if value == "0" and term:
+        return term
+    return f"{value} + {term}" if term else value
+
+
+class _Writer:
+    """Writes the parts of one law's class."""
+
+    def __init__(self, law: LearnedLaw, slot: Slot, libraries: Sequence[Path], formula: Formula | None) -> None:
+        self._law, self._slot, self._formula = law, slot, formula
+        self._units: Mapping[str, str | None] = slot_units(slot, libraries)
+        self._outside: dict[str, str] = {}  # local name -> signal of the model
+        self.argument = self._local(law.argument)
+        self._factor = self._expression(law.factor)
+        self._knots, self._widths = f"{self.argument}_k", f"{self.argument}_w"
+        self._check()
+
+    def _local(self, name: str) -> str:
+        """Of the slot's variable, or of the input that a signal of the model becomes."""
+        own = name.removeprefix(f"{self._slot.name}.")
+        if own in self._units or own == "time":
+            return own
+        local = re.sub(r"\W+", "_", name).strip("_")
+        local = f"{local}_in" if local in self._units else local
+        self._outside[local] = name
+        return local
+
+    def _expression(self, factor: str) -> str:
+        """The factor with local names and smooth signs; "" for 1."""
+        if not factor:
+            return ""
+        try:
+            names = sorted(set(names_in(parse(factor))), key=len, reverse=True)
+        except ValueError as error:
+            raise BadInput(f"learned law at {self._slot.name}: the factor {factor!r}: {error}") from error
+        for name in names:
+            factor = re.sub(rf"(?<![\w.]){re.escape(name)}(?![\w.(])", self._local(name), factor)
+        return re.sub(r"\bsign\(([\w.]+)\)", lambda found: self._smooth_sign(found[1]), factor)
+
+    def _smooth_sign(self, name: str) -> str:
+        return f"tanh({name}/{SIGN_WIDTHS.get(self._units.get(name) or '', 1e-3):g})"
+
+    def _check(self) -> None:
+        """The unit of the curve times that of the factor is the slot's."""
+        law, slot = self._law, self._slot
+        known = {**self._units, **dict.fromkeys(self._outside), "time": "s"}
+        given = next((self._units.get(one) for one in slot.gives if self._units.get(one)), None)
+        single = len({self._units.get(one) for one in slot.gives}) == 1
+        try:
+            factor = check_units(parse(self._factor), known) if self._factor else {}
+            found = check_units(parse("h*g"), {"h": law.unit or "1", "g": dimension_words(factor)})
+            wrong = single and given is not None and factor is not None and found != dimension(given)
+        except ValueError as error:
+            raise BadInput(f"learned law at {slot.name}: {error}") from error
+        if wrong:
+            raise BadInput(
+                f"learned law at {slot.name}: its curve is in {law.unit or '1'}, and {self._factor or '1'} times that "
+                f"is not in {given}; give the curve's unit"
+            )
+
+    def _on(self, side: _Side, text: str) -> str:
+        """An expression of the first side's variables with those of another side."""
+        old, new = side.tags
+        if old == new:
+            return text
+        known = set(self._units)
+
+        def other(found: re.Match[str]) -> str:
+            name = found[0]
+            twin = name.removesuffix(old) + new
+            return twin if name.endswith(old) and name in known and twin in known else name
+
+        return re.sub(r"[A-Za-z_]\w*", other, text)
+
+    def _curve(self, function: str = "curve") -> str:
+        if self._formula is not None:
+            return f"({self._formula.written(self.argument)})"
+        return f"{function}({self.argument}, {self._knots}, {self._widths}, c)"
+
+    def term(self, side: _Side) -> str:
+        """What is added to a side's variable."""
+        curve = self._curve()
+        factor = self._factor if re.fullmatch(r"[\w.]+|tanh\([^()]*\)", self._factor) else f"({self._factor})"
+        return self._on(side, f"{curve}*{factor}" if self._factor else curve)
+
+    def rate(self, side: _Side) -> str:
+        """Its derivative by time."""
+        argument, factor = f"{self.argument}_t", f"{self._factor}_t"
+        known = argument in self._units or self.argument == "time"
+        if self._formula is not None or not known or (self._factor and factor not in self._units):
+            raise BadInput(
+                f"slot {self._slot.name} hands on the rate {side.rate}, which a law over {self.argument} with the "
+                f"factor {self._factor or '1'} does not know; write the class by hand"
+            )
+        slope = self._curve("slope") + ("" if self.argument == "time" else f"*{argument}")
+        if not self._factor:
+            return self._on(side, slope)
+        return self._on(side, f"{slope}*{self._factor} + {self._curve()}*{factor}")
+
+    def declarations(self) -> list[str]:
+        """Inputs, and parameters as `read_catalogue` reads them."""
+        found = []
+        for local, signal in self._outside.items():
+            unit = f'(unit="{self._law.argument_unit}")' if local == self.argument else ""
+            note = f"annotation({VENDOR}(signal={quoted(signal)}))"
+            found.append(f"input Real {local}{unit} {quoted(f'{signal} of the model')} {note}")
+        if self._formula is not None:
+            return found + [parameter_text(one) for one in self._formula.parameters]
+        values = self._law.coefficients
+        largest = rounded_up(float(np.max(np.abs(values))))
+        attributes = {"min": -REACH * largest, "max": REACH * largest, "nominal": largest, "start": 0.0}
+        said = ", ".join(f"each {key}={value:g}" for key, value in attributes.items())
+        declared = f'parameter Real c[{values.size}](each unit="{self._law.unit or "1"}", {said})'
+        return [*found, f'{declared} =\n    {_listed(values)}\n    "Value of the curve at each knot, 0 = off"']
+
+    def protected(self, rates: bool) -> list[str]:
+        """Knots and widths of the curve, and the functions that give it."""
+        if self._formula is not None:
+            return []
+        knots, unit = self._law.knots, self._law.argument_unit or "1"
+        constants = [
+            f'constant Real {name}[{knots.size}](each unit="{unit}") =\n    {_listed(values)}\n    {quoted(about)}'
+            for name, values, about in (
+                (self._knots, knots, "Knots of the curve"),
+                (self._widths, widths(knots), "Widths of its rounded corners"),
+            )
+        ]
+        return [*constants, _RAMP, _CURVE, *([_SLOPE] if rates else [])]
+
+
+def _listed(values: Array) -> str:
+    return wrapped("{" + ", ".join(f"{value:.8g}" for value in values) + "}", 110, subsequent_indent="    ")
