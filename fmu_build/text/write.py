@@ -13,6 +13,7 @@ def class_text(
     extends: Sequence[tuple[str, Sequence[str]]] = (),
     declarations: Sequence[str] = (),
     protected: Sequence[str] = (),
+    initial: Sequence[str] = (),
     equations: Sequence[str] = (),
     annotation: str = "",
 ) -> str:
@@ -27,6 +28,7 @@ def class_text(
         extends: a base and its modifications, each: ("Lib.Axis", ["m=3", "redeclare Lib.Dry friction"]).
         declarations: without semicolons: "parameter Real F(unit=\\"N\\") = 0".
         protected: declarations that only the class itself uses.
+        initial: equations of the initial section, without semicolons.
         equations: without semicolons.
         annotation: what stands in its brackets; "" for none.
     """
@@ -40,6 +42,8 @@ def class_text(
     lines += [f"  {declaration};" for declaration in declarations]
     if protected:
         lines += ["protected", *(f"  {declaration};" for declaration in protected)]
+    if initial:
+        lines += ["initial equation", *(f"  {equation};" for equation in initial)]
     if equations:
         lines += ["equation", *(f"  {equation};" for equation in equations)]
     if annotation:

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from fmu_build.text import ClassText, Declaration, Libraries
 from fmu_build.text.declarations import Kind
+from fmu_build.text.statements import statements
 from fmu_build.text.tokens import split
 from fmu_build.text.write import quoted
 from pysim.effects._text import as_bad_input, changes, is_input, known_class, with_full_names
@@ -86,13 +87,15 @@ class Filling:
 
     Args:
         modifications: of the partial class that it extends.
-        declarations: its own, without semicolons.
+        declarations: its own, without semicolons; parameters are final, since they belong to no effect.
         equations: (left, right) of each; "" and the whole text of one that is no equation of two sides.
+        initial: those of the initial section.
     """
 
     modifications: tuple[str, ...]
     declarations: tuple[str, ...]
     equations: tuple[tuple[str, str], ...]
+    initial: tuple[str, ...]
 
 
 def filling(slot: Slot, libraries: Sequence[Path]) -> Filling:
@@ -107,21 +110,26 @@ def filling(slot: Slot, libraries: Sequence[Path]) -> Filling:
         bases = [library.resolve(one.class_name, text) for one in text.of_kind(Kind.EXTENDS)]
         if [base.full_name for base in bases if base] != [slot.takes] and slot.filling != slot.takes:
             raise BadInput(f"{slot.filling} inherits its law; write a class for the slot {slot.name} by hand")
-        has_more = any(token.text in ("initial", "algorithm") for token in text.own_tokens)
-        if has_more or any(one.branches for one in text.equations) or any(text.of_kind(Kind.CLASS)):
+        found = list(statements(text.own_tokens))
+        has_more = any(token.text == "algorithm" for token in text.own_tokens) or any(one.branches for one in found)
+        if has_more or any(text.of_kind(Kind.CLASS)):
             raise BadInput(f"{slot.filling} is more than equations; write a class for the slot {slot.name} by hand")
         parts = [part for one in text.of_kind(Kind.EXTENDS) for part in split(one.arguments, ",")]
         modifications = [with_full_names(text.text(part), text, library) for part in parts]
         declared = [_declared(one, text, library) for one in text.of_kind(Kind.COMPONENT)]
-        equations = [with_full_names(text.text(one.tokens).rstrip("; \n"), text, library) for one in text.equations]
+        own = {one.start for one in text.equations}
+        written = [(one.start, with_full_names(text.text(one.tokens).rstrip("; \n"), text, library)) for one in found]
+    equations = [equation for start, equation in written if start in own]
+    initial = [equation for start, equation in written if start not in own and not equation.startswith("annotation")]
     sides = [_EQUALS.split(one, maxsplit=1) for one in equations]
     pairs = [(s[0].strip(), s[1].strip()) if len(s) == 2 else ("", s[0]) for s in sides]
-    return Filling(tuple(modifications), tuple(declared), tuple(pairs))
+    return Filling(tuple(modifications), tuple(declared), tuple(pairs), tuple(initial))
 
 
 def _declared(one: Declaration, owner: ClassText, library: Libraries) -> str:
     known = library.resolve(one.class_name, owner)
-    words = [*sorted(one.prefixes - {"replaceable"}), known.full_name if known else one.class_name]
+    prefixes = one.prefixes - {"replaceable"} | ({"final"} if "parameter" in one.prefixes else set())
+    words = [*sorted(prefixes), known.full_name if known else one.class_name]
     rest = with_full_names(owner.text(one.dimensions) + owner.text(one.modification), owner, library)
     about = f" {quoted(one.description)}" if one.description else ""
     return f"{' '.join(words)} {one.name}{rest}{about}"

@@ -110,6 +110,7 @@ def law_class(
         extends=[(slot.takes, parts.modifications)],
         declarations=[*parts.declarations, *writer.declarations()],
         protected=writer.protected(any(side.rate for side in sides)),
+        initial=parts.initial,
         equations=equations,
         annotation=note,
     )

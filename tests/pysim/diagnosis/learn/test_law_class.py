@@ -46,6 +46,7 @@ LAB = """package Lab
     input Real a(unit="Pa", start=0);
     replaceable Interfaces.Neutral.Compressibility oil constrainedby Interfaces.PartialCompressibility "Oil";
     replaceable Interfaces.Neutral.SignalWithRate link constrainedby Interfaces.PartialSignalWithRate "Link";
+    replaceable HydraulicTestBench.Pump.CommandRateObserver command constrainedby Interfaces.PartialCommandRate "Rate";
     replaceable HydraulicTestBench.Pump.SecondOrderSpool spool(omega_v=20, zeta_v=0.7)
       constrainedby Interfaces.PartialSpool(omega_v=20, zeta_v=0.7) "Spool";
     output Real k1 = oil.kappa1;
@@ -53,12 +54,15 @@ LAB = """package Lab
     output Real y = link.y;
     output Real y_t = link.y_t;
     output Real u = spool.u;
+    output Real rate = command.rate;
   equation
     oil.p1 = a;
     oil.p2 = -2*a;
     link.s = sin(3*time);
     link.s_t = 3*cos(3*time);
     spool.u_ref = sin(4*time);
+    command.s = 10 + 2*a;
+    command.s_t = 0;
   end Signals;
 end Lab;
 """
@@ -209,6 +213,13 @@ def test_a_slot_keeps_the_law_that_it_has(lab: tuple[Path, ...]) -> None:
 
     right = solve_ivp(rates, (0, 3), [0.0, 0.0], "DOP853", TIME, rtol=1e-10, atol=1e-12).y[0]
     assert u == pytest.approx(right, abs=1e-6)
+
+
+def test_a_slot_keeps_its_start(lab: tuple[Path, ...]) -> None:
+    """The observer of a ramp is settled from the first moment on: nothing but the law is beside the ramp's slope."""
+    law = learned("command", "", "s", 20.0, "%", "%/s", 1.0)
+    (rate,) = outputs(with_law(lab, "Signals", law), "rate")
+    assert rate[0] == pytest.approx(curve(law, 8.0), abs=1e-7)
 
 
 def test_a_formula_stands_in_place_of_the_table(lab: tuple[Path, ...], tmp_path: Path) -> None:
