@@ -34,17 +34,17 @@ try:
 except ImportError as error:  # for the blind cases alone, so that nobody else installs it
     raise BadInput("the plant of the blind cases needs Numba; python -m pip install numba") from error
 
-_inline: Any = numba.njit(inline="always", error_model="numpy")
+inline: Any = numba.njit(inline="always", error_model="numpy")
 _compiled: Any = numba.njit(nogil=True, error_model="numpy", cache=True)
 
 
-@_inline
-def _root(dp: float, rho: float) -> float:
+@inline
+def root(dp: float, rho: float) -> float:
     """Signed speed of a jet, thesis Eq. 3.1."""
     return math.copysign(math.sqrt(2.0 * abs(dp) / rho), dp)
 
 
-@_inline
+@inline
 def _opening(u: float, p: Any, s: Any) -> tuple[float, float]:
     """What the edges see of the spool, and their area, thesis Eq. 3.3."""
     w = u + s.offset__u_n
@@ -56,8 +56,8 @@ def _opening(u: float, p: Any, s: Any) -> tuple[float, float]:
     return w, area
 
 
-@_inline
-def _stiffness(pressure: float, p: Any, s: Any) -> float:
+@inline
+def stiffness(pressure: float, p: Any, s: Any) -> float:
     """Of oil with air in it, Pa."""
     if s.air__eps == 0.0:
         return p.beta
@@ -66,7 +66,7 @@ def _stiffness(pressure: float, p: Any, s: Any) -> float:
     return 1.0 / (1.0 / p.beta + air)
 
 
-@_inline
+@inline
 def _force(x: float, v: float, t: float, s: Any) -> float:
     """All that pushes the piston beside thesis Eq. 3.9, N."""
     f = s.bias__F_b
@@ -85,39 +85,44 @@ def _force(x: float, v: float, t: float, s: Any) -> float:
     return f
 
 
-@_inline
-def _play(behind: float, ahead: float, half: float) -> float:
+@inline
+def play(behind: float, ahead: float, half: float) -> float:
     """Follows what is ahead once the free play is used up."""
     return min(max(behind, ahead - half), ahead + half)
 
 
-@_inline
-def _flow(t: float, command: float, behind: float, state: Any, p: Any, s: Any) -> Any:
-    """Rates of change of spool, piston, oil, supply and sensor; `command` is what leaves the dead time."""
+@inline
+def flow(
+    t: float, command: float, behind: float, state: Any, p: Any, s: Any, shift: float = 0.0, fall: float = 0.0
+) -> Any:
+    """Rates of change of spool, piston, oil, supply and sensor; `command` is what leaves the dead time.
+
+    Laws from elsewhere may shift the valve's opening, and let the supply pressure fall, Pa.
+    """
     u, u_t, x, v, p1, p2, drop, felt, swing, swing_t = state
-    supply = p.p_P - (drop if s.droop__R != 0.0 else 0.0)
+    supply = p.p_P - fall - (drop if s.droop__R != 0.0 else 0.0)
     if s.ripple__p != 0.0:
         supply += s.ripple__p * math.sin(2.0 * math.pi * s.ripple__f * t)
-    w, area = _opening(u, p, s)
+    w, area = _opening(u + shift, p, s)
     if w >= 0.0:
-        q1 = area * _root(supply - p1, p.rho)
-        q2 = area * _root(p2 - p.p_T, p.rho)
+        q1 = area * root(supply - p1, p.rho)
+        q2 = area * root(p2 - p.p_T, p.rho)
         taken = q1
     else:
-        q1 = area * _root(p.p_T - p1, p.rho)
-        q2 = area * _root(p2 - supply, p.rho)
+        q1 = area * root(p.p_T - p1, p.rho)
+        q2 = area * root(p2 - supply, p.rho)
         taken = -q2
-    leak = p.K_L * _root(p1 - p2, p.rho) + s.laminar__C_l * (p1 - p2)
+    leak = p.K_L * root(p1 - p2, p.rho) + s.laminar__C_l * (p1 - p2)
     if s.worn__C_w != 0.0:
         leak += s.worn__C_w * math.exp(-((x / s.worn__x_w) ** 2)) * (p1 - p2)
-    p1_t = _stiffness(p1, p, s) / (p.V_0 + p.A_p * x) * (q1 - p.A_p * v - leak - s.external__C_e * (p1 - p.p_T))
-    p2_t = _stiffness(p2, p, s) / (p.V_0 - p.A_p * x) * (leak + p.A_p * v - q2 - s.external__C_e * (p2 - p.p_T))
+    p1_t = stiffness(p1, p, s) / (p.V_0 + p.A_p * x) * (q1 - p.A_p * v - leak - s.external__C_e * (p1 - p.p_T))
+    p2_t = stiffness(p2, p, s) / (p.V_0 - p.A_p * x) * (leak + p.A_p * v - q2 - s.external__C_e * (p2 - p.p_T))
     v_t = ((p1 - p2) * p.A_p - p.k * x - p.b * v + _force(x, v, t, s)) / p.m_eff
     u_tt = p.omega_v * (p.omega_v * (command - u) - 2.0 * p.zeta_v * u_t)
     if s.spool_friction__a_c != 0.0:
         u_tt -= s.spool_friction__a_c * math.tanh(u_t / _SPOOL_TURN)
     drop_t = (s.droop__R * taken - drop) / s.droop__T if s.droop__R != 0.0 else 0.0
-    angle = math.atan(2.0 * math.tan(p.alpha_max) / p.L * _play(behind, x, s.backlash__d))
+    angle = math.atan(2.0 * math.tan(p.alpha_max) / p.L * play(behind, x, s.backlash__d))
     felt_t = (angle - felt) / s.lag__T_f if s.lag__T_f != 0.0 else 0.0
     pull = 0.0
     if s.resonance__f != 0.0:
@@ -126,7 +131,7 @@ def _flow(t: float, command: float, behind: float, state: Any, p: Any, s: Any) -
     return u_t, u_tt, v, v_t, p1_t, p2_t, drop_t, felt_t, swing_t, pull
 
 
-@_inline
+@inline
 def _moved(state: Any, rates: Any, h: float) -> Any:
     u, u_t, x, v, p1, p2, drop, felt, swing, swing_t = state
     a, b, c, d, e, f, g, i, j, k = rates
@@ -136,7 +141,7 @@ def _moved(state: Any, rates: Any, h: float) -> Any:
     )  # fmt: skip
 
 
-@_inline
+@inline
 def _mean(first: Any, second: Any) -> Any:
     a, b, c, d, e, f, g, i, j, k = first
     m, n, o, q, r, t, w, x, y, z = second
@@ -146,7 +151,7 @@ def _mean(first: Any, second: Any) -> Any:
     )  # fmt: skip
 
 
-@_inline
+@inline
 def _held_back(state: Any, p: Any, s: Any) -> Any:
     """Limits of the spool without wind-up, and the stops of the piston, which take all its speed."""
     u, u_t, x, v, p1, p2, drop, felt, swing, swing_t = state
@@ -161,7 +166,7 @@ def _held_back(state: Any, p: Any, s: Any) -> Any:
     return u, u_t, x, v, p1, p2, drop, felt, swing, swing_t
 
 
-@_inline
+@inline
 def _from_ring(ring: Array, n: int, delay: float) -> float:
     """What was put into the ring `delay` steps before step n, by a straight line between two steps."""
     whole = math.floor(delay)
@@ -170,20 +175,20 @@ def _from_ring(ring: Array, n: int, delay: float) -> float:
     return (1.0 - part) * ring[max(newer, 0) % _RING] + part * ring[max(older, 0) % _RING]
 
 
-@_inline
-def _seen(state: Any, moved: bool, behind: float, p: Any, s: Any) -> tuple[float, float]:
+@inline
+def _seen(state: Any, speed: float, behind: float, p: Any, s: Any) -> tuple[float, float]:
     """Angle and its rate as the card and the log see them: behind the play, and behind what the sensor does."""
-    v, felt, swing, swing_t = state[3], state[7], state[8], state[9]
+    felt, swing, swing_t = state[7], state[8], state[9]
     scale = 2.0 * math.tan(p.alpha_max) / p.L  # thesis Eq. 3.8 and 3.10
     angle = math.atan(scale * behind)
     if s.lag__T_f != 0.0:
         return felt, (angle - felt) / s.lag__T_f
     if s.resonance__f != 0.0:
         return swing, swing_t
-    return angle, scale * (v if moved else 0.0) / (1.0 + (scale * behind) ** 2)
+    return angle, scale * speed / (1.0 + (scale * behind) ** 2)
 
 
-@_inline
+@inline
 def _wanted(
     level: Array,
     slope: Array,
@@ -212,10 +217,23 @@ def _wanted(
     return p.K_D * ((gain * e - u) + p.T_d * (gain * e_t - u_t))
 
 
-@_compiled
-def march(
-    level: Array, slope: Array, every: int, first: int, log: int, clock: float, session: float, p: Any, s: Any
-) -> Array:
+@inline
+def _followed(behind: float, state: Any, memory: Any, p: Any, s: Any, law: Any) -> tuple[float, float]:
+    """Position and speed of the plate's end of the linkage."""
+    now = play(behind, state[2], s.backlash__d)
+    return now, state[3] if now != behind or s.backlash__d == 0.0 else 0.0
+
+
+@inline
+def _flowing(t: float, command: float, behind: float, state: Any, memory: Any, p: Any, s: Any, law: Any) -> Any:
+    return flow(t, command, behind, state, p, s), (0.0, 0.0)
+
+
+@inline
+def march_with(
+    level: Array, slope: Array, every: int, first: int, log: int, clock: float, session: float, p: Any, s: Any,
+    law: Any, followed: Any, flowing: Any,
+) -> Array:  # fmt: skip
     """Run one test from rest in the middle.
 
     Args:
@@ -225,7 +243,10 @@ def march(
         log: steps from sample to sample.
         clock: s since the session began.
         session: its length in s, over which drifts run their course.
-        p: parameters. s: strengths.
+        p: parameters. s: strengths. law: numbers of what the next two add.
+        followed: compiled, (behind, state, memory, p, s, law) -> position and speed of the plate's end of the linkage.
+        flowing: compiled, (t, command, behind, state, memory, p, s, law) -> rates of the state, as `flow` gives them,
+            and of two memories that begin at 0.
     Returns:
         logged values (n, 8) as COLUMNS says; the steps end at the last knot.
     """
@@ -235,12 +256,12 @@ def march(
     ring = np.zeros(_RING)
     rest = p.p_T + _REST_PRESSURE * (p.p_P - p.p_T)
     state = (0.0, 0.0, 0.0, 0.0, rest, rest, 0.0, 0.0, 0.0, 0.0)
+    memory = (0.0, 0.0)
     behind, spool_command, held, due = 0.0, 0.0, 0.0, 0.0
     for n in range(steps + 1):
         t = n * h
-        before = behind
-        behind = _play(before, state[2], s.backlash__d)
-        angle, angle_t = _seen(state, behind != before or s.backlash__d == 0.0, behind, p, s)
+        behind, speed = followed(behind, state, memory, p, s, law)
+        angle, angle_t = _seen(state, speed, behind, p, s)
         if n >= first and (n - first) % log == 0:
             row = (n - first) // log
             logged[row, 0], logged[row, 1], logged[row, 2], logged[row, 3] = angle, state[0], state[2], state[3]
@@ -255,7 +276,7 @@ def march(
             gain = p.K_p * (1.0 + s.fading__share * age)
             held = _wanted(level, slope, every, n, angle, angle_t, state, gain, p, s)
             due += s.sampling__T_s
-        spool_command = _play(spool_command, held, s.hysteresis__h)
+        spool_command = play(spool_command, held, s.hysteresis__h)
 
         # dead time
         ring[n % _RING] = spool_command
@@ -264,10 +285,22 @@ def march(
         later = _from_ring(ring, n + 1, delay)
 
         # spool, piston, oil: Heun
-        start = _flow(clock + t, now, behind, state, p, s)
-        end = _flow(clock + t + h, later, behind, _held_back(_moved(state, start, h), p, s), p, s)
+        start, kept = flowing(clock + t, now, behind, state, memory, p, s, law)
+        ahead = (memory[0] + h * kept[0], memory[1] + h * kept[1])
+        reached = _held_back(_moved(state, start, h), p, s)
+        end, left = flowing(clock + t + h, later, behind, reached, ahead, p, s, law)
         state = _held_back(_moved(state, _mean(start, end), h), p, s)
+        memory = (memory[0] + 0.5 * h * (kept[0] + left[0]), memory[1] + 0.5 * h * (kept[1] + left[1]))
     return logged
+
+
+@_compiled
+def march(
+    level: Array, slope: Array, every: int, first: int, log: int, clock: float, session: float, p: Any, s: Any,
+    law: Any,
+) -> Array:  # fmt: skip
+    """The pump as it is; compiled once, for all processes."""
+    return march_with(level, slope, every, first, log, clock, session, p, s, law, _followed, _flowing)
 
 
 def run(
@@ -281,8 +314,14 @@ def run(
     strengths: Strengths,
     clock: float = 0.0,
     session: float = 1.0,
+    plant: Any = None,
+    law: Any = (),
 ) -> Array:
     """`march`, refusing what its rules cannot do.
+
+    Args:
+        plant: compiled like `march`, with laws of its own; the pump itself where None.
+        law: numbers of these.
 
     Raises:
         ValueError: a dead time below a step or longer than the ring, or a test that ends before its log begins.
@@ -293,7 +332,7 @@ def run(
     if not 0 <= first <= (level.size - 1) * every:
         raise ValueError(f"the log begins at step {first}; the test has {(level.size - 1) * every}")
     return np.asarray(
-        march(
+        (plant or march)(
             np.ascontiguousarray(level),
             np.ascontiguousarray(slope),
             every,
@@ -303,5 +342,6 @@ def run(
             session,
             parameters,
             strengths,
+            law,
         )
     )

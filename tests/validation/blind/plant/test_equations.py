@@ -137,7 +137,7 @@ def test_air_softens_oil_as_its_volume_says() -> None:
         return -absolute / BASE.beta + 0.02 * (1.013e5 / absolute) ** (1 / 1.4)
 
     softness = -(volume(p + 1.013e5 + h) - volume(p + 1.013e5 - h)) / (2 * h)
-    assert equations._stiffness.py_func(p, BASE, Strengths(air__eps=0.02)) == pytest.approx(1 / softness, rel=1e-6)
+    assert equations.stiffness.py_func(p, BASE, Strengths(air__eps=0.02)) == pytest.approx(1 / softness, rel=1e-6)
 
 
 @pytest.mark.parametrize("name", ["laminar__C_l", "external__C_e"])
@@ -211,7 +211,7 @@ def test_spool_limits_hold_and_do_not_wind_up() -> None:
 
 
 def test_play_keeps_within_its_width_and_waits_at_reversals() -> None:
-    play, ahead = equations._play.py_func, np.sin(np.linspace(0, 12, 4000))
+    play, ahead = equations.play.py_func, np.sin(np.linspace(0, 12, 4000))
     behind = np.empty_like(ahead)
     at = 0.0
     for n, value in enumerate(ahead):
@@ -255,15 +255,15 @@ def uncompiled(monkeypatch: pytest.MonkeyPatch) -> None:
 
 def test_supply_ripple_worn_seal_and_spool_friction_enter_their_balances(uncompiled: None) -> None:
     state = (0.3, 2.0, 4e-3, 0.0, 80e5, 60e5, 0.0, 0.0, 0.0, 0.0)
-    plain = equations._flow(0.0, 0.0, 0.0, state, BASE, Strengths())
+    plain = equations.flow(0.0, 0.0, 0.0, state, BASE, Strengths())
     quarter = 1 / (4 * 11.3)
-    raised = equations._flow(quarter, 0.0, 0.0, state, BASE, Strengths(ripple__p=5e5, ripple__f=11.3))
-    assert raised == pytest.approx(equations._flow(0.0, 0.0, 0.0, state, BASE._replace(p_P=175e5), Strengths()))
-    worn = equations._flow(0.0, 0.0, 0.0, state, BASE, Strengths(worn__C_w=1e-12, worn__x_w=4e-3))
+    raised = equations.flow(quarter, 0.0, 0.0, state, BASE, Strengths(ripple__p=5e5, ripple__f=11.3))
+    assert raised == pytest.approx(equations.flow(0.0, 0.0, 0.0, state, BASE._replace(p_P=175e5), Strengths()))
+    worn = equations.flow(0.0, 0.0, 0.0, state, BASE, Strengths(worn__C_w=1e-12, worn__x_w=4e-3))
     lost = 1e-12 / math.e * 20e5 * BASE.beta
     assert plain[4] - worn[4] == pytest.approx(lost / (BASE.V_0 + BASE.A_p * 4e-3))
     assert worn[5] - plain[5] == pytest.approx(lost / (BASE.V_0 - BASE.A_p * 4e-3))
-    rubbing = equations._flow(0.0, 0.0, 0.0, state, BASE, Strengths(spool_friction__a_c=300.0))
+    rubbing = equations.flow(0.0, 0.0, 0.0, state, BASE, Strengths(spool_friction__a_c=300.0))
     assert plain[1] - rubbing[1] == pytest.approx(300 * math.tanh(2.0 / 0.05))
 
 
