@@ -244,8 +244,8 @@ def damped_step(triangle: Array, right: Array, damping: float, low: Array, high:
     free = np.linalg.lstsq(matrix, longer, rcond=None)[0]
     if np.all(free >= low) and np.all(free <= high):
         return np.asarray(free)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        found = lsq_linear(matrix, longer, (low, high), method="bvls", tol=1e-14).x
+    with np.errstate(divide="ignore", invalid="ignore"):  # of itself it ends after n exchanges, wherever that is
+        found = lsq_linear(matrix, longer, (low, high), method="bvls", tol=1e-14, max_iter=100 * n).x
     if not np.all(np.isfinite(found)):  # where it steps on a bound that a rounding has put it beyond
         found = lsq_linear(matrix, longer, (low, high), method="trf", tol=1e-14).x
     return np.asarray(found)
