@@ -41,6 +41,7 @@ class Candidate:
         problem: the model, its free numbers and the measurements beside it.
         places: effect name -> name ahead of its parameters in the model.
         transient: whether stepped sines run as the bench ran them, since the model may have no periodic orbit.
+        precision: (n, n) of a prior of the free parameters, in the search's numbers; none where None.
     """
 
     effects: tuple[Effect, ...]
@@ -48,6 +49,7 @@ class Candidate:
     problem: Problem = field(repr=False)
     places: Mapping[str, str] = field(default_factory=dict)
     transient: bool = False
+    precision: Array | None = field(default=None, repr=False)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "places", FrozenMapping(self.places))

@@ -10,6 +10,8 @@ from pysim.diagnosis import verdict
 from pysim.diagnosis.candidate import Models
 from pysim.diagnosis.checkpoint import Checkpoint, whose
 from pysim.diagnosis.error_history import error_step, held_still
+from pysim.diagnosis.learn.described import answered
+from pysim.diagnosis.learn.learn import Learner, Learning
 from pysim.diagnosis.left import follows
 from pysim.diagnosis.next_test import next_test
 from pysim.diagnosis.progress import Progress, Say
@@ -36,7 +38,28 @@ def diagnose(session: Session, *, progress: Say | None = None, checkpoint: Path 
     most = session.settings.max_effects if session.build is not None and session.catalogue else 0
     found = search.run(base, most)
     search.say.stage("search")
-    return _answer(session, search, found)
+    return _answer(session, search, found, learns=True)
+
+
+def learn(
+    session: Session, effects: Sequence[Effect] = (), *, progress: Say | None = None, checkpoint: Path | None = None
+) -> Diagnosis:
+    """Where a law is missing that no catalogue has, and what it looks like: the best law of each place.
+
+    Args:
+        effects: that the model has besides.
+    Raises:
+        BadInput: the model's class is not at hand, or an effect cannot be built or simulated.
+    """
+    _needs_class(session)
+    search = _search(session, progress, checkpoint, "learn")
+    base = search.fit_base()
+    search.say.stage("refit")
+    present = search.with_effects(base, effects) if effects else base
+    search.floors = search.floors.with_(base).with_(present)
+    losses = {effect.name: search.test(base, present) for effect in effects}
+    models = [present] * bool(effects)
+    return _answer(session, search, Found(base, present, (), search.floors, losses), models=models, learns=True)
 
 
 def compare(
@@ -106,44 +129,73 @@ def _answer(
     *,
     refitted: bool = True,
     models: Sequence[FinalFit] = (),
+    learns: bool = False,
 ) -> Diagnosis:
     """Everything that was found.
 
     Args:
         models: with effects, in the order they came in; those of the search where none are given.
+        learns: whether a law is looked for where more is missing.
     """
     search.say.doing("counting what is left")
     final = _alone(found.final, search) if found.final.names else found.final
     found = replace(found, final=final)
-    floors = found.floors.floors
     models_of = [("prior", search.as_it_is()), *([("refit", found.base)] if refitted else [])]
-    steps = [
-        error_step(name, fit, session, floors, fitted=name != "prior")
-        for name, fit in (*models_of, *_kept(found, models, final, search))
-    ]
-    history = [step for step, _ in steps]
-    lost = dict.fromkeys(note for _, notes in steps for note in notes)
-    _said(search.say, history)
+    models_of += _kept(found, models, final, search)
+    history, lost = _history(models_of, session, found)
     rest = follows(final, session.dataset, session.treatment.noise.blocks)
-    last = history[-1]
-    left = verdict.what_is_left(found, rest, {"fit": last.fit, "validate": last.validate})
-    estimates = held_still(final)[0] if refitted else ()
+    left = verdict.what_is_left(found, rest, {"fit": history[-1].fit, "validate": history[-1].validate})
+    complete = verdict.is_complete(found, rest, left, history[-1], session.settings)
+    learning = _learned(session, search, found) if learns and not complete else None
+    law = None if learning is None else learning.law
+    if law is not None:
+        found = replace(found, final=law.fit, floors=found.floors.with_(law.fit))
+        history, lost = _history([*models_of, (law.law.label, law.fit)], session, found)
+        history[-1] = replace(history[-1], estimates=law.of_the_model(history[-1].estimates))
+        rest = follows(law.fit, session.dataset, session.treatment.noise.blocks)
+        left = verdict.what_is_left(found, rest, {"fit": history[-1].fit, "validate": history[-1].validate})
+    _said(search.say, history)
+    estimates = history[-1].estimates if law is not None else held_still(final)[0] if refitted else ()
     search.say.stage("intervals")
     settles, unsettled = _next_test(session, found)
+    learned, missing = answered(learning, (history[-2].validate, history[-1].validate)) if learning else ((), ())
+    refused = {**search.models.refused, **({} if learning is None else learning.refused)}
     return Diagnosis(
         effects=verdict.found_effects(found, estimates, session),
-        complete=verdict.is_complete(found, rest, left, last, session.settings),
+        complete=complete,
         left=left,
         rivals=verdict.ranking(search.tables),
         ties=verdict.ties(found),
         history=tuple(history),
         failures=history[min(1, len(history) - 1)].failures,
+        learned=learned,
+        missing=missing,
         next_test=settles,
         estimates=estimates,
-        notes=(*session.notes, *lost, *unsettled, *verdict.notes_of(found, estimates, search.models.refused, session)),
+        notes=(*session.notes, *lost, *unsettled, *verdict.notes_of(found, estimates, refused, session)),
         seconds=search.say.seconds,
         detectable=search.detectable(found.final),
     )
+
+
+def _history(
+    models: Sequence[tuple[str, FinalFit]], session: Session, found: Found
+) -> tuple[list[ErrorStep], dict[Note, None]]:
+    """The error of these models by name, and what could not be simulated."""
+    floors = found.floors.floors
+    steps = [error_step(name, fit, session, floors, fitted=name != "prior") for name, fit in models]
+    return [step for step, _ in steps], dict.fromkeys(note for _, notes in steps for note in notes)
+
+
+def _learned(session: Session, search: Search, found: Found) -> Learning | None:
+    """The best law beside the final model; None where none can be compiled."""
+    if session.build_law is None:
+        return None
+    floors = {channel: floor.sd for channel, floor in found.floors.floors.items()}
+    learner = Learner(session, found.final, floors, search.tried, search.vetoed, search.say.doing)
+    learning = learner.learn()
+    search.say.stage("learn")
+    return learning
 
 
 def _next_test(session: Session, found: Found) -> tuple[NextTest | None, list[Note]]:

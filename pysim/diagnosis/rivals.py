@@ -32,6 +32,7 @@ class Rows:
         level: (n_r,) of the row's channel.
         series, blocks: (n_r,) numbers of the log and channel, and of the block.
         ordered: numbers of the series whose rows follow each other in time.
+        precision: (n, n) of a prior of the free parameters; none where None.
     """
 
     residual: Array
@@ -40,6 +41,7 @@ class Rows:
     series: NDArray[np.intp]
     blocks: NDArray[np.intp]
     ordered: frozenset[int]
+    precision: Array | None = None
 
 
 def rows(candidate: Candidate, residuals: WeightedResiduals, point: Point) -> Rows:
@@ -48,7 +50,8 @@ def rows(candidate: Candidate, residuals: WeightedResiduals, point: Point) -> Ro
     ordered = frozenset(number for number, (one, _) in enumerate(residuals.series) if one.domain == "time")
     level = candidate.levels(residuals, point)[own]
     jacobian = point.jacobian[own] if point.jacobian.size else np.zeros((int(own.sum()), 0))
-    return Rows(point.residual[own] * level, jacobian, level, point.series[own], point.blocks[own], ordered)
+    numbers = point.series[own], point.blocks[own], ordered
+    return Rows(point.residual[own] * level, jacobian, level, *numbers, candidate.precision)
 
 
 def of(fit: FinalFit) -> Rows:
@@ -89,7 +92,7 @@ def _clustered(rest: Array, change: Array, left: Rows, own: NDArray[np.bool_]) -
     return max(float(np.sum(np.square(scores))), float(np.sum((rest * change) ** 2)))
 
 
-def p_value(gain: float, df: int, samples: float, size: int, inflated: float) -> float:
+def p_value(gain: float, df: float, samples: float, size: int, inflated: float) -> float:
     """Chance of a gain (nats) by so many parameters more where there is nothing to gain.
 
     Args:
@@ -118,7 +121,7 @@ def samples(fit: FinalFit) -> float:
     return float(residuals.samples.sum()) + residuals.known_rows
 
 
-def penalised(gain: float, df: int, inflated: float, samples: float) -> float:
+def penalised(gain: float, df: float, inflated: float, samples: float) -> float:
     """Gain less the penalty of its parameters, nats (Schwarz 1978 at the effective size)."""
     return gain - 0.5 * df * inflated * math.log(max(samples / inflated, 3.0))
 
@@ -145,6 +148,7 @@ def left_out_error(found: Rows, blocks: NDArray[np.intp], level: Array) -> Array
     slopes = found.jacobian
     whole = slopes.T @ slopes
     ridge = 1e-9 * float(np.trace(whole)) * np.eye(len(whole))
+    ridge += 0.0 if found.precision is None else found.precision
     errors = np.zeros(int(blocks.max()) + 1 if blocks.size else 0)
     for b in range(errors.size):
         own = blocks == b

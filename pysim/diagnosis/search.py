@@ -426,9 +426,10 @@ class Search:
         test = self.test(smaller, final, choices)
         if test.verdict is not Verdict.BETTER:
             return test
-        return self._vetoed(smaller, final, test)
+        return self.vetoed(smaller, final, test)
 
-    def _vetoed(self, smaller: FinalFit, larger: FinalFit, test: GainTest) -> GainTest:
+    def vetoed(self, smaller: FinalFit, larger: FinalFit, test: GainTest) -> GainTest:
+        """A gain as logs that may choose and blocks left out see it: vetoed where either gets worse."""
         smaller = self._beside(smaller, larger.candidate.transient)
         own, other = rivals.of(larger), rivals.of(smaller)
         apart = other.residual - own.residual

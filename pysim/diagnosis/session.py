@@ -9,6 +9,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 from pysim.diagnosis.adequacy import shortcomings
+from pysim.diagnosis.learn.laws import Term
 from pysim.diagnosis.settings import Settings
 from pysim.effects import Slot
 from pysim.identify import THESIS_REFERENCE_HZ
@@ -18,6 +19,9 @@ from pysim.types import BadInput, Dataset, Effect, MeasuredRecord, Model, Note, 
 
 # Effects -> the model that has them, and effect name -> the name ahead of its parameters there.
 BuildVariant = Callable[[Sequence[Effect]], tuple[Model, Mapping[str, str]]]
+
+# Effects and terms beside them -> the model that has both.
+BuildLaw = Callable[[Sequence[Effect], Term], Model]
 
 TEST = "test"
 
@@ -38,6 +42,7 @@ class Session:
         notes: what was assumed.
         settings: the numbers of the search.
         workers: where runs go.
+        build_law: makes models with laws that no catalogue has; None likewise.
     """
 
     model: Model
@@ -51,6 +56,7 @@ class Session:
     notes: tuple[Note, ...] = ()
     settings: Settings = field(default_factory=Settings)
     workers: Threads = field(default_factory=Threads)
+    build_law: BuildLaw | None = None
 
     @property
     def dataset(self) -> Dataset:
@@ -92,6 +98,7 @@ def session(
     notes: Sequence[Note] = (),
     settings: Settings | None = None,
     workers: int | None = None,
+    build_law: BuildLaw | None = None,
 ) -> Session:
     """Bring everything together.
 
@@ -103,6 +110,7 @@ def session(
         reference_hz: whose gain counts as 0 dB in measured responses (Eq. 2.12); None takes gains as they are.
         initial: what is known of the plant at a log's first sample: "near rest", "rest" or "estimate".
         workers: runs at a time; all cores where None.
+        build_law: makes models with laws that no catalogue has; None learns none.
     Raises:
         BadInput: no free parameter, bounds of what is not free, a data set and a model that do not fit together, or
             measurements that cannot carry a diagnosis.
@@ -124,6 +132,7 @@ def session(
         Treatment(rest=rest or Rest(), reference_hz=reference_hz, initial=initial),
         settings=settings or Settings(),
         workers=Threads(workers),
+        build_law=build_law,
     )
     checked = given.problems[0]
     more = [*(Note(NoteCode.OTHER, {"text": text}) for text in shortcomings(read, names)), *checked.notes]

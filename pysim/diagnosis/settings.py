@@ -88,6 +88,33 @@ class Settings:
 
 
 @dataclass(frozen=True)
+class LearnSettings:
+    """How laws that no catalogue has are learned."""
+
+    knots: int = setting(
+        9, unit="1", meaning="of a curve in the screening", source="measured: trial, 10 of 11 places right"
+    )
+    most_knots: int = setting(
+        33,
+        unit="1",
+        meaning="of a curve that is kept",
+        source="measured: known-answers, a magnet beside the way",
+    )
+    full: float = setting(
+        0.5, unit="1", meaning="effective coefficients over knots from which on a curve gets twice the knots",
+        source="half of them free is a curve that its knots hold in",
+    )  # fmt: skip
+    near: float = setting(
+        0.8, unit="1", meaning="share of the best score from which on a law is refitted",
+        source="measured: trial, the right place within it each time",
+    )  # fmt: skip
+    most: int = setting(8, unit="1", meaning="laws that are refitted at most", source="measured: trial")
+    heat: int = setting(
+        4, unit="1", meaning="points that each of them is given, smoothness fitted in between", source="measured: trial"
+    )
+
+
+@dataclass(frozen=True)
 class TestSettings:
     """Which tests are looked at to separate two models, and when they are enough."""
 

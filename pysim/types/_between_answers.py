@@ -30,7 +30,7 @@ def to_answer(old: diagnosis.Diagnosis) -> answer.Diagnosis:
         ties=old.confusable,
         history=tuple(_history(step, stages.get(step.step, diagnosis.Stage(step.step))) for step in old.error),
         failures=old.where,
-        learned=tuple(_law(one) for one in old.missing),
+        missing=tuple(_law(one) for one in old.missing),
         next_test=old.next_test,
         estimates=old.parameters,
         notes=tuple(
@@ -61,7 +61,7 @@ def from_answer(new: answer.Diagnosis) -> diagnosis.Diagnosis:
         where=new.failures,
         seconds=new.seconds,
         notes=tuple(notes),
-        missing=tuple(_missing(law) for law in new.learned),
+        missing=tuple(_missing(law) for law in new.missing),
         next_test=new.next_test,
         stages=tuple(
             diagnosis.Stage(s.step, s.estimates, s.undetermined, s.records, s.responses, s.failures)

@@ -199,7 +199,8 @@ class LearnedLaw:
         modelica: text of its class; "" where none was written.
         alternatives: other places that these data do not tell from this one.
         parameters: free numbers of the model, by name, refitted beside the law.
-        test: against the model without it.
+        test: against the model without it; None where it was not refitted to the end.
+        held_out: rms over floor of the logs that may choose, without the law and with it; None where there are none.
     """
 
     slot: str
@@ -218,6 +219,7 @@ class LearnedLaw:
     alternatives: tuple[str, ...] = ()
     parameters: Mapping[str, float] = field(default_factory=dict)
     test: GainTest | None = None
+    held_out: tuple[float | None, float | None] = (None, None)
 
     def __post_init__(self) -> None:
         for name in ("knots", "coefficients", "covariance", "absorbed"):
@@ -284,6 +286,8 @@ class Diagnosis:
         learned: laws that no catalogue has, in the order they were added.
         detectable: effects that were not found, and from which size on they would have been; none where the model
             leaves more than noise, which hides them.
+        missing: of each place where a law was tried the best one, the likeliest place first; those that were added
+            among them.
         next_test: where two answers are left that another test would tell apart.
         estimates: parameters of the final model.
         notes: what a reader must know.
@@ -299,6 +303,7 @@ class Diagnosis:
     history: tuple[ErrorStep, ...]
     failures: tuple[Failure, ...]
     learned: tuple[LearnedLaw, ...] = ()
+    missing: tuple[LearnedLaw, ...] = ()
     next_test: NextTest | None = None
     estimates: tuple[Estimate, ...] = ()
     notes: tuple[Note, ...] = ()

@@ -162,6 +162,7 @@ def session_of(parts: SessionParts, settings: Settings | None = None) -> Session
         reference_hz=parts.reference_hz,
         notes=parts.notes,
         settings=settings,
+        build_law=parts.variants.probed if parts.variants else None,
     )
 
 

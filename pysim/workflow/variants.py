@@ -13,7 +13,7 @@ from pysim.types import BadInput
 from pysim.workflow.model import compiled
 
 if TYPE_CHECKING:
-    from pysim.diagnose.locating.laws import Term
+    from pysim.diagnosis.learn.laws import Term
     from pysim.effects import Slot
     from pysim.types import Effect, Model
 
@@ -96,7 +96,7 @@ class Variants:
         Raises:
             BadInput: a class that does not compile with that term.
         """
-        from pysim.diagnose.locating.laws import wrapped
+        from pysim.diagnosis.learn.laws import wrapped
         from pysim.effects import variant
 
         name = f"{self._own_name}Located"

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from pysim.cli.command import Command, Given
@@ -16,7 +15,6 @@ if TYPE_CHECKING:
 
     from pysim.present.diagnosis import Diagnosed
     from pysim.types import Diagnosis, Told
-    from pysim.workflow import SessionParts
 
 
 def run(given: Given) -> Diagnosed:
@@ -34,7 +32,7 @@ def run(given: Given) -> Diagnosed:
     if most:
 
         def work(tell: Callable[[Told], None], journal: Path | None) -> Diagnosis:
-            return _with_places(shown(diagnose(session, progress=tell, checkpoint=journal)), parts)
+            return shown(diagnose(session, progress=tell, checkpoint=journal))
 
         return run_step(given, parts, work)
     return run_step(
@@ -44,17 +42,6 @@ def run(given: Given) -> Diagnosed:
         question="What would each effect gain?",
         answer=ranking_sentence,
     )
-
-
-def _with_places(found: Diagnosis, parts: SessionParts) -> Diagnosis:
-    """Where no effect of the catalogue explains the data: the term that each place of the model would need."""
-    from pysim.diagnose import located
-    from pysim.types.diagnosis import UNKNOWN
-    from pysim.workflow import subject_of
-
-    if found.verdict != UNKNOWN or parts.variants is None or not parts.inside.slots:
-        return found
-    return replace(found, missing=located(subject_of(parts)).missing)
 
 
 COMMAND = Command(

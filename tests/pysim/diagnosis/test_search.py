@@ -49,7 +49,7 @@ def found(peak: float) -> tuple[Search, FinalFit, FinalFit]:
 
 def test_a_model_that_cannot_run_through_the_choosing_logs_is_vetoed() -> None:
     search, base, frail = found(20.0)
-    assert search._vetoed(base, frail, search.test(base, frail)).verdict is Verdict.VETOED
+    assert search.vetoed(base, frail, search.test(base, frail)).verdict is Verdict.VETOED
     worse = search._held_out(base, frail)
     better = search._held_out(frail, base)
     assert worse == (math.inf, 0.0)

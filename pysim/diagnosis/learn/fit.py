@@ -1,0 +1,172 @@
+"""A law and every parameter of the model fitted together, the curve held smooth by a prior that the data weigh."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pysim.diagnosis.learn.basis import Smoothness
+from pysim.diagnosis.learn.laws import Law
+from pysim.diagnosis.learn.products import Products
+from pysim.diagnosis.learn.screening import LawModel, Ranked
+from pysim.diagnosis.refit import Evaluate, FinalFit, advance, exact
+from pysim.identify.greybox import GaussNewton, Point, Simulation
+from pysim.identify.greybox.optimiser import Bounds, State
+from pysim.identify.greybox.residuals import Carried
+from pysim.types import Estimate, FitOutcome
+
+Array = NDArray[np.float64]
+
+# Rounds of smoothness at most, and the change of the effective size that ends them.
+_ROUNDS, _SETTLED = 8, 0.1
+
+
+@dataclass(frozen=True)
+class LawFit:
+    """A law beside the model's parameters, refitted as far as it came.
+
+    Args:
+        law: which.
+        knots: (m,).
+        unit: of the coefficients in the model's own units.
+        smoothness: the prior of the coefficients.
+        fit: the model; its last m numbers are the coefficients, in units.
+    """
+
+    law: Law
+    knots: Array = field(repr=False)
+    unit: float
+    smoothness: Smoothness = field(repr=False)
+    fit: FinalFit = field(repr=False)
+
+    @property
+    def values(self) -> Array:
+        """(m,) coefficients, in units."""
+        return self.fit.point.x[-self.knots.size :]
+
+    @property
+    def cost(self) -> float:
+        """Of the objective without the curve's prior, nats."""
+        return self.fit.point.cost - 0.5 * float(np.sum((self.smoothness.rows @ self.values) ** 2))
+
+    def of_the_model(self, estimates: Sequence[Estimate]) -> tuple[Estimate, ...]:
+        """Without those of the curve's coefficients."""
+        own = self.law.place.coefficients(self.knots.size)
+        return tuple(one for one in estimates if one.name not in own)
+
+    @property
+    def gram(self) -> Array:
+        """(m, m) products of the residual's slopes by the coefficients, across what the parameters explain."""
+        point, m = self.fit.point, self.knots.size
+        rows = point.residual.size - len(self.smoothness.rows)
+        bare = replace(
+            point, x=point.x[:-m], residual=point.residual[:rows], jacobian=point.jacobian[:rows, :-m],
+            series=point.series[:rows], blocks=point.blocks[:rows],
+        )  # fmt: skip
+        table = Products.at(bare, self.fit.candidate.residuals(self.fit.simulation))
+        table = table.with_(point.jacobian[:rows, -m:], scaled=False)
+        return table.across(np.ones(table.samples.size + 1))[0]
+
+    @property
+    def edf(self) -> float:
+        """How many coefficients the data determine."""
+        return self.smoothness.edf(self.gram)
+
+
+def penalised(evaluate: Evaluate, smoothness: Smoothness) -> Evaluate:
+    """The objective with the prior of the last numbers as rows of the residual."""
+    rows = smoothness.rows
+
+    def evaluated(x: Array, carried: Carried) -> Point:
+        point = evaluate(x, carried)
+        if not point.good:
+            return point
+        own = rows @ x[-rows.shape[1] :]
+        slopes = np.hstack([np.zeros((len(rows), x.size - rows.shape[1])), rows])
+        return replace(
+            point,
+            cost=point.cost + 0.5 * float(own @ own),
+            residual=np.append(point.residual, own),
+            jacobian=np.vstack([point.jacobian, slopes]),
+            blocks=np.append(point.blocks, np.zeros(len(rows), dtype=np.intp)),
+            series=np.append(point.series, np.full(len(rows), -1, dtype=np.intp)),
+        )
+
+    return evaluated
+
+
+def begun(model: LawModel, ranked: Ranked, simulation: Simulation) -> LawFit:
+    """A law where the screening would have it, or with nothing of it where that is better."""
+    unit = ranked.size or ranked.unit
+    ratio = ranked.unit / unit  # of old units to new ones
+    smooth = ranked.curve.smoothness
+    smooth = replace(smooth, bending=smooth.bending / ratio**2, level=smooth.level / ratio**2)
+    x, values = model.present.point.x, ranked.curve.values * ratio
+    starts = [
+        started(model, ranked.law, ranked.knots, unit, smooth, np.append(x, share * values), simulation)
+        for share in (1.0, 0.0)
+    ]
+    return min(starts, key=lambda one: one.fit.point.cost)
+
+
+def started(
+    model: LawModel,
+    law: Law,
+    knots: Array,
+    unit: float,
+    smoothness: Smoothness,
+    x: Array,
+    simulation: Simulation,
+    carried: Carried | None = None,
+) -> LawFit:
+    """A law at a start x (n + m,): the model's parameters, then its coefficients in units."""
+    names = law.place.coefficients(knots.size)
+    candidate = model.candidate(law.settings(knots, unit), names, np.ones(knots.size), free=True)
+    n = x.size
+    precision = np.zeros((n, n))
+    precision[-knots.size :, -knots.size :] = smoothness.precision
+    candidate = replace(candidate, precision=precision)
+    evaluate = penalised(exact(candidate, simulation), smoothness)
+    point = evaluate(x, carried or model.present.point.carried)
+    return LawFit(law, knots, unit, smoothness, _searching(FinalFit(candidate, State(point), simulation, evaluate)))
+
+
+def _searching(fit: FinalFit) -> FinalFit:
+    """At the beginning of a search from where it stands."""
+    if not fit.good:
+        return replace(fit, state=State(fit.point, outcome=FitOutcome.NO_START))
+    state = GaussNewton().begin(fit.point, Bounds(*fit.candidate.space.bounds()), squares=True)
+    return replace(fit, state=replace(state, first_cost=fit.point.cost))
+
+
+def moved(model: LawModel, one: LawFit, points: int) -> LawFit:
+    """So many points on, and then as smooth as the data ask for there."""
+    if not one.fit.good:
+        return one
+    one = replace(one, fit=advance(one.fit, points))
+    return _smoothed(model, one)
+
+
+def _smoothed(model: LawModel, one: LawFit) -> LawFit:
+    smooth = one.smoothness.moved(one.gram, one.values, 1.0)
+    point = one.fit.point
+    return started(model, one.law, one.knots, one.unit, smooth, point.x, one.fit.simulation, point.carried)
+
+
+def ended(model: LawModel, one: LawFit, simulation: Simulation) -> LawFit:
+    """To the end of the search by a finer simulation, smoothness and all."""
+    point = one.fit.point
+    if not one.fit.good:
+        return one
+    most, before = GaussNewton().max_iterations, one.edf
+    one = started(model, one.law, one.knots, one.unit, one.smoothness, point.x, simulation, point.carried)
+    for _ in range(_ROUNDS):
+        one = replace(one, fit=advance(one.fit, most))
+        edf = one.smoothness.moved(one.gram, one.values, 1.0).edf(one.gram)
+        if abs(edf - before) < _SETTLED:
+            break
+        one, before = _smoothed(model, one), edf
+    return replace(one, fit=advance(one.fit, most))

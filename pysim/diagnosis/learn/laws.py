@@ -1,0 +1,331 @@
+"""Which laws may be missing where, and what is compiled for them.
+
+A law is `factor*h(argument)`, added to what a slot gives. h is the curve of `curve.py`: straight between its knots but
+for rounded corners, constant beyond them. `argument` is a variable of the slot ("force.x") or of the model; `factor` is
+"" for 1, "v" for a variable of the slot by its own name there, "sign(v)" for a smooth sign. In a slot with two sides,
+`q1` over `p1` and `q2` over `p2`, both have the same curve; the law is named by its first side.
+
+One model is compiled for each place. Parameters of it choose argument and factor by weights, 1 of the chosen and 0 of
+the others, and hold knots and coefficients: no law and no other set of knots has to be compiled again. (Slopes by the
+coefficients cost ten times as much in one model with terms at all places.)
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pysim.diagnosis.learn.curve import widths
+from pysim.effects import Slot
+from pysim.types import Model
+
+Array = NDArray[np.float64]
+
+SIGN_WIDTHS = {"m/s": 1e-3, "rad/s": 0.1, "1/s": 0.05, "m": 1e-5, "rad": 1e-4, "Pa": 1e4, "m3/s": 1e-7}
+"""Width of a sign's change by its variable's unit; those of speeds are the catalogue's frictions'. 1e-3 for others."""
+
+
+class Term(Protocol):
+    """What can be compiled beside a model."""
+
+    @property
+    def text(self) -> str:
+        """Declarations and equations."""
+        ...
+
+    @property
+    def probes(self) -> tuple[str, ...]:
+        """What is added to which equation, as `fmu_build.build(probes=...)` takes it."""
+        ...
+
+
+def wrapped(base: str, term: Term, name: str) -> str:
+    """The class to compile: the model and terms beside it."""
+    return f'model {name} "{base} with a law more"\n  extends {base};\n{term.text}end {name};\n'
+
+
+@dataclass(frozen=True)
+class Side:
+    """One variable that a place gives.
+
+    Args:
+        output: the variable; a term in its derivative's equation where it is a state.
+        output_rate: the variable that needs the term's rate; "" where none does.
+        own: variables that this side sees, by their full names, in the order of the place's.
+        rates: of these, "" where the model has none.
+    """
+
+    output: str
+    output_rate: str
+    own: tuple[str, ...]
+    rates: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Place:
+    """Where a law may stand.
+
+    Args:
+        name: of the slot, or "der(STATE)" in a model without slots.
+        key: what its parameters' names begin with.
+        sides: that share one law.
+        outside: other variables of the model that it may depend on.
+        signs: width of the sign's change of each variable of its own.
+    """
+
+    name: str
+    key: str
+    sides: tuple[Side, ...]
+    outside: tuple[str, ...]
+    signs: tuple[float, ...]
+
+    @property
+    def arguments(self) -> tuple[str, ...]:
+        """What laws may depend on, the first side's variables first."""
+        return (*self.sides[0].own, *self.outside)
+
+    def laws(self) -> Iterator[Law]:
+        """All that may stand here; a factor is never the argument itself, which the curve alone can do."""
+        for i in range(len(self.arguments)):
+            yield Law(self, i)
+        if self.sides[0].output_rate:
+            return
+        for factor in range(len(self.sides[0].own)):
+            for i in range(len(self.arguments)):
+                if i != factor:
+                    yield Law(self, i, factor)
+                    yield Law(self, i, factor, is_sign=True)
+
+    def coefficients(self, count: int) -> tuple[str, ...]:
+        """Names of the parameters that hold the curve's values."""
+        return tuple(f"{self.key}_c{i}" for i in range(1, count + 1))
+
+
+@dataclass(frozen=True)
+class Law:
+    """One law.
+
+    Args:
+        place: where it stands.
+        chosen: number of its argument among the place's.
+        by: number of its factor among the variables of the place's own; None for the factor 1.
+        is_sign: whether the sign of that is the factor.
+    """
+
+    place: Place
+    chosen: int
+    by: int | None = None
+    is_sign: bool = False
+
+    @property
+    def argument(self) -> str:
+        """Name of the variable, the first side's."""
+        return self.place.arguments[self.chosen]
+
+    @property
+    def factor(self) -> str:
+        """As `LearnedLaw` has it."""
+        if self.by is None:
+            return ""
+        name = self.place.sides[0].own[self.by].removeprefix(f"{self.place.name}.")
+        return f"sign({name})" if self.is_sign else name
+
+    @property
+    def label(self) -> str:
+        """As people read it."""
+        return f"{self.place.name}: {self.factor + ' * ' if self.factor else ''}h({self.argument})"
+
+    def seen(self, side: Side) -> tuple[str, str]:
+        """Argument and factor of one side, by their full names; "" for the factor 1."""
+        argument = (*side.own, *self.place.outside)[self.chosen]
+        return argument, "" if self.by is None else side.own[self.by]
+
+    def settings(self, knots: Array, unit: float = 1.0) -> dict[str, float]:
+        """Parameters that make the compiled term this law: knots (m,), and the unit of its coefficients."""
+        key, wide = self.place.key, widths(knots)
+        found = {f"{key}_u": unit}
+        found |= {f"{key}_a{i}": float(i == self.chosen) for i in range(len(self.place.arguments))}
+        found[f"{key}_b"] = float(self.by is None)
+        for i in range(len(self.place.sides[0].own)):
+            found[f"{key}_b{i}"] = float(i == self.by and not self.is_sign)
+            found[f"{key}_s{i}"] = float(i == self.by and self.is_sign)
+        for i, (k, w) in enumerate(zip(knots.tolist(), wide.tolist(), strict=True), start=1):
+            found[f"{key}_k{i}"], found[f"{key}_w{i}"] = k, w
+        return found
+
+
+@dataclass(frozen=True)
+class Terms:
+    """Terms at some places, all of them off until their parameters say otherwise.
+
+    Args:
+        places: each with a term.
+        count: knots of each curve.
+    """
+
+    places: tuple[Place, ...]
+    count: int
+
+    @property
+    def probes(self) -> tuple[str, ...]:
+        """See Term."""
+        found = []
+        for place in self.places:
+            for i, side in enumerate(place.sides, start=1):
+                found.append(f"{side.output}={place.key}_y{i}")
+                if side.output_rate:
+                    found.append(f"{side.output_rate}={place.key}_r{i}")
+        return tuple(found)
+
+    @property
+    def text(self) -> str:
+        """See Term."""
+        declared: list[str] = []
+        equations: list[str] = []
+        for place in self.places:
+            key, numbers = place.key, range(1, self.count + 1)
+            declared += [f"  parameter Real {name} = 0;" for name in place.coefficients(self.count)]
+            declared += [f"  parameter Real {key}_k{i} = {i};" for i in numbers]
+            declared += [f"  parameter Real {key}_w{i} = 0.25;" for i in numbers]
+            declared += [f"  parameter Real {key}_a{i} = 0;" for i in range(len(place.arguments))]
+            declared += [f"  parameter Real {key}_b = 0;", f"  parameter Real {key}_u = 1;"]
+            for i in range(len(place.signs)):
+                declared += [f"  parameter Real {key}_b{i} = 0;", f"  parameter Real {key}_s{i} = 0;"]
+            for n, side in enumerate(place.sides, start=1):
+                declared += [f"  Real {key}_z{n};", f"  Real {key}_h{n};", f"  Real {key}_y{n};"]
+                seen = (*side.own, *place.outside)
+                weighted = [f"{key}_a{i}*{name}" for i, name in enumerate(seen)]
+                equations.append(f"  {key}_z{n} = {' + '.join(weighted)};")
+                equations.append(f"  {key}_h{n} = {key}_u*({_curve(key, f'{key}_z{n}', self.count)});")
+                factors = [f"{key}_b"]
+                if not side.output_rate:
+                    for i, (name, width) in enumerate(zip(side.own, place.signs, strict=True)):
+                        factors += [f"{key}_b{i}*{name}", f"{key}_s{i}*tanh({name}/{width!r})"]
+                equations.append(f"  {key}_y{n} = ({' + '.join(factors)})*{key}_h{n};")
+                if side.output_rate:
+                    declared.append(f"  Real {key}_r{n};")
+                    rate = " + ".join(f"{key}_a{i}*{name}" for i, name in enumerate(side.rates))
+                    slope = _slope(key, f"{key}_z{n}", self.count)
+                    equations.append(f"  {key}_r{n} = {key}_u*{key}_b*({slope})*({rate});")
+        return "\n".join([*declared, "equation", *equations, ""])
+
+
+def _turns(key: str, count: int) -> Iterator[tuple[str, str, str]]:
+    """Of each knot: its name, the width of its corner, and the change of slope there."""
+    rises = [f"({key}_c{i + 1} - {key}_c{i})/({key}_k{i + 1} - {key}_k{i})" for i in range(1, count)]
+    for i in range(count):
+        before, after = (rises[i - 1] if i else ""), (rises[i] if i < count - 1 else "")
+        turn = f"{after} - {before}" if before and after else after or f"-{before}"
+        yield f"{key}_k{i + 1}", f"{key}_w{i + 1}", turn
+
+
+def _curve(key: str, z: str, count: int) -> str:
+    ramps = [f"({turn})*0.5*({z} - {k} + sqrt(({z} - {k})^2 + {w}^2))" for k, w, turn in _turns(key, count)]
+    return " + ".join([f"{key}_c1", *ramps])
+
+
+def _slope(key: str, z: str, count: int) -> str:
+    return " + ".join(
+        f"({turn})*0.5*(1 + ({z} - {k})/sqrt(({z} - {k})^2 + {w}^2))" for k, w, turn in _turns(key, count)
+    )
+
+
+def places(slots: Sequence[Slot], model: Model) -> tuple[Place, ...]:
+    """Where a law may stand: the slots, or the states' equations of a model that has none."""
+    known = {variable.name for variable in model.variables}
+    if not slots:
+        return tuple(_of_state(k, model) for k in range(len(model.abilities.states)))
+    found: list[Place] = []
+    for number, slot in enumerate(slots, start=1):
+        sides = _sides(slot, known, set(model.abilities.states))
+        if sides and sides[0].own:
+            outside = () if sides[0].output_rate else _outside(slots, model, sides)
+            found.append(Place(slot.name, f"law{number}", sides, outside, _signs(sides[0].own, model)))
+    return tuple(found)
+
+
+def _of_state(k: int, model: Model) -> Place:
+    state = model.abilities.states[k]
+    depends = model.abilities.dependencies[k] if k < len(model.abilities.dependencies) else None
+    others = [name for name in model.abilities.states if depends is None or name in depends] or [state]
+    own = tuple(others)
+    side = Side(state, "", own, ("",) * len(own))
+    return Place(f"der({state})", f"law{k + 1}", (side,), _inputs(model), _signs(own, model))
+
+
+def _outside(slots: Sequence[Slot], model: Model, sides: Sequence[Side]) -> tuple[str, ...]:
+    """Inputs, and states that are not some slot's own memory: none answers to a term at once."""
+    inner = tuple(f"{slot.name}." for slot in slots)
+    states = [name for name in model.abilities.states if not name.startswith(inner)]
+    own = {name for side in sides for name in side.own}
+    return tuple(name for name in (*states, *_inputs(model)) if name not in own)
+
+
+def _inputs(model: Model) -> tuple[str, ...]:
+    """Without those that are rates of others."""
+    names = [v.name for v in model.variables if v.causality == "input"]
+    return tuple(name for name in names if not _rate_of(name, names))
+
+
+def _signs(own: Sequence[str], model: Model) -> tuple[float, ...]:
+    return tuple(SIGN_WIDTHS.get(model[name].unit, 1e-3) for name in own)
+
+
+def _sides(slot: Slot, known: set[str], states: set[str]) -> tuple[Side, ...]:
+    """What a slot gives beside what it sees."""
+
+    def full(name: str) -> str:
+        return f"{slot.name}.{name}" if f"{slot.name}.{name}" in known else ""
+
+    sees = [v for v in slot.sees if full(v)]
+    outputs = [v for v in slot.gives if not _rate_of(v, slot.gives)]
+    pairs = _numbered(outputs, sees)
+    if pairs:
+        return tuple(Side(full(y), "", tuple(map(full, own)), ("",) * len(own)) for y, own in pairs)
+    moving = [v for v in slot.gives if full(v) in states]
+    free = [v for v in slot.gives if full(v) and full(v) not in states]
+    if moving and free:  # it moves by itself: what drives it, by how it moves and what it follows
+        own = [*moving, *sees]
+        return (Side(full(free[-1]), "", tuple(map(full, own)), ("",) * len(own)),)
+    if not outputs or not full(outputs[0]):
+        return ()
+    y = outputs[0]
+    rate = full(f"{y}_t") if f"{y}_t" in slot.gives else ""
+    own = [v for v in sees if not _rate_of(v, sees)] if rate or any(_rate_of(v, sees) for v in sees) else sees
+    rates = [full(f"{v}_t") for v in own]
+    if rate:
+        own, rates = [v for v, r in zip(own, rates, strict=True) if r], [r for r in rates if r]
+    return (Side(full(y), rate, tuple(map(full, own)), tuple(rates)),)
+
+
+def _rate_of(name: str, names: Sequence[str]) -> bool:
+    return name.endswith("_t") and name[:-2] in names
+
+
+def _numbered(outputs: Sequence[str], sees: Sequence[str]) -> list[tuple[str, list[str]]]:
+    """Outputs and what they see by their numbers, where a slot has two or more sides with the same law."""
+    bare = {re.sub(r"\d+$", "", y) for y in outputs}
+    numbers = [re.search(r"\d+$", y) for y in outputs]
+    if len(outputs) < 2 or len(bare) != 1 or not all(numbers):
+        return []
+    found = []
+    for y, number in zip(outputs, numbers, strict=True):
+        own = [z for z in sees if number is not None and re.fullmatch(rf"[A-Za-z_]+{number[0]}", z)]
+        found.append((y, own))
+    return found if all(own and len(own) == len(found[0][1]) for _, own in found) else []
+
+
+def samples(law: Law, seen: Mapping[str, Array]) -> tuple[Array, Array]:
+    """Argument and factor (n,) of a law's sides one after the other, from samples of the model's variables."""
+    z, by = [], []
+    for side in law.place.sides:
+        argument, factor = law.seen(side)
+        z.append(seen[argument])
+        value = seen[factor] if factor else np.ones(z[-1].size)
+        by.append(np.tanh(value / law.place.signs[law.by]) if law.is_sign and law.by is not None else value)
+    return np.concatenate(z), np.concatenate(by)
