@@ -106,7 +106,7 @@ class Answers:
         return next((one for one in self.all if one.job.work.name == "diagnose"), None)
 
 
-def ledger(answer: Answer, added: tuple[str, ...]) -> list[Mapping[str, Any]]:
+def history(answer: Answer, added: tuple[str, ...]) -> list[Mapping[str, Any]]:
     """Steps of the error up to the effects that are in the model now."""
     shown = (*_STEPS, *added)
     return [step for step in answer.data["error"] if step["step"] in shown]

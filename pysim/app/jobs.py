@@ -16,12 +16,11 @@ from pysim.app.disk import remove
 from pysim.app.processes import Started, end, last_words, run_pysim
 from pysim.app.project import Project
 from pysim.io import write_file
-from pysim.types import BadInput
-from pysim.types.diagnosis import standing
+from pysim.types import BadInput, standing
 
 RUNNING, DONE, STOPPED, FAILED = "running", "done", "stopped", "failed"
-_JOB, _STORY, _OUTPUT = "job.json", "story.jsonl", "output.txt"
-_EARLIER = "earlier.jsonl"  # what was told before the job was stopped, until it has come as far again
+_JOB, _EVENTS, _OUTPUT = "job.json", "events.jsonl", "output.txt"
+_EARLIER = "earlier.jsonl"  # events before the job was stopped, until it has come as far again
 ANSWER, RECORDS, REPORT = "answer.json", "records.npz", "report.html"
 _PATIENCE = 3.0  # s between asking a process to end and ending it
 
@@ -52,8 +51,7 @@ class Job:
         begun, ended: s since 1970; ended is None while it runs.
         fingerprint: of what it was run on.
         stage: what it is doing, in a few words.
-        left: s, or None where nobody knows.
-        steps: of the ledger, as far as they are done.
+        steps: of the error history, as far as they are done.
         learned: lines, the last ones last.
         message: why it failed.
         process: that does it; None where it has ended.
@@ -65,7 +63,6 @@ class Job:
     ended: float | None
     fingerprint: str
     stage: str = ""
-    left: float | None = None
     steps: tuple[dict[str, Any], ...] = ()
     learned: tuple[str, ...] = ()
     message: str = ""
@@ -122,7 +119,7 @@ def adding(project: Project, effects: Sequence[str]) -> Work:
 def _work(command: str, title: str, words: Sequence[str], name: str = "") -> Work:
     """With all results in a folder of its own, the report and the model in one within it that is the answer's alone."""
     folder = f"results/{name or command}"
-    files = ["--json", f"{folder}/{ANSWER}", "--records", f"{folder}/{RECORDS}", "--story", f"{folder}/{_STORY}"]
+    files = ["--json", f"{folder}/{ANSWER}", "--records", f"{folder}/{RECORDS}", "--events", f"{folder}/{_EVENTS}"]
     return Work(name or command, title, (command, *words, *files, "--output", f"{folder}/report"))
 
 
@@ -137,11 +134,11 @@ def read_job(folder: Path) -> Job | None:
         job = replace(job, process=process and Started(int(process["pid"]), str(process["began"])))
     except (OSError, ValueError, KeyError, TypeError):
         return None
-    return _told(job, folder)
+    return _with_events(job, folder)
 
 
 def _write_job(job: Job, folder: Path) -> None:
-    """But for what its story says."""
+    """But for what its events say."""
     work = {"name": job.work.name, "title": job.work.title, "words": job.work.words, "effects": job.work.effects}
     head = {"work": work, "state": job.state, "begun": job.begun, "ended": job.ended}
     head |= {"fingerprint": job.fingerprint, "message": job.message}
@@ -149,22 +146,22 @@ def _write_job(job: Job, folder: Path) -> None:
     write_file(folder / _JOB, json.dumps(head, indent=1) + "\n")
 
 
-def _told(job: Job, folder: Path) -> Job:
-    """With what its story says; a job that goes on keeps the steps it had found until it has found them again."""
-    lines = _lines(folder / _STORY)
+def _with_events(job: Job, folder: Path) -> Job:
+    """With what its events say; a job that goes on keeps the steps it had found until it has found them again."""
+    lines = _lines(folder / _EVENTS)
     found = _steps(lines)
     found += _steps(_lines(folder / _EARLIER))[len(found) :]
     steps = tuple(standing(found, lambda step: str(step["step"])))
     if not lines:
         return replace(job, steps=steps)
     learned = tuple(line["text"] for line in lines if line["text"])
-    return replace(job, stage=lines[-1]["stage"], left=lines[-1]["left"], steps=steps, learned=learned)
+    return replace(job, stage=lines[-1]["stage"], steps=steps, learned=learned)
 
 
-def _lines(story: Path) -> list[dict[str, Any]]:
+def _lines(events: Path) -> list[dict[str, Any]]:
     lines: list[dict[str, Any]] = []
     with contextlib.suppress(OSError):
-        for line in story.read_text(encoding="utf-8").splitlines():
+        for line in events.read_text(encoding="utf-8").splitlines():
             with contextlib.suppress(ValueError):  # the last line may be half written
                 lines.append(json.loads(line))
     return lines
@@ -192,7 +189,7 @@ class Runner:
 
     @property
     def running(self) -> Job | None:
-        """The job that runs, with its story; None where none does."""
+        """The job that runs, with its events; None where none does."""
         return self._job if self._process is not None else None
 
     def start(self, work: Work) -> None:
@@ -211,7 +208,7 @@ class Runner:
             remove(folder, self.project.uploads)  # of other data or another model, or to be done anew
         folder.mkdir(parents=True, exist_ok=True)
         _put_by(folder)
-        job = _told(Job(work, RUNNING, time.time(), None, now, stage="starting"), folder)
+        job = _with_events(Job(work, RUNNING, time.time(), None, now, stage="starting"), folder)
         with (folder / _OUTPUT).open("wb") as output:
             process = run_pysim(work.words, self.project.folder, output)
         job = replace(job, process=Started.of(process.pid))
@@ -223,7 +220,7 @@ class Runner:
         self._process, self._job, self._stop_asked = process, job, None
 
     def stop(self) -> None:
-        """Ask the process to end; what it has found stays in its journal."""
+        """Ask the process to end; what it has found stays in its checkpoint."""
         if self._process is not None and self._stop_asked is None:
             self._stop_asked = time.monotonic()
             end(self._process, hard=False)
@@ -243,10 +240,10 @@ class Runner:
             self._end(code, folder)
             return True
         with contextlib.suppress(OSError):
-            stat = (folder / _STORY).stat()
+            stat = (folder / _EVENTS).stat()
             if (stat.st_mtime, stat.st_size) != self._seen:
                 self._seen = (stat.st_mtime, stat.st_size)
-                self._job = _told(self._job, folder)
+                self._job = _with_events(self._job, folder)
                 return True
         return False
 
@@ -265,7 +262,7 @@ class Runner:
         assert self._job is not None
         assert self._process is not None
         end(self._process, hard=True)  # whatever it has left behind
-        self._process, job = None, _told(self._job, folder)
+        self._process, job = None, _with_events(self._job, folder)
         finished = (folder / ANSWER).is_file() and code in (0, 1)
         state, message = (DONE, "") if finished else (FAILED, job.message)
         if self._stop_asked is not None and not finished:
@@ -277,11 +274,11 @@ class Runner:
 
 
 def _put_by(folder: Path) -> None:
-    """The story so far makes room for the one to come."""
-    story, earlier = folder / _STORY, folder / _EARLIER
-    if story.is_file() and len(_steps(_lines(story))) >= len(_steps(_lines(earlier))):
-        story.replace(earlier)
-    story.unlink(missing_ok=True)
+    """The events so far make room for the one to come."""
+    events, earlier = folder / _EVENTS, folder / _EARLIER
+    if events.is_file() and len(_steps(_lines(events))) >= len(_steps(_lines(earlier))):
+        events.replace(earlier)
+    events.unlink(missing_ok=True)
 
 
 def settle(project: Project) -> None:

@@ -14,19 +14,17 @@ from typing import TYPE_CHECKING
 from pysim.cli.terminal import draws_over
 
 if TYPE_CHECKING:
-    from pysim.types import LedgerStep, Told
+    from pysim.types import ErrorStep, ProgressEvent
 
 _LEARNED = 4  # last lines kept in sight
 _BAR = 24
 _PAUSE = 0.5  # s between two drawings
-# Share of a diagnosis' time that is usually behind once a stage begins, by the stage's first words.
-_USUAL = {"comparing": 0.0, "refitting the model": 0.1, "compiling": 0.3, "screening": 0.45, "refitting the prom": 0.55}
 
 
-class Story:
-    """One calm block that is drawn over: stage and time, the error falling, what was learned.
+class Live:
+    """One block that is drawn over: stage and time, the error falling, what came out.
 
-    Where standard error is no terminal, a line for each thing told.
+    Where standard error is no terminal, a line for each event.
     """
 
     def __init__(self, title: str) -> None:
@@ -34,29 +32,29 @@ class Story:
         self._begun = time.monotonic()
         self._stage = ""
         self._learned: list[str] = []
-        self._steps: list[LedgerStep] = []
+        self._steps: list[ErrorStep] = []
         self._drawn = 0
         self._live = draws_over(sys.stderr)
         self._lock = threading.Lock()
         self._ended = threading.Event()
         self._clock = threading.Thread(target=self._tick, daemon=True)
 
-    def __call__(self, told: Told) -> None:
-        """Take what a diagnosis tells."""
+    def __call__(self, event: ProgressEvent) -> None:
+        """Show it."""
         if not self._live:
-            print(f"{self._elapsed():6.1f} s  {told}", file=sys.stderr, flush=True)
+            print(f"{self._elapsed():6.1f} s  {event}", file=sys.stderr, flush=True)
             return
         with self._lock:
-            self._stage = told.stage
-            if told.step is not None:
-                from pysim.types.diagnosis import standing
+            self._stage = event.stage
+            if event.step is not None:
+                from pysim.types import standing
 
-                self._steps = standing([*self._steps, told.step], lambda step: step.step)
-            elif told.text:
-                self._learned = [*self._learned, told.text][-_LEARNED:]
+                self._steps = standing([*self._steps, event.step], lambda step: step.step)
+            elif event.text:
+                self._learned = [*self._learned, event.text][-_LEARNED:]
         self._draw()
 
-    def __enter__(self) -> Story:
+    def __enter__(self) -> Live:
         if self._live:
             self._clock.start()
         return self
@@ -90,16 +88,14 @@ class Story:
             self._drawn = len(lines)
 
 
-def block(title: str, stage: str, elapsed: float, steps: Sequence[LedgerStep], learned: Sequence[str]) -> list[str]:
+def block(title: str, stage: str, elapsed: float, steps: Sequence[ErrorStep], learned: Sequence[str]) -> list[str]:
     """Lines of the block: title and time, stage, a row per step with the error as a bar, what was learned."""
-    seconds = left(stage, elapsed, steps)
-    more = "" if seconds is None else f" (about {_clock(seconds)} left)"
-    lines = [title, f"  {_clock(elapsed)}{more}  {stage}", *_bars(steps)]
+    lines = [title, f"  {_clock(elapsed)}  {stage}", *_bars(steps)]
     return [*lines, *(f"  - {text}" for text in learned)]
 
 
-def _bars(steps: Sequence[LedgerStep]) -> list[str]:
-    """The error over noise falling; the bars' lengths are logarithms, and none is left where nothing but noise is."""
+def _bars(steps: Sequence[ErrorStep]) -> list[str]:
+    """The residual over noise falling; a bar's length is its logarithm, so noise alone has none."""
     from math import log
 
     values = [step.fit if step.fit is not None else step.validate or 1.0 for step in steps]
@@ -110,48 +106,31 @@ def _bars(steps: Sequence[LedgerStep]) -> list[str]:
         held = "" if step.validate is None or step.fit is None else f"  held out {step.validate:7.2f}"
         bar = "#" * round(_BAR * max(0.0, log(max(value, 1e-9))) / top)
         lines.append(f"  {name:<24} {value:7.2f} {bar:<{_BAR}}{held}".rstrip())
-    return [f"  {'error over noise':<24}", *lines] if lines else []
+    return [f"  {'residual over noise':<24}", *lines] if lines else []
 
 
 def _clock(seconds: float) -> str:
     return f"{int(seconds) // 60}:{int(seconds) % 60:02d}"
 
 
-def left(stage: str, elapsed: float, steps: Sequence[LedgerStep]) -> float | None:
-    """How many s it may still take, from what is usually behind by then; None where nobody knows."""
-    share = next((value for words, value in _USUAL.items() if stage.startswith(words)), 0.0)
-    if share < 0.2 or elapsed < 2 or len(steps) >= 3:  # how many rounds there will be, nobody knows
-        return None
-    return max(elapsed / share - elapsed, 1.0)
+class EventFile:
+    """Progress as lines of JSON that another program can follow.
 
-
-class StoryFile:
-    """What a diagnosis tells, as lines of JSON that another program can follow.
-
-    Each has `seconds` since the begin, `left` (s, or null), `stage`, `text`, and `step` of the ledger (or null).
+    Each has `seconds` since the begin, `stage`, `text`, and `step` of the error history (or null).
     """
 
     def __init__(self, path: Path) -> None:
         self._path, self._begun = path, time.monotonic()
-        self._steps: list[LedgerStep] = []
         path.write_text("", encoding="utf-8")
 
-    def __call__(self, told: Told) -> None:
-        """Write one line; a reader never sees half of one that it cannot tell."""
+    def __call__(self, event: ProgressEvent) -> None:
+        """Write one line at once, so that a reader sees it whole or not at all."""
         import json
 
-        from pysim.present.diagnosis.answer import step_data
+        from pysim.types import step_data
 
         elapsed = time.monotonic() - self._begun
-        if told.step is not None:
-            from pysim.types.diagnosis import standing
-
-            self._steps = standing([*self._steps, told.step], lambda step: step.step)
-        line: dict[str, object] = {
-            "seconds": round(elapsed, 3),
-            "left": left(told.stage, elapsed, self._steps),
-            "stage": told.stage,
-        }
-        line |= {"text": told.text, "step": None if told.step is None else step_data(told.step)}
+        step = None if event.step is None else step_data(event.step)
+        line = {"seconds": round(elapsed, 3), "stage": event.stage, "text": event.text, "step": step}
         with self._path.open("a", encoding="utf-8") as file:
             file.write(json.dumps(line) + "\n")

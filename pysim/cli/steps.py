@@ -25,8 +25,7 @@ from pysim.cli.outputs import JOURNAL
 
 if TYPE_CHECKING:
     from pysim.present.diagnosis import Diagnosed
-    from pysim.types import Diagnosis, Told
-    from pysim.types.answer import Diagnosis as Answer
+    from pysim.types import Diagnosis, ProgressEvent
     from pysim.workflow import SessionParts
 
 SUBJECT = (
@@ -52,7 +51,7 @@ def results(what: str) -> tuple[Option, ...]:
         replace(JSON, about="write the whole answer here"),
         replace(OUTPUT, about=f"write report.html, pictures{what} here; a stopped run goes on from it"),
         file("--records", "FILE.npz", "write every record beside every model here", suffixes=(".npz",)),
-        file("--story", "FILE", "write what is told on the way here, JSON lines", suffixes=(".jsonl", ".json")),
+        file("--events", "FILE", "write progress here while it works, as JSON lines", suffixes=(".jsonl", ".json")),
     )
 
 
@@ -82,53 +81,45 @@ def read_parts(given: Given, *, refits: bool = True, only: Sequence[str] = ()) -
 def run_step(
     given: Given,
     parts: SessionParts,
-    work: Callable[[Callable[[Told], None], Path | None], Diagnosis],
+    work: Callable[[Callable[[ProgressEvent], None], Path | None], Diagnosis],
     *,
     question: str = "Which effect is missing?",
     answer: Callable[[Diagnosis], str] | None = None,
 ) -> Diagnosed:
-    """Run a step of the diagnosis and show it; in `--output` lies a journal from which a stopped run goes on.
+    """Run a step of the diagnosis and show it; `--output` holds a checkpoint from which a stopped run goes on.
 
     Args:
-        work: the step; takes what tells, and the journal's place.
+        work: the step; takes what reports progress, and the checkpoint's place.
         question, answer: what leads text and page; the verdict by default.
     Raises:
         KeyboardInterrupt: stopped by the user; says how to go on.
     """
-    from pysim.cli.live import Story, StoryFile
+    from pysim.cli.live import EventFile, Live
     from pysim.cli.progress import announce_compilation
     from pysim.present.diagnosis import Diagnosed
-    from pysim.types import Told
+    from pysim.types import ProgressEvent
 
     announce_compilation()
     journal = given.output / JOURNAL if given.output else None
     try:
-        with Story(f"{parts.dataset.name}: {parts.model_name}") as story:
-            told: list[Callable[[Told], None]] = [story, *([StoryFile(given.story)] if given.story else [])]
+        with Live(f"{parts.dataset.name}: {parts.model_name}") as live:
+            followers: list[Callable[[ProgressEvent], None]] = [live]
+            followers += [EventFile(given.events)] if given.events else []
 
-            def tell(what: Told) -> None:
-                for one in told:
-                    one(what)
+            def progress(event: ProgressEvent) -> None:
+                for one in followers:
+                    one(event)
 
-            found = work(tell, journal)
-            for one in told[1:]:  # a program that follows is told why it does not end yet
-                one(Told("writing report and files"))
+            found = work(progress, journal)
+            for one in followers[1:]:  # a program that follows must know why it does not end yet
+                one(ProgressEvent("writing report and files"))
     except KeyboardInterrupt:
         cure = "the same command goes on where it was" if journal else "with --output DIR a run can be gone on with"
         raise KeyboardInterrupt(cure) from None
     found = replace(found, conditions={**_conditions(given, parts), **found.conditions})
-    said = answer(found) if answer is not None else ""
+    sentence = answer(found) if answer is not None else ""
     given.opened = parts
-    return Diagnosed(found, parts.dataset, parts.model_name, question, said)
-
-
-def shown(found: Answer) -> Diagnosis:
-    """An answer as text, pages and reports take it, its reason in words."""
-    from pysim.present.diagnosis.words import what_is_left_sentence
-    from pysim.types._between_answers import from_answer
-
-    old = from_answer(found)
-    return replace(old, reason=what_is_left_sentence(old))
+    return Diagnosed(found, parts.dataset, f"{parts.model_name} against {parts.dataset.name}", question, sentence)
 
 
 def write_model(given: Given, result: Diagnosed, folder: Path) -> Diagnosed:
@@ -144,14 +135,14 @@ def end_step(given: Given, result: Diagnosed) -> None:
     from pysim.io import write_stages
 
     if given.records:
-        write_stages(given.records, result.found.stages)
+        write_stages(given.records, result.found.history)
     if given.output:
         (given.output / JOURNAL).unlink(missing_ok=True)
 
 
 def _conditions(given: Given, parts: SessionParts) -> dict[str, str]:
     """What it takes to repeat it."""
-    from pysim.diagnose.conditions import versions
+    from pysim.diagnosis.conditions import versions
 
     model = parts.model
     found = {

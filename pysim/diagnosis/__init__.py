@@ -2,9 +2,11 @@
 
 `diagnose` searches, `add` adds given effects, `rank` tries each beside the base model, `compare` holds the model beside
 the measurements. Each takes a `Session`, which `pysim.open_session` opens by names and `session` from objects.
+`compare_responses` repeats stepped-sine tests that were measured as tables of frequency responses.
 """
 
 from pysim.diagnosis.engine import add, compare, diagnose, rank
+from pysim.diagnosis.response_comparison import compare_responses
 from pysim.diagnosis.session import BuildVariant, Session, identifiable, session
 from pysim.diagnosis.settings import Settings
 
@@ -14,6 +16,7 @@ __all__ = [
     "Settings",
     "add",
     "compare",
+    "compare_responses",
     "diagnose",
     "identifiable",
     "rank",

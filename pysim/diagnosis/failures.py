@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from pysim.identify.residual_spectrum import FEWEST, residual_spectrum
 from pysim.types import Dataset, MeasuredRecord, RecordFit
-from pysim.types.diagnosis import Failure
+from pysim.types.answer import Failure
 
 Array = NDArray[np.float64]
 

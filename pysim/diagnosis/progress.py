@@ -7,11 +7,9 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from pysim.diagnosis.refit import FinalFit
-from pysim.types import Told
-from pysim.types._between_answers import as_ledger
-from pysim.types.answer import ErrorStep, GainTest
+from pysim.types import ErrorStep, GainTest, ProgressEvent
 
-Say = Callable[[Told], None]
+Say = Callable[[ProgressEvent], None]
 
 
 @dataclass
@@ -31,16 +29,16 @@ class Progress:
     def doing(self, what: str) -> None:
         """A new stage begins, in a few words."""
         self.now = what
-        self.tell(Told(what))
+        self.tell(ProgressEvent(what))
 
     def learned(self, model: FinalFit, test: GainTest) -> None:
         """A model was kept for now."""
         name = " + ".join(model.names) or "the base model"
-        self.tell(Told(self.now, f"{name}: gains {test.gain:.4g} nats (p = {test.p_value:.2g})"))
+        self.tell(ProgressEvent(self.now, f"{name}: gains {test.gain:.4g} nats (p = {test.p_value:.2g})"))
 
     def entered(self, step: ErrorStep, text: str) -> None:
         """A model joins the error history."""
-        self.tell(Told(self.now, text, as_ledger(step)))
+        self.tell(ProgressEvent(self.now, text, step))
 
     def stage(self, name: str) -> None:
         """A stage of that name has ended."""

@@ -13,7 +13,6 @@ from pysim.io.file_names import same_file, unusable_name
 from pysim.io.files import write_file
 from pysim.io.fmu import read_model
 from pysim.io.headings import column_names, name_and_unit
-from pysim.io.json_number import json_number
 from pysim.io.model_units import in_model_units
 from pysim.io.records import read_record, record_data, record_text, write_record
 from pysim.io.signals import read_signal, write_signal
@@ -25,6 +24,7 @@ from pysim.io.toml_section import Section, TomlFile, log_source, read_toml
 from pysim.io.toml_text import toml_key, toml_table
 from pysim.io.units import SI, shown_point, shown_unit, shown_value, signal_in_si
 from pysim.io.write_dataset import write_dataset
+from pysim.types.json_number import json_number
 
 __all__ = [
     "DAMAGED",

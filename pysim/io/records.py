@@ -13,8 +13,8 @@ import numpy as np
 
 from pysim.io.archive import DAMAGED
 from pysim.io.files import write_file
-from pysim.io.json_number import json_number
 from pysim.types import BadInput, Outcome, Record
+from pysim.types.json_number import json_number
 
 _TIME = "time [s]"  # heading of the first column
 _HEADING = re.compile(r"(?P<name>.*) \[(?P<unit>[^\[\]]*)\]")

@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 
 from pysim.io.archive import DAMAGED
 from pysim.io.files import write_file
-from pysim.io.json_number import json_number
-from pysim.types import BadInput, Deviation, Estimate, RecordFit, ResponseFit, Stage
+from pysim.types import BadInput, Deviation, ErrorStep, Estimate, RecordFit, ResponseFit
+from pysim.types.json_number import json_number
 
 Array = NDArray[np.float64]
 
@@ -49,14 +49,14 @@ class StageFile:
             raise BadInput(f"{self.path}: cannot be read ({error.strerror or error})") from error
 
 
-def write_stages(path: Path, stages: Sequence[Stage]) -> None:
-    """Write the stages of a diagnosis; the file is complete or not there.
+def write_stages(path: Path, history: Sequence[ErrorStep]) -> None:
+    """Write the models of an error history beside their records; the file is complete or not there.
 
     Raises:
         BadInput: a place that cannot be written.
     """
     arrays: dict[str, Array] = {}
-    about = {"form": _FORM, "stages": [_stage(stage, k, arrays) for k, stage in enumerate(stages)]}
+    about = {"form": _FORM, "stages": [_stage(stage, k, arrays) for k, stage in enumerate(history)]}
     text = np.frombuffer(json.dumps(about, allow_nan=False).encode(), dtype=np.uint8)
     data = io.BytesIO()
     np.savez(data, about=text, **arrays)  # type: ignore[arg-type]
@@ -84,12 +84,12 @@ def read_stages(path: Path) -> StageFile:
         raise BadInput(f"{path} holds no stages of a diagnosis: {error}; write it again with --records") from error
 
 
-def _stage(stage: Stage, number: int, arrays: dict[str, Array]) -> dict[str, Any]:
+def _stage(stage: ErrorStep, number: int, arrays: dict[str, Array]) -> dict[str, Any]:
     return {
         "step": stage.step,
         "estimates": [_estimate(e) for e in stage.estimates],
         "undetermined": [{"exponents": dict(d.exponents), "spread": json_number(d.spread)} for d in stage.undetermined],
-        "where": [[f.record, f.signal, f.region, json_number(f.error)] for f in stage.where],
+        "where": [[f.record, f.signal, f.region, json_number(f.error)] for f in stage.failures],
         "records": [_record(r, f"{number}/{k}", f"0/{k}", arrays) for k, r in enumerate(stage.records)],
         "responses": [_response(r) for r in stage.responses],
     }

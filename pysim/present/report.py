@@ -19,6 +19,7 @@ VIEWS = {  # type of a result -> the module that shows it, and that exports the 
     "Comparisons": "pysim.present.comparison",
     "DataCheck": "pysim.present.data_check",
     "Diagnosed": "pysim.present.diagnosis",
+    "Diagnosis": "pysim.present.diagnosis",
     "Fit": "pysim.present.fit",
     "Fitted": "pysim.present.fit",
     "Friction": "pysim.present.friction",
@@ -83,12 +84,12 @@ def data(result: object) -> Any:
     return view.data(whole)
 
 
-def write_report(folder: Path, result: object, *, redo: str) -> dict[str, Path]:
+def write_report(folder: Path, result: object, *, redo: str = "") -> dict[str, Path]:
     """Write every picture as PNG and SVG, the files of the result and its page.
 
     Args:
         folder: that is there.
-        redo: the command line that makes it again.
+        redo: the command line that makes it again; "" where there is none.
     Returns:
         name without suffix -> path: "report", each picture (PNG), each file.
     """

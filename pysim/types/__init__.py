@@ -1,22 +1,26 @@
 """The only things that cross folders: frozen, checked once, numpy and the standard library only."""
 
 from pysim.types._sampling import Sampling, sampling
+from pysim.types.answer import (
+    Diagnosis,
+    ErrorStep,
+    Failure,
+    FloorSource,
+    FoundEffect,
+    GainTest,
+    LearnedLaw,
+    Left,
+    NextTest,
+    NoiseFloor,
+    Rival,
+    Verdict,
+)
+from pysim.types.answer_json import answer_data, step_data
 from pysim.types.best_linear_approximation import BestLinearApproximation, Distortion, Level, MultisineTest
 from pysim.types.comparison import Comparison, ResponseComparison
 from pysim.types.criterion import Criterion, Deviation
 from pysim.types.dataset import Dataset, MeasuredRecord, MeasuredSignal
-from pysim.types.diagnosis import (
-    AddedEffect,
-    Candidate,
-    Diagnosis,
-    Failure,
-    LedgerStep,
-    Missing,
-    NextTest,
-    Shape,
-    Stage,
-    Told,
-)
+from pysim.types.diagnosis import AddedEffect, Candidate, LedgerStep, Missing, Shape, Stage, Told
 from pysim.types.effect import Effect, EffectParameter
 from pysim.types.errors import BadInput
 from pysim.types.experiment import Experiment
@@ -35,6 +39,7 @@ from pysim.types.frequency_response import FrequencyResponse
 from pysim.types.model import Abilities, CoSimulation, Model, Variable
 from pysim.types.note import Note, NoteCode
 from pysim.types.port import Port
+from pysim.types.progress_event import ProgressEvent, standing
 from pysim.types.record import Outcome, Record, SimulationError
 from pysim.types.record_kind import KINDS, RecordKind
 from pysim.types.setting import setting
@@ -64,14 +69,20 @@ __all__ = [
     "Distortion",
     "Effect",
     "EffectParameter",
+    "ErrorStep",
     "Estimate",
     "Experiment",
     "Failure",
     "Fit",
     "FitOutcome",
+    "FloorSource",
+    "FoundEffect",
     "FrequencyResponse",
+    "GainTest",
     "Harmonics",
+    "LearnedLaw",
     "LedgerStep",
+    "Left",
     "Level",
     "MeasuredRecord",
     "MeasuredSignal",
@@ -79,15 +90,18 @@ __all__ = [
     "Model",
     "MultisineTest",
     "NextTest",
+    "NoiseFloor",
     "Note",
     "NoteCode",
     "Outcome",
     "Port",
+    "ProgressEvent",
     "Record",
     "RecordFit",
     "RecordKind",
     "ResponseComparison",
     "ResponseFit",
+    "Rival",
     "Sampling",
     "Shape",
     "Signal",
@@ -97,8 +111,12 @@ __all__ = [
     "Start",
     "Told",
     "Variable",
+    "Verdict",
+    "answer_data",
     "conversion",
     "in_si",
     "sampling",
     "setting",
+    "standing",
+    "step_data",
 ]

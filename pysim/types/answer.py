@@ -1,7 +1,4 @@
-"""What a diagnosis answers, as numbers and codes alone: the effects that are needed, and what is left after them.
-
-It stands beside `pysim.types.diagnosis` until the diagnosis that gives this answer replaces today's.
-"""
+"""What a diagnosis answers, as numbers and codes alone: the effects that are needed, and what is left after them."""
 
 from __future__ import annotations
 
@@ -13,13 +10,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pysim.types._frozen import FrozenMapping
-from pysim.types.diagnosis import NONE, UNKNOWN, Failure, NextTest
 from pysim.types.effect import Effect
 from pysim.types.errors import BadInput
 from pysim.types.fit import Direction, Estimate, RecordFit, ResponseFit
 from pysim.types.note import Note
 
 Array = NDArray[np.float64]
+
+NONE, UNKNOWN = "none", "unknown"
+_Z95 = 1.959963984540054  # half width of a 95 percent interval over the standard deviation
+PRIOR, REFIT = "prior", "refit"  # steps of the error history: the model as it is, and with its parameters refitted
 
 
 class FloorSource(Enum):
@@ -144,6 +144,39 @@ class SensorError:
 
 
 @dataclass(frozen=True)
+class Failure:
+    """A place where a model fails.
+
+    Args:
+        record, signal: of the data set.
+        region: frequency band, time window, or range of a state.
+        error: root-mean-square residual there, in standard deviations of the noise.
+    """
+
+    record: str
+    signal: str
+    region: str
+    error: float
+
+
+@dataclass(frozen=True)
+class NextTest:
+    """The experiment that would separate two answers best.
+
+    Args:
+        separates: the two.
+        gain: difference of their sums of squares over noise that is expected once it is run and both are refitted.
+        about: what to run and what to log, in a sentence.
+        plan: text of a test plan that `pysim bench` can run.
+    """
+
+    separates: tuple[str, str]
+    gain: float
+    about: str
+    plan: str
+
+
+@dataclass(frozen=True)
 class ErrorStep:
     """One model of the error history, from the untouched one to that with every effect.
 
@@ -178,6 +211,26 @@ class ErrorStep:
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "criteria", FrozenMapping(self.criteria))
+
+    def on_the_scale_of(self, other: ErrorStep) -> dict[str, float]:
+        """Its values, moved along what changes nothing until the parameters held have the other model's values."""
+        values, ends = {e.name: e.value for e in self.estimates}, {e.name: e.value for e in other.estimates}
+        for direction in self.undetermined:
+            held, exponent = next(iter(direction.exponents.items()))
+            if values.get(held, 0.0) > 0 and ends.get(held, 0.0) > 0:
+                factor = (ends[held] / values[held]) ** (1 / exponent)
+                values |= {name: values[name] * factor**e for name, e in direction.exponents.items()}
+        return values
+
+    def moves_from(self, before: ErrorStep) -> dict[str, float | None]:
+        """By how many half widths of its 95 percent interval here each parameter has moved; None where it has none."""
+        ends = {e.name: e for e in self.estimates}
+        return {name: _moved(value, ends[name]) for name, value in before.on_the_scale_of(self).items() if name in ends}
+
+
+def _moved(before: float, after: Estimate) -> float | None:
+    half = (after.interval[1] - after.interval[0]) / 2
+    return abs(after.value - before) / half if after.determined and half > 0 else None
 
 
 @dataclass(frozen=True)
@@ -220,6 +273,12 @@ class LearnedLaw:
     parameters: Mapping[str, float] = field(default_factory=dict)
     test: GainTest | None = None
     held_out: tuple[float | None, float | None] = (None, None)
+
+    @property
+    def band(self) -> tuple[Array, Array]:
+        """(m,) ends of the 95 percent interval of each coefficient."""
+        half = _Z95 * np.sqrt(np.maximum(np.diag(self.covariance), 0.0))
+        return self.coefficients - half, self.coefficients + half
 
     def __post_init__(self) -> None:
         for name in ("knots", "coefficients", "covariance", "absorbed"):
@@ -321,3 +380,14 @@ class Diagnosis:
         if self.effects:
             return self.effects[0].effect.name
         return NONE if self.complete and not self.learned else UNKNOWN
+
+    @property
+    def base(self) -> ErrorStep | None:
+        """The refitted model; the untouched one where nothing was refitted, None where nothing was simulated."""
+        steps = {step.step: step for step in self.history}
+        return steps.get(REFIT, steps.get(PRIOR))
+
+    @property
+    def last(self) -> ErrorStep | None:
+        """The model with all that was added; None where nothing was."""
+        return self.history[-1] if self.history and self.history[-1].step not in (PRIOR, REFIT) else None

@@ -1,25 +1,21 @@
-"""What a diagnosis answers: which physical effect the data demand, on what evidence, and what is left open."""
+"""The answer of `pysim.diagnose`. It goes with that package; what everything else reads is `pysim.types.answer`."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from pysim.types._frozen import FrozenMapping
+from pysim.types.answer import NONE, UNKNOWN, Failure, NextTest  # noqa: F401  the old package reads them here
 from pysim.types.effect import Effect
 from pysim.types.errors import BadInput
 from pysim.types.fit import Direction, Estimate, RecordFit, ResponseFit
 from pysim.types.note import Note
 
 Array = NDArray[np.float64]
-
-Step = TypeVar("Step")
-
-NONE, UNKNOWN = "none", "unknown"
 
 
 @dataclass(frozen=True)
@@ -89,31 +85,6 @@ class LedgerStep:
         object.__setattr__(self, "criteria", FrozenMapping(self.criteria))
 
 
-def standing(steps: Iterable[Step], name: Callable[[Step], str]) -> list[Step]:
-    """Steps as they were told, but for those of models that were found again later, and all between."""
-    found: list[Step] = []
-    for step in steps:
-        names = [name(one) for one in found]
-        found = [*found[: names.index(name(step)) if name(step) in names else None], step]
-    return found
-
-
-@dataclass(frozen=True)
-class Failure:
-    """Where the base model fails.
-
-    Args:
-        record, signal: of the data set.
-        region: frequency band, time window, or range of a state.
-        error: root-mean-square residual over noise there.
-    """
-
-    record: str
-    signal: str
-    region: str
-    error: float
-
-
 @dataclass(frozen=True)
 class Shape:
     """A missing term tabulated over what it depends on.
@@ -160,23 +131,6 @@ class Missing:
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "parameters", FrozenMapping(self.parameters))
-
-
-@dataclass(frozen=True)
-class NextTest:
-    """The experiment that would separate two leading answers best.
-
-    Args:
-        separates: the two.
-        gain: difference of their sums of squares over noise that is expected once it is run and both are refitted.
-        about: what to run and what to log, in a sentence.
-        plan: text of a test plan that `pysim bench` can run.
-    """
-
-    separates: tuple[str, str]
-    gain: float
-    about: str
-    plan: str
 
 
 @dataclass(frozen=True)

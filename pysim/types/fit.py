@@ -156,6 +156,14 @@ class RecordFit:
         sizes = np.sqrt(np.mean(self.residual.values**2, axis=0))
         return dict(zip(self.measured.names, sizes.tolist(), strict=True))
 
+    @property
+    def fit_percent(self) -> dict[str, float]:
+        """Per column, 100 (1 - |measured - simulated| / |measured - its mean|); NaN of a column that never moves."""
+        size = np.linalg.norm(self.measured.values - self.measured.values.mean(axis=0), axis=0)
+        away = np.linalg.norm(self.measured.values - self.simulated.values, axis=0)
+        fit = 100 * (1 - np.divide(away, size, out=np.full(size.shape, np.nan), where=size > 0))
+        return dict(zip(self.measured.names, fit.tolist(), strict=True))
+
 
 @dataclass(frozen=True)
 class ResponseFit:

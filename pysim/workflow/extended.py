@@ -29,9 +29,9 @@ def write_extended(
     Raises:
         BadInput: the folder cannot be written.
     """
-    fitted = {e.name: e.value for e in found.parameters if "@" not in e.name}
+    fitted = {e.name: e.value for e in found.estimates if "@" not in e.name}
     files: dict[str, Path] = {}
-    effects = [one.effect for one in found.added if one.effect.class_name]  # a sensor's error has none
+    effects = [one.effect for one in found.effects if one.effect.class_name]  # a sensor's error has none
     if effects and parts.variants is not None:
         name = extended_name(parts.variants.class_name, [effect.class_name for effect in effects])
         values, fmu = {**parts.overrides, **fitted}, folder / f"{name}.fmu"
@@ -74,7 +74,7 @@ def _comment(found: Diagnosis, parts: SessionParts, folder: Path, name: str) -> 
     own = [word for library in libraries for word in ("--library", str(library.resolve()))]
     build = command_line([name, *own], folder, program="fmu-build")  # whole paths, as it may be pasted anywhere
     paragraphs = [
-        f"{name}: {parts.model_name} with {', '.join(one.effect.name for one in found.added)}.",
+        f"{name}: {parts.model_name} with {', '.join(one.effect.name for one in found.effects)}.",
         f"Every number below was fitted to the records of data set {parts.dataset.name} that are marked fit; intervals "
         "and evidence are in report.html beside this file.",
         f"Compiles by: {build}",
@@ -93,15 +93,14 @@ def _limits(found: Diagnosis, dataset: Dataset) -> list[str]:
     texts = [f"beyond what was excited: {_excited(dataset)}"]
     if not any(record.use == "validate" for record in dataset.records):
         texts.append("for other excitation without a test: no record was held out")
-    last = found.error[-1] if found.error else None
+    last = found.history[-1] if found.history else None
     if last is not None and not last.passes:
         texts.append(f"as a match by the thesis' limits: {limits_sentence(last)}".removesuffix("."))
-    if found.verdict == "unknown":
+    if not found.complete:
         texts.append("as complete: more than noise is left, and what that is could not be named")
-    for group in found.confusable:
-        texts.append(f"as proof of the effect's kind: these data do not tell {', '.join(group)} apart")
-    last_stage = found.stages[-1] if found.stages else None
-    for direction in last_stage.undetermined if last_stage else ():
+    for group in found.ties:
+        texts.append(f"as proof of the effect's kind: these data cannot tell {', '.join(group)} apart")
+    for direction in last.undetermined if last is not None else ():
         names = ", ".join(direction.exponents)
         texts.append(f"as to {names} one by one: the data tell only products of them")
     return texts

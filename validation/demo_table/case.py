@@ -6,7 +6,7 @@ import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 
-from pysim.diagnose import compare
+from pysim.diagnosis import compare_responses
 from pysim.io import read_dataset
 from pysim.types import Comparison
 from validation.findings import Finding
@@ -28,7 +28,7 @@ def run() -> Iterator[Finding]:
     """All 18 tests of both sets."""
     with tempfile.TemporaryDirectory() as folder:
         dataset = read_dataset(write_dataset(Path(folder)))
-    free, locked = (compare(pump_model(name), dataset, label=name) for name in ("free", "locked"))
+    free, locked = (compare_responses(pump_model(name), dataset, label=name) for name in ("free", "locked"))
     yield from _against_the_independent_result(free)
     yield from _locked_set_fails_on_the_mean_phase(locked)
     for comparison, table in ((free, "4.8"), (locked, "4.7")):

@@ -2,12 +2,12 @@
 
 from pysim.app.figures.bode import bode_figure
 from pysim.app.figures.criteria import CRITERIA, criteria_figure
+from pysim.app.figures.error import error_figure, step_name
 from pysim.app.figures.heat_map import map_figure
+from pysim.app.figures.law import law_figure
 from pysim.app.figures.look import LOOKS, Figure, plain
-from pysim.app.figures.missing import missing_figure
 from pysim.app.figures.overlay import overlay_figure, signal_trace
 from pysim.app.figures.parameters import parameters_figure
-from pysim.app.figures.staircase import staircase_figure, step_name
 
 __all__ = [
     "CRITERIA",
@@ -15,12 +15,12 @@ __all__ = [
     "Figure",
     "bode_figure",
     "criteria_figure",
+    "error_figure",
+    "law_figure",
     "map_figure",
-    "missing_figure",
     "overlay_figure",
     "parameters_figure",
     "plain",
     "signal_trace",
-    "staircase_figure",
     "step_name",
 ]

@@ -6,8 +6,8 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from pysim.app.figures.error import step_name
 from pysim.app.figures.look import Figure, axis, figure, plain
-from pysim.app.figures.staircase import step_name
 from pysim.identify import FREQUENCY_CRITERIA
 from pysim.identify.accuracy import TIME_CRITERIA
 
@@ -21,7 +21,7 @@ def criteria_figure(steps: Sequence[Mapping[str, Any]]) -> Figure:
     """Worst value of every criterion of thesis Tables 1.3 and 1.4, step by step, over its limit, which is a line.
 
     Args:
-        steps: of the ledger; those without criteria leave a gap.
+        steps: of the error history; those without criteria leave a gap.
     """
     symbols = [symbol for symbol in CRITERIA if any(symbol in step["criteria"] for step in steps)]
     data: list[dict[str, Any]] = []

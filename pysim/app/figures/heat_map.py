@@ -29,7 +29,7 @@ def map_figure(
     high = max([10.0, *(v for row in values for v in row if v is not None)])
     ticks = [t for t in (1, 2, 5, 10, 20, 50, 100, 200, 500, 1000) if t <= high]
     bar: dict[str, Any] = {
-        "title": {"text": "times noise", "side": "right"},
+        "title": {"text": "residual over noise", "side": "right"},
         "tickvals": [math.log10(t) for t in ticks],
     }
     bar |= {"ticktext": [f"{t:g}" for t in ticks], "thickness": 10, "outlinewidth": 0, "len": 1}
@@ -48,7 +48,7 @@ def map_figure(
         "showscale": scale,
         "textfont": {"size": 11.5},
     }
-    heat |= {"hovertemplate": "%{y}<br>%{x}: %{text} times the noise<extra></extra>"}
+    heat |= {"hovertemplate": "%{y}<br>%{x}: %{text} x noise<extra></extra>"}
     return figure(
         [heat],
         xaxis=axis(title, type="category", showgrid=False, side="bottom"),

@@ -6,9 +6,9 @@ from collections.abc import Mapping, Sequence
 from math import inf
 from typing import Any
 
-from pysim.app.answers import Answer, ledger
+from pysim.app.answers import Answer, history
 from pysim.app.desk import Desk
-from pysim.app.figures import CRITERIA, criteria_figure, parameters_figure, staircase_figure
+from pysim.app.figures import CRITERIA, criteria_figure, error_figure, parameters_figure
 from pysim.app.pages.common import attempt, busy, ended, nothing, start
 from pysim.app.parts import Chart, Table, box, button, card, head, live, note, text
 from pysim.present.notes import direction_words
@@ -19,17 +19,17 @@ def add_page(desk: Desk) -> None:
     """The falling error."""
     live(lambda: desk.version, lambda: _top(desk), "gap")
     with card("Error over noise, step by step") as place:
-        text("p", "Root-mean-square residual in units of the noise: 1 is all a model can reach.", "small")
-        stairs = _Stairs(desk, place)
-        live(lambda: (desk.beat, desk.version), stairs.show)
+        text("p", "Root-mean-square residual in standard deviations of the noise: 1 means only noise is left.", "small")
+        error = _Error(desk, place)
+        live(lambda: (desk.beat, desk.version), error.show)
     live(lambda: desk.version, lambda: _below(desk), "gap")
 
 
 def _top(desk: Desk) -> None:
     settings, running = desk.project.settings(), desk.runner.running
     answer = desk.answers.with_effects(settings.added)
-    told = answer is not None and answer.added == settings.added  # what was undone is not what is shown
-    head("Watch the error fall", str(answer.data["reason"]) if answer is not None and told else "")
+    current = answer is not None and answer.added == settings.added  # what was undone is not what is shown
+    head("Watch the error fall", str(answer.data["reason"]) if answer is not None and current else "")
     ended(desk)
     if answer is None and running is None:
         with box("row"):
@@ -51,7 +51,7 @@ def _chain(desk: Desk, added: Sequence[str]) -> None:
             button(f"Undo {added[-1]}", lambda: attempt(desk.undo), "small", off=busy(desk))
 
 
-class _Stairs:
+class _Error:
     """One figure that moves while steps come in."""
 
     def __init__(self, desk: Desk, place: Any) -> None:
@@ -69,7 +69,7 @@ class _Stairs:
             return
         self._place.set_visibility(True)
         told = "; ".join(f"{s['step']} {s['fit'] or s['validate'] or 0:.2f}" for s in steps) or doing
-        figure, label = staircase_figure(steps, doing=doing), f"Error over noise, step by step: {told}"
+        figure, label = error_figure(steps, doing=doing), f"Error over noise, step by step: {told}"
         if self._chart is None:
             with self._place:
                 self._chart = Chart(figure, label, height=350)
@@ -83,7 +83,7 @@ class _Stairs:
             return job.steps, job.stage
         added = self._desk.project.settings().added
         answer = self._desk.answers.with_effects(added)
-        return (_kept(self._desk) if answer is None else ledger(answer, added)), ""
+        return (_kept(self._desk) if answer is None else history(answer, added)), ""
 
 
 def _kept(desk: Desk) -> Sequence[Mapping[str, Any]]:
@@ -97,7 +97,7 @@ def _below(desk: Desk) -> None:
     answer = desk.answers.with_effects(settings.added)
     if answer is None:
         if desk.runner.running is None and not _kept(desk):
-            nothing("Nothing was fitted yet", "The staircase begins with the model as it is.")
+            nothing("Nothing was fitted yet", "The error begins with the model as it is.")
         return
     _criteria(answer, settings.added)
     _parameters(answer)
@@ -107,7 +107,7 @@ def _below(desk: Desk) -> None:
 
 def _criteria(answer: Answer, added: Sequence[str]) -> None:
     """Worst value of each criterion of thesis Tables 1.3 and 1.4, per step, with its limit."""
-    steps = ledger(answer, tuple(added))
+    steps = history(answer, tuple(added))
     symbols = [s for s in CRITERIA if any(s in step["criteria"] for step in steps)]
     if not symbols:
         return

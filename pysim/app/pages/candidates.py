@@ -11,7 +11,6 @@ from pysim.app.answers import Answer
 from pysim.app.desk import Desk
 from pysim.app.pages.common import attempt, busy, ended, nothing, start
 from pysim.app.parts import box, button, card, curve, head, live, text
-from pysim.types.diagnosis import NONE, UNKNOWN
 
 
 def candidates_page(desk: Desk) -> None:
@@ -21,7 +20,9 @@ def candidates_page(desk: Desk) -> None:
 
 def _build(desk: Desk) -> None:
     answer = desk.answers.newest("ranking")
-    head("What may be missing", "Every effect of the catalogue that fits a slot of the model, by what it would gain.")
+    head(
+        "What may be missing", "Every effect of the catalogue that fits a slot of the model, by what it would explain."
+    )
     ended(desk)
     with box("row"):
         main = "main" if answer is None else ""
@@ -57,15 +58,10 @@ def _rows(answer: Answer | None) -> list[Mapping[str, Any]]:
 
 def _verdict(answer: Answer) -> None:
     """The diagnosis in its own words."""
-    verdict, reason = str(answer.data["verdict"]), str(answer.data["reason"])
-    titles = {
-        NONE: "Nothing is missing",
-        UNKNOWN: "Unknown: more than noise is left, and none of these explains all of it",
-    }
     with card():
-        text("p", f"{titles.get(verdict, 'The measurements ask for an effect')}: {reason}.", "statement")
+        text("p", str(answer.data["reason"]), "statement")
         for group in answer.data["confusable"]:
-            text("p", f"These measurements do not tell {' and '.join(group)} apart.", "note")
+            text("p", f"These data cannot tell {' and '.join(group)} apart.", "note")
         test = answer.data["next_test"]
         if test is not None:
             text("p", f"The test that would: {test['about']}", "note")
@@ -100,7 +96,7 @@ def _named(effect: Mapping[str, Any], *, tied: bool = False) -> None:
         text("h3", str(effect.get("about", name)).removesuffix(f"({name})").strip())
         text("span", name, "chip mono")
         if tied:
-            text("span", "tied", "chip").props('title="These measurements do not tell the tied apart"')
+            text("span", "tied", "chip").props('title="These data cannot tell the tied apart"')
     if effect.get("law"):
         text("div", str(effect["law"]), "law")
 
@@ -120,8 +116,8 @@ def _gain(row: Mapping[str, Any], top: float) -> None:
         with box("bar"):
             ui.element("i").style(f"width: {max(0.0, min(100.0, 100 * score / top)):.1f}%")
         how = "refitted" if row["refitted"] else "screened"
-        share = f"takes {100 * float(row['explained'] or 0.0):.1f} % of the misfit"
-        text("span", f"{share} ({how})" if score > 0 else f"does not pay ({how})")
+        share = f"explains {100 * float(row['explained'] or 0.0):.1f} % of the misfit"
+        text("span", f"{share} ({how})" if score > 0 else f"no better for its parameters ({how})")
         sizes = ", ".join(f"{name} {value:.4g}" for name, value in row["parameters"].items() if value is not None)
         text("span", sizes, "small mono")
 

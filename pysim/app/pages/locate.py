@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from pysim.app.desk import Desk
-from pysim.app.figures import missing_figure
+from pysim.app.figures import law_figure
 from pysim.app.pages.candidates import effect_row
 from pysim.app.pages.common import busy, ended, nothing, start
 from pysim.app.parts import Chart, Drawing, box, button, card, live, note, text
@@ -22,7 +22,7 @@ def locate_page(desk: Desk) -> None:
 
 
 def _found(desk: Desk) -> _Found:
-    """Slot -> the best term there, the best slot first."""
+    """Slot -> the best law there, the best slot first."""
     answer = desk.answers.newest("missing")
     return {} if answer is None else {str(one["slot"]): one for one in answer.data["missing"]}
 
@@ -37,7 +37,7 @@ def _build(desk: Desk, chosen: dict[str, str]) -> None:
     with box("row end"):
         text("h1", "Where is something missing?")
         button("Locate", lambda: start(desk, lambda: desk.work("locate")), "" if found else "main", off=busy(desk))
-    text("p", "No effect is named for this: each place is given the term that closes the gap best.", "lead")
+    text("p", "For each place in the model we estimate the force, flow or signal that would close the gap.", "lead")
     ended(desk)
     if not _slots(desk) or (desk.model or {}).get("structure") is None:
         if not found:
@@ -47,7 +47,7 @@ def _build(desk: Desk, chosen: dict[str, str]) -> None:
 
 
 def _drawing(desk: Desk, found: _Found, chosen: dict[str, str]) -> None:
-    """Every part; the slots with the share of the misfit that a term there would take."""
+    """Every part; the slots with the share of the misfit that a law there would explain."""
     assert desk.model is not None
     parts, added = desk.model["structure"], _added(desk)
     places = [_place(node, found, _slots(desk), added) for node in parts["nodes"]]
@@ -57,7 +57,7 @@ def _drawing(desk: Desk, found: _Found, chosen: dict[str, str]) -> None:
         drawing.pick(name)
 
     with card("The model, along its signals"):
-        told = "How much of the avoidable misfit the best term at each place would take. Pick a slot to see it."
+        told = "How much of the misfit the best law at each place would explain. Pick a slot to see it."
         text("p", told if found else "Pick a slot to see what may stand there.", "small")
         label = f"{desk.model['name']}: {len(places)} places, {len(_slots(desk))} of them slots"
         drawing = Drawing(label, places, parts["links"], on_pick=pick, picked=chosen["slot"])
@@ -80,7 +80,7 @@ def _added(desk: Desk) -> dict[str, list[str]]:
 def _legend(looked: bool, added: bool) -> list[tuple[str, str]]:
     more = [("has", "effect that was added")] if added else []
     if not looked:
-        return [("", "slot: a term can be put there"), *more, ("part", "fixed part")]
+        return [("", "slot: a law can be put there"), *more, ("part", "fixed part")]
     return [("seen", "slot with its share"), ("", "slot that was not looked at"), *more, ("part", "fixed part")]
 
 
@@ -122,7 +122,7 @@ def _below(desk: Desk, chosen: dict[str, str]) -> None:
         if one is not None and answer is not None:
             _term(one)
         elif found:
-            text("p", "No term was looked for here: others take more.", "note")
+            text("p", "No law was learned here: other places explain more.", "note")
     _effects(desk, name)
     answer = desk.answers.newest("missing")
     for line in answer.data["notes"] if answer is not None else ():
@@ -130,12 +130,12 @@ def _below(desk: Desk, chosen: dict[str, str]) -> None:
 
 
 def _term(one: Mapping[str, Any]) -> None:
-    """The term over what it depends on."""
+    """The law over what it depends on."""
     if len(one["shape"]["argument"]) > 1:
-        words = f"Missing term at {one['slot']} over {one['depends_on']} with its 95 percent band"
-        Chart(missing_figure(one), words, height=340)
-    took = f"Over {one['depends_on']} it takes {100 * one['share']:.1f} % of the misfit."
-    text("p", f"{took} The band holds 95 percent.", "small")
+        words = f"Learned law at {one['slot']} over {one['depends_on']} with its 95 percent band"
+        Chart(law_figure(one), words, height=340)
+    explains = f"Over {one['depends_on']} it explains {100 * one['share']:.1f} % of the misfit."
+    text("p", f"{explains} The band holds 95 percent.", "small")
 
 
 def _effects(desk: Desk, slot: str) -> None:

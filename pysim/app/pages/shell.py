@@ -8,7 +8,7 @@ from nicegui import ui
 from nicegui.elements.mixins.text_element import TextElement
 
 from pysim.app.desk import Desk
-from pysim.app.jobs import FAILED, Job
+from pysim.app.jobs import FAILED
 from pysim.app.pages.add import add_page
 from pysim.app.pages.candidates import candidates_page
 from pysim.app.pages.common import attempt
@@ -103,7 +103,7 @@ def _job(desk: Desk) -> None:
             with box("job"):
                 box("spin")
                 stage = text("span", job.stage, "stage").props(f'title="{job.work.title.replace(chr(34), "")}"')
-                time = text("span", _time(job), "time")
+                time = text("span", clock(job.seconds), "time")
                 button("Stop", desk.runner.stop, "small")
                 live(lambda: (desk.beat, _seconds(desk)), lambda: _tell(desk, stage, time), "unseen")
         elif desk.last is not None and desk.last.state == FAILED:
@@ -117,12 +117,7 @@ def _tell(desk: Desk, stage: TextElement, time: TextElement) -> None:
     job = desk.runner.running
     if job is not None:
         stage.set_text(job.stage)
-        time.set_text(_time(job))
-
-
-def _time(job: Job) -> str:
-    left = "" if job.left is None else f" · about {clock(job.left)} left"
-    return f"{clock(job.seconds)}{left}"
+        time.set_text(clock(job.seconds))
 
 
 def clock(seconds: float) -> str:

@@ -19,7 +19,7 @@ _FILES = (
     ),
     ("fmu", "FMU", "The same class compiled; its defaults are the fitted values."),
     ("parameters", "Parameters", "The fitted values as lines NAME = VALUE, for --parameters."),
-    ("report", "Report", "The whole story on one page that needs nothing else."),
+    ("report", "Report", "The whole answer on one page that needs nothing else."),
     ("plan", "Next test", "A plan of the test that separates what these measurements do not, for pysim bench."),
 )
 
@@ -42,7 +42,7 @@ def _build(desk: Desk) -> None:
     with card("Commands"):
         text(
             "p",
-            f"In the folder {desk.project.folder}; what was stopped here goes on there, and the other way round.",
+            f"In the folder {desk.project.folder}; you can continue a stopped job on the command line.",
             "small",
         )
         lines = commands(desk)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from pysim.cli.command import Command, Given
 from pysim.cli.option import names
 from pysim.cli.outputs import JOURNAL
-from pysim.cli.steps import SUBJECT, end_step, read_parts, results, run_step, shown, write_model
+from pysim.cli.steps import SUBJECT, end_step, read_parts, results, run_step, write_model
 
 if TYPE_CHECKING:
     from pysim.present.diagnosis import Diagnosed
@@ -25,7 +25,7 @@ def run(given: Given) -> Diagnosed:
     return run_step(
         given,
         parts,
-        lambda tell, journal: shown(add(session, effects, progress=tell, checkpoint=journal)),
+        lambda progress, checkpoint: add(session, effects, progress=progress, checkpoint=checkpoint),
         question="What do the effects mend?",
         answer=added_sentence,
     )

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from pysim.cli.command import Command, Given
 from pysim.cli.option import switch
 from pysim.cli.outputs import JOURNAL
-from pysim.cli.steps import SUBJECT, end_step, read_parts, results, run_step, shown, write_model
+from pysim.cli.steps import SUBJECT, end_step, read_parts, results, run_step, write_model
 
 if TYPE_CHECKING:
     from pysim.present.diagnosis import Diagnosed
@@ -23,7 +23,7 @@ def run(given: Given) -> Comparison | Diagnosed:
     dataset = given.dataset
     if not given.refit:
         _refuse_idle(given)
-    if given.refit or given.records or given.story or not dataset.responses():
+    if given.refit or given.records or given.events or not dataset.responses():
         return _logs(given)
     if dataset.logs():
         print(
@@ -53,7 +53,7 @@ def _logs(given: Given) -> Diagnosed:
     return run_step(
         given,
         parts,
-        lambda tell, journal: shown(compare(session, refitted=given.refit, progress=tell, checkpoint=journal)),
+        lambda progress, checkpoint: compare(session, refitted=given.refit, progress=progress, checkpoint=checkpoint),
         question="How far is the model from its measurements?",
         answer=comparison_sentence,
     )
@@ -62,7 +62,7 @@ def _logs(given: Given) -> Diagnosed:
 def _responses(given: Given, dataset: Dataset) -> Comparison:
     from pysim.cli.options import read_parameters
     from pysim.cli.progress import announce_compilation
-    from pysim.diagnose import compare
+    from pysim.diagnosis import compare_responses
     from pysim.io import in_model_units
     from pysim.workflow import reference_of
 
@@ -71,7 +71,7 @@ def _responses(given: Given, dataset: Dataset) -> Comparison:
     overrides = read_parameters(given, model)
     announce_compilation()
     with given.progress("stepped sines") as progress:
-        return compare(
+        return compare_responses(
             model,
             in_model_units(dataset, model),
             overrides=overrides,
@@ -87,7 +87,7 @@ def _passes(result: Any) -> bool:
 
     if isinstance(result, Comparison):
         return result.passes
-    last = result.found.error[-1]
+    last = result.found.history[-1]
     return bool(last.passes and last.criteria)
 
 

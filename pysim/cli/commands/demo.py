@@ -99,11 +99,11 @@ def _build(label: str, folder: Path) -> Model:
 def _compare(label: str, model: Model, dataset: Dataset) -> Comparison:
     """Run all tests through one model."""
     from pysim.cli.progress import ProgressBar
-    from pysim.diagnose import compare
+    from pysim.diagnosis import compare_responses
     from validation.pump import SOURCES
 
     with ProgressBar(f"{label} set") as progress:
-        return compare(model, dataset, label=label, about=SOURCES[label], progress=progress)
+        return compare_responses(model, dataset, label=label, about=SOURCES[label], progress=progress)
 
 
 def _against_the_thesis(comparison: Comparison) -> list[str]:

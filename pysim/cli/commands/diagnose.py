@@ -7,14 +7,14 @@ from typing import TYPE_CHECKING
 from pysim.cli.command import Command, Given
 from pysim.cli.option import number
 from pysim.cli.outputs import JOURNAL
-from pysim.cli.steps import EFFECTS, SUBJECT, end_step, read_parts, results, run_step, shown, write_model
+from pysim.cli.steps import EFFECTS, SUBJECT, end_step, read_parts, results, run_step, write_model
 
 if TYPE_CHECKING:
     from collections.abc import Callable
     from pathlib import Path
 
     from pysim.present.diagnosis import Diagnosed
-    from pysim.types import Diagnosis, Told
+    from pysim.types import Diagnosis, ProgressEvent
 
 
 def run(given: Given) -> Diagnosed:
@@ -31,15 +31,15 @@ def run(given: Given) -> Diagnosed:
     session = session_of(parts, Settings(max_effects=most))
     if most:
 
-        def work(tell: Callable[[Told], None], journal: Path | None) -> Diagnosis:
-            return shown(diagnose(session, progress=tell, checkpoint=journal))
+        def work(progress: Callable[[ProgressEvent], None], checkpoint: Path | None) -> Diagnosis:
+            return diagnose(session, progress=progress, checkpoint=checkpoint)
 
         return run_step(given, parts, work)
     return run_step(
         given,
         parts,
-        lambda tell, journal: shown(rank(session, progress=tell, checkpoint=journal)),
-        question="What would each effect gain?",
+        lambda progress, checkpoint: rank(session, progress=progress, checkpoint=checkpoint),
+        question="What would each effect explain?",
         answer=ranking_sentence,
     )
 

@@ -1,196 +1,130 @@
-"""A diagnosis as numbers and as text."""
+"""A diagnosis as text for a terminal, and as JSON with its sentences."""
 
 from __future__ import annotations
 
 import math
 import textwrap
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping
 
-import numpy as np
-
-from pysim.io import json_number
-from pysim.present.diagnosis.words import limits_words, next_test_sentence, verdict_sentence
-from pysim.present.notes import words
-from pysim.types import Estimate, Note, NoteCode
-from pysim.types.diagnosis import AddedEffect, Candidate, Diagnosis, LedgerStep, Missing, NextTest
+from pysim.io import shown_value
+from pysim.present.diagnosis.law_words import law_kind
+from pysim.present.diagnosis.words import (
+    UNIT,
+    limits_words,
+    next_test_sentence,
+    share_text,
+    signal_rows,
+    size_text,
+    sizes,
+    step_name,
+    verdict_sentence,
+)
+from pysim.present.notes import listed, words
+from pysim.types import Diagnosis, LearnedLaw, answer_data
 
 _WIDTH = 100
+_ROWS = 6  # candidates and laws that are listed
+_KNOTS = 5  # of a curve that are listed
 
 
 def diagnosis_data(diagnosis: Diagnosis, files: Mapping[str, str] | None = None) -> dict[str, object]:
-    """What `--json` writes; every number finite or None.
+    """What `--json` writes: the answer, with the verdict and each note in words too.
 
     Args:
         files: what was written besides, name -> path relative to the JSON file.
     """
-    return {
-        "verdict": diagnosis.verdict,
-        "reason": diagnosis.reason,
-        "added": [_added(one) for one in diagnosis.added],
-        "ranking": [_candidate(row) for row in diagnosis.ranking],
-        "confusable": [list(group) for group in diagnosis.confusable],
-        "error": [step_data(step) for step in diagnosis.error],
-        "parameters": {e.name: _estimate(e) for e in diagnosis.parameters},
-        "where": [
-            {"record": f.record, "signal": f.signal, "region": f.region, "error": json_number(f.error)}
-            for f in diagnosis.where
-        ],
-        "missing": [_missing(one) for one in diagnosis.missing],
-        "next_test": _next_test(diagnosis.next_test),
-        "seconds": {name: json_number(value) for name, value in diagnosis.seconds.items()},
-        "files": dict(files or {}),
-        "notes": [_note(note) for note in diagnosis.notes],
-        "conditions": dict(diagnosis.conditions),
-        **_completeness(diagnosis),
-    }
+    notes = [{"code": one.code.value, "values": dict(one.values), "text": words(one)} for one in diagnosis.notes]
+    return {**answer_data(diagnosis, files), "reason": verdict_sentence(diagnosis), "notes": notes}
 
 
-def _note(note: Note | str) -> dict[str, object]:
-    """Code and values for a program, the sentence for a person."""
-    if isinstance(note, str):
-        return {"code": NoteCode.OTHER.value, "values": {}, "text": note}
-    return {"code": note.code.value, "values": dict(note.values), "text": words(note)}
+def diagnosis_text(diagnosis: Diagnosis, answer: str = "") -> str:
+    """The answer, then the evidence.
+
+    Args:
+        answer: a sentence or two; the verdict where empty.
+    """
+    verdict = [f"Verdict: {diagnosis.verdict}", *_wrapped(verdict_sentence(diagnosis), "  ")]
+    head = textwrap.wrap(answer, _WIDTH) if answer else verdict
+    return "\n".join([*head, "", evidence_text(diagnosis)])
 
 
-def _completeness(diagnosis: Diagnosis) -> dict[str, object]:
-    """Whether anything is left; nothing where that was not judged."""
-    if diagnosis.complete is None or diagnosis.left is None:
-        return {}
-    fit, validate, share, t = map(json_number, diagnosis.left)
-    left = {"rms_over_floor": {"fit": fit, "validate": validate}, "share_explained": share, "t": t}
-    return {"complete": diagnosis.complete, "left": left, "fit_percent": _fit_percent(diagnosis)}
-
-
-def _fit_percent(diagnosis: Diagnosis) -> list[dict[str, object]]:
-    """NRMSE of every log and signal at each step, in percent: 100 where the model is the log."""
-    found: list[dict[str, object]] = []
-    for stage in diagnosis.stages:
-        rows: dict[str, dict[str, float | None]] = {}
-        for record in stage.records:
-            for j, name in enumerate(record.measured.names):
-                measured = record.measured.values[:, j]
-                size = float(np.linalg.norm(measured - measured.mean()))
-                away = float(np.linalg.norm(measured - record.simulated.values[:, j]))
-                rows.setdefault(record.source, {})[name] = json_number(100 * (1 - away / size) if size else None)
-        found.append({"step": stage.step, "records": rows})
-    return found
-
-
-def _interval(interval: tuple[float, float]) -> list[float | None]:
-    return [json_number(interval[0]), json_number(interval[1])]
-
-
-def _added(one: AddedEffect) -> dict[str, object]:
-    """An effect's parameters; where people speak of the inverse, that stands beside it."""
-    names = [p.name for p in one.effect.parameters]
-    found: dict[str, dict[str, object]] = {"parameters": {}, "intervals": {}, "unit": {}}
-    for name, estimate in zip(names, one.estimates, strict=True):
-        found["parameters"][name] = json_number(estimate.value)
-        found["intervals"][name] = _interval(estimate.interval)
-        found["unit"][name] = estimate.unit
-        inverse = one.effect[name].inverse
-        if inverse:
-            low, high = ((1 / v if v else math.inf) for v in estimate.interval)
-            found["parameters"][inverse] = json_number(1 / estimate.value if estimate.value else math.inf)
-            found["intervals"][inverse] = _interval((high, low))
-            found["unit"][inverse] = f"1/({estimate.unit})"
-    return {"effect": one.effect.name, "place": one.place, **found}
-
-
-def _candidate(row: Candidate) -> dict[str, object]:
-    return {
-        "effect": row.effect,
-        "round": row.round,
-        "score": json_number(row.score),
-        "p_value": json_number(row.p_value),
-        "explained": json_number(row.explained),
-        "refitted": row.refitted,
-        "parameters": {name: json_number(value) for name, value in row.parameters.items()},
-    }
-
-
-def _missing(one: Missing) -> dict[str, object]:
-    """A missing term, tabulated."""
-    columns = ("argument", "value", "low", "high")
-    shape: dict[str, object] = {name: [json_number(float(v)) for v in getattr(one.shape, name)] for name in columns}
-    shape |= {"argument_unit": one.shape.argument_unit, "unit": one.shape.unit}
-    return {
-        "slot": one.slot,
-        "share": json_number(one.share),
-        "depends_on": one.depends_on,
-        "shape": shape,
-        "formula": one.formula,
-        "alike": list(one.alike),
-        "parameters": {name: json_number(value) for name, value in one.parameters.items()},
-    }
-
-
-def _next_test(test: NextTest | None) -> dict[str, object] | None:
-    if test is None:
-        return None
-    return {"separates": list(test.separates), "gain": json_number(test.gain), "about": test.about, "plan": test.plan}
-
-
-def step_data(step: LedgerStep) -> dict[str, object]:
-    """One step of the ledger; every number finite or None."""
-    return {
-        "step": step.step,
-        "fit": json_number(step.fit),
-        "validate": json_number(step.validate),
-        "criteria": {name: json_number(value) for name, value in step.criteria.items()},
-        "passes": step.passes,
-        "cost": json_number(step.cost),
-        "not_simulated": step.not_simulated,
-    }
-
-
-def _estimate(e: Estimate) -> dict[str, object]:
-    return {"value": json_number(e.value), "interval": _interval(e.interval), "unit": e.unit, "at": e.at}
-
-
-def diagnosis_text(diagnosis: Diagnosis) -> str:
-    """Verdict, ledger and ranking for a terminal."""
-    return "\n".join(
-        [f"Verdict: {diagnosis.verdict}", *_wrapped(verdict_sentence(diagnosis)), evidence_text(diagnosis)]
-    )
-
-
-def _wrapped(text: str) -> list[str]:
-    return textwrap.wrap(text, _WIDTH, initial_indent="  ", subsequent_indent="  ")
+def _wrapped(text: str, indent: str = "") -> list[str]:
+    return textwrap.wrap(text, _WIDTH, initial_indent=indent, subsequent_indent="  ")
 
 
 def evidence_text(diagnosis: Diagnosis) -> str:
-    """Sizes, ledger, ranking, ties with the test that would part them, and notes for a terminal."""
-    lines = [*_effects(diagnosis.added), *([""] if diagnosis.added else []), "Error over noise"]
-    for step in diagnosis.error:
-        numbers = "".join(
-            f"  {what} {value:8.3f}" for what, value in (("fitted", step.fit), ("held out", step.validate)) if value
-        )
-        lines.append(f"  {step.step:<20}{numbers}  {limits_words(step)}")
-    if diagnosis.ranking:
-        lines += ["", "Candidates                  gain less penalty explained"]
-        for number in sorted({row.round for row in diagnosis.ranking}):
-            own = [row for row in diagnosis.ranking if row.round == number][: 6 if number == 1 else 3]
-            lines += [f"  round {number}"] if number > 1 else []
-            lines += [f"  {row.effect:<24} {row.score:14.5g} {100 * row.explained:9.2f} %" for row in own]
-    if diagnosis.missing:
-        lines += ["", "Missing at                over                of the misfit"]
-        lines += [
-            f"  {one.slot:<23} {one.depends_on:<23} {100 * one.share:6.1f} %  {one.formula}".rstrip()
-            for one in diagnosis.missing[:6]
-        ]
-    lines += [f"Indistinguishable with these data: {', '.join(group)}" for group in diagnosis.confusable]
+    """Sizes, error by step, fit by signal, candidates, laws, ties with the test that would settle them, and notes."""
+    parts = [_effects, _history, _signals, _candidates, _laws, _open]
+    return "\n\n".join("\n".join(lines) for lines in (list(part(diagnosis)) for part in parts) if lines)
+
+
+def _effects(diagnosis: Diagnosis) -> Iterator[str]:
+    if diagnosis.effects:
+        yield "Effects, what costs most to leave out first"
+    for one in diagnosis.effects:
+        share = "" if one.share is None else f"  {share_text(one.share)} of the misfit"
+        yield f"  {one.effect.name}{'' if one.effect.class_name else f' at {one.place}'}{share}"
+        for name, value, (low, high), unit in sizes(one):
+            yield f"    {name} = {value:.4g}{'' if unit == '1' else f' {unit}'}, 95 % from {low:.4g} to {high:.4g}"
+
+
+def _history(diagnosis: Diagnosis) -> Iterator[str]:
+    if diagnosis.history:
+        yield f"Residual by step, in {UNIT} (1: noise alone)"
+    for step in diagnosis.history:
+        values = (("fitted", step.fit), ("held out", step.validate), ("unseen", step.test))
+        numbers = "".join(f"  {what} {size_text(value):>7}" for what, value in values if value is not None)
+        yield f"  {step_name(step.step):<20}{numbers}  {limits_words(step)}"
+
+
+def _signals(diagnosis: Diagnosis) -> Iterator[str]:
+    rows = signal_rows(diagnosis.history[-1]) if diagnosis.history else []
+    if rows:
+        yield f"Signals, {step_name(diagnosis.history[-1].step).removeprefix('+ ')}"
+    for name, use, residual, percent, rms, unit in rows:
+        fit = "" if math.isnan(percent) else f"  fit {percent:.1f} %"
+        yield f"  {name:<20}  {use:<8}  {size_text(residual):>7} x noise{fit}  rms {shown_value(rms, unit, '.3g')}"
+
+
+def _candidates(diagnosis: Diagnosis) -> Iterator[str]:
+    """The best alone, and what improves a model that has effects already."""
+    alone = [row for row in diagnosis.rivals if len(row.effects) == 1][:_ROWS]
+    beside = [row for row in diagnosis.rivals if len(row.effects) > 1 and row.score > 0][:_ROWS]
+    names = [" + ".join(row.effects) for row in (*alone, *beside)]
+    width = max([24, *map(len, names)])
+    if names:
+        yield f"{'Candidates':<{width + 2}}  explains  gain less penalty (nats)"
+    for name, row in zip(names, (*alone, *beside), strict=True):
+        how = "" if row.refitted else "  screened only"
+        yield f"  {name:<{width}}  {100 * row.explained:6.1f} %  {row.score:10.4g}{how}"
+
+
+def _laws(diagnosis: Diagnosis) -> Iterator[str]:
+    if not diagnosis.learned:
+        return
+    yield "Laws learned from the data"
+    for law in diagnosis.learned[:_ROWS]:
+        formula = f"  {law.formula}" if law.formula else ""
+        yield f"  {law.slot}: {law_kind(law)} over {law.argument}, {share_text(law.share)} of the misfit{formula}"
+    yield from _curve(diagnosis.learned[0])
+
+
+def _curve(law: LearnedLaw) -> Iterator[str]:
+    """Some of its knots with their intervals."""
+    if law.knots.size < 2:
+        return
+    low, high = law.band
+    yield f"  {law_kind(law).capitalize()} at {law.slot}, 95 % intervals"
+    for i in sorted({round(k * (law.knots.size - 1) / (_KNOTS - 1)) for k in range(_KNOTS)}):
+        at = shown_value(law.knots[i], law.argument_unit, ".3g")
+        values = [shown_value(v + 0.0, law.unit, ".3g") for v in (law.coefficients[i], low[i], high[i])]
+        yield f"    {law.argument} = {at}: {values[0]} ({values[1]} to {values[2]})"
+
+
+def _open(diagnosis: Diagnosis) -> Iterator[str]:
+    for group in diagnosis.ties:
+        yield from _wrapped(f"These data cannot tell apart: {listed(group)}.")
     if diagnosis.next_test is not None:
-        lines += textwrap.wrap(f"Next test: {next_test_sentence(diagnosis.next_test)}", _WIDTH, subsequent_indent="  ")
+        yield from _wrapped(f"Next test: {next_test_sentence(diagnosis.next_test)}")
     for note in diagnosis.notes:
-        lines += textwrap.wrap(f"Note: {words(note)}", _WIDTH, subsequent_indent="  ")
-    return "\n".join(lines)
-
-
-def _effects(added: Sequence[AddedEffect]) -> list[str]:
-    return [
-        f"  {one.effect.name}: {name} = {e.value:.5g}{'' if e.unit == '1' else f' {e.unit}'}, "
-        f"95 % from {e.interval[0]:.5g} to {e.interval[1]:.5g}"
-        for one in added
-        for name, e in zip([p.name for p in one.effect.parameters], one.estimates, strict=True)
-    ]
+        yield from _wrapped(f"Note: {words(note)}")

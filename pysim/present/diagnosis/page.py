@@ -2,27 +2,41 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 
 from pysim.identify.accuracy import FREQUENCY_CRITERIA, TIME_CRITERIA
+from pysim.io import shown_value
+from pysim.present.diagnosis.law_words import law_kind, law_sentence
 from pysim.present.diagnosis.words import (
+    BEYOND,
     chance_text,
     limits_words,
     next_test_sentence,
     remark,
     share_text,
+    signal_rows,
+    size_text,
     sizes,
+    step_name,
     verdict_sentence,
 )
 from pysim.present.notes import direction_words, listed, words
 from pysim.present.page import cell, commands, heading, items, page, paragraph, picture, statement, table
-from pysim.types import AddedEffect, Candidate, Diagnosis, Estimate, LedgerStep, Missing, Stage
+from pysim.types import Diagnosis, ErrorStep, Estimate, FoundEffect, LearnedLaw, Rival
+from pysim.types.answer import REFIT
 
 # Section of the page -> SVG by caption.
 Pictures = Mapping[str, Mapping[str, bytes]]
 
 _CRITERIA = (*FREQUENCY_CRITERIA, *TIME_CRITERIA)
 _WORST = 15  # places listed
+_METHOD = (
+    "Residuals are measured minus simulated, in standard deviations of the noise: where nothing but noise is left "
+    "their root mean square is 1. The fit in percent is 100 where the model is the log, and 0 where it is no better "
+    "than the log's mean. A candidate's gain is the rise of the log likelihood in nats once everything is refitted "
+    "with it, less a penalty for its parameters. Held-out logs had no part in any fit."
+)
 
 
 def diagnosis_page(
@@ -35,171 +49,166 @@ def diagnosis_page(
     question: str = "Which effect is missing?",
     answer: str = "",
 ) -> str:
-    """Verdict, error ledger, what was added, records, where it fails, ranking, parameters, next test, conditions.
+    """The verdict and the error, what was added or learned, then the evidence and the conditions.
 
     Args:
         title: model and data, for the line below the heading.
-        pictures: by section: "ledger", "records", "where", "missing", "ranking", "parameters".
-        redo: the command line that makes it again.
+        pictures: by section: "error", "records", "where", "learned", "candidates", "parameters".
+        redo: the command line that makes it again; "" where there is none.
         files: what was written besides, name -> path relative to the page.
         question, answer: the heading, and what leads the page; the verdict where empty.
     """
-    parts = [statement(answer or verdict_sentence(diagnosis)), *_drawn(pictures, "ledger")]
-    parts += _added(diagnosis.added)
-    parts += _section("Measured and simulated", _drawn(pictures, "records"))
-    parts += _section(f"Where the {_base(diagnosis)} fails", [*_drawn(pictures, "where"), _where(diagnosis)])
-    if diagnosis.missing:
-        parts += _section("What is missing, and where", [*_drawn(pictures, "missing"), _missing(diagnosis.missing)])
-    if diagnosis.ranking:
-        parts += _section("Candidates", [*_drawn(pictures, "ranking"), *_ranking(diagnosis)])
-    parts += _section("Parameters before and after", [*_drawn(pictures, "parameters"), *_parameters(diagnosis)])
-    if diagnosis.next_test is not None:
-        test = diagnosis.next_test
-        told = paragraph(next_test_sentence(test))
-        parts += _section("The next test", [told, *([commands(test.plan)] if test.plan else [])])
-    parts += _section("The error, step by step", [_ledger(diagnosis.error)])
+
+    def section(name: str, title: str, *more: str) -> list[str]:
+        """Pictures and what stands below them; nothing where there is nothing to show."""
+        drawn = [picture(svg, caption) for caption, svg in pictures.get(name, {}).items()]
+        shown = [part for part in (*drawn, *more) if part]
+        return [*([heading(title)] if title else []), *shown] if shown else []
+
+    refitted = diagnosis.base is not None and diagnosis.base.step == REFIT
+    test, history = diagnosis.next_test, diagnosis.history
+    parts = [statement(answer or verdict_sentence(diagnosis)), *section("error", "", _history(history))]
+    parts += _effects(diagnosis.effects)
+    parts += section("learned", "What the data say of the missing law", *_laws(diagnosis))
+    parts += section("records", "Measured and simulated", _signals(history[-1]) if history else "")
+    parts += section(
+        "where", f"Where the {'refitted model' if refitted else 'model as it is'} fails", _where(diagnosis)
+    )
+    parts += section("candidates", "Candidates", *_candidates(diagnosis))
+    parts += section("parameters", "Parameters before and after", *_parameters(diagnosis))
+    if test is not None:
+        parts += section(
+            "", "The next test", paragraph(next_test_sentence(test)), commands(test.plan) if test.plan else ""
+        )
     if diagnosis.notes:
-        parts += _section("What to bear in mind", [items(map(words, diagnosis.notes))])
+        parts += section("", "What to bear in mind", items(map(words, diagnosis.notes)))
     conditions = {**diagnosis.conditions, **{f"time for {k}": f"{v:.1f} s" for k, v in diagnosis.seconds.items()}}
     lines = [f"{name}: {text}" for name, text in conditions.items()]
-    if files:
-        lines.append("files beside this page: " + ", ".join(files.values()))
-    parts += _section("Conditions", [items(lines), paragraph(_METHOD)])
-    parts += _section("Do it again", [commands(redo)])
-    return page(question, title, parts)
+    lines += ["files beside this page: " + ", ".join(files.values())] if files else []
+    parts += section("", "Conditions", items(lines), paragraph(_METHOD))
+    return page(question, title, parts, redo)
 
 
-_METHOD = (
-    "Residuals are measured minus simulated, in standard deviations of the noise: where nothing but noise is left "
-    "their root mean square is 1. A candidate's gain is the fall of the sum of squares once everything is refitted "
-    "with it; its penalty is the logarithm of the number of residuals for each of its parameters. Intervals are to "
-    "first order, widened by the residual where the model does not fit to the noise. Records held out had no part in "
-    "any fit."
-)
-
-
-def _base(diagnosis: Diagnosis) -> str:
-    return "refitted model" if any(stage.step == "refit" for stage in diagnosis.stages) else "model as it is"
-
-
-def _section(title: str, parts: Sequence[str]) -> list[str]:
-    """With its heading; nothing where there is nothing to show."""
-    shown = [part for part in parts if part]
-    return [heading(title), *shown] if shown else []
-
-
-def _drawn(pictures: Pictures, section: str) -> list[str]:
-    return [picture(svg, caption) for caption, svg in pictures.get(section, {}).items()]
-
-
-def _added(added: Sequence[AddedEffect]) -> list[str]:
-    if not added:
+def _effects(effects: Sequence[FoundEffect]) -> list[str]:
+    if not effects:
         return []
-    parts = [heading("What was added" if len(added) > 1 else f"What was added: {added[0].effect.name}")]
+    parts = [heading("What was added" if len(effects) > 1 else f"What was added: {effects[0].effect.name}")]
     rows = []
-    for one in added:
+    for one in effects:
         effect = one.effect
-        parts.append(paragraph(f"{effect.description}. Class {effect.class_name}, in the slot {effect.slot}."))
+        if effect.class_name:
+            parts.append(paragraph(f"{effect.description}. Class {effect.class_name}, in the slot {effect.slot}."))
         parts += [commands(effect.law)] if effect.law else []
+        share = "" if one.share is None else share_text(one.share)
         for name, value, (low, high), unit in sizes(one):
             texts = (f"{value:.5g}", f"{low:.5g}", f"{high:.5g}")
-            rows.append([cell(effect.name, "words"), cell(name), *(cell(t) for t in texts), cell(unit)])
-    head = ["effect", "parameter", "value", "95 % from", "to", "unit"]
+            rows.append([cell(effect.name, "words"), cell(name), *(cell(t) for t in texts), cell(unit), cell(share)])
+    head = ["effect", "parameter", "value", "95 % from", "to", "unit", "of the misfit"]
     return [*parts, table("Sizes that the measurements give", head, rows)]
 
 
-def _where(diagnosis: Diagnosis) -> str:
-    last = _last(diagnosis)
-    after = {(f.record, f.signal, f.region): f.error for f in last.where} if last else {}
-    rows = []
-    for f in diagnosis.where[:_WORST]:
-        end = after.get((f.record, f.signal, f.region))
-        kind = "beyond" if f.error > 1.5 else ""
-        numbers = [cell(f"{f.error:.2f}", kind), *([cell("" if end is None else f"{end:.2f}")] if last else [])]
-        rows.append([*(cell(text, "words") for text in (f.record, f.signal, f.region)), *numbers])
-    head = ["record", "signal", "region", "before" if last else "error", *(["at the end"] if last else [])]
-    return table("Root-mean-square residual over noise, the worst places first", head, rows) if rows else ""
-
-
-def _missing(missing: Sequence[Missing]) -> str:
+def _laws(diagnosis: Diagnosis) -> list[str]:
+    if not diagnosis.learned:
+        return []
     rows = [
-        [cell(m.slot), cell(share_text(m.share)), cell(m.depends_on), cell(m.formula or "none found", "words")]
-        for m in missing
+        [cell(x.slot), cell(law_kind(x), "words"), cell(x.argument), cell(share_text(x.share)), _formula(x)]
+        for x in diagnosis.learned
     ]
-    head = ["place", "of the misfit", "depends on", "formula"]
-    return table("The best term at each place, estimated without naming an effect", head, rows)
+    head = ["place", "what", "depends on", "of the misfit", "formula"]
+    classes = [law.modelica for law in diagnosis.learned[:1] if law.modelica]
+    first = law_sentence(diagnosis.learned[0], diagnosis.history)
+    return [paragraph(first), table("The best law at each place", head, rows), *map(commands, classes)]
 
 
-def _ranking(diagnosis: Diagnosis) -> list[str]:
-    texts = [f"Indistinguishable with these data: {', '.join(group)}." for group in diagnosis.confusable]
-    several = len({row.round for row in diagnosis.ranking}) > 1
-    rows = [[*([cell(f"{row.round}")] if several else []), *_candidate(row)] for row in diagnosis.ranking]
-    head = [
-        *(["round"] if several else []),
-        "effect",
-        "gain less penalty",
-        "of the misfit",
-        "by chance",
-        "how",
-        "sizes there",
+def _formula(law: LearnedLaw) -> str:
+    return cell(law.formula or "none found", "words")
+
+
+def _signals(step: ErrorStep) -> str:
+    rows = [
+        [
+            cell(name, "words"),
+            cell(use),
+            cell(size_text(residual), "beyond" if residual > BEYOND else ""),
+            cell("" if math.isnan(percent) else f"{percent:.1f}"),
+            cell(shown_value(rms, unit, ".3g")),
+        ]
+        for name, use, residual, percent, rms, unit in signal_rows(step)
     ]
+    head = ["signal", "logs", "residual over noise", "fit (%)", "rms residual"]
+    return table(f"Signals of the model {step_name(step.step)}", head, rows) if rows else ""
+
+
+def _where(diagnosis: Diagnosis) -> str:
+    last = diagnosis.last
+    after = {(f.record, f.signal, f.region): f.error for f in last.failures} if last else {}
+    rows = []
+    for f in diagnosis.failures[:_WORST]:
+        end = after.get((f.record, f.signal, f.region))
+        kind = "beyond" if f.error > BEYOND else ""
+        numbers = [cell(size_text(f.error), kind), *([cell("" if end is None else size_text(end))] if last else [])]
+        rows.append([*(cell(text, "words") for text in (f.record, f.signal, f.region)), *numbers])
+    head = ["record", "signal", "region", "before" if last else "residual", *(["at the end"] if last else [])]
+    return table("Residual over noise, the worst places first", head, rows) if rows else ""
+
+
+def _candidates(diagnosis: Diagnosis) -> list[str]:
+    if not diagnosis.rivals:
+        return []
+    texts = [f"These data cannot tell apart: {listed(group)}." for group in diagnosis.ties]
+    head = ["effects", "of the misfit", "gain less penalty (nats)", "by chance", "how", "sizes there"]
+    rows = [_candidate(row) for row in diagnosis.rivals]
     return [*(paragraph(text, note=True) for text in texts), table("Every candidate that was considered", head, rows)]
 
 
-def _candidate(row: Candidate) -> list[str]:
+def _candidate(row: Rival) -> list[str]:
     sizes_there = ", ".join(f"{name} {value:.4g}" for name, value in row.parameters.items())
+    texts = (share_text(row.explained), f"{row.score:,.1f}", chance_text(row.p_value))
     how = "refitted" if row.refitted else "screened only"
-    texts = (f"{row.score:,.1f}", share_text(row.explained), chance_text(row.p_value))
-    return [cell(row.effect, "words"), *(cell(t) for t in texts), cell(how), cell(sizes_there, "words")]
+    return [cell(" + ".join(row.effects), "words"), *(cell(t) for t in texts), cell(how), cell(sizes_there, "words")]
 
 
 def _parameters(diagnosis: Diagnosis) -> list[str]:
-    base = next((s for s in diagnosis.stages if s.step == "refit"), None)
-    last = _last(diagnosis)
-    if base is None:
+    base, last = diagnosis.base, diagnosis.last
+    if base is None or base.step != REFIT:
         return []
     moves = {} if last is None else last.moves_from(base)
-    bent = [name for name, move in moves.items() if move is not None and move > 1]
-    pushed = f"Without the effect, the fit had pushed {listed(bent)} to wrong values." if bent else ""
+    biased = [name for name, move in moves.items() if move is not None and move > 1]
+    pushed = f"Without the effect, the fit had pushed {listed(biased)} to wrong values." if biased else ""
     ends = {} if last is None else {e.name: e for e in last.estimates}
-    held = {next(iter(d.exponents)) for d in (base if last is None else last).undetermined}
-    rows = [_parameter(e, ends.pop(e.name, None), moves.get(e.name), e.name in held) for e in base.estimates]
+    open_ = (base if last is None else last).undetermined
+    held = {next(iter(d.exponents)) for d in open_}
+    rows = [_parameter(e, ends.get(e.name), moves.get(e.name), e.name in held) for e in base.estimates]
     head = ["parameter", "unit", "as it is", "refitted", "95 % from", "to"]
     head += ["at the end", "95 % from", "to", "moved by", ""] if last else [""]
-    scale = [direction_words(d) for d in (base if last is None else last).undetermined]
-    if last is not None and scale:
-        scale.append("Moves are counted once both are brought to the same value of the parameter that is held.")
     caption = "Fitted parameters; moves in half widths of the interval at the end"
+    scale = [direction_words(d) for d in open_]
     return [paragraph(pushed) if pushed else "", table(caption, head, rows), *(paragraph(text) for text in scale)]
 
 
 def _parameter(before: Estimate, after: Estimate | None, move: float | None, held: bool) -> list[str]:
-    told = [cell(before.name), cell(before.unit), cell(f"{before.start:.5g}")]
-    told += [cell(f"{v:.5g}") for v in (before.value, *before.interval)]
+    cells = [cell(before.name), cell(before.unit), cell(f"{before.start:.5g}")]
+    cells += [cell(f"{v:.5g}") for v in (before.value, *before.interval)]
     if after is not None:
-        told += [cell(f"{v:.5g}") for v in (after.value, *after.interval)]
-        moved = "" if move is None else f"{move:.1f}"
-        told.append(cell(moved, "beyond" if move is not None and move > 1 else ""))
-    return [*told, cell(remark(after or before, held=held), "words")]
+        cells += [cell(f"{v:.5g}") for v in (after.value, *after.interval)]
+        cells.append(cell("" if move is None else f"{move:.1f}", "beyond" if move is not None and move > 1 else ""))
+    return [*cells, cell(remark(after or before, held=held), "words")]
 
 
-def _ledger(steps: Sequence[LedgerStep]) -> str:
+def _history(steps: Sequence[ErrorStep]) -> str:
     shown = [c for c in _CRITERIA if any(c.symbol in step.criteria for step in steps)]
+    unseen = any(step.test is not None for step in steps)
     rows = []
     for step in steps:
-        numbers = [cell("" if v is None else f"{v:.3f}") for v in (step.fit, step.validate)]
+        values = (step.fit, step.validate, *((step.test,) if unseen else ()))
+        numbers = [cell("" if v is None else size_text(v)) for v in values]
         for criterion in shown:
             value = step.criteria.get(criterion.symbol)
             kind = "" if value is None or value <= criterion.limit else "beyond"
             numbers.append(cell("" if value is None else f"{value:.3g}", kind))
         kind = "" if not (step.criteria or step.not_simulated) else "pass" if step.passes else "fail"
-        verdict = cell(limits_words(step), kind)
-        rows.append([cell(step.step, "words"), *numbers, cell(f"{step.cost:.6g}"), verdict])
-    head = ["step", "fitted", "held out", *(f"{c.name} ({c.unit}, limit {c.limit:g})" for c in shown)]
-    caption = "Residual over noise; worst value of each criterion of thesis Tables 1.3 and 1.4; sum of squares"
-    return table(caption, [*head, "sum", "limits"], rows)
-
-
-def _last(diagnosis: Diagnosis) -> Stage | None:
-    """The model at the end, where anything was added."""
-    return diagnosis.stages[-1] if diagnosis.added and diagnosis.stages else None
+        rows.append([cell(step_name(step.step), "words"), *numbers, cell(limits_words(step), kind)])
+    head = ["model", "fitted", "held out", *(["unseen"] if unseen else [])]
+    head += [f"{c.name} ({c.unit}, limit {c.limit:g})" for c in shown]
+    caption = "Residual over noise (1: noise alone); worst value of each criterion of thesis Tables 1.3 and 1.4"
+    return table(caption, [*head, "limits"], rows) if rows else ""

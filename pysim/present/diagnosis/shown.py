@@ -6,9 +6,8 @@ import os
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import TypeVar
 
-from pysim.present.diagnosis.answer import diagnosis_data, diagnosis_text, evidence_text
+from pysim.present.diagnosis.answer import diagnosis_data, diagnosis_text
 from pysim.present.diagnosis.figures import pictures
 from pysim.present.diagnosis.page import diagnosis_page
 from pysim.present.render import Drawing, Picture
@@ -20,26 +19,32 @@ class Diagnosed:
     """What was found, and what leads the page.
 
     Args:
-        model_name: the class, or the FMU's model.
+        dataset: of which the records are; None where only the answer is at hand.
+        title: model and data, for the line below the heading.
         question: the heading.
         answer: a sentence or two; the verdict where empty.
         files: what lies beside the page, name -> path relative to it, or to the JSON file once all is placed.
     """
 
     found: Diagnosis
-    dataset: Dataset
-    model_name: str
+    dataset: Dataset | None = None
+    title: str = ""
     question: str = "Which effect is missing?"
     answer: str = ""
     files: Mapping[str, str] = field(default_factory=dict)
 
 
-Shown = TypeVar("Shown", bound=Diagnosed)
+def whole(result: Diagnosis | Diagnosed) -> Diagnosed:
+    """An answer with its question."""
+    if isinstance(result, Diagnosed):
+        return result
+    names = [result.conditions[key] for key in ("model", "data set") if key in result.conditions]
+    return Diagnosed(result, title=", ".join(names))
 
 
 def text(result: Diagnosed) -> str:
     """The answer, then the evidence."""
-    return f"{result.answer}\n\n{evidence_text(result.found)}" if result.answer else diagnosis_text(result.found)
+    return diagnosis_text(result.found, result.answer)
 
 
 def data(result: Diagnosed) -> dict[str, object]:
@@ -48,7 +53,7 @@ def data(result: Diagnosed) -> dict[str, object]:
 
 
 def figures(result: Diagnosed) -> Iterator[Picture]:
-    """The error, records, what is missing, candidates and parameters, as far as there are any."""
+    """The error, records, learned laws, candidates and parameters, as far as there are any."""
     return pictures(result.found, result.dataset)
 
 
@@ -66,7 +71,7 @@ def page(result: Diagnosed, drawings: Sequence[Drawing], redo: str) -> str:
     plan = next(iter(files(result)), "")
     return diagnosis_page(
         result.found,
-        title=f"{result.model_name} against {result.dataset.name}",
+        title=result.title,
         pictures=drawn,
         redo=redo,
         files={**result.files, **({"plan": plan} if plan else {})},
@@ -75,7 +80,7 @@ def page(result: Diagnosed, drawings: Sequence[Drawing], redo: str) -> str:
     )
 
 
-def placed(result: Shown, written: Mapping[str, Path], home: Path) -> Shown:
+def placed(result: Diagnosed, written: Mapping[str, Path], home: Path) -> Diagnosed:
     """The same with all files of its report, relative to another folder.
 
     Args:

@@ -1,4 +1,4 @@
-"""The page Add while a fit runs, in a real browser: the test tells the story of the job, step by step."""
+"""The page Add while a fit runs, in a real browser: the test writes the events of the job, step by step."""
 
 import json
 import re
@@ -43,8 +43,8 @@ def project(tmp_path: Path) -> Path:
 def tell(project: Path, step: str, fit: float) -> None:
     """What a job writes when it has a step."""
     told = {"step": step, "fit": fit, "validate": 0.8 * fit, "criteria": {}, "passes": False, "cost": fit**2}
-    line = {"seconds": 1.0, "left": 60.0, "stage": "refitting the model", "text": f"{step} {fit}", "step": told}
-    with (project / "results/diagnose/story.jsonl").open("a") as file:
+    line = {"seconds": 1.0, "stage": "refitting the model", "text": f"{step} {fit}", "step": told}
+    with (project / "results/diagnose/events.jsonl").open("a") as file:
         file.write(json.dumps(line) + "\n")
 
 

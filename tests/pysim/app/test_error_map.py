@@ -10,11 +10,11 @@ import numpy as np
 from pysim.app.error_map import error_maps
 from pysim.io import read_stages, write_stages
 from pysim.types import Dataset, MeasuredSignal, Record
-from tests.pysim.diagnosis_story import dataset, story
+from tests.pysim.diagnosis_answer import dataset, found_offset
 
 
 def test_sines_go_by_working_point_and_frequency_and_logs_by_signal(tmp_path: Path) -> None:
-    write_stages(tmp_path / "a.npz", story().stages)
+    write_stages(tmp_path / "a.npz", found_offset().history)
     stage = read_stages(tmp_path / "a.npz").about[1]
     sines, logs = error_maps(stage, dataset())
     assert (sines.rows, sines.columns, sines.title) == (("50 ± 10 N",), ("1", "5"), "Frequency (Hz)")

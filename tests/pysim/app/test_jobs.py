@@ -74,15 +74,15 @@ def test_what_failed_says_why_in_the_command_s_own_words(project: Project) -> No
 
 def test_one_at_a_time_and_stopped_with_all_that_it_has_started(project: Project) -> None:
     runner = Runner(project)
-    line = json.dumps({"seconds": 1, "left": 7.5, "stage": "refitting", "text": "a", "step": {"step": "prior"}})
-    code = f"open('results/try/story.jsonl', 'w').write({line + chr(10)!r} + '{{\"half')\n"
+    line = json.dumps({"seconds": 1, "stage": "refitting", "text": "a", "step": {"step": "prior"}})
+    code = f"open('results/try/events.jsonl', 'w').write({line + chr(10)!r} + '{{\"half')\n"
     runner.start(work(project, code + PARENT))
     with pytest.raises(BadInput, match="Try is running; wait for it, or stop it first"):
         runner.start(work(project, ANSWERED))
     number = child(project.folder)
     runner.poll()
     assert runner.running is not None
-    assert (runner.running.stage, runner.running.left, runner.running.learned) == ("refitting", 7.5, ("a",))
+    assert (runner.running.stage, runner.running.learned) == ("refitting", ("a",))
     assert runner.running.steps == ({"step": "prior"},)
     runner.stop()
     wait(runner)
@@ -231,10 +231,10 @@ def parse(*lines: tuple[str, ...]) -> None:
 
 def test_what_goes_on_keeps_its_steps_until_it_has_found_them_again(project: Project) -> None:
     def line(step: str) -> str:
-        return json.dumps({"seconds": 1, "left": None, "stage": "s", "text": "t", "step": {"step": step}}) + "\n"
+        return json.dumps({"seconds": 1, "stage": "s", "text": "t", "step": {"step": step}}) + "\n"
 
     folder, runner = project.results("try"), Runner(project)
-    story = folder / "story.jsonl"
+    events = folder / "events.jsonl"
     for told, seen in (
         (["a", "b", "c"], "abc"),
         (["d"], "dbc"),
@@ -244,9 +244,9 @@ def test_what_goes_on_keeps_its_steps_until_it_has_found_them_again(project: Pro
     ):
         text = "".join(line(step) for step in told)
         runner.start(
-            work(project, f"open('results/try/story.jsonl', 'w').write({text!r}); import time; time.sleep(60)")
+            work(project, f"open('results/try/events.jsonl', 'w').write({text!r}); import time; time.sleep(60)")
         )
-        while not story.exists() or len(story.read_text()) < len(text):
+        while not events.exists() or len(events.read_text()) < len(text):
             time.sleep(0.01)
         runner.poll()
         assert runner.running is not None

@@ -6,14 +6,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from pysim.app.answers import Answers, ledger
-from pysim.app.figures import parameters_figure, staircase_figure
+from pysim.app.answers import Answers, history
+from pysim.app.figures import error_figure, parameters_figure
 from pysim.app.jobs import ANSWER, RECORDS
 from pysim.app.project import Project
 from pysim.app.records import compared_overlay, measured_overlay, stage_keys
 from pysim.io import write_stages
 from pysim.present.diagnosis.answer import diagnosis_data
-from tests.pysim.diagnosis_story import dataset, story
+from tests.pysim.diagnosis_answer import dataset, found_offset
 
 
 @pytest.fixture
@@ -22,8 +22,8 @@ def project(tmp_path: Path) -> Project:
     project = Project.at(tmp_path / "project")
     folder = project.results("diagnose")
     folder.mkdir(parents=True)
-    (folder / ANSWER).write_text(json.dumps(diagnosis_data(story())))
-    write_stages(folder / RECORDS, story().stages)
+    (folder / ANSWER).write_text(json.dumps(diagnosis_data(found_offset())))
+    write_stages(folder / RECORDS, found_offset().history)
     work = {"name": "diagnose", "title": "Find", "words": ["diagnose"], "effects": []}
     head = {"work": work, "state": "done", "begun": 1.0, "ended": 2.0, "message": ""}
     (folder / "job.json").write_text(json.dumps({**head, "fingerprint": project.fingerprint()}))
@@ -35,8 +35,8 @@ def test_answers_are_those_of_the_data_and_model_as_they_are(project: Project) -
     assert Answers.of(project).with_effects(("toy.offset",)) == answer
     assert Answers.of(project).with_effects(()) == answer  # it has the refitted model too
     assert Answers.of(project).with_effects(("toy.twin",)) is None
-    assert [step["step"] for step in ledger(answer, ())] == ["prior", "refit"]
-    assert [step["fit"] for step in ledger(answer, answer.added)] == [8.1, 4.2, 1.0]
+    assert [step["step"] for step in history(answer, ())] == ["prior", "refit"]
+    assert [step["fit"] for step in history(answer, answer.added)] == [8.1, 4.2, 1.0]
     project.change(model="Another")
     assert Answers.of(project).all == ()
 
@@ -46,9 +46,10 @@ def test_lines_are_the_samples_and_the_residual_over_noise(project: Project) -> 
     overlay = compared_overlay(answer, 2)
     assert overlay is not None
     assert [key for key, _, _ in stage_keys(answer)] == ["prior", "refit", "last"]
-    truth = next(record for record in story().stages[-1].records if record.source == "wave.txt")
+    truth = next(record for record in found_offset().history[-1].records if record.source == "wave.txt")
     lines = {(line.key, line.panel): line for line in overlay.lines}
-    assert lines["measured", 1].values == pytest.approx(1000 * story().stages[0].records[2].measured["x"])  # mm
+    measured = found_offset().history[0].records[2].measured
+    assert lines["measured", 1].values == pytest.approx(1000 * measured["x"])  # mm
     assert lines["last", 2].values == pytest.approx(truth.residual["x"])
     assert ("prior", 2) not in lines
     assert overlay.units == ("mm",)
@@ -67,9 +68,9 @@ def test_before_anything_was_compared_the_log_alone_is_shown() -> None:
     assert np.array_equal(overlay.lines[0].time, np.arange(2.0))
 
 
-def test_the_staircase_tells_every_error_and_what_is_being_worked_on() -> None:
-    steps = diagnosis_data(story())["error"]
-    figure = staircase_figure(steps, doing="<b>screening</b>")  # type: ignore[arg-type]
+def test_the_picture_of_the_error_shows_every_error_and_what_is_being_worked_on() -> None:
+    steps = diagnosis_data(found_offset())["error"]
+    figure = error_figure(steps, doing="<b>screening</b>")  # type: ignore[arg-type]
     told = [note["text"] for note in figure["layout"]["annotations"]]
     assert told[:6] == ["<b>8.10</b>", "<b>8.00</b>", "<b>4.20</b>", "<b>3.20</b>", "<b>1.01</b>", "<b>1.00</b>"]
     assert figure["layout"]["xaxis"]["ticktext"][-1] == "<i>&lt;b&gt;screening&lt;/b&gt; …</i>"

@@ -24,15 +24,15 @@ from pysim.io import read_stages, write_stages
 from pysim.present.diagnosis.answer import diagnosis_data
 from pysim.types import BadInput
 from tests.pysim.app.browser import Show, asked, base, server
-from tests.pysim.diagnosis_story import dataset, story
+from tests.pysim.diagnosis_answer import dataset, found_offset
 
 _WAVE = 2  # number of the log wave.txt in the data set
 
 
 def test_a_record_whose_result_was_removed_meanwhile_is_none(tmp_path: Path) -> None:
-    write_stages(tmp_path / "a.npz", story().stages)
+    write_stages(tmp_path / "a.npz", found_offset().history)
     job = Job(Work("diagnose", "Find", ("diagnose",)), DONE, 1.0, 2.0, "")
-    answer = Answer(job, tmp_path, diagnosis_data(story()), read_stages(tmp_path / "a.npz"))
+    answer = Answer(job, tmp_path, diagnosis_data(found_offset()), read_stages(tmp_path / "a.npz"))
     check, answers = SimpleNamespace(dataset=dataset()), SimpleNamespace(all=(answer,))
     desk: Any = SimpleNamespace(loaded=SimpleNamespace(check=check), answers=answers)
     overlay = overlay_of(desk, "diagnose", _WAVE)
@@ -44,11 +44,11 @@ def test_a_record_whose_result_was_removed_meanwhile_is_none(tmp_path: Path) -> 
 
 def test_of_two_records_of_one_file_the_one_that_was_asked_for_is_given(tmp_path: Path) -> None:
     """As a .tdms or .parquet file holds them: the same file, other columns."""
-    told = story()
-    wave = told.stages[0].records[_WAVE]
+    told = found_offset()
+    wave = told.history[0].records[_WAVE]
     names = {_WAVE: "x", _WAVE + 1: "y"}
     stages = []
-    for stage in told.stages:
+    for stage in told.history:
         records = list(stage.records[:_WAVE])
         for k, name in names.items():
             measured, simulated = (replace(r, names=(name,), values=k + 0 * r.values) for r in (wave.measured,) * 2)
@@ -60,7 +60,7 @@ def test_of_two_records_of_one_file_the_one_that_was_asked_for_is_given(tmp_path
         data: Any = logs[_WAVE].data
         logs[k] = replace(logs[_WAVE], source="a.tdms", data=replace(data, names=("F", name)))
     job = Job(Work("diagnose", "Find", ("diagnose",)), DONE, 1.0, 2.0, "")
-    answer = Answer(job, tmp_path, diagnosis_data(story()), read_stages(tmp_path / "a.npz"))
+    answer = Answer(job, tmp_path, diagnosis_data(found_offset()), read_stages(tmp_path / "a.npz"))
     check = SimpleNamespace(dataset=replace(dataset(), records=tuple(logs)))
     desk: Any = SimpleNamespace(loaded=SimpleNamespace(check=check), answers=SimpleNamespace(all=(answer,)))
     for k, name in names.items():

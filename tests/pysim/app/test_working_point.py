@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 
 from pysim.app.working_point import command_unit, response_unit, working_point
-from tests.pysim.diagnosis_story import dataset
+from tests.pysim.diagnosis_answer import dataset
 
 
 @pytest.mark.parametrize(

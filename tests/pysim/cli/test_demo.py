@@ -73,7 +73,7 @@ def demo(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Path:
     monkeypatch.setattr("concurrent.futures.ProcessPoolExecutor", InThisProcess)
     monkeypatch.setattr("pysim.cli.commands.demo.draw_picture", draw_picture)
     monkeypatch.setattr("validation.pump.pump_model", pump_model)
-    monkeypatch.setattr(import_module("pysim.diagnose.compare"), "simulate_many", simulate_many)
+    monkeypatch.setattr(import_module("pysim.diagnosis.response_comparison"), "simulate_many", simulate_many)
     return tmp_path / "results" / "demo"
 
 

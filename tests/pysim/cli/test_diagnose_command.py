@@ -14,12 +14,8 @@ from pysim.io import read_model, write_dataset
 from pysim.types import NoteCode, Record
 from pysim.workflow import SessionParts
 from tests.pysim.cli.ran import Ran, parsed, refused
+from tests.pysim.types.test_answer import KEYS
 from tests.toy import CATALOGUE, measured
-
-KEYS = {
-    "verdict", "added", "ranking", "confusable", "error", "parameters", "where", "missing", "next_test", "seconds",
-    "files",
-}  # fmt: skip
 
 
 def test_the_answer_names_the_effect_and_its_size(diagnosed: Ran) -> None:
@@ -43,7 +39,7 @@ def test_the_folder_holds_the_extended_model_and_every_file_of_the_answer(diagno
     home = diagnosed.output.parent
     files = {name: home / path for name, path in diagnosed.answer["files"].items()}
     assert all(path.is_file() for path in files.values())
-    assert sum(name.startswith("picture ") for name in files) >= 8
+    assert {f"picture {name}" for name in ("error", "record_1", "map", "candidates", "parameters")} <= set(files)
     assert "redeclare Toy.Rubbing force" in files["modelica"].read_text()
     model, (added,) = read_model(files["fmu"]), diagnosed.answer["added"]
     assert model[f"{added['place']}.F_c"].start == added["parameters"]["F_c"]
@@ -150,7 +146,7 @@ def test_a_model_without_slots_has_no_candidates(rubbing: Path, tmp_path: Path) 
         (["--output", "{here}/file/out"], ["--output", "choose another folder"]),
         (["--output", "{here}"], ["--output", "choose a new folder"]),
         (["--parameters", "{here}/own/p.toml", "--output", "{here}/own"], ["p.toml is read", "choose another folder"]),
-        (["--story", "s.txt"], ["--story s.txt", "write one of .jsonl"]),
+        (["--events", "s.txt"], ["--events s.txt", "write one of .jsonl"]),
     ],
 )
 def test_mistakes_are_one_line_before_the_work(

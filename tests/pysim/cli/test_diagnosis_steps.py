@@ -11,15 +11,15 @@ import numpy as np
 import pytest
 
 from pysim.cli import main
-from pysim.cli.live import Story
+from pysim.cli.live import Live
 from pysim.cli.outputs import JOURNAL, MARKER
 from pysim.diagnosis import error_history
 from pysim.identify.greybox.comparison import Compared
 from pysim.io import read_model, write_dataset
 from pysim.present.diagnosis import shown
-from pysim.types import FrequencyResponse, MeasuredRecord, Note, NoteCode, SineTest, Told
+from pysim.types import FrequencyResponse, MeasuredRecord, Note, NoteCode, ProgressEvent, SineTest
 from tests.pysim.cli.ran import Ran, refused
-from tests.pysim.diagnosis_story import story
+from tests.pysim.diagnosis_answer import found_offset
 from tests.toy import measured
 
 
@@ -29,13 +29,13 @@ def unpictured(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(shown, "pictures", lambda found, dataset: iter(()))
 
 
-def stopped_at(step: str) -> Callable[[Story, Told], None]:
-    """In place of what tells: Ctrl-C once a step of the ledger is known."""
-    tell = Story.__call__
+def stopped_at(step: str) -> Callable[[Live, ProgressEvent], None]:
+    """In place of what shows progress: Ctrl-C once a step of the error history is known."""
+    tell = Live.__call__
 
-    def stop(self: Story, told: Told) -> None:
-        tell(self, told)
-        if told.step is not None and told.step.step == step:
+    def stop(self: Live, event: ProgressEvent) -> None:
+        tell(self, event)
+        if event.step is not None and event.step.step == step:
             raise KeyboardInterrupt
 
     return stop
@@ -47,7 +47,7 @@ def test_a_command_that_was_stopped_goes_on_with_the_same_answer(
     output = tmp_path / "out"
     words = [*compared.words, "--output", str(output)]
     with monkeypatch.context() as patch:
-        patch.setattr(Story, "__call__", stopped_at("prior"))
+        patch.setattr(Live, "__call__", stopped_at("prior"))
         assert main(words) == 2
     assert "the same command goes on" in capsys.readouterr().err
     assert [path.name for path in output.iterdir()] == [JOURNAL]
@@ -100,7 +100,7 @@ def test_what_was_fitted_is_compared_as_it_was_found(
     compared: Ran, rubbing: Path, toy: list[str], tmp_path: Path
 ) -> None:
     output, records = tmp_path / "out", tmp_path / "r.npz"
-    own = ["--parameters", str(compared.output / "parameters.toml"), "--story", str(tmp_path / "s.jsonl")]
+    own = ["--parameters", str(compared.output / "parameters.toml"), "--events", str(tmp_path / "s.jsonl")]
     own += ["--json", str(tmp_path / "a.json"), "--output", str(output), "--records", str(records)]
     assert main(["compare", str(rubbing), *toy, *own]) == 0
     (again,) = json.loads((tmp_path / "a.json").read_text())["error"]
@@ -108,7 +108,7 @@ def test_what_was_fitted_is_compared_as_it_was_found(
     assert records.is_file()
     assert all(json.loads(line)["stage"] for line in (tmp_path / "s.jsonl").read_text().splitlines())
     assert not (output / "parameters.toml").exists()  # nothing was refitted
-    assert {"ledger.png", "map.png", "where.svg", "record_1.svg"} <= {path.name for path in output.iterdir()}
+    assert {"error.png", "map.png", "record_1.svg"} <= {path.name for path in output.iterdir()}
 
 
 def test_a_model_that_misses_a_limit_is_exit_1(rubbing: Path, toy: list[str], tmp_path: Path) -> None:
@@ -168,11 +168,11 @@ def test_locate_hands_on_the_effects_that_the_model_has(
 ) -> None:
     handed = []
 
-    def located(_: object, effects: Any, **__: object) -> Any:
+    def located(_: object, effects: Any, *__: object) -> Any:
         handed.extend(effect.name for effect in effects)
-        return story()
+        return found_offset()
 
-    monkeypatch.setattr("pysim.diagnose.located", located)
+    monkeypatch.setattr("pysim.cli.commands.locate.located", located)
     words = ["locate", str(rubbing), *toy, "--with", "toy.friction,toy.bias", "--json", str(tmp_path / "a.json")]
     assert main(words) == 0
     assert handed == ["toy.friction", "toy.bias"]

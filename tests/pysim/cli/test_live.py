@@ -8,25 +8,26 @@ from pathlib import Path
 
 import pytest
 
-from pysim.cli.live import Story, StoryFile, block, left
-from pysim.types import LedgerStep, Told
-from pysim.types.diagnosis import standing
-from tests.pysim.diagnosis_story import step, story
+from pysim.cli.live import EventFile, Live, block
+from pysim.types import ErrorStep, ProgressEvent, standing
+from tests.pysim.diagnosis_answer import found_offset, step
 
 
-def test_without_a_terminal_there_is_a_line_for_each_thing_told(capsys: pytest.CaptureFixture[str]) -> None:
-    with Story("toy") as show:
-        show(Told("refitting"))
-        show(Told("refitting", "prior: 8.1", step("prior", 8.1, 8.0, 0.9)))
+def test_without_a_terminal_there_is_a_line_for_each_event(capsys: pytest.CaptureFixture[str]) -> None:
+    with Live("toy") as show:
+        show(ProgressEvent("refitting"))
+        show(ProgressEvent("refitting", "prior: 8.1", step("prior", 8.1, 8.0, 0.9)))
     lines = capsys.readouterr().err.splitlines()
     assert [line.split(" s  ")[1] for line in lines] == ["refitting ...", "prior: 8.1"]
 
 
 def test_the_block_shows_time_stage_and_the_error_falling() -> None:
-    title, clock, head, *bars, learned = block("toy: Mass", "screening 3 candidates", 40.0, story().error, ["found"])
+    title, clock, head, *bars, learned = block(
+        "toy: Mass", "screening 3 candidates", 40.0, found_offset().history, ["found"]
+    )
     assert title == "toy: Mass"
     assert clock == "  0:40  screening 3 candidates"
-    assert head.strip() == "error over noise"
+    assert head.strip() == "residual over noise"
     assert [line.split()[0:2] for line in bars] == [["as", "it"], ["refitted", "4.20"], ["+", "toy.offset"]]
     lengths = [line.count("#") for line in bars]
     assert lengths[0] == 24 > lengths[1] > lengths[2] == 0  # nothing but noise has no bar
@@ -35,18 +36,13 @@ def test_the_block_shows_time_stage_and_the_error_falling() -> None:
 
 
 def test_a_model_that_is_found_again_takes_the_place_of_the_former_one() -> None:
-    steps: list[LedgerStep] = []
+    steps: list[ErrorStep] = []
     for name, error in (("prior", 8.0), ("refit", 4.0), ("toy.stop", 2.0), ("refit", 3.0), ("toy.friction", 1.0)):
         steps = standing([*steps, step(name, error, error, 0.9)], lambda one: one.step)
     assert [(one.step, one.fit) for one in steps] == [("prior", 8.0), ("refit", 3.0), ("toy.friction", 1.0)]
 
 
-def test_in_the_first_round_it_says_how_long_it_may_take() -> None:
-    _, clock, *_ = block("toy", "screening 3 candidates", 40.0, story().error[:2], [])
-    assert re.fullmatch(r"  0:40 \(about \d+:\d\d left\)  screening 3 candidates", clock)
-
-
-def test_before_anything_is_known_no_time_is_promised() -> None:
+def test_before_anything_is_known_there_is_the_stage_alone() -> None:
     assert block("toy", "comparing the model as it is", 30.0, [], []) == ["toy", "  0:30  comparing the model as it is"]
 
 
@@ -58,37 +54,31 @@ class Terminal(io.StringIO):
 def test_on_a_terminal_the_block_is_drawn_over_and_stays(monkeypatch: pytest.MonkeyPatch) -> None:
     screen = Terminal()
     monkeypatch.setattr(sys, "stderr", screen)
-    with Story("toy") as show:
-        show(Told("refitting"))
-        show(Told("refitting", "prior: 8.1", step("prior", 8.1, 8.0, 0.9)))
-        show(Told("screening", "three promise something"))
+    with Live("toy") as show:
+        show(ProgressEvent("refitting"))
+        show(ProgressEvent("refitting", "prior: 8.1", step("prior", 8.1, 8.0, 0.9)))
+        show(ProgressEvent("screening", "three promise something"))
     drawn = screen.getvalue()
     assert "\x1b[2A" in drawn  # the first drawing had two lines
     last = re.split(r"\x1b\[\d+A", drawn)[-1].replace("\r\x1b[K", "").splitlines()
-    assert [line.split()[0] for line in last] == ["toy", "0:00", "error", "as", "-"]
+    assert [line.split()[0] for line in last] == ["toy", "0:00", "residual", "as", "-"]
     assert last[1].endswith("done")
 
 
 def test_what_went_wrong_ends_it_as_stopped(monkeypatch: pytest.MonkeyPatch) -> None:
     screen = Terminal()
     monkeypatch.setattr(sys, "stderr", screen)
-    with pytest.raises(ZeroDivisionError), Story("toy") as show:
-        show(Told(f"refitting {1 / 0}"))
+    with pytest.raises(ZeroDivisionError), Live("toy") as show:
+        show(ProgressEvent(f"refitting {1 / 0}"))
     assert screen.getvalue().rstrip().endswith("stopped")
 
 
-def test_the_story_in_a_file_can_be_followed_by_a_program(tmp_path: Path) -> None:
-    tell = StoryFile(tmp_path / "story.jsonl")
-    tell(Told("refitting the model"))
-    tell(Told("refitting the model", "prior: 8.1", step("prior", 8.1, None, 0.9)))
-    first, second = (json.loads(line) for line in (tmp_path / "story.jsonl").read_text().splitlines())
-    assert (first["stage"], first["text"], first["step"], first["left"]) == ("refitting the model", "", None, None)
+def test_events_in_a_file_can_be_followed_by_a_program(tmp_path: Path) -> None:
+    tell = EventFile(tmp_path / "events.jsonl")
+    tell(ProgressEvent("refitting the model"))
+    tell(ProgressEvent("refitting the model", "prior: 8.1", step("prior", 8.1, None, 0.9)))
+    first, second = (json.loads(line) for line in (tmp_path / "events.jsonl").read_text().splitlines())
+    assert (first["stage"], first["text"], first["step"]) == ("refitting the model", "", None)
     assert second["step"]["step"] == "prior"
     assert (second["step"]["fit"], second["step"]["validate"]) == (8.1, None)
     assert second["seconds"] >= first["seconds"] >= 0
-
-
-def test_time_is_promised_once_most_of_it_can_be_told() -> None:
-    assert left("compiling 3 variants", 30.0, []) == pytest.approx(70.0)
-    assert left("compiling 3 variants", 1.0, []) is None
-    assert left("compiling 3 variants", 30.0, story().error) is None  # another round may follow

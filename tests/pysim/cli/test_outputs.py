@@ -47,7 +47,7 @@ COMMANDS = {
     "add": ["add", "{}", "--model", "m.fmu", "--effects", "e"],
     "data check": ["data", "check", "{}"],
 }
-MORE = [("compare", "--records", "r.npz"), ("diagnose", "--story", "s.jsonl")]
+MORE = [("compare", "--records", "r.npz"), ("diagnose", "--events", "s.jsonl")]
 PLACES = [(name, option, "x.json") for name in COMMANDS for option in ("--json", "--output")]
 
 
@@ -91,7 +91,7 @@ def test_an_input_is_not_overwritten_by_the_run(tmp_path: Path, capsys: pytest.C
     [
         (["frf", "{}", "--json", "n.txt"], "--json n.txt: the suffix chooses the form; write one of .json"),
         (["compare", "{}", "--model", "m.fmu", "--records", "r.csv"], "--records r.csv: the suffix chooses the form"),
-        (["diagnose", "{}", "--model", "m.fmu", "--story", "s.txt"], "write one of .jsonl, .json"),
+        (["diagnose", "{}", "--model", "m.fmu", "--events", "s.txt"], "write one of .jsonl, .json"),
     ],
 )
 def test_a_suffix_of_another_form_is_refused(

@@ -5,7 +5,7 @@ import pytest
 
 from pysim.diagnosis.failures import ALL_LOGS, ALL_SINES, bands, failures, tone
 from pysim.types import Record, RecordFit
-from tests.pysim.diagnosis_story import WAVE, dataset, stage
+from tests.pysim.diagnosis_answer import WAVE, dataset, stage
 
 TIME = np.arange(0, 40, 0.01)
 

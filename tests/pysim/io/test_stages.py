@@ -8,13 +8,13 @@ import pytest
 
 from pysim.io import read_stages, write_stages
 from pysim.types import BadInput
-from tests.pysim.diagnosis_story import story
+from tests.pysim.diagnosis_answer import found_offset
 
 _HANDLES = Path("/proc/self/fd")
 
 
 def test_every_record_comes_back_bit_for_bit(tmp_path: Path) -> None:
-    stages = story().stages
+    stages = found_offset().history
     write_stages(tmp_path / "a.npz", stages)
     file = read_stages(tmp_path / "a.npz")
     assert [about["step"] for about in file.about] == ["prior", "refit", "toy.offset"]
@@ -30,7 +30,7 @@ def test_every_record_comes_back_bit_for_bit(tmp_path: Path) -> None:
 
 
 def test_estimates_keep_their_intervals_and_what_is_not_determined(tmp_path: Path) -> None:
-    write_stages(tmp_path / "a.npz", story().stages)
+    write_stages(tmp_path / "a.npz", found_offset().history)
     refit = read_stages(tmp_path / "a.npz").about[1]
     m, k, _ = refit["estimates"]
     assert (m["name"], m["determined"]) == ("m", False)
@@ -58,14 +58,14 @@ def test_a_missing_file_is_said(tmp_path: Path) -> None:
 
 @pytest.mark.skipif(not _HANDLES.is_dir(), reason="the system does not list open files")
 def test_no_file_stays_open_when_an_array_was_read(tmp_path: Path) -> None:
-    write_stages(tmp_path / "a.npz", story().stages)
+    write_stages(tmp_path / "a.npz", found_offset().history)
     file = read_stages(tmp_path / "a.npz")
     file.array("t0/0")
     assert os.path.realpath(file.path) not in {os.path.realpath(handle) for handle in _HANDLES.iterdir()}
 
 
 def test_a_file_that_was_removed_since_is_said(tmp_path: Path) -> None:
-    write_stages(tmp_path / "a.npz", story().stages)
+    write_stages(tmp_path / "a.npz", found_offset().history)
     file = read_stages(tmp_path / "a.npz")
     file.path.unlink()
     with pytest.raises(BadInput, match=r"a\.npz: cannot be read"):

@@ -1,6 +1,7 @@
 """A diagnosis in words, as numbers, and as a page that needs nothing else."""
 
 import json
+import math
 import re
 from dataclasses import replace
 from typing import Any
@@ -9,21 +10,23 @@ import numpy as np
 import pytest
 
 from pysim.present.diagnosis.answer import diagnosis_data, diagnosis_text, evidence_text
+from pysim.present.diagnosis.law_words import law_kind, law_sentence
 from pysim.present.diagnosis.page import diagnosis_page
 from pysim.present.diagnosis.words import (
     added_sentence,
     comparison_sentence,
+    learned_sentence,
     limits_sentence,
-    missing_sentence,
     ranking_sentence,
+    signal_rows,
     sizes,
     verdict_sentence,
 )
-from pysim.types import AddedEffect, Diagnosis, LedgerStep, Missing, NextTest, Shape
-from tests.pysim.diagnosis_story import OFFSET, estimate, nothing, step, story
+from pysim.types import Diagnosis, ErrorStep, FoundEffect, GainTest, Left, NextTest, Verdict
+from tests.pysim.diagnosis_answer import LAW, OFFSET, estimate, found_offset, nothing, step
 
-MISSING = Missing("force", 0.97, "v", Shape(*(np.arange(2.0) for _ in range(4)), "m/s", "N"), "-0.4 sign(v)")
 TEST = NextTest(("toy.offset", "toy.twin"), 42.0, "Run a slow ramp and log x.", 'name = "ramp"')
+BETTER = GainTest(100.0, 3, 500.0, 1e-9, 90.0, -math.log(2), None, Verdict.BETTER)
 
 
 def numbers(text: str) -> list[float]:
@@ -32,45 +35,102 @@ def numbers(text: str) -> list[float]:
     return [float(word) for word in re.findall(r"(?<![\w.])\d+(?:\.\d+)?(?![\w.]*\w)", bare)]
 
 
-def test_the_verdict_names_effects_and_tells_the_error_before_and_after() -> None:
-    told = verdict_sentence(story())
-    assert {"(toy.offset)", "toy.twin"} <= set(re.findall(r"\(?toy\.\w+\)?", told))
-    assert numbers(told) == [4.2, 1.0, 3.2, 1.01]
-    assert numbers(verdict_sentence(nothing()))[-2:] == [4.2, 3.2]
-    assert "toy.offset" in verdict_sentence(story(verdict="unknown"))
-    unknown = replace(nothing(), verdict="unknown", reason="no effect takes a fair share")
-    assert unknown.reason in verdict_sentence(unknown)
-    alone = story(error=(step("prior", 3.0, None, 0.1), step("refit", 2.0, None, 0.1), step("x", 1.0, None, 0.1)))
-    assert numbers(verdict_sentence(alone)) == [2.0, 1.0]
+def test_the_verdict_names_effects_and_says_the_error_before_and_after() -> None:
+    sentence = verdict_sentence(found_offset())
+    assert {"(toy.offset)", "toy.twin"} <= set(re.findall(r"\(?toy\.\w+\)?", sentence))
+    assert numbers(sentence) == [4.2, 1.0, 3.2, 1.01]
+    steps = (step("prior", 3.0, None, 0.1), step("refit", 2.0, None, 0.1), step("x", 1.0, None, 0.1))
+    assert numbers(verdict_sentence(found_offset(history=steps))) == [2.0, 1.0]
+
+
+def test_what_is_left_is_said_with_none_with_unknown_and_where_more_is_missing() -> None:
+    assert numbers(verdict_sentence(nothing())) == [4.2, 3.2]
+    left = Left({}, 4.2, 3.2, 0.6, 9.0)
+    assert numbers(verdict_sentence(nothing(complete=False, left=left))) == [4.2, 3.2, 60.0]
+    assert numbers(verdict_sentence(found_offset(complete=False, left=left)))[-3:] == [4.2, 3.2, 60.0]
+
+
+def test_an_error_that_rises_does_not_fall() -> None:
+    steps = (step("prior", 3.0, 3.0, 0.1), step("refit", 2.0, 2.0, 0.1), step("x", 1.0, 2.5, 0.1))
+    assert "falls" in verdict_sentence(found_offset())
+    assert "falls" not in verdict_sentence(found_offset(history=steps))
+
+
+@pytest.mark.parametrize(
+    ("factor", "unit", "kind"),
+    [
+        ("", "N", "force"),
+        ("", "m3/s", "flow"),
+        ("", "K", "term"),
+        ("v", "N.s/m", "damping"),
+        ("x", "N/m", "stiffness"),
+        ("sign(v)", "N", "friction"),
+        ("v*x", "N.s/m2", "coefficient of v*x"),
+    ],
+)
+def test_a_law_is_called_by_what_its_unit_says(factor: str, unit: str, kind: str) -> None:
+    law = replace(LAW, factor=factor, unit=unit, argument="x")
+    assert law_kind(law) == kind
+    assert kind in law_sentence(law)
+
+
+def test_an_unknown_that_was_learned_is_first_said_in_words() -> None:
+    law = replace(LAW, slot="damper", factor="v", argument="x", unit="N.s/m", test=BETTER)
+    found = nothing(complete=False, learned=(law,))
+    for text in (verdict_sentence(found), learned_sentence(found)):
+        assert text.startswith("The damping at damper is not constant: it depends on x.")
+        assert numbers(text)[:1] == [97.0]
+        assert [n for n in numbers(text) if n in (3.2, 1.6)][:2] == [3.2, 1.6]  # held-out error before and after
+    assert LAW.formula in verdict_sentence(found)
+
+
+def test_learned_laws_are_listed_by_place_and_share_with_the_curve_of_the_first() -> None:
+    other = replace(LAW, slot="supply", share=0.12)
+    found = nothing(complete=False, learned=(LAW, other))
+    assert [numbers(learned_sentence(found))[k] for k in (0, -1)] == [97.0, 12.0]
+    text = evidence_text(found)
+    assert text.index("force: force over v") < text.index("supply: force over v")
+    (row,) = (line for line in text.splitlines() if "v = 600 mm/s" in line)
+    assert "-0.4 N (-0.498 N to -0.302 N)" in row
 
 
 def test_sizes_of_effects_have_units_where_there_are_some() -> None:
     for unit, told in (("N", "F_o = 0.5 N,"), ("1", "F_o = 0.5,")):
-        one = story(added=(AddedEffect(OFFSET, "force", (estimate("F_o", 0.5, 0.1, unit=unit),)),))
-        (line,) = (line for line in diagnosis_text(one).splitlines() if "F_o" in line)
+        effect = FoundEffect(OFFSET, "force", (estimate("F_o", 0.5, 0.1, unit=unit),))
+        (line,) = (line for line in diagnosis_text(found_offset(effects=(effect,))).splitlines() if "F_o" in line)
         assert told in line
         assert numbers(line)[-2:] == [0.4, 0.6]
 
 
-def test_a_missing_term_is_told_by_place_shape_and_share() -> None:
-    other = replace(MISSING, slot="supply", share=0.12)
-    told = missing_sentence(story(missing=(MISSING, other)))
-    assert numbers(told)[-2:] == [97.0, 12.0]
-    assert told.index("force") < told.index(MISSING.formula) < told.index("supply")
-    assert "force" in evidence_text(story(missing=(MISSING,)))
+def test_a_size_that_people_turn_over_is_given_both_ways() -> None:
+    (parameter,) = OFFSET.parameters
+    turned = replace(OFFSET, parameters=(replace(parameter, inverse="G"),))
+    one = FoundEffect(turned, "force", (estimate("F_o", 0.5, 0.1),))
+    assert sizes(one) == [("F_o", 0.5, (0.4, 0.6), "N"), ("G", 2.0, (1 / 0.6, 2.5), "1/(N)")]
 
 
-def test_the_next_test_is_told_with_what_it_separates() -> None:
-    for text in (evidence_text(story(next_test=TEST)), page(story(next_test=TEST))):
+def test_each_signal_has_one_residual_one_fit_and_one_rms_in_its_unit() -> None:
+    """Noise of 0.5 m on a wave of 20 m, and nothing else."""
+    fitted, held = signal_rows(found_offset().history[-1])
+    assert (fitted[:2], held[:2]) == (("x", "fitted"), ("x", "held out"))
+    for _, _, residual, percent, rms, unit in (fitted, held):
+        assert residual == pytest.approx(1.0, abs=0.01)
+        assert rms == pytest.approx(0.5, abs=0.005)
+        assert percent == pytest.approx(100 * (1 - 0.5 / (20 / math.sqrt(2))), abs=0.2)
+        assert unit == "m"
+
+
+def test_the_next_test_is_said_with_what_it_separates() -> None:
+    for text in (evidence_text(found_offset(next_test=TEST)), page(found_offset(next_test=TEST))):
         assert TEST.about in " ".join(text.split())
         assert 42.0 in numbers(text)
 
 
-def test_the_steps_alone_tell_their_numbers() -> None:
+def test_the_steps_alone_say_their_numbers() -> None:
     assert numbers(comparison_sentence(nothing()))[:4] == [8.1, 8.0, 0.9, 0.5]
-    assert numbers(ranking_sentence(story()))[:3] == [3, 4, 99.0]
-    assert numbers(ranking_sentence(story(ranking=story().ranking[3:]))) == [1]
-    assert numbers(added_sentence(story())) == [4.2, 1.0, 3.2, 1.01, 0.1, 0.5]
+    assert numbers(ranking_sentence(found_offset()))[:3] == [3, 4, 99.0]
+    assert numbers(ranking_sentence(found_offset(rivals=found_offset().rivals[3:]))) == [1]
+    assert numbers(added_sentence(found_offset())) == [4.2, 1.0, 3.2, 1.01, 0.1, 0.5]
 
 
 @pytest.mark.parametrize(
@@ -97,37 +157,19 @@ def test_the_steps_alone_tell_their_numbers() -> None:
 def test_each_table_has_its_own_verdict_with_numbers_and_limits(
     criteria: dict[str, float], met: bool, failed: int, verdicts: str, told: list[float]
 ) -> None:
-    one = LedgerStep("prior", 1.02, None, criteria, met, 1.0, not_simulated=failed)
+    one = ErrorStep("prior", 1.02, None, None, criteria, met, 1.0, not_simulated=failed)
     assert numbers(limits_sentence(one)) == told
-    for text in (evidence_text(story(error=(one,))), page(story(error=(one,)))):
-        assert verdicts.replace("Table 1.4 met", "") in text  # a page has a shorter word where all are met
-    assert verdicts in evidence_text(story(error=(one,)))
+    for text in (evidence_text(found_offset(history=(one,))), page(found_offset(history=(one,)))):
+        assert verdicts in text
 
 
-def test_a_size_that_people_turn_over_is_told_both_ways() -> None:
-    (parameter,) = OFFSET.parameters
-    turned = AddedEffect(
-        replace(OFFSET, parameters=(replace(parameter, inverse="G"),)), "force", (estimate("F_o", 0.5, 0.1),)
-    )
-    assert sizes(turned) == [("F_o", 0.5, (0.4, 0.6), "N"), ("G", 2.0, (1 / 0.6, 2.5), "1/(N)")]
-    (added,) = diagnosis_data(story(added=(turned,)))["added"]
-    assert added["parameters"] == {"F_o": 0.5, "G": 2.0}
-    assert added["intervals"] == {"F_o": [0.4, 0.6], "G": [1 / 0.6, 2.5]}
-    assert added["unit"] == {"F_o": "N", "G": "1/(N)"}
-
-
-def test_the_numbers_hold_the_missing_term_and_the_next_test() -> None:
-    data = json.loads(json.dumps(diagnosis_data(story(missing=(MISSING,), next_test=TEST), {"report": "r.html"})))
-    (missing,) = data["missing"]
-    assert missing["shape"] == {"argument": [0, 1], "value": [0, 1], "low": [0, 1], "high": [0, 1]} | {
-        "argument_unit": "m/s",
-        "unit": "N",
-    }
-    assert (missing["slot"], missing["share"], missing["depends_on"]) == ("force", 0.97, "v")
+def test_json_has_each_sentence_beside_its_numbers() -> None:
+    data = json.loads(json.dumps(diagnosis_data(found_offset(next_test=TEST), {"report": "r.html"})))
+    assert data["reason"] == verdict_sentence(found_offset())
+    assert data["notes"][0]["code"] == "noise_estimated"
+    assert "500 mm" in data["notes"][0]["text"]
     assert data["next_test"]["separates"] == ["toy.offset", "toy.twin"]
     assert data["files"] == {"report": "r.html"}
-    assert data["conditions"] == {"seed": "7"}
-    assert diagnosis_data(nothing())["next_test"] is None
 
 
 def page(found: Diagnosis, **more: Any) -> str:
@@ -135,10 +177,10 @@ def page(found: Diagnosis, **more: Any) -> str:
 
 
 def test_the_page_needs_nothing_else_and_has_no_empty_sections() -> None:
-    pictures = {"ledger": {"the fall": b"<svg/>"}, "missing": {"the term": b"<svg/>"}}
-    found = story(missing=(MISSING,), next_test=TEST)
+    pictures = {"error": {"the fall": b"<svg/>"}, "learned": {"the law": b"<svg/>"}}
+    found = found_offset(learned=(LAW,), next_test=TEST)
     text = page(found, title="a < b", pictures=pictures, files={"fmu": "Toy.fmu"})
-    for part in ("a &lt; b", "f = F_o;", MISSING.formula, "Toy.fmu", "pysim diagnose x", "the fall", "the term"):
+    for part in ("a &lt; b", "f = F_o;", LAW.formula, "Toy.fmu", "pysim diagnose x", "the fall", "the law"):
         assert part in text
     assert text.count("<figure") == 2
     assert not re.search(r'(?:src|href)="(?!data:)', text)
@@ -146,9 +188,14 @@ def test_the_page_needs_nothing_else_and_has_no_empty_sections() -> None:
     assert less.count("<h2>") < text.count("<h2>") - 3
 
 
-def test_the_terminal_gets_verdict_ledger_and_ranking() -> None:
-    first, *lines = diagnosis_text(story()).splitlines()
+def test_the_terminal_gets_verdict_error_and_candidates() -> None:
+    first, *lines = diagnosis_text(found_offset()).splitlines()
     assert first.endswith(" toy.offset")
     rows = {line.split()[0]: numbers(line) for line in lines if line.startswith("  ")}
-    assert rows["refit"] == [4.2, 3.2]
-    assert rows["toy.offset"][0] == 900
+    assert rows["refitted"] == [4.2, 3.2]
+    assert rows["toy.offset"] == [99.0, 900.0]
+
+
+def test_a_law_without_a_curve_has_a_line_all_the_same() -> None:
+    empty = replace(LAW, knots=np.zeros(0), coefficients=np.zeros(0), covariance=np.zeros((0, 0)))
+    assert "force: force over v" in evidence_text(nothing(learned=(empty,)))

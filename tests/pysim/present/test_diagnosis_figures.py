@@ -6,25 +6,24 @@ import numpy as np
 import pytest
 
 from pysim.present.diagnosis import (
-    diagnosis_failures_figure,
-    diagnosis_ledger_figure,
-    diagnosis_map_figure,
-    diagnosis_overlay_figure,
-    diagnosis_parameters_figure,
-    diagnosis_ranking_figure,
-    diagnosis_spectrum_figure,
+    candidates_figure,
+    error_figure,
+    map_figure,
+    overlay_figure,
+    parameters_figure,
+    spectrum_figure,
     telling_records,
 )
 from pysim.types import BadInput, Record, RecordFit
-from tests.pysim.diagnosis_story import WAVE, dataset, nothing, step, story
+from tests.pysim.diagnosis_answer import WAVE, dataset, found_offset, nothing, step
 
 
 def texts(axes: object) -> list[str]:
     return [text.get_text() for text in axes.texts]  # type: ignore[attr-defined]
 
 
-def test_the_ledger_falls_and_marks_the_criteria() -> None:
-    figure = diagnosis_ledger_figure(story().error)
+def test_the_error_falls_and_marks_the_criteria() -> None:
+    figure = error_figure(found_offset().history)
     top, low = figure.axes
     fitted, held = (line.get_ydata() for line in top.lines[1:])
     assert list(fitted) == [8.1, 4.2, 1.0]
@@ -34,48 +33,45 @@ def test_the_ledger_falls_and_marks_the_criteria() -> None:
     assert [label.get_text() for label in low.get_yticklabels()] == ["mean magnitude ≤ 0.5 dB"]
 
 
-def test_a_ledger_without_held_out_data_has_one_line() -> None:
-    figure = diagnosis_ledger_figure([step("prior", 2.0, None, 0.1)])
+def test_an_error_without_held_out_data_has_one_line() -> None:
+    figure = error_figure([step("prior", 2.0, None, 0.1)])
     assert len([line for line in figure.axes[0].lines if len(line.get_xdata()) == 1]) == 1
     assert [text.get_text() for text in figure.legends[0].get_texts()] == ["fitted"]
     with pytest.raises(BadInput, match="at least one step"):
-        diagnosis_ledger_figure([])
+        error_figure([])
 
 
-def test_the_ranking_tells_refitted_from_screened_and_draws_ties_as_ties() -> None:
-    axes = diagnosis_ranking_figure(story()).axes[0]
-    best, twin, other = (bar for bar in axes.patches if bar.get_width() > 0)
-    assert best.get_width() == pytest.approx(899.0)
+def test_candidates_stand_by_what_they_explain_refitted_and_screened_ones_apart() -> None:
+    axes = candidates_figure(found_offset()).axes[0]
+    best, twin, other, idle = axes.patches
+    assert [bar.get_width() for bar in axes.patches] == pytest.approx([99.0, 98.0, 5.0, 0.0])
     assert best.get_facecolor() == twin.get_facecolor() != other.get_facecolor()
-    assert (best.get_hatch(), other.get_hatch()) == (None, "////")
-    assert "does not pay" in texts(axes)
-    (bracket,) = axes.lines
-    assert list(bracket.get_ydata()) == pytest.approx([-0.3, -0.3, 1.3, 1.3])
-    assert not diagnosis_ranking_figure(story(confusable=())).axes[0].lines
+    assert (best.get_hatch(), other.get_hatch(), idle.get_hatch()) == (None, "////", "////")
+    alone = candidates_figure(found_offset(ties=())).axes[0].patches
+    assert alone[0].get_facecolor() != alone[1].get_facecolor()  # what was added, and what was not
 
 
-def test_each_round_of_the_search_has_a_panel() -> None:
-    rows = story().ranking
-    again = tuple(replace(row, round=2) for row in rows[2:])
-    first, second = diagnosis_ranking_figure(story(confusable=(), ranking=(*rows, *again))).axes
-    assert [label.get_text() for label in second.get_yticklabels()] == ["toy.other", "toy.idle"]
-    assert (first.get_title(loc="left"), second.get_title(loc="left")) == ("Round 1", "Round 2")
-    dark = first.patches[0].get_facecolor()
-    assert [bar.get_facecolor() == dark for bar in (*first.patches[1:], *second.patches)] == [False] * 3
+def test_candidates_beside_an_effect_are_named_with_it() -> None:
+    rows = found_offset().rivals
+    again = tuple(replace(row, effects=("toy.offset", *row.effects)) for row in rows[2:])
+    axes = candidates_figure(found_offset(ties=(), rivals=(*again, *rows))).axes[0]
+    names = [label.get_text() for label in axes.get_yticklabels()]
+    assert names[:2] == ["toy.offset", "toy.twin"]
+    assert names[4:] == ["toy.offset + toy.other", "toy.offset + toy.idle"]
 
 
-def test_a_ranking_needs_candidates() -> None:
+def test_the_picture_of_candidates_needs_some() -> None:
     with pytest.raises(BadInput, match="candidate"):
-        diagnosis_ranking_figure(story(ranking=()))
+        candidates_figure(found_offset(rivals=()))
 
 
 def test_the_telling_records_are_the_worst_of_each_kind() -> None:
-    assert [record.source for record in telling_records(story())] == ["wave.txt", "sines/1Hz.txt", "held.txt"]
+    assert [record.source for record in telling_records(found_offset())] == ["wave.txt", "sines/1Hz.txt", "held.txt"]
 
 
 def test_an_overlay_shows_every_model_and_what_it_leaves() -> None:
-    found = story()
-    figure = diagnosis_overlay_figure(found, found.stages[1].records[1])
+    found = found_offset()
+    figure = overlay_figure(found, found.history[1].records[1])
     top, low = figure.axes
     assert len(top.lines) == 4  # measured and three models
     assert top.lines[0].get_xdata()[0] == pytest.approx(8 - 0.01 - 2 / 5, abs=0.011)  # two periods
@@ -86,47 +82,49 @@ def test_an_overlay_shows_every_model_and_what_it_leaves() -> None:
     assert np.mean(final.get_ydata()) == pytest.approx(0.0, abs=0.3)
     assert "toy.offset" in low.get_title(loc="left")
     less = nothing()
-    assert len(diagnosis_overlay_figure(less, telling_records(less)[0]).axes[0].lines) == 3
+    assert len(overlay_figure(less, telling_records(less)[0]).axes[0].lines) == 3
     with pytest.raises(BadInput, match=r"wave\.txt"):
-        diagnosis_overlay_figure(less, found.stages[1].records[2])
+        overlay_figure(less, found.history[1].records[2])
 
 
 def test_the_map_holds_the_residuals_by_test_and_frequency() -> None:
-    figure = diagnosis_map_figure(story(), dataset())
+    figure = map_figure(found_offset(), dataset())
     before, after, logs, _, _ = figure.axes
     assert [label.get_text() for label in before.get_xticklabels()] == ["1", "5"]
     assert [label.get_text() for label in before.get_yticklabels()] == ["offset 50 N, amplitude 10 N"]
     assert texts(before) == ["4.6", "3.2"]  # the roots of 1 + 4.5^2 and 1 + 3^2
     assert texts(after) == ["1.0", "1.0"]
     assert [label.get_text() for label in logs.get_yticklabels()] == ["wave.txt (fitted): x", "held.txt (held out): x"]
+    bare = map_figure(found_offset(), None).axes[0]
+    assert [label.get_text() for label in bare.get_yticklabels()] == ["sines/1Hz.txt", "sines/5Hz.txt"]
     with pytest.raises(BadInput, match="residual map"):
-        diagnosis_map_figure(story(stages=()), dataset())
+        map_figure(found_offset(history=()), dataset())
 
 
 def test_of_a_test_that_was_repeated_the_map_shows_the_worst() -> None:
-    told, data = story(), dataset()
+    told, data = found_offset(), dataset()
     stages = []
-    for one in told.stages:
+    for one in told.history:
         sines = [record for record in one.records if record.harmonics]
         again = [replace(r, index=4 + r.index, noise=tuple(n / 3 for n in r.noise)) for r in sines]
         stages.append(replace(one, records=(*one.records, *again)))
     repeated = tuple(replace(r, source=f"again/{r.source}") for r in data.records if r.frequency)
     both = replace(data, records=(*data.records, *repeated))
-    before = diagnosis_map_figure(replace(told, stages=tuple(stages)), both).axes[0]
+    before = map_figure(replace(told, history=tuple(stages)), both).axes[0]
     assert [label.get_text() for label in before.get_yticklabels()] == ["offset 50 N, amplitude 10 N"]
     assert [float(text) for text in texts(before)] == pytest.approx([3 * 4.6, 3 * 3.2], abs=0.2)
 
 
 def test_the_map_tells_sines_of_one_file_apart() -> None:
-    told, data = story(), dataset()
+    told, data = found_offset(), dataset()
     one_file = {record.source: "all.tdms" for record in data.records if record.frequency}
     records = [replace(r, source=one_file.get(r.source, r.source)) for r in data.records]
     records[1] = replace(records[1], offset=80.0)  # the one of 5 Hz
     stages = [
         replace(s, records=tuple(replace(r, source=one_file.get(r.source, r.source)) for r in s.records))
-        for s in told.stages
+        for s in told.history
     ]
-    before = diagnosis_map_figure(replace(told, stages=tuple(stages)), replace(data, records=tuple(records))).axes[0]
+    before = map_figure(replace(told, history=tuple(stages)), replace(data, records=tuple(records))).axes[0]
     rows = [label.get_text() for label in before.get_yticklabels()]
     assert rows == ["offset 50 N, amplitude 10 N", "offset 80 N, amplitude 10 N"]
     values = np.asarray(before.images[0].get_array())
@@ -145,46 +143,36 @@ def doubled(record: RecordFit) -> RecordFit:
 
 def test_logs_of_one_file_stand_beside_themselves() -> None:
     """The one that is held out has a signal more."""
-    told = story()
+    told = found_offset()
     stages = []
-    for one in told.stages:
+    for one in told.history:
         log, held = (replace(record, source="all.tdms") for record in one.records[2:])
         stages.append(replace(one, records=(*one.records[:2], log, doubled(held))))
-    told = replace(told, stages=tuple(stages))
+    told = replace(told, history=tuple(stages))
     held = telling_records(told)[2]
     assert (held.source, held.measured.names) == ("all.tdms", ("x", "y"))
-    figure = diagnosis_overlay_figure(told, held)
+    figure = overlay_figure(told, held)
     assert [len(axes.lines) for axes in figure.axes] == [4, 4, 4, 4]  # of two models dots and means
-    assert len([axes for axes in diagnosis_spectrum_figure(told).axes if axes.lines]) == 3
+    assert len([axes for axes in spectrum_figure(told).axes if axes.lines]) == 3
 
 
-def test_failures_stand_by_rank_with_what_is_left_in_the_end() -> None:
-    axes = diagnosis_failures_figure(story()).axes[0]
-    before = [bar.get_width() for bar in axes.patches]
-    assert before == pytest.approx([failure.error for failure in story().where])
-    assert list(axes.lines[0].get_xdata()) == pytest.approx(np.ones(4), abs=0.1)
-    assert not [line for line in diagnosis_failures_figure(nothing()).axes[0].lines if line.get_marker() == "o"]
-    with pytest.raises(BadInput, match="no place"):
-        diagnosis_failures_figure(story(where=()))
-
-
-def test_parameters_show_which_were_bent_once_the_scale_is_the_same() -> None:
-    found = story()
-    figure = diagnosis_parameters_figure(found.stages[1], found.stages[2])
+def test_parameters_show_which_were_biased_once_the_scale_is_the_same() -> None:
+    found = found_offset()
+    figure = parameters_figure(found.history[1], found.history[2])
     left, right = figure.axes
     assert texts(right) == ["held, sets the scale", "0.0", "5.0"]  # k went from 3 to 0.75 as m from 2 to 1; d by 0.5
     assert [label.get_text() for label in left.get_yticklabels()] == ["m (N)", "k (N)", "d (N)"]
-    assert len(diagnosis_parameters_figure(found.stages[1], None).axes) == 1
+    assert len(parameters_figure(found.history[1], None).axes) == 1
     with pytest.raises(BadInput, match="no estimates"):
-        diagnosis_parameters_figure(found.stages[0], None)
+        parameters_figure(found.history[0], None)
 
 
 def test_the_spectrum_of_noise_is_one_and_a_ripple_stands_out() -> None:
-    figure = diagnosis_spectrum_figure(story())
+    figure = spectrum_figure(found_offset())
     assert [axes.get_title(loc="left") for axes in figure.axes] == ["wave.txt: x", "held.txt: x"]
     _, rippled, flat = figure.axes[0].lines
     assert np.mean(flat.get_ydata()) == pytest.approx(1.0, abs=0.15)
     frequency, power = rippled.get_xdata(), rippled.get_ydata()
     assert frequency[np.argmax(np.where(frequency > 3, power, 0))] == pytest.approx(WAVE, abs=1.0)
     with pytest.raises(BadInput, match="spectrum"):
-        diagnosis_spectrum_figure(story(stages=()))
+        spectrum_figure(found_offset(history=()))

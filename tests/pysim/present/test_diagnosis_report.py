@@ -1,4 +1,4 @@
-"""What lies in the folder once a diagnosis is written."""
+"""What lies in the folder once a diagnosis is written, and that the answer alone can be shown."""
 
 from dataclasses import replace
 from pathlib import Path
@@ -6,15 +6,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from pysim.present import diagnosis, write_report
+from pysim.present import data, diagnosis, text, write_report
 from pysim.present.diagnosis import Diagnosed
-from pysim.types import Diagnosis, Missing, NextTest, Shape
+from pysim.types import Diagnosis, NextTest
 from tests.pysim.cli.ran import undraw
-from tests.pysim.diagnosis_story import dataset, nothing, story
+from tests.pysim.diagnosis_answer import LAW, dataset, found_offset, nothing
 
-RAMP = np.linspace(-1, 1, 11)
-MISSING = Missing("force", 0.97, "v", Shape(RAMP, -0.4 * np.sign(RAMP), RAMP - 1, RAMP + 1, "m/s", "N"))
-EMPTY = replace(MISSING, slot="supply", shape=Shape(*(np.zeros(0) for _ in range(4)), "Pa", "Pa"))
+EMPTY = replace(LAW, slot="supply", knots=np.zeros(0), coefficients=np.zeros(0), covariance=np.zeros((0, 0)))
 TEST = NextTest(("toy.offset", "toy.twin"), 42.0, "Run a slow ramp.", 'name = "ramp"\n')
 
 
@@ -30,25 +28,33 @@ def written(found: Diagnosis, folder: Path, question: str = "", answer: str = ""
     return diagnosis.placed(result, files, folder.parent), files
 
 
-def test_every_part_of_the_story_has_its_file(tmp_path: Path) -> None:
-    found = story(missing=(MISSING, EMPTY), next_test=TEST)
-    result, paths = written(found, tmp_path, "Why?", "Because.")
-    files = result.files
-    drawn = {name.removeprefix("picture ") for name in files if name.startswith("picture ")}
-    several = {"ledger", "record_1", "record_2", "record_3", "where", "map", "spectrum", "ranking", "parameters"}
-    assert drawn == several | {"missing_1"}  # the other term has no shape
-    assert all((tmp_path / f"{name}.svg").is_file() for name in drawn)
-    assert (tmp_path.parent / files["plan"]).read_text() == TEST.plan
+def pictures(result: Diagnosed) -> set[str]:
+    return {name.removeprefix("picture ") for name in result.files if name.startswith("picture ")}
+
+
+def test_every_part_of_the_answer_has_its_file(tmp_path: Path) -> None:
+    result, paths = written(found_offset(learned=(LAW, EMPTY), next_test=TEST), tmp_path, "Why?", "Because.")
+    several = {"error", "record_1", "record_2", "record_3", "map", "spectrum", "candidates", "parameters"}
+    assert pictures(result) == several | {"law_1"}  # the other law has no curve
+    assert all((tmp_path / f"{name}.svg").is_file() for name in pictures(result))
+    assert (tmp_path.parent / result.files["plan"]).read_text() == TEST.plan
     page = paths["report"].read_text()
-    assert page.count("<img ") == len(drawn)
-    assert all(text in page for text in ("Why?", "Because.", "next_test.toml"))
-    assert set(files) == {"report", "plan", *(f"picture {name}" for name in drawn)}
+    assert page.count("<img ") == len(pictures(result))
+    assert all(part in page for part in ("Why?", "Because.", "next_test.toml", "pysim diagnose x"))
+    assert set(result.files) == {"report", "plan", *(f"picture {name}" for name in pictures(result))}
 
 
 def test_a_comparison_alone_draws_what_it_has(tmp_path: Path) -> None:
     full = nothing()
-    found = replace(full, error=full.error[:1], stages=full.stages[:1], ranking=(), verdict="unknown", parameters=())
+    found = replace(full, history=full.history[:1], rivals=(), complete=False, estimates=())
     result, _ = written(found, tmp_path, "?", "!")
-    files = result.files
-    drawn = {name.removeprefix("picture ") for name in files if name.startswith("picture ")}
-    assert drawn == {"ledger", "record_1", "record_2", "record_3", "where", "map", "spectrum"}
+    assert pictures(result) == {"error", "record_1", "record_2", "record_3", "map", "spectrum"}
+
+
+def test_a_bare_answer_is_shown_by_its_type(tmp_path: Path) -> None:
+    found = found_offset()
+    assert text(found).startswith("Verdict: toy.offset\n")
+    assert data(found)["verdict"] == "toy.offset"
+    page = write_report(tmp_path, found)["report"].read_text()
+    assert "toy.offset" in page
+    assert "Do it again" not in page

@@ -1,47 +1,41 @@
-"""The answer as numbers and codes: what its verdict says, and that today's answer survives the way there and back."""
+"""The answer as numbers and codes: what its verdict says, what cannot be, and its keys as JSON."""
 
-from dataclasses import fields, is_dataclass, replace
-from typing import Any
+import json
+import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from pysim.types import BadInput, answer
-from pysim.types._between_answers import from_answer, to_answer
-from pysim.types.answer import FloorSource, LearnedLaw, Left, NoiseFloor
-from pysim.types.note import Note, NoteCode
-from tests.pysim.diagnosis_story import nothing, story
-
-
-def same(one: Any, other: Any) -> bool:
-    """Equal, arrays and what holds them to rounding."""
-    if is_dataclass(one) and not isinstance(one, type):
-        return type(one) is type(other) and all(same(getattr(one, f.name), getattr(other, f.name)) for f in fields(one))
-    if isinstance(one, tuple):
-        return isinstance(other, tuple) and len(one) == len(other) and all(map(same, one, other))
-    if isinstance(one, np.ndarray | float):
-        return np.shape(one) == np.shape(other) and np.allclose(one, other, rtol=1e-12, atol=1e-12, equal_nan=True)
-    return bool(one == other)
-
-
-@pytest.mark.parametrize(
-    "old", [story(), nothing(), story(verdict="unknown")], ids=["found", "none", "more is missing"]
+from pysim.types import (
+    BadInput,
+    Diagnosis,
+    FloorSource,
+    GainTest,
+    LearnedLaw,
+    Left,
+    NoiseFloor,
+    Note,
+    NoteCode,
+    Verdict,
+    answer_data,
 )
-def test_todays_answer_survives_the_way_there_and_back(old: Any) -> None:
-    back = from_answer(to_answer(old))
-    new = {"complete", "left"}  # judged since
-    different = {f.name for f in fields(old) if not same(getattr(old, f.name), getattr(back, f.name))} - new
-    assert different <= ({"verdict"} if old.verdict == "unknown" and old.added else set())  # an effect keeps its name
+from tests.pysim.diagnosis_answer import LAW, found_offset, nothing
+
+# Fixed by the contract of `--json`; `reason`, and the text of a note, are words and come from `pysim.present`.
+KEYS = {
+    "verdict", "added", "ranking", "confusable", "error", "parameters", "where", "missing", "next_test", "seconds",
+    "files", "complete", "left", "learned", "fit_percent", "notes",
+}  # fmt: skip
 
 
 def test_the_verdict_follows_from_what_was_found() -> None:
-    found = to_answer(story())
+    found = found_offset()
     assert found.verdict == found.effects[0].effect.name
     assert replace(found, complete=False).verdict == found.effects[0].effect.name
     assert replace(found, effects=(), learned=(), complete=False).verdict == "unknown"
     assert replace(found, effects=(), learned=(), complete=True).verdict == "none"
-    law = LearnedLaw("force", "", "v", np.arange(3.0), np.zeros(3), np.eye(3), 0.9, "m/s", "N")
-    assert replace(found, effects=(), learned=(law,), complete=True).verdict == "unknown"
+    assert replace(found, effects=(), learned=(LAW,), complete=True).verdict == "unknown"
 
 
 def test_what_cannot_be_is_refused() -> None:
@@ -60,4 +54,75 @@ def test_an_answer_does_not_change() -> None:
     with pytest.raises(ValueError, match="read-only"):
         law.knots[0] = 1.0
     assert Left({"a x": NoiseFloor(1.0, FloorSource.REPEATS)}, None, None).floors["a x"].sd == 1.0
-    assert answer.Diagnosis((), True, Left({}, None, None), (), (), (), ()).seconds == {}
+    assert Diagnosis((), True, Left({}, None, None), (), (), (), ()).seconds == {}
+
+
+def test_moves_are_counted_on_one_scale_in_half_widths_of_the_interval_afterwards() -> None:
+    _, before, after = found_offset().history
+    scaled = before.on_the_scale_of(after)
+    assert scaled == pytest.approx({"m": 1.0, "k": 0.75, "d": 1.0})  # m halved, so k by the square of that
+    moves = after.moves_from(before)
+    assert moves["m"] is None  # held
+    assert moves["k"] == pytest.approx(0.0, abs=1e-12)
+    assert moves["d"] == pytest.approx(5.0)
+    assert "F_o" not in moves
+
+
+def test_json_has_the_keys_of_the_contract_and_finite_numbers() -> None:
+    for found in (found_offset(learned=(LAW,)), nothing()):
+        data = answer_data(found)
+        assert set(data) >= KEYS
+        assert json.loads(json.dumps(data, allow_nan=False))["verdict"] == found.verdict
+
+
+def test_where_error_and_missing_come_from_failures_history_and_laws() -> None:
+    found = found_offset(learned=(LAW,), notes=(Note(NoteCode.USED_TO_CHOOSE, {"records": "held.txt"}),))
+    data = json.loads(json.dumps(answer_data(found, {"report": "r.html"})))
+    assert [(one["record"], one["error"]) for one in data["where"]] == [(f.record, f.error) for f in found.failures]
+    assert [(one["step"], one["fit"], one["validate"], one["used_to_choose"]) for one in data["error"]] == [
+        ("prior", 8.1, 8.0, True),
+        ("refit", 4.2, 3.2, True),
+        ("toy.offset", 1.0, 1.01, True),
+    ]
+    (missing,) = data["missing"]
+    assert (missing["slot"], missing["share"], missing["depends_on"]) == ("force", 0.97, "v")
+    shape, half = missing["shape"], 1.96 * 0.05
+    assert shape["value"] == LAW.coefficients.tolist()
+    assert shape["high"] == pytest.approx(LAW.coefficients + half, abs=1e-4)
+    assert shape["low"] == pytest.approx(LAW.coefficients - half, abs=1e-4)
+    assert data["files"] == {"report": "r.html"}
+
+
+def test_a_learned_law_tells_the_error_on_unseen_logs_without_it_and_with_it() -> None:
+    test = GainTest(100.0, 3, 500.0, 1e-9, 90.0, -math.log(2), None, Verdict.BETTER)
+    (law,) = answer_data(nothing(learned=(replace(LAW, test=test),)))["learned"]  # type: ignore[misc]
+    assert law["held_out"] == pytest.approx([3.2, 1.6])
+    assert law["range"] == [-1.0, 1.0]
+    (law,) = answer_data(nothing(learned=(LAW,)))["learned"]  # type: ignore[misc]
+    assert law["held_out"] is None
+
+
+def test_the_fit_in_percent_is_100_where_the_model_is_the_log() -> None:
+    record = found_offset().history[-1].records[2]
+    same = replace(record, simulated=record.measured)
+    assert same.fit_percent == {"x": 100.0}
+    still = replace(
+        record, simulated=replace(record.measured, values=0 * record.measured.values + record.measured.values.mean())
+    )
+    assert still.fit_percent["x"] == pytest.approx(0.0, abs=1e-9)
+
+
+def test_a_size_that_people_turn_over_is_given_both_ways() -> None:
+    found = found_offset()
+    (one,) = found.effects
+    (parameter,) = one.effect.parameters
+    (estimate,) = one.estimates
+    turned = replace(
+        one,
+        effect=replace(one.effect, parameters=(replace(parameter, inverse="G"),)),
+        estimates=(replace(estimate, value=0.5, interval=(0.4, 0.6)),),
+    )
+    (added,) = answer_data(replace(found, effects=(turned,)))["added"]  # type: ignore[misc]
+    assert added["parameters"] == {"F_o": 0.5, "G": 2.0}
+    assert added["intervals"] == {"F_o": [0.4, 0.6], "G": [1 / 0.6, 2.5]}
+    assert added["unit"] == {"F_o": "N", "G": "1/(N)"}

@@ -13,7 +13,6 @@ import pytest
 import pysim
 from fmu_build.cli import main as fmu_build_main
 from pysim.cli.options import parameters_of
-from pysim.cli.steps import shown
 from pysim.diagnosis import add
 from pysim.io import read_model
 from pysim.present.diagnosis import relative_files
@@ -43,7 +42,7 @@ class Unbuilt(Variants):
 
 @pytest.fixture(scope="module")
 def found() -> Diagnosis:
-    return shown(add(session_of(given(Variants)), [CATALOGUE["toy.friction"]]))
+    return add(session_of(given(Variants)), [CATALOGUE["toy.friction"]])
 
 
 def given(variants: type[Variants] = Unbuilt) -> SessionParts:
@@ -78,7 +77,7 @@ def test_the_class_and_its_fmu_hold_the_fitted_values(found: Diagnosis, written:
     text = written["modelica"].read_text()
     assert "extends Toy.Mass(" in text
     assert "redeclare Toy.Rubbing force(F_c=0.4" in text
-    fitted = {e.name: e.value for e in found.parameters}
+    fitted = {e.name: e.value for e in found.estimates}
     assert set(fitted) == {"m", "d", "k", "force.F_c"}
     model = read_model(written["fmu"])
     assert {n: model[n].start for n in fitted} == pytest.approx(fitted, rel=1e-12)
@@ -96,7 +95,7 @@ def test_the_command_in_the_header_works_wherever_it_is_pasted(
     monkeypatch.chdir(tmp_path)
     assert fmu_build_main(words) == 0
     model = read_model(Path(f"{NAME}.fmu"))
-    fitted = {e.name: e.value for e in found.parameters}
+    fitted = {e.name: e.value for e in found.estimates}
     assert {n: model[n].start for n in fitted} == pytest.approx(fitted, rel=1e-12)
 
 
@@ -114,8 +113,8 @@ def test_the_header_tells_when_not_to_trust_it(found: Diagnosis, tmp_path: Path)
     data = measured(1, "toy.friction", F_c=0.4)
     weak = [
         (found, given()),
-        (replace(found, verdict="unknown"), given()),
-        (replace(found, confusable=(("toy.friction", "toy.twin"),)), given()),
+        (replace(found, complete=False), given()),
+        (replace(found, ties=(("toy.friction", "toy.twin"),)), given()),
         (found, replace(given(), dataset=replace(data, records=data.records[:1]))),
     ]
     limits = [sum(line.startswith("- ") for line in head(*one, tmp_path).splitlines()) for one in weak]
@@ -124,8 +123,8 @@ def test_the_header_tells_when_not_to_trust_it(found: Diagnosis, tmp_path: Path)
 
 def test_where_nothing_was_added_the_base_model_has_its_values(found: Diagnosis, tmp_path: Path) -> None:
     """A name with a line break does not end the comment ahead of them."""
-    values = tuple(e for e in found.parameters if e.name in "mk")
-    nothing = replace(found, verdict="none", added=(), parameters=values)
+    values = tuple(e for e in found.estimates if e.name in "mk")
+    nothing = replace(found, effects=(), estimates=values)
     data = replace(measured(1, "toy.friction", F_c=0.4), name="of\nMay = 5")
     files = write_extended(nothing, replace(given(), dataset=data, overrides={"d": 0.8}), tmp_path)
     assert files == {"parameters": tmp_path / "parameters.toml"}
@@ -134,7 +133,7 @@ def test_where_nothing_was_added_the_base_model_has_its_values(found: Diagnosis,
 
 
 def test_where_nothing_was_refitted_nothing_is_written(found: Diagnosis, tmp_path: Path) -> None:
-    nothing = replace(found, verdict="unknown", added=(), parameters=())
+    nothing = replace(found, effects=(), estimates=(), complete=False)
     assert write_extended(nothing, given(), tmp_path) == {}
     assert list(tmp_path.iterdir()) == []
 

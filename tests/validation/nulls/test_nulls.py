@@ -25,9 +25,7 @@ def test_the_same_name_is_the_same_data_set(name: str) -> None:
     assert (log.values == again.values).all()
     stated = one.signal("x").noise
     assert (stated == 1e-3) != name.endswith("unstated")
-    assert (abs(log.values[0, 0]) > 1e-6) == name.endswith(
-        "motion"
-    )  # from rest the command is 0
+    assert (abs(log.values[0, 0]) > 1e-6) == name.endswith("motion")  # from rest the command is 0
 
 
 def test_an_answer_says_what_was_named_and_is_counted() -> None:

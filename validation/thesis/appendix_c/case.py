@@ -9,7 +9,7 @@ from pathlib import Path
 
 from matplotlib.figure import Figure
 
-from pysim.diagnose import compare
+from pysim.diagnosis import compare_responses
 from pysim.io import read_dataset
 from pysim.present.comparison import bode_figure, deviation_figure
 from pysim.types import Comparison
@@ -67,7 +67,7 @@ _DIFFERENT = {"free": 8.0, "locked": 0.0}
 @cache
 def _compared(name: str) -> Comparison:
     with tempfile.TemporaryDirectory() as folder:
-        return compare(pump_model(name), read_dataset(write_dataset(Path(folder))), label=name)
+        return compare_responses(pump_model(name), read_dataset(write_dataset(Path(folder))), label=name)
 
 
 def pictures() -> Mapping[str, Figure]:

@@ -4,78 +4,80 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from pysim.present.diagnosis.figures.error import diagnosis_ledger_figure, diagnosis_ranking_figure
-from pysim.present.diagnosis.figures.missing import missing_figure
-from pysim.present.diagnosis.figures.parameters import diagnosis_parameters_figure
-from pysim.present.diagnosis.figures.records import diagnosis_overlay_figure, telling_records
-from pysim.present.diagnosis.figures.spectrum import diagnosis_spectrum_figure
-from pysim.present.diagnosis.figures.where import diagnosis_failures_figure, diagnosis_map_figure
+import numpy as np
+from numpy.typing import NDArray
+
+from pysim.present.diagnosis.figures.error import candidates_figure, error_figure
+from pysim.present.diagnosis.figures.law import law_figure
+from pysim.present.diagnosis.figures.parameters import parameters_figure
+from pysim.present.diagnosis.figures.records import overlay_figure, telling_records
+from pysim.present.diagnosis.figures.spectrum import spectrum_figure
+from pysim.present.diagnosis.figures.where import map_figure
 from pysim.present.render import Picture
-from pysim.types import Dataset, Diagnosis
+from pysim.types import Dataset, Diagnosis, LearnedLaw
+from pysim.types.answer import REFIT
 
 __all__ = [
-    "diagnosis_failures_figure",
-    "diagnosis_ledger_figure",
-    "diagnosis_map_figure",
-    "diagnosis_overlay_figure",
-    "diagnosis_parameters_figure",
-    "diagnosis_ranking_figure",
-    "diagnosis_spectrum_figure",
-    "missing_figure",
+    "candidates_figure",
+    "error_figure",
+    "law_figure",
+    "map_figure",
+    "overlay_figure",
+    "parameters_figure",
     "pictures",
+    "spectrum_figure",
     "telling_records",
 ]
 
-_PLACES = 3  # whose missing term is drawn
+_PLACES = 3  # whose law is drawn
 
 
-def pictures(found: Diagnosis, dataset: Dataset) -> Iterator[Picture]:
+def pictures(found: Diagnosis, dataset: Dataset | None) -> Iterator[Picture]:
     """Those for which there is something to show, each with the section of the page it stands in."""
-    if found.error:
+    if found.history:
         caption = (
             "The error, step by step: root-mean-square residual over noise; below, the worst value of each criterion "
             "of thesis Tables 1.3 and 1.4."
         )
-        yield Picture("ledger", caption, diagnosis_ledger_figure(found.error), "ledger")
-    yield from _record_figures(found, dataset)
-    yield from _missing_figures(found)
-    if found.ranking:
-        caption = "Candidates by their gain less the penalty for their parameters; n is the number of residuals."
-        yield Picture("ranking", caption, diagnosis_ranking_figure(found), "ranking")
-    base = next((stage for stage in found.stages if stage.step == "refit"), None)
-    if base is not None and base.estimates:
-        last = found.stages[-1] if found.added else None
-        caption = "Parameters between their bounds, and by how much they moved once what was missing was in the model."
-        caption = caption if last else "The refitted parameters between their bounds."
-        yield Picture("parameters", caption, diagnosis_parameters_figure(base, last), "parameters")
-
-
-def _missing_figures(found: Diagnosis) -> Iterator[Picture]:
-    for k, one in enumerate(found.missing[:_PLACES]):
-        if one.shape.argument.size > 1:
+        yield Picture("error", caption, error_figure(found.history), "error")
+    for k, law in enumerate(found.learned[:_PLACES]):
+        if law.knots.size > 1:
             caption = (
-                f"What the model would need at {one.slot}, over {one.depends_on}, with its 95 percent band: "
-                f"{100 * one.share:.1f} % of the misfit."
+                f"What the model lacks at {law.slot}, over {law.argument}, with its 95 percent band: it explains "
+                f"{100 * law.share:.1f} % of the misfit."
             )
-            yield Picture(f"missing_{k + 1}", caption, missing_figure(one), "missing")
+            yield Picture(f"law_{k + 1}", caption, law_figure(law, _samples(found, law)), "learned")
+    yield from _record_figures(found, dataset)
+    if found.rivals:
+        caption = "Candidates by what each explains of the misfit."
+        yield Picture("candidates", caption, candidates_figure(found), "candidates")
+    base = found.base
+    if base is not None and base.step == REFIT and base.estimates:
+        caption = "Parameters between their bounds, and by how much they moved once what was missing was in the model."
+        caption = caption if found.last else "The refitted parameters between their bounds."
+        yield Picture("parameters", caption, parameters_figure(base, found.last), "parameters")
 
 
-def _record_figures(found: Diagnosis, dataset: Dataset) -> Iterator[Picture]:
-    model = "refitted model" if any(stage.step == "refit" for stage in found.stages) else "model as it is"
+def _samples(found: Diagnosis, law: LearnedLaw) -> NDArray[np.float64] | None:
+    """Of the law's argument, where it was logged."""
+    records = found.history[-1].records if found.history else ()
+    own = [r.measured[law.argument] for r in records if law.argument in r.measured.names]
+    return np.concatenate(own) if own else None
+
+
+def _record_figures(found: Diagnosis, dataset: Dataset | None) -> Iterator[Picture]:
+    model = "refitted model" if found.base is not None and found.base.step == REFIT else "model as it is"
     for k, record in enumerate(telling_records(found)):
         use = "held out" if record.use == "validate" else "fitted"
         caption = (
             f"{record.source} ({use}), where the {model} fails most: measured and simulated; "
-            "below, what is left (of many samples also running means), grey holds 95 percent of noise."
+            "below, the residual (of many samples also running means), grey holds 95 percent of noise."
         )
-        yield Picture(f"record_{k + 1}", caption, diagnosis_overlay_figure(found, record), "records")
-    logs = [record for stage in found.stages for record in stage.records]
-    if found.where:
-        caption = f"The places where the {model} fails most."
-        yield Picture("where", caption, diagnosis_failures_figure(found), "where")
+        yield Picture(f"record_{k + 1}", caption, overlay_figure(found, record), "records")
+    logs = [record for step in found.history for record in step.records]
     if logs:
-        caption = "What is left over of every test, in units of noise."
-        yield Picture("map", caption, diagnosis_map_figure(found, dataset), "where")
+        caption = "Residual of every test, in standard deviations of the noise."
+        yield Picture("map", caption, map_figure(found, dataset), "where")
     if any(not record.harmonics and record.residual.time.size >= 128 for record in logs):
-        caption = "What is left over by frequency: white noise of the stated size is 1, grey holds 95 percent of it."
-        yield Picture("spectrum", caption, diagnosis_spectrum_figure(found), "where")
+        caption = "Residual by frequency: white noise of the stated size is 1, grey holds 95 percent of it."
+        yield Picture("spectrum", caption, spectrum_figure(found), "where")

@@ -1,4 +1,4 @@
-"""What a diagnosis answers, in two figures: the error falling step by step, and the candidates in their order."""
+"""What a diagnosis answers, in two figures: the error falling step by step, and what each candidate explains."""
 
 from __future__ import annotations
 
@@ -9,20 +9,20 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from pysim.identify.accuracy import FREQUENCY_CRITERIA, TIME_CRITERIA
+from pysim.present.diagnosis.words import step_name
 from pysim.present.style import (
     BAND,
     COLOURS,
     DASHES,
     LIMIT,
     MARKERS,
-    MEASURED,
     SMALL,
     TEXT,
     legend_above,
     new_figure,
     quiet,
 )
-from pysim.types import BadInput, Candidate, Criterion, Diagnosis, LedgerStep
+from pysim.types import BadInput, Criterion, Diagnosis, ErrorStep, Rival
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -31,24 +31,19 @@ if TYPE_CHECKING:
 _CRITERIA = {c.symbol: c for c in (*FREQUENCY_CRITERIA, *TIME_CRITERIA)}
 _TICKS = tuple(digit * 10.0**power for power in range(-2, 7) for digit in (1, 2, 5))
 _PASS, _FAIL = "#14663a", "#b3261e"
-_ROWS, _FEW = 14, 3  # candidates shown, and of a later round at least
+_ROWS = 14  # candidates shown
 
 
-def step_name(step: str) -> str:
-    """A step of the ledger as people call it."""
-    return {"prior": "as it is", "refit": "refitted"}.get(step, f"+ {step}")
-
-
-def diagnosis_ledger_figure(steps: Sequence[LedgerStep]) -> Figure:
-    """The error over noise as a falling staircase, fitted and held out; below, each criterion of Tables 1.3 and 1.4.
+def error_figure(steps: Sequence[ErrorStep]) -> Figure:
+    """The residual over noise, step by step, fitted and held out; below, each criterion of Tables 1.3 and 1.4.
 
     Args:
-        steps: of one story, in order.
+        steps: of the error history, in order.
     Raises:
         BadInput: no step.
     """
     if not steps:
-        raise BadInput("ledger figure: needs at least one step")
+        raise BadInput("error figure: needs at least one step")
     symbols = [s for s in _CRITERIA if any(s in step.criteria for step in steps)]
     figure = new_figure(max(6.6, 2.6 + 1.3 * len(steps)), 3.3 + 0.24 * len(symbols))
     if symbols:
@@ -56,14 +51,14 @@ def diagnosis_ledger_figure(steps: Sequence[LedgerStep]) -> Figure:
         _criteria(low, steps, symbols)
     else:
         top = figure.subplots()
-    _staircase(figure, top, steps)
+    _levels(figure, top, steps)
     top.set_xlim(-0.5, len(steps) - 0.5)
     top.set_xticks(range(len(steps)), [step_name(step.step) for step in steps], fontsize=TEXT)
     top.tick_params(labelbottom=True, bottom=False)
     return figure
 
 
-def _staircase(figure: Figure, axes: Axes, steps: Sequence[LedgerStep]) -> None:
+def _levels(figure: Figure, axes: Axes, steps: Sequence[ErrorStep]) -> None:
     quiet(axes)
     axes.grid(False, axis="x")
     axes.set_yscale("log")
@@ -104,7 +99,7 @@ def _staircase(figure: Figure, axes: Axes, steps: Sequence[LedgerStep]) -> None:
     legend_above(figure, handles, names)
 
 
-def _numbers(axes: Axes, i: int, step: LedgerStep) -> None:
+def _numbers(axes: Axes, i: int, step: ErrorStep) -> None:
     """The larger one's value above its line, the smaller one's below, so that they never meet."""
     values = [(v, COLOURS[k]) for k, v in enumerate((step.fit, step.validate)) if v is not None]
     for rank, (value, colour) in enumerate(sorted(values, reverse=True)):
@@ -115,7 +110,7 @@ def _numbers(axes: Axes, i: int, step: LedgerStep) -> None:
         )  # fmt: skip
 
 
-def _criteria(axes: Axes, steps: Sequence[LedgerStep], symbols: Sequence[str]) -> None:
+def _criteria(axes: Axes, steps: Sequence[ErrorStep], symbols: Sequence[str]) -> None:
     """A row per criterion, a column per step: its worst value, met or not."""
     for row, symbol in enumerate(symbols):
         for i, step in enumerate(steps):
@@ -141,92 +136,46 @@ def _limit(criterion: Criterion) -> str:
     return f"{words} ≤ {criterion.limit:g} {criterion.unit}"
 
 
-def diagnosis_ranking_figure(diagnosis: Diagnosis) -> Figure:
-    """Gain less penalty of each candidate, the best on top: full bars were refitted, hollow ones only screened.
+def candidates_figure(diagnosis: Diagnosis) -> Figure:
+    """Share of the misfit that each candidate explains, the best on top: full bars were refitted, hollow ones screened.
 
-    A panel per round of the search. Candidates that the data do not tell apart share a colour and a bracket.
+    What was added, and what these data cannot tell from it, have colours of their own.
 
     Raises:
         BadInput: no candidate.
     """
-    numbers = sorted({row.round for row in diagnosis.ranking})
-    rounds = [_shown([row for row in diagnosis.ranking if row.round == number], number) for number in numbers]
-    if not rounds:
-        raise BadInput("ranking figure: needs at least one candidate")
-    figure = new_figure(7.4, 0.7 + sum(0.55 + 0.27 * len(rows) for rows in rounds))
-    panels = figure.subplots(len(rounds), 1, squeeze=False, height_ratios=[1 + len(rows) for rows in rounds])[:, 0]
-    groups = {name: k for k, group in enumerate(diagnosis.confusable) for name in group}
-    high = max([10.0, *(row.score for rows in rounds for row in rows)])
-    for axes, rows, number in zip(panels, rounds, numbers, strict=True):
-        _round(axes, rows, groups, _added_in(diagnosis, number), high)
-        axes.set_title("" if len(rounds) == 1 else f"Round {number}", fontsize=TEXT, loc="left")
-    words = "Gain less penalty: fall of the sum of squares over noise, less ln n per parameter"
-    panels[-1].set_xlabel(words, fontsize=TEXT)
+    rows = sorted(diagnosis.rivals, key=lambda row: (len(row.effects), -row.score))[:_ROWS]
+    if not rows:
+        raise BadInput("candidates figure: needs at least one candidate")
+    added, tied = {one.effect.name for one in diagnosis.effects}, {name for group in diagnosis.ties for name in group}
+    figure = new_figure(7.4, 0.9 + 0.27 * len(rows))
+    axes = figure.subplots()
+    quiet(axes)
+    axes.grid(False, axis="y")
+    for i, row in enumerate(rows):
+        last = row.effects[-1]
+        _bar(axes, i, row, COLOURS[4] if last in tied else COLOURS[0] if last in added else COLOURS[5])
+    axes.set_xlim(0, 120)
+    axes.set_xticks(range(0, 101, 20))
+    axes.set_ylim(len(rows) - 0.4, -0.6)
+    axes.set_yticks(range(len(rows)), [" + ".join(row.effects) for row in rows], fontsize=SMALL)
+    axes.set_xlabel("Explains of the misfit of the model it joins (%)", fontsize=TEXT)
     from matplotlib.patches import Patch
 
-    kinds = {"added": Patch(facecolor=COLOURS[0])} if {e.effect.name for e in diagnosis.added} - set(groups) else {}
-    kinds |= {
-        "refitted": Patch(facecolor=COLOURS[5]),
-        "screened only": Patch(facecolor="white", edgecolor=COLOURS[5], hatch="////"),
-    }
-    if groups:
-        kinds["indistinguishable"] = Patch(facecolor=COLOURS[4])
+    kinds = {"added": Patch(facecolor=COLOURS[0])} if added - tied else {}
+    kinds |= {"indistinguishable": Patch(facecolor=COLOURS[4])} if tied else {}
+    kinds |= {"refitted": Patch(facecolor=COLOURS[5])}
+    kinds |= {"screened only": Patch(facecolor="white", edgecolor=COLOURS[5], hatch="////")}
     legend_above(figure, list(kinds.values()), list(kinds))
     return figure
 
 
-def _shown(rows: Sequence[Candidate], number: int) -> Sequence[Candidate]:
-    """Of a later round what pays, and a few at least."""
-    paying = sum(row.score > 1 for row in rows)
-    return rows[: _ROWS if number == 1 else min(_ROWS, max(_FEW, paying))]
-
-
-def _added_in(diagnosis: Diagnosis, number: int) -> set[str]:
-    """Effects that this round has added: those that were candidates in it and in no later one."""
-    later = {row.effect for row in diagnosis.ranking if row.round > number}
-    own = {row.effect for row in diagnosis.ranking if row.round == number}
-    return {one.effect.name for one in diagnosis.added} & own - later
-
-
-def _round(axes: Axes, rows: Sequence[Candidate], groups: dict[str, int], added: set[str], high: float) -> None:
-    quiet(axes)
-    axes.grid(False, axis="y")
-    axes.set_xscale("log")
-    axes.set_xlim(1.0, high * 4.0)
-    for i, row in enumerate(rows):
-        colour = COLOURS[4] if row.effect in groups else COLOURS[0] if row.effect in added else COLOURS[5]
-        _bar(axes, i, row, colour)
-    _brackets(axes, [row.effect for row in rows], groups)
-    axes.set_ylim(len(rows) - 0.4, -0.6)
-    axes.set_yticks(range(len(rows)), [row.effect for row in rows], fontsize=SMALL)
-
-
-def _bar(axes: Axes, i: int, row: Candidate, colour: str) -> None:
-    """From 1 to its score; a candidate that does not pay has no bar. Its share of the misfit stands at the right."""
-    if row.score > 1:
-        hollow = {"facecolor": "white", "edgecolor": colour, "hatch": "////"}
-        look: dict[str, Any] = {"facecolor": colour} if row.refitted else hollow
-        axes.barh(i, row.score - 1, left=1.0, height=0.62, linewidth=0.8, **look)
+def _bar(axes: Axes, i: int, row: Rival, colour: str) -> None:
+    hollow = {"facecolor": "white", "edgecolor": colour, "hatch": "////"}
+    look: dict[str, Any] = {"facecolor": colour} if row.refitted else hollow
+    share = 100 * row.explained
+    axes.barh(i, share, height=0.62, linewidth=0.8, **look)
+    text = f"{share:.1f} %" if row.score > 0 else f"{share:.1f} %, no better for its parameters"
     axes.annotate(
-        f"{row.score:,.0f}" if row.score > 1 else "does not pay", (max(row.score, 1.0), i),
-        xytext=(4, 0), textcoords="offset points", va="center", fontsize=SMALL, color="#333333",
-    )  # fmt: skip
-    axes.annotate(
-        f"{100 * row.explained:.1f} %", (1.0, i), xycoords=("axes fraction", "data"), xytext=(34, 0),
-        textcoords="offset points", va="center", ha="right", fontsize=SMALL,
-    )  # fmt: skip
-
-
-def _brackets(axes: Axes, names: Sequence[str], groups: dict[str, int]) -> None:
-    """A line beside the names of each group, and what the numbers at the right are."""
-    axes.annotate(
-        "of the misfit", (1.0, -0.6), xycoords=("axes fraction", "data"), xytext=(34, 3), textcoords="offset points",
-        ha="right", fontsize=SMALL, color="#5c5c5c",
-    )  # fmt: skip
-    for k in set(groups.values()):
-        own = [i for i, name in enumerate(names) if groups.get(name) == k]
-        if len(own) > 1:
-            axes.plot(
-                [0.012, 0.004, 0.004, 0.012], [own[0] - 0.3, own[0] - 0.3, own[-1] + 0.3, own[-1] + 0.3],
-                color=MEASURED, linewidth=1.6, transform=axes.get_yaxis_transform(), clip_on=False, zorder=5,
-            )  # fmt: skip
+        text, (share, i), xytext=(4, 0), textcoords="offset points", va="center", fontsize=SMALL, color="#333333"
+    )

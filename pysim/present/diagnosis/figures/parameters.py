@@ -1,4 +1,4 @@
-"""Parameters before and after: which of them had been bent to hide what was missing."""
+"""Parameters before and after: which of them were biased by what was missing."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from pysim.present.style import BAND, COLOURS, LIMIT, SMALL, TEXT, legend_above, new_figure, quiet
-from pysim.types import BadInput, Estimate, Stage
+from pysim.types import BadInput, ErrorStep, Estimate
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 _LEAST = 0.1  # half widths of an interval at which the axis of the moves begins
 
 
-def diagnosis_parameters_figure(before: Stage, after: Stage | None) -> Figure:
+def parameters_figure(before: ErrorStep, after: ErrorStep | None) -> Figure:
     """Left, each parameter between its bounds with its interval; right, by how many intervals it has moved.
 
     Args:

@@ -11,7 +11,8 @@ import numpy as np
 from pysim.identify import HALF_95
 from pysim.io import shown_unit
 from pysim.present.style import BAND, COLOURS, DASHES, LIMIT, MEASURED, SMALL, TEXT, legend_above, new_figure, quiet
-from pysim.types import BadInput, Diagnosis, RecordFit, Stage
+from pysim.types import BadInput, Diagnosis, ErrorStep, RecordFit
+from pysim.types.answer import PRIOR, REFIT
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
@@ -26,7 +27,7 @@ _COARSE = 100  # samples up to which a residual needs no running mean
 
 def telling_records(diagnosis: Diagnosis) -> list[RecordFit]:
     """Records on which the base model fails most, as it has them: a log, a stepped sine, and one held out."""
-    base = base_of(diagnosis)
+    base = diagnosis.base
     kinds: dict[tuple[bool, str], RecordFit] = {}
     for record in () if base is None else base.records:
         key = (bool(record.harmonics), record.use)
@@ -36,34 +37,27 @@ def telling_records(diagnosis: Diagnosis) -> list[RecordFit]:
     return [kinds[key] for key in order if key in kinds][:3]
 
 
-def base_of(diagnosis: Diagnosis) -> Stage | None:
-    """The refitted base model; as it is, where nothing was refitted."""
-    stages = {stage.step: stage for stage in diagnosis.stages}
-    return stages.get("refit", stages.get("prior"))
+def same_record(record: RecordFit, step: ErrorStep) -> RecordFit | None:
+    """The record of the same log beside a model; None where that has none."""
+    return next((one for one in step.records if one.index == record.index), None)
 
 
-def same_record(record: RecordFit, stage: Stage) -> RecordFit | None:
-    """The record of the same log in a stage; None where that has none."""
-    return next((one for one in stage.records if one.index == record.index), None)
+def steps_shown(diagnosis: Diagnosis) -> list[tuple[str, ErrorStep, str]]:
+    """Untouched, refitted and final model: name, step and colour of each."""
+    looks = {PRIOR: ("as it is", LIMIT), REFIT: ("refitted", COLOURS[1])}
+    steps = [(*looks[step.step], step) for step in diagnosis.history if step.step in looks]
+    if diagnosis.last is not None:
+        steps.append((f"with {diagnosis.last.step}", COLOURS[0], diagnosis.last))
+    return [(name, step, colour) for name, colour, step in steps if step.records]
 
 
-def stages_shown(diagnosis: Diagnosis) -> list[tuple[str, Stage, str]]:
-    """Untouched, refitted and final model: name, stage and colour of each."""
-    names = [one.effect.name for one in diagnosis.added]
-    last = f"with {' and '.join(names)}" if len(names) < 3 else f"with {len(names)} effects"
-    steps = [("prior", "as it is", LIMIT), ("refit", "refitted", COLOURS[1])]
-    steps += [(names[-1], last, COLOURS[0])] if names else []
-    found = {stage.step: stage for stage in diagnosis.stages}
-    return [(name, found[step], colour) for step, name, colour in steps if step in found and found[step].records]
-
-
-def stages_compared(diagnosis: Diagnosis) -> list[tuple[str, Stage, str]]:
+def steps_compared(diagnosis: Diagnosis) -> list[tuple[str, ErrorStep, str]]:
     """The same without the untouched model where there are others: what it leaves would hide theirs."""
-    shown = stages_shown(diagnosis)
-    return [one for one in shown if one[1].step != "prior"] or shown
+    shown = steps_shown(diagnosis)
+    return [one for one in shown if one[1].step != PRIOR] or shown
 
 
-def diagnosis_overlay_figure(diagnosis: Diagnosis, record: RecordFit) -> Figure:
+def overlay_figure(diagnosis: Diagnosis, record: RecordFit) -> Figure:
     """One record: each signal as measured and as the untouched, the refitted and the final model has it.
 
     Below, what each model leaves in standard deviations of the noise; the grey band holds 95 percent of noise alone.
@@ -74,10 +68,10 @@ def diagnosis_overlay_figure(diagnosis: Diagnosis, record: RecordFit) -> Figure:
     Raises:
         BadInput: it is none of these.
     """
-    base = base_of(diagnosis)
+    base = diagnosis.base
     if base is None or not any(one is record for one in base.records):
         raise BadInput(f"overlay figure: {record.source!r} is no record of the diagnosis' base model")
-    beside = [(name, same_record(record, stage), colour) for name, stage, colour in stages_shown(diagnosis)]
+    beside = [(name, same_record(record, step), colour) for name, step, colour in steps_shown(diagnosis)]
     shown = [(name, one, colour) for name, one, colour in beside if one is not None]
     first = shown[min(1, len(shown) - 1)][1]
     names = first.measured.names
@@ -127,7 +121,7 @@ def _residual(axes: Axes, shown: Sequence[tuple[str, RecordFit, str]], j: int, p
         axes.plot(time, values, color=colour, linewidth=1.4)
         words.append(f"{name} {math.sqrt(float(np.mean(record.residual.values[:, j] ** 2))):.2f}")
     axes.set_title(f"rms of the whole record: {', '.join(words)}", fontsize=SMALL, loc="left", color="#444444")
-    axes.set_ylabel("Left over (noise s.d.)", fontsize=TEXT)
+    axes.set_ylabel("Residual over noise (-)", fontsize=TEXT)
     axes.set_xlabel("Time (s)", fontsize=TEXT)
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from scipy.special import chdtri
 
 from pysim.identify.residual_spectrum import FEWEST, residual_spectrum
-from pysim.present.diagnosis.figures.records import same_record, stages_compared
+from pysim.present.diagnosis.figures.records import same_record, steps_compared
 from pysim.present.style import (
     BAND,
     COLOURS,
@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 _MANY = 3  # logs shown
 
 
-def diagnosis_spectrum_figure(diagnosis: Diagnosis) -> Figure:
+def spectrum_figure(diagnosis: Diagnosis) -> Figure:
     """A panel per log and signal: power of the residual over frequency, of the refitted and the final model.
 
     The grey band holds 95 percent of what white noise of the stated size gives.
@@ -44,7 +44,7 @@ def diagnosis_spectrum_figure(diagnosis: Diagnosis) -> Figure:
     Raises:
         BadInput: no log over time but stepped sines.
     """
-    shown = stages_compared(diagnosis)
+    shown = steps_compared(diagnosis)
     panels = [
         (record, j)
         for record in ([] if not shown else shown[0][1].records)
@@ -59,8 +59,8 @@ def diagnosis_spectrum_figure(diagnosis: Diagnosis) -> Figure:
     axes = figure.subplots(rows, columns, squeeze=False, sharey=True)
     handles: dict[str, Artist] = {}
     for own, (record, j) in zip(axes.ravel(), panels, strict=False):
-        for (name, stage, colour), dash in zip(shown, reversed(DASHES[: len(shown)]), strict=True):  # the last: solid
-            one = same_record(record, stage)
+        for (name, step, colour), dash in zip(shown, reversed(DASHES[: len(shown)]), strict=True):  # the last: solid
+            one = same_record(record, step)
             if one is not None:
                 handles[name] = _draw(own, one, j, {"color": colour, "linestyle": dash})
         own.set_title(f"{record.source}: {record.measured.names[j]}", fontsize=SMALL, loc="left")

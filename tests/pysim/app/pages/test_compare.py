@@ -5,7 +5,7 @@ from types import SimpleNamespace
 from typing import Any
 
 from pysim.app.pages.compare import _errors, _points, _row, _worst
-from tests.pysim.diagnosis_story import dataset
+from tests.pysim.diagnosis_answer import dataset
 
 
 def test_points_are_told_with_their_units() -> None:

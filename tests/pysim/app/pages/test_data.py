@@ -7,7 +7,7 @@ import numpy as np
 from pysim.app.pages.data import _log_number, _row
 from pysim.identify.data_check import check_dataset
 from pysim.types import FrequencyResponse, SineTest
-from tests.pysim.diagnosis_story import dataset
+from tests.pysim.diagnosis_answer import dataset
 
 
 def test_a_point_is_told_with_its_unit_and_sorted_by_its_size() -> None:

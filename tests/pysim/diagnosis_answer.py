@@ -1,24 +1,27 @@
-"""A diagnosis whose every number is known: a gain that was bent, an offset that was missing, and noise of size one."""
+"""A diagnosis whose every number is known: a biased damping, an offset that was missing, and noise of size one."""
 
 import numpy as np
 
 from pysim.types import (
-    AddedEffect,
-    Candidate,
     Dataset,
     Diagnosis,
     Direction,
     Effect,
     EffectParameter,
+    ErrorStep,
     Estimate,
     Failure,
+    FoundEffect,
     Harmonics,
-    LedgerStep,
+    LearnedLaw,
+    Left,
     MeasuredRecord,
     MeasuredSignal,
+    Note,
+    NoteCode,
     Record,
     RecordFit,
-    Stage,
+    Rival,
 )
 
 OFFSET = Effect(
@@ -58,8 +61,8 @@ def record(source: str, use: str, step: str, index: int, *, frequency: float = 0
     return RecordFit("toy", source, kind, use, *columns, (noise,), {}, harmonics, index=index)
 
 
-def stage(step: str, *estimates: Estimate, **told: object) -> Stage:
-    """With two stepped sines, a log, and a log held out."""
+def stage(step: str, *estimates: Estimate, **more: object) -> ErrorStep:
+    """A model beside two stepped sines, a log, and a log held out."""
     records = (
         record("sines/1Hz.txt", "fit", step, 0, frequency=1.0),
         record("sines/5Hz.txt", "fit", step, 1, frequency=5.0),
@@ -67,7 +70,9 @@ def stage(step: str, *estimates: Estimate, **told: object) -> Stage:
         record("held.txt", "validate", step, 3),
     )
     where = tuple(Failure(r.source, "x", "everywhere", r.rms["x"]) for r in records)
-    return Stage(step, estimates, records=records, where=where, **told)
+    values: dict[str, object] = {"fit": None, "validate": None, "test": None, "criteria": {}, "passes": True, "cost": 0}
+    values |= {"estimates": estimates, "records": records, "failures": where}
+    return ErrorStep(step, **(values | more))  # type: ignore[arg-type]
 
 
 def dataset() -> Dataset:
@@ -81,13 +86,19 @@ def dataset() -> Dataset:
     return Dataset("toy", "a mass", "mass", signals, (*sines, *logs))
 
 
-def step(name: str, fit: float, validate: float | None, magnitude: float) -> LedgerStep:
-    """One criterion of Table 1.3, whose limit is 0.5 dB."""
-    return LedgerStep(name, fit, validate, {"E_M mean": magnitude}, magnitude <= 0.5, fit**2)
+def step(name: str, fit: float, validate: float | None, magnitude: float) -> ErrorStep:
+    """One criterion of Table 1.3, whose limit is 0.5 dB; no record."""
+    return ErrorStep(name, fit, validate, None, {"E_M mean": magnitude}, magnitude <= 0.5, fit**2)
 
 
-def story(**changes: object) -> Diagnosis:
-    """m and k were scaled together by chance (held: m), d was bent, and the offset took nearly all of the misfit.
+LAW = LearnedLaw(
+    "force", "", "v", np.linspace(-1, 1, 11), -0.4 * np.sign(np.linspace(-1, 1, 11)), 0.05**2 * np.eye(11), 0.97, "m/s",
+    "N", formula="-0.4 sign(v)",
+)  # fmt: skip
+
+
+def found_offset(**changes: object) -> Diagnosis:
+    """m and k were scaled together by chance (held: m), d was biased, and the offset took nearly all of the misfit.
 
     Args:
         changes: fields of the answer, in place of what stands here.
@@ -95,41 +106,40 @@ def story(**changes: object) -> Diagnosis:
     open_ = Direction({"m": 1.0, "k": 2.0}, np.inf)
     before = (estimate("m", 2.0, 0.0), estimate("k", 3.0, 0.3), estimate("d", 1.0, 0.2))
     after = (estimate("m", 1.0, 0.0), estimate("k", 0.75, 0.1), estimate("d", 1.5, 0.1), estimate("F_o", 0.4, 0.05))
-    stages = (
-        stage("prior"),
-        stage("refit", *before, undetermined=(open_,)),
-        stage("toy.offset", *after, undetermined=(open_,)),
+
+    def model(name: str, fit: float, validate: float, magnitude: float, *own: Estimate, **more: object) -> ErrorStep:
+        criteria = {"E_M mean": magnitude}
+        numbers = {"fit": fit, "validate": validate, "criteria": criteria, "passes": magnitude <= 0.5, "cost": fit**2}
+        return stage(name, *own, **numbers, **more)
+
+    history = (
+        model("prior", 8.1, 8.0, 0.9),
+        model("refit", 4.2, 3.2, 0.6, *before, undetermined=(open_,)),
+        model("toy.offset", 1.0, 1.01, 0.1, *after, undetermined=(open_,)),
     )
-    told: dict[str, object] = {
-        "verdict": "toy.offset",
-        "reason": "toy.offset explains 99.0 % of what the base model leaves over noise",
-        "added": (AddedEffect(OFFSET, "force", after[-1:]),),
-        "ranking": (
-            Candidate("toy.offset", 900.0, 1e-9, 0.99, True, {"F_o": 0.4}),
-            Candidate("toy.twin", 895.0, 1e-9, 0.98, True, {"F_t": 0.4}),
-            Candidate("toy.other", 12.0, 1e-3, 0.05, False, {"k_3": 5.0}),
-            Candidate("toy.idle", -6.0, 0.9, 0.0, False, {"F_i": 0.1}),
+    values: dict[str, object] = {
+        "effects": (FoundEffect(OFFSET, "force", after[-1:], 0.99, 3.2),),
+        "complete": True,
+        "left": Left({}, 1.0, 1.01, 0.01, 0.5),
+        "rivals": (
+            Rival(("toy.offset",), 900.0, 1e-9, 0.99, True, {"F_o": 0.4}),
+            Rival(("toy.twin",), 895.0, 1e-9, 0.98, True, {"F_t": 0.4}),
+            Rival(("toy.other",), 12.0, 1e-3, 0.05, False, {"k_3": 5.0}),
+            Rival(("toy.idle",), -6.0, 0.9, 0.0, False, {"F_i": 0.1}),
         ),
-        "confusable": (("toy.offset", "toy.twin"),),
-        "error": (step("prior", 8.1, 8.0, 0.9), step("refit", 4.2, 3.2, 0.6), step("toy.offset", 1.0, 1.01, 0.1)),
-        "parameters": after,
-        "where": stages[1].where,
-        "seconds": {"refit": 1.5},
-        "notes": ("the noise of x was seen in the logs",),
-        "stages": stages,
+        "ties": (("toy.offset", "toy.twin"),),
+        "history": history,
+        "failures": history[1].failures,
+        "estimates": after,
+        "notes": (Note(NoteCode.NOISE_ESTIMATED, {"dataset": "toy", "signal": "x", "value": 0.5, "unit": "m"}),),
         "conditions": {"seed": "7"},
+        "seconds": {"refit": 1.5},
     }
-    return Diagnosis(**(told | changes))  # type: ignore[arg-type]
+    return Diagnosis(**(values | changes))  # type: ignore[arg-type]
 
 
-def nothing() -> Diagnosis:
+def nothing(**changes: object) -> Diagnosis:
     """The same where the data ask for nothing."""
-    full = story()
-    return story(
-        verdict="none",
-        reason="the refitted base model explains the data to 1.000 times the noise's variance",
-        added=(),
-        confusable=(),
-        error=full.error[:2],
-        stages=full.stages[:2],
-    )
+    full = found_offset()
+    values: dict[str, object] = {"effects": (), "ties": (), "history": full.history[:2], "left": Left({}, 4.2, 3.2)}
+    return found_offset(**(values | changes))

@@ -1,12 +1,12 @@
 """The falling error: numbers are the ledger's."""
 
-from pysim.app.figures import staircase_figure
+from pysim.app.figures import error_figure
 from tests.pysim.app.figures.ledger import STEPS
 from tests.pysim.app.figures.traces import trace
 
 
 def test_the_staircase_has_every_step_and_an_empty_one_for_what_is_being_found() -> None:
-    found = staircase_figure(STEPS, doing="refitting")
+    found = error_figure(STEPS, doing="refitting")
     assert [v for v in trace(found, "fitted")["y"] if v is not None] == [64, 64, 20, 20, 1, 1]
     words = [note["text"] for note in found["layout"]["annotations"]]
     assert {"<b>64</b>", "<b>46</b>", "<b>20</b>", "<b>1.00</b>", "<b>0.90</b>", "noise alone"} == set(words)
@@ -16,7 +16,7 @@ def test_the_staircase_has_every_step_and_an_empty_one_for_what_is_being_found()
 
 
 def test_a_staircase_begins_with_the_place_of_its_first_step() -> None:
-    found = staircase_figure([], doing="starting")
+    found = error_figure([], doing="starting")
     assert found["data"] == []
     assert found["layout"]["xaxis"]["ticktext"] == ["<i>starting …</i>"]
     box = found["layout"]["shapes"][1]

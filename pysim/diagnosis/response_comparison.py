@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 
-from pysim.diagnose.conditions import conditions, parameters
+from pysim.diagnosis.conditions import conditions, parameters
 from pysim.identify import (
     THESIS_REFERENCE_HZ,
     SteadyRun,
@@ -37,7 +37,7 @@ SOLVER = Rodas(rtol=1e-5, atol=1e-5)
 Progress = Callable[[int, int], None]
 
 
-def compare(
+def compare_responses(
     model: Model,
     dataset: Dataset,
     *,

@@ -11,15 +11,15 @@ from pysim.app.figures.look import Figure, axis, figure, plain
 
 
 def step_name(step: str) -> str:
-    """A step of the ledger as people call it."""
+    """A step of the error history as people call it."""
     return {"prior": "as it is", "refit": "refitted"}.get(step, f"+ {step}")
 
 
-def staircase_figure(steps: Sequence[Mapping[str, Any]], *, doing: str = "") -> Figure:
+def error_figure(steps: Sequence[Mapping[str, Any]], *, doing: str = "") -> Figure:
     """The error over noise, step by step, fitted and held out; what is being worked on stands last, empty.
 
     Args:
-        steps: of the ledger.
+        steps: of the error history.
         doing: name of the step that is being found; "" where nothing runs.
     """
     names = [plain(step_name(s["step"])) for s in steps] + ([f"<i>{_wrapped(doing)} …</i>"] if doing else [])

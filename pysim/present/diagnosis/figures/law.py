@@ -1,0 +1,62 @@
+"""A learned law: what a place of the model lacks, over what it depends on."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from pysim.io import shown_unit
+from pysim.present.diagnosis.law_words import law_kind
+from pysim.present.style import COLOURS, LIMIT, MEASURED, SMALL, TEXT, legend_above, new_figure, quiet
+from pysim.types import BadInput, LearnedLaw
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+    from numpy.typing import NDArray
+
+_BINS = 60  # of the density of data
+
+
+def law_figure(law: LearnedLaw, samples: NDArray[np.float64] | None = None) -> Figure:
+    """The curve with its 95 percent band; below, where the data are, its formula, and what refitting does as well.
+
+    Args:
+        samples: (n,) of the argument in all logs, in its unit; None where they are not at hand.
+    Raises:
+        BadInput: a curve without two knots.
+    """
+    if law.knots.size < 2:
+        raise BadInput(f"learned law at {law.slot}: a picture needs two knots, the curve has {law.knots.size}")
+    (unit_in, scale_in), (unit_out, scale_out) = shown_unit(law.argument_unit), shown_unit(law.unit)
+    z, (low, high) = law.knots * scale_in, law.band
+    figure = new_figure(6.4, 4.2)
+    if samples is None:
+        top = bottom = figure.subplots()
+    else:
+        top, bottom = figure.subplots(2, 1, sharex=True, height_ratios=(6, 1))
+        _density(bottom, samples * scale_in, z)
+    band = top.fill_between(z, low * scale_out, high * scale_out, color=COLOURS[0], alpha=0.25, linewidth=0)
+    (line,) = top.plot(z, law.coefficients * scale_out, color=COLOURS[0], linewidth=1.5)
+    top.axhline(0.0, color=LIMIT, linewidth=0.9)
+    top.set_xlim(float(z[0]), float(z[-1]))
+    bottom.set_xlabel(f"{law.argument} ({unit_in})", fontsize=TEXT)
+    top.set_ylabel(f"Missing {law_kind(law)} at {law.slot} ({unit_out})", fontsize=TEXT)
+    quiet(top)
+    legend_above(figure, [line, band], [f"explains {100 * law.share:.0f} % of the misfit", "95 % band"])
+    notes = [law.formula] if law.formula else []
+    if law.alternatives:
+        notes.append(f"these data cannot tell it from a law at {', '.join(law.alternatives)}")
+    if law.absorbed.size:
+        notes.append("up to a level or slope that the model's own parameters do as well")
+    if notes:
+        figure.supxlabel("\n".join(notes), fontsize=SMALL)
+    return figure
+
+
+def _density(axes: Axes, samples: NDArray[np.float64], knots: NDArray[np.float64]) -> None:
+    quiet(axes)
+    axes.hist(samples, bins=_BINS, range=(float(knots[0]), float(knots[-1])), color=MEASURED, alpha=0.5)
+    axes.set_yticks([])
+    axes.set_ylabel("Data", fontsize=SMALL)

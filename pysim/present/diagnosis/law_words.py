@@ -1,0 +1,55 @@
+"""A learned law in words: what is missing where, on what it depends, and what that does to the error."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+
+from pysim.present.notes import listed
+from pysim.types import ErrorStep, LearnedLaw
+from pysim.types.answer_json import held_out
+
+# What a law gives, by its unit: alone, and per unit of its factor.
+_GIVES = {"N": "force", "N.m": "torque", "m3/s": "flow", "Pa": "pressure", "m": "displacement", "rad": "angle"}
+_PER_FACTOR = {
+    "N.s/m": "damping",
+    "N.m.s/rad": "damping",
+    "N.m.s": "damping",
+    "N/m": "stiffness",
+    "N.m/rad": "stiffness",
+    "kg": "mass",
+    "kg.m2": "moment of inertia",
+    "m3/(s.Pa)": "flow conductance",
+}
+
+
+def law_kind(law: LearnedLaw) -> str:
+    """What the law gives at its slot: "force", "damping"; "term" and "coefficient of v" where its unit says nothing."""
+    if not law.factor:
+        return _GIVES.get(law.unit, "term")
+    if re.fullmatch(r"sign\([^()]*\)", law.factor) and law.unit in ("N", "N.m"):
+        return "friction"
+    return _PER_FACTOR.get(law.unit, f"coefficient of {law.factor}")
+
+
+def law_sentence(law: LearnedLaw, history: Sequence[ErrorStep] = ()) -> str:
+    """What is missing, how much of the misfit it explains, what it looks like, and the error on unseen logs.
+
+    Args:
+        history: of the error; its last model without the law is what the law is compared with.
+    """
+    kind = law_kind(law)
+    on = "changes with time" if law.argument == "time" else f"depends on {law.argument}"
+    if law.factor:
+        texts = [f"The {kind} at {law.slot} is not constant: it {on}."]
+    else:
+        texts = [f"The model lacks {'an' if kind == 'angle' else 'a'} {kind} at {law.slot} that {on}."]
+    texts.append(f"It explains {100 * law.share:.1f} % of the misfit.")
+    if law.formula:
+        texts.append(f"It looks like {law.formula}.")
+    unseen = held_out(law, tuple(history))
+    if unseen is not None:
+        texts.append(f"On held-out logs the residual goes from {unseen[0]:.3g} to {unseen[1]:.3g} with it.")
+    if law.alternatives:
+        texts.append(f"These data cannot tell it from a law at {listed(law.alternatives)}.")
+    return " ".join(texts)
