@@ -16,7 +16,7 @@ from pysim.app.disk import remove
 from pysim.app.processes import Started, end, last_words, run_pysim
 from pysim.app.project import Project
 from pysim.io import write_file
-from pysim.types import BadInput, standing
+from pysim.types import BadInput
 
 RUNNING, DONE, STOPPED, FAILED = "running", "done", "stopped", "failed"
 _JOB, _EVENTS, _OUTPUT = "job.json", "events.jsonl", "output.txt"
@@ -149,9 +149,8 @@ def _write_job(job: Job, folder: Path) -> None:
 def _with_events(job: Job, folder: Path) -> Job:
     """With what its events say; a job that goes on keeps the steps it had found until it has found them again."""
     lines = _lines(folder / _EVENTS)
-    found = _steps(lines)
-    found += _steps(_lines(folder / _EARLIER))[len(found) :]
-    steps = tuple(standing(found, lambda step: str(step["step"])))
+    steps = _steps(lines)
+    steps += _steps(_lines(folder / _EARLIER))[len(steps) :]
     if not lines:
         return replace(job, steps=steps)
     learned = tuple(line["text"] for line in lines if line["text"])

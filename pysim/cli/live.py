@@ -47,9 +47,7 @@ class Live:
         with self._lock:
             self._stage = event.stage
             if event.step is not None:
-                from pysim.types import standing
-
-                self._steps = standing([*self._steps, event.step], lambda step: step.step)
+                self._steps.append(event.step)
             elif event.text:
                 self._learned = [*self._learned, event.text][-_LEARNED:]
         self._draw()

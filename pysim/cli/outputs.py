@@ -14,13 +14,13 @@ from pathlib import Path
 
 JSON = (".json",)
 MARKER = ".pysim-answer"  # in the folder: the names of our files, a line each
-LOG, JOURNAL = "log", "journal.jsonl"  # in the folder: what a stopped fit, and a stopped diagnosis, goes on from
-_GO_ON = (LOG, JOURNAL)
+LOG, CHECKPOINT = "log", "checkpoint.jsonl"  # in the folder: what a stopped fit, and a stopped diagnosis, goes on from
+_GO_ON = (LOG, CHECKPOINT)
 _NEW = ".pysim-new"  # in the folder while an answer is written
 _OF_THE_SYSTEM = {".DS_Store", "Thumbs.db", "desktop.ini"}  # whoever looks into a folder leaves one; they stay
 # What a stopped run goes on from; it lies there before any answer does. A kill may leave half of it under another name.
 _UNFINISHED = re.compile(
-    rf"({re.escape(MARKER)}|journal\.jsonl|log/[^/]+/(iterations\.jsonl|state\.npz))(\.[0-9a-f]{{8}}\.part)?"
+    rf"({re.escape(MARKER)}|checkpoint\.jsonl|log/[^/]+/(iterations\.jsonl|state\.npz))(\.[0-9a-f]{{8}}\.part)?"
 )
 
 

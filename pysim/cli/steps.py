@@ -21,7 +21,7 @@ from pysim.cli.options import (
     REFERENCE_HZ,
     SET,
 )
-from pysim.cli.outputs import JOURNAL
+from pysim.cli.outputs import CHECKPOINT
 
 if TYPE_CHECKING:
     from pysim.present.diagnosis import Diagnosed
@@ -100,7 +100,7 @@ def run_step(
     from pysim.types import ProgressEvent
 
     announce_compilation()
-    journal = given.output / JOURNAL if given.output else None
+    checkpoint = given.output / CHECKPOINT if given.output else None
     try:
         with Live(f"{parts.dataset.name}: {parts.model_name}") as live:
             followers: list[Callable[[ProgressEvent], None]] = [live]
@@ -110,11 +110,11 @@ def run_step(
                 for one in followers:
                     one(event)
 
-            found = work(progress, journal)
+            found = work(progress, checkpoint)
             for one in followers[1:]:  # a program that follows must know why it does not end yet
                 one(ProgressEvent("writing report and files"))
     except KeyboardInterrupt:
-        cure = "the same command goes on where it was" if journal else "with --output DIR a run can be gone on with"
+        cure = "the same command goes on where it was" if checkpoint else "with --output DIR a run can be gone on with"
         raise KeyboardInterrupt(cure) from None
     found = replace(found, conditions={**_conditions(given, parts), **found.conditions})
     sentence = answer(found) if answer is not None else ""
@@ -137,7 +137,7 @@ def end_step(given: Given, result: Diagnosed) -> None:
     if given.records:
         write_stages(given.records, result.found.history)
     if given.output:
-        (given.output / JOURNAL).unlink(missing_ok=True)
+        (given.output / CHECKPOINT).unlink(missing_ok=True)
 
 
 def _conditions(given: Given, parts: SessionParts) -> dict[str, str]:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from pysim.cli.command import Command, Given
 from pysim.cli.option import switch
-from pysim.cli.outputs import JOURNAL
+from pysim.cli.outputs import CHECKPOINT
 from pysim.cli.steps import SUBJECT, end_step, read_parts, results, run_step, write_model
 
 if TYPE_CHECKING:
@@ -102,6 +102,6 @@ COMMAND = Command(
     ),
     passes=_passes,
     files=lambda given, result, folder: result if given.opened is None else write_model(given, result, folder),
-    goes_on=(JOURNAL,),
+    goes_on=(CHECKPOINT,),
     done=lambda given, result: None if given.opened is None else end_step(given, result),
 )

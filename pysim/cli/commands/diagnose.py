@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from pysim.cli.command import Command, Given
 from pysim.cli.option import number
-from pysim.cli.outputs import JOURNAL
+from pysim.cli.outputs import CHECKPOINT
 from pysim.cli.steps import EFFECTS, SUBJECT, end_step, read_parts, results, run_step, write_model
 
 if TYPE_CHECKING:
@@ -57,5 +57,5 @@ COMMAND = Command(
     ),
     files=write_model,
     done=end_step,
-    goes_on=(JOURNAL,),
+    goes_on=(CHECKPOINT,),
 )

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from pysim.cli.command import Command, Given
 from pysim.cli.option import names
-from pysim.cli.outputs import JOURNAL
+from pysim.cli.outputs import CHECKPOINT
 from pysim.cli.steps import SUBJECT, end_step, read_parts, results, run_step, write_model
 
 if TYPE_CHECKING:
@@ -47,6 +47,7 @@ def located(
     from pysim.diagnose import located as old_located
     from pysim.present.notes import words
     from pysim.types import Diagnosis, FoundEffect, Left, Note, NoteCode, ProgressEvent
+    from pysim.types.answer import UNKNOWN
     from pysim.types.diagnosis import Stage, Told
     from pysim.workflow import subject_of
 
@@ -61,7 +62,7 @@ def located(
     last = old.error[-1]
     return Diagnosis(
         effects=tuple(FoundEffect(one.effect, one.place, one.estimates) for one in old.added),
-        complete=old.verdict == "none",
+        complete=old.verdict != UNKNOWN,
         left=Left({}, last.fit, last.validate),
         rivals=(),
         ties=old.confusable,
@@ -112,5 +113,5 @@ COMMAND = Command(
     options=(*SUBJECT, names("--with", "effects that the model is to have already"), *results(", parameters.toml")),
     files=write_model,
     done=end_step,
-    goes_on=(JOURNAL,),
+    goes_on=(CHECKPOINT,),
 )

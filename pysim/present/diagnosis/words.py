@@ -34,9 +34,8 @@ def verdict_sentence(diagnosis: Diagnosis) -> str:
         )
     laws = [law_sentence(diagnosis.learned[0], diagnosis.history)] if diagnosis.learned else []
     if diagnosis.verdict == UNKNOWN:
-        head = [] if laws else ["Something is missing, and no effect that was tried explains it."]
-        known = ["No effect of the catalogue explains it."] if laws else []
-        return " ".join([*head, *laws, *known, _left(diagnosis)])
+        tried = "No effect that was tried explains it." if diagnosis.rivals else "No effect was tried."
+        return " ".join([*(laws or ["Something is missing."]), tried, _left(diagnosis)])
     count = "an effect" if len(names) == 1 else f"{len(names)} effects"
     rest = ["More is missing than that.", *laws, _left(diagnosis)]
     more = ["Nothing but noise is left."] if diagnosis.complete else rest

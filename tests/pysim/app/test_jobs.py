@@ -101,17 +101,17 @@ def test_what_takes_too_long_is_ended_and_says_so(project: Project) -> None:
     assert (job.state, job.message) == (FAILED, "it took longer than 0.2 s; run it on the command line")
 
 
-def test_a_journal_is_kept_for_the_same_data_and_removed_for_others(project: Project) -> None:
-    runner, journal = Runner(project), project.results("try") / "journal.jsonl"
-    runner.start(work(project, "open('results/try/journal.jsonl', 'w'); raise SystemExit(2)"))
+def test_a_checkpoint_is_kept_for_the_same_data_and_removed_for_others(project: Project) -> None:
+    runner, checkpoint = Runner(project), project.results("try") / "checkpoint.jsonl"
+    runner.start(work(project, "open('results/try/checkpoint.jsonl', 'w'); raise SystemExit(2)"))
     wait(runner)
     runner.start(work(project, "raise SystemExit(2)"))
     wait(runner)
-    assert journal.exists()
+    assert checkpoint.exists()
     project.change(model="Other.Model")
     runner.start(work(project, "raise SystemExit(2)"))
     wait(runner)
-    assert not journal.exists()
+    assert not checkpoint.exists()
 
 
 def test_what_a_server_left_running_is_ended_and_counts_as_stopped(project: Project) -> None:
@@ -240,7 +240,6 @@ def test_what_goes_on_keeps_its_steps_until_it_has_found_them_again(project: Pro
         (["d"], "dbc"),
         ([], "abc"),
         (["e", "f", "g", "h"], "efgh"),
-        (list("abcdbx"), "abx"),
     ):
         text = "".join(line(step) for step in told)
         runner.start(

@@ -119,19 +119,19 @@ def test_a_stopped_diagnosis_goes_on_and_a_reload_finds_it(
         tab.press("Find what is missing")
         tab.see("Stop")
         other.see("Stop")  # two tabs agree
-        journal = project / "results/diagnose/report/journal.jsonl"
-        found = lines(journal, 2)  # whose it is, and the first part that is done
+        checkpoint = project / "results/diagnose/report/checkpoint.jsonl"
+        found = lines(checkpoint, 2)  # whose it is, and the first part that is done
         other.press("Stop")  # at once: the toy is found within seconds
         tab.see("was stopped; what it had found is kept")
         tab.page.reload()
         tab.see("was stopped; what it had found is kept")
-        found = lines(journal, len(found))
+        found = lines(checkpoint, len(found))
     with server(project) as address:  # a server that ended loses nothing
         tab = Tab(shown, address)
         tab.press("Go on")
         tab.see("Stop")
         tab.go("Add")
-        assert lines(journal, len(found) + 1)[: len(found)] == found  # nothing is done twice
+        assert lines(checkpoint, len(found) + 1)[: len(found)] == found  # nothing is done twice
         tab.see("Undo toy.", timeout=PATIENCE)  # friction or its twin: these data do not tell them apart
         undo = tab.page.get_by_role("button", name=re.compile(r"^Undo toy\.(friction|twin)$"))
         undo.click()

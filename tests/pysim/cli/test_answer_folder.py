@@ -11,7 +11,7 @@ from pysim.types import BadInput
 
 def answer(folder: Path, *names: str, beside: Sequence[Path] = (), read: Sequence[Path] = ()) -> None:
     """An answer of these files."""
-    prepare_answer(folder, data=[], read=read, beside=beside, goes_on=("journal.jsonl", "log"))
+    prepare_answer(folder, data=[], read=read, beside=beside, goes_on=("checkpoint.jsonl", "log"))
     with answer_folder(folder, beside=beside) as new:
         for name in names:
             (new / name).write_text(f"our {name}")
@@ -84,17 +84,19 @@ def test_an_answer_that_is_not_finished_changes_nothing(tmp_path: Path) -> None:
 
 
 def test_what_a_killed_run_left_is_gone_on_with_or_replaced(tmp_path: Path) -> None:
-    for name in ("journal.jsonl", "log/given/state.npz", ".pysim-new/report.html"):
+    for name in ("checkpoint.jsonl", "log/given/state.npz", ".pysim-new/report.html"):
         (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / name).write_text("half")
     answer(tmp_path, "report.html", beside=[tmp_path / "log"])
-    unfinished = {"journal.jsonl", "log", "log/given", "log/given/state.npz"}
+    unfinished = {"checkpoint.jsonl", "log", "log/given", "log/given/state.npz"}
     assert left(tmp_path) == {*unfinished, "report.html", MARKER}
     answer(tmp_path, "other.html")  # the log was part of the earlier answer
-    assert left(tmp_path) == {"journal.jsonl", "other.html", MARKER}
+    assert left(tmp_path) == {"checkpoint.jsonl", "other.html", MARKER}
 
 
-@pytest.mark.parametrize(("begun", "goes_on"), [("journal.jsonl", "log"), ("log/given/state.npz", "journal.jsonl")])
+@pytest.mark.parametrize(
+    ("begun", "goes_on"), [("checkpoint.jsonl", "log"), ("log/given/state.npz", "checkpoint.jsonl")]
+)
 def test_what_another_command_would_go_on_from_is_refused(tmp_path: Path, begun: str, goes_on: str) -> None:
     (tmp_path / begun).parent.mkdir(parents=True, exist_ok=True)
     (tmp_path / begun).write_text("half")

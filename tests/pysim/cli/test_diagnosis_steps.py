@@ -12,7 +12,7 @@ import pytest
 
 from pysim.cli import main
 from pysim.cli.live import Live
-from pysim.cli.outputs import JOURNAL, MARKER
+from pysim.cli.outputs import CHECKPOINT, MARKER
 from pysim.diagnosis import error_history
 from pysim.identify.greybox.comparison import Compared
 from pysim.io import read_model, write_dataset
@@ -50,10 +50,10 @@ def test_a_command_that_was_stopped_goes_on_with_the_same_answer(
         patch.setattr(Live, "__call__", stopped_at("prior"))
         assert main(words) == 2
     assert "the same command goes on" in capsys.readouterr().err
-    assert [path.name for path in output.iterdir()] == [JOURNAL]
-    refused([*words, "--free", "m"], capsys, JOURNAL, "delete it")
+    assert [path.name for path in output.iterdir()] == [CHECKPOINT]
+    refused([*words, "--free", "m"], capsys, CHECKPOINT, "delete it")
     assert main([*words, "--json", str(tmp_path / "a.json")]) == 0
-    assert not (output / JOURNAL).exists()
+    assert not (output / CHECKPOINT).exists()
     again = json.loads((tmp_path / "a.json").read_text())
     for key in ("verdict", "error", "parameters", "where"):
         assert again[key] == compared.answer[key]

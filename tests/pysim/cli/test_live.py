@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from pysim.cli.live import EventFile, Live, block
-from pysim.types import ErrorStep, ProgressEvent, standing
+from pysim.types import ProgressEvent
 from tests.pysim.diagnosis_answer import found_offset, step
 
 
@@ -33,13 +33,6 @@ def test_the_block_shows_time_stage_and_the_error_falling() -> None:
     assert lengths[0] == 24 > lengths[1] > lengths[2] == 0  # nothing but noise has no bar
     assert bars[0].endswith("held out    8.00")
     assert learned == "  - found"
-
-
-def test_a_model_that_is_found_again_takes_the_place_of_the_former_one() -> None:
-    steps: list[ErrorStep] = []
-    for name, error in (("prior", 8.0), ("refit", 4.0), ("toy.stop", 2.0), ("refit", 3.0), ("toy.friction", 1.0)):
-        steps = standing([*steps, step(name, error, error, 0.9)], lambda one: one.step)
-    assert [(one.step, one.fit) for one in steps] == [("prior", 8.0), ("refit", 3.0), ("toy.friction", 1.0)]
 
 
 def test_before_anything_is_known_there_is_the_stage_alone() -> None:

@@ -50,6 +50,12 @@ def test_what_is_left_is_said_with_none_with_unknown_and_where_more_is_missing()
     assert numbers(verdict_sentence(found_offset(complete=False, left=left)))[-3:] == [4.2, 3.2, 60.0]
 
 
+def test_where_no_effect_was_tried_none_is_excluded() -> None:
+    tried, bare = (verdict_sentence(nothing(complete=False, **more)) for more in ({}, {"rivals": ()}))
+    assert "No effect that was tried" in tried
+    assert "No effect was tried" in bare
+
+
 def test_an_error_that_rises_does_not_fall() -> None:
     steps = (step("prior", 3.0, 3.0, 0.1), step("refit", 2.0, 2.0, 0.1), step("x", 1.0, 2.5, 0.1))
     assert "falls" in verdict_sentence(found_offset())
