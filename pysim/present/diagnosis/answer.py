@@ -10,6 +10,7 @@ from pysim.io import shown_value
 from pysim.present.diagnosis.law_words import law_kind
 from pysim.present.diagnosis.words import (
     UNIT,
+    candidates_shown,
     limits_words,
     next_test_sentence,
     share_text,
@@ -87,14 +88,13 @@ def _signals(diagnosis: Diagnosis) -> Iterator[str]:
 
 
 def _candidates(diagnosis: Diagnosis) -> Iterator[str]:
-    """The best alone, and what improves a model that has effects already."""
-    alone = [row for row in diagnosis.rivals if len(row.effects) == 1][:_ROWS]
-    beside = [row for row in diagnosis.rivals if len(row.effects) > 1 and row.score > 0][:_ROWS]
-    names = [" + ".join(row.effects) for row in (*alone, *beside)]
+    rows = candidates_shown(diagnosis)
+    rows = [*[r for r in rows if len(r.effects) == 1][:_ROWS], *[r for r in rows if len(r.effects) > 1][:_ROWS]]
+    names = [" + ".join(row.effects) for row in rows]
     width = max([24, *map(len, names)])
     if names:
         yield f"{'Candidates':<{width + 2}}  explains  gain less penalty (nats)"
-    for name, row in zip(names, (*alone, *beside), strict=True):
+    for name, row in zip(names, rows, strict=True):
         how = "" if row.refitted else "  screened only"
         yield f"  {name:<{width}}  {100 * row.explained:6.1f} %  {row.score:10.4g}{how}"
 

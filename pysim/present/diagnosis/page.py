@@ -10,6 +10,7 @@ from pysim.io import shown_value
 from pysim.present.diagnosis.law_words import law_kind, law_sentence
 from pysim.present.diagnosis.words import (
     BEYOND,
+    candidates_shown,
     chance_text,
     limits_words,
     next_test_sentence,
@@ -157,8 +158,11 @@ def _candidates(diagnosis: Diagnosis) -> list[str]:
         return []
     texts = [f"These data cannot tell apart: {listed(group)}." for group in diagnosis.ties]
     head = ["effects", "of the misfit", "gain less penalty (nats)", "by chance", "how", "sizes there"]
-    rows = [_candidate(row) for row in diagnosis.rivals]
-    return [*(paragraph(text, note=True) for text in texts), table("Every candidate that was considered", head, rows)]
+    rows = [_candidate(row) for row in candidates_shown(diagnosis)]
+    return [
+        *(paragraph(text, note=True) for text in texts),
+        table("Candidates beside the base model, and what improves a model with effects", head, rows),
+    ]
 
 
 def _candidate(row: Rival) -> list[str]:

@@ -11,7 +11,7 @@ from pysim.identify.accuracy import FREQUENCY_CRITERIA, TIME_CRITERIA
 from pysim.io import counted
 from pysim.present.diagnosis.law_words import law_sentence
 from pysim.present.notes import listed
-from pysim.types import Criterion, Diagnosis, ErrorStep, Estimate, FoundEffect, NextTest, NoteCode
+from pysim.types import Criterion, Diagnosis, ErrorStep, Estimate, FoundEffect, NextTest, NoteCode, Rival
 from pysim.types.answer import NONE, PRIOR, REFIT, UNKNOWN
 
 UNIT = "standard deviations of the noise"
@@ -88,6 +88,16 @@ def added_sentence(diagnosis: Diagnosis) -> str:
     """What the effects that were asked for do to the error."""
     names = listed([_named(one) for one in diagnosis.effects])
     return f"Added as asked: {names}. {_fall(diagnosis.history)} {limits_sentence(diagnosis.history[-1])}"
+
+
+def candidates_shown(diagnosis: Diagnosis) -> list[Rival]:
+    """All beside the base model, the best first; beside a model with effects those alone that improve it.
+
+    Where nothing but noise is left, a share of the misfit says nothing.
+    """
+    alone = [row for row in diagnosis.rivals if len(row.effects) == 1]
+    beside = [row for row in diagnosis.rivals if len(row.effects) > 1 and row.refitted and row.score > 0]
+    return [*alone, *beside]
 
 
 def learned_sentence(diagnosis: Diagnosis) -> str:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from pysim.identify.accuracy import FREQUENCY_CRITERIA, TIME_CRITERIA
-from pysim.present.diagnosis.words import step_name
+from pysim.present.diagnosis.words import candidates_shown, step_name
 from pysim.present.style import (
     BAND,
     COLOURS,
@@ -144,7 +144,7 @@ def candidates_figure(diagnosis: Diagnosis) -> Figure:
     Raises:
         BadInput: no candidate.
     """
-    rows = sorted(diagnosis.rivals, key=lambda row: (len(row.effects), -row.score))[:_ROWS]
+    rows = candidates_shown(diagnosis)[:_ROWS]
     if not rows:
         raise BadInput("candidates figure: needs at least one candidate")
     added, tied = {one.effect.name for one in diagnosis.effects}, {name for group in diagnosis.ties for name in group}
