@@ -2,7 +2,7 @@
 
 from pysim.app.figures.bode import bode_figure
 from pysim.app.figures.criteria import CRITERIA, criteria_figure
-from pysim.app.figures.error import error_figure, step_name
+from pysim.app.figures.error import error_figure
 from pysim.app.figures.heat_map import map_figure
 from pysim.app.figures.law import law_figure
 from pysim.app.figures.look import LOOKS, Figure, plain
@@ -22,5 +22,4 @@ __all__ = [
     "parameters_figure",
     "plain",
     "signal_trace",
-    "step_name",
 ]

@@ -8,11 +8,7 @@ from textwrap import wrap
 from typing import Any
 
 from pysim.app.figures.look import Figure, axis, figure, plain
-
-
-def step_name(step: str) -> str:
-    """A step of the error history as people call it."""
-    return {"prior": "as it is", "refit": "refitted"}.get(step, f"+ {step}")
+from pysim.present.diagnosis.words import step_name
 
 
 def error_figure(steps: Sequence[Mapping[str, Any]], *, doing: str = "") -> Figure:

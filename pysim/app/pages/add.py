@@ -11,6 +11,7 @@ from pysim.app.desk import Desk
 from pysim.app.figures import CRITERIA, criteria_figure, error_figure, parameters_figure
 from pysim.app.pages.common import attempt, busy, ended, nothing, start
 from pysim.app.parts import Chart, Table, box, button, card, head, live, note, text
+from pysim.present.diagnosis.words import step_name
 from pysim.present.notes import direction_words
 from pysim.types import Direction
 
@@ -112,7 +113,7 @@ def _criteria(answer: Answer, added: Sequence[str]) -> None:
     if not symbols:
         return
     columns = [("criterion", "words"), ("limit", "number")]
-    columns += [({"prior": "as it is", "refit": "refitted"}.get(s["step"], f"+ {s['step']}"), "number") for s in steps]
+    columns += [(step_name(s["step"]), "number") for s in steps]
     rows = []
     for symbol in symbols:
         one = CRITERIA[symbol]
