@@ -9,7 +9,6 @@ from pysim.io import shown_value
 from pysim.types import Direction
 from pysim.types.note import Note, NoteCode
 
-SHUT = "in none of the libraries"  # said of a model's class
 _WORDS = {
     NoteCode.NOISE_ESTIMATED: (
         "{dataset}: no noise is specified for {signal}; a standard deviation of {shown} was estimated from the data."
@@ -18,7 +17,6 @@ _WORDS = {
         "{dataset}: tables of responses specify no noise; standard deviations of {magnitude:.2g} dB and {phase:.2g} "
         "degrees were assumed for each point (thesis Eq. 2.25)."
     ),
-    NoteCode.RECORD_LEFT_OUT: "{record} was left out: {reason}.",
     NoteCode.NOT_COMPARED: "{record} was left out: none of its columns is compared.",
     NoteCode.NOT_SETTLED: (
         "{record}{more}: the first period is unlike those after it. Either the plant had not settled, or the noise has "
@@ -44,7 +42,9 @@ _WORDS = {
     NoteCode.HELD_AS_SET: "held as set, not refitted: {parameters}; --free refits them from there",
     NoteCode.BUILT_WITH: "built with values of its own, which every candidate has too: {parameters}",
     NoteCode.NO_EFFECT_FITS: "no slot of {model} takes an effect of the libraries, so none could be tried",
-    NoteCode.CLASS_UNKNOWN: f"{{model}} is {SHUT}, so no effect can be added; name its library with --library",
+    NoteCode.CLASS_UNKNOWN: (
+        "{model} is in none of the libraries, so no effect can be added; name its library with --library"
+    ),
     NoteCode.SEEN_FROM_OUTSIDE: (
         "looked at were the inputs {inputs} and the outputs {outputs} of {model}, nothing inside it: neither its "
         "{states:.0f} states nor the terms of their equations"
@@ -115,14 +115,12 @@ def _change(factor: float) -> str:
     return f"{1 / factor:.2g} times smaller" if factor <= 0.5 else f"{100 * (1 - factor):.2g} % smaller"
 
 
-def words(note: Note | str) -> str:
-    """One note in sentences; what is a sentence already stays as it is.
+def words(note: Note) -> str:
+    """One note in sentences.
 
     Raises:
         KeyError: a value that belongs to the note's code is missing, which is our mistake.
     """
-    if isinstance(note, str):
-        return note
     values = dict(note.values)
     if note.code is NoteCode.INTERVAL_WIDTHS:
         values = {"widths": ", ".join(f"{name} {value:.2g}" for name, value in values.items())}

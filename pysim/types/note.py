@@ -14,7 +14,6 @@ class NoteCode(Enum):
 
     NOISE_ESTIMATED = "noise_estimated"  # dataset, signal, value, unit: not specified, estimated from the data
     NOISE_ASSUMED = "noise_assumed"  # dataset, magnitude (dB), phase (deg): of tables that state none
-    RECORD_LEFT_OUT = "record_left_out"  # record, reason (a code of the failure)
     NOT_COMPARED = "not_compared"  # record: no column of it is
     NOT_SETTLED = "not_settled"  # record, others (how many more): its first period is unlike those after it
     NOT_SIMULATED = "not_simulated"  # record, reason (what the run said): the model could not be run through it

@@ -70,7 +70,9 @@ def located(
         failures=old.where,
         learned=tuple(_law(one) for one in old.missing),
         estimates=old.parameters,
-        notes=tuple(known.get(str(one), Note(NoteCode.OTHER, {"text": str(one)})) for one in old.notes),
+        notes=tuple(
+            one if isinstance(one, Note) else known.get(one, Note(NoteCode.OTHER, {"text": one})) for one in old.notes
+        ),
         seconds=old.seconds,
     )
 

@@ -11,7 +11,6 @@ from pysim.types.note import Note, NoteCode
 VALUES = {
     NoteCode.NOISE_ESTIMATED: {"dataset": "bench", "signal": "p", "value": 1e5, "unit": "Pa"},
     NoteCode.NOISE_ASSUMED: {"dataset": "bench", "magnitude": 0.22, "phase": 1.0},
-    NoteCode.RECORD_LEFT_OUT: {"record": "a.csv", "reason": "too short"},
     NoteCode.NOT_COMPARED: {"record": "a.csv"},
     NoteCode.NOT_SETTLED: {"record": "a.csv", "others": 2.0},
     NoteCode.NOT_SIMULATED: {"record": "a.csv", "reason": "stiff. No step is short enough."},
