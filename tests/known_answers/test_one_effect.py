@@ -15,10 +15,7 @@ def test_known_answer(case: Case, check: str) -> None:
     verify(case, check)
 
 
-LATER = pytest.mark.xfail(strict=True, raises=AssertionError, reason="no law is learned yet")
-
-
-@pytest.mark.parametrize("key", [pytest.param(key, marks=LATER if key == "learned" else ()) for key in SECOND])
+@pytest.mark.parametrize("key", SECOND)
 def test_key_of_the_second_stage(key: str) -> None:
     data = ask(read_case(CASES / "one_effect" / "friction.toml")).data
     assert not list(broken(data, Path(), {key: SECOND[key]}))
