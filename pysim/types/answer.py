@@ -253,7 +253,8 @@ class LearnedLaw:
         alternatives: other places that these data do not tell from this one.
         parameters: free numbers of the model, by name, refitted beside the law.
         test: against the model without it; None where it was not refitted to the end.
-        held_out: rms over floor of the logs that may choose, without the law and with it; None where there are none.
+        held_out: rms residual over the noise floor on logs that were not fitted, without the law and with it; None
+            where there are none.
     """
 
     slot: str
@@ -272,7 +273,7 @@ class LearnedLaw:
     alternatives: tuple[str, ...] = ()
     parameters: Mapping[str, float] = field(default_factory=dict)
     test: GainTest | None = None
-    held_out: tuple[float | None, float | None] = (None, None)
+    held_out: tuple[float | None, float | None] | None = None
 
     @property
     def band(self) -> tuple[Array, Array]:
@@ -345,8 +346,7 @@ class Diagnosis:
         learned: laws that no catalogue has, in the order they were added.
         detectable: effects that were not found, and from which size on they would have been; none where the model
             leaves more than noise, which hides them.
-        missing: of each place where a law was tried the best one, the likeliest place first; those that were added
-            among them.
+        places: the best law at each place that was looked at, whether or not it was added, the likeliest place first.
         next_test: where two answers are left that another test would tell apart.
         estimates: parameters of the final model.
         notes: what a reader must know.
@@ -362,7 +362,7 @@ class Diagnosis:
     history: tuple[ErrorStep, ...]
     failures: tuple[Failure, ...]
     learned: tuple[LearnedLaw, ...] = ()
-    missing: tuple[LearnedLaw, ...] = ()
+    places: tuple[LearnedLaw, ...] = ()
     next_test: NextTest | None = None
     estimates: tuple[Estimate, ...] = ()
     notes: tuple[Note, ...] = ()
@@ -380,6 +380,12 @@ class Diagnosis:
         if self.effects:
             return self.effects[0].effect.name
         return NONE if self.complete and not self.learned else UNKNOWN
+
+    @property
+    def laws(self) -> tuple[LearnedLaw, ...]:
+        """Those that were added, then the best at other places."""
+        added = {law.slot for law in self.learned}
+        return (*self.learned, *(law for law in self.places if law.slot not in added))
 
     @property
     def base(self) -> ErrorStep | None:

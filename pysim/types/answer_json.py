@@ -37,8 +37,8 @@ def answer_data(diagnosis: Diagnosis, files: Mapping[str, str] | None = None) ->
         "left": _left(diagnosis.left, last),
         "parameters": {e.name: _estimate(e) for e in diagnosis.estimates},
         "where": [_failure(one) for one in diagnosis.failures],
-        "missing": [_missing(law) for law in diagnosis.learned],
-        "learned": [_learned(law, diagnosis) for law in diagnosis.learned],
+        "missing": [_missing(law) for law in diagnosis.laws],
+        "learned": [_learned(law) for law in diagnosis.learned],
         "next_test": _next_test(diagnosis.next_test),
         "notes": [{"code": note.code.value, "values": dict(note.values)} for note in diagnosis.notes],
         "conditions": dict(diagnosis.conditions),
@@ -64,14 +64,6 @@ def step_data(step: ErrorStep, *, used_to_choose: bool = False) -> Json:
         "cost": json_number(step.cost),
         "not_simulated": step.not_simulated,
     }
-
-
-def held_out(law: LearnedLaw, history: tuple[ErrorStep, ...]) -> tuple[float, float] | None:
-    """Residual in standard deviations of the noise on logs that were not fitted, without the law and with it."""
-    without = [step.validate for step in history if law.slot not in step.step.split(" + ")]
-    if not without or without[-1] is None or law.test is None or law.test.held_out is None:
-        return None
-    return without[-1], without[-1] * math.exp(law.test.held_out)
 
 
 def _numbers(values: np.ndarray | tuple[float, float]) -> list[float | None]:
@@ -146,8 +138,7 @@ def _missing(law: LearnedLaw) -> Json:
     }
 
 
-def _learned(law: LearnedLaw, diagnosis: Diagnosis) -> Json:
-    unseen = held_out(law, diagnosis.history)
+def _learned(law: LearnedLaw) -> Json:
     return {
         "slot": law.slot,
         "factor": law.factor,
@@ -159,7 +150,7 @@ def _learned(law: LearnedLaw, diagnosis: Diagnosis) -> Json:
         "formula": law.formula,
         "class": law.modelica,
         "share": json_number(law.share),
-        "held_out": None if unseen is None else _numbers(unseen),
+        "held_out": None if law.held_out is None else [json_number(value) for value in law.held_out],
         "alternatives": list(law.alternatives),
     }
 

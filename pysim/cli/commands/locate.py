@@ -68,7 +68,7 @@ def located(
         ties=old.confusable,
         history=tuple(_step(step, stages.get(step.step, Stage(step.step))) for step in old.error),
         failures=old.where,
-        learned=tuple(_law(one) for one in old.missing),
+        places=tuple(_law(one) for one in old.missing),
         estimates=old.parameters,
         notes=tuple(
             one if isinstance(one, Note) else known.get(one, Note(NoteCode.OTHER, {"text": one})) for one in old.notes

@@ -100,13 +100,13 @@ def _candidates(diagnosis: Diagnosis) -> Iterator[str]:
 
 
 def _laws(diagnosis: Diagnosis) -> Iterator[str]:
-    if not diagnosis.learned:
+    if not diagnosis.laws:
         return
     yield "Laws learned from the data"
-    for law in diagnosis.learned[:_ROWS]:
+    for law in diagnosis.laws[:_ROWS]:
         formula = f"  {law.formula}" if law.formula else ""
         yield f"  {law.slot}: {law_kind(law)} over {law.argument}, {share_text(law.share)} of the misfit{formula}"
-    yield from _curve(diagnosis.learned[0])
+    yield from _curve(diagnosis.laws[0])
 
 
 def _curve(law: LearnedLaw) -> Iterator[str]:

@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
 
 from pysim.present.notes import listed
-from pysim.types import ErrorStep, LearnedLaw
-from pysim.types.answer_json import held_out
+from pysim.types import LearnedLaw
 
 # What a law gives, by its unit: alone, and per unit of its factor.
 _GIVES = {"N": "force", "N.m": "torque", "m3/s": "flow", "Pa": "pressure", "m": "displacement", "rad": "angle"}
@@ -32,12 +30,8 @@ def law_kind(law: LearnedLaw) -> str:
     return _PER_FACTOR.get(law.unit, f"coefficient of {law.factor}")
 
 
-def law_sentence(law: LearnedLaw, history: Sequence[ErrorStep] = ()) -> str:
-    """What is missing, how much of the misfit it explains, what it looks like, and the error on unseen logs.
-
-    Args:
-        history: of the error; its last model without the law is what the law is compared with.
-    """
+def law_sentence(law: LearnedLaw) -> str:
+    """What is missing, how much of the misfit it explains, what it looks like, and the error on held-out logs."""
     kind = law_kind(law)
     on = "changes with time" if law.argument == "time" else f"depends on {law.argument}"
     if law.factor:
@@ -47,9 +41,9 @@ def law_sentence(law: LearnedLaw, history: Sequence[ErrorStep] = ()) -> str:
     texts.append(f"It explains {100 * law.share:.1f} % of the misfit.")
     if law.formula:
         texts.append(f"It looks like {law.formula}.")
-    unseen = held_out(law, tuple(history))
-    if unseen is not None:
-        texts.append(f"On held-out logs the residual goes from {unseen[0]:.3g} to {unseen[1]:.3g} with it.")
+    before, after = law.held_out or (None, None)
+    if before is not None and after is not None:
+        texts.append(f"On held-out logs the residual goes from {before:.3g} to {after:.3g} with it.")
     if law.alternatives:
         texts.append(f"These data cannot tell it from a law at {listed(law.alternatives)}.")
     return " ".join(texts)

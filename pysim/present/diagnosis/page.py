@@ -109,15 +109,15 @@ def _effects(effects: Sequence[FoundEffect]) -> list[str]:
 
 
 def _laws(diagnosis: Diagnosis) -> list[str]:
-    if not diagnosis.learned:
+    if not diagnosis.laws:
         return []
     rows = [
         [cell(x.slot), cell(law_kind(x), "words"), cell(x.argument), cell(share_text(x.share)), _formula(x)]
-        for x in diagnosis.learned
+        for x in diagnosis.laws
     ]
     head = ["place", "what", "depends on", "of the misfit", "formula"]
-    classes = [law.modelica for law in diagnosis.learned[:1] if law.modelica]
-    first = law_sentence(diagnosis.learned[0], diagnosis.history)
+    classes = [law.modelica for law in diagnosis.laws[:1] if law.modelica]
+    first = law_sentence(diagnosis.laws[0])
     return [paragraph(first), table("The best law at each place", head, rows), *map(commands, classes)]
 
 

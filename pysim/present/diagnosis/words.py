@@ -32,10 +32,12 @@ def verdict_sentence(diagnosis: Diagnosis) -> str:
         return (
             f"Nothing is missing: the refitted model explains the measurements down to their noise. {_left(diagnosis)}"
         )
-    laws = [law_sentence(diagnosis.learned[0], diagnosis.history)] if diagnosis.learned else []
+    laws = [law_sentence(diagnosis.laws[0])] if diagnosis.laws else []
     if diagnosis.verdict == UNKNOWN:
         tried = "No effect that was tried explains it." if diagnosis.rivals else "No effect was tried."
-        return " ".join([*(laws or ["Something is missing."]), tried, _left(diagnosis)])
+        whole = diagnosis.complete and diagnosis.learned
+        rest = "Nothing but noise is left with it." if whole else _left(diagnosis)
+        return " ".join([*(laws or ["Something is missing."]), tried, rest])
     count = "an effect" if len(names) == 1 else f"{len(names)} effects"
     rest = ["More is missing than that.", *laws, _left(diagnosis)]
     more = ["Nothing but noise is left."] if diagnosis.complete else rest
@@ -102,11 +104,11 @@ def candidates_shown(diagnosis: Diagnosis) -> list[Rival]:
 
 def learned_sentence(diagnosis: Diagnosis) -> str:
     """Where a law is missing most likely, and what it looks like; the next places behind."""
-    if not diagnosis.learned:
+    if not diagnosis.laws:
         return _nowhere(diagnosis)
-    first, *others = diagnosis.learned
+    first, *others = diagnosis.laws
     rest = [f"{one.slot} {share_text(one.share)}" for one in others[:3]]
-    return " ".join([law_sentence(first, diagnosis.history), *([f"Other places: {', '.join(rest)}."] if rest else [])])
+    return " ".join([law_sentence(first), *([f"Other places: {', '.join(rest)}."] if rest else [])])
 
 
 def _nowhere(diagnosis: Diagnosis) -> str:

@@ -22,11 +22,10 @@ from pysim.present.diagnosis.words import (
     sizes,
     verdict_sentence,
 )
-from pysim.types import Diagnosis, ErrorStep, FoundEffect, GainTest, Left, NextTest, Verdict
+from pysim.types import Diagnosis, ErrorStep, FoundEffect, Left, NextTest
 from tests.pysim.diagnosis_answer import LAW, OFFSET, estimate, found_offset, nothing, step
 
 TEST = NextTest(("toy.offset", "toy.twin"), 42.0, "Run a slow ramp and log x.", 'name = "ramp"')
-BETTER = GainTest(100.0, 3, 500.0, 1e-9, 90.0, -math.log(2), None, Verdict.BETTER)
 
 
 def numbers(text: str) -> list[float]:
@@ -81,13 +80,15 @@ def test_a_law_is_called_by_what_its_unit_says(factor: str, unit: str, kind: str
 
 
 def test_an_unknown_that_was_learned_is_first_said_in_words() -> None:
-    law = replace(LAW, slot="damper", factor="v", argument="x", unit="N.s/m", test=BETTER)
+    law = replace(LAW, slot="damper", factor="v", argument="x", unit="N.s/m", held_out=(3.2, 1.6))
     found = nothing(complete=False, learned=(law,))
     for text in (verdict_sentence(found), learned_sentence(found)):
         assert text.startswith("The damping at damper is not constant: it depends on x.")
         assert numbers(text)[:1] == [97.0]
         assert [n for n in numbers(text) if n in (3.2, 1.6)][:2] == [3.2, 1.6]  # held-out error before and after
     assert LAW.formula in verdict_sentence(found)
+    assert "Nothing but noise is left" not in verdict_sentence(found)
+    assert "Nothing but noise is left" in verdict_sentence(replace(found, complete=True))
 
 
 def test_learned_laws_are_listed_by_place_and_share_with_the_curve_of_the_first() -> None:

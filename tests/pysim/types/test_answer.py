@@ -1,7 +1,6 @@
 """The answer as numbers and codes: what its verdict says, what cannot be, and its keys as JSON."""
 
 import json
-import math
 from dataclasses import replace
 
 import numpy as np
@@ -11,13 +10,11 @@ from pysim.types import (
     BadInput,
     Diagnosis,
     FloorSource,
-    GainTest,
     LearnedLaw,
     Left,
     NoiseFloor,
     Note,
     NoteCode,
-    Verdict,
     answer_data,
 )
 from tests.pysim.diagnosis_answer import LAW, found_offset, nothing
@@ -94,12 +91,19 @@ def test_where_error_and_missing_come_from_failures_history_and_laws() -> None:
 
 
 def test_a_learned_law_tells_the_error_on_unseen_logs_without_it_and_with_it() -> None:
-    test = GainTest(100.0, 3, 500.0, 1e-9, 90.0, -math.log(2), None, Verdict.BETTER)
-    (law,) = answer_data(nothing(learned=(replace(LAW, test=test),)))["learned"]  # type: ignore[misc]
-    assert law["held_out"] == pytest.approx([3.2, 1.6])
+    (law,) = answer_data(nothing(learned=(replace(LAW, held_out=(3.2, 1.6)),)))["learned"]  # type: ignore[misc]
+    assert law["held_out"] == [3.2, 1.6]
     assert law["range"] == [-1.0, 1.0]
     (law,) = answer_data(nothing(learned=(LAW,)))["learned"]  # type: ignore[misc]
     assert law["held_out"] is None
+
+
+def test_missing_has_laws_that_were_added_ahead_of_the_best_of_other_places() -> None:
+    other, same = replace(LAW, slot="supply"), replace(LAW, share=0.5)
+    data = answer_data(nothing(learned=(LAW,), places=(other, same)))
+    assert [one["slot"] for one in data["missing"]] == ["force", "supply"]  # type: ignore[attr-defined]
+    assert [one["slot"] for one in data["learned"]] == ["force"]  # type: ignore[attr-defined]
+    assert nothing(places=(LAW,)).verdict == "none"  # nothing was added
 
 
 def test_the_fit_in_percent_is_100_where_the_model_is_the_log() -> None:

@@ -40,7 +40,7 @@ def pictures(found: Diagnosis, dataset: Dataset | None) -> Iterator[Picture]:
             "of thesis Tables 1.3 and 1.4."
         )
         yield Picture("error", caption, error_figure(found.history), "error")
-    for k, law in enumerate(found.learned[:_PLACES]):
+    for k, law in enumerate(found.laws[:_PLACES]):
         if law.knots.size > 1:
             caption = (
                 f"What the model lacks at {law.slot}, over {law.argument}, with its 95 percent band: it explains "
