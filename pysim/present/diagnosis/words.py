@@ -36,8 +36,8 @@ def verdict_sentence(diagnosis: Diagnosis) -> str:
     if diagnosis.verdict == UNKNOWN:
         tried = "No effect that was tried explains it." if diagnosis.rivals else "No effect was tried."
         whole = diagnosis.complete and diagnosis.learned
-        rest = "Nothing but noise is left with it." if whole else _left(diagnosis)
-        return " ".join([*(laws or ["Something is missing."]), tried, rest])
+        left = "Nothing but noise is left with it." if whole else _left(diagnosis)
+        return " ".join([*(laws or ["Something is missing."]), tried, left])
     count = "an effect" if len(names) == 1 else f"{len(names)} effects"
     rest = ["More is missing than that.", *laws, _left(diagnosis)]
     more = ["Nothing but noise is left."] if diagnosis.complete else rest
