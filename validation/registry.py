@@ -201,6 +201,9 @@ CASES: Mapping[str, Case] = MappingProxyType(
             "300 complete models: coloured noise, motion at the start, noise not or wrongly stated",
             "diagnosis",
         ),
+        "ties": Case(
+            "validation.ties.case", "ties of a diagnosis, each put to the test that it came with", "diagnosis"
+        ),
         "diagnosis": Case(
             "validation.diagnosis.case",
             "sixteen data sets of another author's plant: five diagnosed again, the others as stored",

@@ -1,0 +1,1 @@
+"""Ties that a diagnosis gave, each put to the test that it proposes."""
