@@ -25,7 +25,7 @@ Values = Mapping[str, float]
 
 COUNT = 300
 CONDITIONS = ("coloured", "motion", "unstated")
-_BENCHES = 25  # every how many plants of a condition is a test bench, which takes minutes and not seconds
+_BENCHES = 4  # of each condition, the last ones: a test bench takes minutes and not seconds
 _SEED = 40_000  # of the first; nothing else is drawn from these
 _SPREAD = 0.15  # of free parameters around the design, uniform
 _SAMPLES = (2.0, 20.0)  # over which noise is correlated, log-uniform
@@ -77,8 +77,9 @@ _PLANTS = {
 
 
 def names(count: int = COUNT) -> list[str]:
-    """The first of them, number-plant-condition: masses and drives, and a few benches."""
-    plants = ["bench" if k % _BENCHES == _BENCHES - 1 else ("mass", "axis")[k % 2] for k in range(COUNT // 3)]
+    """The first of them, number-plant-condition: masses and drives, at the end a few benches."""
+    few = COUNT // 3 - _BENCHES
+    plants = [("mass", "axis")[k % 2] if k < few else "bench" for k in range(COUNT // 3)]
     return [f"{k:03d}-{plants[k // 3]}-{CONDITIONS[k % 3]}" for k in range(count)]
 
 
