@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from pysim.diagnosis import diagnose, session
-from pysim.types import Record
+from pysim.types import BadInput, Record
 from pysim.types.answer import Diagnosis, ErrorStep
 from validation.batch import Line, serve
 from validation.blind.benchmark.workshop import workshop
@@ -91,7 +91,9 @@ def answer(name: str) -> Line:
     """The line of a case, "seed/name", or "seed-few/name" where only a few of its sines are given."""
     table, _, own = name.partition("/")
     seed, _, few = table.partition("-")
-    case = next(case for case in cases(int(seed)) if case.name == own)
+    case = next((case for case in cases(int(seed)) if case.name == own), None)
+    if case is None:
+        raise BadInput(f"the table of seed {seed} has no case {own}; --names finds some by a pattern")
     measured = measure(case)
     return asdict(replace(examine(case, _few(measured) if few else measured), case=name))
 
