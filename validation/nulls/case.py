@@ -1,7 +1,11 @@
-"""Three hundred complete models: nothing may be named, and nothing said to be missing."""
+"""Three hundred complete models: nothing may be named, and nothing said to be missing.
+
+`python -m validation.nulls.case [COUNT]` answers the first of them and shows every share.
+"""
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Iterator, Sequence
 
 from validation.batch import Line, answered, file_of
@@ -50,3 +54,8 @@ def _said(line: Line) -> str:
     named = ", ".join([*line["named"], *line["learned"]]) or "nothing named"
     said = "complete" if line["complete"] else "more is missing"
     return f"{line['case']}: {named}, {said}; {line['cpu']:.1f} CPU s"
+
+
+if __name__ == "__main__":
+    for share in shares(answer_nulls(int(sys.argv[1]) if len(sys.argv) > 1 else COUNT)):
+        print(share)

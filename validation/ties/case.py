@@ -1,7 +1,11 @@
-"""Ties that the diagnosis gave, each settled by its proposed test on the virtual plant."""
+"""Ties that the diagnosis gave, each settled by its proposed test on the virtual plant.
+
+`python -m validation.ties.case [COUNT]` answers the first of them and shows every share.
+"""
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Iterator, Sequence
 
 from validation.batch import Line, answered, file_of
@@ -52,3 +56,8 @@ def _said(line: Line) -> str:
         return f"{line['case']}: {line['tie']}, no test; {line['cpu']:.1f} CPU s"
     end = "settled" if line["settled"] else f"NOT settled: {', '.join(line['after'])}; tied {line['tied'] or '-'}"
     return f"{line['case']}: {line['tie']}; {line['test']} {end}; {line['cpu']:.1f} CPU s"
+
+
+if __name__ == "__main__":
+    for share in shares(answer_ties(int(sys.argv[1]) if len(sys.argv) > 1 else COUNT)):
+        print(share)
