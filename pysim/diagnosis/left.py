@@ -142,7 +142,7 @@ def _logs(fit: FinalFit) -> Iterator[tuple[str, dict[Channel, Array]]]:
 
 
 def _regressors(fit: FinalFit, dataset: Dataset) -> Iterator[tuple[Array, dict[Channel, Array]]]:
-    """Per log what its residuals may follow (n_t, m), before scaling, and the residuals."""
+    """Per log what its residuals may follow (n_t, m), and the residuals; of signals, those that every log has."""
     records = {record.source: record.data for record in dataset.records}
     logs = []
     for source, rests in _logs(fit):
@@ -150,14 +150,16 @@ def _regressors(fit: FinalFit, dataset: Dataset) -> Iterator[tuple[Array, dict[C
         if not isinstance(record, Record) or any(rest.size != record.time.size for rest in rests.values()):
             continue
         simulated = {name: record[name] - rest for (_, name), rest in rests.items() if name in record.names}
-        others = [record[name] for name in record.names if name not in simulated]
-        logs.append((np.column_stack([*others, *simulated.values()]), rests))
+        others = {name: record[name] for name in record.names if name not in simulated}
+        logs.append((others | simulated, rests))
     if not logs:
         return
-    whole = np.concatenate([signals for signals, _ in logs])
+    names = [name for name in logs[0][0] if all(name in signals for signals, _ in logs)]
+    tables = [np.column_stack([signals[name] for name in names]) for signals, _ in logs]
+    whole = np.concatenate(tables)
     scale = whole.mean(axis=0), np.maximum(whole.std(axis=0), np.finfo(float).tiny)
-    for signals, rests in logs:
-        yield _features((signals - scale[0]) / scale[1]), rests
+    for table, (_, rests) in zip(tables, logs, strict=True):
+        yield _features((table - scale[0]) / scale[1]), rests
 
 
 def _features(signals: Array) -> Array:

@@ -13,7 +13,7 @@ from pysim.diagnosis.candidate import Models
 from pysim.diagnosis.left import Floors, Follows, follows, white_floors
 from pysim.diagnosis.refit import FinalFit
 from pysim.diagnosis.rivals import of
-from pysim.types import Dataset
+from pysim.types import Dataset, Record
 from pysim.types.answer import FloorSource
 from tests.pysim.diagnosis.plants import given, measured, refitted
 
@@ -71,6 +71,21 @@ def test_white_noise_follows_nothing() -> None:
     every = [found(noise(seed)) for seed in range(200)]
     assert sum(one.t > 3 for one in every) <= 1
     assert max(one.share for one in every) < 0.02
+
+
+def test_a_signal_that_only_some_logs_have_is_left_out() -> None:
+    rests = noise(1) + 1e-3 * signals()[:, :, 0]
+    records = list(data().records)
+    for k, (own, rest) in enumerate(zip(signals(), rests, strict=True)):
+        log = records[k].data
+        assert isinstance(log, Record)
+        values = np.column_stack([own[:, 0], own[:, 1] + rest, own[:, 0] ** 2])
+        names, units = (*log.names, "more")[: 2 + k], (*log.units, "1")[: 2 + k]
+        records[k] = replace(records[k], data=replace(log, values=values[:, : 2 + k], names=names, units=units))
+    answer = follows(leaving(rests), replace(data(), records=tuple(records)), 6)
+    assert answer is not None
+    assert answer == found(rests)
+    assert answer.t > 3
 
 
 def test_coloured_noise_follows_nothing() -> None:

@@ -1,0 +1,202 @@
+"""One case from beginning to end: measured, diagnosed, and what was learned held against the truth."""
+
+from __future__ import annotations
+
+import math
+import sys
+import time
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+import numpy as np
+
+from pysim.diagnosis import Session, diagnose
+from pysim.diagnosis.learn.curve import curve_basis
+from pysim.diagnosis.learn.law_class import law_class
+from pysim.effects import STANDARD_LIBRARY, read_catalogue
+from pysim.types import Dataset, Effect, Model
+from pysim.types.answer import Diagnosis, ErrorStep, LearnedLaw
+from pysim.workflow import Variants, open_session
+from validation.batch import Line, serve
+from validation.held_out import held_out_rms
+from validation.learned.cases import CASES, NOISE, LearnedCase, measure
+
+BASE = "HydraulicTestBench.Pump.FreeGreyBox"
+_ALIKE = {"xp": "x", "piston.x": "x", "linkage.s": "x", "xp_t": "v", "piston.v": "v", "spool.u": "s", "u": "s",
+          "chamber1.p": "p1", "chamber2.p": "p2"}  # fmt: skip
+_WIDTH = 1.96  # standard deviations on either side, of a band of 95 percent
+_PLACES = 101  # of a curve that are looked at
+
+
+@dataclass(frozen=True)
+class Answer:
+    """One case, answered and judged. Errors are against the noise-free wave that was not given, over the noise.
+
+    Args:
+        case: its name.
+        learned: "slot: factor*h(argument)" of each law, in order.
+        effects: names of the catalogue's effects beside them.
+        formula: of the first law; "" for none.
+        place: whether all places are right and none is wrong; of a law that cannot be seen, whether nothing was added.
+        variables: whether the laws at right places depend on the right variables; None where that is not asked.
+        band: share of the first curve's range over which its 95 percent band holds the true curve; None where the true
+            law is no curve of these variables.
+        before, after: error of the refitted base model and of the last one; None where that cannot be simulated.
+        seconds, cpu: of the diagnosis, by the clock and of this process.
+        trouble: why there is no answer.
+    """
+
+    case: str
+    learned: tuple[str, ...] = ()
+    effects: tuple[str, ...] = ()
+    formula: str = ""
+    place: bool = False
+    variables: bool | None = None
+    band: float | None = None
+    before: float | None = None
+    after: float | None = None
+    seconds: float = 0.0
+    cpu: float = 0.0
+    trouble: str = ""
+
+    def __str__(self) -> str:
+        if self.trouble:
+            return f"{self.case}: {self.trouble}"
+        found = ", ".join((*self.learned, *self.effects)) or "nothing"
+        errors = " -> ".join("?" if one is None else f"{one:.2f}" for one in (self.before, self.after))
+        marks = f"{'right' if self.place else 'WRONG'} place, variables {_MARKS[self.variables]}"
+        band = "" if self.band is None else f", band {100 * self.band:.0f} %"
+        formula = f", {self.formula}" if self.formula else ""
+        return f"{self.case}: {found}; {marks}; error {errors}{band}{formula}; {self.seconds:.0f} s"
+
+
+_MARKS = {True: "right", False: "WRONG", None: "-"}
+
+
+def read_answer(line: Line) -> Answer:
+    """From a line of a batch."""
+    return Answer(**{name: tuple(value) if isinstance(value, list) else value for name, value in line.items()})
+
+
+def line_of(name: str) -> Line:
+    """The answer to the case of that name."""
+    found = asdict(answer(next(case for case in CASES if case.name == name)))
+    return {key: float(f"{value:.6g}") if isinstance(value, float) else value for key, value in found.items()}
+
+
+def answer(case: LearnedCase, ask: Callable[[Session], Diagnosis] = diagnose) -> Answer:
+    """The answer to one case.
+
+    Args:
+        ask: a diagnosis.
+    """
+    measured = measure(case)
+    session = open_session(BASE, measured.given)
+    wall, cpu = time.monotonic(), time.process_time()
+    found = ask(session)
+    wall, cpu = time.monotonic() - wall, time.process_time() - cpu
+    effects = tuple(one.effect for one in found.effects if one.effect.class_name)
+    base = next((step for step in found.history if step.step == "refit"), None)
+    final, values = model_of(found, effects, session)
+    first = found.learned[0] if found.learned else None
+    return Answer(
+        case.name,
+        tuple(f"{law.slot}: {law.factor + '*' if law.factor else ''}h({law.argument})" for law in found.learned),
+        tuple(one.effect.name for one in found.effects),
+        first.formula if first else "",
+        *_right(case, found.learned, effects),
+        None if first is None else band(case, first),
+        error(session.model, measured.unseen, values_of(base)),
+        error(final, measured.unseen, values),
+        wall,
+        cpu,
+    )
+
+
+def model_of(found: Diagnosis, effects: Sequence[Effect], session: Session) -> tuple[Model, Mapping[str, float]]:
+    """The last model, its laws as their classes are, and its parameters' values."""
+    values = dict(values_of(found.history[-1] if found.history else None))
+    for law in found.learned:
+        values |= law.parameters
+    libraries = [STANDARD_LIBRARY]
+    learned: list[Effect] = []
+    with TemporaryDirectory(prefix="learned-") as folder:
+        slots = {slot.name: slot for slot in session.slots}
+        for k, law in enumerate(found.learned, start=1):
+            name = f"Learned{k}"
+            text = law_class(law, slots[law.slot], name, [STANDARD_LIBRARY], effect=f"learned.law{k}")
+            file = Path(folder) / f"{name}.mo"
+            file.write_text(text, encoding="utf-8")
+            libraries.append(file)
+            learned += read_catalogue(file)
+        model, places = Variants(BASE, tuple(libraries)).build([*effects, *learned])
+    for effect in effects:
+        for one in next(f for f in found.effects if f.effect.name == effect.name).estimates:
+            if not one.name.startswith(f"{places[effect.name]}."):
+                values[f"{places[effect.name]}.{one.name}"] = one.value
+    known = {variable.name for variable in model.variables}
+    return model, {name: value for name, value in values.items() if name in known}
+
+
+def values_of(step: ErrorStep | None) -> Mapping[str, float]:
+    """The parameters of a step's model."""
+    return {one.name: one.value for one in step.estimates} if step is not None else {}
+
+
+def error(model: Model, unseen: Dataset, values: Mapping[str, float]) -> float | None:
+    """Root mean square of simulated minus noise-free reading, over the noise, of all signals."""
+    try:
+        sizes = held_out_rms(model, unseen, values)
+    except Exception:  # whatever stops a run, the model has no error
+        return None
+    return float(np.sqrt(np.mean([(size / NOISE[name]) ** 2 for name, size in sizes.items()])))
+
+
+def _right(case: LearnedCase, learned: Sequence[LearnedLaw], effects: Sequence[Effect]) -> tuple[bool, bool | None]:
+    """Whether the places are right, and the variables of the laws there."""
+    at = {law.slot for law in learned}
+    places = case.kind.places
+    if not places:
+        return not learned and not effects, None
+    allowed = {slot for some in places for slot in some}
+    place = all(at & set(some) for some in places) and at | {e.slot for e in effects} <= allowed
+    asked = [(some, words) for some, words in zip(places, case.kind.variables, strict=False) if words]
+    if not asked:
+        return place, None
+    return place, all(any(law.slot in some and _fits(law, words) for law in learned) for some, words in asked)
+
+
+def _fits(law: LearnedLaw, words: Sequence[tuple[str, ...]]) -> bool:
+    """Whether each group of words is met, and nothing is beside them."""
+    used = {_bare(law, law.argument), *([_bare(law, law.factor)] if law.factor else [])}
+    return all(used & set(group) for group in words) and used <= {word for group in words for word in group}
+
+
+def _bare(law: LearnedLaw, name: str) -> str:
+    """A variable as the cases call it."""
+    own = name.removeprefix("sign(").removesuffix(")").removeprefix(f"{law.slot}.")
+    return _ALIKE.get(own, own)
+
+
+def band(case: LearnedCase, law: LearnedLaw) -> float | None:
+    """Share of the range over which the curve's 95 percent band holds the truth; what is absorbed is free."""
+    form, curve = case.kind.form, case.kind.curve
+    if curve is None or law.slot not in case.kind.places[0]:
+        return None
+    factor = _bare(law, law.factor) if law.factor else ""
+    if (f"sign({factor})" if law.factor.startswith("sign(") else factor, _bare(law, law.argument)) != form:
+        return None
+    z = np.linspace(law.knots[0], law.knots[-1], _PLACES)
+    basis = curve_basis(z, law.knots)
+    deviation = np.sqrt(np.maximum(np.einsum("ij,jk,ik->i", basis, law.covariance, basis), 0))
+    wrong = basis @ law.coefficients - curve(z, case.laws()[0], case.parameters())
+    free = basis @ law.absorbed if law.absorbed.size else np.zeros((z.size, 0))
+    weight = 1 / np.maximum(deviation, 1e-9 * float(np.max(np.abs(law.coefficients), initial=math.ulp(0.0))))
+    wrong -= free @ np.linalg.lstsq(free * weight[:, None], wrong * weight, rcond=None)[0]
+    return float(np.mean(np.abs(wrong) <= _WIDTH * deviation))
+
+
+if __name__ == "__main__":
+    serve(line_of, sys.argv[1:])

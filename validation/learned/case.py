@@ -1,0 +1,67 @@
+"""Laws that no catalogue holds: learned at their places, and the error on a wave that nobody was given."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from fnmatch import fnmatchcase
+
+from validation.batch import answered, file_of, read_lines
+from validation.findings import Finding
+from validation.learned.answer import Answer, read_answer
+from validation.learned.cases import CASES
+from validation.shares import Share, claims
+
+SAMPLE = ("damping.position-large-1", "valve.notch-large-1", "friction.position-large-1", "cushion.unreached-large-1")
+"""Cases that are answered where the whole table was not."""
+NEAR = 1.5  # times the noise: what the error may be, the noise itself counted
+_BATCH = "learned"
+_RISE = 1.01  # times the error before
+_BAND = 0.9  # of the range
+_LIMIT = 1800  # s for one case
+_TOGETHER = 15  # so that the plant is compiled for all of them
+
+
+def run() -> Iterator[Finding]:
+    """Answer a sample where this commit has not, then judge all that it has answered."""
+    answer_cases(SAMPLE)
+    yield from claims(shares([read_answer(line) for line in read_lines(file_of(_BATCH)).values()]))
+
+
+def answer_cases(patterns: Sequence[str] = ("*",), workers: int | None = None) -> list[Answer]:
+    """Of the cases of these names, with * and ?; a run that was stopped goes on."""
+    chosen = [case.name for case in CASES if any(fnmatchcase(case.name, pattern) for pattern in patterns)]
+    lines = answered(
+        "validation.learned.answer",
+        chosen,
+        file_of(_BATCH),
+        workers=workers,
+        limit=_LIMIT,
+        together=_TOGETHER,
+        say=lambda line: str(read_answer(line)),
+    )
+    return [read_answer(line) for line in lines]
+
+
+def shares(answers: Sequence[Answer]) -> Iterator[Share]:
+    """What is wanted of the whole table, counted on what was answered."""
+    seen = {case.name for case in CASES if case.kind.visible}
+    visible = [one for one in answers if one.case in seen]
+    unseen = [one for one in answers if one.case not in seen]
+    asked = [one for one in visible if one.variables is not None]
+    bands = [one.band for one in visible if one.band is not None]
+    near = sum(one.after is not None and 1 + one.after**2 <= NEAR**2 for one in visible)
+    yield Share("right place, of visible laws", sum(one.place for one in visible), len(visible), (90, 100))
+    yield Share("right variables there", sum(bool(one.variables) for one in asked), len(asked))
+    yield Share(f"error at most {NEAR:g} times the noise, of visible laws", near, len(visible), (80, 100))
+    yield Share("error higher than before by more than 1 percent", sum(map(_worse, answers)), len(answers), (0, 0))
+    hits = sum(band >= _BAND for band in bands)
+    yield Share("bands that hold the true curve over nine tenths of its range", hits, len(bands), (90, 100))
+    yield Share("a law found where none acts", sum(not one.place for one in unseen), len(unseen), (0, 0))
+    yield Share("cases without an answer", sum(bool(one.trouble) for one in answers), len(answers), (0, 0))
+
+
+def _worse(one: Answer) -> bool:
+    """The noise counts on both sides, so that a change far below it is none; a model that cannot run is worse."""
+    if one.trouble or one.before is None:
+        return False
+    return one.after is None or 1 + one.after**2 > _RISE**2 * (1 + one.before**2)
