@@ -22,7 +22,7 @@ def learned(h: Callable[[Array], Array], sd: float, seed: int = 0, knots: Array 
     z = rng.uniform(knots[0], knots[-1], 2000)
     noise = sd * math.sqrt(2000 / knots.size)
     basis = curve_basis(z, knots)
-    inverse = np.linalg.inv(basis.T @ basis)
+    inverse: Array = np.asarray(np.linalg.inv(basis.T @ basis), dtype=np.float64)
     c = inverse @ basis.T @ (h(z) + noise * rng.standard_normal(z.size))
     return LearnedLaw("pistonForce", "v", "x", knots, c, inverse * noise**2, 0.5, "m", "N.s/m")
 
