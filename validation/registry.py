@@ -222,6 +222,11 @@ CASES: Mapping[str, Case] = MappingProxyType(
             "laws of another shape than the catalogue's: names in order, and the error on a log that is withheld",
             "diagnosis",
         ),
+        "learned": Case(
+            "validation.learned.case",
+            "fifteen laws that no catalogue holds: places, variables, and the error on a wave not given",
+            "diagnosis",
+        ),
         "figure-2-1": Case(_THESIS + "figure_2_1.case", "command of a stepped-sine test", "thesis", quick=True),
         "figure-2-2": Case(_THESIS + "figure_2_2.case", "sines fitted to responses; Figure 2.3", "thesis", quick=True),
         "figure-2-4": Case(_THESIS + "figure_2_4.case", "Bode plot and five poles; Figure 2.5", "thesis", quick=True),

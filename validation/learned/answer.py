@@ -9,6 +9,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from typing import Any
 
 import numpy as np
 
@@ -77,12 +78,13 @@ _MARKS = {True: "right", False: "WRONG", None: "-"}
 
 def read_answer(line: Line) -> Answer:
     """From a line of a batch."""
-    return Answer(**{name: tuple(value) if isinstance(value, list) else value for name, value in line.items()})
+    given: dict[str, Any] = {name: tuple(value) if isinstance(value, list) else value for name, value in line.items()}
+    return Answer(**given)
 
 
 def line_of(name: str) -> Line:
     """The answer to the case of that name."""
-    found = asdict(answer(next(case for case in CASES if case.name == name)))
+    found: dict[str, Any] = asdict(answer(next(case for case in CASES if case.name == name)))
     return {key: float(f"{value:.6g}") if isinstance(value, float) else value for key, value in found.items()}
 
 

@@ -73,7 +73,7 @@ KINDS = (
     Kind("supply.falling", {"supply__r": 8.5e3}, {"supply__r": 25e3}, (("supply",),), ((("time",),),), ("", "time"),
          lambda t, law, p: law.supply__r * t),
     Kind("spool.flow_force", {"flow_force__share": 0.05}, {"flow_force__share": 0.2}, (("spool",),)),
-    Kind("friction.pressure", {"pressure_friction__c": 15e-5}, {"pressure_friction__c": 40e-5}, _FORCE,
+    Kind("friction.pressure", {"pressure_friction__c": 12e-5}, {"pressure_friction__c": 20e-5}, _FORCE,
          ((("v",), ("p1", "p2", "dp")),)),
     Kind("valve.notch", {"notch__share": 0.3}, {"notch__share": 0.7}, _EDGES, ((("s",),),), ("", "s"),
          lambda u, law, p: -law.notch__share * u * np.exp(-((u / law.notch__u) ** 2))),

@@ -18,10 +18,10 @@ U, X, V, P1, P2 = STATE[0], *STATE[2:6]
 T = 40.0
 
 
-def added(memory: tuple[float, float] = (0.0, 0.0), **law: float) -> tuple[dict[str, float], Any]:
+def added(law: Laws, memory: tuple[float, float] = (0.0, 0.0)) -> tuple[dict[str, float], Any]:
     """Rates of spool's speed, piston's speed and pressures, beside those of the pump without a law; of the memories."""
     plain = flow.py_func(T, 0.01, X, STATE, P, Strengths())
-    rates, kept = laws._flowing.py_func(T, 0.01, X, STATE, memory, P, Strengths(), Laws(**law))
+    rates, kept = laws._flowing.py_func(T, 0.01, X, STATE, memory, P, Strengths(), law)
     names = ("u", "u_t", "x", "v", "p1", "p2", "drop", "felt", "swing", "swing_t")
     return {n: a - b for n, a, b in zip(names, rates, plain, strict=True) if a != b}, kept
 
@@ -37,7 +37,7 @@ def added(memory: tuple[float, float] = (0.0, 0.0), **law: float) -> tuple[dict[
     ],
 )
 def test_forces(law: dict[str, float], force: float) -> None:
-    found, _ = added(**law)
+    found, _ = added(Laws(**law))
     assert set(found) <= {"v"}
     assert P.m_eff * found.get("v", 0.0) == pytest.approx(force, rel=1e-6, abs=1e-9)
 
@@ -55,24 +55,24 @@ def test_a_bristle_ends_at_the_sliding_friction() -> None:
             z += 1e-3 * laws._bristle.py_func(v, z, law)
         state = (0.0, 0.0, 0.0, v, *STATE[4:])
         assert -laws._force.py_func(T, state, z, P, law) == pytest.approx(right, rel=1e-6)
-        _, kept = added((z, 0.0), **{k: n for k, n in law._asdict().items() if n})
+        _, kept = added(law, (z, 0.0))
         assert kept[0] == pytest.approx(laws._bristle.py_func(V, z, law))
 
 
 def test_the_flow_force_pulls_the_spool_back_with_the_pressure_over_its_edge() -> None:
-    found, _ = added(flow_force__share=0.2)
+    found, _ = added(Laws(flow_force__share=0.2))
     assert found == {"u_t": pytest.approx(-0.2 * P.omega_v**2 * U * (P.p_P - P1) / 1e7)}
 
 
 def test_the_supply_falls_and_the_edges_see_less() -> None:
-    found, _ = added(supply__r=1e4)
+    found, _ = added(Laws(supply__r=1e4))
     area = P.k1 * U**3 + P.k2 * U**2 + P.k3 * U
     jets = [area * math.sqrt(2 * (p - P1) / P.rho) for p in (P.p_P, P.p_P - 1e4 * T)]
     assert found == {"p1": pytest.approx(P.beta / (P.V_0 + P.A_p * X) * (jets[1] - jets[0]), rel=1e-6)}
 
 
 def test_the_notch_takes_a_share_of_a_small_opening() -> None:
-    found, _ = added(notch__share=0.5)
+    found, _ = added(Laws(notch__share=0.5))
     w = U * (1 - 0.5 * math.exp(-((U / 0.03) ** 2)))
     areas = [P.k1 * o**3 + P.k2 * o**2 + P.k3 * o for o in (U, w)]
     jet = math.sqrt(2 * P2 / P.rho)
@@ -80,7 +80,7 @@ def test_the_notch_takes_a_share_of_a_small_opening() -> None:
 
 
 def test_both_chambers_lose_oil_to_the_tank() -> None:
-    found, _ = added(turbulent__K=1e-7)
+    found, _ = added(Laws(turbulent__K=1e-7))
     for name, p, volume in (("p1", P1, P.V_0 + P.A_p * X), ("p2", P2, P.V_0 - P.A_p * X)):
         assert found[name] == pytest.approx(-P.beta / volume * 1e-7 * math.sqrt(2 * p / P.rho), rel=1e-6)
 

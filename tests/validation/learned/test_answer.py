@@ -1,0 +1,102 @@
+"""How an answer is judged, and a whole case with a diagnosis that knows the truth."""
+
+import json
+from dataclasses import asdict, replace
+
+import numpy as np
+import pytest
+
+from pysim.diagnosis import Session
+from pysim.diagnosis.learn.curve import curve_basis
+from pysim.types import Estimate
+from pysim.types.answer import Diagnosis, ErrorStep, LearnedLaw, Left
+from validation.blind.plant import BOUNDS
+from validation.learned import answer as judge
+from validation.learned.answer import Answer, answer, band, read_answer
+from validation.learned.case import shares
+from validation.learned.cases import CASES, LearnedCase
+
+NAMED = {case.name: case for case in CASES}
+
+
+def law(case: LearnedCase, factor: str, argument: str, slot: str = "pistonForce", sd: float = 100.0) -> LearnedLaw:
+    """The true curve, each value off by a tenth of its standard deviation."""
+    knots = np.linspace(-21e-3, 21e-3, 15)
+    assert case.kind.curve is not None
+    z = np.linspace(-21e-3, 21e-3, 500)
+    values = np.linalg.pinv(curve_basis(z, knots)) @ case.kind.curve(z, case.laws()[0], case.parameters()) + 0.1 * sd
+    return LearnedLaw(slot, factor, argument, knots, values, sd**2 * np.eye(15), 0.9, "m", "N.s/m")
+
+
+def test_places_and_variables() -> None:
+    case = NAMED["damping.position-large-1"]
+    right = law(case, "v", "pistonForce.x")
+    assert judge._right(case, [right], []) == (True, True)
+    assert judge._right(case, [law(case, "v", "alpha_x")], []) == (True, False)
+    assert judge._right(case, [law(case, "x", "v")], []) == (True, True)
+    assert judge._right(case, [right, replace(right, slot="supply")], []) == (False, True)
+    assert judge._right(case, [], []) == (False, False)
+    two = NAMED["two-large-2"]
+    opening = replace(right, slot="spoolOpening", factor="", argument="spoolOpening.s")
+    assert judge._right(two, [opening, right], []) == (True, True)
+    assert judge._right(two, [right], []) == (False, False)
+    assert judge._right(NAMED["friction.dahl-large-1"], [right], []) == (True, None)
+    assert judge._right(NAMED["cushion.unreached-large-1"], [], []) == (True, None)
+    assert judge._right(NAMED["cushion.unreached-large-1"], [right], []) == (False, None)
+
+
+def test_the_band_is_asked_of_the_right_curve_alone() -> None:
+    case = NAMED["damping.position-large-1"]
+    right = law(case, "v", "x", sd=500.0)
+    assert band(case, right) == 1.0
+    assert band(case, replace(right, factor="", argument="v")) is None
+    assert band(case, replace(right, slot="supply")) is None
+    off = replace(right, coefficients=right.coefficients + 3000.0)
+    assert band(case, off) == 0.0
+    assert band(case, replace(off, absorbed=np.ones((15, 1)))) == 1.0
+
+
+@pytest.mark.parametrize(
+    ("change", "missed"),
+    [
+        ({}, 0),
+        ({"place": False}, 1),
+        ({"after": 1.2}, 1),
+        ({"before": 0.1, "after": 0.3}, 1),
+        ({"before": 0.02, "after": 0.05}, 0),
+        ({"after": None}, 2),
+        ({"band": 0.8}, 1),
+        ({"trouble": "ended", "after": 0.1}, 1),
+    ],
+)
+def test_what_is_wanted_of_the_table(change: dict[str, float], missed: int) -> None:
+    good = [Answer(case.name, place=True, before=3.0, after=0.2, band=1.0) for case in CASES]
+    changed = [replace(one, **change) if NAMED[one.case].kind.visible else one for one in good]  # type: ignore[arg-type]
+    assert sum(share.beyond > 0 for share in shares(changed)) == missed
+
+
+def test_a_line_is_read_back() -> None:
+    one = Answer("two-large-1", ("a: h(b)",), ("x",), before=2.0)
+    assert read_answer(json.loads(json.dumps(asdict(one)))) == one
+    assert read_answer({"case": "two-large-1", "trouble": "the process ended with -9"}).trouble
+
+
+@pytest.mark.slow
+def test_a_diagnosis_that_knows_the_law_is_right() -> None:
+    case = NAMED["damping.position-large-1"]
+    right = {name: float(getattr(case.parameters(), name)) for name in BOUNDS}
+
+    def ask(session: Session) -> Diagnosis:
+        estimates = tuple(
+            Estimate(name, "", value, value, -np.inf, np.inf, 0.0, (value, value)) for name, value in right.items()
+        )
+        step = ErrorStep("refit", None, None, None, {}, False, 0.0, estimates=estimates)
+        known = replace(law(case, "v", "x", sd=1.0), parameters=right)
+        return Diagnosis((), False, Left({}, None, None), (), (), (step,), (), learned=(known,))
+
+    found = answer(case, ask)
+    assert (found.place, found.variables, found.trouble) == (True, True, "")
+    assert found.before is not None
+    assert found.after is not None
+    assert found.before > 5
+    assert found.after < 0.2
