@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import Any
@@ -16,8 +16,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu_build.text.expressions import NEGATE, Call, Name, Number, Tree, evaluate, parse
+from fmu_build.text.expressions import parse
 from pysim.diagnosis.learn.curve import curve_basis
+from pysim.diagnosis.learn.expression import derivative, modelica, replaced, smooth, value
 from pysim.types import EffectParameter
 from pysim.types.answer import LearnedLaw
 
@@ -106,12 +107,17 @@ class Formula:
     def text(self, argument: str) -> str:
         """With numbers in place of parameters: `1.2e+04 + 3.1e+07*x^2`."""
         numbers = {p.name: f"{p.default:.3g}" if p.default >= 0 else f"({p.default:.3g})" for p in self.parameters}
-        text = _replaced(self.expression, {**numbers, "z": argument})
+        text = replaced(self.expression, {**numbers, "z": argument})
         return re.sub(r"(^| \+ )\(-([^()]*)\)", lambda found: ("-" if not found[1] else " - ") + found[2], text)
 
     def written(self, argument: str) -> str:
         """Of the parameters' names, once differentiable: kinks are rounded."""
-        return _text(_smooth(parse(_replaced(self.expression, {"z": argument})), self.kink))
+        return modelica(smooth(parse(replaced(self.expression, {"z": argument})), self.kink))
+
+    def slope(self, argument: str) -> str:
+        """Its derivative by the argument, in the same form."""
+        tree = smooth(parse(replaced(self.expression, {"z": argument})), self.kink)
+        return modelica(derivative(tree, argument))
 
     def __call__(self, z: Array, values: Mapping[str, float] = MappingProxyType({})) -> Array:
         """The curve at some arguments, kinks rounded.
@@ -120,7 +126,7 @@ class Formula:
             values: of parameters, where they differ from those found.
         """
         known = {p.name: p.default for p in self.parameters} | dict(values) | {"z": np.asarray(z, dtype=float)}
-        return np.asarray(_value(_smooth(parse(self.expression), self.kink), known) + 0 * known["z"])
+        return np.asarray(value(smooth(parse(self.expression), self.kink), known) + 0 * known["z"])
 
 
 def formulas(law: LearnedLaw) -> tuple[Formula, ...]:
@@ -221,7 +227,7 @@ class _Target:
     def _columns(self, shapes: Sequence[Shape], sizes: Any) -> Array:
         """The coefficients of each shape, (m, len(shapes)), for a size each."""
         curves = [
-            _value(_smooth(parse(shape.form), self._kink), {"z": self._dense, "w": float(size)}) + 0 * self._dense
+            value(smooth(parse(shape.form), self._kink), {"z": self._dense, "w": float(size)}) + 0 * self._dense
             for shape, size in zip(shapes, sizes, strict=True)
         ]
         return np.asarray(self._to_knots @ np.column_stack(curves))
@@ -271,7 +277,7 @@ class _Target:
             bounds = (-REACH * nominal, REACH * nominal, nominal)
             of = _over(unit, argument, shape.power)
             parameters.append(EffectParameter(f"a_{k}", of, *bounds, _shortened(amount), 0.0, about))
-            terms.append(f"a_{k}" if shape.form == "1" else f"a_{k}*{_replaced(shape.form, {'w': f'w_{k}'})}")
+            terms.append(f"a_{k}" if shape.form == "1" else f"a_{k}*{replaced(shape.form, {'w': f'w_{k}'})}")
             if shape.sized:
                 nominal = rounded_up(max(abs(float(size)), self._kink))
                 about = f"{'Place' if shape.is_place else 'Width'} of the {shape.name}"
@@ -323,75 +329,3 @@ def _chi_square(df: int) -> float:
     Source: Wilson and Hilferty 1931, PNAS 17:684.
     """
     return df * (1 - 2 / (9 * df) + _SURE * math.sqrt(2 / (9 * df))) ** 3
-
-
-# --- expressions -----------------------------------------------------------------------------------------------------
-
-_FUNCTIONS: Mapping[str, Callable[..., Any]] = {
-    "+": np.add, "-": np.subtract, "*": np.multiply, "/": np.divide, "^": np.power, NEGATE: np.negative,
-    "exp": np.exp, "tanh": np.tanh, "sqrt": np.sqrt,
-}  # fmt: skip
-_RANKS = {"+": 0, "-": 0, "*": 1, "/": 1, NEGATE: 1, "^": 2}
-
-
-def _value(tree: Tree, known: Mapping[str, Any]) -> Any:
-    with np.errstate(all="ignore"):
-        return evaluate(tree, known.__getitem__, _FUNCTIONS)
-
-
-def _replaced(text: str, words: Mapping[str, str]) -> str:
-    return re.sub(r"[A-Za-z_]\w*", lambda found: words.get(found[0], found[0]), text)
-
-
-def _smooth(tree: Tree, kink: float) -> Tree:
-    """With kinks rounded: |z| as sqrt(z^2 + kink^2), and what follows from it."""
-    if not isinstance(tree, Call):
-        return tree
-    given = tuple(_smooth(one, kink) for one in tree.arguments)
-    match tree.function, given:
-        case "abs", (z,):
-            return _size(z, kink)
-        case "sign", (z,):
-            return Call("/", (z, _size(z, kink)))
-        case "max", (a, b):
-            return _half(Call("+", (a, _size(a, kink))) if b == Number(0.0) else _of_both(a, b, "+", kink))
-        case "min", (a, b):
-            return _half(_of_both(a, b, "-", kink))
-        case _:
-            return Call(tree.function, given)
-
-
-def _size(z: Tree, kink: float) -> Tree:
-    return Call("sqrt", (Call("+", (Call("^", (z, Number(2.0))), Number(kink**2))),))
-
-
-def _of_both(a: Tree, b: Tree, sign: str, kink: float) -> Tree:
-    return Call(sign, (Call("+", (a, b)), _size(Call("-", (a, b)), kink)))
-
-
-def _half(tree: Tree) -> Tree:
-    return Call("*", (Number(0.5), tree))
-
-
-def _text(tree: Tree, above: int = 0) -> str:
-    """A tree as Modelica text.
-
-    Args:
-        above: rank of the operator around it; one of lower rank is put into brackets.
-    """
-    match tree:
-        case Number(value):
-            return f"{value:.6g}"
-        case Name(name):
-            return name
-    rank = _RANKS.get(tree.function)
-    if rank is None:
-        return f"{tree.function}({', '.join(_text(one) for one in tree.arguments)})"
-    if tree.function == NEGATE:
-        text = f"-{_text(tree.arguments[0], 2)}"
-        return f"({text})" if above else text
-    first, second = tree.arguments
-    sign = f" {tree.function} " if rank == 0 else tree.function
-    behind = rank + (tree.function in "-/^")
-    text = f"{_text(first, rank + (rank == 2))}{sign}{_text(second, behind)}"
-    return f"({text})" if rank < above else text

@@ -221,7 +221,8 @@ class _Writer:
 
     def _curve(self, function: str = "curve") -> str:
         if self._formula is not None:
-            return f"({self._formula.written(self.argument)})"
+            write = self._formula.written if function == "curve" else self._formula.slope
+            return f"({write(self.argument)})"
         return f"{function}({self.argument}, {self._knots}, {self._widths}, c)"
 
     def term(self, side: _Side) -> str:
@@ -234,7 +235,7 @@ class _Writer:
         """Its derivative by time."""
         argument, factor = f"{self.argument}_t", f"{self._factor}_t"
         known = argument in self._units or self.argument == "time"
-        if self._formula is not None or not known or (self._factor and factor not in self._units):
+        if not known or (self._factor and factor not in self._units):
             raise BadInput(
                 f"slot {self._slot.name} hands on the rate {side.rate}, which a law over {self.argument} with the "
                 f"factor {self._factor or '1'} does not know; write the class by hand"

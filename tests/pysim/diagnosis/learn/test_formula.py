@@ -9,7 +9,8 @@ import pytest
 from numpy.typing import NDArray
 
 from pysim.diagnosis.learn.curve import curve_basis
-from pysim.diagnosis.learn.formula import SHAPES, Formula, formulas
+from pysim.diagnosis.learn.formula import SHAPES, Formula, Shape, formulas
+from pysim.types import EffectParameter
 from pysim.types.answer import LearnedLaw
 
 Array = NDArray[np.float64]
@@ -100,3 +101,14 @@ def test_a_written_formula_is_smooth_where_its_shape_has_a_kink() -> None:
     slopes = np.diff(best(fine)) / np.diff(fine)
     assert np.max(np.abs(np.diff(slopes))) < 0.01 * np.ptp(slopes)
     assert best.written("x") == f"a_1*sqrt(x^2 + {best.kink**2:.6g})"
+
+
+@pytest.mark.parametrize("shape", SHAPES, ids=lambda shape: shape.name)
+def test_the_slope_of_every_shape_is_its_derivative(shape: Shape) -> None:
+    amount = EffectParameter("a_1", "1", -10, 10, 1, 2.0, 0.0)
+    width = EffectParameter("w_1", "1", 0.1, 10, 1, 0.7, None)
+    expression = f"a_1*({shape.form.replace('w', 'w_1')})"
+    one = Formula((shape.name,), expression, (amount, width), np.eye(2), 0.05, np.zeros(0), 0.0, 1.0)
+    slope = replace(one, expression=one.slope("z"))
+    z = np.linspace(-1.5, 1.5, 40)
+    assert slope(z) == pytest.approx((one(z + 1e-5) - one(z - 1e-5)) / 2e-5, rel=1e-5, abs=1e-6)

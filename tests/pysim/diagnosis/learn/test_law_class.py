@@ -204,6 +204,20 @@ def test_a_signal_is_handed_on_with_its_rate(lab: tuple[Path, ...], factor: str)
     assert np.cumsum(y_t[:-1] + np.diff(y_t) / 2) * 0.01 == pytest.approx(y[1:] - y[0], abs=5e-3)
 
 
+def test_a_formula_is_handed_on_with_its_rate(lab: tuple[Path, ...]) -> None:
+    knots, z = np.linspace(-1, 1, 9), np.linspace(-1, 1, 200)
+    values = np.linalg.pinv(curve_basis(z, knots)) @ (0.3 * np.tanh(z / 0.4))
+    law = LearnedLaw("link", "", "s", knots, values, 1e-8 * np.eye(9), 0.5, "1", "1")
+    formula = formulas(law)[0]
+    assert formula.shapes == ("smooth sign",)
+    slot = next(one for one in slots("Lab.Signals", lab) if one.name == "link")
+    text = law_class(law, slot, "Own", lab, effect="learned.own", formula=formula)
+    y, y_t = outputs(Variants("Lab.Signals", lab).build_term(text)[0], "y", "y_t")
+    s = np.sin(3 * TIME)
+    assert y == pytest.approx(s + 0.3 * np.tanh(s / 0.4), abs=0.01)
+    assert np.cumsum(y_t[:-1] + np.diff(y_t) / 2) * 0.01 == pytest.approx(y[1:] - y[0], abs=5e-3)
+
+
 def test_a_slot_keeps_the_law_that_it_has(lab: tuple[Path, ...]) -> None:
     law = learned("spool", "", "u_t", 4.0, "1/s", "1/s2", 20.0)
     (u,) = outputs(with_law(lab, "Signals", law), "u")
