@@ -12,11 +12,13 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 import numpy as np
+from fmpy import simulate_fmu
 
+from fmu_build import build
 from pysim.diagnosis import Session, diagnose
 from pysim.diagnosis.learn.curve import curve_basis
 from pysim.diagnosis.learn.law_class import law_class
-from pysim.effects import STANDARD_LIBRARY, read_catalogue
+from pysim.effects import STANDARD_LIBRARY, read_catalogue, variant
 from pysim.types import Dataset, Effect, Model
 from pysim.types.answer import Diagnosis, ErrorStep, LearnedLaw
 from pysim.workflow import Variants, open_session
@@ -44,6 +46,8 @@ class Answer:
         variables: whether the laws at right places depend on the right variables; None where that is not asked.
         band: share of the first curve's range over which its 95 percent band holds the true curve; None where the true
             law is no curve of these variables.
+        fitted, again: residual over the noise on the wave that may choose, as the answer states it and of the class.
+        exported: largest difference of its FMUs of FMI 2 and 3 in FMPy, over the range; None where no law was learned.
         before, after: error of the refitted base model and of the last one; None where that cannot be simulated.
         seconds, cpu: of the diagnosis, by the clock and of this process.
         trouble: why there is no answer.
@@ -58,6 +62,9 @@ class Answer:
     band: float | None = None
     before: float | None = None
     after: float | None = None
+    fitted: float | None = None
+    again: float | None = None
+    exported: float | None = None
     seconds: float = 0.0
     cpu: float = 0.0
     trouble: str = ""
@@ -101,7 +108,11 @@ def answer(case: LearnedCase, ask: Callable[[Session], Diagnosis] = diagnose) ->
     wall, cpu = time.monotonic() - wall, time.process_time() - cpu
     effects = tuple(one.effect for one in found.effects if one.effect.class_name)
     base = next((step for step in found.history if step.step == "refit"), None)
-    final, values = model_of(found, effects, session)
+    with TemporaryDirectory(prefix="learned-") as folder:
+        variants, learned = classes_of(found, session, Path(folder))
+        final, places = variants.build([*effects, *learned])
+        exported = difference(variants, [*effects, *learned], Path(folder)) if learned else None
+    values = values_in(final, found, places)
     first = found.learned[0] if found.learned else None
     return Answer(
         case.name,
@@ -112,34 +123,52 @@ def answer(case: LearnedCase, ask: Callable[[Session], Diagnosis] = diagnose) ->
         None if first is None else band(case, first),
         error(session.model, measured.unseen, values_of(base)),
         error(final, measured.unseen, values),
+        found.history[-1].validate if found.history else None,
+        error(final, measured.given, values, "validate"),
+        exported,
         wall,
         cpu,
     )
 
 
-def model_of(found: Diagnosis, effects: Sequence[Effect], session: Session) -> tuple[Model, Mapping[str, float]]:
-    """The last model, its laws as their classes are, and its parameters' values."""
+def classes_of(found: Diagnosis, session: Session, folder: Path) -> tuple[Variants, list[Effect]]:
+    """The learned laws as effects, their classes in that folder."""
+    slots = {slot.name: slot for slot in session.slots}
+    files = [folder / f"Learned{k}.mo" for k in range(1, len(found.learned) + 1)]
+    for law, file in zip(found.learned, files, strict=True):
+        name = file.stem
+        text = law_class(law, slots[law.slot], name, [STANDARD_LIBRARY], effect=f"learned.{name.lower()}")
+        file.write_text(text, encoding="utf-8")
+    return Variants(BASE, (STANDARD_LIBRARY, *files)), [effect for file in files for effect in read_catalogue(file)]
+
+
+def values_in(model: Model, found: Diagnosis, places: Mapping[str, str]) -> dict[str, float]:
+    """The last model's parameters, by their names in the model that has the laws' classes."""
     values = dict(values_of(found.history[-1] if found.history else None))
     for law in found.learned:
         values |= law.parameters
-    libraries = [STANDARD_LIBRARY]
-    learned: list[Effect] = []
-    with TemporaryDirectory(prefix="learned-") as folder:
-        slots = {slot.name: slot for slot in session.slots}
-        for k, law in enumerate(found.learned, start=1):
-            name = f"Learned{k}"
-            text = law_class(law, slots[law.slot], name, [STANDARD_LIBRARY], effect=f"learned.law{k}")
-            file = Path(folder) / f"{name}.mo"
-            file.write_text(text, encoding="utf-8")
-            libraries.append(file)
-            learned += read_catalogue(file)
-        model, places = Variants(BASE, tuple(libraries)).build([*effects, *learned])
-    for effect in effects:
-        for one in next(f for f in found.effects if f.effect.name == effect.name).estimates:
-            if not one.name.startswith(f"{places[effect.name]}."):
-                values[f"{places[effect.name]}.{one.name}"] = one.value
+    for one in found.effects:
+        place = places.get(one.effect.name)
+        for estimate in one.estimates if place else ():
+            values[f"{place}.{estimate.name.removeprefix(f'{one.place}.')}"] = estimate.value
     known = {variable.name for variable in model.variables}
-    return model, {name: value for name, value in values.items() if name in known}
+    return {name: value for name, value in values.items() if name in known}
+
+
+def difference(variants: Variants, effects: Sequence[Effect], folder: Path) -> float:
+    """Between a second's run of both kinds of FMU in FMPy, after a step of the command, over the range."""
+    made = variant(variants.class_name, effects, variants.libraries, name="Export")
+    (folder / "Export.mo").write_text(made.text, encoding="utf-8")
+    runs = []
+    for fmi in (2, 3):
+        libraries = [*variants.libraries, folder / "Export.mo"]
+        fmu = build("Export", folder / f"export{fmi}.fmu", libraries=libraries, fmi=fmi)
+        done = simulate_fmu(
+            str(fmu), stop_time=1.0, output_interval=1e-3, relative_tolerance=1e-8, fmi_type="ModelExchange",
+            start_values={"alphaCMD": 30.0}, output=["alphaPercent"],
+        )  # fmt: skip
+        runs.append(np.asarray(done["alphaPercent"]))
+    return float(np.max(np.abs(runs[0] - runs[1])) / np.ptp(runs[0]))
 
 
 def values_of(step: ErrorStep | None) -> Mapping[str, float]:
@@ -147,10 +176,10 @@ def values_of(step: ErrorStep | None) -> Mapping[str, float]:
     return {one.name: one.value for one in step.estimates} if step is not None else {}
 
 
-def error(model: Model, unseen: Dataset, values: Mapping[str, float]) -> float | None:
-    """Root mean square of simulated minus noise-free reading, over the noise, of all signals."""
+def error(model: Model, data: Dataset, values: Mapping[str, float], use: str = "test") -> float | None:
+    """Root mean square of simulated minus reading, over the noise, of all signals."""
     try:
-        sizes = held_out_rms(model, unseen, values)
+        sizes = held_out_rms(model, data, values, use)
     except Exception:  # whatever stops a run, the model has no error
         return None
     return float(np.sqrt(np.mean([(size / NOISE[name]) ** 2 for name, size in sizes.items()])))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import zlib
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from types import MappingProxyType
 
 import numpy as np
@@ -100,10 +100,11 @@ class LearnedCase:
     kind: Kind
     size: str  # "small" | "large"
     seed: int
+    condition: str = ""  # one of CONDITIONS
 
     @property
     def name(self) -> str:
-        return f"{self.kind.name}-{self.size}-{self.seed}"
+        return "-".join(filter(None, (self.kind.name, self.size, str(self.seed), self.condition)))
 
     def parameters(self) -> Parameters:
         """Each identified one within 10 percent of the thesis' value and within its bounds."""
@@ -128,11 +129,22 @@ class LearnedCase:
         return np.random.default_rng((self.seed, zlib.crc32(f"{self.kind.name} {purpose}".encode())))
 
 
-CASES = tuple(
-    LearnedCase(kind, size, seed)
-    for kind in KINDS
-    for size, seed in (("small", 1), ("large", 1), ("large", 2), ("large", 3))
+CONDITIONS = ("angle", "unstated", "motion")
+"""The spool is not logged; noise is not specified; logs of waves begin four seconds late, in motion."""
+_LATE = 4.0  # s
+_TWELVE = (
+    "damping.position", "damping.drift", "supply.falling", "spool.flow_force", "friction.pressure", "valve.notch",
+    "friction.position", "friction.dahl", "shaft.tone", "leakage.turbulent", "linkage.compliant", "valve.edge_play",
+)  # fmt: skip
+CASES = (
+    *(
+        LearnedCase(kind, size, seed)
+        for kind in KINDS
+        for size, seed in (("small", 1), ("large", 1), ("large", 2), ("large", 3))
+    ),
+    *(LearnedCase(kind, "large", 1, condition) for kind in KINDS if kind.name in _TWELVE for condition in CONDITIONS),
 )
+"""Sixty, and twelve again under each condition."""
 
 
 @dataclass(frozen=True)
@@ -164,16 +176,21 @@ def measure(case: LearnedCase) -> Measured:
         readings = np.column_stack([logged[:, 0] / _PERCENT, logged[:, 1]])
         if use != "test":
             readings += case.stream(name).standard_normal(readings.shape) * list(NOISE.values())
+        late = round(_LATE * RATE) if case.condition == "motion" and name.startswith("wave") else 0
         time = clock + command.start + np.arange(len(logged)) / RATE
-        records[use == "test"].append(_record(name, use, of, time, orders, readings))
+        record = _record(name, use, of, time[late:], orders[late:], readings[late:])
+        records[use == "test"].append(_without_spool(record) if case.condition == "angle" and use != "test" else record)
         clock += command.start + length
     about = "swash plate tests without load: stepped sines and waves"
-    signals = (
+    signals: tuple[MeasuredSignal, ...] = (
         MeasuredSignal("alphaCMD", "input", "%", "swash plate angle command", "alphaCMD"),
         MeasuredSignal("alphaPercent", "output", "%", "swash plate angle", "alphaPercent", NOISE["alphaPercent"]),
         MeasuredSignal("u", "output", "1", "spool position", "u", NOISE["u"]),
     )
-    given, unseen = (Dataset(case.name, about, "pump", signals, tuple(records[is_test])) for is_test in (False, True))
+    unseen = Dataset(case.name, about, "pump", signals, tuple(records[True]))
+    if case.condition == "unstated":
+        signals = tuple(replace(signal, noise=None) for signal in signals)
+    given = Dataset(case.name, about, "pump", signals[: 2 if case.condition == "angle" else 3], tuple(records[False]))
     return Measured(given, unseen)
 
 
@@ -181,6 +198,12 @@ def _command(case: LearnedCase, name: str, of: float, length: float) -> Command:
     if name.startswith("sine"):
         return stepped_sine(Lead(50.0), 50.0, 10.0, of, length)
     return wave(Lead(0.0), (case.seed, zlib.crc32(name.encode())), of, _SWING, length)
+
+
+def _without_spool(record: MeasuredRecord) -> MeasuredRecord:
+    log = record.data
+    assert isinstance(log, Record)
+    return replace(record, data=replace(log, values=log.values[:, :2], names=log.names[:2], units=log.units[:2]))
 
 
 def _record(name: str, use: str, of: float, time: Array, orders: Array, readings: Array) -> MeasuredRecord:
