@@ -188,21 +188,24 @@ class _Writer:
         return f"tanh({name}/{SIGN_WIDTHS.get(self._units.get(name) or '', 1e-3):g})"
 
     def _check(self) -> None:
-        """The unit of the curve times that of the factor is the slot's."""
+        """The unit of the curve times that of the factor is the slot's; units that are not SI are not looked at."""
         law, slot = self._law, self._slot
         known = {**self._units, **dict.fromkeys(self._outside), "time": "s"}
-        given = next((self._units.get(one) for one in slot.gives if self._units.get(one)), None)
-        single = len({self._units.get(one) for one in slot.gives}) == 1
+        for one, unit in known.items():
+            known[one] = unit if unit is not None and _is_si(unit) else None
+        given = {known.get(one) for one in slot.gives}
         try:
             factor = check_units(parse(self._factor), known) if self._factor else {}
-            found = check_units(parse("h*g"), {"h": law.unit or "1", "g": dimension_words(factor)})
-            wrong = single and given is not None and factor is not None and found != dimension(given)
         except ValueError as error:
             raise BadInput(f"learned law at {slot.name}: {error}") from error
-        if wrong:
+        unit = next(iter(given))
+        if len(given) > 1 or unit is None or factor is None or not _is_si(law.unit or "1"):
+            return
+        found = check_units(parse("h*g"), {"h": law.unit or "1", "g": dimension_words(factor)})
+        if found != dimension(unit):
             raise BadInput(
                 f"learned law at {slot.name}: its curve is in {law.unit or '1'}, and {self._factor or '1'} times that "
-                f"is not in {given}; give the curve's unit"
+                f"is not in {unit}; give the curve's unit"
             )
 
     def _on(self, side: _Side, text: str) -> str:
@@ -276,5 +279,13 @@ class _Writer:
         return [*constants, _RAMP, _CURVE, *([_SLOPE] if rates else [])]
 
 
+def _is_si(unit: str) -> bool:
+    try:
+        dimension(unit)
+    except ValueError:
+        return False
+    return True
+
+
 def _listed(values: Array) -> str:
-    return wrapped("{" + ", ".join(f"{value:.8g}" for value in values) + "}", 110, subsequent_indent="    ")
+    return wrapped("{" + ", ".join(f"{value + 0.0:.8g}" for value in values) + "}", 110, subsequent_indent="    ")

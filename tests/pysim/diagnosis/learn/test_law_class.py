@@ -267,6 +267,12 @@ def test_what_cannot_be_written_is_refused(lab: tuple[Path, ...], slot: str, fac
         law_class(learned(slot, factor, "x", 1.0, "m", unit, 1.0), known[slot], "Own", lab)
 
 
+def test_units_that_are_not_si_are_not_looked_at(lab: tuple[Path, ...]) -> None:
+    slot = next(one for one in slots("Lab.Mass", lab) if one.name == "force")
+    text = law_class(learned("force", "v", "x", 1.0, "mm", "lbf.s/mm", 1.0), slot, "Own", lab)
+    assert 'each unit="lbf.s/mm"' in text
+
+
 def test_a_law_of_its_own_kind_has_no_place_for_another(lab: tuple[Path, ...]) -> None:
     flow = next(one for one in slots("HydraulicTestBench.LoadCircuit.OpenTestBench", lab) if one.name == "pumpFlow")
     with pytest.raises(BadInput, match="several kinds"):
