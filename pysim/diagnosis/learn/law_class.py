@@ -15,51 +15,17 @@ from fmu_build.text import class_text
 from fmu_build.text.expressions import names_in, parse
 from fmu_build.text.write import quoted
 from pysim.diagnosis.learn.curve import widths
+from pysim.diagnosis.learn.curve_text import CURVE, RAMP, SLOPE
 from pysim.diagnosis.learn.formula import REACH, Formula, rounded_up
 from pysim.effects import VENDOR, Filling, Slot, filling, parameter_text, slot_units
 from pysim.effects.law import check_units, dimension, dimension_words
-from pysim.types import BadInput
+from pysim.types import BadInput, EffectParameter
 from pysim.types.answer import LearnedLaw
 
 Array = NDArray[np.float64]
 
 SIGN_WIDTHS = {"m/s": 1e-3, "rad/s": 0.1, "1/s": 0.05, "m": 1e-5, "rad": 1e-4, "Pa": 1e4, "m3/s": 1e-7}
 """Width of a sign's change by its variable's unit; those of speeds are the catalogue's frictions'. 1e-3 for others."""
-_RAMP = """function ramp "0 below, s above, with a rounded corner in between"
-    input Real s "Distance from the corner";
-    input Real w "Width of the corner";
-    output Real y "Ramp";
-  algorithm
-    y := 0.5*(s + sqrt(s^2 + w^2));
-    annotation(Inline=true, smoothOrder=2);
-  end ramp"""
-_CURVE = """function curve "Straight lines through points, their corners rounded; constant beyond the ends"
-    input Real u "Where";
-    input Real x[:] "Knots, increasing";
-    input Real w[size(x, 1)] "Widths of the corners there";
-    input Real c[size(x, 1)] "Values there";
-    output Real y "Curve";
-  algorithm
-    y := c[1];
-    for i in 2:size(x, 1) loop
-      y := y + (c[i] - c[i - 1])/(x[i] - x[i - 1])*(ramp(u - x[i - 1], w[i - 1]) - ramp(u - x[i], w[i]));
-    end for;
-    annotation(Inline=true, smoothOrder=2);
-  end curve"""
-_SLOPE = """function slope "Derivative of curve"
-    input Real u "Where";
-    input Real x[:] "Knots, increasing";
-    input Real w[size(x, 1)] "Widths of the corners there";
-    input Real c[size(x, 1)] "Values there";
-    output Real y "Slope";
-  algorithm
-    y := 0;
-    for i in 2:size(x, 1) loop
-      y := y + (c[i] - c[i - 1])/(x[i] - x[i - 1])*0.5*((u - x[i - 1])/sqrt((u - x[i - 1])^2 + w[i - 1]^2)
-        - (u - x[i])/sqrt((u - x[i])^2 + w[i]^2));
-    end for;
-    annotation(Inline=true, smoothOrder=1);
-  end slope"""
 
 
 def law_class(
@@ -80,8 +46,9 @@ def law_class(
 
     Args:
         law: factor and argument name what the slot offers, `v` or `SLOT.v`, or any other signal of the model, or
-            `time`. A factor is "" for 1, or an expression; `sign(v)` is smooth. Where the slot gives several variables
-            of one kind, `q1` and `q2`, each gets the same curve, over `p2` where the argument is `p1`.
+            `time`. A factor is "" for 1, or an expression: `v`, `sign(v)`, which is smooth, `bristle(v, 5e-4)`, the
+            memory of dry friction with a bristle of this length, or `cos(151.8*time)`. Where the slot gives several
+            variables of one kind, `q1` and `q2`, each gets the same curve, over `p2` where the argument is `p1`.
         slot: that it fills; `pysim.effects.slots` reads them from a model.
         name: of the class.
         libraries: where the slot's filling and its partial class are.
@@ -111,7 +78,7 @@ def law_class(
         declarations=[*parts.declarations, *writer.declarations()],
         protected=writer.protected(any(side.rate for side in sides)),
         initial=parts.initial,
-        equations=equations,
+        equations=[*equations, *writer.equations],
         annotation=note,
     )
 
@@ -157,6 +124,7 @@ class _Writer:
         self._law, self._slot, self._formula = law, slot, formula
         self._units: Mapping[str, str | None] = slot_units(slot, libraries)
         self._outside: dict[str, str] = {}  # local name -> signal of the model
+        self._bristles: dict[str, float] = {}  # speed -> length
         self.argument = self._local(law.argument)
         self._factor = self._expression(law.factor)
         self._knots, self._widths = f"{self.argument}_k", f"{self.argument}_w"
@@ -173,7 +141,7 @@ class _Writer:
         return local
 
     def _expression(self, factor: str) -> str:
-        """The factor with local names and smooth signs; "" for 1."""
+        """The factor with local names, smooth signs and the names of bristles; "" for 1."""
         if not factor:
             return ""
         try:
@@ -182,15 +150,23 @@ class _Writer:
             raise BadInput(f"learned law at {self._slot.name}: the factor {factor!r}: {error}") from error
         for name in names:
             factor = re.sub(rf"(?<![\w.]){re.escape(name)}(?![\w.(])", self._local(name), factor)
-        return re.sub(r"\bsign\(([\w.]+)\)", lambda found: self._smooth_sign(found[1]), factor)
+        factor = re.sub(r"\bsign\(([\w.]+)\)", lambda found: self._smooth_sign(found[1]), factor)
+        return re.sub(r"\bbristle\((\w+), *([\d.e+-]+)\)", lambda found: self._bristle(found[1], found[2]), factor)
 
     def _smooth_sign(self, name: str) -> str:
         return f"tanh({name}/{SIGN_WIDTHS.get(self._units.get(name) or '', 1e-3):g})"
 
+    def _bristle(self, speed: str, length: str) -> str:
+        if len([one for one in self._slot.gives if not one.endswith("_t")]) > 1:
+            raise BadInput(f"learned law at {self._slot.name}: it has two sides, which cannot share a bristle")
+        self._bristles[speed] = float(length)
+        return f"{speed}_bristle"
+
     def _check(self) -> None:
         """The unit of the curve times that of the factor is the slot's; units that are not SI are not looked at."""
         law, slot = self._law, self._slot
-        known = {**self._units, **dict.fromkeys(self._outside), "time": "s"}
+        bristles = {f"{speed}_bristle": "1" for speed in self._bristles}
+        known = {**self._units, **dict.fromkeys(self._outside), **bristles, "time": None}
         for one, unit in known.items():
             known[one] = unit if unit is not None and _is_si(unit) else None
         given = {known.get(one) for one in slot.gives}
@@ -255,6 +231,12 @@ class _Writer:
             unit = f'(unit="{self._law.argument_unit}")' if local == self.argument else ""
             note = f"annotation({VENDOR}(signal={quoted(signal)}))"
             found.append(f"input Real {local}{unit} {quoted(f'{signal} of the model')} {note}")
+        for speed, length in self._bristles.items():
+            unit = (self._units.get(speed) or "1/s").removesuffix("/s")
+            bounds = (length / REACH, length * REACH, length)
+            own = EffectParameter(f"{speed}_length", unit, *bounds, length, None, "Length of the bristle (Dahl 1968)")
+            found.append(parameter_text(own))
+            found.append(f'Real {speed}_bristle(unit="1", start=0, fixed=true) "Bristle over its length, -1 to 1"')
         if self._formula is not None:
             return found + [parameter_text(one) for one in self._formula.parameters]
         values = self._law.coefficients
@@ -263,6 +245,14 @@ class _Writer:
         said = ", ".join(f"each {key}={value:g}" for key, value in attributes.items())
         declared = f'parameter Real c[{values.size}](each unit="{self._law.unit or "1"}", {said})'
         return [*found, f'{declared} =\n    {_listed(values)}\n    "Value of the curve at each knot, 0 = off"']
+
+    @property
+    def equations(self) -> list[str]:
+        """Of what remembers."""
+        return [
+            f"{speed}_length*der({speed}_bristle) = {speed} - noEvent(abs({speed}))*{speed}_bristle"
+            for speed in self._bristles
+        ]
 
     def protected(self, rates: bool) -> list[str]:
         """Knots and widths of the curve, and the functions that give it."""
@@ -276,7 +266,7 @@ class _Writer:
                 (self._widths, widths(knots), "Widths of its rounded corners"),
             )
         ]
-        return [*constants, _RAMP, _CURVE, *([_SLOPE] if rates else [])]
+        return [*constants, RAMP, CURVE, *([SLOPE] if rates else [])]
 
 
 def _is_si(unit: str) -> bool:

@@ -180,6 +180,26 @@ def test_time_can_be_the_argument(lab: tuple[Path, ...]) -> None:
     assert run_of(with_law(lab, "Mass", law)) == pytest.approx(right, abs=2e-6)
 
 
+def test_a_tone_is_a_factor_of_time(lab: tuple[Path, ...]) -> None:
+    law = learned("force", "cos(7.5*time)", "x", 0.5, "m", "N", 3.0)
+    right = mass(lambda t, x, v, warm: curve(law, x) * math.cos(7.5 * t))
+    assert run_of(with_law(lab, "Mass", law)) == pytest.approx(right, abs=2e-6)
+
+
+def test_a_bristle_remembers(lab: tuple[Path, ...]) -> None:
+    law = learned("force", "bristle(v, 0.02)", "x", 0.5, "m", "N", -1.0)
+
+    def rates(t: float, state: Array) -> list[float]:
+        x, v, z = state
+        force = float(np.interp(t, *PUSH)) - 3 * v - 50 * x + curve(law, x) * z
+        return [v, force / 2, (v - abs(v) * z) / 0.02]
+
+    run = solve_ivp(rates, (0, 3), [0.0, 0.0, 0.0], "DOP853", TIME, rtol=1e-10, atol=1e-12)
+    model = with_law(lab, "Mass", law)
+    assert run_of(model) == pytest.approx(run.y[0], abs=5e-6)
+    assert (model["force.v_length"].min, model["force.v_length"].unit) == (0.002, "m")
+
+
 def outputs(model: Model, *names: str) -> list[Array]:
     ramp = Signal.lines([0.0, 3.0], [-1.0, 1.0])
     answer = simulate(model, Experiment(TIME, names, {"a": ramp}, {}), solver=Rodas(rtol=1e-9, atol=1e-11))
