@@ -1,9 +1,10 @@
-"""A learned law as an effect that a user keeps."""
+"""Learned laws as Modelica classes: written beside an answer, and kept as effects of the user's own."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -11,7 +12,33 @@ from pysim.types import BadInput, Effect
 
 if TYPE_CHECKING:
     from pysim.diagnosis.learn.formula import Formula
-    from pysim.types.answer import LearnedLaw
+    from pysim.effects import Slot
+    from pysim.types.answer import Diagnosis, LearnedLaw
+
+
+def with_classes(found: Diagnosis, model: str, libraries: Sequence[Path]) -> Diagnosis:
+    """An answer whose learned laws have their classes, and formulas where one describes the curve as well.
+
+    A law of which no class can be written, as in a slot whose filling is more than equations, has "" there.
+
+    Args:
+        model: full name of the class in whose slots they stand.
+        libraries: where that is.
+    """
+    from pysim.diagnosis.learn.formula import formulas
+    from pysim.diagnosis.learn.law_class import law_class
+
+    laws = []
+    for law in found.learned:
+        argument = law.argument.removeprefix(f"{law.slot}.")
+        name = "_".join([f"learned.{law.slot}", "over", *re.split(r"\W+", argument.strip("]"))])
+        best = next(iter(formulas(law)), None)
+        try:
+            text = law_class(law, _slot(law, model, libraries), _class_name(name), libraries, effect=name)
+        except BadInput:
+            text = ""
+        laws.append(replace(law, modelica=text, formula=best.text(argument) if best else ""))
+    return replace(found, learned=tuple(laws))
 
 
 def keep_law(
@@ -38,12 +65,9 @@ def keep_law(
         BadInput: the model has no such slot, the file is there, or no class can be written for the slot.
     """
     from pysim.diagnosis.learn.law_class import law_class
-    from pysim.effects import read_catalogue, slots
+    from pysim.effects import read_catalogue
 
-    slot = next((one for one in slots(model, libraries) if one.name == law.slot), None)
-    if slot is None:
-        raise BadInput(f"{model} has no slot {law.slot}; name the model that the law was learned in")
-    own = "".join(word[:1].upper() + word[1:] for word in re.split(r"\W+|_", name))
+    slot, own = _slot(law, model, libraries), _class_name(name)
     if not re.fullmatch(r"[A-Za-z]\w*", own, re.ASCII):
         raise BadInput(f"{name!r} makes no name of a class; begin with a letter, such as my.damping")
     file = folder / f"{own}.mo"
@@ -54,3 +78,16 @@ def keep_law(
     file.write_text(text, encoding="utf-8")
     (effect,) = read_catalogue(file)
     return effect
+
+
+def _slot(law: LearnedLaw, model: str, libraries: Sequence[Path]) -> Slot:
+    from pysim.effects import slots
+
+    slot = next((one for one in slots(model, libraries) if one.name == law.slot), None)
+    if slot is None:
+        raise BadInput(f"{model} has no slot {law.slot}; name the model that the law was learned in")
+    return slot
+
+
+def _class_name(effect: str) -> str:
+    return "".join(word[:1].upper() + word[1:] for word in re.split(r"\W+|_", effect))
