@@ -98,6 +98,7 @@ def run_step(
     from pysim.cli.progress import announce_compilation
     from pysim.present.diagnosis import Diagnosed
     from pysim.types import ProgressEvent
+    from pysim.workflow import with_classes
 
     announce_compilation()
     checkpoint = given.output / CHECKPOINT if given.output else None
@@ -117,6 +118,8 @@ def run_step(
         cure = "the same command goes on where it was" if checkpoint else "with --output DIR a run can be gone on with"
         raise KeyboardInterrupt(cure) from None
     found = replace(found, conditions={**_conditions(given, parts), **found.conditions})
+    if found.learned and parts.variants is not None:
+        found = with_classes(found, parts.variants.class_name, parts.variants.libraries)
     sentence = answer(found) if answer is not None else ""
     given.opened = parts
     return Diagnosed(found, parts.dataset, f"{parts.model_name} against {parts.dataset.name}", question, sentence)

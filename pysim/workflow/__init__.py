@@ -19,8 +19,9 @@ if TYPE_CHECKING:
     from pysim.workflow.extended import write_extended
     from pysim.workflow.fitting import fit_problem
     from pysim.workflow.free import free_parameters
+    from pysim.workflow.learned import keep_law, law_file, with_classes
     from pysim.workflow.model import ModelInside, inside, is_fmu, model_of
-    from pysim.workflow.session import SessionParts, effects_of, open_session, session_of, session_parts, subject_of
+    from pysim.workflow.session import SessionParts, effects_of, open_session, session_of, session_parts
     from pysim.workflow.shell import command_line
     from pysim.workflow.variants import Variants
 
@@ -29,8 +30,9 @@ _FILES = {
     "extended": ("write_extended",),
     "fitting": ("fit_problem",),
     "free": ("free_parameters",),
+    "learned": ("keep_law", "law_file", "with_classes"),
     "model": ("ModelInside", "inside", "is_fmu", "model_of"),
-    "session": ("SessionParts", "effects_of", "open_session", "session_of", "session_parts", "subject_of"),
+    "session": ("SessionParts", "effects_of", "open_session", "session_of", "session_parts"),
     "shell": ("command_line",),
     "variants": ("Variants",),
 }
@@ -46,12 +48,14 @@ __all__ = [
     "free_parameters",
     "inside",
     "is_fmu",
+    "keep_law",
+    "law_file",
     "model_of",
     "open_session",
     "reference_of",
     "session_of",
     "session_parts",
-    "subject_of",
+    "with_classes",
     "write_extended",
 ]
 

@@ -9,6 +9,7 @@ from pathlib import Path
 from pysim.io import shown_unit, write_file
 from pysim.present.diagnosis.words import limits_sentence
 from pysim.types import Dataset, Diagnosis
+from pysim.workflow.learned import law_file
 from pysim.workflow.session import SessionParts
 from pysim.workflow.shell import command_line
 
@@ -40,6 +41,10 @@ def write_extended(
         about = f"{name}, the class in {name}.mo, fitted to data set {parts.dataset.name}."
     else:
         about = f"{parts.model_name}, refitted to data set {parts.dataset.name}. {_set_before(parts)}"
+    for k, law in enumerate(law for law in found.learned if law.modelica):
+        key = "learned" if k == 0 else f"learned_{k + 1}"
+        files[key] = folder / law_file(law)
+        write_file(files[key], law.modelica)
     if fitted:
         files["parameters"] = folder / PARAMETERS
         write_file(files["parameters"], _parameters(f"Of {about}", fitted))

@@ -30,8 +30,7 @@ def with_classes(found: Diagnosis, model: str, libraries: Sequence[Path]) -> Dia
 
     laws = []
     for law in found.learned:
-        argument = law.argument.removeprefix(f"{law.slot}.")
-        name = "_".join([f"learned.{law.slot}", "over", *re.split(r"\W+", argument.strip("]"))])
+        argument, name = law.argument.removeprefix(f"{law.slot}."), _effect_name(law)
         best = next(iter(formulas(law)), None)
         try:
             text = law_class(law, _slot(law, model, libraries), _class_name(name), libraries, effect=name)
@@ -78,6 +77,16 @@ def keep_law(
     file.write_text(text, encoding="utf-8")
     (effect,) = read_catalogue(file)
     return effect
+
+
+def law_file(law: LearnedLaw) -> str:
+    """Name of the file of its class."""
+    return f"{_class_name(_effect_name(law))}.mo"
+
+
+def _effect_name(law: LearnedLaw) -> str:
+    argument = law.argument.removeprefix(f"{law.slot}.")
+    return "_".join([f"learned.{law.slot}", "over", *re.split(r"\W+", argument.strip("]"))])
 
 
 def _slot(law: LearnedLaw, model: str, libraries: Sequence[Path]) -> Slot:

@@ -8,10 +8,8 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Literal
 
-from pysim.diagnose import Inside, Subject, subject
 from pysim.diagnosis import Session, Settings, session
 from pysim.io import in_model_units
-from pysim.present.notes import words
 from pysim.types import BadInput, Dataset, Effect, Model, Note, NoteCode
 from pysim.workflow.built_in import built_in
 from pysim.workflow.data import BY_DATA, data_of, reference_of
@@ -163,27 +161,6 @@ def session_of(parts: SessionParts, settings: Settings | None = None) -> Session
         notes=parts.notes,
         settings=settings,
         build_law=parts.variants.probed if parts.variants else None,
-    )
-
-
-def subject_of(parts: SessionParts) -> Subject:
-    """What locating takes, of these parts.
-
-    Raises:
-        BadInput: as `session_of`.
-    """
-    variants = parts.variants
-    return subject(
-        parts.model,
-        parts.dataset,
-        parts.catalogue,
-        variants.build if variants else None,
-        free=parts.free,
-        bounds=parts.bounds,
-        overrides=parts.overrides,
-        reference_hz=parts.reference_hz,
-        inside=Inside(parts.inside.slots, variants.probed) if variants else None,
-        notes=tuple(words(note) for note in parts.notes),
     )
 
 

@@ -1,1 +1,0 @@
-"""Where a term is missing, and what it looks like: probes in the slots of a model, or at its inputs and outputs."""
