@@ -169,7 +169,7 @@ def _answer(
         history=tuple(history),
         failures=history[min(1, len(history) - 1)].failures,
         learned=learned,
-        places=missing,
+        missing=missing,
         next_test=settles,
         estimates=estimates,
         notes=(*session.notes, *lost, *unsettled, *verdict.notes_of(found, estimates, refused, session)),

@@ -253,8 +253,7 @@ class LearnedLaw:
         alternatives: other places that these data do not tell from this one.
         parameters: free numbers of the model, by name, refitted beside the law.
         test: against the model without it; None where it was not refitted to the end.
-        held_out: rms residual over the noise floor on logs that were not fitted, without the law and with it; None
-            where there are none.
+        held_out: rms over floor of the logs that may choose, without the law and with it; None where there are none.
     """
 
     slot: str
@@ -273,7 +272,7 @@ class LearnedLaw:
     alternatives: tuple[str, ...] = ()
     parameters: Mapping[str, float] = field(default_factory=dict)
     test: GainTest | None = None
-    held_out: tuple[float | None, float | None] | None = None
+    held_out: tuple[float | None, float | None] = (None, None)
 
     @property
     def band(self) -> tuple[Array, Array]:
@@ -344,9 +343,8 @@ class Diagnosis:
         history: the error, model by model.
         failures: where the refitted base model fails, worst first.
         learned: laws that no catalogue has, in the order they were added.
-        detectable: effects that were not found, and from which size on they would have been; none where the model
-            leaves more than noise, which hides them.
-        places: the best law at each place that was looked at, whether or not it was added, the likeliest place first.
+        missing: of each place where a law was tried the best one, the likeliest place first; those that were added
+            among them.
         next_test: where two answers are left that another test would tell apart.
         estimates: parameters of the final model.
         notes: what a reader must know.
@@ -362,7 +360,7 @@ class Diagnosis:
     history: tuple[ErrorStep, ...]
     failures: tuple[Failure, ...]
     learned: tuple[LearnedLaw, ...] = ()
-    places: tuple[LearnedLaw, ...] = ()
+    missing: tuple[LearnedLaw, ...] = ()
     next_test: NextTest | None = None
     estimates: tuple[Estimate, ...] = ()
     notes: tuple[Note, ...] = ()
@@ -385,7 +383,7 @@ class Diagnosis:
     def laws(self) -> tuple[LearnedLaw, ...]:
         """Those that were added, then the best at other places."""
         added = {law.slot for law in self.learned}
-        return (*self.learned, *(law for law in self.places if law.slot not in added))
+        return (*self.learned, *(law for law in self.missing if law.slot not in added))
 
     @property
     def base(self) -> ErrorStep | None:

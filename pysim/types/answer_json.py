@@ -150,7 +150,7 @@ def _learned(law: LearnedLaw) -> Json:
         "formula": law.formula,
         "class": law.modelica,
         "share": json_number(law.share),
-        "held_out": None if law.held_out is None else [json_number(value) for value in law.held_out],
+        "held_out": [json_number(value) for value in law.held_out],
         "alternatives": list(law.alternatives),
     }
 

@@ -41,7 +41,7 @@ def law_sentence(law: LearnedLaw) -> str:
     texts.append(f"It explains {100 * law.share:.1f} % of the misfit.")
     if law.formula:
         texts.append(f"It looks like {law.formula}.")
-    before, after = law.held_out or (None, None)
+    before, after = law.held_out
     if before is not None and after is not None:
         texts.append(f"On held-out logs the residual goes from {before:.3g} to {after:.3g} with it.")
     if law.alternatives:

@@ -95,15 +95,15 @@ def test_a_learned_law_tells_the_error_on_unseen_logs_without_it_and_with_it() -
     assert law["held_out"] == [3.2, 1.6]
     assert law["range"] == [-1.0, 1.0]
     (law,) = answer_data(nothing(learned=(LAW,)))["learned"]  # type: ignore[misc]
-    assert law["held_out"] is None
+    assert law["held_out"] == [None, None]
 
 
 def test_missing_has_laws_that_were_added_ahead_of_the_best_of_other_places() -> None:
     other, same = replace(LAW, slot="supply"), replace(LAW, share=0.5)
-    data = answer_data(nothing(learned=(LAW,), places=(other, same)))
+    data = answer_data(nothing(learned=(LAW,), missing=(other, same)))
     assert [one["slot"] for one in data["missing"]] == ["force", "supply"]  # type: ignore[attr-defined]
     assert [one["slot"] for one in data["learned"]] == ["force"]  # type: ignore[attr-defined]
-    assert nothing(places=(LAW,)).verdict == "none"  # nothing was added
+    assert nothing(missing=(LAW,)).verdict == "none"  # nothing was added
 
 
 def test_the_fit_in_percent_is_100_where_the_model_is_the_log() -> None:
