@@ -274,12 +274,6 @@ class LearnedLaw:
     test: GainTest | None = None
     held_out: tuple[float | None, float | None] = (None, None)
 
-    @property
-    def band(self) -> tuple[Array, Array]:
-        """(m,) ends of the 95 percent interval of each coefficient."""
-        half = _Z95 * np.sqrt(np.maximum(np.diag(self.covariance), 0.0))
-        return self.coefficients - half, self.coefficients + half
-
     def __post_init__(self) -> None:
         for name in ("knots", "coefficients", "covariance", "absorbed"):
             values = np.array(getattr(self, name), dtype=np.float64)
@@ -291,6 +285,12 @@ class LearnedLaw:
             raise BadInput(
                 f"learned law at {self.slot}: {m} knots need {m} coefficients and their ({m}, {m}) covariance"
             )
+
+    @property
+    def band(self) -> tuple[Array, Array]:
+        """(m,) ends of the 95 percent interval of each coefficient."""
+        half = _Z95 * np.sqrt(np.maximum(np.diag(self.covariance), 0.0))
+        return self.coefficients - half, self.coefficients + half
 
 
 @dataclass(frozen=True)
