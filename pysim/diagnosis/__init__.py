@@ -2,8 +2,8 @@
 
 `diagnose` searches, `learn` looks for a law that no catalogue has, `add` adds given effects, `rank` tries each beside
 the base model, `compare` holds the model beside the measurements. Each takes a `Session`, which `pysim.open_session`
-opens by names and `session` from objects. `compare_responses` repeats stepped-sine tests that were measured as tables of
-frequency responses.
+opens by names and `session` from objects. `compare_responses` repeats stepped-sine tests that were measured as tables
+of frequency responses.
 """
 
 from pysim.diagnosis.engine import add, compare, diagnose, learn, rank

@@ -20,7 +20,6 @@ from pysim.types.best_linear_approximation import BestLinearApproximation, Disto
 from pysim.types.comparison import Comparison, ResponseComparison
 from pysim.types.criterion import Criterion, Deviation
 from pysim.types.dataset import Dataset, MeasuredRecord, MeasuredSignal
-from pysim.types.diagnosis import AddedEffect, Candidate, LedgerStep, Missing, Shape, Stage, Told
 from pysim.types.effect import Effect, EffectParameter
 from pysim.types.errors import BadInput
 from pysim.types.experiment import Experiment
@@ -54,10 +53,8 @@ __all__ = [
     "SYNONYMS",
     "UNITS",
     "Abilities",
-    "AddedEffect",
     "BadInput",
     "BestLinearApproximation",
-    "Candidate",
     "CoSimulation",
     "Combination",
     "Comparison",
@@ -81,12 +78,10 @@ __all__ = [
     "GainTest",
     "Harmonics",
     "LearnedLaw",
-    "LedgerStep",
     "Left",
     "Level",
     "MeasuredRecord",
     "MeasuredSignal",
-    "Missing",
     "Model",
     "MultisineTest",
     "NextTest",
@@ -103,13 +98,10 @@ __all__ = [
     "ResponseFit",
     "Rival",
     "Sampling",
-    "Shape",
     "Signal",
     "SimulationError",
     "SineTest",
-    "Stage",
     "Start",
-    "Told",
     "Variable",
     "Verdict",
     "answer_data",

@@ -343,6 +343,8 @@ class Diagnosis:
         history: the error, model by model.
         failures: where the refitted base model fails, worst first.
         learned: laws that no catalogue has, in the order they were added.
+        detectable: effects that were not found, and from which size on they would have been; none where the model
+            leaves more than noise, which hides them.
         missing: of each place where a law was tried the best one, the likeliest place first; those that were added
             among them.
         next_test: where two answers are left that another test would tell apart.
