@@ -6,7 +6,7 @@ Source: Ljung 1999, Lecture Notes in Control and Information Sciences 245:97 (th
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -156,19 +156,18 @@ def _regressors(fit: FinalFit, dataset: Dataset) -> Iterator[tuple[Array, dict[C
         return
     names = [name for name in logs[0][0] if all(name in signals for signals, _ in logs)]
     tables = [np.column_stack([signals[name] for name in names]) for signals, _ in logs]
+    lags = [lag for lag in _LAGS if lag < min(map(len, tables)) // 4]
     whole = np.concatenate(tables)
     scale = whole.mean(axis=0), np.maximum(whole.std(axis=0), np.finfo(float).tiny)
     for table, (_, rests) in zip(tables, logs, strict=True):
-        yield _features((table - scale[0]) / scale[1]), rests
+        yield _features((table - scale[0]) / scale[1], lags), rests
 
 
-def _features(signals: Array) -> Array:
+def _features(signals: Array, lags: Sequence[int]) -> Array:
     """Lagged, squared, absolute and signed copies of scaled signals (n_t, k)."""
     n = len(signals)
     parts = [np.ones((n, 1))]
-    for lag in _LAGS:
-        if lag < n // 4:
-            parts.append(np.vstack([np.repeat(signals[:1], lag, axis=0), signals[: n - lag]]))
+    parts += [np.vstack([np.repeat(signals[:1], lag, axis=0), signals[: n - lag]]) for lag in lags]
     rate = np.gradient(signals, axis=0)
     rate = rate / np.maximum(rate.std(axis=0), np.finfo(float).tiny)
     sign = np.tanh(3 * rate)

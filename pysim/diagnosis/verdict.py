@@ -15,7 +15,8 @@ from pysim.diagnosis.search import Compared, Found, Table
 from pysim.diagnosis.session import Session
 from pysim.diagnosis.settings import Settings
 from pysim.identify.greybox import Nuisance, NuisanceKind
-from pysim.types import Effect, EffectParameter, Estimate, Note, NoteCode
+from pysim.identify.greybox.effective_size import inflation
+from pysim.types import Effect, EffectParameter, Estimate, Note, NoteCode, RecordFit
 from pysim.types.answer import ErrorStep, FoundEffect, GainTest, Left, Rival
 
 _Z95 = 1.959963984540054
@@ -71,17 +72,33 @@ def is_complete(found: Found, follows: Follows | None, left: Left, last: ErrorSt
     """Whether nothing but noise is left.
 
     No candidate passes its test, the residual does not follow the model's signals, and the error on logs that were not
-    fitted is within a few percent of that on those that were.
+    fitted is within a few percent of that on those that were, or within the scatter of the two.
     """
     if found.undecidable or found.more:
         return False
     if follows is not None and follows.share > settings.small and follows.t > settings.follows_t:
         return False
-    if left.fit is not None and left.validate is not None and left.validate > settings.held_out * max(left.fit, 1.0):
-        return False
+    if left.fit is not None and left.validate is not None:
+        scatter = math.hypot(*(_scatter(last.records, use) for use in ("fit", "validate")))
+        if left.validate > settings.held_out * max(left.fit, 1.0) * math.exp(settings.follows_t * scatter):
+            return False
     if found.floors.within(found.final, settings.near):  # where regression is silent, it is all that tells of misfit
         return True
     return follows is not None and not hardly_explains(last, settings)
+
+
+def _scatter(records: Sequence[RecordFit], use: str) -> float:
+    """Standard deviation of the logarithm of the root mean square residual of all records of one use.
+
+    A Gaussian residual of autocorrelations rho has n over the sum of rho^2 independent squares (Bartlett 1946).
+    """
+    own = [record.residual.values for record in records if record.use == use]
+    columns = [rest[:, j : j + 1] for rest in own for j in range(rest.shape[1])]
+    squares = np.array([float(np.sum(column**2)) for column in columns])
+    if not squares.sum() > 0:
+        return 0.0
+    worth = np.array([column.size / inflation([column], [column]) for column in columns])
+    return math.sqrt(float(np.sum(squares**2 / worth)) / 2) / float(squares.sum())
 
 
 def hardly_explains(last: ErrorStep, settings: Settings) -> bool:

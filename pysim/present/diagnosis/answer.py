@@ -7,7 +7,7 @@ import textwrap
 from collections.abc import Iterator, Mapping
 
 from pysim.io import shown_value
-from pysim.present.diagnosis.law_words import law_kind
+from pysim.present.diagnosis.law_words import ABSORBED, law_kind
 from pysim.present.diagnosis.words import (
     UNIT,
     candidates_shown,
@@ -119,6 +119,8 @@ def _curve(law: LearnedLaw) -> Iterator[str]:
         at = shown_value(law.knots[i], law.argument_unit, ".3g")
         values = [shown_value(v + 0.0, law.unit, ".3g") for v in (law.coefficients[i], low[i], high[i])]
         yield f"    {law.argument} = {at}: {values[0]} ({values[1]} to {values[2]})"
+    if law.absorbed.size:
+        yield f"    {ABSORBED}"
 
 
 def _open(diagnosis: Diagnosis) -> Iterator[str]:

@@ -7,6 +7,7 @@ import re
 from pysim.present.notes import listed
 from pysim.types import LearnedLaw
 
+ABSORBED = "up to a level or slope that the model's own parameters do as well"  # how far such a curve is known
 # What a law gives, by its unit: alone, and per unit of its factor.
 _GIVES = {"N": "force", "N.m": "torque", "m3/s": "flow", "Pa": "pressure", "m": "displacement", "rad": "angle"}
 _PER_FACTOR = {

@@ -158,9 +158,9 @@ def test_locate_tells_the_place_and_the_shape_of_what_is_missing(rubbing: Path, 
     first = json.loads((tmp_path / "a.json").read_text())["missing"][0]
     assert (first["slot"], first["depends_on"]) == ("force", "force.v")
     assert first["share"] > 0.95
-    shape = first["shape"]
-    far = [value for at, value in zip(shape["argument"], shape["value"], strict=True) if at > 0.5]
-    assert far == pytest.approx([-0.4] * len(far), abs=0.03)  # dry friction of 0.4 N against the motion
+    amount, _, form = first["formula"].partition("*")
+    assert form == "sign(v)"
+    assert float(amount) == pytest.approx(-0.4, abs=0.03)  # dry friction of 0.4 N against the motion
 
 
 def test_locate_hands_on_the_effects_that_the_model_has(
@@ -168,11 +168,11 @@ def test_locate_hands_on_the_effects_that_the_model_has(
 ) -> None:
     handed = []
 
-    def located(_: object, effects: Any, *__: object) -> Any:
+    def located(_: object, effects: Any, **__: object) -> Any:
         handed.extend(effect.name for effect in effects)
         return found_offset()
 
-    monkeypatch.setattr("pysim.cli.commands.locate.located", located)
+    monkeypatch.setattr("pysim.diagnosis.learn", located)
     words = ["locate", str(rubbing), *toy, "--with", "toy.friction,toy.bias", "--json", str(tmp_path / "a.json")]
     assert main(words) == 0
     assert handed == ["toy.friction", "toy.bias"]

@@ -137,3 +137,16 @@ def test_what_is_left_is_counted_over_the_least_floor_that_any_model_showed() ->
     ratio = floors.over(worse)[CHANNEL]
     assert floors.potential(worse) == pytest.approx(2 * SAMPLES * math.log(ratio))
     assert floors.potential(leaving(1e-3 * noise(1))) == 0.0
+
+
+def test_a_short_log_is_judged_beside_a_long_one_that_logs_more() -> None:
+    """As where a next test was run: it is short, and one of its signals was never logged before."""
+    whole = measured("axis", fit=(1, 2), length=2 * SAMPLES / 50)
+    first, *rest = whole.records
+    assert isinstance(first.data, Record)
+    names = ("x_ref", "x")
+    short = Record(first.data.time[:100], np.column_stack([first.data[n][:100] for n in names]), names, ("m", "m"))
+    joined = replace(whole, records=(replace(first, data=short), *rest))
+    found = follows(refitted(Models(given("axis", joined, ()))), joined, 24)
+    assert found is not None
+    assert found.share < 0.02

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from pysim.present.diagnosis.answer import diagnosis_data, diagnosis_text, evidence_text
-from pysim.present.diagnosis.law_words import law_kind, law_sentence
+from pysim.present.diagnosis.law_words import ABSORBED, law_kind, law_sentence
 from pysim.present.diagnosis.page import diagnosis_page
 from pysim.present.diagnosis.words import (
     added_sentence,
@@ -99,6 +99,9 @@ def test_learned_laws_are_listed_by_place_and_share_with_the_curve_of_the_first(
     assert text.index("force: force over v") < text.index("supply: force over v")
     (row,) = (line for line in text.splitlines() if "v = 600 mm/s" in line)
     assert "-0.4 N (-0.498 N to -0.302 N)" in row
+    slope = replace(LAW, absorbed=LAW.knots[:, None])  # any amount of it may be added without a trace in the data
+    assert ABSORBED in evidence_text(nothing(learned=(slope,)))
+    assert ABSORBED not in text
 
 
 def test_sizes_of_effects_have_units_where_there_are_some() -> None:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from pysim.io import shown_unit
-from pysim.present.diagnosis.law_words import law_kind
+from pysim.present.diagnosis.law_words import ABSORBED, law_kind
 from pysim.present.style import COLOURS, LIMIT, MEASURED, SMALL, TEXT, legend_above, new_figure, quiet
 from pysim.types import BadInput, LearnedLaw
 
@@ -49,7 +49,7 @@ def law_figure(law: LearnedLaw, samples: NDArray[np.float64] | None = None) -> F
     if law.alternatives:
         notes.append(f"these data cannot tell it from a law at {', '.join(law.alternatives)}")
     if law.absorbed.size:
-        notes.append("up to a level or slope that the model's own parameters do as well")
+        notes.append(ABSORBED)
     if notes:
         figure.supxlabel("\n".join(notes), fontsize=SMALL)
     return figure
