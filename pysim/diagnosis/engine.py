@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from enum import Enum
+from functools import partial
 from pathlib import Path
 
 from pysim.diagnosis import verdict
@@ -12,6 +14,7 @@ from pysim.diagnosis.checkpoint import Checkpoint, whose
 from pysim.diagnosis.error_history import error_step, held_still
 from pysim.diagnosis.learn.described import answered
 from pysim.diagnosis.learn.learn import Learner, Learning
+from pysim.diagnosis.learn.names import without_the_unseated
 from pysim.diagnosis.left import follows
 from pysim.diagnosis.next_test import next_test
 from pysim.diagnosis.progress import Progress, Say
@@ -21,6 +24,14 @@ from pysim.diagnosis.session import Session
 from pysim.identify.greybox import Simulation
 from pysim.types import BadInput, Effect, NextTest, Note, NoteCode
 from pysim.types.answer import Diagnosis, ErrorStep
+
+
+class Learns(Enum):
+    """When a law is looked for that no catalogue has."""
+
+    NEVER = "never"
+    IF_MISSING = "if more is missing"
+    ALWAYS = "always"
 
 
 def diagnose(session: Session, *, progress: Say | None = None, checkpoint: Path | None = None) -> Diagnosis:
@@ -38,7 +49,7 @@ def diagnose(session: Session, *, progress: Say | None = None, checkpoint: Path 
     most = session.settings.max_effects if session.build is not None and session.catalogue else 0
     found = search.run(base, most)
     search.say.stage("search")
-    return _answer(session, search, found, learns=True)
+    return _answer(session, search, found, learns=Learns.IF_MISSING)
 
 
 def learn(
@@ -59,7 +70,9 @@ def learn(
     search.floors = search.floors.with_(base).with_(present)
     losses = {effect.name: search.test(base, present) for effect in effects}
     models = [present] * bool(effects)
-    return _answer(session, search, Found(base, present, (), search.floors, losses), models=models, learns=True)
+    return _answer(
+        session, search, Found(base, present, (), search.floors, losses), models=models, learns=Learns.ALWAYS
+    )
 
 
 def compare(
@@ -129,13 +142,13 @@ def _answer(
     *,
     refitted: bool = True,
     models: Sequence[FinalFit] = (),
-    learns: bool = False,
+    learns: Learns = Learns.NEVER,
 ) -> Diagnosis:
     """Everything that was found.
 
     Args:
         models: with effects, in the order they came in; those of the search where none are given.
-        learns: whether a law is looked for where more is missing.
+        learns: whether a law is looked for: where more is missing, or always.
     """
     search.say.doing("counting what is left")
     final = _alone(found.final, search) if found.final.names else found.final
@@ -146,10 +159,15 @@ def _answer(
     rest = follows(final, session.dataset, session.treatment.noise.blocks)
     left = verdict.what_is_left(found, rest, {"fit": history[-1].fit, "validate": history[-1].validate})
     complete = verdict.is_complete(found, rest, left, history[-1], session.settings)
-    learning = _learned(session, search, found) if learns and not complete else None
+    wanted = learns is Learns.ALWAYS or (learns is Learns.IF_MISSING and not complete)
+    learning = _learned(session, search, found) if wanted else None
     law = None if learning is None else learning.law
     if law is not None:
-        found = replace(found, final=law.fit, floors=found.floors.with_(law.fit))
+        kept = {effect.name for effect in law.fit.candidate.effects}
+        if len(kept) < len(final.candidate.effects):  # the steps of effects that the law has unseated are gone
+            models_of = models_of[:2]
+        losses = {name: loss for name, loss in found.losses.items() if name in kept or name not in final.names}
+        found = replace(found, final=law.fit, floors=found.floors.with_(law.fit), losses=losses)
         history, lost = _history([*models_of, (law.law.label, law.fit)], session, found)
         history[-1] = replace(history[-1], estimates=law.of_the_model(history[-1].estimates))
         rest = follows(law.fit, session.dataset, session.treatment.noise.blocks)
@@ -162,7 +180,7 @@ def _answer(
     refused = {**search.models.refused, **({} if learning is None else learning.refused)}
     return Diagnosis(
         effects=verdict.found_effects(found, estimates, session),
-        complete=complete,
+        complete=complete and law is None,
         left=left,
         rivals=verdict.ranking(search.tables),
         ties=verdict.ties(found),
@@ -194,6 +212,19 @@ def _learned(session: Session, search: Search, found: Found) -> Learning | None:
     floors = {channel: floor.sd for channel, floor in found.floors.floors.items()}
     learner = Learner(session, found.final, floors, search.tried, search.vetoed, search.say.doing)
     learning = learner.learn()
+    if learning.law is not None and found.final.candidate.effects:
+        final = found.final
+        law = without_the_unseated(
+            session,
+            learning.law,
+            final,
+            found.base,
+            found.losses,
+            partial(search.models.alone, nuisances=final.candidate.nuisances),
+            floors,
+            search.tried,
+        )
+        learning = replace(learning, fits=(law, *learning.fits[1:]))
     search.say.stage("learn")
     return learning
 

@@ -92,13 +92,10 @@ class LearnSettings:
     """How laws that no catalogue has are learned."""
 
     knots: int = setting(
-        9, unit="1", meaning="of a curve in the screening", source="measured: trial, 10 of 11 places right"
+        13, unit="1", meaning="of a curve in the screening", source="measured: nine miss a valve's dead band; bench-03"
     )
     most_knots: int = setting(
-        33,
-        unit="1",
-        meaning="of a curve that is kept",
-        source="measured: known-answers, a magnet beside the way",
+        49, unit="1", meaning="of a curve that is kept", source="measured: known-answers, a magnet beside the way"
     )
     full: float = setting(
         0.5, unit="1", meaning="effective coefficients over knots from which on a curve gets twice the knots",
@@ -107,6 +104,10 @@ class LearnSettings:
     near: float = setting(
         0.8, unit="1", meaning="share of the best score from which on a law is refitted",
         source="measured: trial, the right place within it each time",
+    )  # fmt: skip
+    unseats: float = setting(
+        0.1, unit="1", meaning="share of the avoidable sum of squares by which a law must do better than an effect to "
+        "unseat it", source="measured: trial",
     )  # fmt: skip
     most: int = setting(8, unit="1", meaning="laws that are refitted at most", source="measured: trial")
     heat: int = setting(

@@ -32,6 +32,8 @@ FORCES: Mapping[str, Callable[[Values, float, float], float]] = {
     "mass.bias": lambda p, x, v: p["F_b"],
     "axis.friction": lambda p, x, v: -p["F_c"] * math.tanh(v / 0.005),
     "axis.incline": lambda p, x, v: -p["F_g"],
+    # In no catalogue: a damper that is stronger towards the ends of the way.
+    "damper": lambda p, x, v: -p["d_2"] * x**2 * v,
     # In no catalogue: a magnet beside the way pulls the mass towards its place.
     "magnet": lambda p, x, v: -p["F_m"] * (x - p["x_m"]) / p["w"] * math.exp(0.5 - ((x - p["x_m"]) / p["w"]) ** 2 / 2),
 }

@@ -19,7 +19,7 @@ Array = NDArray[np.float64]
 # of zero for zero to matter.
 _RANGE, _BOTH = (0.002, 0.998), 0.05
 # Width of the arcsinh scale over the reach, and ratio of the ends from which on a scale of ratios is mixed in.
-_ARCSINH, _DECADE = 0.3, 10.0
+_ARCSINH, _DECADE = 0.05, 10.0
 # Weight of level and slope, in shares of what the data give a value: too little to matter where they tell something.
 _LEVEL = 1e-4
 
@@ -41,9 +41,30 @@ def knots(z: Array, count: int) -> Array:
     return np.asarray((even + np.geomspace(low, high, count)) / 2 if 0 < _DECADE * low < high else even)
 
 
-def between(k: Array) -> Array:
-    """Knots (2m - 1,): these (m,) and one in the middle of each interval."""
-    return np.sort(np.append(k, (k[1:] + k[:-1]) / 2))
+def missed(k: Array, c: Array) -> Array:
+    """What straight lines may miss in each interval (m - 1,): an eighth of the curvature times the interval squared.
+
+    Args:
+        k: (m,) knots; c: (m,) values there.
+    """
+    slope = np.diff(c) / np.diff(k)
+    curvature = np.zeros(k.size)
+    curvature[1:-1] = np.abs(2 * np.diff(slope) / (k[2:] - k[:-2]))
+    curvature[0], curvature[-1] = curvature[1], curvature[-2]
+    return np.asarray(np.maximum(curvature[1:], curvature[:-1]) * np.diff(k) ** 2 / 8)
+
+
+def closer(k: Array, c: Array) -> Array:
+    """Knots (2m - 1,): these (m,) and as many more as there are intervals, where straight lines miss most.
+
+    An interval that is halved misses a quarter in each half.
+    """
+    edges, scores = k.tolist(), missed(k, c).tolist()
+    for _ in range(k.size - 1):
+        i = int(np.argmax(scores))
+        edges.insert(i + 1, 0.5 * (edges[i] + edges[i + 1]))
+        scores[i : i + 1] = [scores[i] / 4, scores[i] / 4]
+    return np.array(edges)
 
 
 def bends(k: Array) -> Array:

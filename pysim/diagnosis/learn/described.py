@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from pysim.diagnosis.learn.basis import Smoothness, bends, lines
+from pysim.diagnosis.learn.basis import Smoothness, bends, lines, missed
 from pysim.diagnosis.learn.laws import Law
 from pysim.diagnosis.learn.learn import Learning
 from pysim.types import Model
@@ -95,18 +95,10 @@ def _known(gram: Array, smooth: Smoothness, values: Array, inflated: float) -> _
     absorbed = line @ ways[:, np.sqrt(spread) > _ABSORBED * float(np.linalg.norm(values))]
     bias = np.linalg.solve(precision, rough @ values) * (1 - _UNDER)
     keep = np.eye(m) - absorbed @ absorbed.T
-    whole = covariance + np.outer(bias, bias) / _Z95**2 + np.diag((_missed(k, values) / _Z95) ** 2)
+    beside = missed(k, values)
+    beside = np.maximum(np.append(beside, 0.0), np.append(0.0, beside))
+    whole = covariance + np.outer(bias, bias) / _Z95**2 + np.diag((beside / _Z95) ** 2)
     return _Known(keep @ whole @ keep, absorbed)
-
-
-def _missed(k: Array, values: Array) -> Array:
-    """(m,) what straight lines beside each knot may miss: an eighth of the curvature times the interval squared."""
-    slope = np.diff(values) / np.diff(k)
-    curvature = np.zeros(k.size)
-    curvature[1:-1] = np.abs(2 * np.diff(slope) / (k[2:] - k[:-2]))
-    curvature[0], curvature[-1] = curvature[1], curvature[-2]
-    between = np.maximum(curvature[1:], curvature[:-1]) * np.diff(k) ** 2 / 8
-    return np.maximum(np.append(between, 0.0), np.append(0.0, between))
 
 
 def quotient(unit: str, by: str) -> str:

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from pysim.diagnosis import rivals
-from pysim.diagnosis.learn.basis import between
+from pysim.diagnosis.learn.basis import closer
 from pysim.diagnosis.learn.curve import curve_basis
 from pysim.diagnosis.learn.fit import LawFit, begun, ended, moved, started
 from pysim.diagnosis.learn.laws import Place, Terms, places
@@ -152,10 +152,10 @@ class Learner:
             finer = self._model(model.place, 2 * best.knots.size - 1)
             if finer is None:
                 break
-            closer = between(best.knots)
-            x = np.append(best.fit.point.x[: -best.knots.size], curve_basis(closer, best.knots) @ best.values)
-            smooth = replace(best.smoothness, knots=closer)
-            again = started(finer, best.law, closer, best.unit, smooth, x, fine, best.fit.point.carried)
+            finer_knots = closer(best.knots, best.values)
+            x = np.append(best.fit.point.x[: -best.knots.size], curve_basis(finer_knots, best.knots) @ best.values)
+            smooth = replace(best.smoothness, knots=finer_knots)
+            again = started(finer, best.law, finer_knots, best.unit, smooth, x, fine, best.fit.point.carried)
             again = ended(finer, again, fine)
             if not again.fit.good or self._scored(again) >= self._scored(best):
                 break

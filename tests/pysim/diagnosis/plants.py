@@ -57,7 +57,9 @@ def given(plant: str, data: Dataset, names: Sequence[str] | None = None, *, init
     """The model as designed beside data, with effects of its library: all where no names are given."""
     known, own = catalogue(plant), variants(plant)
     chosen = list(known.values()) if names is None else [known[name] for name in names]
-    return session(own.build(())[0], data, chosen, own.build, slots=own.slots, initial=initial, workers=1)
+    return session(
+        own.build(())[0], data, chosen, own.build, slots=own.slots, initial=initial, workers=1, build_law=own.probed
+    )
 
 
 def refitted(models: Models, *names: str, values: Values | None = None, simulation: Simulation = FINE) -> FinalFit:

@@ -1,0 +1,118 @@
+"""Whether effects that were named keep their names beside a learned law.
+
+A law at an effect's own slot over a variable of the effect's own law refines the name and never unseats it: its curve
+contains every effect there. Any other law unseats an effect that the data no longer demand beside it, where the law
+alone takes a good part more of the avoidable sum of squares.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator, Mapping, Sequence
+
+import numpy as np
+
+from pysim.diagnosis import rivals
+from pysim.diagnosis.candidate import Candidate
+from pysim.diagnosis.learn.fit import LawFit, ended, started
+from pysim.diagnosis.learn.laws import Law, Terms
+from pysim.diagnosis.learn.screening import LawModel, patient
+from pysim.diagnosis.refit import FinalFit, begin
+from pysim.diagnosis.session import Session
+from pysim.diagnosis.settings import LearnSettings
+from pysim.identify.greybox.residuals import Channel
+from pysim.types import BadInput, Effect
+from pysim.types.answer import GainTest
+
+# Effects -> the model with these and the sensor errors of the final one.
+Alone = Callable[[Sequence[Effect]], Candidate]
+
+
+def refines(law: Law, effect: Effect) -> bool:
+    """Whether a law stands at an effect's slot over a variable that the effect's own law has."""
+    name = law.argument.removeprefix(f"{law.place.name}.")
+    words = set(re.findall(r"[A-Za-z_]\w*", effect.law))
+    return effect.slot == law.place.name and name in words
+
+
+def without_the_unseated(
+    session: Session,
+    law: LawFit,
+    present: FinalFit,
+    base: FinalFit,
+    losses: Mapping[str, GainTest],
+    alone: Alone,
+    floors: Mapping[Channel, float],
+    tried: int,
+    settings: LearnSettings | None = None,
+) -> LawFit:
+    """The law beside those effects alone that keep their names.
+
+    Args:
+        law: beside all effects of `present`.
+        base: the model without effects.
+        losses: effect -> what leaving it out of `present` costs.
+        tried: choices, for the test of each effect.
+    """
+    settings = settings or LearnSettings()
+    best, before = law, _left(present, floors)
+    avoidable = _left(base, floors)
+    for effect in sorted(present.candidate.effects, key=lambda one: losses[one.name].gain):
+        if refines(law.law, effect):
+            continue
+        smaller = _without(session, best, effect, alone)
+        if smaller is None or avoidable <= 0:
+            continue
+        better = (before - _left(smaller.fit, floors)) / avoidable
+        if better >= settings.unseats and not _demanded(session, smaller, best, tried):
+            best = smaller
+    return best
+
+
+def _left(fit: FinalFit, floors: Mapping[Channel, float]) -> float:
+    """Sum of squares beyond the noise, over its variance."""
+    residuals = fit.candidate.residuals(fit.simulation)
+    noise = np.array([floors[channel] ** 2 for channel in residuals.channels])
+    return float(np.sum(np.maximum(fit.point.squares / noise - residuals.samples, 0.0)))
+
+
+def _demanded(session: Session, smaller: LawFit, larger: LawFit, tried: int) -> bool:
+    """Whether the F test asks for what the larger model has more."""
+    left, changed = rivals.of(larger.fit), rivals.of(smaller.fit).residual - rivals.of(larger.fit).residual
+    df = larger.fit.candidate.size - smaller.fit.candidate.size
+    p = rivals.p_value(
+        smaller.cost - larger.cost,
+        df,
+        rivals.samples(larger.fit),
+        larger.fit.candidate.size,
+        rivals.effective(left, changed),
+    )
+    return p * max(tried, 1) < session.settings.false_alarm
+
+
+def _without(session: Session, law: LawFit, effect: Effect, alone: Alone) -> LawFit | None:
+    """The law in the model without one effect, refitted from where it stands; None where that cannot be made."""
+    assert session.build_law is not None
+    effects = [one for one in law.fit.candidate.effects if one is not effect]
+    values = dict(_kept(law, effect))
+    try:
+        candidate, terms = alone(effects), Terms((law.law.place,), law.knots.size)
+        present = begin(candidate, values, law.fit.simulation, law.fit)
+        if not present.good:
+            return None
+        model = session.build_law(effects, terms)
+    except BadInput:
+        return None
+    made = LawModel(law.law.place, law.knots.size, present, model, patient(present))
+    x = np.append(candidate.at(values), law.values)
+    found = started(made, law.law, law.knots, law.unit, law.smoothness, x, law.fit.simulation)
+    found = ended(made, found, law.fit.simulation)
+    return found if found.fit.good else None
+
+
+def _kept(law: LawFit, effect: Effect) -> Iterator[tuple[str | tuple[str, str], float]]:
+    """The free parameters of the model and of all other effects."""
+    own = law.law.place.coefficients(law.knots.size)
+    for key, value in law.fit.values.items():
+        if key not in own and not (isinstance(key, tuple) and key[0] == effect.name):
+            yield key, value

@@ -1,0 +1,61 @@
+"""Which laws there are, and that the compiled one is the curve it says, against an integrator of its own."""
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from pysim.diagnosis.learn.curve import curve_basis
+from pysim.diagnosis.learn.described import quotient
+from pysim.diagnosis.learn.laws import Law, Terms, places
+from pysim.effects import Slot
+from pysim.simulate import Rodas, simulate
+from pysim.types import Experiment, Signal
+from tests.known_answers.plants import PLANTS
+from tests.pysim.diagnosis.plants import variants
+
+KNOTS = np.array([-0.3, -0.1, 0.0, 0.1, 0.3])
+
+
+def test_laws_at_a_slot_depend_on_what_it_sees_and_on_states_and_inputs_besides() -> None:
+    own = variants("axis")
+    where = {place.name: place for place in places(own.slots, own.build(())[0])}
+    assert set(where) == {"guideway", "amplifier"}
+    assert where["guideway"].arguments[:2] == ("guideway.x", "guideway.v")
+    assert {"i", "x_ref"} <= set(where["guideway"].arguments)
+    names = {(law.factor, law.argument) for law in where["guideway"].laws()}
+    assert {("", "guideway.v"), ("v", "guideway.x"), ("sign(v)", "i"), ("x", "x_ref")} <= names
+    assert ("v", "guideway.v") not in names
+
+
+def test_a_slot_whose_variables_the_model_does_not_have_is_no_place() -> None:
+    slot = Slot("amplifier", "", "", ("u1", "u2"), "", ("w1", "w2"))
+    assert not places([slot], variants("axis").build(())[0])
+
+
+@pytest.mark.parametrize("factor", [None, 1])
+def test_the_compiled_term_is_the_curve_times_its_factor(factor: int | None) -> None:
+    own, c = variants("mass"), np.array([0.4, -0.5, 0.3, 0.0, -1.0])
+    (place,) = places(own.slots, own.build(())[0])
+    model = own.probed((), Terms((place,), KNOTS.size))
+    law = Law(place, 0, factor)
+    values = dict(zip(place.coefficients(KNOTS.size), (c / 2).tolist(), strict=True))
+    times = np.linspace(0, 4, 81)
+    run = Experiment(times, ("x",), {"F": Signal.constant(6.0)})
+    run = run.override(**PLANTS["mass"].design, **law.settings(KNOTS, 2.0), **values)
+    found = simulate(model, run, solver=Rodas(1e-8, 1e-8))["x"]
+
+    def slope(t: float, s: np.ndarray) -> list[float]:
+        term = float(curve_basis(s[:1], KNOTS)[0] @ c) * (1.0 if factor is None else float(s[1]))
+        return [float(s[1]), 6 - 2 * s[1] - 40 * s[0] + term]
+
+    truth = solve_ivp(slope, (0, 4), [0.0, 0.0], t_eval=times, rtol=1e-8, atol=1e-10).y[0]
+    assert np.ptp(truth) > 0.2
+    assert found == pytest.approx(truth, abs=1e-5)
+
+
+@pytest.mark.parametrize(
+    ("unit", "by", "right"),
+    [("N", "m/s", "N.s/m"), ("N", "", "N"), ("m3/s", "Pa", "m3/(s.Pa)"), ("m", "m", "1"), ("m/s", "s", "m/s2")],
+)
+def test_the_unit_of_a_curve_is_that_of_the_slot_over_the_factor(unit: str, by: str, right: str) -> None:
+    assert quotient(unit, by) == right

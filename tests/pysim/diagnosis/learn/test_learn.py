@@ -1,0 +1,111 @@
+"""What is learned from logs of plants whose missing law is known in closed form."""
+
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from pysim.diagnosis import Session, diagnose, learn
+from pysim.types.answer import Diagnosis, LearnedLaw, Verdict
+from tests.known_answers.plants import Values
+from tests.pysim.diagnosis.plants import given, measured
+
+DESIGN = {"m": 1.05, "d": 1.8, "k": 42.0}
+
+
+def opened(effects: dict[str, Values], names: list[str] | None = None) -> Session:
+    return given("mass", measured("mass", effects, DESIGN), names, initial="near rest")
+
+
+@cache
+def damped() -> Diagnosis:
+    """A damper that is stronger towards the ends of the way; the catalogue has another damping."""
+    return diagnose(opened({"damper": {"d_2": 60.0}}, ["mass.drag"]))
+
+
+def within_the_band(law: LearnedLaw, truth: NDArray[np.float64]) -> float:
+    """Share of the knots at which the truth lies within the 95 percent band, but for what the parameters absorb."""
+    keep = np.eye(law.knots.size) - law.absorbed @ law.absorbed.T
+    half = 1.96 * np.sqrt(np.diag(law.covariance))
+    return float(np.mean(np.abs(keep @ (law.coefficients - truth)) < half))
+
+
+def test_damping_over_position_is_learned_at_its_place_over_its_variables() -> None:
+    found = damped()
+    (law,) = found.learned
+    assert (law.slot, law.factor, law.argument) == ("force", "v", "force.x")
+    assert (law.unit, law.argument_unit) == ("N.s/m", "m")
+    assert law.share > 0.95
+    assert law.test is not None
+    assert law.test.verdict is Verdict.BETTER
+    assert found.missing[0] is law
+
+
+def test_its_curve_is_the_truth_within_its_band() -> None:
+    (law,) = damped().learned
+    assert within_the_band(law, -60.0 * law.knots**2) > 0.9
+    assert np.sqrt(np.diag(law.covariance)).max() < 0.3 * np.ptp(law.coefficients)
+
+
+def test_the_error_on_logs_that_were_not_fitted_falls_to_the_noise() -> None:
+    found = damped()
+    (law,) = found.learned
+    assert [step.step for step in found.history] == ["prior", "refit", "force: v * h(force.x)"]
+    before, after = law.held_out
+    assert before == found.history[-2].validate
+    assert after is not None
+    assert after == found.history[-1].validate < 1.1
+    assert before is not None
+    assert before > 4
+
+
+def test_an_effect_that_the_law_makes_needless_loses_its_name_and_the_parameters_are_the_models_own() -> None:
+    found = damped()
+    assert found.verdict == "unknown"
+    assert not found.effects
+    assert not found.complete
+    assert [one.name for one in found.estimates] == ["m", "d", "k"]
+    mass = found.estimates[0]
+    assert mass.interval[0] < DESIGN["m"] < mass.interval[1]
+
+
+def test_a_complete_model_gets_no_law_even_where_one_is_asked_for() -> None:
+    found = learn(opened({}, []))
+    assert not found.learned
+    assert [step.step for step in found.history] == ["prior", "refit"]
+    assert found.complete
+
+
+def test_where_a_known_effect_suffices_none_is_added() -> None:
+    found = diagnose(opened({"mass.friction": {"F_c": 0.4}}))
+    assert found.verdict == "mass.friction"
+    assert not found.learned
+    assert not found.missing
+
+
+def test_an_effect_whose_shape_differs_keeps_its_name_and_a_law_over_its_own_variable_refines_it() -> None:
+    found = diagnose(opened({"mass.stick_slip": {"F_c": 0.3, "F_d": 0.6}}, ["mass.friction"]))
+    assert found.verdict == "mass.friction"
+    assert not found.complete
+    (law,) = found.learned
+    assert (law.slot, law.argument) == ("force", "force.v")
+    before, after = found.history[-2].validate, found.history[-1].validate
+    assert before is not None
+    assert after is not None
+    assert after < 1.15 < before
+
+
+@pytest.mark.parametrize("slots", [True, False])
+def test_a_model_without_slots_gets_a_law_in_the_equation_of_a_state(slots: bool) -> None:
+    session = opened({"damper": {"d_2": 60.0}}, [])
+    found = learn(session if slots else replace(session, slots=()))
+    (law,) = found.learned
+    assert law.slot == ("force" if slots else "der(v)")
+    assert found.history[-1].validate is not None
+    assert found.history[-1].validate < 1.1
+    m = law.parameters["m"] if not slots else 1.0
+    truth = -60.0 * law.knots**2 / m
+    assert law.factor == "v"
+    assert within_the_band(law, truth) > 0.8
