@@ -160,7 +160,8 @@ def _answer(
     left = verdict.what_is_left(found, rest, {"fit": history[-1].fit, "validate": history[-1].validate})
     complete = verdict.is_complete(found, rest, left, history[-1], session.settings)
     wanted = learns is Learns.ALWAYS or (learns is Learns.IF_MISSING and not complete)
-    learning = _learned(session, search, found) if wanted else None
+    wanted &= session.build_law is not None
+    learning = _learned(session, search, found) if wanted and not final.candidate.has_events else None
     law = None if learning is None else learning.law
     if law is not None:
         kept = {effect.name for effect in law.fit.candidate.effects}
@@ -177,6 +178,7 @@ def _answer(
     search.say.stage("intervals")
     settles, unsettled = _next_test(session, found)
     learned, missing = answered(learning, (history[-2].validate, history[-1].validate)) if learning else ((), ())
+    of_law = [verdict.note_of_laws(learning, final)] if wanted and law is None else []
     refused = {**search.models.refused, **({} if learning is None else learning.refused)}
     return Diagnosis(
         effects=verdict.found_effects(found, estimates, session),
@@ -190,7 +192,7 @@ def _answer(
         missing=missing,
         next_test=settles,
         estimates=estimates,
-        notes=(*session.notes, *lost, *unsettled, *verdict.notes_of(found, estimates, refused, session)),
+        notes=(*session.notes, *lost, *unsettled, *verdict.notes_of(found, estimates, refused, session), *of_law),
         seconds=search.say.seconds,
         detectable=search.detectable(found.final),
     )
@@ -205,10 +207,8 @@ def _history(
     return [step for step, _ in steps], dict.fromkeys(note for _, notes in steps for note in notes)
 
 
-def _learned(session: Session, search: Search, found: Found) -> Learning | None:
-    """The best law beside the final model; None where none can be compiled."""
-    if session.build_law is None:
-        return None
+def _learned(session: Session, search: Search, found: Found) -> Learning:
+    """The best law beside the final model."""
     floors = {channel: floor.sd for channel, floor in found.floors.floors.items()}
     learner = Learner(session, found.final, floors, search.tried, search.vetoed, search.say.doing)
     learning = learner.learn()

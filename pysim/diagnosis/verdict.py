@@ -8,7 +8,8 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from pysim.diagnosis import rivals
-from pysim.diagnosis.candidate import sensor_name
+from pysim.diagnosis.candidate import sensor_name, switches
+from pysim.diagnosis.learn.learn import Learning
 from pysim.diagnosis.left import Follows
 from pysim.diagnosis.refit import FinalFit
 from pysim.diagnosis.search import Compared, Found, Table
@@ -17,7 +18,7 @@ from pysim.diagnosis.settings import Settings
 from pysim.identify.greybox import Nuisance, NuisanceKind
 from pysim.identify.greybox.effective_size import inflation
 from pysim.types import Effect, EffectParameter, Estimate, Note, NoteCode, RecordFit
-from pysim.types.answer import ErrorStep, FoundEffect, GainTest, Left, Rival
+from pysim.types.answer import ErrorStep, FoundEffect, GainTest, Left, Rival, Verdict
 
 _Z95 = 1.959963984540054
 
@@ -159,3 +160,15 @@ def notes_of(found: Found, estimates: Sequence[Estimate], refused: Mapping[str, 
         if chosen and session.unseen is None:
             notes.append(Note(NoteCode.USED_TO_CHOOSE, {"records": ", ".join(chosen)}))
     return notes
+
+
+def note_of_laws(learning: Learning | None, final: FinalFit) -> Note:
+    """Why no law was learned beside the final model."""
+    if learning is None:
+        names = ", ".join(effect.name for effect in final.candidate.effects if switches(effect))
+        return Note(NoteCode.LAWS_NOT_TRIED, {"effects": names})
+    if learning.test is None:
+        places = ", ".join(dict.fromkeys(one.law.place.name for one in learning.ranked)) or "no place"
+        return Note(NoteCode.NO_LAW_RUNS, {"places": places})
+    code = NoteCode.LAW_VETOED if learning.test.verdict is Verdict.VETOED else NoteCode.NO_LAW
+    return Note(code, {"law": learning.fits[0].law.label})

@@ -85,6 +85,12 @@ _WORDS = {
         "{parameters}: refitted without bounds on both sides, since neither the model nor the call gives any."
     ),
     NoteCode.NO_NEXT_TEST: "No test that would settle the tie was looked for: {reason}.",
+    NoteCode.NO_LAW: "No law was learned: the best one, {law}, gains no more than chance would.",
+    NoteCode.LAW_VETOED: (
+        "No law was learned: the best one, {law}, makes the error worse on data that were not fitted to it."
+    ),
+    NoteCode.NO_LAW_RUNS: "No law was learned: none lowers the error of a model that can be simulated, at {places}.",
+    NoteCode.LAWS_NOT_TRIED: "No law was looked for, since {effects} has events: slopes of such a model are no guide.",
     NoteCode.OTHER: "{text}",
 }
 

@@ -41,6 +41,10 @@ class NoteCode(Enum):
     CANCELLING = "cancelling"  # pole, zero (Hz): alike within their errors
     UNBOUNDED = "unbounded"  # parameters: refitted without bounds on both sides, since nothing gives any
     NO_NEXT_TEST = "no_next_test"  # reason: no test that would settle a tie was looked for
+    NO_LAW = "no_law"  # law: the best of those in no catalogue, which gains no more than chance would
+    LAW_VETOED = "law_vetoed"  # law: the same, which makes the error worse on data that were not fitted
+    NO_LAW_RUNS = "no_law_runs"  # places: the model could be simulated with no law at any of them
+    LAWS_NOT_TRIED = "laws_not_tried"  # effects: their events leave no slopes to look for laws with
     OTHER = "other"  # text: of a program part that has no codes yet
 
 

@@ -123,15 +123,17 @@ class Learner:
         return LawModel(place, count, self._rough, model, patient(self._rough))
 
     def _raced(self, chosen: Sequence[tuple[LawModel, Ranked]]) -> list[LawFit]:
-        """The laws some points on with every parameter, the best first."""
-        fits = []
+        """The laws some points on with every parameter, those that promise most some more; the best first."""
+        running: list[tuple[LawModel, LawFit]] = []
         for model, one in chosen:
             self._say(f"refitting {one.law.label}")
-            fit = begun(model, one, model.simulation)
-            for _ in range(2):
-                fit = moved(model, fit, self._settings.heat)
+            fit = moved(model, begun(model, one, model.simulation), self._settings.heat)
             if fit.fit.good and fit.cost < self._rough.point.cost:
-                fits.append(fit)
+                running.append((model, fit))
+        running.sort(key=lambda one: self._scored(one[1]))
+        finalists = self._session.settings.finalists
+        further = [moved(model, fit, self._settings.heat) for model, fit in running[:finalists]]
+        fits = [*(fit for fit in further if fit.fit.good), *(fit for _, fit in running[finalists:])]
         return sorted(fits, key=self._scored)
 
     def _scored(self, one: LawFit) -> float:

@@ -38,6 +38,10 @@ VALUES = {
     NoteCode.CANCELLING: {"pole": 3.0, "zero": 3.1},
     NoteCode.UNBOUNDED: {"parameters": "m, d"},
     NoteCode.NO_NEXT_TEST: {"reason": "no log over time"},
+    NoteCode.NO_LAW: {"law": "force: h(force.x)"},
+    NoteCode.LAW_VETOED: {"law": "force: h(force.x)"},
+    NoteCode.NO_LAW_RUNS: {"places": "force, supply"},
+    NoteCode.LAWS_NOT_TRIED: {"effects": "axis.backlash"},
     NoteCode.OTHER: {"text": "as it stands"},
 }
 

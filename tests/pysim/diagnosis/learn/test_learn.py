@@ -8,6 +8,7 @@ import pytest
 from numpy.typing import NDArray
 
 from pysim.diagnosis import Session, diagnose, learn
+from pysim.types import NoteCode
 from pysim.types.answer import Diagnosis, LearnedLaw, Verdict
 from tests.known_answers.plants import Values
 from tests.pysim.diagnosis.plants import given, measured
@@ -76,6 +77,7 @@ def test_a_complete_model_gets_no_law_even_where_one_is_asked_for() -> None:
     assert not found.learned
     assert [step.step for step in found.history] == ["prior", "refit"]
     assert found.complete
+    assert {NoteCode.NO_LAW, NoteCode.LAW_VETOED, NoteCode.NO_LAW_RUNS} & {note.code for note in found.notes}
 
 
 def test_where_a_known_effect_suffices_none_is_added() -> None:
