@@ -158,9 +158,10 @@ def test_locate_tells_the_place_and_the_shape_of_what_is_missing(rubbing: Path, 
     first = json.loads((tmp_path / "a.json").read_text())["missing"][0]
     assert (first["slot"], first["depends_on"]) == ("force", "force.v")
     assert first["share"] > 0.95
-    amount, _, form = first["formula"].partition("*")
-    assert form == "sign(v)"
-    assert float(amount) == pytest.approx(-0.4, abs=0.03)  # dry friction of 0.4 N against the motion
+    v, force = (np.array(first["shape"][name]) for name in ("argument", "value"))
+    far = np.abs(v) > 0.3
+    columns = np.column_stack([np.sign(v), v, np.ones_like(v)])[far]  # a level and a slope the model has itself
+    assert np.linalg.lstsq(columns, force[far], rcond=None)[0][0] == pytest.approx(-0.4, abs=0.08)  # dry friction
 
 
 def test_locate_hands_on_the_effects_that_the_model_has(
