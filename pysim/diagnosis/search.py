@@ -186,7 +186,7 @@ class Search:
             least = rivals.least_gain(chance, df, count, fit.candidate.size + df, inflated)
             share = math.sqrt(2 * least / float(np.sum((one.change / left.level) ** 2)))
             sizes = {p.name: share * abs(one.tried[p.name] - (p.off or 0.0)) for p in one.effect.strengths}
-            found.append(Detectable(one.effect.name, sizes))
+            found.append(Detectable(one.effect.name, sizes, {p.name: p.unit for p in one.effect.strengths}))
         return tuple(found)
 
     def as_it_is(self) -> FinalFit:

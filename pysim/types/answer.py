@@ -299,14 +299,16 @@ class Detectable:
 
     Args:
         effect: its standard name.
-        sizes: of its strengths, by their names as declared, in SI units, to first order.
+        sizes, units: of its strengths, by their names as declared, to first order.
     """
 
     effect: str
     sizes: Mapping[str, float]
+    units: Mapping[str, str]
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "sizes", FrozenMapping(self.sizes))
+        for name in ("sizes", "units"):
+            object.__setattr__(self, name, FrozenMapping(getattr(self, name)))
 
 
 @dataclass(frozen=True)

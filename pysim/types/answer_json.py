@@ -10,7 +10,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from pysim.types.answer import Diagnosis, ErrorStep, Failure, FoundEffect, LearnedLaw, Left, NextTest, Rival
+from pysim.types.answer import Detectable, Diagnosis, ErrorStep, Failure, FoundEffect, LearnedLaw, Left, NextTest, Rival
 from pysim.types.fit import Estimate
 from pysim.types.json_number import json_number
 from pysim.types.note import NoteCode
@@ -39,6 +39,7 @@ def answer_data(diagnosis: Diagnosis, files: Mapping[str, str] | None = None) ->
         "where": [_failure(one) for one in diagnosis.failures],
         "missing": [_missing(law) for law in diagnosis.laws],
         "learned": [_learned(law) for law in diagnosis.learned],
+        "detectable": [_detectable(one) for one in diagnosis.detectable],
         "next_test": _next_test(diagnosis.next_test),
         "notes": [{"code": note.code.value, "values": dict(note.values)} for note in diagnosis.notes],
         "conditions": dict(diagnosis.conditions),
@@ -63,6 +64,14 @@ def step_data(step: ErrorStep, *, used_to_choose: bool = False) -> Json:
         "passes": step.passes,
         "cost": json_number(step.cost),
         "not_simulated": step.not_simulated,
+    }
+
+
+def _detectable(one: Detectable) -> Json:
+    return {
+        "effect": one.effect,
+        "sizes": {name: json_number(size) for name, size in one.sizes.items()},
+        "unit": dict(one.units),
     }
 
 

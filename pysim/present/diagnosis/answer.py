@@ -55,7 +55,7 @@ def _wrapped(text: str, indent: str = "") -> list[str]:
 
 def evidence_text(diagnosis: Diagnosis) -> str:
     """Sizes, error by step, fit by signal, candidates, laws, ties with the test that would settle them, and notes."""
-    parts = [_effects, _history, _signals, _candidates, _laws, _open]
+    parts = [_effects, _history, _signals, _candidates, _detectable, _laws, _open]
     return "\n\n".join("\n".join(lines) for lines in (list(part(diagnosis)) for part in parts) if lines)
 
 
@@ -97,6 +97,15 @@ def _candidates(diagnosis: Diagnosis) -> Iterator[str]:
     for name, row in zip(names, rows, strict=True):
         how = "" if row.refitted else "  screened only"
         yield f"  {name:<{width}}  {100 * row.explained:6.1f} %  {row.score:10.4g}{how}"
+
+
+def _detectable(diagnosis: Diagnosis) -> Iterator[str]:
+    """What an answer that names nothing, or not all, could have missed."""
+    if diagnosis.detectable:
+        yield "These logs would have shown, about from this size on"
+    for one in diagnosis.detectable:
+        sizes = [f"{name} = {shown_value(size, one.units[name], '.3g')}" for name, size in one.sizes.items()]
+        yield f"  {one.effect}: {', '.join(sizes)}"
 
 
 def _laws(diagnosis: Diagnosis) -> Iterator[str]:

@@ -3,6 +3,7 @@
 import pytest
 
 from pysim.diagnosis import diagnose
+from pysim.present import text
 from pysim.types.answer import Diagnosis
 from tests.pysim.diagnosis.plants import given, measured
 
@@ -17,7 +18,8 @@ def test_an_effect_is_found_from_the_size_on_that_the_answer_names() -> None:
     assert complete.verdict == "none"
     (row,) = complete.detectable
     least = row.sizes["F_b"]
-    assert row.effect == "mass.bias"
+    assert (row.effect, row.units) == ("mass.bias", {"F_b": "N"})
+    assert f"mass.bias: F_b = {least:.3g} N" in text(complete)
     assert least > 0
     large, small = diagnosed(1.6 * least), diagnosed(0.5 * least)
     assert [one.effect.name for one in large.effects] == ["mass.bias"]

@@ -22,7 +22,7 @@ from tests.pysim.diagnosis_answer import LAW, found_offset, nothing
 # Fixed by the contract of `--json`; `reason`, and the text of a note, are words and come from `pysim.present`.
 KEYS = {
     "verdict", "added", "ranking", "confusable", "error", "parameters", "where", "missing", "next_test", "seconds",
-    "files", "complete", "left", "learned", "fit_percent", "notes",
+    "files", "complete", "left", "learned", "fit_percent", "notes", "detectable",
 }  # fmt: skip
 
 
