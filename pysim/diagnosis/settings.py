@@ -97,9 +97,9 @@ class LearnSettings:
     most_knots: int = setting(
         49, unit="1", meaning="of a curve that is kept", source="measured: known-answers, a magnet beside the way"
     )
-    full: float = setting(
-        0.5, unit="1", meaning="effective coefficients over knots from which on a curve gets twice the knots",
-        source="half of them free is a curve that its knots hold in",
+    least: float = setting(
+        0.05, unit="1", meaning="share of the avoidable sum of squares below which a law is no answer",
+        source="measured: bench-16, where a tone of the shaft lends a leakage 2 %",
     )  # fmt: skip
     near: float = setting(
         0.8, unit="1", meaning="share of the best score from which on a law is refitted",

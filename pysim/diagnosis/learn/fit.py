@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from pysim.diagnosis.learn.basis import Smoothness
+from pysim.diagnosis.learn.basis import Smoothness, missed
 from pysim.diagnosis.learn.laws import Law
 from pysim.diagnosis.learn.products import Products
 from pysim.diagnosis.learn.screening import LawModel, Ranked
@@ -74,6 +74,12 @@ class LawFit:
     def edf(self) -> float:
         """How many coefficients the data determine."""
         return self.smoothness.edf(self.gram)
+
+    @property
+    def coarse(self) -> bool:
+        """Whether straight lines between the knots miss more than the data would forgive, by standard deviations."""
+        sd = np.sqrt(np.diag(np.linalg.inv(self.gram + self.smoothness.precision)))
+        return bool(np.any(missed(self.knots, self.values) > np.maximum(sd[1:], sd[:-1])))
 
 
 def penalised(evaluate: Evaluate, smoothness: Smoothness) -> Evaluate:
@@ -156,17 +162,16 @@ def _smoothed(model: LawModel, one: LawFit) -> LawFit:
     return started(model, one.law, one.knots, one.unit, smooth, point.x, one.fit.simulation, point.carried)
 
 
-def ended(model: LawModel, one: LawFit, simulation: Simulation) -> LawFit:
-    """To the end of the search by a finer simulation, smoothness and all."""
-    point = one.fit.point
-    if not one.fit.good:
-        return one
-    most, before = GaussNewton().max_iterations, one.edf
-    one = started(model, one.law, one.knots, one.unit, one.smoothness, point.x, simulation, point.carried)
+def settled(model: LawModel, one: LawFit, points: int) -> LawFit:
+    """On until neither the search nor the smoothness moves any more, so many points between looks at the latter."""
     for _ in range(_ROUNDS):
-        one = replace(one, fit=advance(one.fit, most))
-        edf = one.smoothness.moved(one.gram, one.values, 1.0).edf(one.gram)
-        if abs(edf - before) < _SETTLED:
+        before = one.edf
+        one = moved(model, one, points)
+        if not one.fit.good or (one.fit.state.outcome is not None and abs(one.edf - before) < _SETTLED):
             break
-        one, before = _smoothed(model, one), edf
-    return replace(one, fit=advance(one.fit, most))
+    return one
+
+
+def ended(one: LawFit) -> LawFit:
+    """To the end of the search, as smooth as it is."""
+    return replace(one, fit=advance(one.fit, GaussNewton().max_iterations))

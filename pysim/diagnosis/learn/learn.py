@@ -11,7 +11,7 @@ import numpy as np
 from pysim.diagnosis import rivals
 from pysim.diagnosis.learn.basis import closer
 from pysim.diagnosis.learn.curve import curve_basis
-from pysim.diagnosis.learn.fit import LawFit, begun, ended, moved, started
+from pysim.diagnosis.learn.fit import LawFit, begun, ended, moved, settled, started
 from pysim.diagnosis.learn.laws import Place, Terms, places
 from pysim.diagnosis.learn.screening import LawModel, Ranked, distinct, patient, screen, seen
 from pysim.diagnosis.refit import FinalFit, begin
@@ -147,26 +147,27 @@ class Learner:
         return rivals.effective(left, rivals.of(present).residual - left.residual)
 
     def _finished(self, one: LawFit, model: LawModel) -> LawFit:
-        """To the end, with twice the knots as long as the data fill them and the law gets better by it."""
-        fine = replace(model.simulation, solver=replace(self._present.simulation.solver, max_steps=self._steps(model)))
-        best = ended(model, one, fine)
-        while best.edf > self._settings.full * best.knots.size and 2 * best.knots.size - 1 <= self._settings.most_knots:
+        """To the end, with twice the knots as long as the data see the corners and the law gets better by it."""
+        settings, point = self._settings, one.fit.point
+        solver = replace(self._present.simulation.solver, max_steps=10 * model.simulation.solver.max_steps)
+        fine = replace(self._present.simulation, solver=solver)
+        again = started(model, one.law, one.knots, one.unit, one.smoothness, point.x, fine, point.carried)
+        if not again.fit.good:
+            return one
+        best = settled(model, again, settings.heat)
+        while best.coarse and 2 * best.knots.size - 1 <= settings.most_knots:
             finer = self._model(model.place, 2 * best.knots.size - 1)
             if finer is None:
                 break
-            finer_knots = closer(best.knots, best.values)
-            x = np.append(best.fit.point.x[: -best.knots.size], curve_basis(finer_knots, best.knots) @ best.values)
-            smooth = replace(best.smoothness, knots=finer_knots)
-            again = started(finer, best.law, finer_knots, best.unit, smooth, x, fine, best.fit.point.carried)
-            again = ended(finer, again, fine)
+            k = closer(best.knots, best.values)
+            x = np.append(best.fit.point.x[: -best.knots.size], curve_basis(k, best.knots) @ best.values)
+            smooth = replace(best.smoothness, knots=k)
+            again = started(finer, best.law, k, best.unit, smooth, x, fine, best.fit.point.carried)
+            again = settled(finer, again, settings.heat) if again.fit.good else again
             if not again.fit.good or self._scored(again) >= self._scored(best):
                 break
             best = again
-        return best
-
-    @staticmethod
-    def _steps(model: LawModel) -> int:
-        return 10 * model.simulation.solver.max_steps
+        return ended(best)
 
     def _share(self, one: LawFit) -> float:
         """What a law takes of the sum of squares over the floors that could be avoided."""
@@ -195,7 +196,7 @@ class Learner:
         p = min(rivals.p_value(gain, edf, count, size, inflated) * (laws + self._tried), 1.0)
         verdict = (
             Verdict.UNDECIDABLE if count / inflated - size < settings.decidable
-            else Verdict.BETTER if p < settings.false_alarm
+            else Verdict.BETTER if p < settings.false_alarm and self._share(one) > self._settings.least
             else Verdict.NO_BETTER
         )  # fmt: skip
         worth = rivals.penalised(gain, edf, inflated, count)

@@ -14,7 +14,7 @@ import numpy as np
 
 from pysim.diagnosis import rivals
 from pysim.diagnosis.candidate import Candidate
-from pysim.diagnosis.learn.fit import LawFit, ended, started
+from pysim.diagnosis.learn.fit import LawFit, ended, settled, started
 from pysim.diagnosis.learn.laws import Law, Terms
 from pysim.diagnosis.learn.screening import LawModel, patient
 from pysim.diagnosis.refit import FinalFit, begin
@@ -106,8 +106,7 @@ def _without(session: Session, law: LawFit, effect: Effect, alone: Alone) -> Law
     made = LawModel(law.law.place, law.knots.size, present, model, patient(present))
     x = np.append(candidate.at(values), law.values)
     found = started(made, law.law, law.knots, law.unit, law.smoothness, x, law.fit.simulation)
-    found = ended(made, found, law.fit.simulation)
-    return found if found.fit.good else None
+    return ended(settled(made, found, LearnSettings().heat)) if found.fit.good else None
 
 
 def _kept(law: LawFit, effect: Effect) -> Iterator[tuple[str | tuple[str, str], float]]:
