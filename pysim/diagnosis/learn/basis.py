@@ -7,7 +7,7 @@ Royal Statistical Society B 73:3; its steps near an optimum Wood and Fasiolo 201
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,6 +22,8 @@ _RANGE, _BOTH = (0.002, 0.998), 0.05
 _ARCSINH, _DECADE = 0.05, 10.0
 # Weight of level and slope, in shares of what the data give a value: too little to matter where they tell something.
 _LEVEL = 1e-4
+# Weights of bends that are tried, in the same shares: from none to a straight line.
+_LEAST, _MOST = 1e-9, 1e3
 
 
 def knots(z: Array, count: int) -> Array:
@@ -115,8 +117,9 @@ class Smoothness:
         """
         rough = bends(self.knots).T @ bends(self.knots)
         taken = self.bending * float(np.trace(np.linalg.solve(gram + self.precision, rough)))
-        bent = max(float(c @ rough @ c), 1e-300)
-        return Smoothness(self.knots, max(self.knots.size - 2 - taken, 1e-3) * variance / bent, self.level)
+        bent, typical = max(float(c @ rough @ c), 1e-300), float(np.trace(gram)) / c.size
+        weight = max(self.knots.size - 2 - taken, 1e-3) * variance / bent
+        return replace(self, bending=float(np.clip(weight, _LEAST * typical, _MOST * typical)))
 
     def edf(self, gram: Array) -> float:
         """How many coefficients the data determine."""
@@ -157,7 +160,7 @@ def solve(gram: Array, right: Array, whole: float, n: float, k: Array) -> Curve:
         volume = float(np.linalg.slogdet(gram + prior)[1]) - float(np.linalg.slogdet(prior)[1])
         return 0.5 * n * math.log(penalised / n) + 0.5 * volume
 
-    grid = np.linspace(math.log(1e-9 * typical), math.log(1e3 * typical), 25)
+    grid = np.linspace(math.log(_LEAST * typical), math.log(_MOST * typical), 25)
     near = int(np.argmin([loss(one) for one in grid.tolist()]))
     ends = (grid[max(near - 1, 0)], grid[min(near + 1, grid.size - 1)])
     bending = math.exp(float(optimize.minimize_scalar(loss, bounds=ends, method="bounded").x))
