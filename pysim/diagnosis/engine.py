@@ -165,8 +165,8 @@ def _answer(
     law = None if learning is None else learning.law
     if law is not None:
         kept = {effect.name for effect in law.fit.candidate.effects}
-        if len(kept) < len(final.candidate.effects):  # the steps of effects that the law has unseated are gone
-            models_of = models_of[:2]
+        unseated = {effect.name for effect in final.candidate.effects} - kept
+        models_of = [(name, fit) for name, fit in models_of if unseated.isdisjoint(fit.names)]
         losses = {name: loss for name, loss in found.losses.items() if name in kept or name not in final.names}
         found = replace(found, final=law.fit, floors=found.floors.with_(law.fit), losses=losses)
         history, lost = _history([*models_of, (law.law.label, law.fit)], session, found)
