@@ -169,16 +169,19 @@ def converged(fit: FinalFit, simulation: Simulation | None = None) -> FinalFit:
 def race(runners: Iterable[tuple[FinalFit, float]], settings: Settings, fine: Simulation) -> list[FinalFit]:
     """Refits of rivals, the largest gain first: those that still promise enough go on, the best of them to the end.
 
-    Of several starts of one candidate the better one goes on.
+    Of several starts of one candidate, one that is higher after a point, and promises less, is given up at once; later
+    the better one goes on.
 
     Args:
         runners: at their starts, each with the cost of the present model as it is compared.
         fine: simulation by which the best end.
     """
-    running = [(fit, before) for fit, before in runners if fit.good]
+    running = _not_worse([(advance(fit, 1), before) for fit, before in runners if fit.good])
     resting: list[tuple[FinalFit, float]] = []
+    points = settings.heat - 1
     while running:
-        running = _best_starts([(advance(fit, settings.heat), before) for fit, before in running])
+        running = _best_starts([(advance(fit, points), before) for fit, before in running])
+        points = settings.heat
         most = max(before - fit.expected for fit, before in (*running, *resting))
         least = settings.promising * max(most, 0.0)
         going = [one for one in running if one[0].state.outcome is None and one[1] - one[0].expected >= least]
@@ -192,6 +195,20 @@ def race(runners: Iterable[tuple[FinalFit, float]], settings: Settings, fine: Si
         (converged(fit, fine) if k < settings.finalists else fit, before) for k, (fit, before) in enumerate(running)
     ]
     return [fit for fit, before in sorted(ended, key=lambda one: one[0].point.cost - one[1])]
+
+
+def _not_worse(running: Sequence[tuple[FinalFit, float]]) -> list[tuple[FinalFit, float]]:
+    """Without starts beside which another of the same candidate is lower and promises to end lower."""
+    return [
+        (fit, before)
+        for fit, before in running
+        if not any(
+            other.candidate.labels == fit.candidate.labels
+            and other.point.cost < fit.point.cost
+            and other.expected < fit.expected
+            for other, _ in running
+        )
+    ]
 
 
 def _best_starts(running: Sequence[tuple[FinalFit, float]]) -> list[tuple[FinalFit, float]]:

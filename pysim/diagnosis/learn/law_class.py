@@ -17,15 +17,13 @@ from fmu_build.text.write import quoted
 from pysim.diagnosis.learn.curve import widths
 from pysim.diagnosis.learn.curve_text import CURVE, RAMP, SLOPE
 from pysim.diagnosis.learn.formula import REACH, Formula, rounded_up
+from pysim.diagnosis.learn.laws import SIGN_WIDTHS
 from pysim.effects import VENDOR, Filling, Slot, filling, parameter_text, slot_units
 from pysim.effects.law import check_units, dimension, dimension_words
 from pysim.types import BadInput, EffectParameter
 from pysim.types.answer import LearnedLaw
 
 Array = NDArray[np.float64]
-
-SIGN_WIDTHS = {"m/s": 1e-3, "rad/s": 0.1, "1/s": 0.05, "m": 1e-5, "rad": 1e-4, "Pa": 1e4, "m3/s": 1e-7}
-"""Width of a sign's change by its variable's unit; those of speeds are the catalogue's frictions'. 1e-3 for others."""
 
 
 def law_class(

@@ -308,9 +308,12 @@ def _rate_of(name: str, names: Sequence[str]) -> bool:
 
 
 def _numbered(outputs: Sequence[str], sees: Sequence[str]) -> list[tuple[str, list[str]]]:
-    """Outputs and what they see by their numbers, where a slot has two or more sides with the same law."""
-    bare = {re.sub(r"\d+$", "", y) for y in outputs}
-    numbers = [re.search(r"\d+$", y) for y in outputs]
+    """Outputs and what they see by the side they stand for, where a slot has two or more sides with the same law.
+
+    A side is a number, `q1`, or a letter behind a line, `q_s`.
+    """
+    bare = {re.sub(r"(\d+|_[A-Za-z])$", "", y) for y in outputs}
+    numbers = [re.search(r"(\d+|_[A-Za-z])$", y) for y in outputs]
     if len(outputs) < 2 or len(bare) != 1 or not all(numbers):
         return []
     found = []

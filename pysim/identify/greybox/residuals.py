@@ -398,6 +398,9 @@ class WeightedResiduals:
         return math.sqrt(total / max(float(self.samples.sum()) + self.known_rows - point.x.size, 1.0))
 
 
+_LARGEST = 1e200  # of a sum of squares: a hundred decades are left for levels and steps
+
+
 class _Rows(NamedTuple):
     """Residual and slopes of one observation (n, m), the channel of each row (n,), and how a long log was reduced."""
 
@@ -485,8 +488,12 @@ def _squares(one: Observation, table: _Rows) -> Array:
 
 
 def _finite(table: Array) -> bool:
-    """Whether all numbers of a table (n, m) are finite, without a copy of it."""
-    return math.isfinite(float(sum(table[first : first + ROWS].sum() for first in range(0, len(table), ROWS))))
+    """Whether all numbers of a table (n, m) are finite, and so are their squares over any level."""
+    with np.errstate(over="ignore", invalid="ignore"):
+        squares = sum(
+            np.vdot(own, own) for own in (table[first : first + ROWS] for first in range(0, len(table), ROWS))
+        )
+    return bool(squares < _LARGEST)
 
 
 def _stacked(parts: Sequence[Array]) -> Array:
