@@ -155,10 +155,10 @@ def _answer(
     found = replace(found, final=final)
     models_of = [("prior", search.as_it_is()), *([("refit", found.base)] if refitted else [])]
     models_of += _kept(found, models, final, search)
-    history, lost = _history(models_of, session, found)
+    last = _history(models_of[-1:], session, found)
     rest = follows(final, session.dataset, session.treatment.noise.blocks)
-    left = verdict.what_is_left(found, rest, {"fit": history[-1].fit, "validate": history[-1].validate})
-    complete = verdict.is_complete(found, rest, left, history[-1], session.settings)
+    left = verdict.what_is_left(found, rest, last[0][-1])
+    complete = verdict.is_complete(found, rest, left, last[0][-1], session.settings)
     wanted = learns is Learns.ALWAYS or (learns is Learns.IF_MISSING and not complete)
     wanted &= session.build_law is not None
     learning = _learned(session, search, found) if wanted and not final.candidate.has_events else None
@@ -172,7 +172,10 @@ def _answer(
         history, lost = _history([*models_of, (law.law.label, law.fit)], session, found)
         history[-1] = replace(history[-1], estimates=law.of_the_model(history[-1].estimates))
         rest = follows(law.fit, session.dataset, session.treatment.noise.blocks)
-        left = verdict.what_is_left(found, rest, {"fit": history[-1].fit, "validate": history[-1].validate})
+        left = verdict.what_is_left(found, rest, history[-1])
+    else:
+        before, notes = _history(models_of[:-1], session, found)
+        history, lost = [*before, *last[0]], notes | last[1]
     _said(search.say, history)
     estimates = history[-1].estimates if law is not None else held_still(final)[0] if refitted else ()
     search.say.stage("intervals")

@@ -16,8 +16,10 @@ from scipy import stats
 
 from pysim.diagnosis.candidate import Candidate
 from pysim.diagnosis.refit import FinalFit
+from pysim.diagnosis.settings import Settings
 from pysim.identify.greybox import Point, WeightedResiduals
 from pysim.identify.greybox.effective_size import inflation
+from pysim.types.answer import GainTest, Verdict
 
 Array = NDArray[np.float64]
 
@@ -133,6 +135,34 @@ def tolerance(inflated: float, changed: Array, level: Array, factor: float) -> f
         changed: (n_r,) difference of the two residuals; level: (n_r,).
     """
     return factor * math.sqrt(inflated * float(np.sum((changed / level) ** 2)))
+
+
+def reach(own: Rows, other: Rows, factor: float) -> float:
+    """The same of the gains of two models whose rows stand for the same measurements, in the levels of the first."""
+    apart = other.residual - own.residual
+    return tolerance(effective(own, apart), apart, own.level, factor)
+
+
+def gain_test(
+    smaller: FinalFit, larger: FinalFit, gain: float, df: float, size: int, choices: int, settings: Settings
+) -> GainTest:
+    """The F test of what a larger model gains, at the number of samples that its residual is worth.
+
+    Args:
+        gain: nats; df: numbers that the larger model has more, of a curve its effective coefficients.
+        size: free numbers of the larger model.
+        choices: ways to have come to the larger model by chance.
+    """
+    left, count = of(larger), samples(larger)
+    inflated = effective(left, of(smaller).residual - left.residual)
+    chance = min(p_value(gain, df, count, size, inflated) * choices, 1.0)
+    verdict = (
+        Verdict.UNDECIDABLE if count / inflated - size < settings.decidable
+        else Verdict.BETTER if chance < settings.false_alarm
+        else Verdict.NO_BETTER
+    )  # fmt: skip
+    worth = penalised(gain, df, inflated, count)
+    return GainTest(gain, math.ceil(df), count / inflated, chance, worth, None, None, verdict)
 
 
 def left_out_error(found: Rows, blocks: NDArray[np.intp], level: Array) -> Array:

@@ -353,22 +353,9 @@ class Search:
             choices: ways to have come to the larger model by chance; all that was tried where None.
         """
         smaller = self._beside(smaller, larger.candidate.transient)
-        gain = smaller.point.cost - larger.point.cost
-        df = max(larger.candidate.size - smaller.candidate.size, 1)
-        left = rivals.of(larger)
-        inflated = rivals.effective(left, rivals.of(smaller).residual - left.residual)
-        count = rivals.samples(larger)
-        size = larger.candidate.size
-        chance = rivals.p_value(gain, df, count, size, inflated)
-        chance = min(chance * (choices or max(self.tried, 1)), 1.0)
-        free = count / inflated - size
-        verdict = (
-            Verdict.UNDECIDABLE if free < self.settings.decidable
-            else Verdict.BETTER if chance < self.settings.false_alarm
-            else Verdict.NO_BETTER
-        )  # fmt: skip
-        worth = rivals.penalised(gain, df, inflated, count)
-        return GainTest(gain, df, count / inflated, chance, worth, None, None, verdict)
+        gain, size = smaller.point.cost - larger.point.cost, larger.candidate.size
+        df = max(size - smaller.candidate.size, 1)
+        return rivals.gain_test(smaller, larger, gain, df, size, choices or max(self.tried, 1), self.settings)
 
     def _ordered(self, compared: list[Compared]) -> list[Compared]:
         """By gain less penalty, one lambda for all; with what the data do not tell from each."""
@@ -394,9 +381,7 @@ class Search:
                 continue
             if one.fit.candidate.transient != best.fit.candidate.transient:
                 continue
-            apart = rivals.of(one.fit).residual - own.residual
-            inflated = rivals.effective(own, apart)
-            reach = rivals.tolerance(inflated, apart, own.level, self.settings.tie)
+            reach = rivals.reach(own, rivals.of(one.fit), self.settings.tie)
             if abs(best.test.penalised - one.test.penalised) < reach and one.test.gain > 0.5 * best.test.gain:
                 found.append(one.added)
         return tuple(found)
@@ -433,13 +418,12 @@ class Search:
         smaller = self._beside(smaller, larger.candidate.transient)
         own, other = rivals.of(larger), rivals.of(smaller)
         apart = other.residual - own.residual
-        inflated = rivals.effective(own, apart)
         blocks = own.blocks
         worse = float(
             rivals.left_out_error(own, blocks, own.level).sum() - rivals.left_out_error(other, blocks, own.level).sum()
         )
         share = rivals.shares_of_blocks(apart, own.level, blocks)
-        reach = rivals.tolerance(inflated, apart, own.level, self.settings.tie)
+        reach = rivals.reach(own, other, self.settings.tie)
         enough = int(np.sum(share >= self.settings.seen_share)) >= self.settings.seen_blocks
         vetoed = enough and worse > reach
         held = self._held_out(smaller, larger)
@@ -462,9 +446,7 @@ class Search:
         (own, cost), (other, before) = ends
         if own is None or other is None:
             return None if own is other else (cost - before, 0.0)  # one cannot be simulated there: infinite
-        apart = other.residual - own.residual
-        reach = rivals.tolerance(rivals.effective(own, apart), apart, own.level, self.settings.tie)
-        return cost - before, reach
+        return cost - before, rivals.reach(own, other, self.settings.tie)
 
     def _without(self, fit: FinalFit, label: str) -> FinalFit:
         """The model without one effect or sensor error: refitted from where the larger one stands, which a fit of its

@@ -19,8 +19,7 @@ from pysim.identify.greybox import Nuisance, NuisanceKind
 from pysim.identify.greybox.effective_size import inflation
 from pysim.types import Effect, EffectParameter, Estimate, Note, NoteCode, RecordFit
 from pysim.types.answer import ErrorStep, FoundEffect, GainTest, Left, Rival, Verdict
-
-_Z95 = 1.959963984540054
+from pysim.types.fit import HALF_95
 
 
 def found_effects(found: Found, estimates: Sequence[Estimate], session: Session) -> tuple[FoundEffect, ...]:
@@ -51,22 +50,17 @@ def _sensor(
     parameter = EffectParameter("size", unit, -far, far, nuisance.prior_sd, 0.0, 0.0, f"{nuisance.kind.value} error")
     inflated = rivals.samples(final) / loss.effective_size
     sd = abs(size) / math.sqrt(max(2 * loss.gain, 1e-9)) * math.sqrt(inflated)
-    estimate = Estimate("size", unit, size, 0.0, -far, far, sd, (size - _Z95 * sd, size + _Z95 * sd), "")
+    estimate = Estimate("size", unit, size, 0.0, -far, far, sd, (size - HALF_95 * sd, size + HALF_95 * sd), "")
     return FoundEffect(
         Effect(sensor_name(nuisance), nuisance.signal, "", (parameter,)), nuisance.signal, (estimate,), share
     )
 
 
-def what_is_left(found: Found, follows: Follows | None, held_out: Mapping[str, float | None]) -> Left:
-    """Of the final model."""
+def what_is_left(found: Found, follows: Follows | None, last: ErrorStep) -> Left:
+    """Of the final model, whose step of the error history is the last."""
     floors = {f"{dataset}/{signal}": floor for (dataset, signal), floor in found.floors.floors.items()}
-    return Left(
-        floors,
-        held_out.get("fit"),
-        held_out.get("validate"),
-        None if follows is None else follows.share,
-        None if follows is None else follows.t,
-    )
+    share, t = (None, None) if follows is None else (follows.share, follows.t)
+    return Left(floors, last.fit, last.validate, share, t)
 
 
 def is_complete(found: Found, follows: Follows | None, left: Left, last: ErrorStep, settings: Settings) -> bool:

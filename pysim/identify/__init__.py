@@ -16,12 +16,12 @@ from pysim.identify.frequency_response import (
     standard_deviations,
 )
 from pysim.identify.frf import MeasuredResponse, SinePoint, Window, measured_responses, sine_point
-from pysim.identify.interval import HALF_95
 from pysim.identify.logged import LoggedWave, logged_command, logged_wave
 from pysim.identify.settling import SteadyRun, run_until_settled
 from pysim.identify.sine_fit import SineFit, sine_fit
 from pysim.identify.stepped_sine import SteppedSine, command, stepped_sine
 from pysim.identify.transfer_function import TransferFunction
+from pysim.types.fit import HALF_95
 
 __all__ = [
     "FREQUENCY_CRITERIA",

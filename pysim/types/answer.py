@@ -12,13 +12,12 @@ from numpy.typing import NDArray
 from pysim.types._frozen import FrozenMapping
 from pysim.types.effect import Effect
 from pysim.types.errors import BadInput
-from pysim.types.fit import Direction, Estimate, RecordFit, ResponseFit
+from pysim.types.fit import HALF_95, Direction, Estimate, RecordFit, ResponseFit
 from pysim.types.note import Note
 
 Array = NDArray[np.float64]
 
 NONE, UNKNOWN = "none", "unknown"
-_Z95 = 1.959963984540054  # half width of a 95 percent interval over the standard deviation
 PRIOR, REFIT = "prior", "refit"  # steps of the error history: the model as it is, and with its parameters refitted
 
 
@@ -289,7 +288,7 @@ class LearnedLaw:
     @property
     def band(self) -> tuple[Array, Array]:
         """(m,) ends of the 95 percent interval of each coefficient."""
-        half = _Z95 * np.sqrt(np.maximum(np.diag(self.covariance), 0.0))
+        half = HALF_95 * np.sqrt(np.maximum(np.diag(self.covariance), 0.0))
         return self.coefficients - half, self.coefficients + half
 
 

@@ -18,6 +18,8 @@ from pysim.types.experiment import Experiment
 from pysim.types.note import Note
 from pysim.types.record import Record
 
+HALF_95 = 1.959964  # half width of a 95 percent interval of a normal error, standard deviations
+
 Array = NDArray[np.float64]
 
 

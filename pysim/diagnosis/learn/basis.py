@@ -108,17 +108,17 @@ class Smoothness:
         """(m, m)."""
         return np.asarray(self.rows.T @ self.rows)
 
-    def moved(self, gram: Array, c: Array, variance: float) -> Smoothness:
+    def moved(self, gram: Array, c: Array) -> Smoothness:
         """The weight of bends that suits the coefficients c (m,) at an optimum (Fellner-Schall step).
 
         Args:
-            gram: (m, m) products of the residual's slopes by the coefficients, across what parameters explain.
-            variance: of the residual over its level.
+            gram: (m, m) products of the slopes, by the coefficients, of the residual over its level, across what
+                parameters explain.
         """
         rough = bends(self.knots).T @ bends(self.knots)
         taken = self.bending * float(np.trace(np.linalg.solve(gram + self.precision, rough)))
         bent, typical = max(float(c @ rough @ c), 1e-300), float(np.trace(gram)) / c.size
-        weight = max(self.knots.size - 2 - taken, 1e-3) * variance / bent
+        weight = max(self.knots.size - 2 - taken, 1e-3) / bent
         return replace(self, bending=float(np.clip(weight, _LEAST * typical, _MOST * typical)))
 
     def edf(self, gram: Array) -> float:

@@ -12,10 +12,10 @@ from pysim.diagnosis.learn.laws import Law
 from pysim.diagnosis.learn.learn import Learning
 from pysim.types import Model
 from pysim.types.answer import LearnedLaw
+from pysim.types.fit import HALF_95
 
 Array = NDArray[np.float64]
 
-_Z95 = 1.959963984540054
 # A level or slope known no better than to this share of the curve is taken as one that the parameters absorb.
 _ABSORBED = 0.5
 # The band is that of a curve held smooth with this share of the weight that fits best, and counts what the rest may
@@ -97,7 +97,7 @@ def _known(gram: Array, smooth: Smoothness, values: Array, inflated: float) -> _
     keep = np.eye(m) - absorbed @ absorbed.T
     beside = missed(k, values)
     beside = np.maximum(np.append(beside, 0.0), np.append(0.0, beside))
-    whole = covariance + np.outer(bias, bias) / _Z95**2 + np.diag((beside / _Z95) ** 2)
+    whole = covariance + np.outer(bias, bias) / HALF_95**2 + np.diag((beside / HALF_95) ** 2)
     return _Known(keep @ whole @ keep, absorbed)
 
 

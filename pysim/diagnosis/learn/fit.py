@@ -157,7 +157,7 @@ def moved(model: LawModel, one: LawFit, points: int) -> LawFit:
 
 
 def _smoothed(model: LawModel, one: LawFit) -> LawFit:
-    smooth = one.smoothness.moved(one.gram, one.values, 1.0)
+    smooth = one.smoothness.moved(one.gram, one.values)
     point = one.fit.point
     return started(model, one.law, one.knots, one.unit, smooth, point.x, one.fit.simulation, point.carried)
 

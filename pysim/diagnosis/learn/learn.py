@@ -181,24 +181,18 @@ class Learner:
         """Other places of which the data do not tell a law from the best (rule of `Search`), in the race."""
         best, own, found = fits[0], rivals.of(fits[0].fit), dict[str, None]()
         for one in fits[1:]:
-            apart = rivals.of(one.fit).residual - own.residual
-            reach = rivals.tolerance(rivals.effective(own, apart), apart, own.level, self._session.settings.tie)
+            reach = rivals.reach(own, rivals.of(one.fit), self._session.settings.tie)
             if one.law.place != best.law.place and self._scored(one) - self._scored(best) < reach:
                 found[one.law.place.name] = None
         return tuple(found)
 
     def _tested(self, one: LawFit, laws: int) -> GainTest:
         """The F test at the effective size, a curve counting by its effective coefficients; then the vetoes."""
-        settings = self._session.settings
-        present, count, edf = self._present, rivals.samples(self._present), one.edf
-        gain, inflated = present.point.cost - one.cost, self._colour(one, present)
-        size = present.candidate.size + math.ceil(edf)
-        p = min(rivals.p_value(gain, edf, count, size, inflated) * (laws + self._tried), 1.0)
-        verdict = (
-            Verdict.UNDECIDABLE if count / inflated - size < settings.decidable
-            else Verdict.BETTER if p < settings.false_alarm and self._share(one) > self._settings.least
-            else Verdict.NO_BETTER
-        )  # fmt: skip
-        worth = rivals.penalised(gain, edf, inflated, count)
-        test = GainTest(gain, math.ceil(edf), count / inflated, p, worth, None, None, verdict)
-        return self._veto(present, one.fit, test) if verdict is Verdict.BETTER else test
+        present, gain = self._present, self._present.point.cost - one.cost
+        size, choices = present.candidate.size + math.ceil(one.edf), laws + self._tried
+        test = rivals.gain_test(present, one.fit, gain, one.edf, size, choices, self._session.settings)
+        if test.verdict is not Verdict.BETTER:
+            return test
+        if self._share(one) <= self._settings.least:
+            return replace(test, verdict=Verdict.NO_BETTER)
+        return self._veto(present, one.fit, test)

@@ -60,11 +60,16 @@ def without_the_unseated(
     for effect in sorted(present.candidate.effects, key=lambda one: losses[one.name].gain):
         if refines(law.law, effect):
             continue
-        smaller = _without(session, best, effect, alone)
+        smaller = _without(session, best, effect, alone, settings)
         if smaller is None or avoidable <= 0:
             continue
         better = (before - _left(smaller.fit, floors)) / avoidable
-        if better >= settings.unseats and not _demanded(session, smaller, best, tried):
+        if better < settings.unseats:
+            continue
+        size, gain = best.fit.candidate.size, smaller.cost - best.cost
+        df = size - smaller.fit.candidate.size
+        test = rivals.gain_test(smaller.fit, best.fit, gain, df, size, max(tried, 1), session.settings)
+        if test.p_value >= session.settings.false_alarm:
             best = smaller
     return best
 
@@ -76,21 +81,7 @@ def _left(fit: FinalFit, floors: Mapping[Channel, float]) -> float:
     return float(np.sum(np.maximum(fit.point.squares / noise - residuals.samples, 0.0)))
 
 
-def _demanded(session: Session, smaller: LawFit, larger: LawFit, tried: int) -> bool:
-    """Whether the F test asks for what the larger model has more."""
-    left, changed = rivals.of(larger.fit), rivals.of(smaller.fit).residual - rivals.of(larger.fit).residual
-    df = larger.fit.candidate.size - smaller.fit.candidate.size
-    p = rivals.p_value(
-        smaller.cost - larger.cost,
-        df,
-        rivals.samples(larger.fit),
-        larger.fit.candidate.size,
-        rivals.effective(left, changed),
-    )
-    return p * max(tried, 1) < session.settings.false_alarm
-
-
-def _without(session: Session, law: LawFit, effect: Effect, alone: Alone) -> LawFit | None:
+def _without(session: Session, law: LawFit, effect: Effect, alone: Alone, settings: LearnSettings) -> LawFit | None:
     """The law in the model without one effect, refitted from where it stands; None where that cannot be made."""
     assert session.build_law is not None
     effects = [one for one in law.fit.candidate.effects if one is not effect]
@@ -106,7 +97,7 @@ def _without(session: Session, law: LawFit, effect: Effect, alone: Alone) -> Law
     made = LawModel(law.law.place, law.knots.size, present, model, patient(present))
     x = np.append(candidate.at(values), law.values)
     found = started(made, law.law, law.knots, law.unit, law.smoothness, x, law.fit.simulation)
-    return ended(settled(made, found, LearnSettings().heat)) if found.fit.good else None
+    return ended(settled(made, found, settings.heat)) if found.fit.good else None
 
 
 def _kept(law: LawFit, effect: Effect) -> Iterator[tuple[str | tuple[str, str], float]]:

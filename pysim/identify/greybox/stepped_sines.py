@@ -133,25 +133,27 @@ class SteppedSines:
         """See Observation. A drift is not seen within a sine that is steady."""
         parts = []
         for log, answer in zip(self.logs, answers, strict=True):
-            columns = np.zeros((*log.harmonics.shape, len(nuisances)))
-            for k, one in enumerate(nuisances):
-                if one.dataset == self.dataset and one.signal in self.channels and one.kind is not NuisanceKind.DRIFT:
-                    j = self.channels.index(one.signal)
-                    columns[:, j, k] = log.onto @ _effect(one.kind, answer.values[:, j], log.sine.frequency)
+            columns = np.tensordot(log.onto, self._by_error(log, answer, nuisances), 1)
             parts.append(columns.reshape(-1, len(nuisances)))
         return np.concatenate(parts)
 
     def sensed(self, answers: Sequence[Simulated], errors: SensorErrors) -> tuple[Simulated, ...]:
         """See Observation."""
-        gain, found = gains(errors, self.dataset, self.channels)[:, None], []
-        for log, answer in zip(self.logs, answers, strict=True):
-            values = answer.values.copy()
-            for one, size in errors:
-                if one.dataset == self.dataset and one.signal in self.channels and one.kind is not NuisanceKind.DRIFT:
-                    j = self.channels.index(one.signal)
-                    values[:, j] += size * _effect(one.kind, answer.values[:, j], log.sine.frequency)
-            found.append(Simulated(values, answer.slopes * gain))
-        return tuple(found)
+        gain, sizes = gains(errors, self.dataset, self.channels)[:, None], np.array([size for _, size in errors])
+        kinds = [one for one, _ in errors]
+        return tuple(
+            Simulated(answer.values + self._by_error(log, answer, kinds) @ sizes, answer.slopes * gain)
+            for log, answer in zip(self.logs, answers, strict=True)
+        )
+
+    def _by_error(self, log: SineLog, answer: Simulated, nuisances: Sequence[Nuisance]) -> Array:
+        """What one unit of each nuisance adds to a period of the orbit, (points, n_y, k)."""
+        found = np.zeros((*answer.values.shape, len(nuisances)))
+        for k, one in enumerate(nuisances):
+            if one.dataset == self.dataset and one.signal in self.channels and one.kind is not NuisanceKind.DRIFT:
+                j = self.channels.index(one.signal)
+                found[:, j, k] = _effect(one.kind, answer.values[:, j], log.sine.frequency)
+        return found
 
     def pieces(self, residual: Array, shortest: float) -> NDArray[np.intp]:
         """A steady sine is one cluster."""

@@ -75,5 +75,5 @@ def test_a_step_of_the_smoothness_comes_to_rest_where_restricted_likelihood_is_l
     smooth = Smoothness(k, 100 * best.smoothness.bending, best.smoothness.level)
     for _ in range(100):
         values = -np.linalg.solve(gram + smooth.precision, right)
-        smooth = smooth.moved(gram, values, 1.0)
+        smooth = smooth.moved(gram, values)
     assert smooth.edf(gram) == pytest.approx(best.edf, rel=0.05)
