@@ -22,6 +22,7 @@ from pysim.simulate.esdirk import Esdirk
 from pysim.simulate.kernel.layout import ORBIT, VARIED
 from pysim.simulate.sensitivity.differences import DIFFERENCE_STEP, tight
 from pysim.simulate.sensitivity.probe import Offer, both_sides
+from pysim.simulate.sensitivity.sensitivities import Ask, run_in
 from pysim.simulate.sensitivity.transient import Settled, after, settle_down
 from pysim.types import Experiment, Outcome, Record
 
@@ -270,27 +271,21 @@ def _with_differences(plan: Plan, experiment: Experiment, orbit: Orbit, stopped:
 
 
 def _the_long_way(plan: Plan, experiment: Experiment, why: str, stopped: Stopped) -> Orbit:
-    """Simulate until it repeats; derivatives are differences of runs of the same length."""
+    """Simulate until it repeats, and as long again: what depends on a parameter takes longer to settle."""
     solver = tight(plan.solver)
     settled = settle_down(plan.library, experiment, solver, stopped)
-    if not settled.trouble:  # what is left of a transient depends more on a parameter than its own size tells
+    if not settled.trouble:
         settled = after(plan.library, experiment, solver, 2 * settled.periods, stopped)
     if settled.trouble:
         return _not_settled(plan, experiment, settled, why)
-    shape = (experiment.times.size - 1, len(experiment.record), len(plan.parameters))
-    columns = np.full(shape, np.nan)
-    for p, name in enumerate(plan.parameters):
-        up, down, distance = both_sides(plan.library.model, experiment, name, DIFFERENCE_STEP)
-        ends = [after(plan.library, side, solver, settled.periods, stopped) for side in (up, down)]
-        for end in ends:
-            if end.record.outcome is not Outcome.DONE:
-                return _not_settled(plan, experiment, end, f"{why}; with {name} moved a little")
-        columns[:, :, p] = (ends[0].record.values - ends[1].record.values) / distance
+    last = replace(experiment, times=experiment.times[:-1] + (settled.periods - 1) * experiment.times[-1])
+    (run,) = run_in(plan.library, Ask((last,), plan.parameters, False, plan.solver, 1), None)
+    if run.record.outcome is not Outcome.DONE:
+        return _failed(plan, experiment, run.record.outcome, f"{why}; {run.message or run.record.message}")
     nothing = np.full((0, len(plan.parameters)), np.nan)
     message = f"{why}; simulated for {settled.periods} periods instead"
-    return Orbit(
-        settled.record, plan.parameters, columns, np.zeros(0), nothing, 0, not plan.parameters, message=message
-    )
+    exact = run.exact or not plan.parameters
+    return Orbit(settled.record, plan.parameters, run.by_parameter, np.zeros(0), nothing, 0, exact, message=message)
 
 
 def _not_settled(plan: Plan, experiment: Experiment, settled: Settled, why: str) -> Orbit:

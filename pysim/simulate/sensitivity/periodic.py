@@ -113,7 +113,7 @@ def periodic_many(
     mismatch after one period follows the correction (I - M)^-1 (x(T) - x(0)), and from the derivatives by parameters
     those of the orbit. What is left of the correction is applied to the samples to first order. Where shooting fails,
     because an event happens or because the model remembers more than its states, the model is simulated until what is
-    recorded repeats itself, and the derivatives are differences.
+    recorded repeats itself, with the derivatives that such a run has.
 
     Args:
         model: a model-exchange FMU.

@@ -4,13 +4,15 @@
    With the monodromy matrix M, the derivative of a period's end by its start, the mismatch after one period is removed by
    the correction (I - M)^-1 (x(T) - x(0)); what is left of it is applied to the last period to first order, which makes
    an error of its square. A correction after which the mismatch is larger is halved, unless both mismatches are what the
-   choice of the integration's steps leaves open: then the smaller one is left, too. */
+   choice of the integration's steps leaves open: then the smaller one is left, too. Where corrections go to and fro over a
+   kink of the law, periods follow each other from the nearest start instead: an orbit that attracts is reached so, too. */
 #include "kernel.h"
 
-enum { ITERATIONS = 15, HALVINGS = 4 };
+enum { ITERATIONS = 15, HALVINGS = 4, PERIODS = 60 };
 static const double within = 3.0;    /* tolerated errors of a step: what its choice alone moves the end of a period */
 static const double furthest = 10.0; /* amplitudes: a longer correction is shortened to that */
 static const double jumpy = 30.0;    /* tolerated errors of a step: so far the end of a period with kinks jumps */
+static const double wavers = 10.0;   /* tolerated mismatches: within them a period that attracts may end by its steps */
 
 /* Tolerated error of a step in state i. */
 static double step_error(const Job *job, int64_t i) {
@@ -93,6 +95,39 @@ static void swap_shots(Shooting *s) {
 /* Ends the search at a shot, unless something drifts. */
 static int accept(const Shot *shot, double tolerance) { return shot->drift > tolerance ? DRIFTS : FOUND; }
 
+/* Makes the instance ready for another period; whether it is. */
+static bool ready(Job *job, Task *task, bool rewind) {
+    if (!rewind) task->part = start_instance(job, task, task->end);
+    return !task->part;
+}
+
+/* Whether the period just run left nothing behind that a start from its states lacks. */
+static bool rewinds(const Job *job, const Task *task) {
+    return task->code == DONE && job->run.events == 0 && job->run.next_event >= task->end;
+}
+
+/* Period after period from the nearest start so far, which is in `before`, until they no longer come closer. */
+static int follow(Job *job, Task *task, const Pass *pass, bool rewind) {
+    Shooting *s = &job->shooting;
+    double last = 0.0;
+    copy(s->now.start, s->before.start, job->work.n);
+    for (int count = 0; count < PERIODS; count++) {
+        task->iterations++;
+        if (!ready(job, task, rewind)) return RUN_FAILED;
+        task->code = one_period(job, task, pass, rewind);
+        if (stopped(pass)) return STOPPED_SEARCH;
+        if (task->code == EVENT) return MET_EVENT;
+        if (task->code != DONE) return RUN_FAILED;
+        examine(job, task->mismatch);
+        const bool near = s->now.mismatch <= wavers * task->mismatch && s->now.mismatch >= last;
+        if (s->now.mismatch <= task->mismatch || (count && near)) return accept(&s->now, task->mismatch);
+        last = s->now.mismatch;
+        copy(s->now.start, job->work.x, job->work.n);
+        rewind = rewinds(job, task);
+    }
+    return NOT_CONVERGED;
+}
+
 /* The search from `guess`, with the instance in event mode; FOUND leaves the last period in `now`. */
 static int search(Job *job, Task *task, const Pass *pass) {
     Shooting *s = &job->shooting;
@@ -109,29 +144,25 @@ static int search(Job *job, Task *task, const Pass *pass) {
         const bool done = task->code == DONE;
         if (done) examine(job, tolerance);
         if (done && s->now.mismatch <= tolerance) return accept(&s->now, tolerance);
+        rewind = rewinds(job, task);
         if (!done || (have_before && !(s->now.mismatch < s->before.mismatch))) {
             if (done && have_before && resolved(job, &s->now) && resolved(job, &s->before)) {
                 swap_shots(s);
                 return accept(&s->now, tolerance);
             }
             length *= 0.5;
-            if (!have_before || length < 1.0 / (1 << HALVINGS)) {
-                if (!done) return RUN_FAILED;
-                return s->before.drift > tolerance ? DRIFTS : NOT_CONVERGED;
-            }
+            if (!have_before) return RUN_FAILED;
+            if (length < 1.0 / (1 << HALVINGS)) break;
         } else {
             swap_shots(s);
             have_before = true;
             length = smaller(1.0, furthest / s->before.mismatch);
         }
         for (int64_t i = 0; i < n; i++) s->now.start[i] = s->before.start[i] + length * s->before.solved[i * m];
-        rewind = done && job->run.events == 0 && job->run.next_event >= task->end;
-        if (!rewind) {
-            task->part = start_instance(job, task, task->end);
-            if (task->part) return RUN_FAILED;
-        }
+        if (!ready(job, task, rewind)) return RUN_FAILED;
     }
-    return s->before.drift > tolerance ? DRIFTS : NOT_CONVERGED;
+    if (task->code != DONE) return RUN_FAILED;
+    return s->before.drift > tolerance ? DRIFTS : follow(job, task, pass, rewind);
 }
 
 /* Applies what is left of the correction, and puts the derivatives by the parameters together. */
