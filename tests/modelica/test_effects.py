@@ -253,7 +253,11 @@ def test_spool_is_no_faster_than_its_limit() -> None:
     held = np.abs(record["spool.u_t"]) > limit * (1 - 1e-9)
     assert held.mean() > 0.02
     free = omega_v**2 * (record["spool.u_ref"] - record["spool.u"]) - 2 * zeta_v * omega_v * record["spool.u_t"]
-    np.testing.assert_allclose(record["spool.u_tt"][~held], free[~held], rtol=1e-6, atol=1e-6 * np.abs(free).max())
+    # the limit is come to with the lag of 1e-4 s: so much earlier the acceleration begins to fall
+    below = np.abs(record["spool.u_t"]) + 1e-4 * np.abs(free) < limit
+    assert below.sum() >= 10
+    np.testing.assert_allclose(record["spool.u_tt"][below], free[below], rtol=1e-6, atol=1e-6 * np.abs(free).max())
+    assert np.all(record["spool.u_tt"] * np.sign(free) <= np.abs(free) * (1 + 1e-6))
 
 
 def test_hysteresis_is_play_in_the_command_alone() -> None:

@@ -7,22 +7,23 @@ model SpoolLimits "Stops and largest speed of the spool at once"
   parameter Real inverse_r_max(final unit="s", min=0, max=0.2, nominal=0.03) = 0
     "One over the largest spool speed, 0 = off"
     annotation(__HydraulicTestBench(inverse="r_max", limits="u_t"));
+  constant Types.Duration T_r = 1e-4 "How fast the largest speed is taken on";
+  constant Types.Duration T_u = 1e-4 "How fast the speed is lost in a stop";
 protected
+  Types.SpoolPosition u_max "Largest position";
+  Types.SpoolVelocity r_max "Largest speed";
   Types.SpoolAcceleration free "Acceleration without limits";
-  Boolean is_up(start=false, fixed=true) "Whether the spool is in its upper stop";
-  Boolean is_down(start=false, fixed=true) "Whether it is in its lower stop";
-  Boolean is_fast "Whether the limit holds the speed";
+  Types.SpoolAcceleration most "Largest acceleration";
+  Types.SpoolAcceleration least "Lowest acceleration";
 equation
-  is_up = u*inverse_u_max > 1;
-  is_down = u*inverse_u_max < -1;
+  u_max = 1/max(inverse_u_max, 1e-9);
+  r_max = 1/max(inverse_r_max, 1e-9);
   free = omega_v^2*(u_ref - u) - 2*zeta_v*omega_v*u_t;
-  is_fast = u_t*inverse_r_max > 1 and free > 0 or u_t*inverse_r_max < -1 and free < 0;
-  u_tt = if is_fast or is_up and free > 0 or is_down and free < 0 then 0 else free;
+  most = min((r_max - u_t)/T_r, ((u_max - u)/T_u - 2*u_t)/T_u);
+  least = max(-(r_max + u_t)/T_r, (-(u_max + u)/T_u - 2*u_t)/T_u);
+  u_tt = max(least, min(free, most));
   der(u) = u_t;
   der(u_t) = u_tt;
-  when {is_up, is_down} then
-    reinit(u_t, 0);
-  end when;
   annotation(__HydraulicTestBench(pair="spool", of={"valve.saturation", "valve.rate_limit"}), Documentation(info="<html>
 <p>The laws of <code>ValveSaturation</code> and <code>ValveRateLimit</code> on one spool: the states are the filling's
 own, so two fillings cannot share them.</p>
