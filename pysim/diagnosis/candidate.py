@@ -41,6 +41,7 @@ class Candidate:
         problem: the model, its free numbers and the measurements beside it.
         places: effect name -> name ahead of its parameters in the model.
         transient: whether stepped sines run as the bench ran them, since the model may have no periodic orbit.
+        has_events: whether a law in the model has: its slopes are then those of secants.
         precision: (n, n) of a prior of the free parameters, in the search's numbers; none where None.
     """
 
@@ -49,6 +50,7 @@ class Candidate:
     problem: Problem = field(repr=False)
     places: Mapping[str, str] = field(default_factory=dict)
     transient: bool = False
+    has_events: bool = False
     precision: Array | None = field(default=None, repr=False)
 
     def __post_init__(self) -> None:
@@ -63,11 +65,6 @@ class Candidate:
     def labels(self) -> tuple[str, ...]:
         """The same, each of them told from all others: sensor errors with their signal."""
         return (*(e.name for e in self.effects), *(f"{sensor_name(n)} {n.dataset}.{n.signal}" for n in self.nuisances))
-
-    @property
-    def has_events(self) -> bool:
-        """Whether an effect's law has: its slopes are then those of secants."""
-        return any(map(switches, self.effects))
 
     @property
     def model(self) -> Model:
@@ -145,7 +142,7 @@ class Models:
     """Makes candidates, each model built once.
 
     Effects without events are built into one model together; each of the others, and what cannot be built together or
-    disturbs the others, into one of its own.
+    disturbs the others, into one of its own. An effect that has a smooth form is searched for in that form.
 
     Args:
         session: whose models these are.
@@ -155,7 +152,7 @@ class Models:
         self.session = session
         self._built: dict[tuple[str, ...], tuple[Model, Mapping[str, str]]] = {}
         self._problems: dict[tuple[tuple[str, ...], bool], Problem] = {}
-        smooth = tuple(e for e in session.catalogue if not (e.bypass or switches(e)))
+        smooth = tuple(e for e in map(searched, session.catalogue) if not (e.bypass or switches(e)))
         self._together = [smooth] if smooth else []
         self.refused: dict[str, str] = {}
 
@@ -170,25 +167,27 @@ class Models:
             BadInput: it cannot be made.
         """
         effects = tuple(effects)
-        built = self._with_others(effects)
-        transient |= any(map(switches, effects)) or self.all_transient
+        laws = tuple(map(searched, effects))
+        built, has_events = self._with_others(laws), any(map(switches, laws))
+        transient |= has_events or self.all_transient
         model, places = self._variant(built)
         problem = self._problem(built, transient)
         own = [parameter(places[e.name], p) for e in effects for p in e.parameters]
         space = parameter_space(model, [*self.session.parameters, *own])
         kept = {effect.name: places[effect.name] for effect in effects}
-        return Candidate(effects, tuple(nuisances), replace(problem, space=space), kept, transient)
+        return Candidate(effects, tuple(nuisances), replace(problem, space=space), kept, transient, has_events)
 
     def alone(self, effects: Sequence[Effect], nuisances: Sequence[Nuisance] = ()) -> Candidate:
-        """The model with these effects and no others.
+        """The model with these effects themselves and no others.
 
         Raises:
             BadInput: it cannot be made.
         """
         effects = tuple(effects)
-        transient = any(map(switches, effects)) or self.all_transient
+        has_events = any(map(switches, effects))
+        transient = has_events or self.all_transient
         _, places = self._variant(effects)
-        return Candidate(effects, tuple(nuisances), self._problem(effects, transient), places, transient)
+        return Candidate(effects, tuple(nuisances), self._problem(effects, transient), places, transient, has_events)
 
     @cached_property
     def all_transient(self) -> bool:
@@ -212,7 +211,7 @@ class Models:
     def _variant(self, effects: tuple[Effect, ...]) -> tuple[Model, Mapping[str, str]]:
         if not effects:
             return self.session.model, {}
-        key = tuple(effect.name for effect in effects)
+        key = tuple(effect.class_name for effect in effects)
         if key not in self._built:
             if self.session.build is None:
                 raise BadInput("no effect can be added: the model's Modelica class is not at hand; name its library")
@@ -220,7 +219,7 @@ class Models:
         return self._built[key]
 
     def _problem(self, effects: tuple[Effect, ...], transient: bool) -> Problem:
-        key = tuple(effect.name for effect in effects), transient
+        key = tuple(effect.class_name for effect in effects), transient
         if key not in self._problems:
             model, places = self._variant(effects)
             own = [parameter(places[e.name], p) for e in effects for p in e.parameters]
@@ -243,6 +242,11 @@ def _split(group: tuple[Effect, ...]) -> Iterator[tuple[Effect, ...]]:
 def parameter(place: str, p: EffectParameter) -> Parameter:
     """A free parameter of an effect; its strengths are searched on a linear scale, since they may be off."""
     return Parameter(f"{place}.{p.name}", p.default, p.min, p.max, log=None if p.off is None else False)
+
+
+def searched(effect: Effect) -> Effect:
+    """The form in which an effect is searched for."""
+    return effect.smooth or effect
 
 
 def switches(effect: Effect) -> bool:

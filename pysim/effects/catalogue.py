@@ -43,7 +43,8 @@ def read_catalogue(*libraries: Path) -> tuple[Effect, ...]:
     A class is an effect when its annotation says `__HydraulicTestBench(effect="...", slot="...")`. Of its parameters
     those with the declared value 0 are strengths, with 0 for off (another off value is stated by `start`); `min`, `max`
     and `nominal` are bounds and size. Of an array each element is a parameter, `c[1]`, `c[2]`, ... An input annotated
-    with `signal="chamber1.p"` takes this signal of the model where `variant` puts the effect in.
+    with `signal="chamber1.p"` takes this signal of the model where `variant` puts the effect in. A class annotated with
+    `smooth="..."` is that effect without events.
 
     Args:
         libraries: folders with a package.mo, or .mo files. A user's own go behind ours.
@@ -54,7 +55,11 @@ def read_catalogue(*libraries: Path) -> tuple[Effect, ...]:
     found: dict[str, ClassText] = {}
     effects = []
     with as_bad_input():
-        for text, said in _annotated(library):
+        annotated = list(_annotated(library))
+        smooth = {
+            name: _effect(name, text, said, library) for text, said in annotated if (name := _string(said, "smooth"))
+        }
+        for text, said in annotated:
             if "effect" not in said:
                 continue
             name = _string(said, "effect")
@@ -62,7 +67,7 @@ def read_catalogue(*libraries: Path) -> tuple[Effect, ...]:
                 other = found[name].source.file
                 raise BadInput(f"{text.source.file}: the effect {name} is also in {other}; rename one of the two")
             found[name] = text
-            effects.append(_effect(name, text, said, library))
+            effects.append(_effect(name, text, said, library, smooth.get(name)))
     return tuple(effects)
 
 
@@ -107,7 +112,7 @@ def _annotated(library: Libraries) -> Iterator[tuple[ClassText, _Said]]:
             yield text, modifiers(said.inside)
 
 
-def _effect(name: str, text: ClassText, said: _Said, library: Libraries) -> Effect:
+def _effect(name: str, text: ClassText, said: _Said, library: Libraries, smooth: Effect | None = None) -> Effect:
     file = text.source.file
     if "slot" not in said:
         raise BadInput(f'{file}: the effect {name} fills no slot; write slot="..." into its annotation')
@@ -124,6 +129,7 @@ def _effect(name: str, text: ClassText, said: _Said, library: Libraries) -> Effe
             _on_one_line(text.description),
             "bypass" in said and text.text(said["bypass"].value) == "true",
             _law(text),
+            smooth,
         )
     except BadInput as error:
         raise BadInput(f"{file}: {error}") from error

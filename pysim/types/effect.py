@@ -65,8 +65,9 @@ class Effect:
         description: in words.
         bypass: whether off is a limit that its equations do not reach; the slot's own filling stands for it then.
         law: its equations, as the class writes them.
+        smooth: the same effect, written without events, which a search takes in its place; None where it has none.
     Raises:
-        BadInput: no strength, or two parameters of one name.
+        BadInput: no strength, a `smooth` with other parameters or another slot, or two parameters of one name.
     """
 
     name: str
@@ -76,6 +77,7 @@ class Effect:
     description: str = ""
     bypass: bool = False
     law: str = ""
+    smooth: Effect | None = None
 
     def __post_init__(self) -> None:
         names = [parameter.name for parameter in self.parameters]
@@ -84,6 +86,12 @@ class Effect:
         if not self.strengths:
             raise BadInput(
                 f"effect {self.name}: no parameter is 0 as declared; declare its strength in it with = 0 for off"
+            )
+
+        if self.smooth is not None and (self.smooth.slot != self.slot or not _same(self, self.smooth)):
+            raise BadInput(
+                f"effect {self.name}: {self.smooth.class_name} stands in for it with another slot or other parameters; "
+                "give it the same"
             )
 
     @property
@@ -126,3 +134,9 @@ class Effect:
                 )
             settings[f"{place or self.slot}.{parameter.name}"] = number
         return experiment.override(**settings)
+
+
+def _same(*effects: Effect) -> bool:
+    """Whether they have the same parameters, but for their descriptions."""
+    one, other = ([replace(p, description="") for p in effect.parameters] for effect in effects)
+    return one == other

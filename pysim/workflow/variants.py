@@ -46,7 +46,7 @@ class Variants:
         Raises:
             BadInput: a class that cannot be made or does not compile.
         """
-        key = tuple(effect.name for effect in effects)
+        key = tuple(effect.class_name for effect in effects)
         if key not in self._built:
             with TemporaryDirectory(prefix="pysim-variant-") as folder, _refusals():
                 self._built[key] = self.write(effects, Path(folder), None)

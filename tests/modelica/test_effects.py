@@ -9,6 +9,7 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 import pytest
 
+from pysim.diagnosis.candidate import switches
 from pysim.io import read_model
 from pysim.simulate import simulate
 from pysim.types import Experiment
@@ -294,6 +295,20 @@ def test_card_holds_its_command_between_samples() -> None:
     at = index[8::8]
     assert np.abs(y[at + 1] - s[at]).max() < 1e-6 * np.abs(s).max() + 1e-9
     assert np.abs(y - s).max() > 0.01 * np.abs(s).max()
+
+
+def test_the_smooth_form_of_sampling_is_its_mean(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The pump's angle with a card that samples every 8 ms, against the form without events."""
+    values = {"card.sampling": {"T_s": 8e-3}}
+    plain = ran((), {}, ("alphaPercent",))["alphaPercent"]
+    sampled = ran(("card.sampling",), values, ("alphaPercent",))["alphaPercent"]
+    smooth = CATALOGUE["card.sampling"].smooth
+    assert smooth is not None
+    assert not switches(smooth)
+    monkeypatch.setitem(CATALOGUE, "smooth", smooth)
+    record = ran(("smooth",), {"card.sampling": values["card.sampling"]}, ("alphaPercent",))["alphaPercent"]
+    assert np.abs(sampled - plain).max() > 0.1
+    assert np.abs(record - sampled).max() < 0.1 * np.abs(sampled - plain).max()
 
 
 @pytest.mark.parametrize(

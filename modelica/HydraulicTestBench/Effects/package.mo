@@ -11,7 +11,8 @@ exactly those of the base model. Where off is a singular limit (a lag of 0 s) th
 <code>limits=\"u\"</code> names the class' variable whose size that quantity limits.</p>
 <p>The first eighteen are for the slots of the pump's control, the last six for those of
 <code>LoadCircuit.OpenTestBench</code>.</p>
-<p>Two effects in one slot are put together by a class of <code>Pairs</code>.</p>
+<p>Two effects in one slot are put together by a class of <code>Pairs</code>. A law with events has a class of
+<code>Smooth</code> that stands in for it while effects are searched for.</p>
 <p><b>Source:</b> each class names its own; <code>UsersGuide.AddAnEffect</code> shows how to write one.</p>
 </html>"));
 end Effects;

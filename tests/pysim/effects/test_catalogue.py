@@ -137,6 +137,18 @@ def test_pairs(tmp_path: Path) -> None:
     assert read_pairs(library(tmp_path, DRIVE)) == (Pair("friction", "Drive.Effects.Two", ("a.b", "c.d")),)
 
 
+def test_a_class_stands_in_for_an_effect_with_events(tmp_path: Path) -> None:
+    bearing = DRIVE[DRIVE.index("    model Bearing") : DRIVE.index("    model Plain")]
+    other = bearing.replace("Bearing", "Smooth").replace("effect=", "smooth=").replace(", bypass=true", "")
+    (effect,) = read_catalogue(library(tmp_path, DRIVE.replace("    model Plain", other + "    model Plain")))
+    assert effect.smooth is not None
+    assert (effect.smooth.name, effect.smooth.class_name) == ("drive.bearing", "Drive.Effects.Smooth")
+    changed = other.replace("parameter Loss T_c", "parameter Loss T_d").replace("-T_c", "-T_d")
+    path = library(tmp_path, DRIVE.replace("    model Plain", changed + "    model Plain"))
+    with pytest.raises(BadInput, match="Drive.Effects.Smooth stands in for it"):
+        read_catalogue(path)
+
+
 def test_several_libraries_together(tmp_path: Path) -> None:
     names = [effect.name for effect in read_catalogue(LIBRARY, library(tmp_path, DRIVE))]
     assert names[-1] == "drive.bearing"
