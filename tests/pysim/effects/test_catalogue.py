@@ -145,7 +145,7 @@ def test_a_class_stands_in_for_an_effect_with_events(tmp_path: Path) -> None:
     assert (effect.smooth.name, effect.smooth.class_name) == ("drive.bearing", "Drive.Effects.Smooth")
     changed = other.replace("parameter Loss T_c", "parameter Loss T_d").replace("-T_c", "-T_d")
     path = library(tmp_path, DRIVE.replace("    model Plain", changed + "    model Plain"))
-    with pytest.raises(BadInput, match="Drive.Effects.Smooth stands in for it"):
+    with pytest.raises(BadInput, match="Smooth stands in for it"):
         read_catalogue(path)
 
 
