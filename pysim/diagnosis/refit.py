@@ -69,6 +69,12 @@ class FinalFit:
         """How large each of the candidate's sensor errors is."""
         return tuple(zip(self.candidate.nuisances, self.point.carried.nuisances.tolist(), strict=True))
 
+    def believable(self, label: str, most: float) -> bool:
+        """Whether a label names an effect, or a sensor's error within so many standard deviations of its prior."""
+        labels = self.candidate.labels[len(self.candidate.effects) :]
+        sizes = zip(labels, self.sensor_errors, strict=True)
+        return all(abs(size) <= most * error.prior_sd for own, (error, size) in sizes if own == label)
+
     @property
     def expected(self) -> float:
         """Cost that the search will end at, as far as a full step from here tells, nats."""

@@ -222,33 +222,38 @@ class Search:
         """Forward along the best first steps, then backward from each end; the better end is kept."""
         self.floors = self.floors.with_(base)
         ends: list[Found] = []
+        first: list[Step] = []
         for way in range(self.settings.beam):
-            steps = self._forward(base, most, way)
+            steps = self._forward(base, most, way, first)
             if not steps:
                 break
             ends.append(self._backward(base, steps))
             if way == 0 and self._is_done(ends[0].final):
                 break
+            first = first or steps
         if not ends:
             return Found(base, base, (), self.floors)
-        return max(ends, key=lambda end: self._worth(base, end))
+        return max(ends, key=lambda end: self._worth(base, end.final))
 
-    def _worth(self, base: FinalFit, end: Found) -> float:
-        """Penalised gain of a model that is kept."""
-        if end.final is base:
+    def _worth(self, base: FinalFit, fit: FinalFit) -> float:
+        """Penalised gain of a model."""
+        if fit is base:
             return 0.0
-        base = self._beside(base, end.final.candidate.transient)
-        df = end.final.candidate.size - base.candidate.size
-        left = rivals.of(end.final)
+        base = self._beside(base, fit.candidate.transient)
+        df, left = fit.candidate.size - base.candidate.size, rivals.of(fit)
         inflated = rivals.effective(left, rivals.of(base).residual - left.residual)
-        return rivals.penalised(base.point.cost - end.final.point.cost, df, inflated, rivals.samples(base))
+        return rivals.penalised(base.point.cost - fit.point.cost, df, inflated, rivals.samples(base))
 
     def _is_done(self, fit: FinalFit) -> bool:
         """Whether a model leaves so little over the floor that no two effects together are worth a trial."""
         return self.floors.within(fit, self.settings.held_out)
 
-    def _forward(self, base: FinalFit, most: int, way: int) -> list[Step]:
-        """Steps along one way: the first goes to the best rival or to the next best, the others to the best."""
+    def _forward(self, base: FinalFit, most: int, way: int, other: Sequence[Step]) -> list[Step]:
+        """Steps along one way: the first goes to the best rival or to the next best, the others to the best.
+
+        Args:
+            other: steps of another way; none are left of one that is behind it from the second step on.
+        """
         steps: list[Step] = []
         present, in_vain, worth = base, 0, self.floors.potential(base)
         while len(steps) < most:
@@ -269,6 +274,9 @@ class Search:
             self.floors = self.floors.with_(present)
             steps.append(Step(present, best.added, best.test, not sure, tuple(compared)))
             self.say.learned(present, best.test)
+            ahead = other[len(steps) - 1].model if 1 < len(steps) <= len(other) else None
+            if ahead is not None and self._worth(base, ahead) >= self._worth(base, present):
+                return []
         return steps
 
     def expand(self, present: FinalFit) -> Table:
@@ -306,18 +314,12 @@ class Search:
 
         part = f"beside {' + '.join(present.candidate.labels) or 'the base model'}"
         fits = self._checkpoint.once(part, raced, [candidate for candidate, _ in starts], self._simulations)
-        have = set(present.candidate.labels)
-        compared = self._ordered(
-            [
-                Compared(
-                    fit,
-                    next(label for label in fit.candidate.labels if label not in have),
-                    self.test(here(fit.candidate.transient, fit.simulation), fit),
-                )
-                for fit in fits
-            ]
-        )
-        return Table(present.candidate.labels, self.floors.potential(present), compared, aside, tried)
+        have, compared = set(present.candidate.labels), list[Compared]()
+        for fit in fits:
+            added = next(label for label in fit.candidate.labels if label not in have)
+            if fit.believable(added, self.settings.believable):
+                compared.append(Compared(fit, added, self.test(here(fit.candidate.transient, fit.simulation), fit)))
+        return Table(present.candidate.labels, self.floors.potential(present), self._ordered(compared), aside, tried)
 
     def _beside(self, fit: FinalFit, transient: bool) -> FinalFit:
         """A fit compared by orbits or by transients, as a rival is."""
@@ -411,6 +413,8 @@ class Search:
         test = self.test(smaller, final, choices)
         if test.verdict is not Verdict.BETTER:
             return test
+        if not final.believable(name, self.settings.believable):
+            return replace(test, verdict=Verdict.VETOED)
         return self.vetoed(smaller, final, test)
 
     def vetoed(self, smaller: FinalFit, larger: FinalFit, test: GainTest) -> GainTest:

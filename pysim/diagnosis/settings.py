@@ -82,6 +82,10 @@ class Settings:
         3.0, unit="1", meaning="standard deviations from which on a residual follows the model's own signals",
         source="a chance of 0.1 %",
     )  # fmt: skip
+    believable: float = setting(
+        4.0, unit="1", meaning="standard deviations of its prior beyond which an error is none of a sensor",
+        source="Box 1980, Journal of the Royal Statistical Society A 143:383; a chance of 6e-5",
+    )  # fmt: skip
     max_effects: int = setting(
         4, unit="1", meaning="effects in a model at most", source="more have no name to a reader"
     )
