@@ -28,6 +28,7 @@ class Exported:
     outputs: tuple[str, ...]
     inputs: Mapping[str, float]
     events: bool = False  # whether the run goes past events, of time or state
+    at_rest: bool = False  # whether all states stand still until the first event
     stop: float = 1.0  # s
     step: float = 0.01  # s, of communication and of the stored results
 
@@ -59,7 +60,7 @@ class Exported:
 
 EXPORTED = (
     Exported("pump", "Pump.FreeGreyBox", ("alphaPercent", "u"), {"alphaCMD": 40.0, "alphaCMD_t": 0.0}),
-    Exported("stepped-sine", "Examples.SteppedSine", ("pump.alphaPercent", "pump.u"), {}, events=True),
+    Exported("stepped-sine", "Examples.SteppedSine", ("pump.alphaPercent", "pump.u"), {}, events=True, at_rest=True),
     Exported(
         "test-bench", "LoadCircuit.TestBench", ("contOmega", "pL"), {"omegaS_ref": 20.0, "pL_ref": 20e5}, events=True
     ),

@@ -1,6 +1,7 @@
 """`python -m validation.importers.try_one IMPORTER NAME FMI`: one importer in a process of its own, as JSON.
 
-{"values": rows} at the communication points, or {"error": text}; a crash of the importer ends this process only.
+{"values": rows} at the communication points, or {"error": text}; a crash of the importer ends this process only. What
+integrates by Euler gives the rows of two runs, the second with half the step.
 """
 
 from __future__ import annotations
@@ -14,10 +15,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from validation.importers import fmusim
 from validation.importers.exported import EXPORTED, Exported
 
 Array = NDArray[np.float64]
 _TIGHT, _DEFAULT = 1e-9, 1e-6
+EULER_STEP = 2e-5  # s, of the first of two runs
 
 
 def ours(exported: Exported, fmi: int) -> Array:
@@ -33,15 +36,45 @@ def ours(exported: Exported, fmi: int) -> Array:
 
 def fmpy_model_exchange(exported: Exported, fmi: int) -> Array:
     """FMPy with its CVODE."""
-    return _fmpy(exported, fmi, "ModelExchange", _TIGHT)
+    return _fmpy(exported, fmi, "ModelExchange", relative_tolerance=_TIGHT)
 
 
 def fmpy_co_simulation(exported: Exported, fmi: int) -> Array:
     """FMPy's co-simulation loop."""
-    return _fmpy(exported, fmi, "CoSimulation", _DEFAULT)
+    return _fmpy(exported, fmi, "CoSimulation", relative_tolerance=_DEFAULT)
 
 
-def _fmpy(exported: Exported, fmi: int, kind: str, tolerance: float) -> Array:
+def fmpy_euler(exported: Exported, fmi: int) -> Array:
+    """FMPy's explicit Euler, which makes one step per output interval."""
+    return _by_euler(
+        lambda step: _fmpy(exported, fmi, "ModelExchange", solver="Euler", step_size=step, output_interval=step)
+    )
+
+
+def _by_euler(run: Callable[[float], Array]) -> Array:
+    """Two runs, the second with half the step (2, n_t, n_outputs)."""
+    return np.array([run(EULER_STEP), run(EULER_STEP / 2)])
+
+
+def fmusim_cvode(exported: Exported, fmi: int) -> Array:
+    """fmusim with its CVODE."""
+    words = ("--interface-type", "me", "--solver", "cvode", "--tolerance", repr(_TIGHT))
+    return fmusim.simulated(exported, fmi, *words, step=exported.step)
+
+
+def fmusim_euler(exported: Exported, fmi: int) -> Array:
+    """fmusim with its explicit Euler, which makes one step per output interval."""
+    words = ("--interface-type", "me", "--solver", "euler")
+    return _by_euler(lambda step: fmusim.simulated(exported, fmi, *words, step=step))
+
+
+def fmusim_co_simulation(exported: Exported, fmi: int) -> Array:
+    """fmusim's co-simulation loop."""
+    words = ("--interface-type", "cs", "--tolerance", repr(_DEFAULT))
+    return fmusim.simulated(exported, fmi, *words, step=exported.step)
+
+
+def _fmpy(exported: Exported, fmi: int, kind: str, **options: Any) -> Array:
     from fmpy import simulate_fmu
 
     names = list(exported.inputs)
@@ -52,11 +85,10 @@ def _fmpy(exported: Exported, fmi: int, kind: str, tolerance: float) -> Array:
         fmi_type=kind,
         start_time=0.0,
         stop_time=exported.stop,
-        output_interval=exported.step,
-        relative_tolerance=tolerance,
         input=signals,
         output=list(exported.outputs),
         record_events=False,
+        **{"output_interval": exported.step, **options},
     )
     return np.column_stack([np.interp(exported.times, result["time"], result[name]) for name in exported.outputs])
 
@@ -100,10 +132,17 @@ def casadi_partials(exported: Exported, fmi: int) -> Array:
 
 IMPORTERS: Mapping[str, Callable[[Exported, int], Array]] = {
     "pysim": ours,
-    "FMPy, model exchange": fmpy_model_exchange,
+    "FMPy, model exchange, CVODE": fmpy_model_exchange,
     "FMPy, co-simulation": fmpy_co_simulation,
-    "libcosimpy": libcosimpy,
-    "CasADi": casadi,
+    "fmusim, model exchange, CVODE": fmusim_cvode,
+    "fmusim, co-simulation": fmusim_co_simulation,
+    "libcosimpy, co-simulation": libcosimpy,
+    "CasADi, model exchange, CVODES": casadi,
+}
+# Two runs each, from which the error of first order is taken
+EULERS: Mapping[str, Callable[[Exported, int], Array]] = {
+    "FMPy, model exchange, Euler": fmpy_euler,
+    "fmusim, model exchange, Euler": fmusim_euler,
 }
 # Values of another kind: derivatives and their partial derivatives, a row per point (derivatives.py)
 EVALUATORS: Mapping[str, Callable[[Exported, int], Array]] = {"CasADi, partials": casadi_partials}
@@ -116,7 +155,7 @@ def main(words: Sequence[str]) -> None:
     exported = next(e for e in EXPORTED if e.name == words[1])
     answer: dict[str, Any]
     try:
-        answer = {"values": {**IMPORTERS, **EVALUATORS}[words[0]](exported, int(words[2])).tolist()}
+        answer = {"values": {**IMPORTERS, **EULERS, **EVALUATORS}[words[0]](exported, int(words[2])).tolist()}
     except Exception as error:  # what an importer says is what is to be known
         answer = {"error": f"{type(error).__name__}: {' '.join(str(error).split())[:300]}"}
     channel.write(json.dumps(answer))
