@@ -41,6 +41,12 @@ def test_abuse_by_fmi_3_ends_in_a_status(c_test: Callable[..., str], model: str)
     c_test("test_abuse3", model, fmi=3)
 
 
+@pytest.mark.parametrize("model", MODELS)
+@pytest.mark.parametrize(("program", "fmi"), [("test_instances", 2), ("test_instances3", 3)])
+def test_instances_leave_not_a_byte(c_test: Callable[..., str], model: str, program: str, fmi: int) -> None:
+    c_test(program, model, fmi=fmi)
+
+
 def test_fmi_3_events_and_early_return(c_test: Callable[..., str]) -> None:
     c_test("test_fmi3", "ball", fmi=3)
 
