@@ -26,7 +26,7 @@ class Subject:
         prepare: what the folder has to hold.
         result: of that folder once the work is done.
         spoiled: what a kill has left half written there, in words; empty where nothing is.
-        cold: whether its cache is empty before each run.
+        cold: whether its cache, and the C compiler's, are empty before each run.
         also_child: whether a kill may as well be of the process that it has started.
     """
 
