@@ -63,17 +63,14 @@ def undisturbed(name: str) -> tuple[float, Any]:
 
 
 def killed(subject: Subject, folder: Path, moment: float, *, child: bool) -> bool:
-    """Begin the work and kill it; False where it had ended by itself, or had no child yet to be killed."""
+    """Begin the work and kill it, or what it has begun by then; False where it had ended by itself."""
     process = _begun(subject, folder)
     try:
         process.wait(moment)
     except subprocess.TimeoutExpired:
-        victim = subject.also_child(folder) if child and subject.also_child else process.pid
-        if victim:
-            os.kill(victim, signal.SIGKILL)
-        if victim != process.pid:
-            process.wait()  # a server sees the end of its job, and says so
-        return process.wait() == -signal.SIGKILL or victim not in (0, process.pid)
+        begun = subject.also_child(folder) if child and subject.also_child else 0
+        os.kill(begun or process.pid, signal.SIGKILL)
+        return process.wait() == -signal.SIGKILL or bool(begun)  # a server sees the end of its job, and ends
     return False
 
 
