@@ -40,7 +40,8 @@ class Adaptive:
         rtol: tolerated error of a step, of a state's magnitude.
         atol: the same, of a state's nominal value.
         max_step: s; below the duration of what is to make an event and lasts shortly.
-        max_steps: the run stops after that many.
+        max_steps: the run stops after that many, or once a million of them got so little further that a thousand
+            times as many would not do.
     Raises:
         BadInput: a setting that is not positive.
     """
@@ -48,7 +49,7 @@ class Adaptive:
     rtol: float = 1e-6
     atol: float = 1e-6
     max_step: float = math.inf
-    max_steps: int = 100_000_000
+    max_steps: int = 10_000_000
 
     def __post_init__(self) -> None:
         for argument in fields(self):

@@ -9,8 +9,8 @@ from fmu_build import build
 from pysim.fmu_check.instance import CallFailed, Instance, opened
 from pysim.fmu_check.subject import CO_SIMULATION, MODEL_EXCHANGE, Subject, read_subject, references
 from pysim.io import read_model
-from pysim.simulate import simulate
-from pysim.types import BadInput, Experiment, Signal, SimulationError
+from pysim.simulate import Rk45, Rodas, Solver, simulate
+from pysim.types import BadInput, Experiment, Outcome, Signal, SimulationError
 
 PUMP = "HydraulicTestBench.Pump.FreeGreyBox"
 KINDS = [(fmi, kind) for fmi in (2, 3) for kind in (MODEL_EXCHANGE, CO_SIMULATION)]
@@ -66,3 +66,14 @@ def test_a_simulation_ends_there_or_gives_numbers(value: float) -> None:
     except (BadInput, SimulationError):
         failed = True
     assert failed or np.isfinite(record.values).all()
+
+
+@pytest.mark.parametrize("solver", [Rk45(), Rodas()])
+@pytest.mark.parametrize("value", [1e300, -1e300])
+def test_a_constant_beyond_all_numbers_ends_within_a_million_steps(value: float, solver: Solver) -> None:
+    command = {"alphaCMD": Signal.steps([0.0], [value])}
+    record = simulate(
+        read_model(pump(2)), Experiment([0.0, 1.0], ("alphaPercent",), command), solver=solver, check=False
+    )
+    assert record.outcome in (Outcome.TOO_MANY_STEPS, Outcome.NOT_FINITE)
+    assert record.statistics["steps"] <= 1_000_000

@@ -151,6 +151,8 @@ typedef struct {
     double matrix_step; /* s, step for which it was factorised; 0 where it was not */
     int64_t is_sparse;  /* 1: the factors last made are the sparse ones */
     int64_t has_tried;  /* 1: sparse factors were tried and found good */
+    int64_t looked;    /* steps when the pace was looked at last ... */
+    double looked_at;  /* s, ... and where the run was then */
     int64_t steps;
     int64_t rejected;
     int64_t derivatives;

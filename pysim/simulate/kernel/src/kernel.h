@@ -65,7 +65,7 @@ int handle_event(Job *job);
 /* run.c: breaks of the inputs, and the end of a run. */
 bool at_break(const Job *job);
 void next_segment(Job *job);
-int ended(const Job *job);
+int ended(Job *job);
 /* Adds the offset to the states where its time has come; whether it had. The model takes it as an event. */
 bool offset_here(Job *job);
 

@@ -2,6 +2,8 @@
 #include "kernel.h"
 
 static const double standstill = 1e-15; /* of the time so far and of the whole run: less is rounding */
+static const int64_t stretch = 1000000; /* steps over which the pace of a run is seen; no transient takes as many */
+static const double hopeless = 1e3;     /* times the limit of steps that the rest would take at that pace */
 
 /* Whether the point reached is a break of the inputs with a segment behind it. */
 bool at_break(const Job *job) {
@@ -25,10 +27,19 @@ bool offset_here(Job *job) {
     return true;
 }
 
+/* Whether the last stretch of steps got so little further that the run would never come to its end. */
+static bool stuck(Job *job) {
+    Run *run = &job->run;
+    if (run->steps - run->looked < stretch) return false;
+    const double steps = (double)(run->steps - run->looked), time = run->t - run->looked_at;
+    run->looked = run->steps, run->looked_at = run->t;
+    return steps * (run->end - run->t) > hopeless * (double)job->control.max_steps * time;
+}
+
 /* Whether the point reached is the last one: DONE, TOO_MANY_STEPS or RUNNING. */
-int ended(const Job *job) {
+int ended(Job *job) {
     if (job->run.t >= job->run.end) return DONE;
-    return job->run.steps >= job->control.max_steps ? TOO_MANY_STEPS : RUNNING;
+    return job->run.steps >= job->control.max_steps || stuck(job) ? TOO_MANY_STEPS : RUNNING;
 }
 
 /* Derivatives, indicators, and a first step that suits them. */

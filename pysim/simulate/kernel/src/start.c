@@ -38,7 +38,7 @@ int enter_initialisation(Fmu *fmu, double tolerance, double start, double stop) 
 
 void fresh_run(Job *job, double start, double end) {
     fill(job->work.scratch, 0.0, job->work.scratch_size);
-    job->run = (Run){.start = start, .end = end, .t = start, .segment = -1};
+    job->run = (Run){.start = start, .end = end, .t = start, .looked_at = start, .segment = -1};
     job->run.inputs_at = job->run.jacobian_at = job->run.offset_at = NAN;
     job->run.leaves = INFINITY;
     for (int64_t i = 0; i < job->inputs.count; i++) job->inputs.cursor[i] = job->inputs.pieces[i];

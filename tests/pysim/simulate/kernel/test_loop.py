@@ -155,6 +155,20 @@ def test_limit_of_steps(fixture_model):
     assert record.statistics["steps"] == 100
 
 
+def test_a_run_that_gets_no_further_is_given_up_long_before_its_limit(fixture_model):
+    """An explicit method takes steps of about 1/rate: the run would need some 1e15 of them."""
+    experiment = Experiment(np.array([1.0]), ("x",), overrides={"rate": 1e15})
+    record = simulate(fixture_model(STIFF), experiment, solver=Rk45(max_steps=100_000_000), check=False)
+    assert record.outcome is Outcome.TOO_MANY_STEPS
+    assert record.statistics["steps"] == 1_000_000
+
+
+def test_a_slow_run_within_its_limit_is_not_given_up(fixture_model):
+    experiment = Experiment(np.array([1.0]), ("x",), overrides={"rate": 5e6})
+    record = simulate(fixture_model(STIFF), experiment, solver=Rk45(max_steps=100_000_000))
+    assert record.statistics["steps"] > 1_000_000
+
+
 def test_events_without_end_stop_the_run(fixture_model):
     experiment = Experiment(np.array([0.0, 1.0]), ("level",), overrides={"period": 1e-17})
     record = simulate(fixture_model(CLOCK), experiment, check=False)
