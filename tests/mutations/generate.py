@@ -13,7 +13,7 @@ PYTHON = {
         "bench",
         "control",
         "cosim",
-        "diagnose",
+        "diagnosis",
         "effects",
         "excitation",
         "identify",

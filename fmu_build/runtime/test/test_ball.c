@@ -52,6 +52,21 @@ static double fly_to_event(fmi2Component c, double begin, const double *x0) {
     return high;
 }
 
+/* A ball that lies on the ground from the start: its indicator has never had a size, and still no event is due. */
+static void a_ball_that_lies_makes_no_event(void) {
+    fmi2Component c = instantiate(fmi2ModelExchange);
+    CHECK(set(c, "g", 0.0) == fmi2OK && set(c, "h", 0.0) == fmi2OK);
+    initialise_from(c, 0.0, 0.0);
+    handle_event(c);
+    const double lying[2] = {0.0, 0.0};
+    double z = 0.0;
+    for (int n = 0; n < 3; n++) {
+        CHECK(fmi2SetTime(c, 0.1 * n) == fmi2OK && fmi2SetContinuousStates(c, lying, 2) == fmi2OK);
+        CHECK(fmi2GetEventIndicators(c, &z, 1) == fmi2OK && z > 0.0); /* on the side of h <= 0 */
+    }
+    fmi2FreeInstance(c);
+}
+
 static void model_exchange_finds_each_bounce(void) {
     fmi2Component c = instantiate(fmi2ModelExchange);
     initialise_from(c, 0.0, 0.0);
@@ -124,6 +139,7 @@ static void checks_warn_once_or_fail(void) {
 int main(void) {
     cosimulation_is_independent_of_the_step();
     model_exchange_finds_each_bounce();
+    a_ball_that_lies_makes_no_event();
     the_model_can_end_the_run();
     the_model_can_end_the_run_at_its_start();
     checks_warn_once_or_fail();

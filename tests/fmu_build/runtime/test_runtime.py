@@ -18,6 +18,7 @@ MODELS = ("oscillator", "ball", "sampled", "delayed", "loop", "van_der_pol", "tr
         ("test_sampled", "sampled"),
         ("test_delayed", "delayed"),
         ("test_loop", "loop"),
+        ("test_newton", "loop"),
         ("test_van_der_pol", "van_der_pol"),
         ("test_troubled", "troubled"),
     ],
