@@ -23,6 +23,12 @@ class ReadLimits:
         meaning="the named columns of one Parquet file once unpacked, as its directory gives them",
         source="16 bytes for each of these numbers, as a text of 16 digits takes",
     )
+    memory: int = setting(
+        300_000_000,
+        unit="bytes",
+        meaning="taken while a Parquet file is read, beside four times what its directory announces",
+        source="what pyarrow and other threads take by themselves; no computer is harmed by it",
+    )
     dataset_numbers: int = setting(
         120_000_000,
         unit="numbers",

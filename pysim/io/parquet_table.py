@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -10,8 +12,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pysim.io.limits import LIMITS, ReadLimits
+from pysim.io.memory import memory_bound
 from pysim.io.named_columns import Table, as_numbers, optional_package, refuse_many, refuse_missing
 from pysim.types import BadInput
+
+_TIMES = 4  # of what is announced: batches, their texts and the numbers made of them are there at the same time
 
 
 def read_parquet(path: Path, names: tuple[str, ...], wanted_by: str, limits: ReadLimits = LIMITS) -> Table:
@@ -31,10 +36,19 @@ def read_parquet(path: Path, names: tuple[str, ...], wanted_by: str, limits: Rea
             schema = file.schema_arrow
             refuse_missing(path, names, schema.names, wanted_by)
             texts = [name for name in names if _is_text(arrow, path, name, schema.field(name).type)]
-            _refuse_large(path, file.metadata, names, wanted_by, limits)
+            announced = _refuse_large(path, file.metadata, names, wanted_by, limits)
         # the cells of a column of texts are kept once each, so that a repeated one does not multiply
-        with parquet.ParquetFile(path, read_dictionary=texts) as file:
+        with (
+            memory_bound(limits.memory + _TIMES * announced),
+            _plain_memory(arrow),
+            parquet.ParquetFile(path, read_dictionary=texts) as file,
+        ):
             return _read(path, file, names, limits)
+    except MemoryError as error:
+        raise BadInput(
+            f"{wanted_by}: {path} takes more memory than the sizes in its own directory call for; export it again, or "
+            "do not use it"
+        ) from error
     except (OSError, arrow.ArrowException) as error:
         raise BadInput(f"{wanted_by}: cannot read {path} as Parquet ({error}); correct the name or the file") from error
 
@@ -52,8 +66,23 @@ def _is_text(arrow: ModuleType, path: Path, name: str, kind: Any) -> bool:
     return False
 
 
-def _refuse_large(path: Path, about: Any, names: tuple[str, ...], wanted_by: str, limits: ReadLimits) -> None:
-    """What the directory announces must be within the limits."""
+@contextmanager
+def _plain_memory(arrow: ModuleType) -> Iterator[None]:
+    """The system's own allocation, for others set address space aside long before it is used."""
+    before = arrow.default_memory_pool()
+    arrow.set_memory_pool(arrow.system_memory_pool())
+    try:
+        yield
+    finally:
+        arrow.set_memory_pool(before)
+
+
+def _refuse_large(path: Path, about: Any, names: tuple[str, ...], wanted_by: str, limits: ReadLimits) -> int:
+    """What the directory announces must be within the limits.
+
+    Returns:
+        bytes of the columns as they are stored, and as the numbers that they become.
+    """
     refuse_many(path, about.num_rows * len(names), wanted_by, limits)
     size = 0
     for group in map(about.row_group, range(about.num_row_groups)):
@@ -64,6 +93,7 @@ def _refuse_large(path: Path, about: Any, names: tuple[str, ...], wanted_by: str
             f"{wanted_by}: {path} unpacks to {size / 1e6:.0f} MB in the columns {', '.join(names)}, and "
             f"{limits.file_bytes / 1e6:.0f} MB at most are unpacked; split it into several logs"
         )
+    return size + 8 * int(about.num_rows) * len(names)
 
 
 def _read(path: Path, file: Any, names: tuple[str, ...], limits: ReadLimits) -> Table:

@@ -1,6 +1,7 @@
 """Parquet and TDMS files: the same numbers as from text, by the columns' names, and what is refused."""
 
 import datetime
+import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -242,6 +243,37 @@ def test_texts_that_unpack_to_too_much_are_refused(tmp_path: Path) -> None:
     path = as_parquet(tmp_path / "log.parquet", time=TIME, speed=["1", "2", "3" * 1000])
     with pytest.raises(BadInput, match=r"unpacks to \d+ MB in the columns speed, time, and 0 MB at most"):
         read_parquet(path, NAMES, "test", ReadLimits(file_bytes=1000))
+
+
+def varint(number: int, length: int = 0) -> bytes:
+    """As Thrift's compact protocol writes an i64, drawn out to `length` bytes."""
+    rest, found = 2 * number, bytearray()
+    while rest or not found or len(found) < length:
+        found.append(rest & 0x7F | 0x80)
+        rest >>= 7
+    found[-1] &= 0x7F
+    return bytes(found)
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="only Linux bounds the memory of a process")
+def test_a_directory_that_lies_about_its_size_is_found_out_in_little_memory(tmp_path: Path) -> None:
+    """A text of 100 MB in some kB, of which the file says that it has 50 bytes."""
+    import resource
+
+    path = tmp_path / "liar.parquet"
+    table = pa.table({"time": [0.0, 1.0], "speed": ["1" * 100_000_000, "2"]})
+    parquet.write_table(table, path, compression="zstd", use_dictionary=False, write_statistics=False)
+    group = parquet.ParquetFile(path).metadata.row_group(0)
+    content = path.read_bytes()
+    for size in (group.column(1).total_uncompressed_size, group.total_byte_size):
+        content = content.replace(varint(size), varint(50, len(varint(size))))
+    path.write_bytes(content)
+    assert parquet.ParquetFile(path).metadata.row_group(0).column(1).total_uncompressed_size == 50
+    before = resource.getrlimit(resource.RLIMIT_AS), pa.default_memory_pool().backend_name
+    with pytest.raises(BadInput, match=r"liar\.parquet takes more memory than .* call for; export it again"):
+        read_parquet(path, NAMES, "test", ReadLimits(memory=60_000_000))
+    assert (resource.getrlimit(resource.RLIMIT_AS), pa.default_memory_pool().backend_name) == before
+    assert read_parquet(as_parquet(path, time=TIME, speed=SPEED), NAMES, "test").values.shape == (3, 2)
 
 
 def test_logs_of_a_data_set_are_counted_together(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
