@@ -63,7 +63,7 @@ def error_maps(stage: Mapping[str, Any], dataset: Dataset) -> list[ErrorMap]:
                 point = _Point(test.command, test.offset, float(test.amplitude or 0.0), signal)
                 _put(sines, point, f"{record['frequency']:g}", cell)
             else:
-                use = "held out" if record["use"] == "validate" else "fitted"
+                use = "held out" if record["use"] != "fit" else "fitted"
                 _put(logs, f"{record['source']} ({use})", signal, cell)
     words = _words([point for point, _ in sines], dataset)
     named = {_repeated(words[point], repeat): sines[point, repeat] for point, repeat in sorted(sines)}

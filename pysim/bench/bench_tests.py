@@ -69,7 +69,7 @@ class SteppedSines:
         most: s of sine at most, but for one period.
         lead: how the command comes to its offset; the log starts with the sine.
         folder: of the logs.
-        use: "fit" | "validate".
+        use: one of `pysim.types.dataset.USES`.
     """
 
     input: str
@@ -125,7 +125,7 @@ class _SingleTest:
         command: its excitation.
         name: of the log; one that tells the test where it is empty.
         folder: of the log.
-        use: "fit" | "validate".
+        use: one of `pysim.types.dataset.USES`.
     """
 
     input: str

@@ -14,6 +14,7 @@ from pysim.bench.sensor import Sensor
 from pysim.excitation import Chirp, LeadIn, LineGrid, Multisine, PiersonMoskowitz, Step, StochasticWave
 from pysim.io import SI, SIGNAL_KEYS, Section, described_signal, read_toml, signal_in_si
 from pysim.types import BadInput, MeasuredSignal
+from pysim.types.dataset import USES
 from pysim.types.record_kind import STEPPED_SINE
 
 _PLANS = Path(__file__).parent / "plans"
@@ -113,7 +114,7 @@ def _test(section: Section, signals: Mapping[str, MeasuredSignal], inputs: tuple
         raise BadInput(f"{section.place}: {len(inputs)} signals are inputs; say which one is driven: input = ...")
     driven = section.text("input", inputs[0] if inputs else None, among=inputs)
     common: dict[str, Any] = {"input": driven, "outputs": section.texts("outputs")}
-    common |= {"use": section.text("use", "fit", among=("fit", "validate"))}
+    common |= {"use": section.text("use", "fit", among=USES)}
     common |= {"folder": section.text("folder")} if "folder" in section.values else {}
     own_lead = _lead(section.inner("lead"), lead)
     return _told(section, lambda: make(section, SI[signals[driven].unit][1], own_lead, common))

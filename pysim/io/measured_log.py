@@ -12,7 +12,7 @@ from pysim.io.text_fields import LEFT_OUT
 from pysim.io.toml_section import Section
 from pysim.io.units import Scale
 from pysim.types import BadInput, MeasuredRecord, MeasuredSignal, Record, sampling
-from pysim.types.dataset import INITIAL
+from pysim.types.dataset import INITIAL, USES
 from pysim.types.record_kind import KINDS, STEPPED_SINE
 
 _ROUNDING = 1e-6  # of a sampling rate, even where its times are printed with all digits
@@ -42,7 +42,7 @@ def read_log(
     names = tuple(name for name in all_names if name != LEFT_OUT)
     _check_columns(section, source, names, signals)
     command = _command(section, names, signals)
-    use = section.text("use", "fit", among=("fit", "validate"))
+    use = section.text("use", "fit", among=USES)
     test = _test(section, kind, Scale.of(signals[command].unit if command else "1"))
     clock = _clock(section, source, names)
     columns = read_columns(folder / source, all_names, section.place, clock=clock).in_seconds(TIME, second)

@@ -10,6 +10,7 @@ from pysim.io.text_fields import LEFT_OUT
 from pysim.io.toml_section import Section
 from pysim.io.units import Scale
 from pysim.types import BadInput, MeasuredRecord, MeasuredSignal, SineTest
+from pysim.types.dataset import USES
 from pysim.types.record_kind import RESPONSE_TABLE
 
 
@@ -29,7 +30,7 @@ def read_measured_table(folder: Path, section: Section, signals: Mapping[str, Me
     swing = section.positive("amplitude") or section.number("amplitude")
     offset, amplitude = driven.number(section.number("offset")), driven.gain * swing
     test = SineTest(offset, amplitude, input=command, output=output)
-    use = section.text("use", "fit", among=("fit", "validate"))
+    use = section.text("use", "fit", among=USES)
     names = section.texts("columns", repeatable=LEFT_OUT)
     if any(name not in names for name in TABLE_COLUMNS):
         raise BadInput(f"{section.place}: columns must name {', '.join(TABLE_COLUMNS)}, in the order of the file")

@@ -102,7 +102,7 @@ def page(result: Responses, drawings: Sequence[Drawing], redo: str) -> str:
 def _title(one: MeasuredResponse) -> str:
     test = one.response.test
     offset, amplitude = (shown_value(x, one.input_unit) for x in (test.offset, test.amplitude))
-    held_out = ", held out" if one.use == "validate" else ""
+    held_out = ", held out" if one.use != "fit" else ""
     return f"{test.output} to {test.input} around {offset}, amplitude {amplitude} ({one.response.origin}{held_out})"
 
 
@@ -228,7 +228,7 @@ def _label(one: MeasuredResponse, *, signals: bool) -> str:
     test = one.response.test
     of = f"{test.output} to {test.input}, " if signals else ""
     offset = shown_unit(one.input_unit)[1] * test.offset
-    held_out = ", held out" if one.use == "validate" else ""
+    held_out = ", held out" if one.use != "fit" else ""
     return f"{of}{offset:+g} ± {shown_value(test.amplitude, one.input_unit)}{held_out}"
 
 

@@ -44,6 +44,7 @@ class MeasuredSignal:
         return math.hypot(self.noise or 0.0, (self.resolution or 0.0) / math.sqrt(12))
 
 
+USES = ("fit", "validate", "test")  # fitted; may choose between models; is only reported
 INITIAL = ("rest", "estimate")  # what a record may say of the plant at its first sample
 
 
@@ -54,7 +55,7 @@ class MeasuredRecord:
     Args:
         source: where it came from, relative to the data set.
         kind: name of one of `KINDS`.
-        use: "fit" | "validate".
+        use: one of `USES`.
         data: signals over time, or a response over frequency.
         offset: what the command was meant to swing around, in the input's unit, or None where not told.
         amplitude: the same of its swing.
@@ -76,6 +77,11 @@ class MeasuredRecord:
     command: str = ""
     initial: str | None = None
     begin: float | None = None
+
+    @property
+    def held_out(self) -> bool:
+        """Whether nothing is fitted to it."""
+        return self.use != "fit"
 
 
 @dataclass(frozen=True)

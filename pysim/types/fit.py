@@ -120,7 +120,7 @@ class RecordFit:
     """One log beside the fitted model.
 
     Args:
-        dataset, source, kind, use: of the log; use is "fit" or "validate".
+        dataset, source, kind, use: of the log.
         measured: the samples that were compared, columns by their names in the log.
         simulated: the same of the model.
         noise: (n_y,) standard deviation of the measurement noise, in the columns' units.
@@ -144,6 +144,11 @@ class RecordFit:
         object.__setattr__(self, "deviations", FrozenMapping(self.deviations))
         if self.measured.values.shape != self.simulated.values.shape or len(self.noise) != len(self.measured.names):
             raise BadInput(f"record fit {self.source}: measured, simulated and noise must have the same columns")
+
+    @property
+    def held_out(self) -> bool:
+        """Whether nothing was fitted to it."""
+        return self.use != "fit"
 
     @property
     def residual(self) -> Record:
@@ -262,6 +267,6 @@ class Fit:
         return {
             f"{record.source}: {signal}": value
             for record in self.records
-            if record.use == "validate"
+            if record.held_out
             for signal, value in record.rms.items()
         }

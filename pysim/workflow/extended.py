@@ -96,7 +96,7 @@ def _comment(found: Diagnosis, parts: SessionParts, folder: Path, name: str) -> 
 def _limits(found: Diagnosis, dataset: Dataset) -> list[str]:
     """What the data did not show."""
     texts = [f"beyond what was excited: {_excited(dataset)}"]
-    if not any(record.use == "validate" for record in dataset.records):
+    if not any(record.held_out for record in dataset.records):
         texts.append("for other excitation without a test: no record was held out")
     last = found.history[-1] if found.history else None
     if last is not None and not last.passes:

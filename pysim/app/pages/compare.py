@@ -131,7 +131,7 @@ def _record(desk: Desk, view: _View) -> None:
         place.props('id="record"')
         with box("row end"):
             text("h2", source)
-            text("span", "held out" if logs[number].use == "validate" else "fitted", "chip")
+            text("span", "held out" if logs[number].held_out else "fitted", "chip")
         text(
             "p",
             "Drag to zoom, double click for all; with the keyboard: arrows, + and −, 0. Grey holds 95 % of noise.",
@@ -184,7 +184,7 @@ def _row(log: MeasuredRecord, unit: str, errors: list[float | None], count: int)
     """A log with its errors over noise, of which there are cells for so many."""
     told = [quantity(log.offset, unit), quantity(log.amplitude, unit), _told(log.frequency)]
     cells = [_error(value) for value in [*errors, *[None] * (count - len(errors))]]
-    return [log.source, "held out" if log.use == "validate" else "fitted", *told, *cells]
+    return [log.source, "held out" if log.held_out else "fitted", *told, *cells]
 
 
 def _error(value: float | None) -> Any:

@@ -190,7 +190,7 @@ def _records(desk: Desk, preview: dict[str, int]) -> None:
         ("Hz", "number"),
         ("look at", "words"),
     ]
-    held = sum(record.use == "validate" for record in check.records)
+    held = sum(record.use != "fit" for record in check.records)
     read = [record.source for record in check.records]
     with card(f"{counted(len(check.records), 'record')}, {held} held out"):
         text(
@@ -227,7 +227,7 @@ def _row(record: RecordCheck) -> list[Any]:
     clock = ["", ""] if base is None else [f"{base.duration:.4g}", f"{base.rate:.4g}"]
     return [
         record.source,
-        record.use == "validate",
+        record.use != "fit",
         record.kind,
         record.rows,
         *clock,

@@ -34,7 +34,7 @@ class FittedResponse:
         reference_hz: whose gain counts as 0 dB in `deviations`; None for absolute gains.
         deviations: the four numbers of thesis Table 1.3 between the two, as in Table 4.4.
         remarks: what the analysis of the logs said.
-        held_out: the same four numbers for each response of this test that is "validate", in the order of the data.
+        held_out: the same four numbers for each response of this test that is held out, in the order of the data.
     """
 
     label: str
@@ -88,7 +88,7 @@ def fit_dataset(
 ) -> tuple[FittedResponse, ...]:
     """Fit every response of the data set that is of use "fit", tables first, then those of its stepped-sine logs.
 
-    Those of use "validate" are held against the transfer function of their test.
+    All others are held against the transfer function of their test.
 
     Args:
         structure: poles, zeros, dead time, stability; where structures are compared, the most poles to try.
@@ -101,9 +101,9 @@ def fit_dataset(
         BadInput: no frequency response to fit, none of a test asked for, or what the fit refuses.
     """
     chosen = _chosen(dataset, output, tests)
-    to_fit, held_out = ([one for one in chosen if one.use == use] for use in ("fit", "validate"))
+    to_fit, held_out = ([one for one in chosen if (one.use != "fit") == held] for held in (False, True))
     if not to_fit:
-        raise BadInput(f'data set {dataset.name!r}: all its responses have use = "validate"; leave some to be fitted')
+        raise BadInput(f'data set {dataset.name!r}: all its responses are held out; fit some: use = "fit"')
     several = len({(one.response.test.input, one.response.test.output) for one in to_fit}) > 1
     fitted = []
     for i, one in enumerate(to_fit):

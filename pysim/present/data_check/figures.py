@@ -66,8 +66,8 @@ def coverage_figure(dataset: Dataset) -> Figure:
     axes = figure.subplots()
     quiet(axes)
     handles: dict[str, Any] = {}
-    for use, label, face in (("fit", "to fit", COLOURS[0]), ("validate", "held out", "white")):
-        chosen = [record for record in sines if record.use == use]
+    for held_out, label, face in ((False, "to fit", COLOURS[0]), (True, "held out", "white")):
+        chosen = [record for record in sines if record.held_out == held_out]
         rows = [tests.index(_test(record)) for record in chosen]
         frequencies = np.array([record.frequency for record in chosen])
         if chosen:

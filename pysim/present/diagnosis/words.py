@@ -219,7 +219,7 @@ def signal_rows(step: ErrorStep) -> list[tuple[str, str, float, float, float, st
         measured, residual = record.measured.values, record.measured.values - record.simulated.values
         for j, name in enumerate(record.measured.names):
             units.setdefault(name, record.measured.units[j])
-            own = sums.setdefault((name, "held out" if record.use == "validate" else "fitted"), [0.0] * 4)
+            own = sums.setdefault((name, "held out" if record.held_out else "fitted"), [0.0] * 4)
             own[0] += float(np.sum((residual[:, j] / record.noise[j]) ** 2))
             own[1] += float(np.sum(residual[:, j] ** 2))
             own[2] += float(np.sum((measured[:, j] - measured[:, j].mean()) ** 2))

@@ -53,6 +53,13 @@ def folder(tmp_path: Path) -> Path:
     return tmp_path
 
 
+@pytest.mark.parametrize(("use", "held_out"), [("fit", False), ("validate", True), ("test", True)])
+def test_a_record_is_fitted_chooses_or_is_reported(folder: Path, use: str, held_out: bool) -> None:
+    (folder / "dataset.toml").write_text(TOML.replace('"fit"', f'"{use}"'), encoding="utf-8")
+    first, second = read_dataset(folder).records
+    assert (first.use, first.held_out, second.held_out) == (use, held_out, True)
+
+
 def test_reads_gain_phase_and_who_is_who(folder: Path) -> None:
     data = read_dataset(folder)
     assert (data.name, data.description, data.system) == ("two tables", "by hand", "pump")
@@ -113,7 +120,7 @@ def test_reading_changes_nothing(folder: Path) -> None:
         ),
         ("amplitude = 5.0", "amplitude = 5.0\nbegin = 1.0", "line 18: begin means nothing where kind = "),
         ("amplitude = 5.0", 'amplitude = 5.0\ntime = "t"', "line 18: time means nothing where kind = "),
-        ('use = "validate"', 'use = "test"', "line 26: use = 'test' is not known; use one of fit, validate"),
+        ('use = "validate"', 'use = "tests"', "line 26: use = 'tests' is not known; use one of fit, validate, test"),
         (
             'kind = "frequency-response-table"',
             'kind = "wobble"',

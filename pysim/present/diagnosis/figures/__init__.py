@@ -68,7 +68,7 @@ def _samples(found: Diagnosis, law: LearnedLaw) -> NDArray[np.float64] | None:
 def _record_figures(found: Diagnosis, dataset: Dataset | None) -> Iterator[Picture]:
     model = "refitted model" if found.base is not None and found.base.step == REFIT else "model as it is"
     for k, record in enumerate(telling_records(found)):
-        use = "held out" if record.use == "validate" else "fitted"
+        use = "held out" if record.held_out else "fitted"
         caption = (
             f"{record.source} ({use}), where the {model} fails most: measured and simulated; "
             "below, the residual (of many samples also running means), grey holds 95 percent of noise."

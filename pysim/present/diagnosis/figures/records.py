@@ -28,12 +28,12 @@ _COARSE = 100  # samples up to which a residual needs no running mean
 def telling_records(diagnosis: Diagnosis) -> list[RecordFit]:
     """Records on which the base model fails most, as it has them: a log, a stepped sine, and one held out."""
     base = diagnosis.base
-    kinds: dict[tuple[bool, str], RecordFit] = {}
+    kinds: dict[tuple[bool, bool], RecordFit] = {}
     for record in () if base is None else base.records:
-        key = (bool(record.harmonics), record.use)
+        key = (bool(record.harmonics), record.held_out)
         if key not in kinds or _size(record) > _size(kinds[key]):
             kinds[key] = record
-    order = ((False, "fit"), (True, "fit"), (False, "validate"), (True, "validate"))
+    order = ((False, False), (True, False), (False, True), (True, True))
     return [kinds[key] for key in order if key in kinds][:3]
 
 

@@ -120,7 +120,7 @@ def _windows(record: RecordFit, column: int) -> dict[str, float]:
 
 
 def _short(record: RecordFit) -> str:
-    return f"{record.source} ({'held out' if record.use == 'validate' else 'fitted'})"
+    return f"{record.source} ({'held out' if record.held_out else 'fitted'})"
 
 
 def _draw(axes: Axes, panel: _Field, norm: LogNorm) -> AxesImage:
