@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from pysim.io.limits import LIMITS, ReadLimits
 from pysim.io.named_columns import Table
 from pysim.io.parquet_table import read_parquet
 from pysim.io.tdms_table import read_tdms
@@ -22,7 +23,7 @@ TIME = "time"
 _MANY = 0.05  # of all rows: more of them that stand still are no slip
 
 # Files that name their columns themselves; all others are text.
-_BY_NAME: Mapping[str, Callable[[Path, tuple[str, ...], str], Table]] = {
+_BY_NAME: Mapping[str, Callable[[Path, tuple[str, ...], str, ReadLimits, frozenset[str]], Table]] = {
     ".parquet": read_parquet,
     ".tdms": read_tdms,
 }
@@ -73,7 +74,9 @@ def names_its_columns(path: Path) -> bool:
     return path.suffix.lower() in _BY_NAME
 
 
-def read_columns(path: Path, names: tuple[str, ...], wanted_by: str, *, clock: str = TIME) -> Columns:
+def read_columns(
+    path: Path, names: tuple[str, ...], wanted_by: str, *, clock: str = TIME, missing: bool = False
+) -> Columns:
     """The named columns of a file.
 
     Args:
@@ -81,6 +84,7 @@ def read_columns(path: Path, names: tuple[str, ...], wanted_by: str, *, clock: s
             file those that are wanted.
         wanted_by: what named the file, for messages.
         clock: what a .parquet or .tdms file calls its time.
+        missing: whether cells may be empty, or not-a-number, but for those of the time.
     Raises:
         BadInput: what is wrong, with file, line (row) and remedy.
     """
@@ -88,13 +92,13 @@ def read_columns(path: Path, names: tuple[str, ...], wanted_by: str, *, clock: s
     wanted = tuple(name for name in names if name != LEFT_OUT)
     if by_name is not None:
         own = tuple(clock if name == TIME else name for name in wanted)
-        table = by_name(path, own, wanted_by)
+        table = by_name(path, own, wanted_by, LIMITS, frozenset(own) - {clock} if missing else frozenset())
         rows = table.values.shape[0]
         if not rows:
             raise BadInput(f"{path} holds no numbers; it needs rows of {', '.join(wanted)}")
         seconds = frozenset(name for name, its in zip(wanted, own, strict=True) if its in table.seconds)
         return Columns(path, wanted, table.values, np.arange(1, rows + 1), "row", seconds)
-    values, lines = read_table(path, names, wanted_by)
+    values, lines = read_table(path, names, wanted_by, frozenset(names) - {TIME} if missing else frozenset())
     return Columns(path, wanted, values[:, [name != LEFT_OUT for name in names]], lines)
 
 
@@ -104,12 +108,19 @@ def refuse_standing_time(columns: Columns) -> None:
     Raises:
         BadInput: it stands still or runs backwards, with the line.
     """
-    wrong = np.diff(columns[TIME]) <= 0
-    if np.any(wrong):
-        row = int(np.argmax(wrong)) + 1
-        time, before = columns[TIME][row], columns[TIME][row - 1]
-        how = "stands still at" if time == before else f"runs backwards from {before:.10g} s to"
-        cure = "remove the repeated rows, or give each test a log of its own"
-        if np.count_nonzero(wrong) > _MANY * wrong.size:
-            cure = "log it with more digits, or correct which column it is"
-        raise BadInput(f"{columns.place(row)}: time {how} {time:.10g} s; {cure}")
+    found = standing(columns[TIME])
+    if found is not None:
+        raise BadInput(f"{columns.place(found[0])}: {found[1]}")
+
+
+def standing(time: Array) -> tuple[int, str] | None:
+    """The first row at which times (n_r,) in s do not increase, with what is wrong and its cure; None where all do."""
+    wrong = np.diff(time) <= 0
+    if not np.any(wrong):
+        return None
+    row = int(np.argmax(wrong)) + 1
+    how = "stands still at" if time[row] == time[row - 1] else f"runs backwards from {time[row - 1]:.10g} s to"
+    cure = "remove the repeated rows, or give each test a log of its own"
+    if np.count_nonzero(wrong) > _MANY * wrong.size:
+        cure = "log it with more digits, or correct which column it is"
+    return row, f"time {how} {time[row]:.10g} s; {cure}"

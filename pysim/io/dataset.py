@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 
 from pysim.io.limits import LIMITS
 from pysim.io.measured_log import TIME, read_log
 from pysim.io.measured_table import read_measured_table
+from pysim.io.prepare import Step, prepared, refuse_missing_samples, step_of
 from pysim.io.text_fields import LEFT_OUT
 from pysim.io.toml_section import Section, read_toml
 from pysim.io.units import Scale, signal_in_si, unit_cure
@@ -15,7 +17,7 @@ from pysim.types import SECONDS, SI, UNITS, BadInput, Dataset, MeasuredRecord, M
 from pysim.types.record_kind import HOLDS, KINDS, RESPONSE_TABLE
 
 _KEYS = ("dataset", "signals", "records")
-_DATASET_KEYS = ("name", "description", "system", "time_unit")
+_DATASET_KEYS = ("name", "description", "system", "time_unit", "preparation")
 SIGNAL_KEYS = ("role", "unit", "quantity", "variable", "noise", "resolution", "hold")
 _SCALE_KEYS = ("factor", "offset")
 _TEST_KEYS = ("offset", "amplitude", "frequency", "input", "output")
@@ -36,8 +38,40 @@ def read_dataset(folder: Path | str) -> Dataset:
     Raises:
         BadInput: what is wrong, with file, line and remedy.
     """
-    dataset, refused = _read(Path(folder), keep_going=False)
-    assert not refused
+    return _ready(read_described(folder))
+
+
+@dataclass(frozen=True)
+class Described:
+    """A data set as its folder has it.
+
+    Args:
+        raw: its logs as they were taken; an empty cell is not-a-number where steps of preparation are to follow.
+        steps: of the preparation that dataset.toml asks for.
+        units: signal -> unit in the files.
+        refused: per record that cannot be read its file and what is wrong.
+    """
+
+    raw: Dataset
+    steps: tuple[Step, ...]
+    units: Mapping[str, str]
+    refused: tuple[tuple[str, str], ...] = ()
+
+
+def read_described(folder: Path | str) -> Described:
+    """Read a data set as `read_dataset` does, with the steps of its preparation still to be done.
+
+    Raises:
+        BadInput: as of `read_dataset`.
+    """
+    return _read(Path(folder), keep_going=False)
+
+
+def _ready(described: Described) -> Dataset:
+    """With all steps done."""
+    dataset = prepared(described.raw, described.steps)
+    if described.steps:
+        refuse_missing_samples(dataset)
     return dataset
 
 
@@ -51,10 +85,11 @@ def read_dataset_partly(folder: Path | str) -> tuple[Dataset, tuple[tuple[str, s
     Raises:
         BadInput: the description itself is wrong.
     """
-    return _read(Path(folder), keep_going=True)
+    described = _read(Path(folder), keep_going=True)
+    return _ready(described), described.refused
 
 
-def _read(folder: Path, *, keep_going: bool) -> tuple[Dataset, tuple[tuple[str, str], ...]]:
+def _read(folder: Path, *, keep_going: bool) -> Described:
     toml = read_toml(_description(folder), "data set")
     head = toml.table("dataset")
     toml.whole.refuse_unknown(_KEYS)
@@ -65,6 +100,7 @@ def _read(folder: Path, *, keep_going: bool) -> tuple[Dataset, tuple[tuple[str, 
     sections = toml.rows("records", "log or table")
     kinds = [_kind(section) for section in sections]
     _refuse_repeated(sections)
+    steps = tuple(step_of(section) for section in head.rows_of("preparation"))
     second = SECONDS[head.text("time_unit", "s", among=tuple(SECONDS))]
     records: list[MeasuredRecord] = []
     refused, numbers = [], 0
@@ -73,7 +109,7 @@ def _read(folder: Path, *, keep_going: bool) -> tuple[Dataset, tuple[tuple[str, 
             if kind == RESPONSE_TABLE.name:
                 records.append(read_measured_table(toml.path.parent, section, written))
             else:
-                log = read_log(toml.path.parent, section, kind, written, scales, second)
+                log = read_log(toml.path.parent, section, kind, written, scales, second, missing=bool(steps))
                 numbers = _counted(section, numbers, log)
                 records.append(log)
         except BadInput as error:
@@ -82,7 +118,8 @@ def _read(folder: Path, *, keep_going: bool) -> tuple[Dataset, tuple[tuple[str, 
             refused.append((section.source(), str(error)))
     signals = tuple(signal_in_si(signal) for signal in written.values())
     name, about, system = head.text("name"), head.text("description", "-"), head.text("system", "-")
-    return Dataset(name, about, system, signals, tuple(records)), tuple(refused)
+    raw = Dataset(name, about, system, signals, tuple(records))
+    return Described(raw, steps, {signal.name: signal.unit for signal in written.values()}, tuple(refused))
 
 
 def _counted(section: Section, before: int, log: MeasuredRecord) -> int:

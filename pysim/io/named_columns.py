@@ -92,11 +92,12 @@ def refuse_many(path: Path, numbers: int, wanted_by: str, limits: ReadLimits) ->
         )
 
 
-def as_numbers(path: Path, name: str, cells: NDArray[Any], *, row: int = 1) -> Numbers:
+def as_numbers(path: Path, name: str, cells: NDArray[Any], *, row: int = 1, missing: bool = False) -> Numbers:
     """Finite numbers (n_r,) from the cells of a column; moments become seconds since the first one.
 
     Args:
         row: of the first cell in the file, for messages.
+        missing: whether a cell may be empty; it is not-a-number then.
     Raises:
         BadInput: a cell that is empty, text or not finite, with its row.
     """
@@ -108,10 +109,10 @@ def as_numbers(path: Path, name: str, cells: NDArray[Any], *, row: int = 1) -> N
     elif cells.dtype.kind in "fiub":
         values = cells.astype(np.float64)
     else:
-        values = np.array(
-            [_number(path, name, k, cell) for k, cell in enumerate(cells.tolist(), row)], dtype=np.float64
-        )
-    wrong = np.flatnonzero(~np.isfinite(values))
+        rows = enumerate(cells.tolist(), row)
+        found = [math.nan if missing and cell is None else _number(path, name, k, cell) for k, cell in rows]
+        values = np.array(found, dtype=np.float64)
+    wrong = np.flatnonzero(np.isinf(values) if missing else ~np.isfinite(values))
     if wrong.size:
         what = "empty or not a number" if math.isnan(values[wrong[0]]) else "not finite"
         raise BadInput(f"{path}, row {wrong[0] + row}: {name} is {what}; correct it or remove the row")

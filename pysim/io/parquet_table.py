@@ -19,11 +19,18 @@ from pysim.types import BadInput
 _TIMES = 4  # of what is announced: batches, their texts and the numbers made of them are there at the same time
 
 
-def read_parquet(path: Path, names: tuple[str, ...], wanted_by: str, limits: ReadLimits = LIMITS) -> Table:
+def read_parquet(
+    path: Path,
+    names: tuple[str, ...],
+    wanted_by: str,
+    limits: ReadLimits = LIMITS,
+    missing: frozenset[str] = frozenset(),
+) -> Table:
     """The named columns, unpacked some rows at a time.
 
     Args:
         wanted_by: what named the file, for messages.
+        missing: columns whose cells may be empty.
         limits: what the file's own directory may announce, before anything is unpacked.
     Raises:
         BadInput: the package is missing, no Parquet file, a column that is not there or holds no numbers, or a file
@@ -36,14 +43,14 @@ def read_parquet(path: Path, names: tuple[str, ...], wanted_by: str, limits: Rea
             schema = file.schema_arrow
             refuse_missing(path, names, schema.names, wanted_by)
             texts = [name for name in names if _is_text(arrow, path, name, schema.field(name).type)]
-            announced = _refuse_large(path, file.metadata, names, wanted_by, limits)
+            announced = refuse_large(path, file.metadata, names, wanted_by, limits)
         # the cells of a column of texts are kept once each, so that a repeated one does not multiply
         with (
             memory_bound(limits.memory + _TIMES * announced),
             _plain_memory(arrow),
             parquet.ParquetFile(path, read_dictionary=texts) as file,
         ):
-            return _read(path, file, names, limits)
+            return _read(path, file, names, missing, limits)
     except MemoryError as error:
         raise BadInput(
             f"{wanted_by}: {path} takes more memory than the sizes in its own directory call for; export it again, or "
@@ -77,7 +84,7 @@ def _plain_memory(arrow: ModuleType) -> Iterator[None]:
         arrow.set_memory_pool(before)
 
 
-def _refuse_large(path: Path, about: Any, names: tuple[str, ...], wanted_by: str, limits: ReadLimits) -> int:
+def refuse_large(path: Path, about: Any, names: tuple[str, ...], wanted_by: str, limits: ReadLimits) -> int:
     """What the directory announces must be within the limits.
 
     Returns:
@@ -96,7 +103,7 @@ def _refuse_large(path: Path, about: Any, names: tuple[str, ...], wanted_by: str
     return size + 8 * int(about.num_rows) * len(names)
 
 
-def _read(path: Path, file: Any, names: tuple[str, ...], limits: ReadLimits) -> Table:
+def _read(path: Path, file: Any, names: tuple[str, ...], missing: frozenset[str], limits: ReadLimits) -> Table:
     values = np.empty((file.metadata.num_rows, len(names)))
     begun: dict[str, Any] = {}  # the first moment of a column of moments
     seconds: set[str] = set()
@@ -108,7 +115,7 @@ def _read(path: Path, file: Any, names: tuple[str, ...], limits: ReadLimits) -> 
             cells = _cells(batch.column(name))
             if cells.dtype.kind == "M":
                 cells = cells - begun.setdefault(name, cells[:1]).repeat(cells.size)
-            found = as_numbers(path, name, cells, row=row + 1)
+            found = as_numbers(path, name, cells, row=row + 1, missing=name in missing)
             values[row : row + batch.num_rows, j] = found.values
             seconds |= {name} if found.seconds else set()
         row += batch.num_rows

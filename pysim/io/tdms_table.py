@@ -16,7 +16,7 @@ from pysim.types import BadInput
 Array = NDArray[np.float64]
 _TIME = "time"
 # What the package raises over a file that is no TDMS, or a damaged one.
-_DAMAGED = (OSError, ValueError, KeyError, EOFError, NotImplementedError, struct.error)
+DAMAGED = (OSError, ValueError, KeyError, EOFError, NotImplementedError, struct.error)
 
 
 def channel_names(path: Path) -> tuple[str, ...]:
@@ -28,28 +28,35 @@ def channel_names(path: Path) -> tuple[str, ...]:
     tdms = optional_package("nptdms", f"{path.name} is a TDMS file", "npTDMS")
     try:
         channels = [channel for group in tdms.TdmsFile.read_metadata(path).groups() for channel in group.channels()]
-    except _DAMAGED as error:
+    except DAMAGED as error:
         raise BadInput(f"cannot read {path.name} as TDMS ({error}); export it again") from error
     if not channels:
         raise BadInput(f"cannot read {path.name} as TDMS (it has no channels); export it again")
-    names = _told_apart(channels)
+    names = told_apart(channels)
     carried = _TIME not in names and any("wf_increment" in channel.properties for channel in channels)
     return (_TIME, *names) if carried else names
 
 
-def _told_apart(channels: list[Any]) -> tuple[str, ...]:
+def told_apart(channels: list[Any]) -> tuple[str, ...]:
     """Their names, with the group where one stands twice."""
     names = [channel.name for channel in channels]
     return tuple(c.name if names.count(c.name) == 1 else f"{c.group_name}/{c.name}" for c in channels)
 
 
-def read_tdms(path: Path, names: tuple[str, ...], wanted_by: str, limits: ReadLimits = LIMITS) -> Table:
+def read_tdms(
+    path: Path,
+    names: tuple[str, ...],
+    wanted_by: str,
+    limits: ReadLimits = LIMITS,
+    missing: frozenset[str] = frozenset(),
+) -> Table:
     """The named channels: by the channel's own name, or "group/channel" where two groups have it.
 
     Waveforms carry no channel of times but a start and an increment; the column "time" then follows from those.
 
     Args:
         wanted_by: what named the file, for messages.
+        missing: channels whose samples may be not-a-number.
         limits: what the file may announce, before its samples are read.
     Raises:
         BadInput: the package is missing, no TDMS file, a channel that is not there or holds no numbers, more of them
@@ -58,14 +65,16 @@ def read_tdms(path: Path, names: tuple[str, ...], wanted_by: str, limits: ReadLi
     tdms = optional_package("nptdms", f"{wanted_by}: {path} is a TDMS file", "npTDMS")
     try:
         with tdms.TdmsFile.open(path) as file:
-            return _read(path, file, names, wanted_by, limits)
-    except _DAMAGED as error:
+            return _read(path, file, names, wanted_by, missing, limits)
+    except DAMAGED as error:
         if isinstance(error, BadInput):
             raise
         raise BadInput(f"{wanted_by}: cannot read {path} as TDMS ({error}); correct the name or the file") from error
 
 
-def _read(path: Path, file: Any, names: tuple[str, ...], wanted_by: str, limits: ReadLimits) -> Table:
+def _read(
+    path: Path, file: Any, names: tuple[str, ...], wanted_by: str, missing: frozenset[str], limits: ReadLimits
+) -> Table:
     channels = [channel for group in file.groups() for channel in group.channels()]
     if not channels:
         raise BadInput(f"{wanted_by}: cannot read {path} as TDMS (it has no channels); correct the name or the file")
@@ -74,10 +83,13 @@ def _read(path: Path, file: Any, names: tuple[str, ...], wanted_by: str, limits:
     clock = _TIME not in present and _TIME in names
     wanted = tuple(name for name in names if not (clock and name == _TIME))
     there = [*present, *(name for name in full if name in wanted)]
-    refuse_missing(path, wanted, there, wanted_by, shown=_told_apart(channels))
+    refuse_missing(path, wanted, there, wanted_by, shown=told_apart(channels))
     chosen = {name: channels[full.index(name) if name in full else present.index(name)] for name in wanted}
     refuse_many(path, sum(map(len, chosen.values())), wanted_by, limits)
-    columns = {name: as_numbers(path, name, np.asarray(channel[:])) for name, channel in chosen.items()}
+    columns = {
+        name: as_numbers(path, name, np.asarray(channel[:]), missing=name in missing)
+        for name, channel in chosen.items()
+    }
     if clock:
         columns[_TIME] = Numbers(_common_clock(path, chosen), seconds=True)
     _refuse_different_lengths(path, columns)

@@ -57,7 +57,9 @@ def read_text(path: Path, wanted_by: str) -> str:
     return text.replace("\r\n", "\n").replace("\r", "\n")
 
 
-def read_table(path: Path, columns: tuple[str, ...], wanted_by: str) -> tuple[Array, NDArray[np.intp]]:
+def read_table(
+    path: Path, columns: tuple[str, ...], wanted_by: str, missing: frozenset[str] = frozenset()
+) -> tuple[Array, NDArray[np.intp]]:
     """Read rows of numbers below optional header lines.
 
     Columns are separated by tabs, semicolons, commas or blanks; a decimal comma is read where the separator is not a
@@ -68,6 +70,7 @@ def read_table(path: Path, columns: tuple[str, ...], wanted_by: str) -> tuple[Ar
     Args:
         columns: (n_c) names, in the order of the file; those called LEFT_OUT are not looked at.
         wanted_by: what named the file, for messages.
+        missing: columns whose cells may be empty, or not-a-number.
     Returns:
         values (n_r, n_c) and the line number of each row (n_r,).
     Raises:
@@ -77,7 +80,7 @@ def read_table(path: Path, columns: tuple[str, ...], wanted_by: str) -> tuple[Ar
     lines = unquoted(read_text(path, wanted_by)).split("\n")
     while len(lines) > 1 and not lines[-1].strip():
         lines.pop()
-    begin = _behind_labview_header(lines)
+    begin = behind_labview_header(lines)
     first = next((i for i in range(begin, len(lines)) if _is_row(lines[i], columns)), None)
     if first is None:
         last = f", and ends with {lines[-1].strip()[:_SHOWN]!r}" if lines[-1].strip() else ""
@@ -90,10 +93,10 @@ def read_table(path: Path, columns: tuple[str, ...], wanted_by: str) -> tuple[Ar
     body = _without_end_marks(body, columns)
     _, usual = row_fields(body[0], columns)
     _refuse_other_order(list(enumerate(lines[:first], 1))[begin:], path, columns, wanted_by, usual)
-    values = read_block(body, columns)
+    values = read_block(body, columns, missing)
     if values is None or len(values) != len(body):
         rows = zip(numbers.tolist(), body, strict=True)
-        values = np.array([_row(line, columns, f"{path}, line {at}", usual) for at, line in rows])
+        values = np.array([_row(line, columns, f"{path}, line {at}", usual, missing) for at, line in rows])
     return values, numbers
 
 
@@ -133,7 +136,7 @@ def _without_end_marks(rows: list[str], columns: tuple[str, ...]) -> list[str]:
     return [row.rstrip(" ").removesuffix(first[-1]) for row in rows]
 
 
-def _behind_labview_header(lines: list[str]) -> int:
+def behind_labview_header(lines: list[str]) -> int:
     """Where the rows of a LabVIEW measurement file begin; its header holds numbers too."""
     marked = (i + 1 for i, line in enumerate(lines[:_LABVIEW_LINES]) if line.startswith(_LABVIEW_END))
     return max(marked, default=0)
@@ -169,7 +172,13 @@ def _is_header(fields: list[str], width: int) -> bool:
     return not any(numbers) or (not numbers[0] and len(fields) != width)
 
 
-def _row(line: str, columns: tuple[str, ...], where: str, usual: Dialect | None = None) -> list[float]:
+def _row(
+    line: str,
+    columns: tuple[str, ...],
+    where: str,
+    usual: Dialect | None = None,
+    missing: frozenset[str] = frozenset(),
+) -> list[float]:
     """One row of finite numbers, a value per column."""
     fields, how = row_fields(line, columns, usual)
     if len(fields) != len(columns):
@@ -179,11 +188,11 @@ def _row(line: str, columns: tuple[str, ...], where: str, usual: Dialect | None 
         raise BadInput(f"{where}: {len(fields)} columns where {len(columns)} belong ({', '.join(columns)}); {cure}")
     row = []
     for name, field in zip(columns, fields, strict=True):
-        value = 0.0 if name == LEFT_OUT else number(field)
+        value = 0.0 if name == LEFT_OUT else math.nan if name in missing and not field else number(field)
         if value is None:
             cure = "write it as a number of seconds" if ":" in field else "correct it or remove the row"
             raise BadInput(f"{where}: {field!r} is no number for {name}; {cure}")
-        if not math.isfinite(value):
+        if not (math.isfinite(value) or (math.isnan(value) and name in missing)):
             raise BadInput(f"{where}: {name} is {field}, which is not finite; correct it or remove the row")
         row.append(value)
     return row

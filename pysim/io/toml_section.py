@@ -145,6 +145,13 @@ class Section:
             raise BadInput(f"{self.place}: {key} = {value!r} is no table; write {key} = {{ name = value }}")
         return Section(f"{self.place}, {key}", value)
 
+    def rows_of(self, key: str) -> tuple[Section, ...]:
+        """The tables of a row of tables within this one, none where the key is absent."""
+        rows = self.values.get(key, [])
+        if not isinstance(rows, list) or not all(isinstance(row, dict) for row in rows):
+            raise BadInput(f'{self.place}: {key} is no row of tables; write {key} = [{{ step = "..." }}]')
+        return tuple(Section(f"{self.place}, {key} {number}", row) for number, row in enumerate(rows, 1))
+
     def refuse_unknown(self, keys: tuple[str, ...]) -> None:
         """A misspelt key would be a silent default."""
         for key in self.values:

@@ -8,7 +8,11 @@ from collections.abc import Mapping
 
 
 def toml_value(value: object) -> str:
-    """A text, a number, a truth or a row of them."""
+    """A text, a number, a truth, a table in a line, or a row of them; tables get a line each."""
+    if isinstance(value, Mapping):
+        return f"{{ {', '.join(f'{toml_key(key)} = {toml_value(own)}' for key, own in value.items())} }}"
+    if isinstance(value, list | tuple) and value and all(isinstance(own, Mapping) for own in value):
+        return "[\n" + "".join(f"    {toml_value(own)},\n" for own in value) + "]"
     return json.dumps(value, ensure_ascii=False)
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path, PurePosixPath, PureWindowsPath
 
 import numpy as np
@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from pysim.io.columns import names_its_columns
 from pysim.io.file_names import same_file, unusable_name
 from pysim.io.files import write_file
+from pysim.io.prepare import Step, values_of
 from pysim.io.response_table import TABLE_COLUMNS
 from pysim.io.toml_text import toml_key, toml_table
 from pysim.io.units import Scale
@@ -25,7 +26,14 @@ _FINER = 100.0  # how far rounding stays below noise and resolution
 _TIME_SHARE = 1e-4  # of a sampling interval: how far a printed time may be from the true one
 
 
-def write_dataset(folder: Path | str, dataset: Dataset, *, units: Mapping[str, str] | None = None) -> Path:
+def write_dataset(
+    folder: Path | str,
+    dataset: Dataset,
+    *,
+    units: Mapping[str, str] | None = None,
+    steps: Sequence[Step] = (),
+    exact: bool = False,
+) -> Path:
     """Write a data set that `read_dataset` reads back to the printed digits.
 
     Values are printed to a hundredth of the signal's noise or resolution, whichever is smaller, or to seven digits of
@@ -34,6 +42,8 @@ def write_dataset(folder: Path | str, dataset: Dataset, *, units: Mapping[str, s
     Args:
         folder: made here; must be empty or not there. Records go to the files they name as their source.
         units: signal -> unit in the files; its own unit where not told.
+        steps: of the preparation, done again whenever the data set is read.
+        exact: whether all digits are printed, whatever they mean.
     Returns:
         the path of dataset.toml.
     Raises:
@@ -45,7 +55,7 @@ def write_dataset(folder: Path | str, dataset: Dataset, *, units: Mapping[str, s
     scales = {signal.name: _scale(signal, units.setdefault(signal.name, signal.unit)) for signal in dataset.signals}
     _check_sources(dataset)
     _check_tests(dataset)
-    digits = {signal.name: _digits(signal, dataset, scales[signal.name].gain) for signal in dataset.signals}
+    digits = {s.name: None if exact else _digits(s, dataset, scales[s.name].gain) for s in dataset.signals}
     try:
         folder.mkdir(parents=True, exist_ok=True)
         if any(folder.iterdir()):
@@ -56,7 +66,9 @@ def write_dataset(folder: Path | str, dataset: Dataset, *, units: Mapping[str, s
             path = folder / record.source
             path.parent.mkdir(parents=True, exist_ok=True)
             write_file(path, _content(record, units, scales, digits))
-        write_file(folder / "dataset.toml", _description(dataset, dataset.name or folder.resolve().name, units, scales))
+        write_file(
+            folder / "dataset.toml", _description(dataset, dataset.name or folder.resolve().name, units, scales, steps)
+        )
     except OSError as error:
         raise BadInput(f"{folder}: cannot write there ({error.strerror or error}); choose another folder") from error
     return folder / "dataset.toml"
@@ -113,15 +125,15 @@ def _digits(signal: MeasuredSignal, dataset: Dataset, to_si: float) -> int:
 
 
 def _content(
-    record: MeasuredRecord, units: Mapping[str, str], scales: Mapping[str, Scale], digits: Mapping[str, int]
+    record: MeasuredRecord, units: Mapping[str, str], scales: Mapping[str, Scale], digits: Mapping[str, int | None]
 ) -> str:
     if isinstance(record.data, FrequencyResponse):
         return _table(record.data, scales)
     log = record.data
     columns = [log.time, *(_unscaled(log[name], scales[name]) for name in log.names)]
     heads = ["time_s", *(name + _suffix(units[name]) for name in log.names)]
-    decimals = [_time_digits(log.time), *(digits[name] for name in log.names)]
-    form = "\t".join(f"%.{count}f" for count in decimals)
+    decimals = [None if None in digits.values() else _time_digits(log.time), *(digits[name] for name in log.names)]
+    form = "\t".join("%.17g" if count is None else f"%.{count}f" for count in decimals)
     rows = (form % row for row in zip(*(column.tolist() for column in columns), strict=True))
     return "\n".join(["\t".join(heads), *rows]) + "\n"
 
@@ -150,9 +162,13 @@ def _table(response: FrequencyResponse, scales: Mapping[str, Scale]) -> str:
     return "\n".join(["\t".join(TABLE_COLUMNS), *rows]) + "\n"
 
 
-def _description(dataset: Dataset, name: str, units: Mapping[str, str], scales: Mapping[str, Scale]) -> str:
+def _description(
+    dataset: Dataset, name: str, units: Mapping[str, str], scales: Mapping[str, Scale], steps: Sequence[Step]
+) -> str:
     """dataset.toml."""
+    about: dict[str, object]
     about = {"name": name, "description": dataset.description or None, "system": dataset.system or None}
+    about |= {"preparation": [values_of(step) for step in steps]} if steps else {}
     parts = [toml_table("[dataset]", about)]
     for signal in dataset.signals:
         to_si = scales[signal.name].gain

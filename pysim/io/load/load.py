@@ -1,0 +1,180 @@
+"""A data set from logs as they come."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from pysim.io.load.clock import read_clock
+from pysim.io.load.foreign_units import known_unit, scale_of
+from pysim.io.load.headings import heading_of, name_and_unit, unit_of
+from pysim.io.load.sources import tables_of
+from pysim.io.load.table import RawTable
+from pysim.io.units import Scale
+from pysim.types import BadInput, Dataset, MeasuredRecord, MeasuredSignal, Record
+from pysim.types.record_kind import HOLDS, OTHER
+
+Names = str | Sequence[str] | Mapping[str, str]
+
+
+@dataclass(frozen=True)
+class Loaded:
+    """What was read.
+
+    Args:
+        dataset: in SI units or %; an empty cell is not-a-number.
+        units: signal -> unit in which it was logged, as far as our table has that.
+        remarks: log -> what was guessed, and why, and what was left out.
+    """
+
+    dataset: Dataset
+    units: Mapping[str, str]
+    remarks: Mapping[str, tuple[str, ...]]
+
+
+def load_logs(
+    source: Any,
+    *,
+    inputs: Names,
+    outputs: Names,
+    time: str | None = None,
+    units: Mapping[str, str] | None = None,
+    noise: Mapping[str, float] | None = None,
+    variables: Mapping[str, str] | None = None,
+    hold: Mapping[str, str] | None = None,
+) -> Loaded:
+    """Read logs and say what their columns are.
+
+    Args:
+        source: a path, a pattern, a folder, a table in memory, a list of any, or a dict of these by name.
+        inputs, outputs: names of the signals as the headings have them, ahead of their units; a dict gives other names
+            to them: signal -> heading.
+        time: heading of the clock; without it, that is looked for.
+        units: signal (or heading) -> unit, where no heading tells one; of a clock of dates also how they are written,
+            as of `datetime.strptime`.
+        noise: signal -> standard deviation of its noise, in its unit.
+        variables: signal -> variable of the model, where that is called otherwise.
+        hold: input -> how it runs between samples, "zero", "linear" or "spline".
+    Raises:
+        BadInput: what cannot be read, is not there, or must be asked for, with its place and the cure.
+    """
+    units, noise, variables, hold = units or {}, noise or {}, variables or {}, hold or {}
+    wanted = {**_named(inputs, "inputs"), **_named(outputs, "outputs")}
+    roles = dict.fromkeys(_named(inputs, "inputs"), "input") | dict.fromkeys(_named(outputs, "outputs"), "output")
+    if len(roles) < len(_named(inputs, "")) + len(_named(outputs, "")):
+        raise BadInput(f"{', '.join(n for n in _named(inputs, '') if n in _named(outputs, ''))}: name it once")
+    _refuse_strangers(wanted, {"noise": noise, "variables": variables, "hold": hold})
+    tables = _holding(tables_of(source), wanted)
+    seen: dict[str, Scale] = {}
+    called: dict[str, str] = {}
+    records, remarks = [], {}
+    for table in tables:
+        record, told, scales, own = _record(table, wanted, time, units)
+        records.append(record)
+        remarks[table.name] = told
+        for name, scale in scales.items():
+            called.setdefault(name, own[name])
+            if seen.setdefault(name, scale).unit != scale.unit:
+                raise BadInput(
+                    f"{table.place}: {name} is in {own[name]}, and in {called[name]} in another log; "
+                    "these are different quantities, so give one of them another name"
+                )
+    signals = tuple(
+        MeasuredSignal(
+            name, role, seen[name].unit, name, variables.get(name, name),
+            noise=_noise(noise, name, seen[name]), hold=_hold(hold, name, role),
+        )
+        for name, role in roles.items()
+    )  # fmt: skip
+    shown = {name: unit if known_unit(unit) else seen[name].unit for name, unit in called.items()}
+    title = tables[0].name.rpartition(".")[0] if len(tables) == 1 else "logs"
+    return Loaded(Dataset(title, "", "", signals, tuple(records)), shown, remarks)
+
+
+def _named(names: Names, what: str) -> dict[str, str]:
+    """Signal -> what the user calls its column."""
+    if isinstance(names, Mapping):
+        return dict(names)
+    own = [names] if isinstance(names, str) else list(names)
+    if not own and what:
+        raise BadInput(f"{what} are missing; name at least one column")
+    return {name_and_unit(name)[0]: name for name in own}
+
+
+def _refuse_strangers(signals: Mapping[str, str], given: Mapping[str, Mapping[str, Any]]) -> None:
+    """A misspelt name would be a silent default."""
+    for what, values in given.items():
+        for name in values:
+            if name not in signals:
+                raise BadInput(f"{what} names {name!r}, which is no signal; use one of {', '.join(signals)}")
+
+
+def _holding(tables: Sequence[RawTable], wanted: Mapping[str, str]) -> list[RawTable]:
+    """The tables that have all signals; where none has, the first says what it lacks."""
+    found, missing = [], []
+    for table in tables:
+        try:
+            for name in wanted.values():
+                heading_of(table, name)
+            found.append(table)
+        except BadInput as error:
+            missing.append((table, error))
+    files = {table.place.partition(", ")[0] for table in found}
+    for table, lacks in missing:  # another sheet of a file that has one may hold anything
+        if table.place.partition(", ")[0] not in files:
+            raise lacks
+    return found
+
+
+def _record(
+    table: RawTable, wanted: Mapping[str, str], time: str | None, units: Mapping[str, str]
+) -> tuple[MeasuredRecord, tuple[str, ...], dict[str, Scale], dict[str, str]]:
+    """One log, remarks on it, and per signal its scale and unit."""
+    headings = {name: heading_of(table, own) for name, own in wanted.items()}
+    scales, told, remarks, without = {}, {}, list(table.remarks), []
+    for name, heading in headings.items():
+        told[name], remark = unit_of(table, heading, name, units)
+        remarks += [remark] if remark else []
+        if told[name]:
+            scales[name] = scale_of(told[name], f"{table.place}, {name}")
+        else:
+            without.append(name)
+    if without:
+        shown = ", ".join(f'"{name}": "..."' for name in without)
+        raise BadInput(
+            f'{table.place}: in which unit is {" and ".join(without)}? Say it: units={{{shown}}}, "1" for none'
+        )
+    clock = read_clock(table, time, units, tuple(headings.values()))
+    columns = {name: table.numbers(heading)[clock.rows] for name, heading in headings.items()}
+    values = np.column_stack([scales[name].gain * column + scales[name].zero for name, column in columns.items()])
+    if values.shape[0] < 2:
+        raise BadInput(f"{table.place} holds a single row; a log needs two or more")
+    for name, column in zip(headings, values.T, strict=True):
+        empty = int(np.count_nonzero(np.isnan(column)))
+        if empty == column.size:
+            raise BadInput(f"{table.place}: {name} is empty from the first row to the last; name another column")
+        remarks += [f"{name}: {empty} cells are empty"] if empty else []
+    own = tuple(scale.unit for scale in scales.values())
+    data = Record(clock.time, values, tuple(headings), own, origin=f"measured, {table.place}")
+    record = MeasuredRecord(table.name, OTHER.name, "fit", data, begin=clock.begin)
+    return record, (*clock.remarks, *remarks), scales, told
+
+
+def _noise(noise: Mapping[str, float], name: str, scale: Scale) -> float | None:
+    value = noise.get(name)
+    if value is not None and not value >= 0:
+        raise BadInput(f"the noise of {name} is {value}; give a standard deviation of 0 or more")
+    return None if value is None else abs(scale.gain) * value
+
+
+def _hold(hold: Mapping[str, str], name: str, role: str) -> Any:
+    if name not in hold:
+        return None
+    if role != "input":
+        raise BadInput(f"hold is for inputs, and {name} is an output; remove it")
+    if hold[name] not in HOLDS:
+        raise BadInput(f"hold of {name} is {hold[name]!r}; use one of {', '.join(HOLDS)}")
+    return HOLDS[hold[name]]

@@ -1,0 +1,72 @@
+"""Single samples far off their neighbours."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
+from numpy.typing import NDArray
+
+from pysim.io.prepare.step import each_log, signals_of, with_columns
+from pysim.types import Dataset, MeasuredRecord, Record
+
+Array = NDArray[np.float64]
+
+_BESIDE = 3  # samples to either side that tell where one should be
+_NORMAL = 1.4826  # standard deviations of a normal distribution in its median absolute deviation
+_SMALL = 0.03  # of the signal's usual range: what is off by less is no outlier
+_CUBIC = np.array([0.0, -1.0, 4.0, 0.0, 4.0, -1.0, 0.0]) / 6  # a cubic through the two samples on either side
+
+
+@dataclass(frozen=True)
+class DropOutliers:
+    """Put straight lines in place of samples that are far off their neighbours, up to three in a row.
+
+    Args:
+        sigmas: how far from the median of the seven samples around it, in standard deviations of all such distances
+            (by their median), and at least three percent of the signal's range: Hampel's filter. So that the top of a
+            fast sine is none, the sample must be as far from a cubic through its neighbours.
+        signals: their names; all outputs where there are none. A command may jump.
+    Source: F. R. Hampel, The influence curve and its role in robust estimation, J. Am. Stat. Assoc. 69 (1974).
+    """
+
+    word: ClassVar[str] = "drop_outliers"
+    star: ClassVar[str] = "signals"
+    sigmas: float = 8.0
+    signals: tuple[str, ...] = ()
+
+    def apply(self, dataset: Dataset) -> Dataset:
+        names = signals_of(dataset, self.signals, role="output")
+
+        def change(record: MeasuredRecord, log: Record) -> Iterator[MeasuredRecord]:
+            columns = {}
+            for name in names:
+                wrong = outliers(log[name], self.sigmas) if name in log.names else np.zeros(0, dtype=bool)
+                if wrong.any():
+                    column = log[name].copy()
+                    good = ~wrong & np.isfinite(column)
+                    column[wrong] = np.interp(log.time[wrong], log.time[good], column[good])
+                    columns[name] = column
+            yield with_columns(record, log, columns) if columns else record
+
+        return each_log(dataset, change)
+
+
+def outliers(values: Array, sigmas: float) -> NDArray[np.bool_]:
+    """(n_t,) which samples are far off their neighbours, see `DropOutliers`; missing ones are not."""
+    found = np.zeros(values.size, dtype=bool)
+    there = np.flatnonzero(np.isfinite(values))
+    if there.size < 4 * _BESIDE:
+        return found
+    own, width = values[there], 2 * _BESIDE + 1
+    near = sliding_window_view(np.concatenate([own[_BESIDE:0:-1], own, own[-2 : -2 - _BESIDE : -1]]), width)
+    limit = _SMALL * float(np.subtract(*np.quantile(own, [0.99, 0.01])))
+    far = np.ones(own.size, dtype=bool)
+    for expected in (np.median(near, axis=1), near @ _CUBIC):
+        away = np.abs(own - expected)
+        far &= away > max(sigmas * _NORMAL * float(np.median(away)), limit)
+    found[there] = far
+    return found

@@ -1,0 +1,1 @@
+"""The nouns a user holds: values with the verbs that belong to them."""

@@ -1,0 +1,328 @@
+"""Measurements as a user holds them: loaded as they come, made ready by steps that can be seen, and looked at."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path, PurePosixPath
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from pysim.io.dataset import read_described
+from pysim.io.load import is_frame, load_logs
+from pysim.io.load.load import Names
+from pysim.io.named_columns import optional_package
+from pysim.io.prepare import (
+    Delay,
+    Detrend,
+    DropOutliers,
+    Exclude,
+    FillGaps,
+    Flip,
+    HoldOut,
+    LowPass,
+    Rename,
+    Resample,
+    Scaled,
+    Split,
+    Step,
+    Trim,
+    call,
+    logs_called,
+    prepared,
+    refuse_missing_samples,
+    short_name,
+)
+from pysim.io.write_dataset import write_dataset
+from pysim.types import UNITS, BadInput, Dataset, MeasuredRecord, Record, conversion
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+_ROWS = 12  # logs that are shown one by one
+_EXTRA = '"hydraulic-test-bench[data]"'
+
+
+@dataclass(frozen=True, repr=False)
+class Data:
+    """Logs and tables of responses, and the steps that made them ready. Every method gives a new one; files stay.
+
+    Args:
+        raw: as it was taken, in SI units or %; an empty cell is not-a-number.
+        now: after the steps.
+        history: the steps, in order.
+        logged: signal -> unit in which it was logged.
+        units: the same after the steps, for people to read.
+        remarks: log -> what was guessed or left out when it was loaded.
+    """
+
+    raw: Dataset
+    now: Dataset
+    history: tuple[Step, ...]
+    logged: Mapping[str, str]
+    units: Mapping[str, str]
+    remarks: Mapping[str, tuple[str, ...]]
+
+    @property
+    def dataset(self) -> Dataset:
+        """What is fitted and compared: SI units or %, and every cell a number.
+
+        Raises:
+            BadInput: a log lacks samples, with the line that fills them.
+        """
+        refuse_missing_samples(self.now)
+        return self.now
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Of all logs and tables."""
+        return tuple(short_name(self.now, record) for record in self.now.records)
+
+    def __getitem__(self, name: str) -> MeasuredRecord:
+        """The log of that name; also the only one of a use: data["test"].
+
+        Raises:
+            BadInput: there is none, or there are several.
+        """
+        try:
+            found = logs_called(self.now, name)
+        except BadInput:
+            found = tuple(record for record in self.now.records if record.use == name)
+            if not found:
+                raise
+        if len(found) > 1:
+            parts = ", ".join(short_name(self.now, record) for record in found)
+            raise BadInput(f"{name!r} is several logs; name one of {parts}")
+        return found[0]
+
+    def __len__(self) -> int:
+        return len(self.now.records)
+
+    def after(self, *steps: Step) -> Data:
+        """The same after more steps, such as those of a finding of `check`.
+
+        Raises:
+            BadInput: a step cannot be done, with the cure.
+        """
+        now = prepared(self.now, steps)
+        units = dict(self.units)
+        for step in steps:
+            if isinstance(step, Rename):
+                units = {step.names.get(name, name): unit for name, unit in units.items()}
+            if isinstance(step, Scaled) and step.unit:
+                units[step.signal] = step.unit
+        return replace(self, now=now, history=(*self.history, *steps), units=units)
+
+    def trim(self, start: float | None = None, stop: float | None = None, *, logs: Iterable[str] = ()) -> Data:
+        """Leave out what is ahead of `start` s and behind `stop` s on the clock of each log, or of those named."""
+        return self.after(Trim(_number(start), _number(stop), _texts(logs)))
+
+    def exclude(self, log: str, start: float | None = None, stop: float | None = None) -> Data:
+        """Leave out the stretch from `start` to `stop` s of a log, which becomes two; without them, all of it."""
+        return self.after(Exclude(log, _number(start), _number(stop)))
+
+    def fill_gaps(self, longest: float, *, shortest: int = 10) -> Data:
+        """Fill missing samples up to `longest` s by straight lines; cut logs where more is missing.
+
+        Args:
+            shortest: samples; pieces of fewer are left out.
+        """
+        return self.after(FillGaps(float(longest), shortest))
+
+    def drop_outliers(self, sigmas: float = 8.0, *signals: str) -> Data:
+        """Put straight lines in place of samples that are so many standard deviations off their neighbours."""
+        return self.after(DropOutliers(float(sigmas), signals))
+
+    def resample(self, hz: float) -> Data:
+        """Sample evenly at another rate, with a filter ahead of a lower one."""
+        return self.after(Resample(float(hz)))
+
+    def lowpass(self, hz: float, *signals: str) -> Data:
+        """Take off what is faster than `hz`, without phase; of all signals where none is named."""
+        return self.after(LowPass(float(hz), signals))
+
+    def detrend(self, *signals: str, order: int = 0) -> Data:
+        """Take the mean (order 0) or the line (1) off signals, log by log; off all where none is named."""
+        return self.after(Detrend(signals, order))
+
+    def delay(self, signal: str, seconds: float) -> Data:
+        """Let a signal come later by so many s; a negative number lets it come earlier, as where its sensor lags."""
+        return self.after(Delay(signal, float(seconds)))
+
+    def flip(self, *signals: str) -> Data:
+        """Turn the sign of signals."""
+        return self.after(Flip(signals))
+
+    def scale(self, signal: str, factor: float = 1.0, offset: float = 0.0, unit: str = "") -> Data:
+        """Multiply a signal in the unit it was logged in, and add an offset; the result is in `unit`, else in the same.
+
+        Raises:
+            BadInput: no such signal, or a unit that is not known.
+        """
+        of = self.units.get(signal, "")
+        return self.after(Scaled(signal, float(factor), float(offset), unit or of, of))
+
+    def rename(self, names: Mapping[str, str] | None = None, **more: str) -> Data:
+        """Give signals other names, old="new"; two may swap theirs."""
+        return self.after(Rename({**(names or {}), **more}))
+
+    def hold_out(self, *names: str) -> Data:
+        """Keep logs to report the error on: nothing is fitted to them, and nothing is chosen with them."""
+        return self.after(HoldOut(names))
+
+    def split(self, share: float) -> Data:
+        """Cut each log in two, and hold out the second part; the first has that share of its samples."""
+        return self.after(Split(float(share)))
+
+    def plot(self) -> Figure:
+        """Signals over time, a row per log and a column per unit; at most eight logs."""
+        from pysim.present.data_check.figures import time_logs_figure
+
+        return time_logs_figure(self.now)
+
+    def to_dataframe(self) -> Any:
+        """A pandas.DataFrame over log and time in s, columns "x [mm]" in the units of the logs."""
+        pandas = optional_package("pandas", "a DataFrame needs pandas", _EXTRA)
+        frames = {}
+        for name, record in zip(self.names, self.now.records, strict=True):
+            if isinstance(record.data, Record):
+                log = record.data
+                columns = {f"{own} [{self._unit(own)}]": self._read(own, log[own]) for own in log.names}
+                frames[name] = pandas.DataFrame(columns, index=pandas.Index(log.time, name="time [s]"))
+        if not frames:
+            raise BadInput("there are no logs over time to make a table of")
+        return pandas.concat(frames, names=["log"])
+
+    def to_xarray(self) -> Any:
+        """An xarray.Dataset with the same columns over log and time; a log has no values at the times of others."""
+        optional_package("xarray", "an xarray.Dataset needs xarray", "xarray")
+        return self.to_dataframe().to_xarray()
+
+    def save(self, folder: Path | str) -> Path:
+        """Write the raw logs as text and a dataset.toml with the steps, which every reader then does again.
+
+        Args:
+            folder: a new or empty one.
+        Returns:
+            the path of dataset.toml.
+        Raises:
+            BadInput: the folder holds something, or cannot be written.
+        """
+        texts = [PurePosixPath(record.source).with_suffix(".txt").as_posix() for record in self.raw.records]
+        records = tuple(replace(r, source=text) for r, text in zip(self.raw.records, texts, strict=True))
+        raw = replace(self.raw, records=records)
+        return write_dataset(folder, raw, units=self.logged, steps=self.history, exact=True)
+
+    def _unit(self, signal: str) -> str:
+        """In which people read a signal."""
+        own, shown = self.now.signal(signal).unit, self.units.get(signal, "")
+        return shown if shown in UNITS and conversion(own, shown) else own
+
+    def _read(self, signal: str, values: Any) -> Any:
+        """Numbers in the unit that people read."""
+        factor, zero = conversion(self.now.signal(signal).unit, self._unit(signal)) or (1.0, 0.0)
+        return factor * np.asarray(values) + zero
+
+    def _head(self) -> list[str]:
+        """What all logs share, in lines."""
+        named = {
+            role: ", ".join(f"{s.name} [{self._unit(s.name)}]" for s in self.now.signals if s.role == role)
+            for role in ("input", "output")
+        }
+        count = len(self.now.records)
+        lines = [f"{count} log{'s' * (count != 1)}: inputs {named['input']}; outputs {named['output']}"]
+        steps = ", ".join(call(step) for step in self.history)
+        return [_short(line, 400) for line in (*lines, *([f"prepared: {steps}"] if steps else []))]
+
+    def _rows(self) -> list[tuple[str, ...]]:
+        """Name, use, samples, seconds and warnings of each log, of twelve at most."""
+        rows: list[tuple[str, ...]] = []
+        for name, record in list(zip(self.names, self.now.records, strict=True))[:_ROWS]:
+            if isinstance(record.data, Record):
+                size, span = record.data.time.size, f"{record.data.time[-1] - record.data.time[0]:.4g}"
+                empty = int(np.count_nonzero(~np.isfinite(record.data.values)))
+            else:
+                size, span, empty = record.data.frequency.size, "-", 0
+            told = [f"{empty} cells empty"] if empty else []
+            uneven = [text for text in self.remarks.get(record.source, ()) if text.startswith("uneven")]
+            rows.append((_short(name, 24), record.use, str(size), span, _short("; ".join([*told, *uneven]), 60)))
+        return rows
+
+    def __repr__(self) -> str:
+        rows = [("log", "use", "samples", "seconds", "warnings"), *self._rows()]
+        widths = [max(len(row[k]) for row in rows) for k in range(5)]
+        lines = ["  ".join(f"{cell:<{w}}" for cell, w in zip(row, widths, strict=True)).rstrip() for row in rows]
+        more = len(self.now.records) - _ROWS
+        return "\n".join([*self._head(), *lines, *([f"and {more} more"] if more > 0 else [])])
+
+    def _repr_html_(self) -> str:
+        from html import escape
+
+        head = "".join(f"<p>{escape(line)}</p>" for line in self._head())
+        cells = "".join(
+            "<tr>" + "".join(f"<td>{escape(cell)}" for cell in row)
+            for row in [("log", "use", "samples", "seconds", "warnings"), *self._rows()]
+        )
+        more = len(self.now.records) - _ROWS
+        return f"{head}<table>{cells}</table>" + (f"<p>and {more} more</p>" if more > 0 else "")
+
+
+def load(
+    source: Any,
+    *,
+    inputs: Names | None = None,
+    outputs: Names | None = None,
+    time: str | None = None,
+    units: Mapping[str, str] | None = None,
+    noise: Mapping[str, float] | None = None,
+    variables: Mapping[str, str] | None = None,
+    hold: Mapping[str, str] | None = None,
+) -> Data:
+    """Read logs as they come, or a data set that describes itself.
+
+    Args:
+        source: a path, a pattern, a folder, a table in memory (pandas, polars, Arrow, xarray, a dict of arrays), a list
+            of any, or a dict of these by name. Of a folder with a dataset.toml all else is known.
+        inputs, outputs: names of the signals as the headings have them, ahead of their units; a dict gives other names
+            to them: signal -> heading.
+        time: heading of the clock; without it, that is looked for.
+        units: signal (or heading) -> unit, where no heading tells one.
+        noise: signal -> standard deviation of its noise, in its unit.
+        variables: signal -> variable of the model, where that is called otherwise.
+        hold: input -> how it runs between samples, "zero", "linear" or "spline".
+    Raises:
+        BadInput: what cannot be read, is not there, or must be asked for, with its place and the cure.
+    """
+    given = {"time": time, "units": units, "noise": noise, "variables": variables, "hold": hold}
+    if _describes_itself(source):
+        extra = [name for name, value in {"inputs": inputs, "outputs": outputs, **given}.items() if value]
+        if extra:
+            raise BadInput(f"{source} has a dataset.toml that says what its logs are; leave out {', '.join(extra)}")
+        described = read_described(source)
+        data = Data(described.raw, described.raw, (), described.units, described.units, {})
+        return data.after(*described.steps)
+    if not inputs or not outputs:
+        what = "inputs" if not inputs else "outputs"
+        raise BadInput(f'which columns are {what}? Name them: {what}=["..."], as the headings have them')
+    found = load_logs(source, inputs=inputs, outputs=outputs, **given)  # type: ignore[arg-type]
+    return Data(found.dataset, found.dataset, (), found.units, found.units, found.remarks)
+
+
+def _describes_itself(source: Any) -> bool:
+    if is_frame(source) or not isinstance(source, str | Path):
+        return False
+    path = Path(source)
+    return path.suffix == ".toml" or (path / "dataset.toml").is_file()
+
+
+def _number(value: float | None) -> float | None:
+    return None if value is None else float(value)
+
+
+def _texts(names: Iterable[str]) -> tuple[str, ...]:
+    return (names,) if isinstance(names, str) else tuple(names)
+
+
+def _short(text: str, most: int) -> str:
+    return text if len(text) <= most else f"{text[: most - 3]}..."

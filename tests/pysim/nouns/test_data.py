@@ -1,0 +1,101 @@
+"""Data as a user holds them: steps that leave the files alone, are saved, and are done again."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from pysim.io import read_dataset
+from pysim.nouns.data import Data, load
+from pysim.types import BadInput, Record
+
+TIME = np.arange(500) / 100
+
+
+def logs() -> Data:
+    """Two runs of a force and a position, the second with an empty cell."""
+    frames = {}
+    for k, name in enumerate(("run1", "run2")):
+        x = 3 * np.sin(2 * np.pi * (k + 1) * TIME)
+        x[120] = np.nan if k else x[120]
+        frames[name] = {"t [s]": TIME, "F [kN]": np.cos(2 * np.pi * TIME), "x [mm]": x}
+    return load(frames, inputs="F", outputs="x", noise={"x": 0.02})
+
+
+def log_of(data: Data, name: str) -> Record:
+    found = data[name].data
+    assert isinstance(found, Record)
+    return found
+
+
+def test_headings_give_units_and_everything_is_in_si() -> None:
+    data = logs()
+    np.testing.assert_allclose(log_of(data, "run1")["x"], 3e-3 * np.sin(2 * np.pi * TIME), atol=1e-15)
+    assert log_of(data, "run1").units == ("N", "m")
+    assert data.now.signal("x").noise == pytest.approx(2e-5)
+
+
+def test_an_empty_cell_is_refused_with_the_line_that_fills_it() -> None:
+    with pytest.raises(BadInput) as refused:
+        _ = logs().dataset
+    line = str(refused.value).partition("data = data.")[2].partition(" fills")[0]
+    data = eval(f"data.{line}", {"data": logs()})
+    x = log_of(data, "run2")["x"]
+    assert np.isfinite(data.dataset.records[1].data.values).all()
+    assert x[120] == pytest.approx(0.5 * (x[119] + x[121]))
+
+
+def test_every_step_gives_a_new_one_and_is_listed() -> None:
+    raw = logs()
+    data = raw.trim(start=0.5).fill_gaps(0.03).flip("x").hold_out("run2")
+    assert raw.history == ()
+    assert np.isnan(log_of(raw, "run2")["x"][120])
+    assert [step.word for step in data.history] == ["trim", "fill_gaps", "flip", "hold_out"]
+    assert [record.use for record in data.now.records] == ["fit", "test"]
+    np.testing.assert_array_equal(log_of(data, "run1")["x"], -log_of(raw, "run1")["x"][50:])
+
+
+def test_a_saved_folder_reads_as_the_same_data(tmp_path: Path) -> None:
+    data = logs().fill_gaps(0.03).trim(stop=4).scale("x", 2.0, 1.0).rename(x="y").delay("y", 0.013)
+    data = data.detrend("y").resample(50).lowpass(20).drop_outliers(9, "y").split(0.7)
+    data.save(tmp_path / "saved")
+    again = read_dataset(tmp_path / "saved")
+    assert [r.source for r in again.records] == [f"run{k}~{use}.txt" for k in (1, 2) for use in ("fit", "test")]
+    for record, same in zip(data.dataset.records, again.records, strict=True):
+        assert isinstance(record.data, Record)
+        assert isinstance(same.data, Record)
+        assert (record.use, record.initial, record.data.names) == (same.use, same.initial, same.data.names)
+        np.testing.assert_allclose(same.data.time, record.data.time, rtol=1e-12)
+        np.testing.assert_allclose(same.data.values, record.data.values, rtol=1e-9, atol=1e-12)
+    opened = load(tmp_path / "saved")
+    assert opened.history == data.history
+    assert np.isnan(opened.raw.records[1].data.values).sum() == 1
+
+
+def test_the_second_part_of_a_split_is_found_by_its_use() -> None:
+    data = load({"t [s]": TIME, "F [N]": TIME**2, "x [m]": TIME}, inputs="F", outputs="x", time="t").split(0.7)
+    assert data["test"].held_out
+    assert log_of(data, "test").time[0] == pytest.approx(3.5)
+    assert data["fit"].use == "fit"
+    assert log_of(data, "fit").time.size == 350
+
+
+def test_what_is_shown_is_short_and_has_a_line_a_log() -> None:
+    data = logs().fill_gaps(0.03).hold_out("run2")
+    lines = repr(data).splitlines()
+    assert [line.split()[:4] for line in lines[-2:]] == [
+        ["run1", "fit", "500", "4.99"],
+        ["run2", "test", "500", "4.99"],
+    ]
+    many = load({f"run{k}": {"t [s]": TIME, "F [N]": TIME, "x [m]": TIME} for k in range(60)}, inputs="F", outputs="x")
+    assert len(repr(many)) < 2000
+    assert len(many._repr_html_()) < 2000
+
+
+def test_a_table_has_the_units_of_the_logs() -> None:
+    pytest.importorskip("pandas")
+    frame = logs().to_dataframe()
+    assert list(frame.columns) == ["F [kN]", "x [mm]"]
+    assert frame.loc[("run1", 0.0), "F [kN]"] == pytest.approx(1.0)
+    pytest.importorskip("xarray")
+    assert logs().to_xarray()["x [mm]"].sel(log="run1").size == TIME.size
