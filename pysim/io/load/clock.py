@@ -19,6 +19,7 @@ Array = NDArray[np.float64]
 
 _NAMES = {"time", "t", "zeit", "timestamp", "date_time", "datetime", "date/time", "zeitstempel", "x_value", "elapsed"}
 _UNEVEN = 0.05  # of the interval
+_FALLS = 0.05  # of the rows: a clock that was set back now and then is refused where it does, and not mistaken
 _EPOCHS = {1e9: "s", 1e12: "ms", 1e15: "us"}  # counts since 1970 begin there, and are below four times that
 _UNTIL = 4.0
 _NS = np.timedelta64(1, "ns")
@@ -88,7 +89,7 @@ def _found(table: RawTable, units: Mapping[str, str], signals: Collection[str]) 
         if (unit in SECONDS and (named or unit not in ("min", "h"))) or (named and not unit):
             rises = _rises(table, heading)
             if rises:
-                certain.append((heading, f"it is headed {heading!r}, never falls and rises by {rises} each row"))
+                certain.append((heading, f"it is headed {heading!r}, {rises}"))
         elif not unit and (rises := _rises(table, heading)):
             perhaps.append(heading)
     if len(certain) == 1:
@@ -104,17 +105,20 @@ def _found(table: RawTable, units: Mapping[str, str], signals: Collection[str]) 
 
 
 def _rises(table: RawTable, heading: str) -> str:
-    """The usual interval of a column that never falls and rises nearly evenly; empty for all others."""
+    """How a column rises whose rows nearly all rise evenly, or stand for a copy of a row; empty for all others."""
     try:
         values = table.numbers(heading)
     except BadInput:
         return ""
-    if values.size < 2 or not np.isfinite(values).all():
+    steps = np.diff(values[np.isfinite(values)])
+    up = steps[steps > 0]
+    if up.size < max(0.5 * (steps.size - 1), 1) or np.mean(steps < 0) > _FALLS:
         return ""
-    steps = np.diff(values)
-    usual = float(np.median(steps))
-    near = np.abs(steps - usual) <= 0.5 * usual
-    return f"{usual:.4g}" if usual > 0 and steps.min() >= 0 and near.mean() > 0.5 else ""
+    usual = float(np.median(up))
+    even = np.mean(np.abs(up - usual) <= 0.5 * usual) > 0.5
+    return (
+        f"{'never falls' if steps.min() >= 0 else 'hardly ever falls'} and rises by {usual:.4g} a row" if even else ""
+    )
 
 
 def _seconds(table: RawTable, heading: str, units: Mapping[str, str]) -> tuple[Array, float | None, str]:

@@ -18,6 +18,7 @@ Array = NDArray[np.float64]
 _BESIDE = 3  # samples to either side that tell where one should be
 _NORMAL = 1.4826  # standard deviations of a normal distribution in its median absolute deviation
 _SMALL = 0.03  # of the signal's usual range: what is off by less is no outlier
+_SHADOW = 0.4  # of the largest distance nearby: an outlier shifts the medians beside it as well, by less
 _CUBIC = np.array([0.0, -1.0, 4.0, 0.0, 4.0, -1.0, 0.0]) / 6  # a cubic through the two samples on either side
 
 
@@ -29,6 +30,7 @@ class DropOutliers:
         sigmas: how far from the median of the seven samples around it, in standard deviations of all such distances
             (by their median), and at least three percent of the signal's range: Hampel's filter. So that the top of a
             fast sine is none, the sample must be as far from a cubic through its neighbours.
+            The three samples at either end are left alone.
         signals: their names; all outputs where there are none. A command may jump.
     Source: F. R. Hampel, The influence curve and its role in robust estimation, J. Am. Stat. Assoc. 69 (1974).
     """
@@ -59,14 +61,15 @@ def outliers(values: Array, sigmas: float) -> NDArray[np.bool_]:
     """(n_t,) which samples are far off their neighbours, see `DropOutliers`; missing ones are not."""
     found = np.zeros(values.size, dtype=bool)
     there = np.flatnonzero(np.isfinite(values))
-    if there.size < 4 * _BESIDE:
+    width = 2 * _BESIDE + 1
+    if there.size < 2 * width:
         return found
-    own, width = values[there], 2 * _BESIDE + 1
-    near = sliding_window_view(np.concatenate([own[_BESIDE:0:-1], own, own[-2 : -2 - _BESIDE : -1]]), width)
+    own = values[there]
+    near = sliding_window_view(own, width)
     limit = _SMALL * float(np.subtract(*np.quantile(own, [0.99, 0.01])))
-    far = np.ones(own.size, dtype=bool)
-    for expected in (np.median(near, axis=1), near @ _CUBIC):
-        away = np.abs(own - expected)
+    middle, cubic = (np.abs(near[:, _BESIDE] - expected) for expected in (np.median(near, axis=1), near @ _CUBIC))
+    far = middle > _SHADOW * sliding_window_view(np.pad(middle, _BESIDE), width).max(axis=1)
+    for away in (middle, cubic):
         far &= away > max(sigmas * _NORMAL * float(np.median(away)), limit)
-    found[there] = far
+    found[there[_BESIDE:-_BESIDE]] = far
     return found

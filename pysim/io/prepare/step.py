@@ -51,11 +51,13 @@ def prepared(dataset: Dataset, steps: Iterable[Step]) -> Dataset:
 def call(step: Step) -> str:
     """A step as it is typed in Python: `trim(start=0.5)`, `flip("x")`."""
     words: list[str] = []
+    named = not (step.star and getattr(step, step.star))  # names one by one stand behind all that is ahead of them
     for field in fields(step):  # type: ignore[arg-type]
         value = getattr(step, field.name)
         if field.name == step.star:
             words += [_typed(name) for name in value]
-        elif field.default is MISSING:
+            named = True
+        elif field.default is MISSING or not named:
             words.append(_typed(value))
         elif value != field.default:
             words.append(f"{field.name}={_typed(value)}")

@@ -1,0 +1,242 @@
+"""Every step of the preparation on signals whose answer is a formula."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from pysim.io.prepare import (
+    STEPS,
+    Delay,
+    Detrend,
+    DropOutliers,
+    Exclude,
+    FillGaps,
+    Flip,
+    HoldOut,
+    LowPass,
+    Rename,
+    Resample,
+    Scaled,
+    Split,
+    Trim,
+    call,
+    prepared,
+    step_of,
+    values_of,
+)
+from pysim.io.toml_section import Section
+from pysim.types import BadInput, Dataset, MeasuredRecord, MeasuredSignal, Record
+from pysim.types.record_kind import Command
+
+Array = NDArray[np.float64]
+SIGNALS = (MeasuredSignal("u", "input", "V", "u", "u"), MeasuredSignal("y", "output", "m", "y", "y", noise=0.1))
+TIME = np.arange(2000) / 1000
+
+
+def dataset(time: Array, *columns: Array, signals: tuple[MeasuredSignal, ...] = SIGNALS, **more: Any) -> Dataset:
+    """One log of u and y, or of y alone beside a u of zeros."""
+    own = columns if len(columns) == len(signals) else (np.zeros(time.size), *columns)
+    log = Record(time, np.column_stack(own), tuple(s.name for s in signals), tuple(s.unit for s in signals))
+    return Dataset("d", "", "", signals, (MeasuredRecord("run.csv", "other", "fit", log, **more),))
+
+
+def y_of(data: Dataset, record: int = 0) -> tuple[Array, Array]:
+    log = data.records[record].data
+    assert isinstance(log, Record)
+    return log.time, log["y"]
+
+
+def sine(time: Array, hz: float, size: float = 1.0) -> Array:
+    return np.asarray(size * np.sin(2 * np.pi * hz * time))
+
+
+def test_a_delayed_sine_is_the_sine_of_a_later_time() -> None:
+    time, y = y_of(Delay("y", 0.0123).apply(dataset(TIME, sine(TIME, 30.0))))
+    assert (time[0], time[-1]) == pytest.approx((0.013, TIME[-1]))
+    np.testing.assert_allclose(y[4:], sine(time - 0.0123, 30.0)[4:], atol=1e-6)
+    time, y = y_of(Delay("y", -0.0123).apply(dataset(TIME, sine(TIME, 30.0))))
+    np.testing.assert_allclose(y[:-4], sine(time + 0.0123, 30.0)[:-4], atol=1e-6)
+
+
+def test_a_held_command_is_delayed_by_whole_steps() -> None:
+    signals = (MeasuredSignal("u", "input", "V", "u", "u", hold=Command.STEPS), SIGNALS[1])
+    steps = np.floor(TIME * 10)
+    data = Delay("u", 0.05).apply(dataset(TIME, steps, np.zeros(TIME.size), signals=signals))
+    log = data.records[0].data
+    assert isinstance(log, Record)
+    np.testing.assert_array_equal(log["u"], np.floor((log.time - 0.05) * 10 + 1e-9))
+
+
+@pytest.mark.parametrize(("hz", "left"), [(20.0, 1.0), (39.0, 1.0), (60.0, 0.0), (450.0, 0.0)])
+def test_resampled_sines_stay_below_the_new_nyquist_frequency_and_vanish_above(hz: float, left: float) -> None:
+    long = np.arange(8000) / 1000
+    time, y = y_of(Resample(100.0).apply(dataset(long, sine(long, hz))))
+    np.testing.assert_allclose(np.diff(time), 0.01, rtol=1e-9)
+    inner = slice(100, -100)  # the mirrored ends are no sine
+    np.testing.assert_allclose(y[inner], left * sine(time, hz)[inner], atol=2e-3)
+
+
+def test_a_faster_rate_goes_through_every_sample() -> None:
+    time, y = y_of(Resample(4000.0).apply(dataset(TIME, sine(TIME, 50.0))))
+    np.testing.assert_allclose(y[::4], sine(TIME, 50.0), atol=1e-12)
+    np.testing.assert_allclose(y[100:-100], sine(time, 50.0)[100:-100], atol=1e-6)
+
+
+def test_an_uneven_clock_becomes_even() -> None:
+    rng = np.random.default_rng(1)
+    uneven = TIME + 1e-4 * rng.uniform(-1, 1, TIME.size)
+    time, y = y_of(Resample(1000.0).apply(dataset(uneven, sine(uneven, 20.0))))
+    np.testing.assert_allclose(y[10:-10], sine(time, 20.0)[10:-10], atol=1e-5)
+
+
+def test_a_low_pass_has_the_gain_it_says_and_no_phase() -> None:
+    long = np.arange(8000) / 1000
+    for hz in (5.0, 25.0, 40.0):
+        time, y = y_of(LowPass(25.0).apply(dataset(long, sine(long, hz))))
+        gain = 1 / (1 + (hz / 25.0) ** 8)
+        np.testing.assert_allclose(y[1000:-1000], gain * sine(time, hz)[1000:-1000], atol=1e-3)
+
+
+def test_noise_falls_as_a_filter_says() -> None:
+    noise = np.random.default_rng(2).normal(scale=0.1, size=20000)
+    data = LowPass(50.0).apply(dataset(np.arange(20000) / 1000, noise))
+    assert np.std(y_of(data)[1]) == pytest.approx(data.signal("y").noise, rel=0.05)
+
+
+@pytest.mark.parametrize("order", [0, 1, 2])
+def test_a_polynomial_is_taken_off_whole(order: int) -> None:
+    y = sum(3.0 * TIME**k for k in range(order + 1))
+    _, left = y_of(Detrend(("y",), order).apply(dataset(TIME + 70, np.asarray(y))))
+    np.testing.assert_allclose(left, 0, atol=1e-11)
+
+
+def test_scales_and_signs() -> None:
+    data = dataset(TIME, np.ones(TIME.size), 2 * np.ones(TIME.size), command="u", offset=3.0, amplitude=0.5)
+    flipped = Flip(("u", "y")).apply(data)
+    assert (flipped.records[0].offset, flipped.records[0].amplitude) == (-3.0, 0.5)
+    assert y_of(flipped)[1][0] == -2.0
+    bar = Scaled("y", 50.0, 1.0, "bar", "mm").apply(data)  # of a position in mm: 2000 mm are 100,001 bar
+    assert bar.signal("y").unit == "Pa"
+    assert y_of(bar)[1][0] == pytest.approx(1e5 * (50.0 * 2000 + 1.0))
+    assert bar.signal("y").noise == pytest.approx(0.1 * 1e3 * 50 * 1e5)
+    with pytest.raises(BadInput, match="no quantity in bar"):
+        Scaled("y", 2.0, of="bar").apply(data)
+
+
+def test_two_signals_swap_their_names() -> None:
+    data = Rename({"u": "y", "y": "u"}).apply(dataset(TIME, TIME, -TIME, command="u"))
+    assert (data.signals[0].name, data.signals[0].variable, data.records[0].command) == ("y", "y", "y")
+    np.testing.assert_array_equal(y_of(data)[1], TIME)
+    with pytest.raises(BadInput, match="two signals would be called 'y'"):
+        Rename({"u": "y"}).apply(dataset(TIME, TIME))
+
+
+def test_outliers_go_and_steps_stay() -> None:
+    clean = sine(TIME, 10.0) + (TIME > 1.0)
+    noisy = clean + np.random.default_rng(3).normal(scale=0.01, size=TIME.size)
+    spoilt = noisy.copy()
+    wrong = [3, 500, 501, 1500, 1994]
+    spoilt[wrong] += [2.0, -1.5, -1.4, 0.5, -2.0]
+    _, y = y_of(DropOutliers().apply(dataset(TIME, spoilt)))
+    assert set(np.flatnonzero(y != spoilt)) == set(wrong)
+    np.testing.assert_allclose(y, clean, atol=0.1)
+
+
+@pytest.mark.parametrize("hz", [10.0, 40.0, 100.0])
+def test_a_clean_sine_has_no_outliers(hz: float) -> None:
+    data = dataset(TIME, sine(TIME, hz))
+    np.testing.assert_array_equal(y_of(DropOutliers(5.0).apply(data))[1], y_of(data)[1])
+
+
+def test_short_gaps_are_filled_and_long_ones_cut() -> None:
+    y = 2 * TIME
+    y[[100, 101]] = np.nan
+    kept = np.r_[0:400, 403:1000, 1100:2000]
+    data = FillGaps(0.005).apply(dataset(TIME[kept], y[kept], begin=50.0))
+    assert [record.source for record in data.records] == ["run~1.csv", "run~2.csv"]
+    assert [(r.begin, r.initial) for r in data.records] == [(50.0, None), (pytest.approx(51.1), "estimate")]
+    for record, first, stop in ((0, 0, 1000), (1, 1100, 2000)):
+        time, filled = y_of(data, record)
+        np.testing.assert_allclose(time, TIME[first:stop], atol=1e-12)
+        np.testing.assert_allclose(filled, 2 * TIME[first:stop], atol=1e-12)
+
+
+def test_cells_that_are_missing_at_the_ends_are_cut_off() -> None:
+    y = TIME.copy()
+    y[:5] = y[-7:] = np.nan
+    data = FillGaps(1.0).apply(dataset(TIME, y))
+    assert data.records[0].source == "run.csv"
+    np.testing.assert_array_equal(y_of(data)[0], TIME[5:-7])
+
+
+def test_stretches_are_left_out() -> None:
+    data = dataset(TIME, TIME, initial="rest", begin=10.0)
+    (cut,) = Trim(0.5, 1.5).apply(data).records
+    assert (cut.initial, cut.begin, cut.data.values.shape[0]) == (None, 10.5, 1001)
+    parts = Exclude("run", 0.5, 1.0).apply(data).records
+    assert [(r.source, r.initial, r.data.values.shape[0]) for r in parts] == [
+        ("run~1.csv", "rest", 500),
+        ("run~2.csv", "estimate", 999),
+    ]
+    with pytest.raises(BadInput, match="no log is left"):
+        Exclude("run").apply(data)
+
+
+def test_held_out_logs_are_those_of_a_name_and_its_parts() -> None:
+    data = prepared(dataset(TIME, TIME), [Exclude("run", 0.5, 1.0), HoldOut(("run",))])
+    assert [record.use for record in data.records] == ["test", "test"]
+    data = prepared(dataset(TIME, TIME), [Split(0.25)])
+    assert [(r.use, r.initial, r.data.values.shape[0]) for r in data.records] == [
+        ("fit", None, 500),
+        ("test", "estimate", 1500),
+    ]
+    with pytest.raises(BadInput, match="step 1, hold_out\\(\"walk\"\\): there is no log 'walk'; name one of run"):
+        prepared(dataset(TIME, TIME), [HoldOut(("walk",))])
+
+
+def test_filters_ask_for_a_log_without_gaps() -> None:
+    y = TIME.copy()
+    y[100] = np.nan
+    for step in (LowPass(10.0), Resample(100.0), Detrend(), Delay("y", 0.1)):
+        with pytest.raises(BadInput, match=r"y lacks 1 samples, the first at 0\.1 s; data = data\.fill_gaps\(0\.00"):
+            step.apply(dataset(TIME, y))
+
+
+ALL = (
+    (Trim(0.5, logs=("a", "b")), 'trim(start=0.5, logs=["a", "b"])'),
+    (Exclude("a", 1.0, 2.5), 'exclude("a", start=1, stop=2.5)'),
+    (FillGaps(0.02), "fill_gaps(0.02)"),
+    (DropOutliers(6.0, ("x", "y")), 'drop_outliers(6, "x", "y")'),
+    (Resample(500.0), "resample(500)"),
+    (LowPass(50.0), "lowpass(50)"),
+    (Detrend(("x",), 1), 'detrend("x", order=1)'),
+    (Delay("p_A", 0.003), 'delay("p_A", 0.003)'),
+    (Flip(("x",)), 'flip("x")'),
+    (Scaled("x", 12.5, unit="mm", of="V"), 'scale("x", factor=12.5, unit="mm", of="V")'),
+    (Rename({"a b": "c"}), 'rename({"a b": "c"})'),
+    (HoldOut(("run3",)), 'hold_out("run3")'),
+    (Split(0.7), "split(0.7)"),
+)
+
+
+@pytest.mark.parametrize(("step", "line"), ALL)
+def test_a_step_is_typed_and_written_so_that_it_is_read_again(step: Any, line: str) -> None:
+    assert call(step) == line
+    assert step_of(Section("place", values_of(step))) == step
+
+
+def test_every_step_is_tried() -> None:
+    assert {step.word for step, _ in ALL} == set(STEPS)
+
+
+def test_a_misspelt_step_is_refused() -> None:
+    with pytest.raises(BadInput, match="place: step = 'flop' is not known; use one of trim, "):
+        step_of(Section("place", {"step": "flop"}))
+    with pytest.raises(BadInput, match="place: the key 'signal' is not known; use step, signals"):
+        step_of(Section("place", {"step": "flip", "signal": "x"}))
+    with pytest.raises(BadInput, match="hz is missing"):
+        step_of(Section("place", {"step": "resample"}))
