@@ -35,6 +35,7 @@ from pysim.io.prepare import (
     short_name,
 )
 from pysim.io.write_dataset import write_dataset
+from pysim.nouns.data_check import Check
 from pysim.types import UNITS, BadInput, Dataset, MeasuredRecord, Record, conversion
 
 if TYPE_CHECKING:
@@ -154,13 +155,16 @@ class Data:
         """Turn the sign of signals."""
         return self.after(Flip(signals))
 
-    def scale(self, signal: str, factor: float = 1.0, offset: float = 0.0, unit: str = "") -> Data:
+    def scale(self, signal: str, factor: float = 1.0, offset: float = 0.0, unit: str = "", *, of: str = "") -> Data:
         """Multiply a signal in the unit it was logged in, and add an offset; the result is in `unit`, else in the same.
+
+        Args:
+            of: the unit in which its values count, where not that of the log.
 
         Raises:
             BadInput: no such signal, or a unit that is not known.
         """
-        of = self.units.get(signal, "")
+        of = of or self.units.get(signal, "")
         return self.after(Scaled(signal, float(factor), float(offset), unit or of, of))
 
     def rename(self, names: Mapping[str, str] | None = None, **more: str) -> Data:
@@ -174,6 +178,31 @@ class Data:
     def split(self, share: float) -> Data:
         """Cut each log in two, and hold out the second part; the first has that share of its samples."""
         return self.after(Split(float(share)))
+
+    def check(self, model: Any = None) -> Check:
+        """What should be looked at before anything is fitted, each with the line that cures it.
+
+        Args:
+            model: what answers to the inputs: a model with `.simulate(log)`, the run of the only log, or runs by the
+                names of logs. With it, signs, units and columns are looked at too.
+        """
+        from pysim.identify.data_check import check_dataset
+
+        return Check(check_dataset(self.now, self._answers(model)))
+
+    def _answers(self, model: Any) -> dict[str, Record]:
+        """Source of a log -> the model's answer to it."""
+        logs = [record for record in self.now.logs() if not record.held_out] or list(self.now.logs())
+        if model is None:
+            return {}
+        if hasattr(model, "simulate"):
+            return {record.source: _record(model.simulate(record)) for record in logs}
+        if isinstance(model, Mapping):
+            return {self[name].source: _record(run) for name, run in model.items()}
+        if len(logs) != 1:
+            names = ", ".join(short_name(self.now, record) for record in logs)
+            raise BadInput(f"one run for {len(logs)} logs; give a dict of runs by their names: {names}")
+        return {logs[0].source: _record(model)}
 
     def plot(self) -> Figure:
         """Signals over time, a row per log and a column per unit; at most eight logs."""
@@ -314,6 +343,14 @@ def _describes_itself(source: Any) -> bool:
         return False
     path = Path(source)
     return path.suffix == ".toml" or (path / "dataset.toml").is_file()
+
+
+def _record(run: Any) -> Record:
+    """The columns of a run, or of what holds one."""
+    found = run if isinstance(run, Record) else getattr(run, "record", None)
+    if not isinstance(found, Record):
+        raise BadInput(f"a {type(run).__name__} is no run of a model; simulate the model on the log")
+    return found
 
 
 def _number(value: float | None) -> float | None:

@@ -30,7 +30,7 @@ def run() -> Iterator[Finding]:
     start = time.process_time()
     measured = read_dataset(MEASUREMENTS / "bench-01")
     yield Finding("bench-01: processor time to read its 68 logs", time.process_time() - start, 1.0, "s")
-    yield Finding("bench-01: warnings of the data check", len(check_dataset(measured).warnings), 0, "")
+    yield Finding("bench-01: warnings of the data check", len(check_dataset(measured).findings), 0, "")
     plan = read_plan("bench-01")
     data = run_plan(pump_model("free"), plan, SEED, parameters=true_parameters())
     yield from _against_the_independent_plant(measured, data.truth.clean)

@@ -16,6 +16,7 @@ from pysim.app.parts import Chart, Choice, Drop, Table, box, button, card, head,
 from pysim.app.records import MOST, measured_overlay
 from pysim.identify.data_check import DataCheck, RecordCheck
 from pysim.io import counted
+from pysim.present.data_check import sentence
 from pysim.types import UNITS, BadInput, Record
 
 MODELS = ("HydraulicTestBench.Pump.FreeGreyBox", "HydraulicTestBench.Pump.LockedGreyBox")
@@ -234,5 +235,5 @@ def _row(record: RecordCheck) -> list[Any]:
         quantity(record.offset, record.unit),
         quantity(record.amplitude, record.unit),
         "" if record.frequency is None else f"{record.frequency:g}",
-        "; ".join(record.warnings),
+        "; ".join(sentence(found) for found in record.findings),
     ]

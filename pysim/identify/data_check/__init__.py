@@ -1,19 +1,23 @@
 """What a data set holds, and what about it should be looked at before anything is fitted."""
 
 from pysim.identify.data_check.check import DataCheck, RecordCheck, check_dataset
-from pysim.identify.data_check.clipping import clipped
+from pysim.identify.data_check.clipping import clipped, plateaus
 from pysim.identify.data_check.clock import Clock, clock
+from pysim.identify.data_check.finding import Finding, FindingCode
 from pysim.identify.data_check.folding import share_near_nyquist
 from pysim.identify.data_check.swing import Swing, swing
 
 __all__ = [
     "Clock",
     "DataCheck",
+    "Finding",
+    "FindingCode",
     "RecordCheck",
     "Swing",
     "check_dataset",
     "clipped",
     "clock",
+    "plateaus",
     "share_near_nyquist",
     "swing",
 ]

@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from pysim.identify.data_check.clipping import clipped
+from pysim.identify.data_check.against_model import against_model
+from pysim.identify.data_check.clipping import plateaus
 from pysim.identify.data_check.clock import Clock, clock
+from pysim.identify.data_check.finding import Finding, FindingCode, finding
 from pysim.identify.data_check.folding import share_near_nyquist
+from pysim.identify.data_check.gaps import fill_of, whole_rows
 from pysim.identify.data_check.swing import swing
 from pysim.identify.logged import logged_wave
+from pysim.io.prepare import DropOutliers, Exclude, FillGaps, Resample, outliers, short_name
 from pysim.types import BadInput, Dataset, FrequencyResponse, MeasuredRecord, MeasuredSignal, Record
 from pysim.types.record_kind import CHIRP, KINDS
 
@@ -24,6 +28,8 @@ _HARMONIC = 3  # a symmetric nonlinearity answers there
 _FOLDED = 0.01  # of a signal's variance close to half the sampling rate
 _SLOW = 1.0  # Hz: no faster does a bench log, unless its times are no seconds
 _ROUNDING = 1e-6
+_SHORT = 20  # samples: of fewer no response can be told
+_CUTS = 3  # stretches that are cut out of a log one by one; where more are clipped, it is left out
 
 
 @dataclass(frozen=True)
@@ -38,7 +44,7 @@ class RecordCheck:
         offset, amplitude, frequency: as told.
         command: input that these three speak of; empty where none is told.
         unit: of offset and amplitude; empty where no input is told.
-        warnings: sentences on what should be looked at.
+        findings: what should be looked at.
     """
 
     source: str
@@ -52,42 +58,56 @@ class RecordCheck:
     frequency: float | None
     command: str
     unit: str
-    warnings: tuple[str, ...]
+    findings: tuple[Finding, ...]
 
 
 @dataclass(frozen=True)
 class DataCheck:
-    """A data set and what was found; `records` in its order."""
+    """A data set and what was found; `records` in its order, and what a model's answers show of its signals."""
 
     dataset: Dataset
     records: tuple[RecordCheck, ...]
+    beside_model: tuple[Finding, ...] = ()
 
     @property
-    def warnings(self) -> tuple[tuple[str, str], ...]:
-        """(source, sentence) of every warning."""
-        return tuple((record.source, text) for record in self.records for text in record.warnings)
+    def findings(self) -> tuple[Finding, ...]:
+        """Of all records, and beside the model."""
+        return (*self.beside_model, *(found for record in self.records for found in record.findings))
 
 
-def check_dataset(dataset: Dataset) -> DataCheck:
-    """What a data set holds, with warnings that are no errors.
+def check_dataset(dataset: Dataset, answers: Mapping[str, Record] | None = None) -> DataCheck:
+    """What a data set holds, with findings that are no errors, and the steps that cure them.
 
-    Looked for: gaps and uneven sampling; a command that differs from what the record says, in frequency, offset,
-    amplitude or shape; fewer than two periods; harmonics beyond half the sampling rate, or much power close to it;
-    signals that stand at a limit.
+    Looked for: empty cells, gaps and uneven sampling; single samples far off; a command that differs from what the
+    record says, in frequency, offset, amplitude or shape; fewer than two periods; harmonics beyond half the sampling
+    rate, or much power close to it; signals that stand at a limit; with a model's answers also signs, units and columns
+    that cannot be right.
+
+    Args:
+        answers: source of a log -> what a model answers to it, its columns named as signals or their variables.
     """
     limits = {signal.name: _extremes(dataset, signal.name) for signal in dataset.signals}
-    return DataCheck(dataset, tuple(_check(dataset, record, limits) for record in dataset.records))
+    fill = fill_of(dataset)
+    records = tuple(_check(dataset, record, limits, fill) for record in dataset.records)
+    return DataCheck(dataset, records, tuple(against_model(dataset, answers or {})))
 
 
 def _extremes(dataset: Dataset, name: str) -> tuple[float, float]:
     """Smallest and largest value over all logs."""
     columns = [r.data[name] for r in dataset.records if isinstance(r.data, Record) and name in r.data.names]
-    return min((float(c.min()) for c in columns), default=0.0), max((float(c.max()) for c in columns), default=0.0)
+    there = [column[np.isfinite(column)] for column in columns]
+    own = [column for column in there if column.size]
+    return min((float(c.min()) for c in own), default=0.0), max((float(c.max()) for c in own), default=0.0)
 
 
-def _check(dataset: Dataset, record: MeasuredRecord, limits: dict[str, tuple[float, float]]) -> RecordCheck:
+def _check(
+    dataset: Dataset, record: MeasuredRecord, limits: dict[str, tuple[float, float]], fill: FillGaps | None
+) -> RecordCheck:
     data = record.data
     base = clock(data.time) if isinstance(data, Record) else None
+    found: tuple[Finding, ...] = ()
+    if isinstance(data, Record) and base:
+        found = (*_missing(record, data, base, fill), *_of_log(dataset, record, whole_rows(data), base, limits))
     return RecordCheck(
         source=record.source,
         kind=record.kind,
@@ -100,83 +120,129 @@ def _check(dataset: Dataset, record: MeasuredRecord, limits: dict[str, tuple[flo
         frequency=record.frequency,
         command=record.command,
         unit=dataset.signal(record.command).unit if record.command else "",
-        warnings=tuple(_warnings(dataset, record, data, base, limits)) if isinstance(data, Record) and base else (),
+        findings=found,
     )
 
 
-def _warnings(
+def _missing(record: MeasuredRecord, log: Record, base: Clock, fill: FillGaps | None) -> Iterator[Finding]:
+    cure = () if fill is None else (fill,)
+    for name in log.names:
+        empty = np.flatnonzero(np.isnan(log[name]))
+        if empty.size:
+            yield finding(
+                FindingCode.EMPTY,
+                record.source,
+                *cure,
+                signal=name,
+                count=int(empty.size),
+                start=float(log.time[empty[0]]),
+            )
+    if base.gaps:
+        start, length = max(base.gaps, key=lambda gap: gap[1])
+        yield finding(FindingCode.GAP, record.source, *cure, count=len(base.gaps), start=start, length=length)
+
+
+def _of_log(
     dataset: Dataset, record: MeasuredRecord, log: Record, base: Clock, limits: dict[str, tuple[float, float]]
-) -> Iterator[str]:
-    yield from _of_clock(base)
+) -> Iterator[Finding]:
+    source, own = record.source, short_name(dataset, record)
+    if log.time.size < _SHORT:
+        yield finding(FindingCode.TOO_SHORT, source, Exclude(own), rows=log.time.size, least=_SHORT)
+        return
+    if base.rate < _SLOW * (1 + _ROUNDING):
+        yield finding(FindingCode.SLOW_CLOCK, source, rate=base.rate)
+    if base.jitter > _JITTER:
+        even = Resample(float(f"{base.rate:.3g}"))
+        yield finding(FindingCode.UNEVEN, source, even, jitter=base.jitter, rate=base.rate)
     still = [name for name in log.names if np.ptp(log[name]) == 0]
-    yield from (f"{name} stands still at {log[name][0]:g} {dataset.signal(name).unit}" for name in still)
+    for name in still:
+        yield finding(FindingCode.STILL, source, signal=name, value=float(log[name][0]), unit=dataset.signal(name).unit)
     inside = _wave_inside(record, log)
     if record.frequency is not None and record.command and record.command not in still:
         yield from _of_sine(record, log, inside, base, dataset.signal(record.command))
     elif record.kind == CHIRP.name and record.command:
-        values = log[record.command][inside]
-        middle, half = 0.5 * float(values.max() + values.min()), 0.5 * float(np.ptp(values))
+        found = log[record.command][inside]
+        middle, half = 0.5 * float(found.max() + found.min()), 0.5 * float(np.ptp(found))
         yield from _of_level(record, dataset.signal(record.command), middle, half)
     for name in log.names:
-        signal = dataset.signal(name)
-        count = clipped(log[name][inside], *limits[name]) if signal.role == "output" else 0
-        if count:
-            low, high = limits[name]
-            ends = f"({low:g}, {high:g} {signal.unit})"
-            yield f"{count} samples of {name} stand at its smallest or largest value {ends}: clipped?"
-        share = share_near_nyquist(log[name], signal.deviation) if KINDS[record.kind].broad else 0.0
+        if dataset.signal(name).role == "output":
+            yield from _of_output(dataset, record, log, name, inside, limits[name])
+        share = share_near_nyquist(log[name], dataset.signal(name).deviation) if KINDS[record.kind].broad else 0.0
         if share > _FOLDED:
-            yield (
-                f"{100 * share:.0f} percent of the variance of {name} lie above 80 percent of half the sampling rate: "
-                "faster parts fold back"
-            )
+            yield finding(FindingCode.FOLDED, source, signal=name, share=share)
+
+
+def _of_output(
+    dataset: Dataset, record: MeasuredRecord, log: Record, name: str, inside: slice, ends: tuple[float, float]
+) -> Iterator[Finding]:
+    """Samples that stand at the end of the sensor's range, and single ones far off."""
+    own, time = short_name(dataset, record), log.time[inside]
+    flat = plateaus(log[name][inside], *ends)
+    if flat:
+        cure = [Exclude(own, *map(float, (time[a], time[b - 1]))) for a, b in flat]
+        cure = cure if len(cure) <= _CUTS else [Exclude(own)]
+        yield finding(
+            FindingCode.CLIPPED,
+            record.source,
+            *cure,
+            signal=name,
+            count=sum(b - a for a, b in flat),
+            low=ends[0],
+            high=ends[1],
+            unit=dataset.signal(name).unit,
+        )
+    usual = DropOutliers(signals=(name,))
+    far = np.flatnonzero(outliers(log.time, log[name], usual.sigmas))
+    if far.size:
+        yield finding(
+            FindingCode.OUTLIERS, record.source, usual, signal=name, count=int(far.size), start=float(log.time[far[0]])
+        )
 
 
 def _wave_inside(record: MeasuredRecord, log: Record) -> slice:
     """The samples of a sine or chirp behind its lead-in and before its ramp back; all where that cannot be told."""
     try:
-        wave = logged_wave(record, record.command)
+        wave = logged_wave(replace(record, data=log), record.command)
     except BadInput:
         return slice(None)
     first, last = np.searchsorted(log.time, [wave.start - _ROUNDING, wave.end + _ROUNDING])
     return slice(int(first), int(last))
 
 
-def _of_clock(base: Clock) -> Iterator[str]:
-    if base.rate < _SLOW * (1 + _ROUNDING):
-        yield f'{base.rate:.3g} samples per second: if time is in ms, write time_unit = "ms" below [dataset]'
-    if base.gaps:
-        start, length = max(base.gaps, key=lambda gap: gap[1])
-        count = f"{len(base.gaps)} gaps in time, the longest" if len(base.gaps) > 1 else "a gap in time,"
-        yield f"{count} of {length:.3g} s after {start:.6g} s"
-    if base.jitter > _JITTER:
-        yield f"uneven sampling: the intervals vary by {100 * base.jitter:.0f} percent"
-
-
-def _of_sine(record: MeasuredRecord, log: Record, inside: slice, base: Clock, command: MeasuredSignal) -> Iterator[str]:
+def _of_sine(
+    record: MeasuredRecord, log: Record, inside: slice, base: Clock, command: MeasuredSignal
+) -> Iterator[Finding]:
     """A stepped sine against what the record says of it."""
-    told, time, values = float(record.frequency or 0.0), log.time[inside], log[command.name][inside]
+    source, name = record.source, command.name
+    told, time, values = float(record.frequency or 0.0), log.time[inside], log[name][inside]
     duration = float(time[-1] - time[0])
     periods = told * (duration + 1 / base.rate)  # the last sample stands for an interval too
     if periods < _PERIODS - _ROUNDING:
-        yield f"{periods:.2g} periods of {told:g} Hz: too few for a fit without the transient; two are the least"
+        yield finding(FindingCode.FEW_PERIODS, source, periods=periods, frequency=told)
     if _HARMONIC * told > 0.5 * base.rate:
-        beyond = f"{_HARMONIC} x {told:g} Hz is beyond half the sampling rate, {base.rate:.4g} Hz"
-        yield f"aliasing: {beyond}, and folds back"
+        yield finding(FindingCode.ALIASED, source, harmonic=_HARMONIC, frequency=told, rate=base.rate)
     try:
         found = swing(time, values, told)
     except BadInput as error:
-        yield f"no sine can be fitted to {command.name}: {error}"
+        yield finding(FindingCode.NO_SINE, source, signal=name, reason=str(error))
         return
     if abs(found.frequency - told) * duration > _DRIFT and found.impurity < 1:
-        yield f"{command.name} swings at {found.frequency:.5g} Hz, not at {told:g} Hz"
+        yield finding(FindingCode.FREQUENCY, source, signal=name, value=found.frequency, told=told)
     if found.impurity > _IMPURE:
-        yield f"{command.name} is no pure sine: {100 * found.impurity:.0f} percent are left over"
+        yield finding(FindingCode.IMPURE, source, signal=name, share=found.impurity)
     yield from _of_level(record, command, found.offset, found.amplitude)
 
 
-def _of_level(record: MeasuredRecord, command: MeasuredSignal, offset: float, amplitude: float) -> Iterator[str]:
+def _of_level(record: MeasuredRecord, command: MeasuredSignal, offset: float, amplitude: float) -> Iterator[Finding]:
     """Offset and amplitude that were found against those that were told."""
     for what, wanted, got in (("offset", record.offset, offset), ("amplitude", record.amplitude, amplitude)):
         if wanted is not None and abs(got - wanted) > _OFF * float(record.amplitude or abs(wanted) or 1.0):
-            yield f"{what} of the logged {command.name} is {got:.5g}, not {wanted:g} {command.unit} as told"
+            yield finding(
+                FindingCode.LEVEL,
+                record.source,
+                what=what,
+                signal=command.name,
+                value=got,
+                told=wanted,
+                unit=command.unit,
+            )

@@ -14,7 +14,12 @@ _JUMP = 1.5  # quantisation steps: a signal that comes to rest arrives by single
 
 
 def clipped(values: Array, low: float, high: float) -> int:
-    """How many samples (n_t,) stand on plateaus at either extreme value of the signal.
+    """How many samples (n_t,) stand on plateaus at either extreme value of the signal, see `plateaus`."""
+    return sum(stop - first for first, stop in plateaus(values, low, high))
+
+
+def plateaus(values: Array, low: float, high: float) -> tuple[tuple[int, int], ...]:
+    """Samples (first, stop) of plateaus at either extreme value of the signal.
 
     A plateau is a run of equal samples at `low` or `high` that is cut out of a signal on the move: it is entered or
     left by more than a quantisation step, or the noise beside it lets hardly two neighbours be equal. A signal that
@@ -24,17 +29,18 @@ def clipped(values: Array, low: float, high: float) -> int:
         low, high: the extreme values of this signal over all logs.
     """
     if low == high:
-        return 0
+        return ()
     edges = np.flatnonzero(np.diff(values)) + 1
     starts, ends = np.concatenate([[0], edges]), np.concatenate([edges, [values.size]])
     lengths, levels = ends - starts, values[starts]
     steps = np.abs(np.diff(levels))
     if not steps.size:
-        return 0
+        return ()
     extreme = (levels == low) | (levels == high)
     entered, left = np.concatenate([[0.0], steps]), np.concatenate([steps, [0.0]])
     cut = np.maximum(entered, left) > _JUMP * steps.min()
-    return int(lengths[extreme & (lengths >= _LEAST) & (cut | _lively(lengths, extreme))].sum())
+    flat = extreme & (lengths >= _LEAST) & (cut | _lively(lengths, extreme))
+    return tuple((int(first), int(stop)) for first, stop in zip(starts[flat], ends[flat], strict=True))
 
 
 def _lively(lengths: NDArray[np.int64], extreme: NDArray[np.bool_]) -> NDArray[np.bool_]:

@@ -27,7 +27,7 @@ def logs_called(dataset: Dataset, name: str) -> tuple[MeasuredRecord, ...]:
     found = exact or [record for record in dataset.records if _stem(record.source) == name]
     if len(found) > 1 and len({record.source for record in found}) > 1:
         raise BadInput(f"two logs are called {name!r}; name one of {', '.join(r.source for r in found)}")
-    parts = [r for r in dataset.records if name in (_whole(_stem(r.source)), _whole(r.source))]
+    parts = [r for r in dataset.records if _stem(r.source).startswith(f"{_stem(name)}{PART}")]
     if not (found or parts):
         names = ", ".join(short_name(dataset, record) for record in dataset.records)
         raise BadInput(f"there is no log {name!r}; name one of {names}")
@@ -42,8 +42,3 @@ def part_of(source: str, part: str) -> str:
 
 def _stem(source: str) -> str:
     return PurePosixPath(source).stem
-
-
-def _whole(name: str) -> str:
-    """Of the log that a part was cut from; empty where it is no part."""
-    return name.rpartition(PART)[0]

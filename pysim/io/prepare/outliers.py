@@ -16,6 +16,7 @@ from pysim.types import Dataset, MeasuredRecord, Record
 Array = NDArray[np.float64]
 
 _BESIDE = 3  # samples to either side that tell where one should be
+_GAP = 1.3  # of the usual span of seven samples: some of them are missing
 _NORMAL = 1.4826  # standard deviations of a normal distribution in its median absolute deviation
 _SMALL = 0.03  # of the signal's usual range: what is off by less is no outlier
 _SHADOW = 0.4  # of the largest distance nearby: an outlier shifts the medians beside it as well, by less
@@ -46,7 +47,7 @@ class DropOutliers:
         def change(record: MeasuredRecord, log: Record) -> Iterator[MeasuredRecord]:
             columns = {}
             for name in names:
-                wrong = outliers(log[name], self.sigmas) if name in log.names else np.zeros(0, dtype=bool)
+                wrong = outliers(log.time, log[name], self.sigmas) if name in log.names else np.zeros(0, dtype=bool)
                 if wrong.any():
                     column = log[name].copy()
                     good = ~wrong & np.isfinite(column)
@@ -57,8 +58,8 @@ class DropOutliers:
         return each_log(dataset, change)
 
 
-def outliers(values: Array, sigmas: float) -> NDArray[np.bool_]:
-    """(n_t,) which samples are far off their neighbours, see `DropOutliers`; missing ones are not."""
+def outliers(time: Array, values: Array, sigmas: float) -> NDArray[np.bool_]:
+    """(n_t,) which samples are far off their neighbours, see `DropOutliers`; none beside a gap, and none missing."""
     found = np.zeros(values.size, dtype=bool)
     there = np.flatnonzero(np.isfinite(values))
     width = 2 * _BESIDE + 1
@@ -69,6 +70,8 @@ def outliers(values: Array, sigmas: float) -> NDArray[np.bool_]:
     limit = _SMALL * float(np.subtract(*np.quantile(own, [0.99, 0.01])))
     middle, cubic = (np.abs(near[:, _BESIDE] - expected) for expected in (np.median(near, axis=1), near @ _CUBIC))
     far = middle > _SHADOW * sliding_window_view(np.pad(middle, _BESIDE), width).max(axis=1)
+    span = sliding_window_view(time[there], width)[:, [0, -1]] @ np.array([-1.0, 1.0])
+    far &= span < _GAP * np.median(span)
     for away in (middle, cubic):
         far &= away > max(sigmas * _NORMAL * float(np.median(away)), limit)
     found[there[_BESIDE:-_BESIDE]] = far

@@ -8,6 +8,8 @@ from typing import Any
 
 from pysim.identify.data_check import DataCheck, RecordCheck
 from pysim.io import counted, shown_point
+from pysim.present.data_check.words import lines as cure_lines
+from pysim.present.data_check.words import sentence
 
 UNTOLD = "-"  # a description or a system that dataset.toml leaves out
 _WIDTH = 100
@@ -28,13 +30,20 @@ def text(check: DataCheck) -> str:
         lines.append(f"  {signal.name:<{width}}  {', '.join([role, unit, *told, *rest])}")
     for kind, records in _by_kind(check).items():
         lines += [f"{kind}: {len(records)}", *(f"  {line}" for line in _points(records))]
-    warnings = check.warnings
-    lines.append(counted(len(warnings), "warning") + (":" if warnings else ", ready to use"))
-    for source, text in warnings[:_SHOWN]:
-        lines += textwrap.wrap(f"{source}: {text}", _WIDTH, initial_indent="  ", subsequent_indent="    ")
-    if len(warnings) > _SHOWN:
-        lines.append(f"  and {len(warnings) - _SHOWN} more")
-    return "\n".join(lines)
+    return "\n".join([*lines, *warnings_in_words(check)])
+
+
+def warnings_in_words(check: DataCheck) -> list[str]:
+    """Every finding, twenty at most, and what to type to cure them."""
+    found = check.findings
+    lines = [counted(len(found), "warning") + (":" if found else ", ready to use")]
+    for one in found[:_SHOWN]:
+        shown = f"{one.source}: {sentence(one)}"
+        lines += textwrap.wrap(shown, _WIDTH, initial_indent="  ", subsequent_indent="    ")
+    if len(found) > _SHOWN:
+        lines.append(f"  and {len(found) - _SHOWN} more")
+    cures = cure_lines(found)
+    return [*lines, *(["to cure:", *(f"  {line}" for line in cures)] if cures else [])]
 
 
 def data(check: DataCheck) -> dict[str, Any]:
@@ -47,7 +56,8 @@ def data(check: DataCheck) -> dict[str, Any]:
         "units": "SI",
         "signals": [{key: getattr(signal, key) for key in keys} for signal in dataset.signals],
         "records": [_record(record) for record in check.records],
-        "warnings": len(check.warnings),
+        "warnings": len(check.findings),
+        "cures": list(cure_lines(check.findings)),
     }
 
 
@@ -118,7 +128,7 @@ def _record(record: RecordCheck) -> dict[str, Any]:
     about |= {
         "input": record.command,
         "signals": list(record.signals),
-        "warnings": list(record.warnings),
+        "warnings": [sentence(found) for found in record.findings],
         "clock": None,
     }
     if base is not None:

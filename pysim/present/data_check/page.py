@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 from pysim.identify.data_check import DataCheck, RecordCheck
 from pysim.present.data_check.answer import UNTOLD, several_inputs, signals_in_words
+from pysim.present.data_check.words import sentence
 from pysim.present.page import cell, heading, items, paragraph, pictures, table
 from pysim.present.page import page as whole_page
 from pysim.present.render import Drawing
@@ -13,11 +14,11 @@ from pysim.present.render import Drawing
 
 def page(check: DataCheck, drawings: Sequence[Drawing], redo: str) -> str:
     """What stands out, signals, pictures and a row per record."""
-    warnings = check.warnings
+    warnings = [f"{found.source}: {sentence(found)}" for found in check.findings]
     found = "One warning." if len(warnings) == 1 else f"{len(warnings)} warnings."
     verdict = found if warnings else "Nothing stands out; the data set is ready to use."
     parts = [heading("Verdict"), paragraph(f"{len(check.records)} records were read. {verdict}", note=bool(warnings))]
-    parts.append(items(f"{source}: {text}" for source, text in warnings))
+    parts.append(items(warnings))
     rows = [
         [cell(words[0], "words"), *(cell(word, "words") for word in words[1:])] for words in signals_in_words(check)
     ]
@@ -45,6 +46,6 @@ def _row(record: RecordCheck, several: bool) -> list[str]:
         clock = [f"{base.duration:.4g}", f"{base.rate:.4g}", f"{100 * base.jitter:.2g}"]
     told = [record.command or "-"] if several else []
     told += ["-" if v is None else f"{v:g}" for v in (record.offset, record.amplitude, record.frequency)]
-    count = len(record.warnings)
+    count = len(record.findings)
     words = [record.source, record.kind, record.use, str(record.rows), *clock, *told]
     return [*(cell(word) for word in words), cell(str(count), "beyond" if count else "")]

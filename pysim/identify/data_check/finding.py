@@ -1,0 +1,59 @@
+"""What a check of data finds, as a value: a code, its numbers, and the steps that cure it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from enum import Enum
+
+from pysim.io.prepare import Step
+from pysim.types._frozen import FrozenMapping
+
+
+class FindingCode(Enum):
+    """What is found, in the order in which it is cured. The keys of `Finding.values` stand behind it."""
+
+    EMPTY = "empty"  # signal, count, start (s): cells without a number
+    GAP = "gap"  # count, start, length (s): samples were lost
+    QUANTITY = "quantity"  # signal, unit, wanted, factor: the model counts it in another quantity
+    SWAPPED = "swapped"  # signal, other, correlation: each follows the model's answer for the other one
+    SIGN = "sign"  # signal, correlation: it moves against the model's answer
+    FACTOR = "factor"  # signal, factor: it is so many times the model's answer
+    CLIPPED = "clipped"  # signal, count, low, high, unit: it stands at the end of its range
+    OUTLIERS = "outliers"  # signal, count, start (s): single samples far off their neighbours
+    UNEVEN = "uneven"  # jitter (share of the interval), rate (Hz)
+    TOO_SHORT = "too_short"  # rows, least
+    SLOW_CLOCK = "slow_clock"  # rate (Hz): times may be in ms
+    STILL = "still"  # signal, value, unit: it never moves
+    FOLDED = "folded"  # signal, share: of its variance close to half the sampling rate
+    FEW_PERIODS = "few_periods"  # periods, frequency
+    ALIASED = "aliased"  # harmonic, frequency, rate
+    NO_SINE = "no_sine"  # signal, reason: what the fit of the sine said
+    FREQUENCY = "frequency"  # signal, value, told (Hz)
+    IMPURE = "impure"  # signal, share
+    LEVEL = "level"  # what ("offset" or "amplitude"), signal, value, told, unit
+
+
+@dataclass(frozen=True)
+class Finding:
+    """One thing to look at.
+
+    Args:
+        code: what it is.
+        source: of the record; the first of several where it is of a signal.
+        values: numbers and names, by the keys that stand at the code.
+        cure: steps of preparation that mend it, one after the other; none where another test or description does.
+    """
+
+    code: FindingCode
+    source: str
+    values: Mapping[str, float | str]
+    cure: tuple[Step, ...] = ()
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "values", FrozenMapping(self.values))
+
+
+def finding(code: FindingCode, source: str, *cure: Step, **values: float | str) -> Finding:
+    """A finding with its values by their keys."""
+    return Finding(code, source, values, cure)

@@ -1,0 +1,60 @@
+"""What a check of data found, in words, and what to type to cure it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+
+from pysim.identify.data_check import Finding, FindingCode
+from pysim.io.prepare import call
+
+_WORDS: Mapping[FindingCode, str] = {
+    FindingCode.EMPTY: "{signal} lacks {count} samples, the first at {start:.6g} s",
+    FindingCode.GAP: "{gaps} of {length:.3g} s after {start:.6g} s",
+    FindingCode.QUANTITY: (
+        "{signal} is in {unit}, and the model counts it in {wanted}; by the model's answer one {unit} is {factor:.4g} "
+        "{wanted}, and the sensor's data sheet knows better"
+    ),
+    FindingCode.SWAPPED: "{signal} and {other} seem to be swapped: each follows the model's answer for the other",
+    FindingCode.SIGN: "{signal} moves against the model's answer (correlation {correlation:.2f}): a turned sign?",
+    FindingCode.FACTOR: "{signal} is about {factor:.4g} times the model's answer: another unit?",
+    FindingCode.CLIPPED: (
+        "{count} samples of {signal} stand at its smallest or largest value ({low:g}, {high:g} {unit}): clipped?"
+    ),
+    FindingCode.OUTLIERS: "{count} samples of {signal} are far off their neighbours, the first at {start:.6g} s",
+    FindingCode.UNEVEN: "uneven sampling: the intervals vary by {jitter:.0f} percent",
+    FindingCode.TOO_SHORT: "{rows} samples are too few; {least} are the least",
+    FindingCode.SLOW_CLOCK: ('{rate:.3g} samples per second: if time is in ms, write time_unit = "ms" below [dataset]'),
+    FindingCode.STILL: "{signal} stands still at {value:g} {unit}",
+    FindingCode.FOLDED: (
+        "{share:.0f} percent of the variance of {signal} lie above 80 percent of half the sampling rate: "
+        "faster parts fold back"
+    ),
+    FindingCode.FEW_PERIODS: (
+        "{periods:.2g} periods of {frequency:g} Hz: too few for a fit without the transient; two are the least"
+    ),
+    FindingCode.ALIASED: (
+        "aliasing: {harmonic} x {frequency:g} Hz is beyond half the sampling rate, {rate:.4g} Hz, and folds back"
+    ),
+    FindingCode.NO_SINE: "no sine can be fitted to {signal}: {reason}",
+    FindingCode.FREQUENCY: "{signal} swings at {value:.5g} Hz, not at {told:g} Hz",
+    FindingCode.IMPURE: "{signal} is no pure sine: {share:.0f} percent are left over",
+    FindingCode.LEVEL: "{what} of the logged {signal} is {value:.5g}, not {told:g} {unit} as specified",
+}
+
+_SHARES = ("share", "jitter")  # shown in percent
+
+
+def sentence(found: Finding) -> str:
+    """What is found, without its log."""
+    words: dict[str, float | str] = dict(found.values)
+    if found.code is FindingCode.GAP:
+        count = int(words["count"])
+        words["gaps"] = f"{count} gaps in time, the longest" if count > 1 else "a gap in time,"
+    return _WORDS[found.code].format(**words | {key: 100 * float(words[key]) for key in _SHARES if key in words})
+
+
+def lines(findings: Iterable[Finding]) -> tuple[str, ...]:
+    """What to type, one after the other, each line once: what is missing first, then what signals are."""
+    order = list(FindingCode)
+    steps = [step for found in sorted(findings, key=lambda one: order.index(one.code)) for step in found.cure]
+    return tuple(dict.fromkeys(f"data = data.{call(step)}" for step in steps))

@@ -1,0 +1,104 @@
+"""A log as a bench leaves it becomes ready with the lines that `check` proposes, and with nothing else."""
+
+from datetime import UTC, datetime, timedelta
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from pysim.identify.data_check import FindingCode
+from pysim.io import read_dataset
+from pysim.nouns.data import Data, load
+from pysim.types import Record
+
+RATE = 200.0
+TIME = np.arange(2000) / RATE
+RNG = np.random.default_rng(11)
+FORCE = 400 * np.convolve(RNG.normal(size=TIME.size + 39), np.ones(40) / 40, "valid")  # N
+LAG = np.convolve(FORCE, np.exp(-np.arange(400) / 30) / 30)[: TIME.size]
+PLACE, SPEED, PRESSURE = 1e-4 * LAG, 2e-5 * np.gradient(LAG, TIME), 1e6 + 3e3 * LAG
+MODEL = Record(TIME, np.column_stack([PLACE, SPEED, PRESSURE]), ("x", "v", "p"), ("m", "m/s", "Pa"))
+
+
+def log_file(folder: Path) -> Path:
+    """Date-times with a zone, an empty cell, a turned sign, volts, an outlier, and a speed in mm/s said to be m/s."""
+    x = -1e3 * PLACE + RNG.normal(scale=0.02, size=TIME.size)  # mm, turned
+    p = 1e-6 * PRESSURE * 2 + 0.5 + RNG.normal(scale=1e-4, size=TIME.size)  # V
+    v = 1e3 * SPEED + RNG.normal(scale=0.1, size=TIME.size)
+    x[700] += 40
+    begin = datetime(2026, 3, 1, 14, 5, tzinfo=UTC)
+    lines = ["timestamp,F [N],x [mm],v [m/s],p [V]"]
+    for k, t in enumerate(TIME):
+        moment = begin + timedelta(seconds=t)
+        cells = [f"{moment:%Y-%m-%dT%H:%M:%S.%f}+00:00", *map(repr, map(float, (FORCE[k], x[k], v[k], p[k])))]
+        cells[2] = "" if k == 300 else cells[2]
+        lines.append(",".join(cells))
+    path = folder / "run1.csv"
+    path.write_text("\n".join(lines))
+    return path
+
+
+@pytest.fixture
+def data(tmp_path: Path) -> Data:
+    return load(log_file(tmp_path), inputs="F", outputs=["x", "v", "p"])
+
+
+def test_the_lines_of_the_check_make_it_ready(data: Data, tmp_path: Path) -> None:
+    before = (tmp_path / "run1.csv").read_bytes()
+    found = data.check({"run1": MODEL})
+    assert [one.code for one in found.findings] == [
+        *(FindingCode.SIGN, FindingCode.FACTOR, FindingCode.QUANTITY),
+        *(FindingCode.EMPTY, FindingCode.OUTLIERS),
+    ]
+    assert len(found.lines) == 5
+    own = {"data": data}
+    for line in found.lines:
+        exec(line, own)
+    ready = own["data"]
+    assert ready.check({"run1": MODEL}).ok
+    log = ready.dataset.records[0].data
+    assert isinstance(log, Record)
+    assert log.units == ("N", "m", "m/s", "Pa")
+    np.testing.assert_allclose(log["x"], PLACE, atol=1e-4)
+    np.testing.assert_allclose(log["v"], SPEED, atol=1e-3)
+    np.testing.assert_allclose(log["p"], PRESSURE, atol=0.02 * np.ptp(PRESSURE))
+    ready.save(tmp_path / "ready")
+    saved = read_dataset(tmp_path / "ready").records[0].data
+    assert isinstance(saved, Record)
+    np.testing.assert_allclose(saved.values, log.values, rtol=1e-9, atol=1e-9)
+    assert (tmp_path / "run1.csv").read_bytes() == before
+
+
+def test_the_check_can_be_read(data: Data) -> None:
+    shown = repr(data.check({"run1": MODEL}))
+    assert len(shown) < 2000
+    assert all(line in shown for line in data.check({"run1": MODEL}).lines)
+
+
+def test_steps_of_a_finding_can_be_applied_as_they_are(data: Data) -> None:
+    for finding in data.check().findings:
+        data = data.after(*finding.cure)
+    assert data.check().ok
+
+
+class Plant:
+    """What answers to a log."""
+
+    def simulate(self, log: object) -> Record:
+        return MODEL
+
+
+def test_a_model_is_simulated_on_the_logs(data: Data) -> None:
+    assert data.check(Plant()).lines == data.check({"run1": MODEL}).lines
+
+
+def test_clipped_stretches_are_left_out(data: Data) -> None:
+    y = np.sin(2 * np.pi * 0.2 * TIME) + RNG.normal(scale=0.01, size=TIME.size)
+    clipped = load({"t": TIME, "F [N]": FORCE, "x [mm]": np.minimum(y, 0.8)}, inputs="F", outputs="x", time="t")
+    (found,) = clipped.check().findings
+    assert found.code is FindingCode.CLIPPED
+    own = {"data": clipped}
+    for line in clipped.check().lines:
+        exec(line, own)
+    assert own["data"].check().ok
+    assert len(own["data"]) == len(found.cure) + 1  # one more stretch than is left out
