@@ -9,7 +9,7 @@ from typing import Any
 
 from pysim.app.description import described
 from pysim.io import name_and_unit, read_thesis_folder
-from pysim.types import SECONDS, UNITS, BadInput, MeasuredSignal
+from pysim.types import SECONDS, UNITS, BadInput, MeasuredSignal, conversion
 from pysim.types.record_kind import CHIRP, LOGS, STEPPED_SINE
 
 SINE = STEPPED_SINE.name
@@ -17,15 +17,17 @@ ROLES = ("time", "input", "output", "-")
 KINDS = tuple(kind.name for kind in reversed(LOGS))
 
 
-def guesses(headings: Sequence[str], *, fixed: bool = False) -> list[dict[str, Any]]:
-    """Time first, then the command, then what answers; a unit in the heading's brackets is taken.
+def guesses(headings: Sequence[str], clock: int = 0, *, fixed: bool = False) -> list[dict[str, Any]]:
+    """The clock, then the command, then what answers; a unit in the heading's brackets is taken.
 
     Args:
         headings: as the log has them, a dash for a column that holds no numbers.
+        clock: number of the column that is the time.
         fixed: whether columns are found by their headings, which then stay as they are.
     """
-    roles = chain(("time", "input"), repeat("output"))
-    return [_guess(k + 1, one, "-" if one == "-" else next(roles), fixed) for k, one in enumerate(headings)]
+    roles = chain(("input",), repeat("output"))
+    own = ["-" if one == "-" else "time" if k == clock else next(roles) for k, one in enumerate(headings)]
+    return [_guess(k + 1, one, role, fixed) for k, (one, role) in enumerate(zip(headings, own, strict=True))]
 
 
 def _guess(number: int, heading: str, role: str, fixed: bool) -> dict[str, Any]:
@@ -40,7 +42,7 @@ def matched(column: dict[str, Any], variables: Sequence[Sequence[str]]) -> None:
     Args:
         variables: of the model: name, causality, unit, and more.
     """
-    found = next((v for v in variables if v[0].lower() == column["name"].lower()), None)
+    found = next((v for v in variables if v[0] == column["name"]), None) or _but_for_case(column, variables)
     if found is None or column["variable"] or column["role"] == "time" or column.get("seen"):
         return
     column["seen"] = True  # what the user then chooses stays
@@ -48,6 +50,13 @@ def matched(column: dict[str, Any], variables: Sequence[Sequence[str]]) -> None:
     column["role"] = "input" if found[1] == "input" else "output"
     if not column["unit"] and found[2] in UNITS:
         column["unit"] = found[2]
+
+
+def _but_for_case(column: dict[str, Any], variables: Sequence[Sequence[str]]) -> Sequence[str] | None:
+    """The only variable of that name in other letters, unless its unit is of another quantity."""
+    found = [v for v in variables if v[0].lower() == column["name"].lower()]
+    fits = len(found) == 1 and (not column["unit"] or conversion(column["unit"], found[0][2]) is not None)
+    return found[0] if fits else None
 
 
 def bare_description(

@@ -7,12 +7,13 @@ from pysim.io.cache import cache_folder
 from pysim.io.columns import names_its_columns
 from pysim.io.counted import counted
 from pysim.io.dataset import SIGNAL_KEYS, described_signal, read_dataset, read_dataset_partly
-from pysim.io.draft_dataset import Draft, draft_dataset
+from pysim.io.draft_dataset import Draft, clock_column, draft_dataset
 from pysim.io.draft_text import draft_text
 from pysim.io.file_names import same_file, unusable_name
 from pysim.io.files import write_file
 from pysim.io.fmu import read_model
-from pysim.io.headings import column_names, name_and_unit
+from pysim.io.headings import column_names
+from pysim.io.load.headings import name_and_unit
 from pysim.io.model_units import in_model_units
 from pysim.io.records import read_record, record_data, record_text, write_record
 from pysim.io.signals import read_signal, write_signal
@@ -37,6 +38,7 @@ __all__ = [
     "TomlFile",
     "cache_folder",
     "check_binary",
+    "clock_column",
     "column_names",
     "counted",
     "described_signal",

@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
 from pysim.io.columns import names_its_columns
-from pysim.io.headings import column_names, name_and_unit
+from pysim.io.headings import column_names
+from pysim.io.load import READERS
+from pysim.io.load.clock import TIME_NAMES, rises
+from pysim.io.load.headings import name_and_unit
+from pysim.io.load.moments import looks_like_moment
 from pysim.io.thesis_folder import LOG_SUFFIXES, read_thesis_folder
 from pysim.types import SECONDS, UNITS, BadInput, MeasuredRecord, MeasuredSignal
 
 LEFT_OUT = "-"  # in place of the name of a column that nobody needs, or that holds no numbers
 OPEN = "?"  # in place of a unit that nobody told; refused until it is filled in
 _TABLE = "frequency_hz"  # first column of a table of responses, which is no log
-_TIMES = ("time", "t")
 _NEEDED = "one input and one response are needed at least; name them, --input NAME:UNIT --response NAME:UNIT"
 
 
@@ -71,8 +74,8 @@ def draft_dataset(folder: Path, inputs: Mapping[str, str], responses: Mapping[st
     """Look at the logs of a folder, and at all below it.
 
     Args:
-        inputs, responses: signal -> unit, as the user names them; where that is none, the column behind the
-            time is taken for the command and all others for what answers.
+        inputs, responses: signal -> unit, as the user names them; where that is none, the first column that is not
+            the time is taken for the command and all others for what answers.
     Raises:
         BadInput: no logs, one that cannot be read, columns that are not those that were named, or times in several
             units.
@@ -118,7 +121,7 @@ def _take_clock(found: Draft, path: Path, clock: Column) -> None:
 def _take(found: Draft, path: Path, columns: Sequence[Column], *, named: bool) -> None:
     """One log: its columns, and the signals that nobody named before."""
     by_name = names_its_columns(path)
-    names = _names(found, path, columns, by_name) if named else _guessed(found, columns, by_name)
+    names = _names(found, path, columns, by_name) if named else _guessed(found, path, columns, by_name)
     for name, column in zip(names, columns, strict=True):
         if name == "time":
             _take_clock(found, path, column)
@@ -130,7 +133,7 @@ def _take(found: Draft, path: Path, columns: Sequence[Column], *, named: bool) -
 def _names(found: Draft, path: Path, columns: Sequence[Column], by_name: bool) -> list[str]:
     """Of a log whose signals were named: found in its heading, else counted."""
     own = [column.heading if by_name else column.name for column in columns]
-    time, kept = _time(columns, own, found.roles), sum(name != LEFT_OUT for name in own)
+    time, kept = _time(found, path, columns, own), sum(name != LEFT_OUT for name in own)
     if all(name in own for name in found.roles):
         return ["time" if k == time else name if name in found.roles else LEFT_OUT for k, name in enumerate(own)]
     if kept != 1 + len(found.roles) or by_name:
@@ -142,12 +145,12 @@ def _names(found: Draft, path: Path, columns: Sequence[Column], by_name: bool) -
     return [name if name == LEFT_OUT else next(names) for name in own]
 
 
-def _guessed(found: Draft, columns: Sequence[Column], by_name: bool) -> list[str]:
+def _guessed(found: Draft, path: Path, columns: Sequence[Column], by_name: bool) -> list[str]:
     """Of a log of which nothing was said: time, then the command, then what answers."""
     short = [column.name for column in columns]
     told = [name for name in short if name != LEFT_OUT]
     own = [column.heading for column in columns] if by_name or len(set(told)) < len(told) else short
-    time = _time(columns, own, found.roles)
+    time = _time(found, path, columns, own)
     names = ["time" if k == time else name for k, name in enumerate(own)]
     for name, column in zip(names, columns, strict=True):
         if name not in ("time", LEFT_OUT, *found.roles):
@@ -156,11 +159,49 @@ def _guessed(found: Draft, columns: Sequence[Column], by_name: bool) -> list[str
     return names
 
 
-def _time(columns: Sequence[Column], names: Sequence[str], signals: Collection[str]) -> int:
-    """Which column is the clock: of those that are no signals the one that is called so, else the first."""
-    own = [k for k, name in enumerate(names) if name not in (LEFT_OUT, *signals)]
-    called = {columns[k].name.lower(): k for k in reversed(own)}
-    return next((called[name] for name in _TIMES if name in called), own[0] if own else 0)
+def _time(found: Draft, path: Path, columns: Sequence[Column], names: Sequence[str]) -> int:
+    """Which column is the clock: of those that are no signals the one whose values rise as a clock does.
+
+    Raises:
+        BadInput: none does, or several that no heading tells apart.
+    """
+    number, remark = clock_column(path, [c.heading for c in columns], [n in (LEFT_OUT, *found.roles) for n in names])
+    if remark:
+        found.remarks.append(f"{_source(found, path)}: {remark}")
+    return number
+
+
+def clock_column(path: Path, headings: Sequence[str], taken: Sequence[bool]) -> tuple[int, str]:
+    """The column of a log that is its clock, by its values, and why where no heading says so.
+
+    Args:
+        headings: of all columns, LEFT_OUT for those without numbers.
+        taken: columns that are something else.
+    Raises:
+        BadInput: none rises as a clock does, or several do that no heading tells apart.
+    """
+    (table, *_) = READERS.get(path.suffix.lower(), READERS[".txt"])(path)
+    by_name = names_its_columns(path)
+    own = list(headings) if by_name else list(table.headings)
+    rising, named = [], []
+    for k, heading in enumerate(own[: len(headings)]):
+        if taken[k] or heading not in table.headings or not rises(table, heading):
+            continue
+        name, unit = name_and_unit(heading)
+        rising.append(k)
+        if unit in SECONDS or name.strip().lower() in TIME_NAMES:
+            named.append(k)
+    if len(named) == 1:
+        return named[0], ""
+    if len(rising) == 1:
+        return rising[0], f"time is column {rising[0] + 1}, {own[rising[0]]!r}: it alone {rises(table, own[rising[0]])}"
+    if not rising and any(map(looks_like_moment, (cells[0] for cells in table.cells if cells.size))):
+        cure = "pysim.load reads dates in Python, and .save(folder) writes a data set"
+        raise BadInput(f"{path}: its times are dates, and a dataset.toml needs a number of seconds; {cure}")
+    if not rising:
+        raise BadInput(f"{path}: no column is a clock that never falls; log the time too, among {', '.join(own)}")
+    asked = " or ".join(repr(own[k]) for k in named or rising)
+    raise BadInput(f"{path}: which column is the time, {asked}? Head it time, or name the others as signals")
 
 
 def _find_sines(found: Draft) -> None:

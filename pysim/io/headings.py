@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from itertools import pairwise
 from pathlib import Path
 
@@ -19,7 +18,6 @@ from pysim.types import BadInput
 
 _WORDS = 0.5  # share of a column's rows: more numbers than that, and the others are a header
 _LINES = 400  # within which the first row of numbers must stand
-_WITH_UNIT = re.compile(r"(?P<name>[^\[(]+?)\s*[\[(](?P<unit>[^\])]*)[\])]")
 
 
 def column_names(path: Path) -> tuple[str, ...]:
@@ -40,12 +38,6 @@ def column_names(path: Path) -> tuple[str, ...]:
     if not found:
         raise BadInput(f"{path.name} holds no rows of numbers; it needs a column of times and those of the signals")
     return min(found, key=lambda one: one[0])[1]
-
-
-def name_and_unit(heading: str) -> tuple[str, str]:
-    """What a heading calls its column, and the unit it has behind that in brackets, of any spelling; "" for none."""
-    found = _WITH_UNIT.fullmatch(heading)
-    return (heading, "") if found is None else (found["name"], found["unit"].strip())
 
 
 def _of_numbers(rows: list[str]) -> tuple[int, tuple[str, ...]] | None:

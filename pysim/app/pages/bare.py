@@ -13,7 +13,7 @@ from pysim.app.description import change_description
 from pysim.app.desk import Desk
 from pysim.app.pages.common import amount, attempt
 from pysim.app.parts import Choice, box, button, card, note, text
-from pysim.io import LOG_SUFFIXES, column_names, counted, names_its_columns
+from pysim.io import LOG_SUFFIXES, clock_column, column_names, counted, names_its_columns
 from pysim.types import UNITS, BadInput
 
 
@@ -53,7 +53,9 @@ def _draft(desk: Desk, logs: list[Path]) -> dict[str, Any]:
     key = tuple((path, path.stat().st_mtime_ns) for path in logs)
     if desk.draft.get("key") != key:
         sines = all("hz" in path.stem.lower() for path in logs)
-        columns = guesses(column_names(logs[0]), fixed=names_its_columns(logs[0]))
+        headings = column_names(logs[0])
+        clock, _ = clock_column(logs[0], headings, [one == "-" for one in headings])
+        columns = guesses(headings, clock, fixed=names_its_columns(logs[0]))
         desk.draft = {"key": key, "kind": SINE if sines else "other", "columns": columns}
     for column in desk.draft["columns"]:
         matched(column, (desk.model or {}).get("variables", []))

@@ -17,7 +17,8 @@ from pysim.types import SECONDS, BadInput, sampling
 
 Array = NDArray[np.float64]
 
-_NAMES = {"time", "t", "zeit", "timestamp", "date_time", "datetime", "date/time", "zeitstempel", "x_value", "elapsed"}
+_TIMES = "time t elapsed timestamp date_time datetime date/time x_value zeit zeitstempel"
+TIME_NAMES = frozenset(_TIMES.split())  # how a clock is headed, in small letters
 _UNEVEN = 0.05  # of the interval
 _FALLS = 0.05  # of the rows: a clock that was set back now and then is refused where it does, and not mistaken
 _EPOCHS = {1e9: "s", 1e12: "ms", 1e15: "us"}  # counts since 1970 begin there, and are below four times that
@@ -85,12 +86,12 @@ def _found(table: RawTable, units: Mapping[str, str], signals: Collection[str]) 
         if moments:
             certain.append((heading, "it holds dates or times of day"))
             continue
-        named = name.strip().lower() in _NAMES or heading.strip().lower() in _NAMES
+        named = name.strip().lower() in TIME_NAMES or heading.strip().lower() in TIME_NAMES
         if (unit in SECONDS and (named or unit not in ("min", "h"))) or (named and not unit):
-            rises = _rises(table, heading)
-            if rises:
-                certain.append((heading, f"it is headed {heading!r}, {rises}"))
-        elif not unit and (rises := _rises(table, heading)):
+            how = rises(table, heading)
+            if how:
+                certain.append((heading, f"it is headed {heading!r}, {how}"))
+        elif not unit and rises(table, heading):
             perhaps.append(heading)
     if len(certain) == 1:
         return certain[0][0], f"time: column {certain[0][0]!r}, since {certain[0][1]}"
@@ -104,8 +105,10 @@ def _found(table: RawTable, units: Mapping[str, str], signals: Collection[str]) 
     raise BadInput(f'{table.place}: no column is a clock that never falls; name it, time="...", one of {shown}')
 
 
-def _rises(table: RawTable, heading: str) -> str:
+def rises(table: RawTable, heading: str) -> str:
     """How a column rises whose rows nearly all rise evenly, or stand for a copy of a row; empty for all others."""
+    if table.column(heading).dtype.kind == "M":
+        return "it holds moments"
     try:
         values = table.numbers(heading)
     except BadInput:

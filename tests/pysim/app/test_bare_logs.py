@@ -27,7 +27,7 @@ def taken(folder: Path, columns: list[dict[str, Any]], kind: str) -> Dataset:
 
 def test_headings_and_the_model_fill_in_what_they_can() -> None:
     assert [one["role"] for one in guesses(("t", "u", "a", "b"))] == ["time", "input", "output", "output"]
-    assert [one["role"] for one in guesses(("-", "t", "-", "u", "a"))] == ["-", "time", "-", "input", "output"]
+    assert [one["role"] for one in guesses(("-", "t", "-", "u", "a"), 1)] == ["-", "time", "-", "input", "output"]
     column = guesses(("t", "u", "x [mm]"))[2]
     assert (column["name"], column["unit"]) == ("x", "mm")
     assert guesses(["x [furlong]"])[0]["unit"] == ""
@@ -37,6 +37,10 @@ def test_headings_and_the_model_fill_in_what_they_can() -> None:
     bare = guesses(("t", "u", "F"))[2]
     matched(bare, [["F", "input", "N", ""]])
     assert (bare["variable"], bare["unit"], bare["role"]) == ("F", "N", "input")
+    for name, unit in (("p", "bar"), ("P", "bar")):  # a small letter may be another quantity
+        other = guesses((f"{name} [{unit}]",), 1)[0]
+        matched(other, [["P", "output", "W", ""]])
+        assert other["variable"] == ("P" if name == "P" else "")
     bare["variable"] = ""
     matched(bare, [["F", "input", "N", ""]])
     assert bare["variable"] == ""  # what was chosen stays

@@ -131,6 +131,24 @@ def test_the_clock_is_no_column_that_is_a_signal(tmp_path: Path) -> None:
     assert (log.data.names, log.data.time[-1]) == (("cmd", "t"), pytest.approx(1000 * TIME[-1]))
 
 
+def test_a_force_ahead_of_the_time_is_no_clock(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    rows = [f"{50 * np.sin(3 * t):.6f},{t:.3f},{np.cos(t):.6f}" for t in TIME]
+    (tmp_path / "log.csv").write_text("\n".join(["F [N],elapsed,x [mm]", *rows]))
+    assert main(["data", "describe", str(tmp_path)]) == 0
+    data = read_dataset(tmp_path)
+    assert [signal.name for signal in data.signals] == ["F", "x"]
+    np.testing.assert_allclose(data.logs()[0].data.time, TIME)
+    (tmp_path / "dataset.toml").unlink()
+    (tmp_path / "log.csv").write_text("\n".join(["F [N],p [bar],x [mm]", *(r.replace(",", ",-") for r in rows)]))
+    refused(["data", "describe", str(tmp_path)], capsys, "no column is a clock", "F [N], p [bar], x [mm]")
+
+
+def test_dates_are_sent_to_where_they_can_be_read(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    rows = [f"2026-03-01 14:05:{t:06.3f},{np.sin(t):.6f},{np.cos(t):.6f}" for t in TIME]
+    (tmp_path / "log.csv").write_text("\n".join(["stamp,F [N],x [mm]", *rows]))
+    refused(["data", "describe", str(tmp_path)], capsys, "its times are dates", "pysim.load", ".save(folder)")
+
+
 def test_stepped_sines_are_known_by_their_names(tmp_path: Path) -> None:
     for f in (1.0, 2.0):
         write(tmp_path / "O+25_A10" / f"{f:g}Hz.txt", "t\tcmd\ty", separator="\t", sine=f)
