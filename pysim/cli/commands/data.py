@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from pysim.cli.command import DONE, Command, Given
-from pysim.cli.option import Option, Role, argument, text
+from pysim.cli.option import Option, Role, argument, file, text
 from pysim.cli.options import JSON, OUTPUT
 
 if TYPE_CHECKING:
@@ -43,6 +43,33 @@ def _describe(given: Given) -> int:
         print(f"  to fill in: the unit of {', '.join(found.without_unit)}")
     print(f"Look through it, then: {command_line(['data', 'check', str(given.folder)])}")
     return DONE
+
+
+def _prepare(given: Given) -> int:
+    """Raw logs with the steps that make them ready, as a new data set."""
+    from pysim.cli.options import names_of
+    from pysim.io.prepare import step_typed
+    from pysim.nouns.data import load
+
+    steps = [step_typed(word) for word in given.step]
+    inputs, outputs = _columns(names_of(given.input)), _columns(names_of(given.response))
+    if inputs or outputs:
+        units = {name: unit for name, unit in (inputs | outputs).items() if unit}
+        data = load(given.source, inputs=list(inputs), outputs=list(outputs), time=given.time, units=units)
+    else:
+        data = load(given.source)
+    for remark in dict.fromkeys(remark for remarks in data.remarks.values() for remark in remarks):
+        print(f"  {remark}")
+    data = data.after(*steps)
+    target = data.save(given.into)
+    print(f"{data}\nWritten: {target}, with the raw logs and {len(data.history)} steps that every command does again")
+    return DONE
+
+
+def _columns(texts: list[str]) -> dict[str, str]:
+    """Heading -> unit, "" where the heading tells it: of F, F:kN, and x [mm]."""
+    parts = [one.rpartition(":") for one in texts]
+    return {name.strip() or unit.strip(): unit.strip() if colon else "" for name, colon, unit in parts}
 
 
 def _units(texts: list[str]) -> dict[str, str]:
@@ -118,6 +145,24 @@ COMMAND = Command(
             options=(
                 argument("FOLDER", "of logs; nothing else in it is changed", convert=Path),
                 *_signals("what drives the plant, by its heading, or in the order of the columns (the second)"),
+            ),
+        ),
+        Command(
+            "prepare",
+            "write a new data set from logs of any form, with steps that make them ready",
+            _prepare,
+            options=(
+                argument("SOURCE", "a data set, or a file, folder or pattern of logs", role=Role.READ),
+                text("--step", "STEP:...", "flip:x, trim:start=0.5 and others, in order; repeat", repeated=True),
+                text(
+                    "--input",
+                    "NAME[:UNIT],...",
+                    "what drives the plant, by its heading; commas or repeat",
+                    repeated=True,
+                ),
+                text("--response", "NAME[:UNIT],...", "what answers; commas or repeat", repeated=True),
+                text("--time", "HEADING", "the clock, where its values do not tell it"),
+                file("--into", "FOLDER", "a new folder", role=Role.VALUE, required=True),
             ),
         ),
     ),

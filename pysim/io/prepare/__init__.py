@@ -10,6 +10,7 @@ from pysim.io.prepare.log_names import logs_called, short_name
 from pysim.io.prepare.outliers import DropOutliers, outliers
 from pysim.io.prepare.signals import Delay, Detrend, Flip, Rename, Scaled
 from pysim.io.prepare.step import Step, call, prepared, refuse_missing_samples
+from pysim.io.prepare.typed import step_typed, typed
 from pysim.io.prepare.written import STEPS, step_of, values_of
 
 __all__ = [
@@ -35,5 +36,7 @@ __all__ = [
     "refuse_missing_samples",
     "short_name",
     "step_of",
+    "step_typed",
+    "typed",
     "values_of",
 ]

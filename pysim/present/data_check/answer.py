@@ -8,8 +8,8 @@ from typing import Any
 
 from pysim.identify.data_check import DataCheck, RecordCheck
 from pysim.io import counted, shown_point
-from pysim.present.data_check.words import lines as cure_lines
-from pysim.present.data_check.words import sentence
+from pysim.io.prepare import call, typed
+from pysim.present.data_check.words import cures, sentence
 
 UNTOLD = "-"  # a description or a system that dataset.toml leaves out
 _WIDTH = 100
@@ -42,8 +42,12 @@ def warnings_in_words(check: DataCheck) -> list[str]:
         lines += textwrap.wrap(shown, _WIDTH, initial_indent="  ", subsequent_indent="    ")
     if len(found) > _SHOWN:
         lines.append(f"  and {len(found) - _SHOWN} more")
-    cures = cure_lines(found)
-    return [*lines, *(["to cure:", *(f"  {line}" for line in cures)] if cures else [])]
+    steps = cures(found)
+    if steps:
+        lines.append("to cure, in Python or with `pysim data prepare`:")
+        width = max(len(call(step)) for step in steps)
+        lines += [f"  data = data.{call(step):<{width}}  # --step {typed(step)}" for step in steps]
+    return lines
 
 
 def data(check: DataCheck) -> dict[str, Any]:
@@ -57,7 +61,7 @@ def data(check: DataCheck) -> dict[str, Any]:
         "signals": [{key: getattr(signal, key) for key in keys} for signal in dataset.signals],
         "records": [_record(record) for record in check.records],
         "warnings": len(check.findings),
-        "cures": list(cure_lines(check.findings)),
+        "cures": [typed(step) for step in cures(check.findings)],
     }
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 
 from pysim.identify.data_check import Finding, FindingCode
-from pysim.io.prepare import call
+from pysim.io.prepare import Step, call
 
 _WORDS: Mapping[FindingCode, str] = {
     FindingCode.EMPTY: "{signal} lacks {count} samples, the first at {start:.6g} s",
@@ -54,7 +54,13 @@ def sentence(found: Finding) -> str:
 
 
 def lines(findings: Iterable[Finding]) -> tuple[str, ...]:
-    """What to type, one after the other, each line once: what is missing first, then what signals are."""
+    """What to type in Python, one after the other."""
+    return tuple(f"data = data.{call(step)}" for step in cures(findings))
+
+
+def cures(findings: Iterable[Finding]) -> list[Step]:
+    """The steps that cure them, each once: what is missing first, then what signals are."""
     order = list(FindingCode)
-    steps = [step for found in sorted(findings, key=lambda one: order.index(one.code)) for step in found.cure]
-    return tuple(dict.fromkeys(f"data = data.{call(step)}" for step in steps))
+    ordered = sorted(findings, key=lambda found: order.index(found.code))
+    steps = {call(step): step for found in ordered for step in found.cure}
+    return list(steps.values())

@@ -9,7 +9,7 @@ import pytest
 
 from pysim.cli import main
 from pysim.cli.outputs import MARKER
-from pysim.io import write_dataset
+from pysim.io import read_dataset, write_dataset
 from pysim.types import Dataset, FrequencyResponse, MeasuredRecord, MeasuredSignal, Record, SineTest
 from tests.pysim.cli.ran import refused
 
@@ -96,3 +96,40 @@ def test_mistakes_are_one_line(
     tmp_path: Path, words: list[str], named: list[str], capsys: pytest.CaptureFixture[str]
 ) -> None:
     refused(["data", "check", *(word.format(tmp_path) for word in words)], capsys, *named)
+
+
+def test_logs_are_prepared_into_a_new_data_set(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    time = np.arange(400) / 100
+    for k in (1, 2):
+        rows = np.column_stack([time, np.sin(k * time), -2 * np.cos(k * time)])
+        np.savetxt(tmp_path / f"run{k}.csv", rows, delimiter=",", header="t [s],F [kN],x", comments="")
+    before = (tmp_path / "run1.csv").read_bytes()
+    words = [
+        "--input",
+        "F",
+        "--response",
+        "x:mm",
+        "--step",
+        "flip:x",
+        "--step",
+        "trim:start=1",
+        "--step",
+        "hold_out:run2",
+    ]
+    into = ["--into", str(tmp_path / "ready")]
+    assert main(["data", "prepare", str(tmp_path / "run*.csv"), *words, *into]) == 0
+    assert "never falls and rises by 0.01" in capsys.readouterr().out
+    data = read_dataset(tmp_path / "ready")
+    assert [(record.source, record.use) for record in data.records] == [("run1.txt", "fit"), ("run2.txt", "test")]
+    log = data.records[0].data
+    assert isinstance(log, Record)
+    np.testing.assert_allclose(log["x"], 2e-3 * np.cos(log.time), rtol=1e-12)
+    assert log.time[0] == 1.0
+    assert (tmp_path / "run1.csv").read_bytes() == before
+    refused(["data", "prepare", str(tmp_path / "ready"), *into], capsys, "holds files already")
+    again = ["--into", str(tmp_path / "more"), "--step", "split:0.5"]
+    assert main(["data", "prepare", str(tmp_path / "ready"), *again]) == 0
+    assert len(read_dataset(tmp_path / "more").records) == 3
+    assert numbers_of(tmp_path, str(tmp_path / "more"))["warnings"] == 0
+    refused(["data", "prepare", str(tmp_path / "ready"), "--into", "new", "--step", "flop:x"], capsys, "no step 'flop'")
+    refused(["data", "prepare", str(tmp_path / "run1.csv"), "--into", "new"], capsys, "which columns are inputs")

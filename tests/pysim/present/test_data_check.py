@@ -23,7 +23,7 @@ def test_few_warnings_are_all_shown() -> None:
     shown = text(check_dataset(dataset(2)))
     assert shown.endswith(
         "2 warnings:\n  0.txt: a gap in time, of 0.11 s after 0.49 s\n  1.txt: a gap in time, of 0.11 s after 0.49 s\n"
-        "to cure:\n  data = data.fill_gaps(0.016)"
+        "to cure, in Python or with `pysim data prepare`:\n  data = data.fill_gaps(0.016)  # --step fill_gaps:0.016"
     )
     assert "  cmd  input, 1, noise 0.5, no resolution specified" in shown.splitlines()
 

@@ -26,6 +26,8 @@ from pysim.io.prepare import (
     call,
     prepared,
     step_of,
+    step_typed,
+    typed,
     values_of,
 )
 from pysim.io.toml_section import Section
@@ -207,30 +209,52 @@ def test_filters_ask_for_a_log_without_gaps() -> None:
 
 
 ALL = (
-    (Trim(0.5, logs=("a", "b")), 'trim(start=0.5, logs=["a", "b"])'),
-    (Exclude("a", 1.0, 2.5), 'exclude("a", start=1, stop=2.5)'),
-    (FillGaps(0.02), "fill_gaps(0.02)"),
-    (DropOutliers(6.0, ("x", "y")), 'drop_outliers(6, "x", "y")'),
-    (Resample(500.0), "resample(500)"),
-    (LowPass(50.0), "lowpass(50)"),
-    (Detrend(("x",), 1), 'detrend("x", order=1)'),
-    (Delay("p_A", 0.003), 'delay("p_A", 0.003)'),
-    (Flip(("x",)), 'flip("x")'),
-    (Scaled("x", 12.5, unit="mm", of="V"), 'scale("x", factor=12.5, unit="mm", of="V")'),
-    (Rename({"a b": "c"}), 'rename({"a b": "c"})'),
-    (HoldOut(("run3",)), 'hold_out("run3")'),
-    (Split(0.7), "split(0.7)"),
+    (Trim(0.5, logs=("a", "b")), 'trim(start=0.5, logs=["a", "b"])', "trim:start=0.5,logs=a+b"),
+    (Exclude("a", 1.0, 2.5), 'exclude("a", start=1, stop=2.5)', "exclude:a,start=1,stop=2.5"),
+    (FillGaps(0.02), "fill_gaps(0.02)", "fill_gaps:0.02"),
+    (DropOutliers(6.0, ("x", "y")), 'drop_outliers(6, "x", "y")', "drop_outliers:sigmas=6,x,y"),
+    (Resample(500.0), "resample(500)", "resample:500"),
+    (LowPass(50.0, ("x",)), 'lowpass(50, "x")', "lowpass:50,x"),
+    (Detrend(("x",), 1), 'detrend("x", order=1)', "detrend:x,order=1"),
+    (Detrend(), "detrend()", "detrend"),
+    (Delay("p_A", -0.003), 'delay("p_A", -0.003)', "delay:p_A,-0.003"),
+    (Flip(("x", "v")), 'flip("x", "v")', "flip:x,v"),
+    (
+        Scaled("x", 12.5, unit="mm", of="V"),
+        'scale("x", factor=12.5, unit="mm", of="V")',
+        "scale:x,factor=12.5,unit=mm,of=V",
+    ),
+    (Rename({"a b": "c", "d": "e"}), 'rename({"a b": "c", "d": "e"})', "rename:a b=c,d=e"),
+    (HoldOut(("run3",)), 'hold_out("run3")', "hold_out:run3"),
+    (Split(0.7), "split(0.7)", "split:0.7"),
 )
 
 
-@pytest.mark.parametrize(("step", "line"), ALL)
-def test_a_step_is_typed_and_written_so_that_it_is_read_again(step: Any, line: str) -> None:
+@pytest.mark.parametrize(("step", "line", "word"), ALL)
+def test_a_step_is_typed_and_written_so_that_it_is_read_again(step: Any, line: str, word: str) -> None:
     assert call(step) == line
+    assert typed(step) == word
+    assert step_typed(word) == step
     assert step_of(Section("place", values_of(step))) == step
 
 
 def test_every_step_is_tried() -> None:
-    assert {step.word for step, _ in ALL} == set(STEPS)
+    assert {step.word for step, _, _ in ALL} == set(STEPS)
+
+
+@pytest.mark.parametrize(
+    ("word", "message"),
+    [
+        ("flop:x", "there is no step 'flop'; use one of trim, "),
+        ("resample", "resample needs hz; write resample:HZ"),
+        ("resample:fast", "hz = 'fast' is no number"),
+        ("trim:begin=1", "trim has no 'begin=1'; its fields are start, stop, logs"),
+        ("split:0.7,0.3", "split has no '0.3'"),
+    ],
+)
+def test_a_word_that_is_no_step_is_refused(word: str, message: str) -> None:
+    with pytest.raises(BadInput, match=message):
+        step_typed(word)
 
 
 def test_a_misspelt_step_is_refused() -> None:
