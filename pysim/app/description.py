@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import os
 from collections.abc import Collection, Mapping, Sequence
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 from typing import Any
 
 from pysim.io import log_source, names_its_columns, read_dataset_partly, read_toml, toml_key, toml_table, write_file
+from pysim.io.prepare import HoldOut
 from pysim.types import BadInput, Dataset
 from pysim.types.record_kind import STEPPED_SINE
 
@@ -64,8 +65,16 @@ def hold_out(content: dict[str, Any], read: Sequence[str], number: int, on: bool
         content: of a dataset.toml; changed.
         read: sources of the records that could be read, in order.
         number: which of these. Where other records of its file were refused, all of that file are meant.
+    Raises:
+        BadInput: a step of the preparation says what the record is for.
     """
     own = [record for record in content["records"] if _source(record) == read[number]]
+    steps = [step.get("step") for step in content.get("dataset", {}).get("preparation", [])]
+    if not own or HoldOut.word in steps:
+        cure = (
+            f"write `pysim data prepare ... --step hold_out:{PurePosixPath(read[number]).stem}`, or edit dataset.toml"
+        )
+        raise BadInput(f"{read[number]}: a step of its preparation says what it is for; {cure}")
     if len(own) == read.count(read[number]):
         own = [own[read[:number].count(read[number])]]
     for record in own:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from pysim.io.counted import counted
 from pysim.io.dataset import read_described
 from pysim.io.load import is_frame, load_logs
 from pysim.io.load.load import Names
@@ -196,13 +197,21 @@ class Data:
         if model is None:
             return {}
         if hasattr(model, "simulate"):
-            return {record.source: _record(model.simulate(record)) for record in logs}
+            return {record.source: _record(model.simulate(self._for_model(record))) for record in logs}
         if isinstance(model, Mapping):
             return {self[name].source: _record(run) for name, run in model.items()}
         if len(logs) != 1:
             names = ", ".join(short_name(self.now, record) for record in logs)
             raise BadInput(f"one run for {len(logs)} logs; give a dict of runs by their names: {names}")
         return {logs[0].source: _record(model)}
+
+    def _for_model(self, record: MeasuredRecord) -> MeasuredRecord:
+        """A log as a model can be driven by it: its whole rows, its columns called as the model calls them."""
+        from pysim.identify.data_check import whole_rows
+
+        assert isinstance(record.data, Record)
+        names = tuple(self.now.signal(name).variable for name in record.data.names)
+        return replace(record, data=replace(whole_rows(record.data), names=names))
 
     def plot(self) -> Figure:
         """Signals over time, a row per log and a column per unit; at most eight logs."""
@@ -259,8 +268,7 @@ class Data:
             role: ", ".join(f"{s.name} [{self._unit(s.name)}]" for s in self.now.signals if s.role == role)
             for role in ("input", "output")
         }
-        count = len(self.now.records)
-        lines = [f"{count} log{'s' * (count != 1)}: inputs {named['input']}; outputs {named['output']}"]
+        lines = [f"{counted(len(self.now.records), 'log')}: inputs {named['input']}; outputs {named['output']}"]
         steps = ", ".join(call(step) for step in self.history)
         return [_short(line, 400) for line in (*lines, *([f"prepared: {steps}"] if steps else []))]
 
@@ -273,7 +281,7 @@ class Data:
                 empty = int(np.count_nonzero(~np.isfinite(record.data.values)))
             else:
                 size, span, empty = record.data.frequency.size, "-", 0
-            told = [f"{empty} cells empty"] if empty else []
+            told = [counted(empty, "empty cell")] if empty else []
             uneven = [text for text in self.remarks.get(record.source, ()) if text.startswith("uneven")]
             rows.append((_short(name, 24), record.use, str(size), span, _short("; ".join([*told, *uneven]), 60)))
         return rows

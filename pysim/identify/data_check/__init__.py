@@ -5,6 +5,7 @@ from pysim.identify.data_check.clipping import clipped, plateaus
 from pysim.identify.data_check.clock import Clock, clock
 from pysim.identify.data_check.finding import Finding, FindingCode
 from pysim.identify.data_check.folding import share_near_nyquist
+from pysim.identify.data_check.gaps import whole_rows
 from pysim.identify.data_check.swing import Swing, swing
 
 __all__ = [
@@ -20,4 +21,5 @@ __all__ = [
     "plateaus",
     "share_near_nyquist",
     "swing",
+    "whole_rows",
 ]

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pysim.io.columns import standing
+from pysim.io.counted import counted
 from pysim.io.load.headings import heading_of, name_and_unit, unit_of
 from pysim.io.load.moments import moments_of, seconds_of_day
 from pysim.io.load.table import RawTable
@@ -162,7 +163,7 @@ def _without_copies(table: RawTable, time: Array) -> tuple[NDArray[np.intp], str
     if not copies:
         return np.arange(time.size), ""
     rows = np.delete(np.arange(time.size), copies)
-    return rows, f"{len(copies)} repeated rows were left out, the first at {table.row(copies[0])}"
+    return rows, f"{counted(len(copies), 'repeated row')} left out, the first at {table.row(copies[0])}"
 
 
 def _equal(one: object, other: object) -> bool:

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from pysim.io.counted import counted
 from pysim.io.load.clock import read_clock
 from pysim.io.load.foreign_units import known_unit, scale_of
 from pysim.io.load.headings import heading_of, name_and_unit, unit_of
@@ -156,7 +157,7 @@ def _record(
         empty = int(np.count_nonzero(np.isnan(column)))
         if empty == column.size:
             raise BadInput(f"{table.place}: {name} is empty from the first row to the last; name another column")
-        remarks += [f"{name}: {empty} cells are empty"] if empty else []
+        remarks += [f"{name}: {counted(empty, 'empty cell')}"] if empty else []
     own = tuple(scale.unit for scale in scales.values())
     data = Record(clock.time, values, tuple(headings), own, origin=f"measured, {table.place}")
     record = MeasuredRecord(table.name, OTHER.name, "fit", data, begin=clock.begin)

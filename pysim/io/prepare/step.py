@@ -10,6 +10,7 @@ from typing import ClassVar, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from pysim.io.counted import counted
 from pysim.io.prepare.log_names import logs_called, part_of, short_name
 from pysim.types import BadInput, Dataset, MeasuredRecord, Record, sampling
 from pysim.types.record_kind import KINDS, Command
@@ -178,7 +179,7 @@ def refuse_missing_in(dataset: Dataset, record: MeasuredRecord, log: Record) -> 
         count = int(missing[:, column].sum())
         longest = _up(_GAP * _longest(log.time, missing[:, column]))
         raise BadInput(
-            f"{short_name(dataset, record)}: {log.names[column]} lacks {count} samples, the first at "
+            f"{short_name(dataset, record)}: {log.names[column]} lacks {counted(count, 'sample')}, the first at "
             f"{log.time[row]:.6g} s; data = data.fill_gaps({longest:g}) fills them, a smaller number cuts there"
         )
 

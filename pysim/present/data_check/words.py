@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 
 from pysim.identify.data_check import Finding, FindingCode
+from pysim.io import counted
 from pysim.io.prepare import Step, call
 
 _WORDS: Mapping[FindingCode, str] = {
-    FindingCode.EMPTY: "{signal} lacks {count} samples, the first at {start:.6g} s",
+    FindingCode.EMPTY: "{signal} lacks {samples}, the first at {start:.6g} s",
     FindingCode.GAP: "{gaps} of {length:.3g} s after {start:.6g} s",
     FindingCode.QUANTITY: (
         "{signal} is in {unit}, and the model counts it in {wanted}; by the model's answer one {unit} is {factor:.4g} "
@@ -18,9 +19,9 @@ _WORDS: Mapping[FindingCode, str] = {
     FindingCode.SIGN: "{signal} moves against the model's answer (correlation {correlation:.2f}): a turned sign?",
     FindingCode.FACTOR: "{signal} is about {factor:.4g} times the model's answer: another unit?",
     FindingCode.CLIPPED: (
-        "{count} samples of {signal} stand at its smallest or largest value ({low:g}, {high:g} {unit}): clipped?"
+        "{samples} of {signal} at its smallest or largest value ({low:g}, {high:g} {unit}): clipped?"
     ),
-    FindingCode.OUTLIERS: "{count} samples of {signal} are far off their neighbours, the first at {start:.6g} s",
+    FindingCode.OUTLIERS: "{samples} of {signal} far off their neighbours, the first at {start:.6g} s",
     FindingCode.UNEVEN: "uneven sampling: the intervals vary by {jitter:.0f} percent",
     FindingCode.TOO_SHORT: "{rows} samples are too few; {least} are the least",
     FindingCode.SLOW_CLOCK: ('{rate:.3g} samples per second: if time is in ms, write time_unit = "ms" below [dataset]'),
@@ -47,6 +48,8 @@ _SHARES = ("share", "jitter")  # shown in percent
 def sentence(found: Finding) -> str:
     """What is found, without its log."""
     words: dict[str, float | str] = dict(found.values)
+    if "count" in words:
+        words["samples"] = counted(int(words["count"]), "sample")
     if found.code is FindingCode.GAP:
         count = int(words["count"])
         words["gaps"] = f"{count} gaps in time, the longest" if count > 1 else "a gap in time,"

@@ -126,3 +126,14 @@ def test_sources_are_those_of_the_reader(path: Path) -> None:
     read = [record.source for record in read_dataset(path.parent).records]
     hold_out(found, read, 0, True)
     assert found["records"][0]["use"] == "validate"
+
+
+def test_steps_of_the_preparation_stay_and_say_what_their_parts_are_for(path: Path) -> None:
+    found = read_description(path)
+    found["dataset"]["preparation"] = [{"step": "trim", "start": 0.1}, {"step": "split", "share": 0.5}]
+    dataset = change_description(path, found)
+    assert dataset is not None
+    assert read_description(path) == found
+    assert [record.use for record in dataset.records][:2] == ["fit", "test"]
+    with pytest.raises(BadInput, match="a step of its preparation says what it is for"):
+        hold_out(found, [record.source for record in dataset.records], 1, True)

@@ -1,5 +1,6 @@
 """A log as a bench leaves it becomes ready with the lines that `check` proposes, and with nothing else."""
 
+from dataclasses import replace
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
 
@@ -9,7 +10,7 @@ import pytest
 from pysim.identify.data_check import FindingCode
 from pysim.io import read_dataset
 from pysim.nouns.data import Data, load
-from pysim.types import Record
+from pysim.types import MeasuredRecord, Record
 
 RATE = 200.0
 TIME = np.arange(2000) / RATE
@@ -84,12 +85,17 @@ def test_steps_of_a_finding_can_be_applied_as_they_are(data: Data) -> None:
 class Plant:
     """What answers to a log."""
 
-    def simulate(self, log: object) -> Record:
-        return MODEL
+    def simulate(self, log: MeasuredRecord) -> Record:
+        assert isinstance(log.data, Record)
+        assert log.data.names == ("F", "cylinder.x", "v", "p")
+        assert np.isfinite(log.data.values).all()
+        return replace(MODEL, names=("cylinder.x", "v", "p"))
 
 
-def test_a_model_is_simulated_on_the_logs(data: Data) -> None:
-    assert data.check(Plant()).lines == data.check({"run1": MODEL}).lines
+def test_a_model_is_simulated_on_the_logs(data: Data, tmp_path: Path) -> None:
+    path = tmp_path / "run1.csv"
+    called = load(path, inputs="F", outputs=["x", "v", "p"], variables={"x": "cylinder.x"})
+    assert called.check(Plant()).lines == data.check({"run1": MODEL}).lines
 
 
 def test_clipped_stretches_are_left_out(data: Data) -> None:

@@ -204,7 +204,7 @@ def test_filters_ask_for_a_log_without_gaps() -> None:
     y = TIME.copy()
     y[100] = np.nan
     for step in (LowPass(10.0), Resample(100.0), Detrend(), Delay("y", 0.1)):
-        with pytest.raises(BadInput, match=r"y lacks 1 samples, the first at 0\.1 s; data = data\.fill_gaps\(0\.00"):
+        with pytest.raises(BadInput, match=r"y lacks 1 sample, the first at 0\.1 s; data = data\.fill_gaps\(0\.00"):
             step.apply(dataset(TIME, y))
 
 
