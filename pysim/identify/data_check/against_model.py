@@ -17,7 +17,7 @@ from pysim.types import UNITS, Dataset, MeasuredSignal, Record, conversion
 Array = NDArray[np.float64]
 
 _FOLLOWS = 0.7  # correlation, from which on a signal follows the model's answer or its negative
-_NEAR = 0.25  # how far from such a factor the gain may be
+_NEAR = 1.5  # times such a factor, or a part of it: a wrong gain of the model may be so large
 _FACTORS = (10.0, 60.0, 1000.0)  # of slips between units; per quantity also these
 _OF_UNIT: Mapping[str, tuple[float, ...]] = {
     "rad": (180 / math.pi,),
@@ -125,7 +125,7 @@ def _of_signal(pair: _Pair) -> Iterator[Finding]:
         yield finding(FindingCode.SIGN, pair.source, Flip((signal.name,)), signal=signal.name, correlation=correlation)
     gain = abs(pair.gain) / known[0]
     factors = _OF_UNIT.get(signal.unit, _FACTORS)
-    near = [f for one in factors for f in (one, 1 / one) if abs(gain / f - 1) < _NEAR]
+    near = [f for one in factors for f in (one, 1 / one) if 1 / _NEAR < gain / f < _NEAR]
     if near:
         factor = min(near, key=lambda f: abs(math.log(gain / f)))
         cure = Scaled(signal.name, float(f"{1 / factor:.10g}"))
