@@ -7,8 +7,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from pysim.io.columns import names_its_columns
-from pysim.io.headings import column_names
-from pysim.io.load import READERS
+from pysim.io.headings import column_names, described_columns
 from pysim.io.load.clock import TIME_NAMES, rises
 from pysim.io.load.headings import name_and_unit
 from pysim.io.load.moments import looks_like_moment
@@ -131,7 +130,7 @@ def _take(found: Draft, path: Path, columns: Sequence[Column], *, named: bool) -
 
 
 def _names(found: Draft, path: Path, columns: Sequence[Column], by_name: bool) -> list[str]:
-    """Of a log whose signals were named: found in its heading, else counted."""
+    """Of a log whose signals were named: found in its heading, else counted beside the time."""
     own = [column.heading if by_name else column.name for column in columns]
     time, kept = _time(found, path, columns, own), sum(name != LEFT_OUT for name in own)
     if all(name in own for name in found.roles):
@@ -139,10 +138,10 @@ def _names(found: Draft, path: Path, columns: Sequence[Column], by_name: bool) -
     if kept != 1 + len(found.roles) or by_name:
         raise BadInput(
             f"{path}: its columns are {', '.join(own)}; name signals as they are called there, or as many as there are "
-            "columns behind the time"
+            "columns beside the time"
         )
-    names = iter(["time", *found.roles])
-    return [name if name == LEFT_OUT else next(names) for name in own]
+    names = iter(found.roles)
+    return [name if name == LEFT_OUT else "time" if k == time else next(names) for k, name in enumerate(own)]
 
 
 def _guessed(found: Draft, path: Path, columns: Sequence[Column], by_name: bool) -> list[str]:
@@ -180,7 +179,7 @@ def clock_column(path: Path, headings: Sequence[str], taken: Sequence[bool]) -> 
     Raises:
         BadInput: none rises as a clock does, or several do that no heading tells apart.
     """
-    (table, *_) = READERS.get(path.suffix.lower(), READERS[".txt"])(path)
+    table, _ = described_columns(path)
     by_name = names_its_columns(path)
     own = list(headings) if by_name else list(table.headings)
     rising, named = [], []

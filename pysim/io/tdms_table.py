@@ -19,24 +19,6 @@ _TIME = "time"
 DAMAGED = (OSError, ValueError, KeyError, EOFError, NotImplementedError, struct.error)
 
 
-def channel_names(path: Path) -> tuple[str, ...]:
-    """Names of all channels, "group/channel" where two groups have the same; "time" ahead where waveforms carry it.
-
-    Raises:
-        BadInput: the package is missing, or no TDMS file.
-    """
-    tdms = optional_package("nptdms", f"{path.name} is a TDMS file", "npTDMS")
-    try:
-        channels = [channel for group in tdms.TdmsFile.read_metadata(path).groups() for channel in group.channels()]
-    except DAMAGED as error:
-        raise BadInput(f"cannot read {path.name} as TDMS ({error}); export it again") from error
-    if not channels:
-        raise BadInput(f"cannot read {path.name} as TDMS (it has no channels); export it again")
-    names = told_apart(channels)
-    carried = _TIME not in names and any("wf_increment" in channel.properties for channel in channels)
-    return (_TIME, *names) if carried else names
-
-
 def told_apart(channels: list[Any]) -> tuple[str, ...]:
     """Their names, with the group where one stands twice."""
     names = [channel.name for channel in channels]

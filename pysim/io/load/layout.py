@@ -20,11 +20,13 @@ class Layout:
     Args:
         first: the row of the first numbers.
         headings: of all columns, "column 3" where there is none.
+        counted: whether no column has a heading.
         units: heading -> unit, from a row of units.
     """
 
     first: int
     headings: tuple[str, ...]
+    counted: bool = False
     units: dict[str, str] = field(default_factory=dict)
 
 
@@ -47,7 +49,7 @@ def layout_of(head: Sequence[Row], tail: Sequence[Row]) -> Layout | None:
     Returns:
         None where no column holds numbers.
     """
-    width = len(tail[0])
+    width, tail = len(tail[0]), tail[len(tail) // 2 :]  # of a short file the first half may be headings
     wanted = [c for c in range(width) if _mostly_values([row[c] for row in tail])]
     first = next((k for k, row in enumerate(head) if 2 * _count(row, wanted) > len(wanted)), None)
     if not wanted or first is None:
@@ -59,7 +61,8 @@ def layout_of(head: Sequence[Row], tail: Sequence[Row]) -> Layout | None:
     if len(above) > 1 and _is_units(above[-1], wanted):
         units = [_bare(cell) for cell in above.pop()]
     headings = _headings(above, width, wanted)
-    return Layout(first, headings, {h: u for h, u in zip(headings, units, strict=False) if u})
+    counted = headings == tuple(f"column {k + 1}" for k in range(width))
+    return Layout(first, headings, counted, {h: u for h, u in zip(headings, units, strict=False) if u})
 
 
 def _mostly_values(cells: list[object]) -> bool:

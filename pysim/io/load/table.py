@@ -27,6 +27,7 @@ class RawTable:
         units: of columns whose unit stands beside the heading.
         row: from the number of a row, from 0, to its place in the file: "line 7".
         remarks: what was left out or guessed in reading.
+        counted: whether the file has no headings, so that columns are counted.
     """
 
     place: str
@@ -36,6 +37,7 @@ class RawTable:
     units: Mapping[str, str] = field(default_factory=dict)
     row: Callable[[int], str] = lambda k: f"row {k + 1}"
     remarks: tuple[str, ...] = ()
+    counted: bool = False
 
     def column(self, heading: str) -> NDArray[Any]:
         """The cells below a heading."""

@@ -47,7 +47,8 @@ def _table(path: Path, channels: list[Any], count: int) -> RawTable:
     units = {
         n: str(c.properties[key]) for n, c in zip(names, channels, strict=True) for key in _UNITS if key in c.properties
     }
-    clocks = [channel.time_track() for channel in channels if "wf_increment" in channel.properties]
+    waves = [channel.properties for channel in channels if "wf_increment" in channel.properties]
+    clocks = [wave.get("wf_start_offset", 0.0) + wave["wf_increment"] * np.arange(cells[0].size) for wave in waves]
     if clocks and "time" not in names:
         if not all(np.array_equal(clock, clocks[0]) for clock in clocks):
             raise BadInput(f"{path}: its waveforms were sampled at different times; export each rate into its own file")

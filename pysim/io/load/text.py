@@ -31,12 +31,13 @@ def read_text_log(path: Path) -> tuple[RawTable, ...]:
     lines = unquoted(read_text(path, "load"), " ").split("\n")
     begin = behind_labview_header(lines)
     there = [k for k in range(begin, len(lines)) if lines[k].strip() and not lines[k].lstrip().startswith("#")]
-    how = _dialect([lines[k] for k in there[-_TAIL - 1 : -1] or there])
+    usual_rows = there[-_TAIL - 1 : -1] if len(there) > _TAIL else there[len(there) // 2 :]
+    how = _dialect([lines[k] for k in usual_rows])
     if how is None:
         raise BadInput(f"{path} holds no rows of numbers; it needs a column of times and those of the signals")
     usual, width = how
     noted = [k for k in range(begin, len(lines)) if lines[k].lstrip().startswith("#")][:_HEAD]
-    head = [_padded(usual.fields(_bare(lines[k], usual, width)), width) for k in there[:_HEAD]]
+    head = [_head_row(lines[k], usual, width) for k in there[:_HEAD]]
     tail = [row for k in there[-_TAIL:] if len(row := _fields(lines[k], usual, width)) == width]
     found = layout_of(head, tail)
     if found is None:
@@ -45,8 +46,15 @@ def read_text_log(path: Path) -> tuple[RawTable, ...]:
     _refuse_decimal_commas(path, there[found.first], head[: found.first], usual, width)
     body, remarks = _body(path, lines, there[found.first :], usual, width)
     cells = _cells(lines, body, usual, found.headings)
-    units = found.units | _labview_units(lines[:begin], found.headings)
-    return (RawTable(str(path), path.name, found.headings, cells, units, lambda k: f"line {body[k] + 1}", remarks),)
+    kept = width
+    while found.headings[kept - 1] == f"column {kept}" and all(is_empty(cell) for cell in cells[kept - 1]):
+        kept -= 1  # behind a separator at the end of every row
+    names = found.headings[:kept]
+    units = found.units | _labview_units(lines[:begin], names)
+    place = str(path)
+    return (
+        RawTable(place, path.name, names, cells[:kept], units, lambda k: f"line {body[k] + 1}", remarks, found.counted),
+    )
 
 
 def _dialect(sample: Sequence[str]) -> tuple[Dialect, int] | None:
@@ -72,8 +80,16 @@ def _bare(line: str, how: Dialect, width: int) -> str:
     return line.strip() if how.separator is None else line.strip(" ")
 
 
-def _padded(row: list[str], width: int) -> list[str]:
-    return (row + [""] * (width - len(row)))[:width] if len(row) > 1 or width == 1 else [""] * width
+def _head_row(line: str, usual: Dialect, width: int) -> list[str]:
+    """A line that may be one of headings: commas in names stay, and another separator counts where it gives all."""
+    for how in (usual, *DIALECTS):
+        bare = _bare(line, how, width)
+        row = how.fields(bare)
+        if len(row) == width or (how is usual and len(row) > 1):
+            words = [word.strip() for word in bare.split(how.separator)]
+            row = [field if is_value(field) else word for field, word in zip(row, words, strict=True)]
+            return (row + [""] * (width - len(row)))[:width]
+    return [""] * width
 
 
 def _fields(line: str, usual: Dialect, width: int) -> list[str]:
@@ -90,13 +106,13 @@ def _fields(line: str, usual: Dialect, width: int) -> list[str]:
 
 def _with_comment(found: Layout, comments: list[str], usual: Dialect, width: int) -> Layout:
     """Headings from a comment, where no other line has any."""
-    if not all(name.startswith("column ") for name in found.headings):
+    if not found.counted:
         return found
     for comment in reversed(comments):
         for how in (usual, *DIALECTS):
             row = [cell.strip() for cell in how.fields(comment.strip())]
             if len(row) == width and all(row) and not any(map(is_value, row)):
-                return Layout(found.first, tuple(row), found.units)
+                return Layout(found.first, tuple(row), units=found.units)
     return found
 
 

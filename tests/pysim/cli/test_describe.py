@@ -143,6 +143,15 @@ def test_a_force_ahead_of_the_time_is_no_clock(tmp_path: Path, capsys: pytest.Ca
     refused(["data", "describe", str(tmp_path)], capsys, "no column is a clock", "F [N], p [bar], x [mm]")
 
 
+def test_columns_are_counted_beside_the_time_wherever_it_stands(tmp_path: Path) -> None:
+    rows = [f"{np.sin(3 * t):.6f},{t:.3f},{np.cos(t):.6f}" for t in TIME]
+    (tmp_path / "log.csv").write_text("\n".join(["A,B,C", *rows]))
+    assert main(["data", "describe", str(tmp_path), "--input", "cmd:%", "--response", "y:bar"]) == 0
+    (log,) = read_dataset(tmp_path).logs()
+    np.testing.assert_allclose(log.data.time, TIME)
+    np.testing.assert_allclose(log.data["y"], 1e5 * np.cos(TIME), atol=0.1)
+
+
 def test_dates_are_sent_to_where_they_can_be_read(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     rows = [f"2026-03-01 14:05:{t:06.3f},{np.sin(t):.6f},{np.cos(t):.6f}" for t in TIME]
     (tmp_path / "log.csv").write_text("\n".join(["stamp,F [N],x [mm]", *rows]))

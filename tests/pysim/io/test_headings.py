@@ -96,7 +96,7 @@ def test_a_damaged_tdms_file_is_refused(tmp_path: Path, wrong: int | None) -> No
     else:
         content[wrong] = 255
     (tmp_path / "a.tdms").write_bytes(content)
-    with pytest.raises(BadInput, match=r"cannot read a.tdms as TDMS \(.*\); export it again"):
+    with pytest.raises(BadInput, match=r"cannot read .*a.tdms as TDMS \(.*\); .*export it again"):
         column_names(tmp_path / "a.tdms")
 
 
