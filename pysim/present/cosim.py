@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from pysim.io import record_text, shown_unit
-from pysim.present.page import cell, heading, paragraph, pictures, table
+from pysim.present.page import heading, paragraph, pictures, table
 from pysim.present.page import page as whole_page
 from pysim.present.render import Drawing, Picture
-from pysim.present.style import COLOURS, DASHES, SMALL, TEXT, new_figure, quiet
+from pysim.present.style import COLOURS, SMALL, look, panels
 from pysim.types import BadInput, Outcome, Record
 
 if TYPE_CHECKING:
@@ -84,13 +84,12 @@ def page(result: CoSimulation, drawings: Sequence[Drawing], redo: str) -> str:
     body = [heading("Verdict"), paragraph(_how(result), note=result.record.outcome is not Outcome.DONE)]
     if drawings:
         body += [heading("Pictures"), *pictures(drawings)]
-    rows = [
-        [cell(signal, "words"), cell(unit, "words"), *(cell(f"{value:.5g}") for value in values)]
-        for signal, unit, values in _signals(result.record)
-    ]
-    body += [heading("Signals"), table("In SI units or %", ["", "unit", "lowest", "highest", "at the end"], rows)]
-    rows = [[cell(n, "words"), cell(what, "words"), cell(str(i)), cell(str(o))] for n, what, i, o in result.parts]
-    body += [heading("Members"), table("What the system is made of", ["", "", "inputs", "outputs"], rows)]
+    rows = [[signal, unit, *(f"{value:.5g}" for value in values)] for signal, unit, values in _signals(result.record)]
+    head = ["", "unit", "lowest", "highest", "at the end"]
+    body += [heading("Signals"), table("In SI units or %", head, rows, words=[0, 1])]
+    rows = [[name, what, str(ins), str(outs)] for name, what, ins, outs in result.parts]
+    head = ["", "", "inputs", "outputs"]
+    body += [heading("Members"), table("What the system is made of", head, rows, words=[0, 1])]
     if result.wires:
         body += [heading("Connections"), _wiring(result.wires)]
     lead = "Members stepped side by side and wired at communication points."
@@ -107,8 +106,8 @@ def _wiring(wires: Wires) -> str:
     law, head, last = "input = factor * output", ["from", "to", "factor"], 3
     if any(offset for *_, offset in wires):
         law, head, last = f"{law} + offset", [*head, "offset"], 4
-    rows = [[cell(w[0], "words"), cell(w[1], "words"), *(cell(f"{number:.9g}") for number in w[2:last])] for w in wires]
-    return table(law, head, rows)
+    rows = [[*wire[:2], *(f"{number:.9g}" for number in wire[2:last])] for wire in wires]
+    return table(law, head, rows, words=[0, 1])
 
 
 def _how(result: CoSimulation) -> str:
@@ -138,16 +137,15 @@ def cosim_figure(record: Record) -> Figure:
     """
     if record.time.size == 0:
         raise BadInput("co-simulation figure: the record has no rows; nothing can be drawn")
-    panels = _panels(record)
-    figure = new_figure(8.0, 0.7 + 1.75 * len(panels))
-    axes = figure.subplots(len(panels), 1, sharex=True, squeeze=False)[:, 0]
-    for axis, (unit, names) in zip(axes, panels, strict=True):
+    shown = _shown(record)
+    figure, axes = panels(8.0, 0.7 + 1.75 * len(shown), len(shown), sharex=True)
+    for axis, (unit, names) in zip(axes[:, 0], shown, strict=True):
         _draw(axis, record, unit, names)
-    axes[-1].set_xlabel("Time (s)", fontsize=TEXT)
+    axes[-1, 0].set_xlabel("Time (s)")
     return figure
 
 
-def _panels(record: Record) -> list[tuple[str, Sequence[str]]]:
+def _shown(record: Record) -> list[tuple[str, Sequence[str]]]:
     """Unit and names of each panel, in the order of the record."""
     by_unit: dict[str, list[str]] = {}
     for name, unit in zip(record.names, record.units, strict=True):
@@ -161,9 +159,8 @@ def _draw(axis: Axes, record: Record, unit: str, names: Sequence[str]) -> None:
     shown, factor = shown_unit(unit)
     for i, name in enumerate(names):
         label = name if len(name) <= _LABELS else f"…{name[1 - _LABELS :]}"
-        axis.plot(record.time, factor * record[name], color=COLOURS[i], linestyle=DASHES[i], linewidth=1.3, label=label)
-    axis.set_ylabel(names[0] + f" ({shown})" if len(names) == 1 and len(names[0]) < 20 else f"({shown})", fontsize=TEXT)
+        axis.plot(record.time, factor * record[name], **look(i, "linestyle"), linewidth=1.3, label=label)
+    axis.set_ylabel(names[0] + f" ({shown})" if len(names) == 1 and len(names[0]) < 20 else f"({shown})")
     if len(names) > 1 or len(names[0]) >= 20:
         axis.legend(loc="center left", bbox_to_anchor=(1.01, 0.5), frameon=False, fontsize=SMALL)
-    quiet(axis)
     axis.margins(x=0)

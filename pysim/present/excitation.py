@@ -14,17 +14,7 @@ from pysim.excitation import Excitation, Multisine, StochasticWave
 from pysim.present.page import heading, items, paragraph, pictures
 from pysim.present.page import page as whole_page
 from pysim.present.render import Drawing, Picture
-from pysim.present.style import (
-    BAND,
-    COLOURS,
-    MEASURED,
-    TEXT,
-    frequency_axis,
-    legend_above,
-    new_figure,
-    quiet,
-    size_axis,
-)
+from pysim.present.style import BAND, COLOURS, MEASURED, frequency_axis, legend_above, panels, size_axis
 from pysim.types import Signal
 
 if TYPE_CHECKING:
@@ -126,17 +116,13 @@ def excitation_figure(test: Excitation, unit: str) -> Figure:
     t = _times(test, stop)
     values, sampling = _samples(test, signal, min(test.end, stop))
     moves = np.ptp(values) > 0
-    figure = new_figure(7.2, 5.2 if moves else 2.8)
-    time_axes, *below = figure.subplots(2 if moves else 1, 1, squeeze=False)[:, 0]
-    quiet(time_axes)
+    figure, axes = panels(7.2, 5.2 if moves else 2.8, 2 if moves else 1)
+    time_axes, *below = axes[:, 0]
     time_axes.axvspan(test.onset, min(test.end, stop), color=BAND, alpha=0.35, linewidth=0)
     time_axes.plot(t, signal.value(t), color=COLOURS[0], linewidth=0.9)
-    time_axes.set_xlim(0.0, stop)
-    time_axes.set_xlabel("Time (s)", fontsize=TEXT)
-    time_axes.set_ylabel(f"Command ({unit})", fontsize=TEXT)
+    time_axes.set(xlabel="Time (s)", ylabel=f"Command ({unit})", xlim=(0.0, stop))
     for spectrum_axes in below:
-        quiet(spectrum_axes)
-        spectrum_axes.set_xlabel("Frequency (Hz)", fontsize=TEXT)
+        spectrum_axes.set_xlabel("Frequency (Hz)")
         if isinstance(test, Multisine):
             _draw_lines(spectrum_axes, test, unit, figure)
         else:
@@ -179,8 +165,8 @@ def _draw_lines(axes: Axes, test: Multisine, unit: str, figure: Figure) -> None:
             (handle,) = axes.plot(at, np.zeros(at.size), color=colour, marker=marker, markersize=4, linestyle="none")
             handles.append(handle)
             labels.append(f"{lines.size} {name}")
-    axes.set_ylim(-0.06 * waves[:, 0].max(), 1.15 * waves[:, 0].max())
-    axes.set_ylabel(f"Amplitude ({unit})", fontsize=TEXT)
+    most = waves[:, 0].max()
+    axes.set(ylabel=f"Amplitude ({unit})", ylim=(-0.06 * most, 1.15 * most))
     legend_above(figure, handles, labels)
 
 
@@ -189,7 +175,8 @@ def _draw_density(axes: Axes, test: Excitation, values: Array, sampling: float, 
     values = values - values.mean()
     f = np.fft.rfftfreq(values.size, 1 / sampling)[1:]
     density = np.sqrt(2 / (sampling * values.size)) * np.abs(np.fft.rfft(values)[1:])
-    shown = f <= max(2.0 * f[_cumulative(density**2) <= 0.999].max(initial=f[min(2, f.size - 1)]), 3 * f[0])
+    power = np.cumsum(density**2)
+    shown = f <= max(2.0 * f[power <= 0.999 * power[-1]].max(initial=f[min(2, f.size - 1)]), 3 * f[0])
     (line,) = axes.plot(f[shown], density[shown], color=COLOURS[0], linewidth=0.9)
     if isinstance(test, StochasticWave):
         theory = np.sqrt(2 * np.pi * test.spectrum.density(2 * np.pi * f[shown]))
@@ -197,11 +184,4 @@ def _draw_density(axes: Axes, test: Excitation, values: Array, sampling: float, 
         legend_above(figure, [line, spectrum], ["this wave", "Pierson-Moskowitz spectrum"])
     frequency_axis(axes, float(f[0]), float(f[shown][-1]))
     size_axis(axes)
-    axes.set_ylim(1e-3 * density.max(), 2 * density.max())
-    axes.set_ylabel(f"Amplitude density ({unit}/√Hz)", fontsize=TEXT)
-
-
-def _cumulative(power: Array) -> Array:
-    """Share of the power up to each place, (n,)."""
-    total = np.cumsum(power)
-    return np.asarray(total / total[-1])
+    axes.set(ylabel=f"Amplitude density ({unit}/√Hz)", ylim=(1e-3 * density.max(), 2 * density.max()))

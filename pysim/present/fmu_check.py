@@ -43,13 +43,8 @@ def text(result: Checked) -> str:
 def data(result: Checked) -> list[dict[str, Any]]:
     """Everything, an entry per FMU."""
     return [
-        {
-            "model": report.model,
-            "fmi": report.fmi,
-            "tool": report.tool,
-            "results": [one.data() for one in report.results],
-        }
-        for report in result.reports
+        {"model": one.model, "fmi": one.fmi, "tool": one.tool, "results": [found.data() for found in one.results]}
+        for one in result.reports
     ]
 
 
@@ -73,19 +68,19 @@ def _sentence(report: FmuReport) -> str:
 def _section(report: FmuReport) -> list[str]:
     rows = [
         [
-            cell(result.check, "words"),
-            cell(result.claim, "words"),
-            cell("" if result.value is None else f"{result.value:.3g} {result.unit}".strip()),
-            cell("" if result.limit is None else f"{result.limit:g}"),
+            result.check,
+            result.claim,
+            "" if result.value is None else f"{result.value:.3g} {result.unit}".strip(),
+            "" if result.limit is None else f"{result.limit:g}",
             cell(result.verdict, _KIND[result.verdict]),
-            cell(result.detail, "words"),
+            result.detail,
         ]
         for result in report.results
     ]
     return [
         heading(report.model),
         statement(_sentence(report)),
-        table("Every claim.", ["check", "claim", "value", "limit", "verdict", "detail"], rows),
+        table("Every claim.", ["check", "claim", "value", "limit", "verdict", "detail"], rows, words=[0, 1, 5]),
         paragraph(
             "Doubtful is what FMI allows, or what samples cannot prove, and what should be looked at: a parameter that "
             "moved nothing, a solver bound to the communication step, a forbidden call that is not refused."

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-import textwrap
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -18,11 +18,12 @@ from pysim.identify.friction import (
     friction_slopes,
     friction_torque,
 )
-from pysim.io import json_number
-from pysim.present.page import cell, heading, items, paragraph, pictures, table
+from pysim.present.page import heading, items, paragraph, pictures, table
 from pysim.present.page import page as whole_page
+from pysim.present.plain_text import wrapped
 from pysim.present.render import Drawing, Picture
-from pysim.present.style import BAND, COLOURS, LIMIT, MEASURED, TEXT, legend_above, new_figure, quiet
+from pysim.present.style import BAND, COLOURS, LIMIT, MEASURED, legend_above, new_figure, quiet
+from pysim.types.json_number import json_data
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -64,19 +65,18 @@ def text(result: Friction) -> str:
     fit = result.fit
     lines = ["  parameter     value   95 % interval"]
     for name, unit in zip(FRICTION_NAMES, FRICTION_UNITS, strict=True):
-        value = "-" if name in fit.bounded else f"{fit.parameters[name]:.4f}"
-        lines.append(f"  {name:<9}{value:>10}   {_interval(fit, name)} {unit:<6} {_MEANING[name]}")
+        lines.append(f"  {name:<9}{_value(fit, name):>10}   {_interval(fit, name)} {unit:<6} {_MEANING[name]}")
     lines.append(
         f"  residual {fit.rms:.3g} N.m, {fit.residuals.size} samples worth {fit.effective:.0f} independent ones"
     )
-    return "\n".join(
-        [*lines, *(row for remark in _remarks(fit) for row in textwrap.wrap(remark, 78, break_on_hyphens=False))]
-    )
+    return "\n".join([*lines, *(line for remark in _remarks(fit) for line in wrapped(remark, width=78))])
 
 
 def data(result: Friction) -> dict[str, Any]:
     """Everything for JSON; an open end is None."""
-    return _data(result.fit) | {"by_filter": None if result.by_filter is None else _data(result.by_filter)}
+    by_filter = None if result.by_filter is None else _data(result.by_filter)
+    found: dict[str, Any] = json_data({**_data(result.fit), "by_filter": by_filter})
+    return found
 
 
 def figures(result: Friction) -> Iterator[Picture]:
@@ -90,8 +90,7 @@ def page(result: Friction, drawings: Sequence[Drawing], redo: str) -> str:
     fit, thesis, columns = result.fit, result.by_filter, result.columns
     load = f" and {columns.load}" if columns.load else ""
     lead = f"{result.dataset}: {columns.speed} against {columns.supply}{load}, inertia {result.inertia:g} kg.m2."
-    parts = [heading("Friction of the shaft"), _table(fit), items(_remarks(fit))]
-    parts += pictures(drawings)
+    parts = [heading("Friction of the shaft"), _table(fit), items(_remarks(fit)), *pictures(drawings)]
     parts += [heading("How it was found"), items(_method(fit))]
     if thesis is not None:
         parts += [heading("The same log by filter and Eq. 6.1"), _table(thesis), paragraph(_beside(), note=True)]
@@ -104,13 +103,13 @@ def _data(fit: FrictionFit) -> dict[str, Any]:
             name: {
                 "value": fit.parameters[name],
                 "unit": unit,
-                "interval": [json_number(x) for x in fit.intervals[name]],
+                "interval": fit.intervals[name],
                 "bounded_only": name in fit.bounded,
                 "at_bound": name in fit.at_bound,
             }
             for name, unit in zip(FRICTION_NAMES, FRICTION_UNITS, strict=True)
         },
-        "covariance": fit.covariance.tolist(),
+        "covariance": fit.covariance,
         "objective": "weighted least squares" if fit.weighted else "thesis Eq. 6.1",
         "residual_rms": fit.rms,
         "samples": int(fit.residuals.size),
@@ -147,17 +146,15 @@ def _remarks(fit: FrictionFit) -> tuple[str, ...]:
 def _table(fit: FrictionFit) -> str:
     """A row per parameter."""
     rows = [
-        [
-            cell(name),
-            cell("-" if name in fit.bounded else f"{fit.parameters[name]:.4f}"),
-            cell(_interval(fit, name)),
-            cell(unit),
-            cell(_MEANING[name], "words"),
-        ]
+        [name, _value(fit, name), _interval(fit, name), unit, _MEANING[name]]
         for name, unit in zip(FRICTION_NAMES, FRICTION_UNITS, strict=True)
     ]
     caption = f"Thesis Eq. 5.38; residual {fit.rms:.3g} N.m; {fit.residuals.size} samples, worth {fit.effective:.0f}"
-    return table(caption, ["", "value", "95 % interval", "unit", "meaning"], rows)
+    return table(caption, ["", "value", "95 % interval", "unit", "meaning"], rows, words=[4])
+
+
+def _value(fit: FrictionFit, name: str) -> str:
+    return "-" if name in fit.bounded else f"{fit.parameters[name]:.4f}"
 
 
 def _interval(fit: FrictionFit, name: str) -> str:
@@ -168,12 +165,11 @@ def _interval(fit: FrictionFit, name: str) -> str:
 
 
 def _dropped(fit: FrictionFit) -> dict[str, int]:
-    left: dict[str, int] = {}
+    left = Counter[str]()
     for samples in fit.samples:
         for reason, count in samples.dropped:
-            if count:
-                left[reason] = left.get(reason, 0) + count
-    return left
+            left[reason] += count
+    return dict(+left)
 
 
 def _method(fit: FrictionFit) -> list[str]:
@@ -209,9 +205,9 @@ def friction_figure(fit: FrictionFit) -> Figure:
     for top, bottom, reach in ((axes["all"], axes["rest"], 1.04 * fastest), (axes["near"], axes["close"], near)):
         handles = _draw_curve(top, fit, reach)
         _draw_residuals(bottom, fit, reach)
-        bottom.set_xlabel("Speed (rad/s)", fontsize=TEXT)
-    axes["all"].set_ylabel("Friction torque (N m)", fontsize=TEXT)
-    axes["rest"].set_ylabel("Measured - fitted (N m)", fontsize=TEXT)
+        bottom.set_xlabel("Speed (rad/s)")
+    axes["all"].set_ylabel("Friction torque (N m)")
+    axes["rest"].set_ylabel("Measured - fitted (N m)")
     legend_above(figure, list(handles.values()), list(handles))
     return figure
 

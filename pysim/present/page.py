@@ -82,18 +82,34 @@ def commands(text: str) -> str:
     return f"<pre>{escape(text)}</pre>"
 
 
-def cell(text: str, kind: str = "") -> str:
+class Cell(str):
+    """The HTML of one cell, as `cell` makes it."""
+
+    __slots__ = ()
+
+
+def cell(text: str, kind: str = "") -> Cell:
     """One cell; kind is "", "pass", "fail", "beyond", "differs" or "words", which may break into lines."""
-    return f'<td class="{kind}">{escape(text)}</td>' if kind else f"<td>{escape(text)}</td>"
+    return Cell(f'<td class="{kind}">{escape(text)}</td>' if kind else f"<td>{escape(text)}</td>")
 
 
-def table(caption: str, head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
-    """A table whose rows are made of cells; a column's head stands as the words below it do."""
-    rows = list(rows)
-    words = [bool(rows) and k < len(rows[0]) and rows[0][k].startswith('<td class="words"') for k in range(len(head))]
-    opening = {True: '<th class="words">', False: "<th>"}
-    top = "".join(f"{opening[left]}{escape(name)}</th>" for name, left in zip(head, words, strict=True))
-    body = "\n".join(f"<tr>{''.join(row)}</tr>" for row in rows)
+def table(caption: str, head: Sequence[str], rows: Iterable[Sequence[str]], *, words: Sequence[int] = ()) -> str:
+    """A table; a column's head stands as the words below it do.
+
+    Args:
+        rows: of plain texts, and of cells where a text is more than that.
+        words: columns whose texts are words.
+    """
+    made = [
+        [one if isinstance(one, Cell) else cell(one, "words" if k in words else "") for k, one in enumerate(row)]
+        for row in rows
+    ]
+    left = {k for k, one in enumerate(made[0]) if one.startswith('<td class="words"')} if made else set()
+    top = "".join(
+        f'<th class="words">{escape(name)}</th>' if k in left else f"<th>{escape(name)}</th>"
+        for k, name in enumerate(head)
+    )
+    body = "\n".join(f"<tr>{''.join(row)}</tr>" for row in made)
     return (
         f'<div class="scroll"><table><caption>{escape(caption)}</caption>\n'
         f"<thead><tr>{top}</tr></thead>\n<tbody>\n{body}\n</tbody></table></div>"

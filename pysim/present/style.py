@@ -7,14 +7,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    import numpy as np
     from matplotlib.artist import Artist
     from matplotlib.axes import Axes
     from matplotlib.axis import Axis
     from matplotlib.figure import Figure
     from matplotlib.ticker import Locator
+    from numpy.typing import NDArray
 
 MEASURED = "#1a1a1a"
 BAND = "#d9d9d9"
@@ -36,13 +38,36 @@ def new_figure(width: float, height: float) -> Figure:
     return Figure(figsize=(width, height), layout="constrained", facecolor="white")
 
 
+def panels(
+    width: float, height: float, rows: int = 1, columns: int = 1, **how: Any
+) -> tuple[Figure, NDArray[np.object_]]:
+    """A figure, inches, and its quiet axes (rows, columns).
+
+    Args:
+        how: as `Figure.subplots` takes it, such as sharex or height_ratios.
+    """
+    figure = new_figure(width, height)
+    axes = figure.subplots(rows, columns, squeeze=False, **how)
+    for panel in axes.flat:
+        quiet(panel)
+    return figure, axes
+
+
+def look(k: int, *parts: str) -> dict[str, Any]:
+    """How the k-th of several sets is drawn: its colour, and of "linestyle" and "marker" those that are named."""
+    own = {"linestyle": DASHES[k % len(DASHES)], "marker": MARKERS[k % len(MARKERS)]}
+    return {"color": COLOURS[k % len(COLOURS)], **{part: own[part] for part in parts}}
+
+
 def quiet(axes: Axes) -> None:
-    """Thin grid, no box on the right and above, small tick labels."""
+    """Thin grid, no box on the right and above, small tick labels, names of the axes in the size of text."""
     axes.grid(True, color="#e6e6e6", linewidth=0.6)
     axes.set_axisbelow(True)
     axes.spines[["top", "right"]].set_visible(False)
     axes.spines[["left", "bottom"]].set_color("#666666")
     axes.tick_params(labelsize=SMALL, color="#666666", length=3)
+    for axis in (axes.xaxis, axes.yaxis):
+        axis.label.set_fontsize(TEXT)
 
 
 def frequency_axis(axes: Axes, low: float, high: float) -> None:

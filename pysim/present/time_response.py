@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from pysim.io import shown_unit
-from pysim.present.style import COLOURS, DASHES, MEASURED, TEXT, legend_above, new_figure, quiet
+from pysim.present.style import COLOURS, DASHES, MEASURED, legend_above, panels
 from pysim.types import BadInput, Record
 
 if TYPE_CHECKING:
@@ -25,23 +25,16 @@ def time_response_figure(records: Mapping[str, Record], signals: Sequence[str]) 
     """
     if not records or not signals:
         raise BadInput("time response figure: needs at least one record and one signal")
-    figure = new_figure(8.0, 0.9 + 1.7 * len(signals))
-    axes = figure.subplots(len(signals), 1, sharex=True, squeeze=False)[:, 0]
-    handles = []
+    figure, grid = panels(8.0, 0.9 + 1.7 * len(signals), len(signals), sharex=True)
+    axes, handles = grid[:, 0], []
     for i, record in enumerate(records.values()):
         colour = MEASURED if i == 0 else COLOURS[(i - 1) % len(COLOURS)]
         for panel, name in zip(axes, signals, strict=True):
-            unit, factor = _display(record, name)
+            unit, factor = shown_unit(record.units[record.names.index(name)] if name in record.names else "1")
             dash = "-" if i == 0 else DASHES[i % len(DASHES)]
             (line,) = panel.plot(record.time, factor * record[name], color=colour, linestyle=dash, linewidth=1.3)
-            panel.set_ylabel(f"{name} ({unit})", fontsize=TEXT)
+            panel.set_ylabel(f"{name} ({unit})")
         handles.append(line)
-    for panel in axes:
-        quiet(panel)
-    axes[-1].set_xlabel("Time (s)", fontsize=TEXT)
+    axes[-1].set_xlabel("Time (s)")
     legend_above(figure, handles, list(records))
     return figure
-
-
-def _display(record: Record, name: str) -> tuple[str, float]:
-    return shown_unit(record.units[record.names.index(name)] if name in record.names else "1")

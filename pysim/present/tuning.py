@@ -8,28 +8,20 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from pysim.control.tuning import Gains, loop_response
 from pysim.control.tuning.margins import open_loop
-from pysim.io import json_number
-from pysim.present.page import cell, heading, items, pictures, table
+from pysim.present.page import heading, items, pictures, table
 from pysim.present.page import page as whole_page
+from pysim.present.plain_text import aligned
 from pysim.present.render import Drawing, Picture
-from pysim.present.style import (
-    COLOURS,
-    DASHES,
-    LIMIT,
-    TEXT,
-    frequency_axis,
-    legend_above,
-    new_figure,
-    phase_axis,
-    quiet,
-)
+from pysim.present.style import LIMIT, TEXT, frequency_axis, legend_above, look, panels, phase_axis
 from pysim.types import BadInput
+from pysim.types.json_number import json_data
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
@@ -64,27 +56,18 @@ class Tuning:
     dt: float
 
 
-@dataclass(frozen=True)
-class _Look:
-    colour: str
-    dash: object
-
-
 def text(result: Tuning) -> str:
     """A row per loop: gains, crossover, phase, gain and delay margin, largest sensitivity."""
-    rows = [["", *_SHORT], *([label, *_cells(gains)] for label, gains in result.loops.items())]
-    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    width = max(map(len, result.loops))
+    rows = [[" " * width, *_SHORT], *([f"{label:<{width}}", *_cells(gains)] for label, gains in result.loops.items())]
     ends = ["stable", *("yes" if gains.loop.stable else "NO" for gains in result.loops.values())]
-    lines = []
-    for (label, *cells), end in zip(rows, ends, strict=True):
-        numbers = "".join(f"  {text:>{width}}" for text, width in zip(cells, widths[1:], strict=True))
-        lines.append(f"{label:<{widths[0]}}{numbers}  {end}")
-    return "\n".join(lines)
+    return "\n".join(f"{line}  {end}" for line, end in zip(aligned(rows), ends, strict=True))
 
 
 def data(result: Tuning) -> dict[str, Any]:
     """Everything, frequencies in Hz, margins in degrees and dB; null where there is none."""
-    return {label: _data(gains) for label, gains in result.loops.items()}
+    found: dict[str, Any] = json_data({label: _data(gains) for label, gains in result.loops.items()})
+    return found
 
 
 def figures(result: Tuning) -> Iterator[Picture]:
@@ -96,13 +79,9 @@ def figures(result: Tuning) -> Iterator[Picture]:
 def page(result: Tuning, drawings: Sequence[Drawing], redo: str) -> str:
     """How it was done, the picture, gains and margins."""
     first = next(iter(result.loops.values()))
-    rows = [
-        [cell(label, "words"), *(cell(x) for x in _cells(g)), cell("yes" if g.loop.stable else "no")]
-        for label, g in result.loops.items()
-    ]
-    parts = [heading("How it was done"), items(_METHOD), heading("Loops")]
-    parts += pictures(drawings)
-    parts.append(table("Gains and margins", ["", *_HEAD, "stable"], rows))
+    rows = [[label, *_cells(g), "yes" if g.loop.stable else "no"] for label, g in result.loops.items()]
+    parts = [heading("How it was done"), items(_METHOD), heading("Loops"), *pictures(drawings)]
+    parts.append(table("Gains and margins", ["", *_HEAD, "stable"], rows, words=[0]))
     return whole_page("Tuning of a PI controller", f"Plant: {first.plant.name}.", parts, redo)
 
 
@@ -127,12 +106,12 @@ def _data(gains: Gains) -> dict[str, Any]:
         "plant": gains.plant.name,
         "K_p": gains.K_p,
         "T_i": gains.T_i,
-        "crossover_hz": json_number(loop.crossover / (2 * math.pi)),
-        "phase_margin_deg": json_number(math.degrees(loop.phase_margin)),
-        "gain_margin_db": json_number(20 * math.log10(loop.gain_margin)),
-        "delay_margin_s": json_number(loop.delay_margin),
+        "crossover_hz": loop.crossover / (2 * math.pi),
+        "phase_margin_deg": math.degrees(loop.phase_margin),
+        "gain_margin_db": 20 * math.log10(loop.gain_margin),
+        "delay_margin_s": loop.delay_margin,
         "peak_sensitivity": loop.peak_sensitivity,
-        "bandwidth_hz": json_number(loop.bandwidth / (2 * math.pi)),
+        "bandwidth_hz": loop.bandwidth / (2 * math.pi),
         "stable": loop.stable,
     }
 
@@ -150,19 +129,15 @@ def tuning_figure(loops: Mapping[str, Gains], *, dt: float) -> Figure:
     """
     if not loops:
         raise BadInput("tuning figure: needs at least one loop")
-    figure = new_figure(11.0, 5.6)
-    axes = figure.subplots(2, 3)
-    for panel in figure.axes:
-        quiet(panel)
-    axes[0, 0].sharex(axes[1, 0])
-    axes[0, 1].sharex(axes[1, 1])
-    axes[0, 2].sharex(axes[1, 2])
+    figure, axes = panels(11.0, 5.6, 2, 3)
+    for top, bottom in axes.T:
+        top.sharex(bottom)
     hertz = _range(loops)
     handles: dict[str, Artist] = {}
     for k, (label, gains) in enumerate(loops.items()):
-        look = _Look(COLOURS[k % len(COLOURS)], DASHES[k % len(DASHES)])
-        handles[label] = _draw_frequency(axes, gains, hertz, look)
-        _draw_time(axes[:, 2], gains, dt, _stop(loops, dt), look)
+        own = look(k, "linestyle")
+        handles[label] = _draw_frequency(axes, gains, hertz, own)
+        _draw_time(axes[:, 2], gains, dt, _stop(loops, dt), own)
     _label(axes, hertz)
     legend_above(figure, list(handles.values()), list(handles))
     return figure
@@ -182,36 +157,32 @@ def _stop(loops: Mapping[str, Gains], dt: float) -> float:
     return float(max(7 / slowest, _STEPS * dt))
 
 
-def _draw_frequency(axes: NDArray[np.object_], gains: Gains, hertz: Array, look: _Look) -> Artist:
+def _draw_frequency(axes: NDArray[np.object_], gains: Gains, hertz: Array, own: Mapping[str, Any]) -> Artist:
     omega = 2 * np.pi * hertz
     loop = open_loop(gains.plant, gains.K_p, gains.T_i, omega)
     for column, response in enumerate((loop, loop / (1 + loop))):
-        kwargs = {"color": look.colour, "linestyle": look.dash, "linewidth": 1.5}
-        (line,) = axes[0, column].plot(hertz, 20 * np.log10(np.abs(response)), **kwargs)
-        axes[1, column].plot(hertz, np.degrees(np.unwrap(np.angle(response))), **kwargs)
+        (line,) = axes[0, column].plot(hertz, 20 * np.log10(np.abs(response)), **own, linewidth=1.5)
+        axes[1, column].plot(hertz, np.degrees(np.unwrap(np.angle(response))), **own, linewidth=1.5)
     at = gains.loop.crossovers
     phase = np.interp(at, omega, np.degrees(np.unwrap(np.angle(loop))))
-    dots = {"color": look.colour, "linestyle": "none", "marker": "o", "markersize": 4}
+    dots = {"color": own["color"], "linestyle": "none", "marker": "o", "markersize": 4}
     axes[0, 0].plot(at / (2 * np.pi), np.zeros(at.size), **dots)
     axes[1, 0].plot(at / (2 * np.pi), phase, **dots)
     return line
 
 
-def _draw_time(axes: NDArray[np.object_], gains: Gains, dt: float, stop: float, look: _Look) -> None:
-    kwargs = {"color": look.colour, "linestyle": look.dash, "linewidth": 1.5}
+def _draw_time(axes: NDArray[np.object_], gains: Gains, dt: float, stop: float, own: Mapping[str, Any]) -> None:
     if not gains.loop.stable:
         return
     parts = math.ceil(dt * _POINTS / stop)
-    step = loop_response(gains.plant, gains.K_p, gains.T_i, dt=dt, stop=stop, parts=parts)
-    hit = loop_response(
-        gains.plant, gains.K_p, gains.T_i, dt=dt, stop=stop, reference=0.0, disturbance=1.0, parts=parts
-    )
+    answer = partial(loop_response, gains.plant, gains.K_p, gains.T_i, dt=dt, stop=stop, parts=parts)
+    step, hit = answer(), answer(reference=0.0, disturbance=1.0)
     end = _leaves(step.output)
-    axes[0].plot(step.time[:end], step.output[:end], **kwargs)
-    axes[1].plot(hit.time[:end], hit.output[:end] / _steady(gains), **kwargs)
+    axes[0].plot(step.time[:end], step.output[:end], **own, linewidth=1.5)
+    axes[1].plot(hit.time[:end], hit.output[:end] / _steady(gains), **own, linewidth=1.5)
     if end < step.time.size:
         at = (float(step.time[end - 1]), float(step.output[end - 1]))
-        axes[0].annotate("goes off", at, color=look.colour, fontsize=TEXT)
+        axes[0].annotate("goes off", at, color=own["color"], fontsize=TEXT)
 
 
 def _leaves(output: Array) -> int:
@@ -235,14 +206,14 @@ def _label(axes: NDArray[np.object_], hertz: Array) -> None:
         frequency_axis(axes[1, column], float(hertz[0]), float(hertz[-1]))
         axes[0, column].tick_params(labelbottom=False)
         axes[0, column].set_title(name, fontsize=TEXT)
-        axes[1, column].set_xlabel("Frequency (Hz)", fontsize=TEXT)
+        axes[1, column].set_xlabel("Frequency (Hz)")
         phase_axis(axes[1, column])
         axes[0, column].axhline(0.0, color=LIMIT, linewidth=0.8)
     axes[1, 0].axhline(-180.0, color=LIMIT, linewidth=0.8)
-    axes[0, 0].set_ylabel("Magnitude (dB)", fontsize=TEXT)
-    axes[1, 0].set_ylabel("Phase (deg)", fontsize=TEXT)
+    axes[0, 0].set_ylabel("Magnitude (dB)")
+    axes[1, 0].set_ylabel("Phase (deg)")
     axes[0, 2].tick_params(labelbottom=False)
     axes[0, 2].set_title("Sampled loop", fontsize=TEXT)
-    axes[0, 2].set_ylabel("Step of the reference (-)", fontsize=TEXT)
-    axes[1, 2].set_ylabel("Disturbance at the input (-)", fontsize=TEXT)
-    axes[1, 2].set_xlabel("Time (s)", fontsize=TEXT)
+    axes[0, 2].set_ylabel("Step of the reference (-)")
+    axes[1, 2].set_ylabel("Disturbance at the input (-)")
+    axes[1, 2].set_xlabel("Time (s)")

@@ -75,7 +75,7 @@ def blackbox_figure(fitted: FittedResponse) -> Figure:
     for axes in left[:2]:
         axes.tick_params(labelbottom=False)
     frequency_axis(left[2], 0.94 * float(fit.data.frequency[0]), 1.06 * float(fit.data.frequency[-1]))
-    left[2].set_xlabel("Frequency (Hz)", fontsize=TEXT)
+    left[2].set_xlabel("Frequency (Hz)")
     figure.align_ylabels(left)
     _draw_map(figure.add_subplot(grid[:, 1]), fit)
     legend_above(figure, list(handles.values()), list(handles))
@@ -102,7 +102,7 @@ def _draw_bode(top: Axes, bottom: Axes, fitted: FittedResponse) -> dict[str, Any
         band = axes.fill_between(dense, values - width, values + width, color=_FIT, alpha=0.25, linewidth=0)
         (line,) = axes.plot(dense, values, color=_FIT, linewidth=1.4)
         dots = axes.errorbar(f, data, yerr=bars, color=MEASURED, fmt="o", markersize=3.2, elinewidth=0.9, capsize=1.5)
-        axes.set_ylabel(name, fontsize=TEXT)
+        axes.set_ylabel(name)
         handles = {measured.origin: dots, f"fitted: {fit.structure.label}": line, "its 95 % interval": band}
     phase_axis(bottom)
     top.set_title(f"{fitted.label}, fit {fit.fit_percent:.2f} %", fontsize=TEXT, loc="left")
@@ -132,7 +132,7 @@ def _draw_residuals(axes: Axes, fit: TransferFunctionFit) -> None:
     axes.plot(f, fit.standardised[:, 1], "^", color=_ZERO, markersize=3.5, label="imaginary part")
     most = max(3.0, 1.15 * float(np.max(np.abs(fit.standardised))))
     axes.set_ylim(-most, 1.35 * most)
-    axes.set_ylabel("Residual\n(std. dev.)", fontsize=TEXT)
+    axes.set_ylabel("Residual\n(std. dev.)")
     axes.legend(loc="upper left", ncols=2, frameon=False, fontsize=SMALL, borderaxespad=0.1, handletextpad=0.2)
 
 
@@ -153,8 +153,8 @@ def _draw_map(axes: Axes, fit: TransferFunctionFit) -> None:
             axes.plot(np.real(near), np.imag(near), marker, label=name, **look)
         for root in roots:
             _draw_doubt(axes, root, fit.quantile(_LEVEL) / HALF_95, colour, reach)
-    axes.set_xlabel("Real part (rad/s)", fontsize=TEXT)
-    axes.set_ylabel("Imaginary part (rad/s)", fontsize=TEXT)
+    axes.set_xlabel("Real part (rad/s)")
+    axes.set_ylabel("Imaginary part (rad/s)")
     axes.set_title("poles and zeros with 95 % regions", fontsize=TEXT, loc="left")
     _limit(axes, drawn, edges)
     if words:

@@ -54,8 +54,8 @@ def bode_figure(comparisons: Sequence[Comparison], offset: float) -> Figure:
     frequency_axis(axes[1, 0], min(f[0] for f in measured), max(f[-1] for f in measured))  # shared by all columns
     reference_hz = comparisons[0].reference_hz
     relative = "" if reference_hz is None else f" relative to {reference_hz:g} Hz"
-    axes[0, 0].set_ylabel(f"Magnitude{relative} (dB)", fontsize=TEXT)
-    axes[1, 0].set_ylabel("Phase (deg)", fontsize=TEXT)
+    axes[0, 0].set_ylabel(f"Magnitude{relative} (dB)")
+    axes[1, 0].set_ylabel("Phase (deg)")
     phase_axis(axes[1, 0])
     legend_above(figure, list(handles.values()), list(handles))
     return figure
@@ -93,7 +93,7 @@ def _draw_column(
         handles.setdefault(label, line)
     top.set_title(shown_point(measured.test.offset, measured.test.amplitude, unit), fontsize=TEXT)
     _write_verdicts(top, tests)
-    bottom.set_xlabel("Frequency (Hz)", fontsize=TEXT)
+    bottom.set_xlabel("Frequency (Hz)")
 
 
 def _write_verdicts(axes: Axes, tests: Sequence[tuple[str, ResponseComparison]]) -> None:

@@ -9,7 +9,7 @@ import numpy as np
 
 from pysim.identify import FREQUENCY_CRITERIA
 from pysim.io import shown_unit
-from pysim.present.style import COLOURS, LIMIT, MARKERS, SMALL, TEXT, legend_above, new_figure, quiet
+from pysim.present.style import COLOURS, LIMIT, MARKERS, SMALL, legend_above, new_figure, quiet
 from pysim.types import Comparison, Criterion
 
 if TYPE_CHECKING:
@@ -43,7 +43,7 @@ def deviation_figure(comparisons: Sequence[Comparison]) -> Figure:
     unit, factor = shown_unit(comparisons[0].command_unit)
     axes[0].set_yticks(range(len(tests)), [f"{factor * test.offset:g} / {factor * test.amplitude:g}" for test in tests])
     axes[0].invert_yaxis()
-    axes[0].set_ylabel(f"Offset / amplitude ({unit})", fontsize=TEXT)
+    axes[0].set_ylabel(f"Offset / amplitude ({unit})")
     legend_above(figure, handles, [c.label for c in comparisons])
     return figure
 
@@ -59,4 +59,4 @@ def _draw_limit(panel: Axes, criterion: Criterion, largest: float) -> None:
     panel.axvline(criterion.limit, color=LIMIT, linewidth=1.0)
     panel.set_xlim(0.0, right)
     panel.set_title(f"{criterion.name}\nlimit {criterion.limit:g} {criterion.unit}", fontsize=SMALL)
-    panel.set_xlabel(criterion.unit, fontsize=TEXT)
+    panel.set_xlabel(criterion.unit)

@@ -11,14 +11,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pysim.present.page import cell, heading, items, pictures, table
+from pysim.present.page import heading, items, pictures, table
 from pysim.present.page import page as whole_page
 from pysim.present.render import Drawing, Picture
 from pysim.present.rig.looks import BAR, PULSES, REFERENCE, TRUE, within
-from pysim.present.style import BAND, COLOURS, MEASURED, TEXT, legend_above, new_figure, quiet
+from pysim.present.style import BAND, COLOURS, MEASURED, TEXT, legend_above, panels
 from pysim.rig import HeaveFigures, HeaveTest, standstills
 from pysim.rig.heave_test import slow_part
 from pysim.types import BadInput, Record
+from pysim.types.json_number import json_data
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
@@ -71,29 +72,15 @@ def text(result: Heave) -> str:
 
 def data(result: Heave) -> dict[str, Any]:
     """SI numbers, and the wave."""
-    return {
-        "wave": {
-            "significant_height_m": result.test.significant_height,
-            "peak_period_s": result.test.peak_period,
-            "length_s": result.test.length,
-            "seed": result.test.seed,
-        },
-        "controllers": {
-            label: {
-                "speed_rms": f.speed_rms,
-                "speed_max": f.speed_max,
-                "pressure_rms": f.pressure_rms,
-                "pressure_max": f.pressure_max,
-                "pressure_slow_rms": f.pressure_slow_rms,
-                "supply_low": f.supply_low,
-                "supply_high": f.supply_high,
-                "standstills": f.held.tolist(),
-                "standstill_longest_s": f.held_longest,
-                "standstill_longest_of_reference_s": f.held_reference,
-            }
-            for label, f in result.runs.items()
-        },
-    }
+    test = result.test
+    wave = {"significant_height_m": test.significant_height, "peak_period_s": test.peak_period}
+    found: dict[str, Any] = json_data(
+        {
+            "wave": {**wave, "length_s": test.length, "seed": test.seed},
+            "controllers": {label: _data(one) for label, one in result.runs.items()},
+        }
+    )
+    return found
 
 
 def figures(result: Heave) -> Iterator[Picture]:
@@ -105,16 +92,22 @@ def figures(result: Heave) -> Iterator[Picture]:
 
 def page(result: Heave, drawings: Sequence[Drawing], redo: str) -> str:
     """How it was done, how well the references were followed, the pictures."""
-    rows = [[cell(label, "words"), *(cell(x) for x in _cells(f))] for label, f in result.runs.items()]
+    rows = [[label, *_cells(f)] for label, f in result.runs.items()]
     test = result.test
     lead = (
         f"Significant height {test.significant_height:g} m, peak period {test.peak_period:g} s, {test.length:g} s, "
         f"seed {test.seed}."
     )
     parts = [heading("How it was done"), items(_METHOD)]
-    parts.append(table("How well the references were followed", ["controller", *_HEAD], rows))
+    parts.append(table("How well the references were followed", ["controller", *_HEAD], rows, words=[0]))
     parts += pictures(drawings)
     return whole_page("Heave compensation on the rig", lead, parts, redo)
+
+
+def _data(f: HeaveFigures) -> dict[str, Any]:
+    keys = ("speed_rms", "speed_max", "pressure_rms", "pressure_max", "pressure_slow_rms", "supply_low", "supply_high")
+    held = {"standstill_longest_s": f.held_longest, "standstill_longest_of_reference_s": f.held_reference}
+    return {**{key: getattr(f, key) for key in keys}, "standstills": f.held, **held}
 
 
 def _cells(f: HeaveFigures) -> list[str]:
@@ -132,8 +125,8 @@ def _cells(f: HeaveFigures) -> list[str]:
 
 def rig_heave_figure(record: Record, test: HeaveTest) -> Figure:
     """Speed with its standstills, load pressure, supply pressure over the whole test; below one reversal in detail."""
-    figure = new_figure(9.0, 9.2)
-    speed, load, supply, close = figure.subplots(4, 1, height_ratios=(1.4, 1.0, 1.0, 1.3))
+    figure, axes = panels(9.0, 9.2, 4, height_ratios=(1.4, 1.0, 1.0, 1.3))
+    speed, load, supply, close = axes[:, 0]
     handles: dict[str, Artist] = {}
     time, spans = record.time, standstills(record.time, record["rig.omega"])
     (handles["simulated"],) = speed.plot(time, record["rig.omega"], **TRUE)
@@ -141,23 +134,18 @@ def rig_heave_figure(record: Record, test: HeaveTest) -> Figure:
     load.plot(time, BAR * record["rig.pL"], **TRUE)
     load.plot(time, BAR * record["crane.pL_ref"], **REFERENCE)
     supply.plot(time, BAR * record["rig.pS"], **TRUE)
-    for axes, label in ((speed, "Speed (rad/s)"), (load, "Load pressure (bar)"), (supply, "Supply pressure (bar)")):
-        axes.set_ylabel(label, fontsize=TEXT)
-        axes.set_xlim(time[0], time[-1])
+    for panel, label in ((speed, "Speed (rad/s)"), (load, "Load pressure (bar)"), (supply, "Supply pressure (bar)")):
+        panel.set(ylabel=label, xlim=(time[0], time[-1]))
     shown = within(time, _reversal(time, spans, test))
     (handles["by the pulses"],) = close.plot(time[shown], record["rig.omegaS"][shown], **PULSES)
     close.plot(time[shown], record["rig.omega"][shown], **TRUE)
     close.plot(time[shown], record["crane.omegaS_ref"][shown], **REFERENCE)
-    close.set_xlim(time[shown][0], time[shown][-1])
     for begin, end in spans:
         field = close.axvspan(begin, end, color=BAND, alpha=0.7, linewidth=0)
         handles["standing still"] = field
-    close.set_ylabel("Speed, a reversal (rad/s)", fontsize=TEXT)
-    for axes in (supply, close):  # the first three share one span of time
-        axes.set_xlabel("Time (s)", fontsize=TEXT)
-    for axes in (speed, load, supply, close):
-        quiet(axes)
-    figure.align_ylabels([speed, load, supply, close])
+    close.set(xlabel="Time (s)", ylabel="Speed, a reversal (rad/s)", xlim=time[shown][[0, -1]])
+    supply.set_xlabel("Time (s)")  # the first three share one span of time
+    figure.align_ylabels(axes)
     legend_above(figure, list(handles.values()), list(handles))
     return figure
 
@@ -178,19 +166,16 @@ def rig_error_figure(records: Mapping[str, Record]) -> Figure:
     """
     if not records:
         raise BadInput("rig error figure: needs at least one record")
-    figure = new_figure(9.0, 1.0 + 1.9 * len(records))
-    panels = figure.subplots(len(records), 1, sharex=True, sharey=True, squeeze=False)[:, 0]
+    figure, grid = panels(9.0, 1.0 + 1.9 * len(records), len(records), sharex=True, sharey=True)
     handles: dict[str, Artist] = {}
-    for axes, (label, record) in zip(panels, records.items(), strict=True):
+    for axes, (label, record) in zip(grid[:, 0], records.items(), strict=True):
         error = BAR * (record["rig.pL"] - record["crane.pL_ref"])
         (handles["load pressure less reference"],) = axes.plot(record.time, error, color=COLOURS[5], linewidth=0.7)
         (handles["below 1 Hz"],) = axes.plot(record.time, slow_part(error, record.time), color=MEASURED, linewidth=1.3)
-        axes.set_ylabel("Error (bar)", fontsize=TEXT)
+        axes.set(ylabel="Error (bar)", xlim=record.time[[0, -1]])
         axes.set_title(label, fontsize=TEXT, loc="left")
-        axes.set_xlim(record.time[0], record.time[-1])
-        quiet(axes)
     largest = max(float(np.abs(r["rig.pL"] - r["crane.pL_ref"])[r.time > 1.0].max()) for r in records.values()) * BAR
-    panels[0].set_ylim(-1.05 * largest, 1.05 * largest)  # the weight coming up in the first second is cut
-    panels[-1].set_xlabel("Time (s)", fontsize=TEXT)
+    grid[0, 0].set_ylim(-1.05 * largest, 1.05 * largest)  # the weight coming up in the first second is cut
+    grid[-1, 0].set_xlabel("Time (s)")
     legend_above(figure, list(handles.values()), list(handles))
     return figure

@@ -11,14 +11,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pysim.io import json_number
-from pysim.present.page import cell, heading, items, pictures, table
+from pysim.present.page import heading, items, pictures, table
 from pysim.present.page import page as whole_page
 from pysim.present.render import Drawing, Picture
 from pysim.present.rig.looks import BAR, PULSES, REFERENCE, TRUE, within
 from pysim.present.style import BAND, COLOURS, LIMIT, TEXT, legend_above, new_figure, quiet
 from pysim.rig import StepFigures, StepTest
 from pysim.types import Record
+from pysim.types.json_number import json_number
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
@@ -80,12 +80,10 @@ def figures(result: Steps) -> Iterator[Picture]:
 
 def page(result: Steps, drawings: Sequence[Drawing], redo: str) -> str:
     """How it was done, the answers' figures, the pictures."""
-    rows = [[cell(x) for x in _cells(*one)] for one in result.steps]
-    parts = [heading("How it was done"), items(_METHOD), table("Answers to steps", _HEAD, rows)]
-    parts += pictures(drawings)
-    return whole_page(
-        "Step tests of the rig", "Speed and load pressure of the test bench under its controllers.", parts, redo
-    )
+    rows = [_cells(*one) for one in result.steps]
+    parts = [heading("How it was done"), items(_METHOD), table("Answers to steps", _HEAD, rows), *pictures(drawings)]
+    lead = "Speed and load pressure of the test bench under its controllers."
+    return whole_page("Step tests of the rig", lead, parts, redo)
 
 
 def _cells(test: StepTest, found: StepFigures) -> list[str]:
@@ -120,16 +118,12 @@ def rig_step_figure(record: Record, test: StepTest, *, band: float = 0.05) -> Fi
     other = "load" if test.kind == "speed" else "speed"
     handles |= _draw_quantity(axes["other"], record, test, other, (test.at - 1, test.at + 9))
     shown = within(record.time, (test.at - 1, test.at + 9))
-    for k, (signal, label, factor) in enumerate(
-        (("speed.alphaCMD", "pump's command (%)", 1.0), ("load.u_ref", "valve's command (%)", 100.0))
-    ):
-        axes["command"].plot(
-            record.time[shown], factor * record[signal][shown], color=COLOURS[2 + k], linewidth=1.2, label=label
-        )
+    pump, valve = record["speed.alphaCMD"], 100 * record["load.u_ref"]
+    for values, label, colour in ((pump, "pump's command (%)", COLOURS[2]), (valve, "valve's command (%)", COLOURS[3])):
+        axes["command"].plot(record.time[shown], values[shown], color=colour, linewidth=1.2, label=label)
     axes["command"].legend(fontsize=TEXT - 1, frameon=False)
-    axes["command"].set_ylabel("Command (%)", fontsize=TEXT)
-    for name in ("other", "command"):
-        axes[name].set_xlabel("Time (s)", fontsize=TEXT)
+    axes["command"].set(xlabel="Time (s)", ylabel="Command (%)")
+    axes["other"].set_xlabel("Time (s)")
     for axis in axes.values():
         quiet(axis)
     legend_above(figure, list(handles.values()), list(handles))
@@ -144,15 +138,10 @@ def _draw_quantity(
     time = record.time[shown]
     factor = 1.0 if kind == "speed" else BAR
     handles: dict[str, Artist] = {}
-    (handles["reference"],) = axes.plot(time, factor * _reference(test, kind, time), **REFERENCE)
+    (handles["reference"],) = axes.plot(time, factor * np.asarray(test.reference(kind).value(time)), **REFERENCE)
     if kind == "speed":
         (handles["by the pulses"],) = axes.plot(time, record["rig.omegaS"][shown], **PULSES)
     signal = "rig.omega" if kind == "speed" else "rig.pL"
     (handles["simulated"],) = axes.plot(time, factor * record[signal][shown], **TRUE)
-    axes.set_ylabel("Speed (rad/s)" if kind == "speed" else "Load pressure (bar)", fontsize=TEXT)
+    axes.set_ylabel("Speed (rad/s)" if kind == "speed" else "Load pressure (bar)")
     return handles
-
-
-def _reference(test: StepTest, kind: str, time: Array) -> Array:
-    """The reference of a test at times (n,)."""
-    return np.asarray(test.reference(kind).value(time))

@@ -10,18 +10,7 @@ import numpy as np
 
 from pysim.identify.accuracy import FREQUENCY_CRITERIA, TIME_CRITERIA
 from pysim.present.diagnosis.words import candidates_shown, step_name
-from pysim.present.style import (
-    BAND,
-    COLOURS,
-    DASHES,
-    LIMIT,
-    MARKERS,
-    SMALL,
-    TEXT,
-    legend_above,
-    new_figure,
-    quiet,
-)
+from pysim.present.style import BAND, COLOURS, DASHES, LIMIT, MARKERS, SMALL, TEXT, legend_above, new_figure, quiet
 from pysim.types import BadInput, Criterion, Diagnosis, ErrorStep, Rival
 
 if TYPE_CHECKING:
@@ -85,7 +74,7 @@ def _levels(figure: Figure, axes: Axes, steps: Sequence[ErrorStep]) -> None:
         names.append(name)
     for i, step in enumerate(steps):
         _numbers(axes, i, step)
-    axes.set_ylabel("Residual over noise (-)", fontsize=TEXT)
+    axes.set_ylabel("Residual over noise (-)")
     axes.annotate(
         "noise alone",
         (0, 1.0),
@@ -159,7 +148,7 @@ def candidates_figure(diagnosis: Diagnosis) -> Figure:
     axes.set_xticks(range(0, 101, 20))
     axes.set_ylim(len(rows) - 0.4, -0.6)
     axes.set_yticks(range(len(rows)), [" + ".join(row.effects) for row in rows], fontsize=SMALL)
-    axes.set_xlabel("Explains of the misfit of the model it joins (%)", fontsize=TEXT)
+    axes.set_xlabel("Explains of the misfit of the model it joins (%)")
     from matplotlib.patches import Patch
 
     kinds = {"added": Patch(facecolor=COLOURS[0])} if added - tied else {}

@@ -8,7 +8,7 @@ import numpy as np
 
 from pysim.io import shown_unit
 from pysim.present.diagnosis.law_words import ABSORBED, law_kind
-from pysim.present.style import COLOURS, LIMIT, MEASURED, SMALL, TEXT, legend_above, new_figure, quiet
+from pysim.present.style import COLOURS, LIMIT, MEASURED, SMALL, legend_above, new_figure, quiet
 from pysim.types import BadInput, LearnedLaw
 
 if TYPE_CHECKING:
@@ -41,8 +41,8 @@ def law_figure(law: LearnedLaw, samples: NDArray[np.float64] | None = None) -> F
     (line,) = top.plot(z, law.coefficients * scale_out, color=COLOURS[0], linewidth=1.5)
     top.axhline(0.0, color=LIMIT, linewidth=0.9)
     top.set_xlim(float(z[0]), float(z[-1]))
-    bottom.set_xlabel(f"{law.argument} ({unit_in})", fontsize=TEXT)
-    top.set_ylabel(f"Missing {law_kind(law)} at {law.slot} ({unit_out})", fontsize=TEXT)
+    bottom.set_xlabel(f"{law.argument} ({unit_in})")
+    top.set_ylabel(f"Missing {law_kind(law)} at {law.slot} ({unit_out})")
     quiet(top)
     legend_above(figure, [line, band], [f"explains {100 * law.share:.0f} % of the misfit", "95 % band"])
     notes = [law.formula] if law.formula else []

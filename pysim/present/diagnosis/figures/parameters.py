@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pysim.present.style import BAND, COLOURS, LIMIT, SMALL, TEXT, legend_above, new_figure, quiet
+from pysim.present.style import BAND, COLOURS, LIMIT, SMALL, legend_above, new_figure, quiet
 from pysim.types import BadInput, ErrorStep, Estimate
 
 if TYPE_CHECKING:
@@ -111,7 +111,7 @@ def _moves(axes: Axes, rows: Sequence[Estimate], moves: dict[str, float | None],
             va="center",
             fontsize=SMALL,
         )
-    axes.set_xlabel("Moved by (half widths of its interval)", fontsize=TEXT)
+    axes.set_xlabel("Moved by (half widths of its interval)")
 
 
 def _along(estimate: Estimate, values: dict[str, float]) -> tuple[float, float]:

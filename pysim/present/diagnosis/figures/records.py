@@ -10,7 +10,7 @@ import numpy as np
 
 from pysim.identify import HALF_95
 from pysim.io import shown_unit
-from pysim.present.style import BAND, COLOURS, DASHES, LIMIT, MEASURED, SMALL, TEXT, legend_above, new_figure, quiet
+from pysim.present.style import BAND, COLOURS, DASHES, LIMIT, MEASURED, SMALL, legend_above, new_figure, quiet
 from pysim.types import BadInput, Diagnosis, ErrorStep, RecordFit
 from pysim.types.answer import PRIOR, REFIT
 
@@ -102,7 +102,7 @@ def _signal(
             linestyle=DASHES[(len(shown) - 1 - k) % len(DASHES)],
         )  # fmt: skip
         handles[name] = line
-    axes.set_ylabel(f"{measured.names[j]} ({unit})", fontsize=TEXT)
+    axes.set_ylabel(f"{measured.names[j]} ({unit})")
 
 
 def _residual(axes: Axes, shown: Sequence[tuple[str, RecordFit, str]], j: int, part: slice) -> None:
@@ -121,8 +121,8 @@ def _residual(axes: Axes, shown: Sequence[tuple[str, RecordFit, str]], j: int, p
         axes.plot(time, values, color=colour, linewidth=1.4)
         words.append(f"{name} {math.sqrt(float(np.mean(record.residual.values[:, j] ** 2))):.2f}")
     axes.set_title(f"rms of the whole record: {', '.join(words)}", fontsize=SMALL, loc="left", color="#444444")
-    axes.set_ylabel("Residual over noise (-)", fontsize=TEXT)
-    axes.set_xlabel("Time (s)", fontsize=TEXT)
+    axes.set_ylabel("Residual over noise (-)")
+    axes.set_xlabel("Time (s)")
 
 
 def _stretch(record: RecordFit) -> slice:

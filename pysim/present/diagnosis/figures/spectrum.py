@@ -16,7 +16,6 @@ from pysim.present.style import (
     DASHES,
     LIMIT,
     SMALL,
-    TEXT,
     frequency_axis,
     legend_above,
     new_figure,
@@ -67,9 +66,9 @@ def spectrum_figure(diagnosis: Diagnosis) -> Figure:
     for own in axes.ravel()[len(panels) :]:
         own.set_visible(False)
     for own in axes[:, 0]:
-        own.set_ylabel("Residual power over noise (-)", fontsize=TEXT)
+        own.set_ylabel("Residual power over noise (-)")
     for own in axes.ravel()[max(0, len(panels) - columns) : len(panels)]:
-        own.set_xlabel("Frequency (Hz)", fontsize=TEXT)
+        own.set_xlabel("Frequency (Hz)")
     legend_above(figure, list(handles.values()), list(handles))
     return figure
 
