@@ -14,11 +14,13 @@ import numpy as np
 from pysim.identify import HALF_95, magnitude_db
 from pysim.identify.chirp import Branch, ChirpAnalysis
 from pysim.io import shown_value
-from pysim.present.page import cell, heading, items, pictures, table
+from pysim.present.notes import words
+from pysim.present.page import heading, items, pictures, table
 from pysim.present.page import page as whole_page
 from pysim.present.render import Drawing, Picture
-from pysim.present.style import COLOURS, MEASURED, TEXT, frequency_axis, legend_above, new_figure, phase_axis, quiet
+from pysim.present.style import COLOURS, MEASURED, frequency_axis, legend_above, panels, phase_axis
 from pysim.types import FrequencyResponse
+from pysim.types.json_number import json_data
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
@@ -64,13 +66,14 @@ def text(result: Chirps) -> str:
                 f"{f:8g}  {db:8.2f} ±{db_half:5.2f}  {deg:9.1f} ±{deg_half:5.1f}"
                 f"  {top[0]:9.2f} {top[1]:8.1f}  {bottom[0]:9.2f} {bottom[1]:8.1f}"
             )
-        lines += [f"  {remark}" for remark in one.remarks] + [""]
+        lines += [*(f"  {words(note)}" for note in one.notes), ""]
     return "\n".join([*lines, "± is half a 95 percent interval. Magnitudes are absolute."])
 
 
 def data(result: Chirps) -> dict[str, Any]:
     """Everything that was found; magnitudes in dB, phases in degrees, doubts as standard deviations."""
-    return {"dataset": result.dataset, "chirps": [_analysis(one) for one in result.analyses]}
+    found: dict[str, Any] = json_data({"dataset": result.dataset, "chirps": [*map(_analysis, result.analyses)]})
+    return found
 
 
 def figures(result: Chirps) -> Iterator[Picture]:
@@ -82,18 +85,16 @@ def figures(result: Chirps) -> Iterator[Picture]:
 
 
 def page(result: Chirps, drawings: Sequence[Drawing], redo: str) -> str:
-    """How it was done, a picture and a table per chirp, remarks."""
-    parts = [heading("How it was done"), items(_METHOD), heading("Responses")]
-    parts += pictures(drawings)
+    """How it was done, a picture and a table per chirp, notes."""
+    parts = [heading("How it was done"), items(_METHOD), heading("Responses"), *pictures(drawings)]
     for one in result.analyses:
         head = ["Hz", "mean (dB)", "±", "mean (deg)", "±", "top (dB)", "top (deg)", "bottom (dB)", "bottom (deg)"]
         rows = [
-            [cell(f"{f:g}"), *(cell(f"{x:.2f}") for x in (*mean, *phase, *top, *bottom))]
+            [f"{f:g}", *(f"{x:.2f}" for x in (*mean, *phase, *top, *bottom))]
             for f, mean, phase, top, bottom in _rows(one)
         ]
         parts.append(table(_title(one), head, rows))
-        if one.remarks:
-            parts.append(items(one.remarks))
+        parts += [items(map(words, one.notes))] if one.notes else []
     return whole_page("Response to chirps", f"Chirps of {result.dataset}.", parts, redo)
 
 
@@ -124,11 +125,7 @@ def _rows(one: ChirpAnalysis) -> list[tuple[float, Any, Any, Any, Any]]:
 def _analysis(one: ChirpAnalysis) -> dict[str, Any]:
     wave = one.command
     return {
-        "source": one.source,
-        "input": one.input,
-        "output": one.output,
-        "input_unit": one.input_unit,
-        "output_unit": one.output_unit,
+        **{key: getattr(one, key) for key in ("source", "input", "output", "input_unit", "output_unit")},
         "offset": wave.offset,
         "amplitude": wave.amplitude,
         "start_hz": wave.frequency,
@@ -139,17 +136,17 @@ def _analysis(one: ChirpAnalysis) -> dict[str, Any]:
         "top": _branch(one.top),
         "bottom": _branch(one.bottom),
         "mean": _branch(one.mean),
-        "remarks": list(one.remarks),
+        "remarks": [words(note) for note in one.notes],
     }
 
 
 def _branch(branch: Branch) -> dict[str, Any]:
     return {
-        "frequency_hz": branch.frequency.tolist(),
-        "magnitude_db": branch.magnitude_db.tolist(),
-        "magnitude_db_deviation": branch.magnitude_deviation_db.tolist(),
-        "phase_deg": branch.phase_deg.tolist(),
-        "phase_deg_deviation": np.degrees(branch.phase_deviation).tolist(),
+        "frequency_hz": branch.frequency,
+        "magnitude_db": branch.magnitude_db,
+        "magnitude_db_deviation": branch.magnitude_deviation_db,
+        "phase_deg": branch.phase_deg,
+        "phase_deg_deviation": np.degrees(branch.phase_deviation),
     }
 
 
@@ -159,8 +156,7 @@ def chirp_figure(analysis: ChirpAnalysis, stepped: FrequencyResponse | None = No
     Args:
         stepped: the stepped-sine response of the same working point, as dots.
     """
-    figure = new_figure(7.2, 6.4)
-    top, bottom = figure.subplots(2, 1, sharex=True)
+    figure, ((top,), (bottom,)) = panels(7.2, 6.4, 2, sharex=True)
     branches = {"top": analysis.top, "bottom": analysis.bottom, "mean": analysis.mean}
     handles: dict[str, Artist] = {}
     for name, branch in branches.items():
@@ -170,14 +166,11 @@ def chirp_figure(analysis: ChirpAnalysis, stepped: FrequencyResponse | None = No
         (dots,) = top.plot(stepped.frequency, magnitude_db(stepped, None), **look)
         bottom.plot(stepped.frequency, np.degrees(stepped.phase) - 360 * _turns(stepped, analysis.mean), **look)
         handles["stepped sine"] = dots
-    for panel in (top, bottom):
-        quiet(panel)
     f = [analysis.mean.frequency] if stepped is None else [analysis.mean.frequency, stepped.frequency]
     frequency_axis(bottom, 0.95 * min(float(x[0]) for x in f), 1.05 * max(float(x[-1]) for x in f))
-    top.set_ylabel("Magnitude (dB)", fontsize=TEXT)
-    bottom.set_ylabel("Phase (deg)", fontsize=TEXT)
     phase_axis(bottom)
-    bottom.set_xlabel("Frequency (Hz)", fontsize=TEXT)
+    top.set_ylabel("Magnitude (dB)")
+    bottom.set(xlabel="Frequency (Hz)", ylabel="Phase (deg)")
     figure.align_ylabels([top, bottom])
     legend_above(figure, list(handles.values()), list(handles))
     return figure

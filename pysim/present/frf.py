@@ -8,35 +8,28 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pysim.identify import (
-    HALF_95,
-    THESIS_REFERENCE_HZ,
-    MeasuredResponse,
-    SinePoint,
-    magnitude_db,
-    standard_deviations,
-)
+from pysim.identify import HALF_95, THESIS_REFERENCE_HZ, MeasuredResponse, SinePoint, magnitude_db, standard_deviations
 from pysim.io import shown_unit, shown_value
+from pysim.present.notes import words
 from pysim.present.page import cell, heading, items, paragraph, pictures, table
 from pysim.present.page import page as whole_page
 from pysim.present.render import Drawing, Picture
-from pysim.present.style import (
-    COLOURS,
-    DASHES,
-    MARKERS,
-    TEXT,
-    frequency_axis,
-    legend_above,
-    new_figure,
-    phase_axis,
-    quiet,
-    size_axis,
-)
+from pysim.present.style import frequency_axis, legend_above, look, panels, phase_axis, size_axis
 from pysim.types import BadInput
+from pysim.types.json_number import json_data
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+
+
+_METHOD = (
+    "To the command as it was logged a sine of the test's frequency was fitted, and to the output one with its "
+    "harmonics, by least squares over the last whole periods, transients left out (thesis Sections 2.2, 2.3).",
+    "Magnitude and phase are those of the output's sine against the command's.",
+    "Intervals hold 95 percent. They come from the noise that the data set declares where the residuals agree with "
+    "it, else from the residuals; where these have a memory, from their spectral density at the frequency.",
+)
 
 
 @dataclass(frozen=True)
@@ -54,7 +47,7 @@ class Responses:
 
 
 def text(result: Responses) -> str:
-    """A table per response with 95 percent intervals, and the remarks below it."""
+    """A table per response with 95 percent intervals, and the notes below it."""
     lines = []
     for one in result.responses:
         mean_of = f"mean {shown_unit(one.output_unit)[0]}"
@@ -66,17 +59,16 @@ def text(result: Responses) -> str:
                 f"{f:8g}  {db:8.3f} ±{db_half:5.3f}  {deg:8.2f} ±{deg_half:5.2f}  {mean:9.4g}"
                 f"  {harmonics:9.2f} {mark} {periods:8d}"
             )
-        lines += [f"  {remark}" for remark in one.remarks] + [""]
+        lines += [*(f"  {words(note)}" for note in one.notes), ""]
     return "\n".join([*lines, *_legend(result.reference_hz)])
 
 
 def data(result: Responses) -> dict[str, Any]:
     """Everything that was found; magnitudes in dB, phases in degrees, intervals as standard deviations."""
-    return {
-        "dataset": result.dataset,
-        "reference_hz": result.reference_hz,
-        "responses": [_response(one, result.reference_hz) for one in result.responses],
-    }
+    responses = [_response(one, result.reference_hz) for one in result.responses]
+    about = {"dataset": result.dataset, "reference_hz": result.reference_hz}
+    found: dict[str, Any] = json_data({**about, "responses": responses})
+    return found
 
 
 def figures(result: Responses) -> Iterator[Picture]:
@@ -86,15 +78,13 @@ def figures(result: Responses) -> Iterator[Picture]:
 
 
 def page(result: Responses, drawings: Sequence[Drawing], redo: str) -> str:
-    """How it was done, the picture, a table per response with its remarks."""
-    parts = [heading("How it was done"), items(_method()), heading("Responses")]
-    parts += pictures(drawings)
+    """How it was done, the picture, a table per response with its notes."""
+    parts = [heading("How it was done"), items(_METHOD), heading("Responses"), *pictures(drawings)]
     for one in result.responses:
         mean = f"mean ({shown_unit(one.output_unit)[0]})"
         head = ["Hz", "magnitude (dB)", "±", "phase (deg)", "±", mean, "harmonics (%)", "periods"]
         parts.append(table(_title(one), head, [_cells(row) for row in _rows(one, result.reference_hz)]))
-        if one.remarks:
-            parts.append(items(one.remarks))
+        parts += [items(map(words, one.notes))] if one.notes else []
     parts.append(paragraph(" ".join(_legend(result.reference_hz))))
     return whole_page("Frequency responses", f"Stepped sines of {result.dataset}.", parts, redo)
 
@@ -120,17 +110,7 @@ def _rows(one: MeasuredResponse, reference_hz: float | None) -> list[tuple[Any, 
 def _cells(row: tuple[Any, ...]) -> list[str]:
     f, (db, db_half), (deg, deg_half), mean, harmonics, sure, periods = row
     numbers = [f"{f:g}", f"{db:.3f}", f"{db_half:.3f}", f"{deg:.2f}", f"{deg_half:.2f}", f"{mean:.4g}"]
-    return [*(cell(text) for text in numbers), cell(f"{harmonics:.2f}", "differs" if sure else ""), cell(f"{periods}")]
-
-
-def _method() -> list[str]:
-    return [
-        "To the command as it was logged a sine of the test's frequency was fitted, and to the output one with its "
-        "harmonics, by least squares over the last whole periods, transients left out (thesis Sections 2.2, 2.3).",
-        "Magnitude and phase are those of the output's sine against the command's.",
-        "Intervals hold 95 percent. They come from the noise that the data set declares where the residuals agree with "
-        "it, else from the residuals; where these have a memory, from their spectral density at the frequency.",
-    ]
+    return [*numbers, cell(f"{harmonics:.2f}", "differs" if sure else ""), f"{periods}"]
 
 
 def _legend(reference_hz: float | None) -> list[str]:
@@ -145,22 +125,19 @@ def _response(one: MeasuredResponse, reference_hz: float | None) -> dict[str, An
     response = one.response
     decibel, degrees = standard_deviations(response, reference_hz)
     return {
-        "input": response.test.input,
-        "output": response.test.output,
-        "offset": response.test.offset,
-        "amplitude": response.test.amplitude,
+        **{key: getattr(response.test, key) for key in ("input", "output", "offset", "amplitude")},
         "input_unit": one.input_unit,
         "output_unit": one.output_unit,
         "origin": response.origin,
-        "frequency_hz": response.frequency.tolist(),
-        "magnitude_db": magnitude_db(response, reference_hz).tolist(),
-        "magnitude_db_deviation": decibel.tolist(),
-        "gain": response.gain.tolist(),
-        "phase_deg": np.degrees(response.phase).tolist(),
-        "phase_deg_deviation": degrees.tolist(),
+        "frequency_hz": response.frequency,
+        "magnitude_db": magnitude_db(response, reference_hz),
+        "magnitude_db_deviation": decibel,
+        "gain": response.gain,
+        "phase_deg": np.degrees(response.phase),
+        "phase_deg_deviation": degrees,
         "mean": [point.mean for point in one.points],
         "points": [_point(point) for point in one.points],
-        "remarks": list(one.remarks),
+        "remarks": [words(note) for note in one.notes],
     }
 
 
@@ -171,13 +148,13 @@ def _point(point: SinePoint) -> dict[str, Any]:
         "periods": point.periods,
         "command_offset": point.command.offset,
         "command_amplitude": point.command.amplitude,
-        "harmonics": point.harmonics.tolist(),
+        "harmonics": point.harmonics,
         "harmonics_noise": point.harmonics_noise,
         "distorted": point.distorted,
         "residual": point.noise.deviation,
         "basis": point.noise.basis,
         "whiteness": point.noise.whiteness,
-        "remarks": list(point.remarks),
+        "remarks": [words(note) for note in point.notes],
     }
 
 
@@ -194,29 +171,20 @@ def frf_figure(responses: Sequence[MeasuredResponse], reference_hz: float | None
     """
     if not responses:
         raise BadInput("frequency response figure: there is no response")
-    figure = new_figure(7.2, 7.6)
-    axes = figure.subplots(3, 1, sharex=True, height_ratios=(1.3, 1.3, 0.8))
+    figure, ((top,), (middle,), (bottom,)) = panels(7.2, 7.6, 3, sharex=True, height_ratios=(1.3, 1.3, 0.8))
+    axes = (top, middle, bottom)
     handles = []
     for i, one in enumerate(responses):
-        look: dict[str, Any] = {
-            "color": COLOURS[i % len(COLOURS)],
-            "linestyle": DASHES[i % len(DASHES)],
-            "marker": MARKERS[i % len(MARKERS)],
-            "markersize": 3.5,
-            "linewidth": 1.0,
-        }
-        handles.append(_draw(axes, one, reference_hz, look))
-    for panel in axes:
-        quiet(panel)
+        own = {**look(i, "linestyle", "marker"), "markersize": 3.5, "linewidth": 1.0}
+        handles.append(_draw(axes, one, reference_hz, own))
     f = np.concatenate([one.response.frequency for one in responses])
-    frequency_axis(axes[2], 0.93 * float(f.min()), 1.07 * float(f.max()))
+    frequency_axis(bottom, 0.93 * float(f.min()), 1.07 * float(f.max()))
     relative = "" if reference_hz is None else f" relative to {reference_hz:g} Hz"
-    axes[0].set_ylabel(f"Magnitude{relative} (dB)", fontsize=TEXT)
-    axes[1].set_ylabel("Phase (deg)", fontsize=TEXT)
-    phase_axis(axes[1])
-    axes[2].set_ylabel("Harmonics (%)", fontsize=TEXT)
-    size_axis(axes[2])
-    axes[2].set_xlabel("Frequency (Hz)", fontsize=TEXT)
+    phase_axis(middle)
+    size_axis(bottom)
+    top.set_ylabel(f"Magnitude{relative} (dB)")
+    middle.set_ylabel("Phase (deg)")
+    bottom.set(xlabel="Frequency (Hz)", ylabel="Harmonics (%)")
     figure.align_ylabels(axes)
     several = len({(one.response.test.input, one.response.test.output) for one in responses}) > 1
     legend_above(figure, handles, [_label(one, signals=several) for one in responses])
@@ -232,17 +200,17 @@ def _label(one: MeasuredResponse, *, signals: bool) -> str:
     return f"{of}{offset:+g} ± {shown_value(test.amplitude, one.input_unit)}{held_out}"
 
 
-def _draw(axes: Sequence[Axes], one: MeasuredResponse, reference_hz: float | None, look: dict[str, Any]) -> Any:
+def _draw(axes: Sequence[Axes], one: MeasuredResponse, reference_hz: float | None, own: dict[str, Any]) -> Any:
     response = one.response
     f = response.frequency
     decibel, degrees = standard_deviations(response, reference_hz)
     magnitude, phase = magnitude_db(response, reference_hz), np.degrees(response.phase)
     bars: dict[str, Any] = {"elinewidth": 0.9, "capsize": 2.0}
-    handle = axes[0].errorbar(f, magnitude, yerr=HALF_95 * decibel, **look, **bars)
-    axes[1].errorbar(f, phase, yerr=HALF_95 * degrees, **look, **bars)
+    handle = axes[0].errorbar(f, magnitude, yerr=HALF_95 * decibel, **own, **bars)
+    axes[1].errorbar(f, phase, yerr=HALF_95 * degrees, **own, **bars)
     distortion = 100 * np.array([point.distortion for point in one.points])
     sure = np.array([point.distorted for point in one.points])
-    axes[2].plot(f, distortion, **{**look, "marker": "none"})
-    axes[2].plot(f[sure], distortion[sure], **{**look, "linestyle": "none"})
-    axes[2].plot(f[~sure], distortion[~sure], **{**look, "linestyle": "none"}, markerfacecolor="white")
+    axes[2].plot(f, distortion, **{**own, "marker": "none"})
+    axes[2].plot(f[sure], distortion[sure], **{**own, "linestyle": "none"})
+    axes[2].plot(f[~sure], distortion[~sure], **{**own, "linestyle": "none"}, markerfacecolor="white")
     return handle

@@ -91,6 +91,32 @@ _WORDS = {
     ),
     NoteCode.NO_LAW_RUNS: "No law was learned: none lowers the error of a model that can be simulated, at {places}.",
     NoteCode.LAWS_NOT_TRIED: "No law was looked for, since {effects} has events: slopes of such a model are no guide.",
+    NoteCode.TRANSIENTS: ("the fitted period begins {seconds:.2g} s after the sine; the transients may not have died"),
+    NoteCode.NO_HARMONICS: (
+        "no samples from {begin:.4g} to {end:.4g} s: no harmonics are fitted, and others, where there are any, disturb "
+        "the sine"
+    ),
+    NoteCode.FEW_HARMONICS: (
+        "no samples from {begin:.4g} to {end:.4g} s: only {kept:.0f} of {count:.0f} harmonics are fitted, and others, "
+        "where there are any, disturb the sine"
+    ),
+    NoteCode.DRIFTING: "the sine changes by {percent:.2g} percent within the fitted part; not settled, or not steady",
+    NoteCode.MEMORY: "residuals have a memory; intervals follow their spectrum",
+    NoteCode.MEMORY_IN_HARMONICS: (
+        "residuals have a memory; intervals follow the harmonics, which a single period does not tell from noise"
+    ),
+    NoteCode.HARMONICS: (
+        "harmonics beyond the noise at {count:.0f} of {points:.0f} frequencies, most at {frequency:g} Hz with "
+        "{percent:.2g} percent: the response is not linear there"
+    ),
+    NoteCode.LOST_IN_NOISE: "tops and bottoms are lost in noise from {frequency:.3g} Hz on",
+    NoteCode.FAST_SWEEP: (
+        "below {frequency:.2g} Hz the frequency changes by more than half within a period; the response there is not a "
+        "steady one"
+    ),
+    NoteCode.FEW_SAMPLES: (
+        "at the high end there are {samples:.1f} samples per period; tops there lean on the sine's shape"
+    ),
     NoteCode.OTHER: "{text}",
 }
 
@@ -122,7 +148,7 @@ def _change(factor: float) -> str:
 
 
 def words(note: Note) -> str:
-    """One note in sentences.
+    """One note in sentences; ahead of them the frequency that it is of, where its values have one as "at".
 
     Raises:
         KeyError: a value that belongs to the note's code is missing, which is our mistake.
@@ -137,4 +163,5 @@ def words(note: Note) -> str:
         values["shown"] = shown_value(float(number), unit, ".3g")
     elif number is not None:
         values["shown"] = number
-    return _WORDS[note.code].format_map(values)
+    text = _WORDS[note.code].format_map(values)
+    return f"{values['at']:g} Hz: {text}" if "at" in values else text

@@ -45,6 +45,18 @@ class NoteCode(Enum):
     LAW_VETOED = "law_vetoed"  # law: the same, which makes the error worse on data that were not fitted
     NO_LAW_RUNS = "no_law_runs"  # places: the model could be simulated with no law at any of them
     LAWS_NOT_TRIED = "laws_not_tried"  # effects: their events leave no slopes to look for laws with
+    TRANSIENTS = "transients"  # seconds: so soon after a sine's start does the fitted period begin
+    NO_HARMONICS = "no_harmonics"  # begin, end (s): samples are lost, so that only the sine itself can be fitted
+    FEW_HARMONICS = (
+        "few_harmonics"  # begin, end (s), kept, count: samples are lost, so that harmonics cannot be told apart
+    )
+    DRIFTING = "drifting"  # percent: a sine changes within the fitted part
+    MEMORY = "memory"  # the residuals have one; intervals follow their spectrum
+    MEMORY_IN_HARMONICS = "memory_in_harmonics"  # the same, seen in the harmonics of a single period
+    HARMONICS = "harmonics"  # count, points, frequency (Hz), percent: beyond the noise, and where most
+    LOST_IN_NOISE = "lost_in_noise"  # frequency (Hz): from where on a chirp's tops and bottoms are
+    FAST_SWEEP = "fast_sweep"  # frequency (Hz): below it a chirp is no steady sine
+    FEW_SAMPLES = "few_samples"  # samples: per period at a chirp's high end
     OTHER = "other"  # text: of a program part that has no codes yet
 
 

@@ -16,6 +16,7 @@ from pysim.identify.frequency_response import THESIS_REFERENCE_HZ
 from pysim.identify.frf import measured_responses
 from pysim.io import shown_unit
 from pysim.types import BadInput, Dataset, Deviation, FrequencyResponse
+from pysim.types.note import Note
 from pysim.types.record_kind import STEPPED_SINE
 
 Progress = Callable[[int, int], None]
@@ -33,7 +34,7 @@ class FittedResponse:
         suggestion: that comparison, or None.
         reference_hz: whose gain counts as 0 dB in `deviations`; None for absolute gains.
         deviations: the four numbers of thesis Table 1.3 between the two, as in Table 4.4.
-        remarks: what the analysis of the logs said.
+        notes: of the analysis of the logs, and of the fit.
         held_out: the same four numbers for each response of this test that is held out, in the order of the data.
     """
 
@@ -43,7 +44,7 @@ class FittedResponse:
     suggestion: OrderSuggestion | None
     reference_hz: float | None
     deviations: tuple[Deviation, ...]
-    remarks: tuple[str, ...]
+    notes: tuple[Note, ...]
     held_out: tuple[tuple[Deviation, ...], ...] = ()
 
 
@@ -54,7 +55,7 @@ class _Found:
     response: FrequencyResponse
     use: str
     factor: float
-    remarks: tuple[str, ...] = ()
+    notes: tuple[Note, ...] = ()
 
     @property
     def test(self) -> tuple[float, float]:
@@ -125,8 +126,8 @@ def fit_dataset(
 
 
 def _chosen(dataset: Dataset, output: str | None, tests: Sequence[tuple[float, float]]) -> list[_Found]:
-    def found(response: FrequencyResponse, use: str, remarks: tuple[str, ...] = ()) -> _Found:
-        return _Found(response, use, shown_unit(dataset.signal(response.test.input).unit)[1], remarks)
+    def found(response: FrequencyResponse, use: str, notes: tuple[Note, ...] = ()) -> _Found:
+        return _Found(response, use, shown_unit(dataset.signal(response.test.input).unit)[1], notes)
 
     tables = [(record.data, record.use) for record in dataset.records]
     there = [
@@ -135,7 +136,7 @@ def _chosen(dataset: Dataset, output: str | None, tests: Sequence[tuple[float, f
         if isinstance(data, FrequencyResponse) and output in (None, data.test.output)
     ]
     if any(record.kind == STEPPED_SINE.name for record in dataset.records):
-        there += [found(one.response, one.use, one.remarks) for one in measured_responses(dataset, output=output)]
+        there += [found(one.response, one.use, one.notes) for one in measured_responses(dataset, output=output)]
     if not there:
         of = f" of {output}" if output else ""
         raise BadInput(
@@ -165,7 +166,7 @@ def _fitted(
         suggestion=suggestion,
         reference_hz=reference,
         deviations=deviations,
-        remarks=found.remarks,
+        notes=(*fit.notes, *found.notes),
         held_out=tuple(_deviations(fit, other)[1] for other in held_out),
     )
 

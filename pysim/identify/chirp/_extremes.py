@@ -9,6 +9,7 @@ import numpy as np
 from pysim.identify.chirp.cycle_fit import CycleFit, Extreme, Samples, fit_cycle
 from pysim.identify.logged import LoggedWave
 from pysim.types import Record, sampling
+from pysim.types.note import Note, NoteCode
 
 # An extreme that sticks out of the level by less than this many of its standard deviations is lost in noise.
 _SEEN = 4.0
@@ -51,7 +52,7 @@ def extremes(samples: Samples, command: LoggedWave) -> Iterator[tuple[int, Extre
 
 def seen_ones(
     found: list[tuple[int, Extreme, CycleFit]], level: float, noise: float, command: LoggedWave
-) -> tuple[dict[int, Extreme], list[str]]:
+) -> tuple[dict[int, Extreme], list[Note]]:
     """Those that stick out of the noise, up to where too many in a row do not."""
     seen: dict[int, Extreme] = {}
     lost = 0
@@ -63,7 +64,7 @@ def seen_ones(
         lost += 1
         if lost == _LOST:
             at = float(command.frequency_at(command.time_of(np.array([(number + 0.5) * np.pi])))[0])
-            return seen, [f"tops and bottoms are lost in noise from {at:.3g} Hz on"]
+            return seen, [Note(NoteCode.LOST_IN_NOISE, {"frequency": at})]
     return seen, []
 
 

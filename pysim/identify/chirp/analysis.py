@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -12,6 +14,7 @@ from pysim.identify.chirp.cycle_fit import Extreme, Samples
 from pysim.identify.chirp.result import ChirpAnalysis
 from pysim.identify.logged import LoggedWave, logged_wave
 from pysim.types import BadInput, Dataset, MeasuredRecord, Record
+from pysim.types.note import Note, NoteCode
 from pysim.types.record_kind import CHIRP
 
 Array = NDArray[np.float64]
@@ -49,7 +52,7 @@ def analyse_chirp(
     fitted = np.array([[fit.squares, fit.freedom] for _, _, fit in pairs])
     left_over = float(np.sqrt(np.median(fitted[:, 0] / fitted[:, 1])))
     spread = left_over if noise is None else max(noise, left_over)
-    seen, remarks = seen_ones(pairs, level, spread, command)
+    seen, notes = seen_ones(pairs, level, spread, command)
     paired = paired_ones(seen, 1 if command.rate >= 0 else -1)
     if not paired:
         raise BadInput(f"{record.source}: no pair of top and bottom of {output} rises above the noise; swing more")
@@ -57,7 +60,6 @@ def analyse_chirp(
         _branch([(pair[parity], seen[pair[parity]]) for pair in paired], command, level, spread, sign)
         for parity, sign in ((0, 1), (1, -1))
     )
-    _tell_edges(remarks, command, samples)
     return ChirpAnalysis(
         source=record.source,
         command=command,
@@ -71,7 +73,7 @@ def analyse_chirp(
         output=output,
         input_unit=record.data.units[record.data.names.index(input_)],
         output_unit=record.data.units[record.data.names.index(output)],
-        remarks=tuple(remarks),
+        notes=(*notes, *_edges(command, samples)),
     )
 
 
@@ -130,17 +132,12 @@ def _branch(extremes: list[tuple[int, Extreme]], command: LoggedWave, level: flo
     )
 
 
-def _tell_edges(remarks: list[str], command: LoggedWave, samples: Samples) -> None:
+def _edges(command: LoggedWave, samples: Samples) -> Iterator[Note]:
     """What the sweep itself makes doubtful."""
     low = float(np.min(command.frequency_at(np.array([command.start, command.end]))))
     turn = np.sqrt(max(low, 0.0) ** 2 + 2 * abs(command.rate))  # after one turn from the low end
     if turn > 1.5 * low:
-        remarks.append(
-            f"below {turn:.2g} Hz the frequency changes by more than half within a period; the response there is not "
-            "a steady one"
-        )
+        yield Note(NoteCode.FAST_SWEEP, {"frequency": float(turn)})
     fewest = float(samples.per_turn.min())
     if fewest < 6:
-        remarks.append(
-            f"at the high end there are {fewest:.1f} samples per period; tops there lean on the sine's shape"
-        )
+        yield Note(NoteCode.FEW_SAMPLES, {"samples": fewest})

@@ -9,6 +9,7 @@ import numpy as np
 from pysim.identify.chirp.branch import Branch
 from pysim.identify.logged import LoggedWave
 from pysim.types import FrequencyResponse, SineTest
+from pysim.types.note import Note
 
 
 @dataclass(frozen=True)
@@ -25,7 +26,7 @@ class ChirpAnalysis:
         noise: standard deviation of the output about the local fits, in its unit.
         input, output: names of the signals.
         input_unit, output_unit: of them.
-        remarks: what a reader must know before trusting the numbers.
+        notes: what a reader must know before trusting the numbers.
     """
 
     source: str
@@ -40,7 +41,7 @@ class ChirpAnalysis:
     output: str
     input_unit: str
     output_unit: str
-    remarks: tuple[str, ...]
+    notes: tuple[Note, ...]
 
     @property
     def response(self) -> FrequencyResponse:

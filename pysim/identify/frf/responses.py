@@ -11,6 +11,7 @@ import numpy as np
 from pysim.identify._columns import declared_noise, the_column
 from pysim.identify.frf.sine_point import SinePoint, Window, sine_point
 from pysim.types import BadInput, Dataset, FrequencyResponse, Record, SineTest
+from pysim.types.note import Note, NoteCode
 from pysim.types.record_kind import STEPPED_SINE
 
 
@@ -33,17 +34,16 @@ class MeasuredResponse:
     use: str = "fit"
 
     @property
-    def remarks(self) -> tuple[str, ...]:
+    def notes(self) -> tuple[Note, ...]:
         """Those of all points, each with its frequency, and harmonics where there are any."""
-        texts = [f"{p.frequency:g} Hz: {remark}" for p in self.points for remark in p.remarks]
+        notes = [Note(one.code, {**one.values, "at": p.frequency}) for p in self.points for one in p.notes]
         distorted = [p for p in self.points if p.distorted]
         if distorted:
             worst = max(distorted, key=lambda p: p.distortion)
-            texts.append(
-                f"harmonics beyond the noise at {len(distorted)} of {len(self.points)} frequencies, most at "
-                f"{worst.frequency:g} Hz with {100 * worst.distortion:.2g} percent: the response is not linear there"
-            )
-        return tuple(texts)
+            counts = {"count": len(distorted), "points": len(self.points)}
+            most = {"frequency": worst.frequency, "percent": 100 * worst.distortion}
+            notes.append(Note(NoteCode.HARMONICS, {**counts, **most}))
+        return tuple(notes)
 
 
 class _Test(NamedTuple):

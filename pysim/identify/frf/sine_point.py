@@ -14,6 +14,7 @@ from pysim.identify.frf.noise import COLOURED, DECLARED, ResidualNoise, residual
 from pysim.identify.logged import LoggedWave, logged_wave
 from pysim.identify.sine_fit import to_polar
 from pysim.types import BadInput, MeasuredRecord, Record, sampling
+from pysim.types.note import Note, NoteCode
 
 Array = NDArray[np.float64]
 
@@ -60,7 +61,7 @@ class SinePoint:
         distorted: whether there are harmonics beyond what noise gives: the response is not linear.
         noise: of the output.
         periods: whole periods that were fitted.
-        remarks: what a reader must know before trusting the numbers.
+        notes: what a reader must know before trusting the numbers.
     """
 
     source: str
@@ -75,7 +76,7 @@ class SinePoint:
     distorted: bool
     noise: ResidualNoise
     periods: int
-    remarks: tuple[str, ...]
+    notes: tuple[Note, ...]
 
     @property
     def distortion(self) -> float:
@@ -105,7 +106,7 @@ def sine_point(
     assert isinstance(record.data, Record)  # logged_wave has refused anything else
     frequency = float(command.frequency)
     part = _fitted_part(record, command, window or Window())
-    remarks = list(part.remarks)
+    notes = list(part.notes)
     t, y = record.data.time[part.inside], record.data[output][part.inside]
     angle = command.angle(t)
     count = _harmonic_count(t, frequency, part)
@@ -116,7 +117,7 @@ def sine_point(
         )
     if part.holes:
         count, told = _told_apart(record.source, angle, count, frequency, part.holes)
-        remarks += told
+        notes += told
     interval = part.step if part.holes else float(t[-1] - t[0]) / (t.size - 1)
     lost = bool(part.holes)
     fit = harmonic_fit(angle, y, count, lost=lost)
@@ -139,10 +140,9 @@ def sine_point(
     known = between if judged.basis == COLOURED and between else fit.freedom
     distorted = count > 1 and _by_chance(fit, slice(2, -1), deviation, judged.basis, known) < _UNLIKELY
     if part.periods > 1:
-        remarks += _unsteady(harmonic_fit(angle, y, count, lost=lost, drifting=True), y, frequency, interval, noise)
+        notes += _unsteady(harmonic_fit(angle, y, count, lost=lost, drifting=True), y, frequency, interval, noise)
     if judged.basis == COLOURED:
-        followed = "the harmonics, which a single period does not tell from noise" if hidden else "their spectrum"
-        remarks.append(f"residuals have a memory; intervals follow {followed}")
+        notes.append(Note(NoteCode.MEMORY_IN_HARMONICS if hidden else NoteCode.MEMORY, {}))
     return SinePoint(
         source=record.source,
         frequency=frequency,
@@ -156,7 +156,7 @@ def sine_point(
         distorted=distorted,
         noise=judged,
         periods=part.periods,
-        remarks=tuple(remarks),
+        notes=tuple(notes),
     )
 
 
@@ -169,14 +169,14 @@ class _Part:
         periods: how many.
         step: s between samples.
         holes: (from, to) in s, where samples are lost.
-        remarks: what speaks against it.
+        notes: what speaks against it.
     """
 
     inside: slice
     periods: int
     step: float
     holes: tuple[tuple[float, float], ...]
-    remarks: tuple[str, ...]
+    notes: tuple[Note, ...]
 
 
 def _fitted_part(record: MeasuredRecord, command: LoggedWave, window: Window) -> _Part:
@@ -192,15 +192,14 @@ def _fitted_part(record: MeasuredRecord, command: LoggedWave, window: Window) ->
             "the transients"
         )
     periods = max(int(settled), 1)
-    remarks: tuple[str, ...] = ()
+    notes: tuple[Note, ...] = ()
     if settled < 1:
-        before = command.end - period - command.start
-        remarks = (f"the fitted period begins {before:.2g} s after the sine; the transients may not have died",)
+        notes = (Note(NoteCode.TRANSIENTS, {"seconds": command.end - period - command.start}),)
     first = command.end - periods * period
     begin, end = (int(np.searchsorted(t, at + 0.5 * dt)) for at in (first, command.end))
     gaps = found.gaps[(found.gaps >= begin - 1) & (found.gaps < end - 1)]
     holes = tuple((max(float(t[k]), first), float(t[k + 1])) for k in gaps)
-    return _Part(slice(begin, end), periods, dt, holes, remarks)
+    return _Part(slice(begin, end), periods, dt, holes, notes)
 
 
 def _harmonic_count(t: Array, frequency: float, part: _Part) -> int:
@@ -213,22 +212,24 @@ def _harmonic_count(t: Array, frequency: float, part: _Part) -> int:
 
 def _told_apart(
     source: str, angle: Array, count: int, frequency: float, holes: tuple[tuple[float, float], ...]
-) -> tuple[int, list[str]]:
+) -> tuple[int, list[Note]]:
     """How many of the sine and its harmonics are fitted where samples are lost, and what must be said of that.
 
     What is fitted though the samples do not tell it apart makes the sine itself a matter of chance.
     """
     few = told_apart(angle, count)
     begin, end = max(holes, key=lambda hole: hole[1] - hole[0])
-    lost = f"no samples from {begin:.4g} to {end:.4g} s"
     if few < 1:
         raise BadInput(
-            f"{source}: {lost}, and the others do not show {frequency:g} Hz; record it again, or more periods of it"
+            f"{source}: no samples from {begin:.4g} to {end:.4g} s, and the others do not show {frequency:g} Hz; "
+            "record it again, or more periods of it"
         )
     if few == count:
         return few, []
-    kept = f"only {few - 1} of {count - 1} harmonics are fitted" if few > 1 else "no harmonics are fitted"
-    return few, [f"{lost}: {kept}, and others, where there are any, disturb the sine"]
+    lost = {"begin": begin, "end": end}
+    if few == 1:
+        return few, [Note(NoteCode.NO_HARMONICS, lost)]
+    return few, [Note(NoteCode.FEW_HARMONICS, {**lost, "kept": few - 1, "count": count - 1})]
 
 
 def _by_chance(fit: HarmonicFit, part: slice, deviation: Array, basis: str, freedom: int) -> float:
@@ -263,7 +264,7 @@ def _covariance(command: LoggedWave, fit: HarmonicFit, noise: ResidualNoise) -> 
     return np.asarray(by[:, None] * polar * by + of_command)
 
 
-def _unsteady(drifting: HarmonicFit, y: Array, frequency: float, interval: float, declared: float | None) -> list[str]:
+def _unsteady(drifting: HarmonicFit, y: Array, frequency: float, interval: float, declared: float | None) -> list[Note]:
     """Whether amplitude or phase drift through the fitted part by more than noise."""
     noise = residual_noise(drifting.left_over, drifting.columns, frequency, interval, declared=declared)
     change = 2 * float(np.hypot(*drifting.coefficients[-2:]))
@@ -272,4 +273,4 @@ def _unsteady(drifting: HarmonicFit, y: Array, frequency: float, interval: float
     if change <= 1e-9 * np.max(np.abs(y)) or chance > _UNLIKELY:
         return []
     share = change / float(np.hypot(*drifting.coefficients[:2]))
-    return [f"the sine changes by {100 * share:.2g} percent within the fitted part; not settled, or not steady"]
+    return [Note(NoteCode.DRIFTING, {"percent": 100 * share})]

@@ -50,8 +50,8 @@ def _text(one: FittedResponse) -> Iterable[str]:
         yield from (f"  {name:<10}{root_text(root, fit.quantile(0.95))}" for root in upper(roots))
     if one.suggestion:
         yield from _suggestion_text(one.suggestion)
-    for note in (*map(words, fit.notes), *one.remarks):
-        yield textwrap.fill(f"note: {note}", _WIDTH, initial_indent="  ", subsequent_indent="    ")
+    for note in one.notes:
+        yield textwrap.fill(f"note: {words(note)}", _WIDTH, initial_indent="  ", subsequent_indent="    ")
 
 
 def _deviations(deviations: Sequence[Deviation]) -> str:
@@ -130,7 +130,7 @@ def _data(one: FittedResponse) -> dict[str, Any]:
         "deviations": _criteria(one.deviations),
         "held_out_deviations": [_criteria(deviations) for deviations in one.held_out],
         "converged": fit.converged,
-        "notes": [*map(words, fit.notes), *one.remarks],
+        "notes": [words(note) for note in one.notes],
         "structures": None if one.suggestion is None else [_candidate(c) for c in one.suggestion.candidates],
         "frequency_hz": one.measured.frequency.tolist(),
         "measured_db": magnitude_db(one.measured, None).tolist(),

@@ -21,7 +21,7 @@ def page(result: TransferFunctions, drawings: Sequence[Drawing], redo: str) -> s
         parts += [heading(f"{one.label}: {one.fit.structure.label}"), _numbers_table(one), _roots_table(one)]
         if one.suggestion:
             parts.append(_structures_table(one.suggestion))
-        parts += [paragraph(note, note=True) for note in (*map(words, one.fit.notes), *one.remarks)]
+        parts += [paragraph(words(note), note=True) for note in one.notes]
         parts += pictures(drawings[i : i + 1])
     lead = f"Fitted to the frequency responses of {result.dataset}."
     return whole_page("Black-box transfer functions", lead, parts, redo)

@@ -42,6 +42,16 @@ VALUES = {
     NoteCode.LAW_VETOED: {"law": "force: h(force.x)"},
     NoteCode.NO_LAW_RUNS: {"places": "force, supply"},
     NoteCode.LAWS_NOT_TRIED: {"effects": "axis.backlash"},
+    NoteCode.TRANSIENTS: {"seconds": 0.8},
+    NoteCode.NO_HARMONICS: {"begin": 3.4, "end": 3.6},
+    NoteCode.FEW_HARMONICS: {"begin": 3.4, "end": 3.6, "kept": 1.0, "count": 10.0},
+    NoteCode.DRIFTING: {"percent": 2.5},
+    NoteCode.MEMORY: {},
+    NoteCode.MEMORY_IN_HARMONICS: {},
+    NoteCode.HARMONICS: {"count": 1.0, "points": 2.0, "frequency": 5.0, "percent": 3.0},
+    NoteCode.LOST_IN_NOISE: {"frequency": 12.0},
+    NoteCode.FAST_SWEEP: {"frequency": 1.4},
+    NoteCode.FEW_SAMPLES: {"samples": 5.0},
     NoteCode.OTHER: {"text": "as it stands"},
 }
 
@@ -64,6 +74,10 @@ def test_each_parameter_stands_with_its_number() -> None:
     assert "m 2.3, d 0.4" in words(Note(NoteCode.INTERVAL_WIDTHS, {"m": 2.3, "d": 0.4}))
     assert "a.csv and 2 more:" in words(Note(NoteCode.NOT_SETTLED, {"record": "a.csv", "others": 2.0}))
     assert words(Note(NoteCode.NOT_SETTLED, {"record": "a.csv", "others": 0.0})).startswith("a.csv: ")
+
+
+def test_a_note_of_one_frequency_stands_behind_it() -> None:
+    assert words(Note(NoteCode.DRIFTING, {"percent": 2.5, "at": 0.5})).startswith("0.5 Hz: the sine changes by 2.5")
 
 
 @pytest.mark.parametrize(

@@ -1,5 +1,6 @@
 """Chirp analysis against the closed form of a linear system, whose tops and bottoms answer alike."""
 
+import math
 from dataclasses import replace
 from functools import cache
 
@@ -8,6 +9,7 @@ import pytest
 
 from pysim.identify.chirp import Branch, ChirpAnalysis, analyse_chirp, chirp_responses, sweep_error
 from pysim.types import BadInput, Dataset, MeasuredRecord, MeasuredSignal, Record
+from pysim.types.note import NoteCode
 from tests.pysim.identify.chirp.chirps import log, response
 
 SIGNALS = (MeasuredSignal("u", "input", "%", "", "u"), MeasuredSignal("y", "output", "%", "", "y", 0.3))
@@ -102,15 +104,17 @@ def test_a_slow_logger_still_shows_the_response() -> None:
 
 def test_stops_where_tops_are_lost_in_noise() -> None:
     found = analysed(1.0, natural_hz=2.0, noise=0.5, stop_hz=40.0)
-    assert any("lost in noise" in remark for remark in found.remarks)
+    (lost,) = (note for note in found.notes if note.code is NoteCode.LOST_IN_NOISE)
+    assert found.mean.frequency[-1] <= float(lost.values["frequency"]) < 40.0
     assert 6.0 < found.mean.frequency[-1] < 35.0
     assert np.max(np.abs(errors(found.mean, low=3.0, natural_hz=2.0)[0])) < 6.0
 
 
-def test_remarks_name_the_fast_start_and_the_few_samples() -> None:
+def test_notes_name_the_fast_start_and_the_few_samples() -> None:
     found = analysed(1.0, sampling=125)
-    assert any(remark.startswith("below 1.4 Hz the frequency changes") for remark in found.remarks)
-    assert any("5.0 samples per period" in remark for remark in found.remarks)
+    values = {note.code: note.values for note in found.notes}
+    assert values[NoteCode.FAST_SWEEP]["frequency"] == pytest.approx(math.sqrt(2.0), rel=0.01)
+    assert values[NoteCode.FEW_SAMPLES]["samples"] == pytest.approx(5.0, abs=0.05)
 
 
 def test_the_mean_is_a_frequency_response() -> None:
@@ -173,8 +177,7 @@ def without(record: MeasuredRecord, begin: float, end: float) -> MeasuredRecord:
 def test_lost_samples_are_no_slow_sampling_and_leave_out_what_they_hide() -> None:
     whole = log(0.5, noise=0.1)
     found, full = (analyse_chirp(record, "u", "y") for record in (without(whole, 5.0, 6.0), whole))
-    assert found.remarks == full.remarks
-    assert not any("samples per period" in remark for remark in found.remarks)
+    assert [note.code for note in found.notes] == [note.code for note in full.notes] == [NoteCode.FAST_SWEEP]
     assert full.mean.frequency.size - 4 <= found.mean.frequency.size < full.mean.frequency.size
     off = np.abs(errors(found.mean, low=1.5))
     assert np.max(off[0] / found.mean.magnitude_deviation_db[found.mean.frequency >= 1.5][: off.shape[1]]) < 6

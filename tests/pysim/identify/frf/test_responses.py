@@ -7,6 +7,7 @@ import pytest
 
 from pysim.identify import magnitude_db, measured_responses, standard_deviations
 from pysim.types import BadInput
+from pysim.types.note import NoteCode
 from tests.pysim.identify.frf.systems import dataset, log, response, white
 
 F = (0.1, 1.0, 5.0, 13.0, 25.0)
@@ -71,14 +72,14 @@ def test_a_noise_of_nothing_is_refused() -> None:
         measured_responses(dataset(*logs(0.1), noise=0.0))
 
 
-def test_remarks_tell_of_harmonics() -> None:
+def test_notes_tell_of_harmonics() -> None:
     (one,) = measured_responses(
         dataset(*[log(f, periods=20, add=0.03 * (f == 5.0), noise=white(1001, 0.01, 4)) for f in (5.0, 7.0)])
     )
-    assert one.remarks == (
-        "harmonics beyond the noise at 1 of 2 frequencies, most at 5 Hz with 3 percent: the response is not linear "
-        "there",
-    )
+    (note,) = one.notes
+    assert note.code is NoteCode.HARMONICS
+    assert (note.values["count"], note.values["points"], note.values["frequency"]) == (1, 2, 5.0)
+    assert note.values["percent"] == pytest.approx(3.0, rel=0.02)
 
 
 def test_refuses_what_cannot_be_told_apart() -> None:

@@ -7,9 +7,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from pysim.identify import Window, sine_point
+from pysim.identify import SinePoint, Window, sine_point
 from pysim.identify.frf.noise import COLOURED
 from pysim.types import BadInput, MeasuredRecord, Record
+from pysim.types.note import Note, NoteCode
 from tests.pysim.identify.frf.systems import coloured, log, response, white
 from tests.pysim.identify.seeds import at_least, at_most, seeds
 
@@ -89,13 +90,12 @@ def test_says_which_harmonics_lost_samples_hide() -> None:
     whole = log(1.0, periods=2.4, noise=white(1000, 0.05, 1))
     small, large = without(whole, 3.6, 3.62), without(whole, 3.6, 3.8)
     assert sine_point(small, "cmd", "y").harmonics.size == 10
-    assert not any("no samples" in remark for remark in sine_point(small, "cmd", "y").remarks)
+    assert not sine_point(small, "cmd", "y").notes
     point = sine_point(large, "cmd", "y")
     assert point.harmonics.size == 1
-    assert any(
-        "no samples from 3.596 to 3.804 s: only 1 of 10 harmonics are fitted" in remark for remark in point.remarks
-    )
-    assert any("no harmonics are fitted" in r for r in sine_point(without(whole, 3.6, 3.9), "cmd", "y").remarks)
+    lost = {"begin": pytest.approx(3.596), "end": pytest.approx(3.804), "kept": 1, "count": 10}
+    assert dict(noted(point, NoteCode.FEW_HARMONICS).values) == lost
+    assert noted(sine_point(without(whole, 3.6, 3.9), "cmd", "y"), NoteCode.NO_HARMONICS)
 
 
 def test_samples_lost_before_the_fitted_part_do_no_harm() -> None:
@@ -106,7 +106,8 @@ def test_samples_lost_before_the_fitted_part_do_no_harm() -> None:
 
 def test_a_hole_at_the_edge_of_the_fitted_part_counts() -> None:
     point = sine_point(without(log(1.0, periods=2.4, noise=white(1000, 0.05, 1)), 3.2, 3.6), "cmd", "y")
-    assert any("no samples from 3.4 to 3.604 s" in remark for remark in point.remarks)  # the part begins at 3.4 s
+    (lost,) = (note.values for note in point.notes if "begin" in note.values)
+    assert (lost["begin"], lost["end"]) == (pytest.approx(3.4), pytest.approx(3.604))  # the part begins at 3.4 s
 
 
 @seeds(200)
@@ -114,7 +115,7 @@ def test_lost_samples_do_not_pass_for_a_drift(runs: int) -> None:
     told = 0
     for seed in range(runs):
         record = without(log(1.0, periods=4.0, noise=white(1100, 0.05, seed)), 5.0, 5.45)
-        told += any("changes by" in remark for remark in sine_point(record, "cmd", "y").remarks)
+        told += drifts(sine_point(record, "cmd", "y"))
     assert told <= at_most(1e-3, runs)
 
 
@@ -181,7 +182,7 @@ def test_noise_of_few_samples_is_seldom_called_a_harmonic_or_a_drift(declared: f
     assert sum(point.distorted for point in one) <= at_most(1e-3, runs)
     two = [sine_point(coarse(1.0, 13.0, 3.2, seed), "cmd", "y", noise=declared) for seed in range(runs)]
     assert all(point.periods == 2 for point in two)
-    assert sum(any("changes by" in remark for remark in point.remarks) for point in two) <= at_most(1e-3, runs)
+    assert sum(map(drifts, two)) <= at_most(1e-3, runs)
 
 
 def test_whole_periods_behind_the_transients_are_fitted() -> None:
@@ -193,19 +194,19 @@ def test_whole_periods_behind_the_transients_are_fitted() -> None:
 def test_says_when_transients_may_be_in_it_and_when_it_is_not_steady() -> None:
     short = sine_point(log(0.5, periods=1.4), "cmd", "y")
     assert short.periods == 1
-    assert any("begins 0.8 s after the sine" in remark for remark in short.remarks)
+    assert noted(short, NoteCode.TRANSIENTS).values["seconds"] == pytest.approx(0.8, abs=0.01)
     record = log(4.0, periods=20.0, noise=white(2000, 0.01, 5))
     assert isinstance(record.data, Record)
-    assert sine_point(record, "cmd", "y").remarks == ()
+    assert sine_point(record, "cmd", "y").notes == ()
     values = np.array(record.data.values)
     values[:, 1] = 45 + (values[:, 1] - 45) * np.linspace(1.0, 1.02, values.shape[0])
     growing = replace(record, data=replace(record.data, values=values))
-    assert any("changes by" in remark for remark in sine_point(growing, "cmd", "y").remarks)
+    assert drifts(sine_point(growing, "cmd", "y"))
 
 
 def test_says_when_residuals_have_a_memory() -> None:
     point = sine_point(log(5.0, noise=coloured(1100, 0.5, 1)), "cmd", "y")
-    assert any("memory" in remark for remark in point.remarks)
+    assert noted(point, NoteCode.MEMORY)
     naive = 2 * point.noise.deviation**2 / 875 / 100
     assert point.covariance[0, 0] > 2 * naive
 
@@ -219,7 +220,17 @@ def test_slow_noise_is_seen_in_a_single_period(runs: int) -> None:
         assert point.periods == 1
         held += np.abs(error(point, 1.0)) < 1.96 * np.sqrt(np.diag(point.covariance)[:2])
     assert held.min() >= at_least(0.92, runs)
-    assert any("which a single period does not tell from noise" in remark for remark in point.remarks)
+    assert noted(point, NoteCode.MEMORY_IN_HARMONICS)
+
+
+def noted(point: SinePoint, code: NoteCode) -> Note:
+    """The one note of that code."""
+    (note,) = (one for one in point.notes if one.code is code)
+    return note
+
+
+def drifts(point: SinePoint) -> bool:
+    return any(note.code is NoteCode.DRIFTING for note in point.notes)
 
 
 def refused(record: MeasuredRecord, words: str) -> None:
