@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import textwrap
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -11,14 +10,14 @@ import numpy as np
 
 from pysim.identify import magnitude_db
 from pysim.identify.blackbox import FittedNumber, FittedResponse, OrderSuggestion, Root
-from pysim.io import json_number
+from pysim.present import criteria
 from pysim.present.notes import words
+from pysim.present.plain_text import wrapped
 from pysim.types import Deviation
+from pysim.types.json_number import json_data
 
 _WIDTH = 96
-DIGITS = (2, 2, 1, 1)
 _SHOWN = 8  # structures listed
-_CRITERIA_KEYS = ("mean_magnitude_db", "max_magnitude_db", "mean_phase_deg", "max_phase_deg")
 
 
 @dataclass(frozen=True)
@@ -51,13 +50,13 @@ def _text(one: FittedResponse) -> Iterable[str]:
     if one.suggestion:
         yield from _suggestion_text(one.suggestion)
     for note in one.notes:
-        yield textwrap.fill(f"note: {words(note)}", _WIDTH, initial_indent="  ", subsequent_indent="    ")
+        yield from wrapped(f"note: {words(note)}", "  ", "    ", _WIDTH)
 
 
 def _deviations(deviations: Sequence[Deviation]) -> str:
-    return "; ".join(
-        f"{d.criterion.name} {d.value:.{n}f} {d.criterion.unit}" for d, n in zip(deviations, DIGITS, strict=True)
-    )
+    texts = criteria.numbers([one.value for one in deviations])
+    named = zip(deviations, texts, strict=True)
+    return "; ".join(f"{one.criterion.name} {text} {one.criterion.unit}" for one, text in named)
 
 
 def numbers(one: FittedResponse) -> tuple[FittedNumber, ...]:
@@ -100,47 +99,44 @@ def _suggestion_text(suggestion: OrderSuggestion) -> Iterable[str]:
 
 def data(result: TransferFunctions) -> dict[str, Any]:
     """Everything as plain numbers; None where the data do not determine one. SI units; magnitudes absolute, in dB."""
-    return {"dataset": result.dataset, "level": 0.95, "responses": [_data(one) for one in result.fitted]}
+    about = {"dataset": result.dataset, "level": 0.95}
+    found: dict[str, Any] = json_data({**about, "responses": [_data(one) for one in result.fitted]})
+    return found
 
 
 def _data(one: FittedResponse) -> dict[str, Any]:
     fit, structure = one.fit, one.fit.structure
     return {
-        "input": one.measured.test.input,
-        "output": one.measured.test.output,
+        **{key: getattr(one.measured.test, key) for key in ("input", "output", "offset", "amplitude")},
         "origin": one.measured.origin,
-        "offset": one.measured.test.offset,
-        "amplitude": one.measured.test.amplitude,
         "poles": structure.poles,
         "zeros": structure.zeros,
         "stable_on_request": structure.stable,
-        "numerator": list(fit.function.numerator),
-        "denominator": list(fit.function.denominator),
+        "numerator": fit.function.numerator,
+        "denominator": fit.function.denominator,
         "dead_time_s": fit.function.dead_time,
         "stable": fit.function.stable,
-        "estimates": {e.name: _estimate(e) for e in numbers(one)},
-        "covariance": {"names": list(fit.names), "matrix": [[json_number(v) for v in row] for row in fit.covariance]},
+        "estimates": {
+            e.name: {"value": e.value, "unit": e.unit, "std": e.std, "interval": e.interval} for e in numbers(one)
+        },
+        "covariance": {"names": fit.names, "matrix": fit.covariance},
         "pole_list": [_root(root) for root in fit.poles],
         "zero_list": [_root(root) for root in fit.zeros],
-        "fit_percent": json_number(fit.fit_percent),
+        "fit_percent": fit.fit_percent,
         "weights": fit.weights,
         "misfit": fit.misfit,
         "degrees_of_freedom": fit.freedom,
-        "probability": json_number(fit.explains),
-        "deviations": _criteria(one.deviations),
-        "held_out_deviations": [_criteria(deviations) for deviations in one.held_out],
+        "probability": fit.explains,
+        "deviations": criteria.keyed(one.deviations),
+        "held_out_deviations": [criteria.keyed(deviations) for deviations in one.held_out],
         "converged": fit.converged,
         "notes": [words(note) for note in one.notes],
         "structures": None if one.suggestion is None else [_candidate(c) for c in one.suggestion.candidates],
-        "frequency_hz": one.measured.frequency.tolist(),
-        "measured_db": magnitude_db(one.measured, None).tolist(),
-        "measured_deg": np.degrees(one.measured.phase).tolist(),
-        "residuals_standard_deviations": fit.standardised.tolist(),
+        "frequency_hz": one.measured.frequency,
+        "measured_db": magnitude_db(one.measured, None),
+        "measured_deg": np.degrees(one.measured.phase),
+        "residuals_standard_deviations": fit.standardised,
     }
-
-
-def _criteria(deviations: Sequence[Deviation]) -> dict[str, float]:
-    return {key: float(d.value) for key, d in zip(_CRITERIA_KEYS, deviations, strict=True)}
 
 
 def _candidate(candidate: Any) -> dict[str, Any]:
@@ -152,16 +148,7 @@ def _candidate(candidate: Any) -> dict[str, Any]:
         "aicc": candidate.aicc,
         "bic": candidate.bic,
         "sound": candidate.sound,
-        "fit_percent": json_number(candidate.fit.fit_percent),
-    }
-
-
-def _estimate(e: FittedNumber) -> dict[str, Any]:
-    return {
-        "value": json_number(e.value),
-        "unit": e.unit,
-        "std": json_number(e.std),
-        "interval": [json_number(end) for end in e.interval],
+        "fit_percent": candidate.fit.fit_percent,
     }
 
 
@@ -171,5 +158,5 @@ def _root(root: Root) -> dict[str, Any]:
         "imag": root.value.imag,
         "frequency_hz": root.frequency_hz,
         "damping": root.damping,
-        "covariance": [[json_number(v) for v in row] for row in root.covariance],
+        "covariance": root.covariance,
     }

@@ -12,20 +12,9 @@ import numpy as np
 from pysim.identify import HALF_95
 from pysim.identify.blackbox import FittedResponse, Root, TransferFunctionFit
 from pysim.io import same_file
+from pysim.present import style
 from pysim.present.blackbox.answer import TransferFunctions
 from pysim.present.render import Picture
-from pysim.present.style import (
-    COLOURS,
-    LIMIT,
-    MEASURED,
-    SMALL,
-    TEXT,
-    frequency_axis,
-    legend_above,
-    new_figure,
-    phase_axis,
-    quiet,
-)
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -37,7 +26,7 @@ if TYPE_CHECKING:
 _LEVEL = 0.95
 _TWO = 2.447747  # half width of a 95 percent region of two numbers, standard deviations
 _FAR = 20.0  # times the highest measured frequency: roots beyond are not drawn
-_FIT, _ZERO = COLOURS[0], COLOURS[1]
+_FIT, _ZERO = style.COLOURS[0], style.COLOURS[1]
 _LONGEST = 60  # characters of a label in a file name
 
 
@@ -66,7 +55,7 @@ def blackbox_figure(fitted: FittedResponse) -> Figure:
     Ellipses and bars in the map: the 95 percent region of each pole and zero.
     """
     fit = fitted.fit
-    figure = new_figure(9.6, 6.4)
+    figure = style.new_figure(9.6, 6.4)
     grid = figure.add_gridspec(3, 2, width_ratios=(1.45, 1), height_ratios=(1.25, 1.25, 0.9))
     left = [figure.add_subplot(grid[0, 0])]
     left += [figure.add_subplot(grid[row, 0], sharex=left[0]) for row in (1, 2)]
@@ -74,11 +63,11 @@ def blackbox_figure(fitted: FittedResponse) -> Figure:
     _draw_residuals(left[2], fit)
     for axes in left[:2]:
         axes.tick_params(labelbottom=False)
-    frequency_axis(left[2], 0.94 * float(fit.data.frequency[0]), 1.06 * float(fit.data.frequency[-1]))
+    style.frequency_axis(left[2], 0.94 * float(fit.data.frequency[0]), 1.06 * float(fit.data.frequency[-1]))
     left[2].set_xlabel("Frequency (Hz)")
     figure.align_ylabels(left)
     _draw_map(figure.add_subplot(grid[:, 1]), fit)
-    legend_above(figure, list(handles.values()), list(handles))
+    style.legend_above(figure, list(handles.values()), list(handles))
     return figure
 
 
@@ -98,14 +87,16 @@ def _draw_bode(top: Axes, bottom: Axes, fitted: FittedResponse) -> dict[str, Any
     for axes, values, width, data, bars, name in zip(
         (top, bottom), (decibel, degrees), widths, points, _bars(fit), names, strict=True
     ):
-        quiet(axes)
+        style.quiet(axes)
         band = axes.fill_between(dense, values - width, values + width, color=_FIT, alpha=0.25, linewidth=0)
         (line,) = axes.plot(dense, values, color=_FIT, linewidth=1.4)
-        dots = axes.errorbar(f, data, yerr=bars, color=MEASURED, fmt="o", markersize=3.2, elinewidth=0.9, capsize=1.5)
+        dots = axes.errorbar(
+            f, data, yerr=bars, color=style.MEASURED, fmt="o", markersize=3.2, elinewidth=0.9, capsize=1.5
+        )
         axes.set_ylabel(name)
         handles = {measured.origin: dots, f"fitted: {fit.structure.label}": line, "its 95 % interval": band}
-    phase_axis(bottom)
-    top.set_title(f"{fitted.label}, fit {fit.fit_percent:.2f} %", fontsize=TEXT, loc="left")
+    style.phase_axis(bottom)
+    top.set_title(f"{fitted.label}, fit {fit.fit_percent:.2f} %", fontsize=style.TEXT, loc="left")
     return handles
 
 
@@ -123,24 +114,24 @@ def _bars(fit: TransferFunctionFit) -> tuple[Array | None, Array | None]:
 
 def _draw_residuals(axes: Axes, fit: TransferFunctionFit) -> None:
     """Real and imaginary part in standard deviations, with the lines that one in twenty is beyond."""
-    quiet(axes)
+    style.quiet(axes)
     f = fit.data.frequency
-    axes.axhline(0, color=LIMIT, linewidth=0.8)
+    axes.axhline(0, color=style.LIMIT, linewidth=0.8)
     for side in (-HALF_95, HALF_95):
-        axes.axhline(side, color=LIMIT, linewidth=0.8, linestyle=(0, (4, 3)))
+        axes.axhline(side, color=style.LIMIT, linewidth=0.8, linestyle=(0, (4, 3)))
     axes.plot(f, fit.standardised[:, 0], "o", color=_FIT, markersize=3.5, label="real part")
     axes.plot(f, fit.standardised[:, 1], "^", color=_ZERO, markersize=3.5, label="imaginary part")
     most = max(3.0, 1.15 * float(np.max(np.abs(fit.standardised))))
     axes.set_ylim(-most, 1.35 * most)
     axes.set_ylabel("Residual\n(std. dev.)")
-    axes.legend(loc="upper left", ncols=2, frameon=False, fontsize=SMALL, borderaxespad=0.1, handletextpad=0.2)
+    axes.legend(loc="upper left", ncols=2, frameon=False, fontsize=style.SMALL, borderaxespad=0.1, handletextpad=0.2)
 
 
 def _draw_map(axes: Axes, fit: TransferFunctionFit) -> None:
     """The plane of s in rad/s; roots far beyond the measured frequencies are told in words instead."""
-    quiet(axes)
-    axes.axhline(0, color=LIMIT, linewidth=0.8)
-    axes.axvline(0, color=LIMIT, linewidth=0.8)
+    style.quiet(axes)
+    axes.axhline(0, color=style.LIMIT, linewidth=0.8)
+    axes.axvline(0, color=style.LIMIT, linewidth=0.8)
     reach = _FAR * 2 * np.pi * float(fit.data.frequency[-1])
     drawn, edges, words = [], [], []
     for roots, marker, colour, name in ((fit.poles, "x", _FIT, "pole"), (fit.zeros, "o", _ZERO, "zero")):
@@ -155,12 +146,14 @@ def _draw_map(axes: Axes, fit: TransferFunctionFit) -> None:
             _draw_doubt(axes, root, fit.quantile(_LEVEL) / HALF_95, colour, reach)
     axes.set_xlabel("Real part (rad/s)")
     axes.set_ylabel("Imaginary part (rad/s)")
-    axes.set_title("poles and zeros with 95 % regions", fontsize=TEXT, loc="left")
+    axes.set_title("poles and zeros with 95 % regions", fontsize=style.TEXT, loc="left")
     _limit(axes, drawn, edges)
     if words:
-        axes.text(0.02, 0.98, "not shown: " + ",\n".join(words), transform=axes.transAxes, va="top", fontsize=SMALL)
+        axes.text(
+            0.02, 0.98, "not shown: " + ",\n".join(words), transform=axes.transAxes, va="top", fontsize=style.SMALL
+        )
     if drawn:
-        axes.legend(loc="lower left", frameon=False, fontsize=SMALL)
+        axes.legend(loc="lower left", frameon=False, fontsize=style.SMALL)
 
 
 def _number(value: complex) -> str:

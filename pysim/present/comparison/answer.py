@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
-import textwrap
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from pysim.identify import FREQUENCY_CRITERIA, magnitude_db
-from pysim.types import Comparison, Deviation, FrequencyResponse, ResponseComparison
+from pysim.present import criteria
+from pysim.present.plain_text import wrapped
+from pysim.types import Comparison, FrequencyResponse, ResponseComparison
+from pysim.types.json_number import json_data
 
 _WIDTH = 78
 _HEAD = ("mean dB", "max dB", "mean deg", "max deg")
-_DIGITS = (2, 2, 1, 1)
-_KEYS = ("mean_magnitude_db", "max_magnitude_db", "mean_phase_deg", "max_phase_deg")
 
 
 @dataclass(frozen=True)
@@ -51,10 +51,9 @@ def comparison_text(comparison: Comparison) -> str:
     lines += [_row(test) for test in comparison.tests]
     limits = comparison.tests[0].deviations or next((t.deviations for t in comparison.tests if t.deviations), ())
     if limits:
-        cells = "".join(f"{d.criterion.limit:>9.{digits}f} " for d, digits in zip(limits, _DIGITS, strict=True))
+        cells = "".join(f"{text:>9} " for text in criteria.numbers([one.criterion.limit for one in limits]))
         lines.append(f"  {'limit':<17}{cells}  {limits[0].criterion.source}")
-    lines.append(verdict_text(comparison))
-    return "\n".join([*lines, *textwrap.wrap(note_text(comparison), _WIDTH)])
+    return "\n".join([*lines, verdict_text(comparison), *wrapped(note_text(comparison), width=_WIDTH)])
 
 
 def note_text(comparison: Comparison) -> str:
@@ -75,55 +74,47 @@ def _row(test: ResponseComparison) -> str:
     point = f"{test.measured.test.offset:>8g}{test.measured.test.amplitude:>11g}"
     if not test.deviations:
         return f"{point}  no response: {test.message}  FAIL"
-    cells = "".join(_cell(d, digits) for d, digits in zip(test.deviations, _DIGITS, strict=True))
+    texts = criteria.numbers([one.value for one in test.deviations])
+    marked = zip(texts, test.deviations, strict=True)
+    cells = "".join(f"{text:>9}{' ' if one.passes else '*'}" for text, one in marked)
     return f"{point}{cells}   {'pass' if test.passes else 'FAIL'}"
-
-
-def _cell(deviation: Deviation, digits: int) -> str:
-    return f"{deviation.value:>9.{digits}f}{' ' if deviation.passes else '*'}"
 
 
 def data(result: Comparisons) -> dict[str, Any]:
     """Everything a Comparison holds; numbers are finite or None, magnitudes in dB relative to
     `reference_hz`, phases in deg."""
-    comparisons = result.sets
-    criteria = zip(_KEYS, FREQUENCY_CRITERIA, strict=True)
-    return {
-        "dataset": comparisons[0].dataset,
-        "measured": comparisons[0].measured_name,
-        "reference_hz": comparisons[0].reference_hz,
-        "command_unit": comparisons[0].command_unit,
-        "note": comparisons[0].note,
-        "criteria": {key: {"limit": c.limit, "unit": c.unit, "source": c.source} for key, c in criteria},
-        "parameter_sets": [_set(comparison) for comparison in comparisons],
-    }
+    first, limits = result.sets[0], zip(criteria.KEYS, FREQUENCY_CRITERIA, strict=True)
+    found: dict[str, Any] = json_data(
+        {
+            "dataset": first.dataset,
+            "measured": first.measured_name,
+            **{key: getattr(first, key) for key in ("reference_hz", "command_unit", "note")},
+            "criteria": {key: {"limit": c.limit, "unit": c.unit, "source": c.source} for key, c in limits},
+            "parameter_sets": [_set(comparison) for comparison in result.sets],
+        }
+    )
+    return found
 
 
 def _set(comparison: Comparison) -> dict[str, Any]:
     return {
-        "label": comparison.label,
-        "model": comparison.model,
-        "overrides": dict(comparison.overrides),
-        "passes": comparison.passes,
+        **{key: getattr(comparison, key) for key in ("label", "model", "overrides", "passes", "note", "conditions")},
         "passed": sum(test.passes for test in comparison.tests),
         "independent": comparison.independent,
         "independent_passed": comparison.independent_passes,
-        "note": comparison.note,
-        "conditions": dict(comparison.conditions),
         "parameters": {name: {"value": v, "unit": unit} for name, (v, unit) in comparison.parameters.items()},
         "tests": [_test(test, comparison.reference_hz) for test in comparison.tests],
     }
 
 
 def _test(test: ResponseComparison, reference_hz: float | None) -> dict[str, Any]:
-    values = [float(deviation.value) for deviation in test.deviations]
     return {
         "offset": test.measured.test.offset,
         "amplitude": test.measured.test.amplitude,
         "passes": test.passes,
         "message": test.message,
-        "deviations": dict(zip(_KEYS, values, strict=True)) if values else dict.fromkeys(_KEYS),
-        "frequency_hz": test.measured.frequency.tolist(),
+        "deviations": criteria.keyed(test.deviations),
+        "frequency_hz": test.measured.frequency,
         "measured": _response(test.measured, reference_hz),
         "simulated": None if test.simulated is None else _response(test.simulated, reference_hz),
     }
@@ -131,8 +122,8 @@ def _test(test: ResponseComparison, reference_hz: float | None) -> dict[str, Any
 
 def _response(response: FrequencyResponse, reference_hz: float | None) -> dict[str, Any]:
     return {
-        "magnitude_db": magnitude_db(response, reference_hz).tolist(),
-        "gain": response.gain.tolist(),
-        "phase_deg": np.degrees(response.phase).tolist(),
+        "magnitude_db": magnitude_db(response, reference_hz),
+        "gain": response.gain,
+        "phase_deg": np.degrees(response.phase),
         "origin": response.origin,
     }

@@ -1,16 +1,24 @@
-"""The pictures of a comparison."""
+"""Pictures of models against measured responses: Bode plots as in thesis Appendix C, and deviations by criterion."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, Any
 
-from pysim.io import shown_value
+import numpy as np
+
+from pysim.identify import FREQUENCY_CRITERIA, magnitude_db
+from pysim.io import shown_point, shown_unit, shown_value
+from pysim.present import style
 from pysim.present.comparison.answer import Comparisons
-from pysim.present.comparison.bode import bode_figure
-from pysim.present.comparison.deviation import deviation_figure
 from pysim.present.render import Picture
-from pysim.types import Comparison
+from pysim.types import BadInput, Comparison, Criterion, FrequencyResponse, ResponseComparison
 
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+_MAX_DB, _MAX_DEG = FREQUENCY_CRITERIA[1].limit, FREQUENCY_CRITERIA[3].limit
 _ALL = "deviations"
 
 
@@ -38,3 +46,118 @@ def comparison_picture(sets: Sequence[Comparison], name: str) -> Picture:
 def _offsets(sets: Sequence[Comparison]) -> dict[str, float]:
     """Name of a Bode plot -> offset of its tests."""
     return {f"bode_O{offset:+g}": offset for offset in sorted({test.measured.test.offset for test in sets[0].tests})}
+
+
+def bode_figure(comparisons: Sequence[Comparison], offset: float) -> Figure:
+    """Magnitude (dB, relative to the reference frequency) above phase (deg) over frequency; a column per amplitude.
+
+    Args:
+        comparisons: parameter sets against one data set, each in a colour of its own.
+        offset: whose tests are shown, in the input's unit.
+    Raises:
+        BadInput: no test has that offset.
+    """
+    columns = [[test for test in c.tests if test.measured.test.offset == offset] for c in comparisons]
+    if not columns or not columns[0]:
+        raise BadInput(f"bode figure: no test at offset {offset:g}")
+    count = len(columns[0])
+    figure, axes = style.panels(1.2 + 2.9 * count, 5.4, 2, count, sharex=True, sharey="row")
+    handles: dict[str, Any] = {}
+    for column in range(count):
+        tests = [(comparison.label, tests[column]) for comparison, tests in zip(comparisons, columns, strict=True)]
+        _draw_column(axes[0, column], axes[1, column], tests, handles, comparisons[0])
+    measured = [test.measured.frequency for test in columns[0]]
+    style.frequency_axis(axes[1, 0], min(f[0] for f in measured), max(f[-1] for f in measured))  # shared by all columns
+    reference_hz = comparisons[0].reference_hz
+    relative = "" if reference_hz is None else f" relative to {reference_hz:g} Hz"
+    axes[0, 0].set_ylabel(f"Magnitude{relative} (dB)")
+    axes[1, 0].set_ylabel("Phase (deg)")
+    style.phase_axis(axes[1, 0])
+    style.legend_above(figure, list(handles.values()), list(handles))
+    return figure
+
+
+def _draw_column(
+    top: Axes,
+    bottom: Axes,
+    tests: Sequence[tuple[str, ResponseComparison]],
+    handles: dict[str, Any],
+    comparison: Comparison,
+) -> None:
+    """One test: the measured response with its band, then every parameter set."""
+    measured = tests[0][1].measured
+    f, reference_hz, unit = measured.frequency, comparison.reference_hz, comparison.command_unit
+    for axes, values, limit in (
+        (top, magnitude_db(measured, reference_hz), _MAX_DB),
+        (bottom, _degrees(measured), _MAX_DEG),
+    ):
+        band = axes.fill_between(f, values - limit, values + limit, color=style.BAND, alpha=0.6, linewidth=0)
+        (line,) = axes.plot(f, values, color=style.MEASURED, linewidth=1.0, marker=".", markersize=5)
+        handles.setdefault(comparison.measured_name, line)
+        handles.setdefault(f"±{_MAX_DB:g} dB, ±{_MAX_DEG:g} deg (Table 1.3)", band)
+    for i, (label, test) in enumerate(tests):
+        if test.simulated is None:
+            continue
+        look = style.look(i, "linestyle")
+        (line,) = top.plot(f, magnitude_db(test.simulated, reference_hz), **look, linewidth=1.7)
+        bottom.plot(f, _degrees(test.simulated, measured), **look, linewidth=1.7)
+        handles.setdefault(label, line)
+    top.set_title(shown_point(measured.test.offset, measured.test.amplitude, unit), fontsize=style.TEXT)
+    _write_verdicts(top, tests)
+    bottom.set_xlabel("Frequency (Hz)")
+
+
+def _write_verdicts(axes: Axes, tests: Sequence[tuple[str, ResponseComparison]]) -> None:
+    """Pass or fail of each parameter set in the lower left corner."""
+    for i, (label, test) in enumerate(tests):
+        words = f"{label}: {'pass' if test.passes else 'fail'}"
+        place = {"xycoords": "axes fraction", "xytext": (6, 6 + 12 * (len(tests) - 1 - i))}
+        axes.annotate(words, (0, 0), **place, textcoords="offset points", **style.look(i), fontsize=style.SMALL)  # type: ignore[arg-type]
+
+
+def _degrees(response: FrequencyResponse, beside: FrequencyResponse | None = None) -> Any:
+    """Phase in degrees; in the same turn as the other's at the lowest frequency."""
+    turns = 0.0 if beside is None else np.round((response.phase[0] - beside.phase[0]) / (2 * np.pi))
+    return np.degrees(response.phase) - 360 * turns
+
+
+def deviation_figure(comparisons: Sequence[Comparison]) -> Figure:
+    """A panel per criterion of Table 1.3, a row per test (offset / amplitude), the limit as the edge of a grey field.
+
+    Filled markers are within the limit, hollow ones are not. A run that failed has no marker.
+    """
+    tests = [response.measured.test for response in comparisons[0].tests]
+    height = 1.4 + 0.21 * max(len(tests), 5)  # at least as high as the label
+    figure, ((*axes,),) = style.panels(10.0, height, 1, len(FREQUENCY_CRITERIA), sharey=True)
+    handles = []
+    for column, criterion in enumerate(FREQUENCY_CRITERIA):
+        panel = axes[column]
+        for i, comparison in enumerate(comparisons):
+            values = _values(comparison, column)
+            inside, outside = values <= criterion.limit, values > criterion.limit
+            rows = np.arange(values.size)
+            look = {**style.look(i, "marker"), "linestyle": "none", "markersize": 5.5}
+            (filled,) = panel.plot(values[inside], rows[inside], **look)
+            panel.plot(values[outside], rows[outside], **look, markerfacecolor="white")
+            if column == 0:
+                handles.append(filled)
+        _draw_limit(panel, criterion, max(float(np.nanmax(_values(c, column), initial=0.0)) for c in comparisons))
+    unit, factor = shown_unit(comparisons[0].command_unit)
+    axes[0].set_yticks(range(len(tests)), [f"{factor * test.offset:g} / {factor * test.amplitude:g}" for test in tests])
+    axes[0].invert_yaxis()
+    axes[0].set_ylabel(f"Offset / amplitude ({unit})")
+    style.legend_above(figure, handles, [c.label for c in comparisons])
+    return figure
+
+
+def _values(comparison: Comparison, column: int) -> np.ndarray:
+    """One criterion over the tests, (n_tests,); NaN where a run failed."""
+    return np.array([test.deviations[column].value if test.deviations else np.nan for test in comparison.tests])
+
+
+def _draw_limit(panel: Axes, criterion: Criterion, largest: float) -> None:
+    right = 1.08 * max(largest, 1.15 * criterion.limit)
+    panel.axvspan(criterion.limit, right, color=style.LIMIT, alpha=0.14, linewidth=0)
+    panel.axvline(criterion.limit, color=style.LIMIT, linewidth=1.0)
+    panel.set_title(f"{criterion.name}\nlimit {criterion.limit:g} {criterion.unit}", fontsize=style.SMALL)
+    panel.set(xlabel=criterion.unit, xlim=(0.0, right))

@@ -5,13 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from pysim.identify import FREQUENCY_CRITERIA
+from pysim.present import criteria
 from pysim.present.comparison.answer import Comparisons, note_text, verdict_text
 from pysim.present.page import cell, heading, items, paragraph, pictures, table
 from pysim.present.page import page as whole_page
 from pysim.present.render import Drawing
 from pysim.types import Comparison, ResponseComparison
-
-_DIGITS = (2, 2, 1, 1)
 
 
 def page(result: Comparisons, drawings: Sequence[Drawing], redo: str) -> str:
@@ -26,35 +25,26 @@ def page(result: Comparisons, drawings: Sequence[Drawing], redo: str) -> str:
     for comparison in comparisons:
         parts += [heading(f"Test by test: {comparison.label}"), comparison_table(comparison)]
         parts += note
-    parts += [heading("Pictures"), *pictures(drawings)]
-    parts += result.remarks
+    parts += [heading("Pictures"), *pictures(drawings), *result.remarks]
     return whole_page(result.title, f"{models}; held against: {first.dataset}, {first.measured_name}.", parts, redo)
 
 
 def comparison_table(comparison: Comparison) -> str:
     """A row per test, with what is beyond its limit marked."""
     unit = comparison.command_unit
-    head = [
-        f"offset {unit}",
-        f"amplitude {unit}",
-        *(f"{c.name.replace(' deviation', '')} ({c.unit})" for c in FREQUENCY_CRITERIA),
-    ]
-    limits = [cell("limit"), cell(""), *(cell(f"{c.limit:g}") for c in FREQUENCY_CRITERIA), cell("")]
-    rows = [_row(test) for test in comparison.tests]
+    head = [f"offset {unit}", f"amplitude {unit}", *criteria.heads(), "verdict"]
+    limits = ["limit", "", *(f"{c.limit:g}" for c in FREQUENCY_CRITERIA), ""]
     source = FREQUENCY_CRITERIA[0].source
     caption = f"{comparison.label}: absolute deviation from {comparison.measured_name}, limits of {source}"
-    return table(caption, [*head, "verdict"], [*rows, limits])
+    return table(caption, head, [*map(_row, comparison.tests), limits])
 
 
 def _row(test: ResponseComparison) -> list[str]:
-    point = [cell(f"{test.measured.test.offset:g}"), cell(f"{test.measured.test.amplitude:g}")]
+    point = [f"{test.measured.test.offset:g}", f"{test.measured.test.amplitude:g}"]
     if not test.deviations:
-        return [*point, *[cell("-")] * len(FREQUENCY_CRITERIA), cell(f"fail: {test.message}", "fail")]
-    numbers = [
-        cell(f"{d.value:.{digits}f}", "" if d.passes else "beyond")
-        for d, digits in zip(test.deviations, _DIGITS, strict=True)
-    ]
-    return [*point, *numbers, cell("pass", "pass") if test.passes else cell("fail", "fail")]
+        return [*point, *["-"] * len(FREQUENCY_CRITERIA), cell(f"fail: {test.message}", "fail")]
+    verdict = "pass" if test.passes else "fail"
+    return [*point, *criteria.cells(test.deviations), cell(verdict, verdict)]
 
 
 def _method(comparisons: Sequence[Comparison]) -> list[str]:
@@ -82,8 +72,9 @@ def _method(comparisons: Sequence[Comparison]) -> list[str]:
 def _conditions(comparisons: Sequence[Comparison]) -> str:
     """What it takes to repeat the runs, a column per parameter set."""
     names = list(dict.fromkeys(name for c in comparisons for name in c.conditions))
-    rows = [[cell(name), *(cell(c.conditions.get(name, "-"), "words") for c in comparisons)] for name in names]
-    return table("Conditions of the runs", ["", *(c.label for c in comparisons)], rows)
+    rows = [[name, *(c.conditions.get(name, "-") for c in comparisons)] for name in names]
+    words = range(1, 1 + len(comparisons))
+    return table("Conditions of the runs", ["", *(c.label for c in comparisons)], rows, words=words)
 
 
 def _parameters(comparisons: Sequence[Comparison]) -> str:
@@ -93,7 +84,6 @@ def _parameters(comparisons: Sequence[Comparison]) -> str:
     for name, unit in units.items():
         values = [f"{c.parameters[name][0]:.10g}" if name in c.parameters else "-" for c in comparisons]
         kind = "differs" if len(set(values)) > 1 else ""
-        rows.append([cell(name), cell(unit), *(cell(value, kind) for value in values)])
-    return table(
-        "Parameters in force; bold: not the same in all sets", ["", "unit", *(c.label for c in comparisons)], rows
-    )
+        rows.append([name, unit, *(cell(value, kind) for value in values)])
+    head = ["", "unit", *(c.label for c in comparisons)]
+    return table("Parameters in force; bold: not the same in all sets", head, rows)

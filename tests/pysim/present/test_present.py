@@ -15,7 +15,7 @@ from pysim.present.fit import Fitted
 from pysim.present.report import VIEWS
 from tests.pysim.fits import small_fit
 
-BASE = {"notes", "page", "plain_text", "render", "report", "style", "ticks"}
+BASE = {"criteria", "notes", "page", "plain_text", "render", "report", "style", "ticks"}
 METHODS = sorted({one.name for one in pkgutil.iter_modules(present.__path__)} - BASE)
 
 
