@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 import math
-import textwrap
 from dataclasses import dataclass
 from typing import Any
 
 from pysim.identify.greybox import Profile
-from pysim.io import json_number
 from pysim.present.notes import direction_words, words
+from pysim.present.plain_text import wrapped
 from pysim.types import Dataset, Estimate, Fit, FitOutcome, RecordFit, ResponseFit
-
-_WIDTH = 100
+from pysim.types.json_number import json_data
 
 
 @dataclass(frozen=True)
@@ -41,11 +39,11 @@ def text(result: Fitted) -> str:
     lines.append(f"  {'parameter':<14}{'estimate':>12}  {'95 % from':>11} {'to':>11}  unit")
     lines += [_row(estimate) for estimate in fit.estimates]
     for direction in fit.undetermined:
-        lines += textwrap.wrap(direction_words(direction), _WIDTH)
+        lines += wrapped(direction_words(direction))
     lines += [f"  {c.name} = {c.value:.5g}, 95 % {c.interval[0]:.5g} to {c.interval[1]:.5g}" for c in fit.combinations]
     lines += [f"  {text}" for text in _left_over(fit)]
     for note in fit.notes:
-        lines += textwrap.wrap(f"Note: {words(note)}", _WIDTH)
+        lines += wrapped(f"Note: {words(note)}")
     lines += [f"Profile of {p.name}: 95 % from {p.interval[0]:.5g} to {p.interval[1]:.5g}" for p in result.profiles]
     return "\n".join(lines)
 
@@ -62,10 +60,15 @@ def gain_text(fit: Fit) -> str:
 
 def _row(estimate: Estimate) -> str:
     low, high = estimate.interval
-    told = f"at its {estimate.at} bound" if estimate.at else "" if estimate.determined else "not determined by itself"
-    return (
-        f"  {estimate.name:<14}{estimate.value:>12.5g}  {low:>11.5g} {high:>11.5g}  {estimate.unit:<7}{told}".rstrip()
-    )
+    row = f"  {estimate.name:<14}{estimate.value:>12.5g}  {low:>11.5g} {high:>11.5g}  {estimate.unit:<7}"
+    return f"{row}{estimate_words(estimate)}".rstrip()
+
+
+def estimate_words(estimate: Estimate) -> str:
+    """What a reader must know of an estimate."""
+    if estimate.at:
+        return f"at its {estimate.at} bound"
+    return "" if estimate.determined else "not determined by itself"
 
 
 def _left_over(fit: Fit) -> list[str]:
@@ -92,77 +95,41 @@ def files(result: Fitted) -> dict[str, str]:
 
 def data(result: Fitted) -> dict[str, Any]:
     """Everything a fit holds but the samples; numbers are finite or None, parameters in the variables' units."""
-    return _data(result.fit) | {"profiles": {p.name: _profile(p) for p in result.profiles}}
+    profiles = {p.name: {"interval": p.interval, "points": p.points} for p in result.profiles}
+    found: dict[str, Any] = json_data({**_data(result.fit), "profiles": profiles})
+    return found
 
 
-def _profile(profile: Profile) -> dict[str, Any]:
-    return {
-        "interval": [json_number(end) for end in profile.interval],
-        "points": [[json_number(v) for v in point] for point in profile.points.tolist()],
-    }
+def _keys(of: object, *names: str) -> dict[str, Any]:
+    return {name: getattr(of, name) for name in names}
 
 
 def _data(fit: Fit) -> dict[str, Any]:
     return {
-        "model": fit.model,
-        "objective": fit.objective,
-        "optimiser": fit.optimiser,
+        **_keys(fit, "model", "objective", "optimiser", "message", "iterations", "cost", "start_cost", "misfit"),
+        **_keys(fit, "values", "covariance", "correlation"),
         "outcome": fit.outcome.name.lower(),
-        "message": fit.message,
         "converged": fit.outcome is FitOutcome.CONVERGED,
-        "iterations": fit.iterations,
-        "cost": json_number(fit.cost),
-        "start_cost": json_number(fit.start_cost),
-        "misfit": json_number(fit.misfit),
-        "values": dict(fit.values),
         "estimates": {e.name: _estimate(e) for e in fit.estimates},
-        "covariance": [[json_number(v) for v in row] for row in fit.covariance.tolist()],
-        "correlation": [[json_number(v) for v in row] for row in fit.correlation.tolist()],
-        "undetermined": [
-            {"exponents": dict(d.exponents), "spread": json_number(d.spread), "words": direction_words(d)}
-            for d in fit.undetermined
-        ],
-        "combinations": [
-            {"name": c.name, "exponents": dict(c.exponents), "value": c.value, "interval": list(c.interval)}
-            for c in fit.combinations
-        ],
+        "undetermined": [{**_keys(d, "exponents", "spread"), "words": direction_words(d)} for d in fit.undetermined],
+        "combinations": [_keys(c, "name", "exponents", "value", "interval") for c in fit.combinations],
         "records": [_record(record) for record in fit.records],
         "responses": [_response(response) for response in fit.responses],
-        "starts": [
-            {
-                "name": s.name,
-                "values": dict(s.values),
-                "first_cost": json_number(s.first_cost),
-                "cost": json_number(s.cost),
-            }
-            for s in fit.starts
-        ],
+        "starts": [_keys(s, "name", "values", "first_cost", "cost") for s in fit.starts],
         "notes": [words(note) for note in fit.notes],
         "note_codes": [note.code.value for note in fit.notes],
     }
 
 
 def _estimate(e: Estimate) -> dict[str, Any]:
-    return {
-        "value": e.value,
-        "unit": e.unit,
-        "start": e.start,
-        "lower": json_number(e.lower),
-        "upper": json_number(e.upper),
-        "std": json_number(e.std),
-        "interval": [json_number(v) for v in e.interval],
-        "at_bound": e.at,
-        "determined": e.determined,
-    }
+    numbers = _keys(e, "value", "unit", "start", "lower", "upper", "std", "interval")
+    return {**numbers, "at_bound": e.at, "determined": e.determined}
 
 
 def _record(record: RecordFit) -> dict[str, Any]:
     return {
-        "dataset": record.dataset,
-        "source": record.source,
-        "kind": record.kind,
-        "use": record.use,
-        "samples": int(record.measured.time.size),
+        **_keys(record, "dataset", "source", "kind", "use"),
+        "samples": record.measured.time.size,
         "rms_over_noise": record.rms,
         "criteria": {
             name: {d.criterion.symbol: {"value": d.value, "limit": d.criterion.limit} for d in deviations}
@@ -172,13 +139,9 @@ def _record(record: RecordFit) -> dict[str, Any]:
 
 
 def _response(response: ResponseFit) -> dict[str, Any]:
-    test = response.comparison.measured.test
     return {
-        "dataset": response.dataset,
-        "use": response.use,
-        "offset": test.offset,
-        "amplitude": test.amplitude,
-        "output": test.output,
+        **_keys(response, "dataset", "use"),
+        **_keys(response.comparison.measured.test, "offset", "amplitude", "output"),
         "criteria": {d.criterion.symbol: float(d.value) for d in response.comparison.deviations},
         "passes": response.comparison.passes,
     }

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from pysim.io import shown_value
-from pysim.present.fit.answer import Fitted, gain_text, outcome_text
+from pysim.present.fit.answer import Fitted, estimate_words, gain_text, outcome_text
 from pysim.present.notes import direction_words, words
 from pysim.present.page import cell, heading, items, paragraph, pictures, table
 from pysim.present.page import page as whole_page
@@ -43,15 +43,14 @@ _METHOD = (
 def _estimates(fit: Fit) -> str:
     rows = []
     for e in fit.estimates:
-        told = f"at its {e.at} bound" if e.at else "" if e.determined else "not determined by itself"
         numbers = (e.value, *e.interval, e.start, e.lower, e.upper)
-        rows.append([cell(e.name), cell(e.unit), *(cell(f"{v:.5g}") for v in numbers), cell(told, "words")])
+        rows.append([e.name, e.unit, *(f"{v:.5g}" for v in numbers), estimate_words(e)])
     head = ["parameter", "unit", "estimate", "95 % from", "to", "start", "lower", "upper", ""]
-    return table("Estimates with 95 percent intervals", head, rows)
+    return table("Estimates with 95 percent intervals", head, rows, words=[8])
 
 
 def _combinations(fit: Fit) -> str:
-    rows = [[cell(c.name), *(cell(f"{v:.5g}") for v in (c.value, *c.interval))] for c in fit.combinations]
+    rows = [[c.name, *(f"{v:.5g}" for v in (c.value, *c.interval))] for c in fit.combinations]
     caption = "Combinations that are determined (product of the parameters' units)"
     return table(caption, ["", "value", "95 % from", "to"], rows)
 
@@ -63,9 +62,9 @@ def _records(fit: Fit) -> str:
             kind = "beyond" if value > 1.5 else ""
             limits = [f"{d.criterion.symbol} {d.value:.2f} {d.criterion.unit}" for d in record.deviations.get(name, ())]
             texts = (record.dataset, record.source, record.use, name)
-            rows.append([*(cell(text, "words") for text in texts), cell(f"{value:.3f}", kind), cell("; ".join(limits))])
+            rows.append([*texts, cell(f"{value:.3f}", kind), "; ".join(limits)])
     head = ["data set", "record", "use", "signal", "residual / noise", "Table 1.4 (limits 2 % and 10 %)"]
-    return table("Root-mean-square residual over the noise", head, rows)
+    return table("Root-mean-square residual over the noise", head, rows, words=range(4))
 
 
 def _responses(fit: Fit, units: Mapping[str, str]) -> str:
@@ -77,8 +76,8 @@ def _responses(fit: Fit, units: Mapping[str, str]) -> str:
         unit = units.get(test.input, only)
         offset, amplitude = (shown_value(value, unit) for value in (test.offset, test.amplitude))
         texts = (response.dataset, response.use, offset, amplitude, test.output)
-        verdict = cell("pass", "pass") if response.comparison.passes else cell("fail", "fail")
+        verdict = "pass" if response.comparison.passes else "fail"
         numbers = [cell(f"{d.value:.2f}", "" if d.passes else "beyond") for d in deviations]
-        rows.append([*(cell(text) for text in texts), *numbers, verdict])
+        rows.append([*texts, *numbers, cell(verdict, verdict)])
         names = [f"{d.criterion.symbol} ({d.criterion.unit}, limit {d.criterion.limit:g})" for d in deviations]
     return table("Frequency responses by thesis Table 1.3", [*head, *names, ""], rows)
