@@ -8,6 +8,7 @@ from itertools import count
 from typing import Any, NamedTuple, TypeVar
 
 from pysim.app.working_point import command_unit, working_point
+from pysim.present.notes import USES
 from pysim.types import Dataset
 
 _Row = dict[str, tuple[float, int]]  # column -> error and number of the log
@@ -63,8 +64,7 @@ def error_maps(stage: Mapping[str, Any], dataset: Dataset) -> list[ErrorMap]:
                 point = _Point(test.command, test.offset, float(test.amplitude or 0.0), signal)
                 _put(sines, point, f"{record['frequency']:g}", cell)
             else:
-                use = "held out" if record["use"] != "fit" else "fitted"
-                _put(logs, f"{record['source']} ({use})", signal, cell)
+                _put(logs, f"{record['source']} ({USES[record['use']]})", signal, cell)
     words = _words([point for point, _ in sines], dataset)
     named = {_repeated(words[point], repeat): sines[point, repeat] for point, repeat in sorted(sines)}
     others = {_repeated(name, repeat): row for (name, repeat), row in logs.items()}

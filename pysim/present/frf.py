@@ -10,7 +10,7 @@ import numpy as np
 
 from pysim.identify import HALF_95, THESIS_REFERENCE_HZ, MeasuredResponse, SinePoint, magnitude_db, standard_deviations
 from pysim.io import shown_unit, shown_value
-from pysim.present.notes import words
+from pysim.present.notes import USES, words
 from pysim.present.page import cell, heading, items, paragraph, pictures, table
 from pysim.present.page import page as whole_page
 from pysim.present.render import Drawing, Picture
@@ -92,8 +92,13 @@ def page(result: Responses, drawings: Sequence[Drawing], redo: str) -> str:
 def _title(one: MeasuredResponse) -> str:
     test = one.response.test
     offset, amplitude = (shown_value(x, one.input_unit) for x in (test.offset, test.amplitude))
-    held_out = ", held out" if one.use != "fit" else ""
-    return f"{test.output} to {test.input} around {offset}, amplitude {amplitude} ({one.response.origin}{held_out})"
+    return (
+        f"{test.output} to {test.input} around {offset}, amplitude {amplitude} ({one.response.origin}{_held_out(one)})"
+    )
+
+
+def _held_out(one: MeasuredResponse) -> str:
+    return "" if one.use == "fit" else f", {USES[one.use]}"
 
 
 def _rows(one: MeasuredResponse, reference_hz: float | None) -> list[tuple[Any, ...]]:
@@ -196,8 +201,7 @@ def _label(one: MeasuredResponse, *, signals: bool) -> str:
     test = one.response.test
     of = f"{test.output} to {test.input}, " if signals else ""
     offset = shown_unit(one.input_unit)[1] * test.offset
-    held_out = ", held out" if one.use != "fit" else ""
-    return f"{of}{offset:+g} ± {shown_value(test.amplitude, one.input_unit)}{held_out}"
+    return f"{of}{offset:+g} ± {shown_value(test.amplitude, one.input_unit)}{_held_out(one)}"
 
 
 def _draw(axes: Sequence[Axes], one: MeasuredResponse, reference_hz: float | None, own: dict[str, Any]) -> Any:

@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 
 from pysim.io import shown_value
-from pysim.types import Direction
+from pysim.types import Direction, Estimate
 from pysim.types.note import Note, NoteCode
 
 _WORDS = {
@@ -119,6 +119,22 @@ _WORDS = {
     ),
     NoteCode.OTHER: "{text}",
 }
+
+
+USES = {"fit": "fitted", "validate": "held out", "test": "unseen"}  # use of a log -> what a model did with it
+
+
+def estimate_words(estimate: Estimate, *, held: bool = False) -> str:
+    """What a reader must know of an estimate.
+
+    Args:
+        held: at its value, as the data give the others in relation to it alone.
+    """
+    if held:
+        return "held: sets the scale of others"
+    if estimate.at:
+        return f"at its {estimate.at} bound"
+    return "" if estimate.determined else "not determined by itself"
 
 
 def direction_words(direction: Direction) -> str:

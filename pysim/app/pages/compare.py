@@ -18,6 +18,7 @@ from pysim.app.parts import Chart, Table, box, button, card, head, live, quantit
 from pysim.app.records import MOST, compared_overlay, measured_overlay, stage_keys
 from pysim.app.working_point import command_unit, response_unit, working_point
 from pysim.present.diagnosis.words import step_name
+from pysim.present.notes import USES
 from pysim.types import Dataset, MeasuredRecord, Record
 
 
@@ -131,7 +132,7 @@ def _record(desk: Desk, view: _View) -> None:
         place.props('id="record"')
         with box("row end"):
             text("h2", source)
-            text("span", "held out" if logs[number].held_out else "fitted", "chip")
+            text("span", USES[logs[number].use], "chip")
         text(
             "p",
             "Drag to zoom, double click for all; with the keyboard: arrows, + and −, 0. Grey holds 95 % of noise.",
@@ -184,7 +185,7 @@ def _row(log: MeasuredRecord, unit: str, errors: list[float | None], count: int)
     """A log with its errors over noise, of which there are cells for so many."""
     told = [quantity(log.offset, unit), quantity(log.amplitude, unit), _told(log.frequency)]
     cells = [_error(value) for value in [*errors, *[None] * (count - len(errors))]]
-    return [log.source, "held out" if log.held_out else "fitted", *told, *cells]
+    return [log.source, USES[log.use], *told, *cells]
 
 
 def _error(value: float | None) -> Any:

@@ -1,9 +1,10 @@
 """A diagnosis, shown: its words, its answer as text and JSON, its page and its pictures."""
 
-from pysim.present.diagnosis.answer import diagnosis_data, diagnosis_text, evidence_text
+from pysim.present.diagnosis.answer import Diagnosed, data, files, placed, relative_files, text, whole
 from pysim.present.diagnosis.figures import (
     candidates_figure,
     error_figure,
+    figures,
     law_figure,
     map_figure,
     overlay_figure,
@@ -11,17 +12,7 @@ from pysim.present.diagnosis.figures import (
     spectrum_figure,
     telling_records,
 )
-from pysim.present.diagnosis.shown import (
-    Diagnosed,
-    data,
-    figures,
-    files,
-    page,
-    placed,
-    relative_files,
-    text,
-    whole,
-)
+from pysim.present.diagnosis.page import page
 from pysim.types import Diagnosis
 
 __all__ = [
@@ -29,10 +20,7 @@ __all__ = [
     "Diagnosis",
     "candidates_figure",
     "data",
-    "diagnosis_data",
-    "diagnosis_text",
     "error_figure",
-    "evidence_text",
     "figures",
     "files",
     "law_figure",

@@ -1,16 +1,19 @@
-"""A diagnosis as text for a terminal, and as JSON with its sentences."""
+"""A diagnosis, or one of its steps, as a command shows it: text for a terminal, JSON with its sentences, and files."""
 
 from __future__ import annotations
 
 import math
-import textwrap
+import os
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, replace
+from pathlib import Path
 
 from pysim.io import shown_value
 from pysim.present.diagnosis.law_words import ABSORBED, law_kind
 from pysim.present.diagnosis.words import (
     UNIT,
     candidates_shown,
+    errors,
     limits_words,
     next_test_sentence,
     share_text,
@@ -21,42 +24,85 @@ from pysim.present.diagnosis.words import (
     verdict_sentence,
 )
 from pysim.present.notes import listed, words
-from pysim.types import Diagnosis, LearnedLaw, answer_data
+from pysim.present.plain_text import wrapped
+from pysim.types import Dataset, Diagnosis, LearnedLaw, answer_data
 
-_WIDTH = 100
 _ROWS = 6  # candidates and laws that are listed
 _KNOTS = 5  # of a curve that are listed
 
 
-def diagnosis_data(diagnosis: Diagnosis, files: Mapping[str, str] | None = None) -> dict[str, object]:
-    """What `--json` writes: the answer, with the verdict and each note in words too.
+@dataclass(frozen=True)
+class Diagnosed:
+    """What was found, and what leads the page.
 
     Args:
-        files: what was written besides, name -> path relative to the JSON file.
-    """
-    notes = [{"code": one.code.value, "values": dict(one.values), "text": words(one)} for one in diagnosis.notes]
-    return {**answer_data(diagnosis, files), "reason": verdict_sentence(diagnosis), "notes": notes}
-
-
-def diagnosis_text(diagnosis: Diagnosis, answer: str = "") -> str:
-    """The answer, then the evidence.
-
-    Args:
+        dataset: of which the records are; None where only the answer is at hand.
+        title: model and data, for the line below the heading.
+        question: the heading.
         answer: a sentence or two; the verdict where empty.
+        files: what lies beside the page, name -> path relative to it, or to the JSON file once all is placed.
     """
-    verdict = [f"Verdict: {diagnosis.verdict}", *_wrapped(verdict_sentence(diagnosis), "  ")]
-    head = textwrap.wrap(answer, _WIDTH) if answer else verdict
-    return "\n".join([*head, "", evidence_text(diagnosis)])
+
+    found: Diagnosis
+    dataset: Dataset | None = None
+    title: str = ""
+    question: str = "Which effect is missing?"
+    answer: str = ""
+    files: Mapping[str, str] = field(default_factory=dict)
 
 
-def _wrapped(text: str, indent: str = "") -> list[str]:
-    return textwrap.wrap(text, _WIDTH, initial_indent=indent, subsequent_indent="  ")
+def whole(result: Diagnosis | Diagnosed) -> Diagnosed:
+    """An answer with its question."""
+    if isinstance(result, Diagnosed):
+        return result
+    names = [result.conditions[key] for key in ("model", "data set") if key in result.conditions]
+    return Diagnosed(result, title=", ".join(names))
 
 
-def evidence_text(diagnosis: Diagnosis) -> str:
-    """Sizes, error by step, fit by signal, candidates, laws, ties with the test that would settle them, and notes."""
-    parts = [_effects, _history, _signals, _candidates, _detectable, _laws, _open]
-    return "\n\n".join("\n".join(lines) for lines in (list(part(diagnosis)) for part in parts) if lines)
+def text(result: Diagnosed) -> str:
+    """The answer, then sizes, error by step, fit by signal, candidates, laws, what is open, and notes."""
+    found = result.found
+    verdict = [f"Verdict: {found.verdict}", *_indented(verdict_sentence(found), "  ")]
+    head = "\n".join(wrapped(result.answer) if result.answer else verdict)
+    parts = (_effects, _history, _signals, _candidates, _detectable, _laws, _open)
+    return "\n\n".join([head, *filter(None, ("\n".join(part(found)) for part in parts))])
+
+
+def data(result: Diagnosed) -> dict[str, object]:
+    """The answer, with the verdict and each note in words too; every number is finite or None."""
+    found = result.found
+    notes = [{"code": one.code.value, "values": dict(one.values), "text": words(one)} for one in found.notes]
+    return {**answer_data(found, result.files), "reason": verdict_sentence(found), "notes": notes}
+
+
+def files(result: Diagnosed) -> dict[str, str]:
+    """The plan of the next test, where there is one."""
+    plan = result.found.next_test.plan if result.found.next_test is not None else ""
+    return {"next_test.toml": plan} if plan else {}
+
+
+def placed(result: Diagnosed, written: Mapping[str, Path], home: Path) -> Diagnosed:
+    """The same with all files of its report, relative to another folder.
+
+    Args:
+        written: of the report, as `write_report` gives them.
+        home: the folder of the JSON file.
+    """
+    folder = written["report"].parent
+    paths = {"report": written["report"], **{name: folder / one for name, one in result.files.items()}}
+    for name in files(result):
+        paths["plan"] = folder / name
+    paths |= {f"picture {name}": path for name, path in written.items() if path.suffix == ".png"}
+    return replace(result, files=relative_files(paths, home))
+
+
+def relative_files(files: Mapping[str, Path], folder: Path) -> dict[str, str]:
+    """Paths relative to a folder, with slashes."""
+    return {name: Path(os.path.relpath(path.resolve(), folder.resolve())).as_posix() for name, path in files.items()}
+
+
+def _indented(text: str, first: str = "") -> list[str]:
+    return wrapped(text, first, "  ")
 
 
 def _effects(diagnosis: Diagnosis) -> Iterator[str]:
@@ -73,8 +119,7 @@ def _history(diagnosis: Diagnosis) -> Iterator[str]:
     if diagnosis.history:
         yield f"Residual by step, in {UNIT} (1: noise alone)"
     for step in diagnosis.history:
-        values = (("fitted", step.fit), ("held out", step.validate), ("unseen", step.test))
-        numbers = "".join(f"  {what} {size_text(value):>7}" for what, value in values if value is not None)
+        numbers = "".join(f"  {use} {size_text(value):>7}" for use, value in errors(step).items())
         yield f"  {step_name(step.step):<20}{numbers}  {limits_words(step)}"
 
 
@@ -134,8 +179,8 @@ def _curve(law: LearnedLaw) -> Iterator[str]:
 
 def _open(diagnosis: Diagnosis) -> Iterator[str]:
     for group in diagnosis.ties:
-        yield from _wrapped(f"These data cannot tell apart: {listed(group)}.")
+        yield from _indented(f"These data cannot tell apart: {listed(group)}.")
     if diagnosis.next_test is not None:
-        yield from _wrapped(f"Next test: {next_test_sentence(diagnosis.next_test)}")
+        yield from _indented(f"Next test: {next_test_sentence(diagnosis.next_test)}")
     for note in diagnosis.notes:
-        yield from _wrapped(f"Note: {words(note)}")
+        yield from _indented(f"Note: {words(note)}")

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 from pysim.identify.accuracy import FREQUENCY_CRITERIA, TIME_CRITERIA
 from pysim.io import shown_value
+from pysim.present.diagnosis.answer import Diagnosed, files
 from pysim.present.diagnosis.law_words import law_kind, law_sentence
 from pysim.present.diagnosis.words import (
     BEYOND,
@@ -14,7 +15,6 @@ from pysim.present.diagnosis.words import (
     chance_text,
     limits_words,
     next_test_sentence,
-    remark,
     share_text,
     signal_rows,
     size_text,
@@ -22,13 +22,12 @@ from pysim.present.diagnosis.words import (
     step_name,
     verdict_sentence,
 )
-from pysim.present.notes import direction_words, listed, words
-from pysim.present.page import cell, commands, heading, items, page, paragraph, picture, statement, table
-from pysim.types import Diagnosis, ErrorStep, Estimate, FoundEffect, LearnedLaw, Rival
+from pysim.present.notes import USES, direction_words, estimate_words, listed, words
+from pysim.present.page import cell, commands, heading, items, paragraph, pictures, statement, table
+from pysim.present.page import page as whole_page
+from pysim.present.render import Drawing
+from pysim.types import Diagnosis, ErrorStep, Estimate, FoundEffect, Rival
 from pysim.types.answer import REFIT
-
-# Section of the page -> SVG by caption.
-Pictures = Mapping[str, Mapping[str, bytes]]
 
 _CRITERIA = (*FREQUENCY_CRITERIA, *TIME_CRITERIA)
 _WORST = 15  # places listed
@@ -40,35 +39,19 @@ _METHOD = (
 )
 
 
-def diagnosis_page(
-    diagnosis: Diagnosis,
-    *,
-    title: str,
-    pictures: Pictures,
-    redo: str,
-    files: Mapping[str, str] | None = None,
-    question: str = "Which effect is missing?",
-    answer: str = "",
-) -> str:
-    """The verdict and the error, what was added or learned, then the evidence and the conditions.
-
-    Args:
-        title: model and data, for the line below the heading.
-        pictures: by section: "error", "records", "where", "learned", "candidates", "parameters".
-        redo: the command line that makes it again; "" where there is none.
-        files: what was written besides, name -> path relative to the page.
-        question, answer: the heading, and what leads the page; the verdict where empty.
-    """
+def page(result: Diagnosed, drawings: Sequence[Drawing], redo: str) -> str:
+    """The verdict and the error, what was added or learned, then the evidence and the conditions."""
+    diagnosis = result.found
 
     def section(name: str, title: str, *more: str) -> list[str]:
         """Pictures and what stands below them; nothing where there is nothing to show."""
-        drawn = [picture(svg, caption) for caption, svg in pictures.get(name, {}).items()]
+        drawn = pictures(one for one in drawings if name and one.section == name)
         shown = [part for part in (*drawn, *more) if part]
         return [*([heading(title)] if title else []), *shown] if shown else []
 
     refitted = diagnosis.base is not None and diagnosis.base.step == REFIT
     test, history = diagnosis.next_test, diagnosis.history
-    parts = [statement(answer or verdict_sentence(diagnosis)), *section("error", "", _history(history))]
+    parts = [statement(result.answer or verdict_sentence(diagnosis)), *section("error", "", _history(history))]
     parts += _effects(diagnosis.effects)
     parts += section("learned", "What the data say of the missing law", *_laws(diagnosis))
     parts += section("records", "Measured and simulated", _signals(history[-1]) if history else "")
@@ -85,9 +68,10 @@ def diagnosis_page(
         parts += section("", "What to bear in mind", items(map(words, diagnosis.notes)))
     conditions = {**diagnosis.conditions, **{f"time for {k}": f"{v:.1f} s" for k, v in diagnosis.seconds.items()}}
     lines = [f"{name}: {text}" for name, text in conditions.items()]
-    lines += ["files beside this page: " + ", ".join(files.values())] if files else []
+    beside = [*result.files.values(), *files(result)]
+    lines += [f"files beside this page: {', '.join(beside)}"] if beside else []
     parts += section("", "Conditions", items(lines), paragraph(_METHOD))
-    return page(question, title, parts, redo)
+    return whole_page(result.question, result.title, parts, redo)
 
 
 def _effects(effects: Sequence[FoundEffect]) -> list[str]:
@@ -102,42 +86,35 @@ def _effects(effects: Sequence[FoundEffect]) -> list[str]:
         parts += [commands(effect.law)] if effect.law else []
         share = "" if one.share is None else share_text(one.share)
         for name, value, (low, high), unit in sizes(one):
-            texts = (f"{value:.5g}", f"{low:.5g}", f"{high:.5g}")
-            rows.append([cell(effect.name, "words"), cell(name), *(cell(t) for t in texts), cell(unit), cell(share)])
+            texts = [f"{v:.5g}" for v in (value, low, high)]
+            rows.append([effect.name, name, *texts, unit, share])
     head = ["effect", "parameter", "value", "95 % from", "to", "unit", "of the misfit"]
-    return [*parts, table("Sizes that the measurements give", head, rows)]
+    return [*parts, table("Sizes that the measurements give", head, rows, words=[0])]
 
 
 def _laws(diagnosis: Diagnosis) -> list[str]:
     if not diagnosis.laws:
         return []
-    rows = [
-        [cell(x.slot), cell(law_kind(x), "words"), cell(x.argument), cell(share_text(x.share)), _formula(x)]
-        for x in diagnosis.laws
-    ]
+    rows = [[x.slot, law_kind(x), x.argument, share_text(x.share), x.formula or "none found"] for x in diagnosis.laws]
     head = ["place", "what", "depends on", "of the misfit", "formula"]
     classes = [law.modelica for law in diagnosis.laws[:1] if law.modelica]
     first = law_sentence(diagnosis.laws[0])
-    return [paragraph(first), table("The best law at each place", head, rows), *map(commands, classes)]
-
-
-def _formula(law: LearnedLaw) -> str:
-    return cell(law.formula or "none found", "words")
+    return [paragraph(first), table("The best law at each place", head, rows, words=[1, 4]), *map(commands, classes)]
 
 
 def _signals(step: ErrorStep) -> str:
     rows = [
         [
-            cell(name, "words"),
-            cell(use),
+            name,
+            use,
             cell(size_text(residual), "beyond" if residual > BEYOND else ""),
-            cell("" if math.isnan(percent) else f"{percent:.1f}"),
-            cell(shown_value(rms, unit, ".3g")),
+            "" if math.isnan(percent) else f"{percent:.1f}",
+            shown_value(rms, unit, ".3g"),
         ]
         for name, use, residual, percent, rms, unit in signal_rows(step)
     ]
     head = ["signal", "logs", "residual over noise", "fit (%)", "rms residual"]
-    return table(f"Signals of the model {step_name(step.step)}", head, rows) if rows else ""
+    return table(f"Signals of the model {step_name(step.step)}", head, rows, words=[0]) if rows else ""
 
 
 def _where(diagnosis: Diagnosis) -> str:
@@ -147,10 +124,10 @@ def _where(diagnosis: Diagnosis) -> str:
     for f in diagnosis.failures[:_WORST]:
         end = after.get((f.record, f.signal, f.region))
         kind = "beyond" if f.error > BEYOND else ""
-        numbers = [cell(size_text(f.error), kind), *([cell("" if end is None else size_text(end))] if last else [])]
-        rows.append([*(cell(text, "words") for text in (f.record, f.signal, f.region)), *numbers])
+        at_the_end = ["" if end is None else size_text(end)] if last else []
+        rows.append([f.record, f.signal, f.region, cell(size_text(f.error), kind), *at_the_end])
     head = ["record", "signal", "region", "before" if last else "residual", *(["at the end"] if last else [])]
-    return table("Residual over noise, the worst places first", head, rows) if rows else ""
+    return table("Residual over noise, the worst places first", head, rows, words=range(3)) if rows else ""
 
 
 def _candidates(diagnosis: Diagnosis) -> list[str]:
@@ -159,17 +136,14 @@ def _candidates(diagnosis: Diagnosis) -> list[str]:
     texts = [f"These data cannot tell apart: {listed(group)}." for group in diagnosis.ties]
     head = ["effects", "of the misfit", "gain less penalty (nats)", "by chance", "how", "sizes there"]
     rows = [_candidate(row) for row in candidates_shown(diagnosis)]
-    return [
-        *(paragraph(text, note=True) for text in texts),
-        table("Candidates beside the base model, and what improves a model with effects", head, rows),
-    ]
+    caption = "Candidates beside the base model, and what improves a model with effects"
+    return [*(paragraph(text, note=True) for text in texts), table(caption, head, rows, words=[0, 5])]
 
 
 def _candidate(row: Rival) -> list[str]:
     sizes_there = ", ".join(f"{name} {value:.4g}" for name, value in row.parameters.items())
     texts = (share_text(row.explained), f"{row.score:,.1f}", chance_text(row.p_value))
-    how = "refitted" if row.refitted else "screened only"
-    return [cell(" + ".join(row.effects), "words"), *(cell(t) for t in texts), cell(how), cell(sizes_there, "words")]
+    return [" + ".join(row.effects), *texts, "refitted" if row.refitted else "screened only", sizes_there]
 
 
 def _parameters(diagnosis: Diagnosis) -> list[str]:
@@ -187,16 +161,16 @@ def _parameters(diagnosis: Diagnosis) -> list[str]:
     head += ["at the end", "95 % from", "to", "moved by", ""] if last else [""]
     caption = "Fitted parameters; moves in half widths of the interval at the end"
     scale = [direction_words(d) for d in open_]
-    return [paragraph(pushed) if pushed else "", table(caption, head, rows), *(paragraph(text) for text in scale)]
+    shown = table(caption, head, rows, words=[len(head) - 1])
+    return [paragraph(pushed) if pushed else "", shown, *(paragraph(text) for text in scale)]
 
 
 def _parameter(before: Estimate, after: Estimate | None, move: float | None, held: bool) -> list[str]:
-    cells = [cell(before.name), cell(before.unit), cell(f"{before.start:.5g}")]
-    cells += [cell(f"{v:.5g}") for v in (before.value, *before.interval)]
+    cells = [before.name, before.unit, *(f"{v:.5g}" for v in (before.start, before.value, *before.interval))]
     if after is not None:
-        cells += [cell(f"{v:.5g}") for v in (after.value, *after.interval)]
+        cells += [f"{v:.5g}" for v in (after.value, *after.interval)]
         cells.append(cell("" if move is None else f"{move:.1f}", "beyond" if move is not None and move > 1 else ""))
-    return [*cells, cell(remark(after or before, held=held), "words")]
+    return [*cells, estimate_words(after or before, held=held)]
 
 
 def _history(steps: Sequence[ErrorStep]) -> str:
@@ -205,14 +179,14 @@ def _history(steps: Sequence[ErrorStep]) -> str:
     rows = []
     for step in steps:
         values = (step.fit, step.validate, *((step.test,) if unseen else ()))
-        numbers = [cell("" if v is None else size_text(v)) for v in values]
+        numbers = ["" if v is None else size_text(v) for v in values]
         for criterion in shown:
             value = step.criteria.get(criterion.symbol)
             kind = "" if value is None or value <= criterion.limit else "beyond"
             numbers.append(cell("" if value is None else f"{value:.3g}", kind))
         kind = "" if not (step.criteria or step.not_simulated) else "pass" if step.passes else "fail"
-        rows.append([cell(step_name(step.step), "words"), *numbers, cell(limits_words(step), kind)])
-    head = ["model", "fitted", "held out", *(["unseen"] if unseen else [])]
+        rows.append([step_name(step.step), *numbers, cell(limits_words(step), kind)])
+    head = ["model", *[*USES.values()][: 3 if unseen else 2]]
     head += [f"{c.name} ({c.unit}, limit {c.limit:g})" for c in shown]
     caption = "Residual over noise (1: noise alone); worst value of each criterion of thesis Tables 1.3 and 1.4"
-    return table(caption, [*head, "limits"], rows) if rows else ""
+    return table(caption, [*head, "limits"], rows, words=[0]) if rows else ""

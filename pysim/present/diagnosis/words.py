@@ -10,8 +10,8 @@ import numpy as np
 from pysim.identify.accuracy import FREQUENCY_CRITERIA, TIME_CRITERIA
 from pysim.io import counted
 from pysim.present.diagnosis.law_words import law_sentence
-from pysim.present.notes import listed
-from pysim.types import Criterion, Diagnosis, ErrorStep, Estimate, FoundEffect, NextTest, NoteCode, Rival
+from pysim.present.notes import USES, listed
+from pysim.types import Criterion, Diagnosis, ErrorStep, FoundEffect, Left, NextTest, NoteCode, Rival
 from pysim.types.answer import NONE, PRIOR, REFIT, UNKNOWN
 
 UNIT = "standard deviations of the noise"
@@ -23,6 +23,16 @@ _UNITS = {"%": "% of full scale", "deg": "degrees"}
 def step_name(step: str) -> str:
     """A step of the error history as people call it."""
     return {PRIOR: "as it is", REFIT: "refitted"}.get(step, f"+ {step}")
+
+
+def errors(step: ErrorStep | Left) -> dict[str, float]:
+    """The residual on the logs of each use, as far as there are any."""
+    values = (step.fit, step.validate, step.test if isinstance(step, ErrorStep) else None)
+    return {use: value for use, value in zip(USES.values(), values, strict=True) if value is not None}
+
+
+def _on_logs(use: str) -> str:
+    return f"on {use.replace(' ', '-')} logs"
 
 
 def verdict_sentence(diagnosis: Diagnosis) -> str:
@@ -48,9 +58,7 @@ def verdict_sentence(diagnosis: Diagnosis) -> str:
 def _left(diagnosis: Diagnosis) -> str:
     """How large the residual is, and whether it follows the signals."""
     left = diagnosis.left
-    parts = [
-        f"{value:.2f} on {what} logs" for what, value in (("fitted", left.fit), ("held-out", left.validate)) if value
-    ]
+    parts = [f"{value:.2f} {_on_logs(use)}" for use, value in errors(left).items() if value]
     size = f"The residual is {listed(parts)}, in {UNIT}." if parts else "Only frequency responses were compared."
     if diagnosis.complete or left.share_explained is None:
         return size
@@ -68,8 +76,7 @@ def comparison_sentence(diagnosis: Diagnosis) -> str:
 
 def _step_text(step: ErrorStep) -> str:
     who = {PRIOR: "As it is, the model", REFIT: "Refitted, it"}.get(step.step, f"With {step.step}, it")
-    values = (("fitted", step.fit), ("held-out", step.validate))
-    parts = [f"{size_text(value)} on {what} logs" for what, value in values if value is not None]
+    parts = [f"{size_text(value)} {_on_logs(use)}" for use, value in errors(step).items()]
     left = f"leaves a residual of {listed(parts)}, in {UNIT}" if parts else "is judged by frequency responses alone"
     return f"{who} {left}. {limits_sentence(step)}"
 
@@ -198,28 +205,25 @@ def _fall(steps: Sequence[ErrorStep]) -> str:
     if len(steps) < 2:
         return ""
     base, last = next((s for s in steps if s.step == REFIT), steps[0]), steps[-1]
-    parts = [
-        f"from {size_text(before)} to {size_text(after)} on {what} logs"
-        for what, before, after in (("fitted", base.fit, last.fit), ("held-out", base.validate, last.validate))
-        if before is not None and after is not None
-    ]
-    if not parts:
+    ends = errors(last)
+    pairs = {use: (before, ends[use]) for use, before in errors(base).items() if use in ends}
+    if not pairs:
         return ""
-    pairs = ((base.fit, last.fit), (base.validate, last.validate))
-    falls = all(before is None or after is None or after <= before for before, after in pairs)
+    parts = [f"from {size_text(one)} to {size_text(other)} {_on_logs(use)}" for use, (one, other) in pairs.items()]
+    falls = all(after <= before for before, after in pairs.values())
     who, verb = "it" if len(steps) < 4 else "them", "falls" if falls else "goes"
     return f"With {who} the residual {verb} {listed(parts)}, in {UNIT}."
 
 
 def signal_rows(step: ErrorStep) -> list[tuple[str, str, float, float, float, str]]:
-    """Signal, "fitted" or "held out", residual over noise, fit in percent, rms residual and its unit, over all logs."""
+    """Signal, use of the logs, residual over noise, fit in percent, rms residual and its unit, over all logs."""
     sums: dict[tuple[str, str], list[float]] = {}
     units: dict[str, str] = {}
     for record in step.records:
         measured, residual = record.measured.values, record.measured.values - record.simulated.values
         for j, name in enumerate(record.measured.names):
             units.setdefault(name, record.measured.units[j])
-            own = sums.setdefault((name, "held out" if record.held_out else "fitted"), [0.0] * 4)
+            own = sums.setdefault((name, USES[record.use]), [0.0] * 4)
             own[0] += float(np.sum((residual[:, j] / record.noise[j]) ** 2))
             own[1] += float(np.sum(residual[:, j] ** 2))
             own[2] += float(np.sum((measured[:, j] - measured[:, j].mean()) ** 2))
@@ -240,15 +244,6 @@ def sizes(one: FoundEffect) -> list[tuple[str, float, tuple[float, float], str]]
             high, low = (1 / v if v else math.inf for v in e.interval)
             found.append((parameter.inverse, parameter.reported(e.value)[1], (low, high), f"1/({e.unit})"))
     return found
-
-
-def remark(estimate: Estimate, *, held: bool = False) -> str:
-    """What a reader must know of an estimate."""
-    if held:
-        return "held: sets the scale of others"
-    if estimate.at:
-        return f"at its {estimate.at} bound"
-    return "" if estimate.determined else "not determined by itself"
 
 
 def size_text(value: float) -> str:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from pysim.identify.greybox import Profile
-from pysim.present.notes import direction_words, words
+from pysim.present.notes import direction_words, estimate_words, words
 from pysim.present.plain_text import wrapped
 from pysim.types import Dataset, Estimate, Fit, FitOutcome, RecordFit, ResponseFit
 from pysim.types.json_number import json_data
@@ -62,13 +62,6 @@ def _row(estimate: Estimate) -> str:
     low, high = estimate.interval
     row = f"  {estimate.name:<14}{estimate.value:>12.5g}  {low:>11.5g} {high:>11.5g}  {estimate.unit:<7}"
     return f"{row}{estimate_words(estimate)}".rstrip()
-
-
-def estimate_words(estimate: Estimate) -> str:
-    """What a reader must know of an estimate."""
-    if estimate.at:
-        return f"at its {estimate.at} bound"
-    return "" if estimate.determined else "not determined by itself"
 
 
 def _left_over(fit: Fit) -> list[str]:

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from pysim.io import shown_value
-from pysim.present.fit.answer import Fitted, estimate_words, gain_text, outcome_text
-from pysim.present.notes import direction_words, words
+from pysim.present.fit.answer import Fitted, gain_text, outcome_text
+from pysim.present.notes import direction_words, estimate_words, words
 from pysim.present.page import cell, heading, items, paragraph, pictures, table
 from pysim.present.page import page as whole_page
 from pysim.present.render import Drawing

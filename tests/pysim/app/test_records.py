@@ -6,13 +6,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from pysim import present
 from pysim.app.answers import Answers, history
 from pysim.app.figures import error_figure, parameters_figure
 from pysim.app.jobs import ANSWER, RECORDS
 from pysim.app.project import Project
 from pysim.app.records import compared_overlay, measured_overlay, stage_keys
 from pysim.io import write_stages
-from pysim.present.diagnosis.answer import diagnosis_data
 from tests.pysim.diagnosis_answer import dataset, found_offset
 
 
@@ -22,7 +22,7 @@ def project(tmp_path: Path) -> Project:
     project = Project.at(tmp_path / "project")
     folder = project.results("diagnose")
     folder.mkdir(parents=True)
-    (folder / ANSWER).write_text(json.dumps(diagnosis_data(found_offset())))
+    (folder / ANSWER).write_text(json.dumps(present.data(found_offset())))
     write_stages(folder / RECORDS, found_offset().history)
     work = {"name": "diagnose", "title": "Find", "words": ["diagnose"], "effects": []}
     head = {"work": work, "state": "done", "begun": 1.0, "ended": 2.0, "message": ""}
@@ -69,7 +69,7 @@ def test_before_anything_was_compared_the_log_alone_is_shown() -> None:
 
 
 def test_the_picture_of_the_error_shows_every_error_and_what_is_being_worked_on() -> None:
-    steps = diagnosis_data(found_offset())["error"]
+    steps = present.data(found_offset())["error"]
     figure = error_figure(steps, doing="<b>screening</b>")  # type: ignore[arg-type]
     told = [note["text"] for note in figure["layout"]["annotations"]]
     assert told[:6] == ["<b>8.10</b>", "<b>8.00</b>", "<b>4.20</b>", "<b>3.20</b>", "<b>1.01</b>", "<b>1.00</b>"]

@@ -15,13 +15,13 @@ from urllib.parse import urlsplit
 
 import pytest
 
+from pysim import present
 from pysim.app.answers import Answer
 from pysim.app.jobs import DONE, Job, Work
 from pysim.app.lock import held
 from pysim.app.server import free_port, overlay_of, page_address, serve
 from pysim.app.upload import Limits
 from pysim.io import read_stages, write_stages
-from pysim.present.diagnosis.answer import diagnosis_data
 from pysim.types import BadInput
 from tests.pysim.app.browser import Show, asked, base, server
 from tests.pysim.diagnosis_answer import dataset, found_offset
@@ -32,7 +32,7 @@ _WAVE = 2  # number of the log wave.txt in the data set
 def test_a_record_whose_result_was_removed_meanwhile_is_none(tmp_path: Path) -> None:
     write_stages(tmp_path / "a.npz", found_offset().history)
     job = Job(Work("diagnose", "Find", ("diagnose",)), DONE, 1.0, 2.0, "")
-    answer = Answer(job, tmp_path, diagnosis_data(found_offset()), read_stages(tmp_path / "a.npz"))
+    answer = Answer(job, tmp_path, present.data(found_offset()), read_stages(tmp_path / "a.npz"))
     check, answers = SimpleNamespace(dataset=dataset()), SimpleNamespace(all=(answer,))
     desk: Any = SimpleNamespace(loaded=SimpleNamespace(check=check), answers=answers)
     overlay = overlay_of(desk, "diagnose", _WAVE)
@@ -60,7 +60,7 @@ def test_of_two_records_of_one_file_the_one_that_was_asked_for_is_given(tmp_path
         data: Any = logs[_WAVE].data
         logs[k] = replace(logs[_WAVE], source="a.tdms", data=replace(data, names=("F", name)))
     job = Job(Work("diagnose", "Find", ("diagnose",)), DONE, 1.0, 2.0, "")
-    answer = Answer(job, tmp_path, diagnosis_data(found_offset()), read_stages(tmp_path / "a.npz"))
+    answer = Answer(job, tmp_path, present.data(found_offset()), read_stages(tmp_path / "a.npz"))
     check = SimpleNamespace(dataset=replace(dataset(), records=tuple(logs)))
     desk: Any = SimpleNamespace(loaded=SimpleNamespace(check=check), answers=SimpleNamespace(all=(answer,)))
     for k, name in names.items():

@@ -31,10 +31,10 @@ def diagnosed(undrawn: None, rubbing: Path, toy: list[str], tmp_path_factory: py
 @pytest.fixture(scope="session")
 def compared(rubbing: Path, toy: list[str], tmp_path_factory: pytest.TempPathFactory) -> Ran:
     """`pysim compare --refit`; nothing is plotted."""
-    from pysim.present.diagnosis import shown
+    from pysim.present import diagnosis
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(shown, "pictures", lambda found, dataset: iter(()))
+        patch.setattr(diagnosis, "figures", lambda result: iter(()))
         return ran(["compare", str(rubbing), *toy, "--refit"], tmp_path_factory.mktemp("compared"))
 
 

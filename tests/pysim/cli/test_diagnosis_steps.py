@@ -16,7 +16,7 @@ from pysim.cli.outputs import CHECKPOINT, MARKER
 from pysim.diagnosis import error_history
 from pysim.identify.greybox.comparison import Compared
 from pysim.io import read_model, write_dataset
-from pysim.present.diagnosis import shown
+from pysim.present import diagnosis
 from pysim.types import FrequencyResponse, MeasuredRecord, Note, NoteCode, ProgressEvent, SineTest
 from tests.pysim.cli.ran import Ran, refused
 from tests.pysim.diagnosis_answer import found_offset
@@ -26,7 +26,7 @@ from tests.toy import measured
 @pytest.fixture
 def unpictured(monkeypatch: pytest.MonkeyPatch) -> None:
     """Nothing is plotted either."""
-    monkeypatch.setattr(shown, "pictures", lambda found, dataset: iter(()))
+    monkeypatch.setattr(diagnosis, "figures", lambda result: iter(()))
 
 
 def stopped_at(step: str) -> Callable[[Live, ProgressEvent], None]:

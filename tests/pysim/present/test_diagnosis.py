@@ -3,15 +3,16 @@
 import json
 import math
 import re
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import pytest
 
-from pysim.present.diagnosis.answer import diagnosis_data, diagnosis_text, evidence_text
+from pysim.present import Drawing, data, diagnosis, text
+from pysim.present.diagnosis import Diagnosed
 from pysim.present.diagnosis.law_words import ABSORBED, law_kind, law_sentence
-from pysim.present.diagnosis.page import diagnosis_page
 from pysim.present.diagnosis.words import (
     added_sentence,
     comparison_sentence,
@@ -82,10 +83,10 @@ def test_a_law_is_called_by_what_its_unit_says(factor: str, unit: str, kind: str
 def test_an_unknown_that_was_learned_is_first_said_in_words() -> None:
     law = replace(LAW, slot="damper", factor="v", argument="x", unit="N.s/m", held_out=(3.2, 1.6))
     found = nothing(complete=False, learned=(law,))
-    for text in (verdict_sentence(found), learned_sentence(found)):
-        assert text.startswith("The damping at damper is not constant: it depends on x.")
-        assert numbers(text)[:1] == [97.0]
-        assert [n for n in numbers(text) if n in (3.2, 1.6)][:2] == [3.2, 1.6]  # held-out error before and after
+    for said in (verdict_sentence(found), learned_sentence(found)):
+        assert said.startswith("The damping at damper is not constant: it depends on x.")
+        assert numbers(said)[:1] == [97.0]
+        assert [n for n in numbers(said) if n in (3.2, 1.6)][:2] == [3.2, 1.6]  # held-out error before and after
     assert LAW.formula in verdict_sentence(found)
     assert "Nothing but noise is left" not in verdict_sentence(found)
     assert "Nothing but noise is left" in verdict_sentence(replace(found, complete=True))
@@ -95,19 +96,19 @@ def test_learned_laws_are_listed_by_place_and_share_with_the_curve_of_the_first(
     other = replace(LAW, slot="supply", share=0.12)
     found = nothing(complete=False, learned=(LAW, other))
     assert [numbers(learned_sentence(found))[k] for k in (0, -1)] == [97.0, 12.0]
-    text = evidence_text(found)
-    assert text.index("force: force over v") < text.index("supply: force over v")
-    (row,) = (line for line in text.splitlines() if "v = 600 mm/s" in line)
+    shown = text(found)
+    assert shown.index("force: force over v") < shown.index("supply: force over v")
+    (row,) = (line for line in shown.splitlines() if "v = 600 mm/s" in line)
     assert "-0.4 N (-0.498 N to -0.302 N)" in row
     slope = replace(LAW, absorbed=LAW.knots[:, None])  # any amount of it may be added without a trace in the data
-    assert ABSORBED in evidence_text(nothing(learned=(slope,)))
-    assert ABSORBED not in text
+    assert ABSORBED in text(nothing(learned=(slope,)))
+    assert ABSORBED not in shown
 
 
 def test_sizes_of_effects_have_units_where_there_are_some() -> None:
     for unit, told in (("N", "F_o = 0.5 N,"), ("1", "F_o = 0.5,")):
         effect = FoundEffect(OFFSET, "force", (estimate("F_o", 0.5, 0.1, unit=unit),))
-        (line,) = (line for line in diagnosis_text(found_offset(effects=(effect,))).splitlines() if "F_o" in line)
+        (line,) = (line for line in text(found_offset(effects=(effect,))).splitlines() if "F_o" in line)
         assert told in line
         assert numbers(line)[-2:] == [0.4, 0.6]
 
@@ -131,9 +132,9 @@ def test_each_signal_has_one_residual_one_fit_and_one_rms_in_its_unit() -> None:
 
 
 def test_the_next_test_is_said_with_what_it_separates() -> None:
-    for text in (evidence_text(found_offset(next_test=TEST)), page(found_offset(next_test=TEST))):
-        assert TEST.about in " ".join(text.split())
-        assert 42.0 in numbers(text)
+    for shown in (text(found_offset(next_test=TEST)), page(found_offset(next_test=TEST))):
+        assert TEST.about in " ".join(shown.split())
+        assert 42.0 in numbers(shown)
 
 
 def test_the_steps_alone_say_their_numbers() -> None:
@@ -169,37 +170,38 @@ def test_each_table_has_its_own_verdict_with_numbers_and_limits(
 ) -> None:
     one = ErrorStep("prior", 1.02, None, None, criteria, met, 1.0, not_simulated=failed)
     assert numbers(limits_sentence(one)) == told
-    for text in (evidence_text(found_offset(history=(one,))), page(found_offset(history=(one,)))):
-        assert verdicts in text
+    for shown in (text(found_offset(history=(one,))), page(found_offset(history=(one,)))):
+        assert verdicts in shown
 
 
 def test_json_has_each_sentence_beside_its_numbers() -> None:
-    data = json.loads(json.dumps(diagnosis_data(found_offset(next_test=TEST), {"report": "r.html"})))
-    assert data["reason"] == verdict_sentence(found_offset())
-    assert data["notes"][0]["code"] == "noise_estimated"
-    assert "500 mm" in data["notes"][0]["text"]
-    assert data["next_test"]["separates"] == ["toy.offset", "toy.twin"]
-    assert data["files"] == {"report": "r.html"}
+    result = Diagnosed(found_offset(next_test=TEST), files={"report": "r.html"})
+    written = json.loads(json.dumps(data(result)))
+    assert written["reason"] == verdict_sentence(found_offset())
+    assert written["notes"][0]["code"] == "noise_estimated"
+    assert "500 mm" in written["notes"][0]["text"]
+    assert written["next_test"]["separates"] == ["toy.offset", "toy.twin"]
+    assert written["files"] == {"report": "r.html"}
 
 
-def page(found: Diagnosis, **more: Any) -> str:
-    return diagnosis_page(found, **{"title": "toy", "pictures": {}, "redo": "pysim diagnose x"} | more)
+def page(found: Diagnosis, drawings: Sequence[Drawing] = (), **more: Any) -> str:
+    return diagnosis.page(Diagnosed(found, **{"title": "toy"} | more), drawings, "pysim diagnose x")
 
 
 def test_the_page_needs_nothing_else_and_has_no_empty_sections() -> None:
-    pictures = {"error": {"the fall": b"<svg/>"}, "learned": {"the law": b"<svg/>"}}
+    drawings = [Drawing("a", "the fall", b"<svg/>", "error"), Drawing("b", "the law", b"<svg/>", "learned")]
     found = found_offset(learned=(LAW,), next_test=TEST)
-    text = page(found, title="a < b", pictures=pictures, files={"fmu": "Toy.fmu"})
+    whole = page(found, drawings, title="a < b", files={"fmu": "Toy.fmu"})
     for part in ("a &lt; b", "f = F_o;", LAW.formula, "Toy.fmu", "pysim diagnose x", "the fall", "the law"):
-        assert part in text
-    assert text.count("<figure") == 2
-    assert not re.search(r'(?:src|href)="(?!data:)', text)
+        assert part in whole
+    assert whole.count("<figure") == 2
+    assert not re.search(r'(?:src|href)="(?!data:)', whole)
     less = page(replace(nothing(), notes=()))
-    assert less.count("<h2>") < text.count("<h2>") - 3
+    assert less.count("<h2>") < whole.count("<h2>") - 3
 
 
 def test_the_terminal_gets_verdict_error_and_candidates() -> None:
-    first, *lines = diagnosis_text(found_offset()).splitlines()
+    first, *lines = text(found_offset()).splitlines()
     assert first.endswith(" toy.offset")
     rows = {line.split()[0]: numbers(line) for line in lines if line.startswith("  ")}
     assert rows["refitted"] == [4.2, 3.2]
@@ -208,4 +210,4 @@ def test_the_terminal_gets_verdict_error_and_candidates() -> None:
 
 def test_a_law_without_a_curve_has_a_line_all_the_same() -> None:
     empty = replace(LAW, knots=np.zeros(0), coefficients=np.zeros(0), covariance=np.zeros((0, 0)))
-    assert "force: force over v" in evidence_text(nothing(learned=(empty,)))
+    assert "force: force over v" in text(nothing(learned=(empty,)))

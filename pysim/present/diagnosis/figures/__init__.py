@@ -7,12 +7,14 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
+from pysim.present.diagnosis.answer import Diagnosed
 from pysim.present.diagnosis.figures.error import candidates_figure, error_figure
 from pysim.present.diagnosis.figures.law import law_figure
 from pysim.present.diagnosis.figures.parameters import parameters_figure
 from pysim.present.diagnosis.figures.records import overlay_figure, telling_records
 from pysim.present.diagnosis.figures.spectrum import spectrum_figure
 from pysim.present.diagnosis.figures.where import map_figure
+from pysim.present.notes import USES
 from pysim.present.render import Picture
 from pysim.types import Dataset, Diagnosis, LearnedLaw
 from pysim.types.answer import REFIT
@@ -20,11 +22,11 @@ from pysim.types.answer import REFIT
 __all__ = [
     "candidates_figure",
     "error_figure",
+    "figures",
     "law_figure",
     "map_figure",
     "overlay_figure",
     "parameters_figure",
-    "pictures",
     "spectrum_figure",
     "telling_records",
 ]
@@ -32,8 +34,9 @@ __all__ = [
 _PLACES = 3  # whose law is drawn
 
 
-def pictures(found: Diagnosis, dataset: Dataset | None) -> Iterator[Picture]:
+def figures(result: Diagnosed) -> Iterator[Picture]:
     """Those for which there is something to show, each with the section of the page it stands in."""
+    found, dataset = result.found, result.dataset
     if found.history:
         caption = (
             "The error, step by step: root-mean-square residual over noise; below, the worst value of each criterion "
@@ -68,9 +71,8 @@ def _samples(found: Diagnosis, law: LearnedLaw) -> NDArray[np.float64] | None:
 def _record_figures(found: Diagnosis, dataset: Dataset | None) -> Iterator[Picture]:
     model = "refitted model" if found.base is not None and found.base.step == REFIT else "model as it is"
     for k, record in enumerate(telling_records(found)):
-        use = "held out" if record.held_out else "fitted"
         caption = (
-            f"{record.source} ({use}), where the {model} fails most: measured and simulated; "
+            f"{record.source} ({USES[record.use]}), where the {model} fails most: measured and simulated; "
             "below, the residual (of many samples also running means), grey holds 95 percent of noise."
         )
         yield Picture(f"record_{k + 1}", caption, overlay_figure(found, record), "records")

@@ -11,6 +11,7 @@ import numpy as np
 
 from pysim.io import shown_point
 from pysim.present.diagnosis.figures.records import steps_compared
+from pysim.present.notes import USES
 from pysim.present.style import BAND, SMALL, TEXT, new_figure
 from pysim.types import BadInput, Dataset, Diagnosis, ErrorStep, RecordFit
 
@@ -120,7 +121,7 @@ def _windows(record: RecordFit, column: int) -> dict[str, float]:
 
 
 def _short(record: RecordFit) -> str:
-    return f"{record.source} ({'held out' if record.held_out else 'fitted'})"
+    return f"{record.source} ({USES[record.use]})"
 
 
 def _draw(axes: Axes, panel: _Field, norm: LogNorm) -> AxesImage:
