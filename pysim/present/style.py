@@ -10,7 +10,6 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    import numpy as np
     from matplotlib.artist import Artist
     from matplotlib.axes import Axes
     from matplotlib.axis import Axis
@@ -38,9 +37,7 @@ def new_figure(width: float, height: float) -> Figure:
     return Figure(figsize=(width, height), layout="constrained", facecolor="white")
 
 
-def panels(
-    width: float, height: float, rows: int = 1, columns: int = 1, **how: Any
-) -> tuple[Figure, NDArray[np.object_]]:
+def panels(width: float, height: float, rows: int = 1, columns: int = 1, **how: Any) -> tuple[Figure, NDArray[Any]]:
     """A figure, inches, and its quiet axes (rows, columns).
 
     Args:
@@ -72,14 +69,12 @@ def quiet(axes: Axes) -> None:
 
 def frequency_axis(axes: Axes, low: float, high: float) -> None:
     """Logarithmic, from low to high in Hz, with plain numbers however near the two are."""
-    from matplotlib.ticker import FixedLocator
-
     from pysim.present.ticks import round_numbers
 
     low, high = (low, high) if high > low else (0.9 * low, 1.1 * high)
     axes.set_xscale("log")
     axes.set_xlim(low, high)
-    _plain(axes.xaxis, FixedLocator(round_numbers(low, high)))
+    plain_numbers(axes.xaxis, round_numbers(low, high))
 
 
 def size_axis(axes: Axes) -> None:
@@ -87,7 +82,7 @@ def size_axis(axes: Axes) -> None:
     from pysim.present.ticks import Sizes
 
     axes.set_yscale("log")
-    _plain(axes.yaxis, Sizes())
+    plain_numbers(axes.yaxis, Sizes())
 
 
 def phase_axis(axes: Axes) -> None:
@@ -97,13 +92,24 @@ def phase_axis(axes: Axes) -> None:
     axes.yaxis.set_major_locator(Degrees())
 
 
-def _plain(axis: Axis, numbers: Locator) -> None:
+def plain_numbers(axis: Axis, numbers: Locator | Sequence[float]) -> None:
     """These numbers and no other marks, without powers of ten."""
-    from matplotlib.ticker import NullLocator, StrMethodFormatter
+    from matplotlib.ticker import FixedLocator, Locator, NullLocator, StrMethodFormatter
 
-    axis.set_major_locator(numbers)
+    axis.set_major_locator(numbers if isinstance(numbers, Locator) else FixedLocator(numbers))
     axis.set_minor_locator(NullLocator())
     axis.set_major_formatter(StrMethodFormatter("{x:g}"))
+
+
+def small_text(axes: Axes, text: str, at: tuple[float, float], away: tuple[float, float], **how: Any) -> None:
+    """A word or two beside a place.
+
+    Args:
+        at: the place, in the axes' data, or in `xycoords`.
+        away: points from there.
+        how: as `Axes.annotate` takes it.
+    """
+    axes.annotate(text, at, xytext=away, textcoords="offset points", fontsize=SMALL, **how)
 
 
 def legend_above(figure: Figure, handles: Sequence[Artist], labels: Sequence[str]) -> None:

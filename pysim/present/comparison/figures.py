@@ -111,8 +111,8 @@ def _write_verdicts(axes: Axes, tests: Sequence[tuple[str, ResponseComparison]])
     """Pass or fail of each parameter set in the lower left corner."""
     for i, (label, test) in enumerate(tests):
         words = f"{label}: {'pass' if test.passes else 'fail'}"
-        place = {"xycoords": "axes fraction", "xytext": (6, 6 + 12 * (len(tests) - 1 - i))}
-        axes.annotate(words, (0, 0), **place, textcoords="offset points", **style.look(i), fontsize=style.SMALL)  # type: ignore[arg-type]
+        away = (6, 6 + 12 * (len(tests) - 1 - i))
+        style.small_text(axes, words, (0, 0), away, xycoords="axes fraction", **style.look(i))
 
 
 def _degrees(response: FrequencyResponse, beside: FrequencyResponse | None = None) -> Any:

@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from pysim.identify.accuracy import FREQUENCY_CRITERIA, TIME_CRITERIA
-from pysim.present.diagnosis.words import candidates_shown, step_name
-from pysim.present.style import BAND, COLOURS, DASHES, LIMIT, MARKERS, SMALL, TEXT, legend_above, new_figure, quiet
+from pysim.present import style
+from pysim.present.diagnosis.words import candidates_shown, size_text, step_name
+from pysim.present.notes import USES
 from pysim.types import BadInput, Criterion, Diagnosis, ErrorStep, Rival
 
 if TYPE_CHECKING:
@@ -34,73 +35,57 @@ def error_figure(steps: Sequence[ErrorStep]) -> Figure:
     if not steps:
         raise BadInput("error figure: needs at least one step")
     symbols = [s for s in _CRITERIA if any(s in step.criteria for step in steps)]
-    figure = new_figure(max(6.6, 2.6 + 1.3 * len(steps)), 3.3 + 0.24 * len(symbols))
+    width, height, ratios = max(6.6, 2.6 + 1.3 * len(steps)), 3.3 + 0.24 * len(symbols), [3.0]
+    ratios += [0.3 + 0.27 * len(symbols)] if symbols else []
+    figure, axes = style.panels(width, height, len(ratios), sharex=True, height_ratios=ratios)
+    top = axes[0, 0]
     if symbols:
-        top, low = figure.subplots(2, 1, sharex=True, height_ratios=(3.0, 0.3 + 0.27 * len(symbols)))
-        _criteria(low, steps, symbols)
-    else:
-        top = figure.subplots()
+        _criteria(axes[1, 0], steps, symbols)
     _levels(figure, top, steps)
     top.set_xlim(-0.5, len(steps) - 0.5)
-    top.set_xticks(range(len(steps)), [step_name(step.step) for step in steps], fontsize=TEXT)
+    top.set_xticks(range(len(steps)), [step_name(step.step) for step in steps], fontsize=style.TEXT)
     top.tick_params(labelbottom=True, bottom=False)
     return figure
 
 
 def _levels(figure: Figure, axes: Axes, steps: Sequence[ErrorStep]) -> None:
-    quiet(axes)
     axes.grid(False, axis="x")
     axes.set_yscale("log")
-    lines = {"fitted": [s.fit for s in steps], "held out": [s.validate for s in steps]}
+    lines = {USES["fit"]: [s.fit for s in steps], USES["validate"]: [s.validate for s in steps]}
     known = [v for values in lines.values() for v in values if v is not None]
     low, high = min([0.72, *(0.72 * v for v in known)]), max([1.6, *(1.7 * v for v in known)])
     axes.set_ylim(low, high)
-    from matplotlib.ticker import FixedLocator, NullLocator, StrMethodFormatter
-
-    axes.yaxis.set_major_locator(FixedLocator([t for t in _TICKS if low <= t <= high]))
-    axes.yaxis.set_minor_locator(NullLocator())
-    axes.yaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
-    axes.axhspan(low, 1.0, color=BAND, alpha=0.6, linewidth=0)
-    axes.axhline(1.0, color=LIMIT, linewidth=1.0)
+    style.plain_numbers(axes.yaxis, [t for t in _TICKS if low <= t <= high])
+    axes.axhspan(low, 1.0, color=style.BAND, alpha=0.6, linewidth=0)
+    axes.axhline(1.0, color=style.LIMIT, linewidth=1.0)
     handles, names = [], []
     for k, (name, values) in enumerate(lines.items()):
         if all(v is None for v in values):
             continue
         height = np.array([math.nan if v is None else v for v in values])
         edges = np.arange(-0.5, len(steps))
-        drawn = axes.stairs(height, edges, baseline=None, color=COLOURS[k], linewidth=2.0, linestyle=DASHES[k])
-        axes.plot(np.arange(height.size), height, color=COLOURS[k], marker=MARKERS[k], linestyle="none", markersize=5)
-        handles.append(drawn)
+        handles.append(axes.stairs(height, edges, baseline=None, **style.look(k, "linestyle"), linewidth=2.0))
+        axes.plot(np.arange(height.size), height, **style.look(k, "marker"), linestyle="none", markersize=5)
         names.append(name)
     for i, step in enumerate(steps):
         _numbers(axes, i, step)
     axes.set_ylabel("Residual over noise (-)")
-    axes.annotate(
-        "noise alone",
-        (0, 1.0),
-        xycoords=("axes fraction", "data"),
-        xytext=(4, -4),
-        textcoords="offset points",
-        va="top",
-        fontsize=SMALL,
-        color="#5c5c5c",
-    )
-    legend_above(figure, handles, names)
+    where = ("axes fraction", "data")
+    style.small_text(axes, "noise alone", (0, 1.0), (4, -4), xycoords=where, va="top", color="#5c5c5c")
+    style.legend_above(figure, handles, names)
 
 
 def _numbers(axes: Axes, i: int, step: ErrorStep) -> None:
     """The larger one's value above its line, the smaller one's below, so that they never meet."""
-    values = [(v, COLOURS[k]) for k, v in enumerate((step.fit, step.validate)) if v is not None]
+    values = [(v, style.COLOURS[k]) for k, v in enumerate((step.fit, step.validate)) if v is not None]
     for rank, (value, colour) in enumerate(sorted(values, reverse=True)):
-        above = rank == 0
-        axes.annotate(
-            f"{value:.3g}" if value >= 10 else f"{value:.2f}", (i, value), xytext=(0, 6 if above else -6),
-            textcoords="offset points", ha="center", va="bottom" if above else "top", fontsize=SMALL, color=colour,
-        )  # fmt: skip
+        away, end = ((0, 6), "bottom") if rank == 0 else ((0, -6), "top")
+        style.small_text(axes, size_text(value), (i, value), away, ha="center", va=end, color=colour)
 
 
 def _criteria(axes: Axes, steps: Sequence[ErrorStep], symbols: Sequence[str]) -> None:
     """A row per criterion, a column per step: its worst value, met or not."""
+    axes.grid(False)
     for row, symbol in enumerate(symbols):
         for i, step in enumerate(steps):
             value, limit = step.criteria.get(symbol), _CRITERIA[symbol].limit
@@ -109,11 +94,11 @@ def _criteria(axes: Axes, steps: Sequence[ErrorStep], symbols: Sequence[str]) ->
             met = value <= limit
             text = f"{value:.3g}  {'✓' if met else '✗'}"
             axes.text(
-                i, row, text, ha="center", va="center", fontsize=SMALL, color=_PASS if met else _FAIL,
+                i, row, text, ha="center", va="center", fontsize=style.SMALL, color=_PASS if met else _FAIL,
                 fontweight="normal" if met else "bold",
             )  # fmt: skip
     axes.set_ylim(len(symbols) - 0.4, -0.6)
-    axes.set_yticks(range(len(symbols)), [_limit(_CRITERIA[s]) for s in symbols], fontsize=SMALL)
+    axes.set_yticks(range(len(symbols)), [_limit(_CRITERIA[s]) for s in symbols], fontsize=style.SMALL)
     axes.spines[:].set_visible(False)
     axes.tick_params(length=0, labelbottom=False)
     for row in range(len(symbols) + 1):
@@ -137,25 +122,25 @@ def candidates_figure(diagnosis: Diagnosis) -> Figure:
     if not rows:
         raise BadInput("candidates figure: needs at least one candidate")
     added, tied = {one.effect.name for one in diagnosis.effects}, {name for group in diagnosis.ties for name in group}
-    figure = new_figure(7.4, 0.9 + 0.27 * len(rows))
-    axes = figure.subplots()
-    quiet(axes)
+    figure, ((axes,),) = style.panels(7.4, 0.9 + 0.27 * len(rows))
     axes.grid(False, axis="y")
     for i, row in enumerate(rows):
         last = row.effects[-1]
-        _bar(axes, i, row, COLOURS[4] if last in tied else COLOURS[0] if last in added else COLOURS[5])
+        _bar(
+            axes, i, row, style.COLOURS[4] if last in tied else style.COLOURS[0] if last in added else style.COLOURS[5]
+        )
     axes.set_xlim(0, 120)
     axes.set_xticks(range(0, 101, 20))
     axes.set_ylim(len(rows) - 0.4, -0.6)
-    axes.set_yticks(range(len(rows)), [" + ".join(row.effects) for row in rows], fontsize=SMALL)
+    axes.set_yticks(range(len(rows)), [" + ".join(row.effects) for row in rows], fontsize=style.SMALL)
     axes.set_xlabel("Explains of the misfit of the model it joins (%)")
     from matplotlib.patches import Patch
 
-    kinds = {"added": Patch(facecolor=COLOURS[0])} if added - tied else {}
-    kinds |= {"indistinguishable": Patch(facecolor=COLOURS[4])} if tied else {}
-    kinds |= {"refitted": Patch(facecolor=COLOURS[5])}
-    kinds |= {"screened only": Patch(facecolor="white", edgecolor=COLOURS[5], hatch="////")}
-    legend_above(figure, list(kinds.values()), list(kinds))
+    kinds = {"added": Patch(facecolor=style.COLOURS[0])} if added - tied else {}
+    kinds |= {"indistinguishable": Patch(facecolor=style.COLOURS[4])} if tied else {}
+    kinds |= {"refitted": Patch(facecolor=style.COLOURS[5])}
+    kinds |= {"screened only": Patch(facecolor="white", edgecolor=style.COLOURS[5], hatch="////")}
+    style.legend_above(figure, list(kinds.values()), list(kinds))
     return figure
 
 
@@ -165,6 +150,4 @@ def _bar(axes: Axes, i: int, row: Rival, colour: str) -> None:
     share = 100 * row.explained
     axes.barh(i, share, height=0.62, linewidth=0.8, **look)
     text = f"{share:.1f} %" if row.score > 0 else f"{share:.1f} %, no better for its parameters"
-    axes.annotate(
-        text, (share, i), xytext=(4, 0), textcoords="offset points", va="center", fontsize=SMALL, color="#333333"
-    )
+    style.small_text(axes, text, (share, i), (4, 0), va="center", color="#333333")

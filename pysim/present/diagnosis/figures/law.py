@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from pysim.io import shown_unit
+from pysim.present import style
 from pysim.present.diagnosis.law_words import ABSORBED, law_kind
-from pysim.present.style import COLOURS, LIMIT, MEASURED, SMALL, legend_above, new_figure, quiet
 from pysim.types import BadInput, LearnedLaw
 
 if TYPE_CHECKING:
@@ -31,32 +31,29 @@ def law_figure(law: LearnedLaw, samples: NDArray[np.float64] | None = None) -> F
         raise BadInput(f"learned law at {law.slot}: a picture needs two knots, the curve has {law.knots.size}")
     (unit_in, scale_in), (unit_out, scale_out) = shown_unit(law.argument_unit), shown_unit(law.unit)
     z, (low, high) = law.knots * scale_in, law.band
-    figure = new_figure(6.4, 4.2)
-    if samples is None:
-        top = bottom = figure.subplots()
-    else:
-        top, bottom = figure.subplots(2, 1, sharex=True, height_ratios=(6, 1))
+    ratios = [6] if samples is None else [6, 1]
+    figure, axes = style.panels(6.4, 4.2, len(ratios), sharex=True, height_ratios=ratios)
+    top, bottom = axes[0, 0], axes[-1, 0]
+    if samples is not None:
         _density(bottom, samples * scale_in, z)
-    band = top.fill_between(z, low * scale_out, high * scale_out, color=COLOURS[0], alpha=0.25, linewidth=0)
-    (line,) = top.plot(z, law.coefficients * scale_out, color=COLOURS[0], linewidth=1.5)
-    top.axhline(0.0, color=LIMIT, linewidth=0.9)
+    band = top.fill_between(z, low * scale_out, high * scale_out, color=style.COLOURS[0], alpha=0.25, linewidth=0)
+    (line,) = top.plot(z, law.coefficients * scale_out, color=style.COLOURS[0], linewidth=1.5)
+    top.axhline(0.0, color=style.LIMIT, linewidth=0.9)
     top.set_xlim(float(z[0]), float(z[-1]))
     bottom.set_xlabel(f"{law.argument} ({unit_in})")
     top.set_ylabel(f"Missing {law_kind(law)} at {law.slot} ({unit_out})")
-    quiet(top)
-    legend_above(figure, [line, band], [f"explains {100 * law.share:.0f} % of the misfit", "95 % band"])
+    style.legend_above(figure, [line, band], [f"explains {100 * law.share:.0f} % of the misfit", "95 % band"])
     notes = [law.formula] if law.formula else []
     if law.alternatives:
         notes.append(f"these data cannot tell it from a law at {', '.join(law.alternatives)}")
     if law.absorbed.size:
         notes.append(ABSORBED)
     if notes:
-        figure.supxlabel("\n".join(notes), fontsize=SMALL)
+        figure.supxlabel("\n".join(notes), fontsize=style.SMALL)
     return figure
 
 
 def _density(axes: Axes, samples: NDArray[np.float64], knots: NDArray[np.float64]) -> None:
-    quiet(axes)
-    axes.hist(samples, bins=_BINS, range=(float(knots[0]), float(knots[-1])), color=MEASURED, alpha=0.5)
+    axes.hist(samples, bins=_BINS, range=(float(knots[0]), float(knots[-1])), color=style.MEASURED, alpha=0.5)
     axes.set_yticks([])
-    axes.set_ylabel("Data", fontsize=SMALL)
+    axes.set_ylabel("Data", fontsize=style.SMALL)

@@ -5,17 +5,18 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pysim.present.style import BAND, COLOURS, LIMIT, SMALL, legend_above, new_figure, quiet
+from pysim.present import style
 from pysim.types import BadInput, ErrorStep, Estimate
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+_TICK: dict[str, Any] = {"marker": "|", "markersize": 9, "markeredgewidth": 2}
 _LEAST = 0.1  # half widths of an interval at which the axis of the moves begins
 
 
@@ -34,38 +35,42 @@ def parameters_figure(before: ErrorStep, after: ErrorStep | None) -> Figure:
     values = {} if after is None else before.on_the_scale_of(after)
     rows = [replace(e, value=values.get(e.name, e.value), interval=_along(e, values)) for e in before.estimates]
     held = {next(iter(d.exponents)) for d in (before if after is None else after).undetermined}
-    figure = new_figure(7.8 if ends else 5.6, 1.1 + 0.27 * len(rows))
-    if ends:
-        left, right = figure.subplots(1, 2, sharey=True, width_ratios=(3, 2))
-        _moves(right, rows, {} if after is None else after.moves_from(before), held)
-    else:
-        left = figure.subplots()
+    ratios = [3, 2] if ends else [3]
+    width, height = 7.8 if ends else 5.6, 1.1 + 0.27 * len(rows)
+    figure, axes = style.panels(width, height, 1, len(ratios), sharey=True, width_ratios=ratios)
+    left = axes[0, 0]
+    for panel in axes.flat:
+        panel.grid(False, axis="y")
+    if after is not None:
+        _moves(axes[0, -1], rows, after.moves_from(before), held)
     _between_bounds(left, rows, ends)
     left.set_ylim(len(rows) - 0.4, -0.6)
-    left.set_yticks(
-        range(len(rows)), [f"{e.name} ({e.unit})" if e.unit != "1" else e.name for e in rows], fontsize=SMALL
-    )
-    handles = [left.plot([], [], color=LIMIT, marker="|", linestyle="none", markersize=9, markeredgewidth=2)[0]]
-    handles.append(left.plot([], [], color=COLOURS[1], marker="s", markersize=4, linewidth=2)[0])
-    names = ["as it is", "refitted, 95 % interval"]
-    if ends:
-        handles.append(left.plot([], [], color=COLOURS[0], marker="o", markersize=4, linewidth=2)[0])
-        names.append("with what was added, 95 % interval")
-    legend_above(figure, handles, names)
+    names = [f"{e.name} ({e.unit})" if e.unit != "1" else e.name for e in rows]
+    left.set_yticks(range(len(rows)), names, fontsize=style.SMALL)
+    looks: dict[str, dict[str, Any]] = {
+        "as it is": {**_TICK, "color": style.LIMIT, "linestyle": "none"},
+        "refitted, 95 % interval": {"color": style.COLOURS[1], "marker": "s", "markersize": 4, "linewidth": 2},
+        "with what was added, 95 % interval": {
+            "color": style.COLOURS[0],
+            "marker": "o",
+            "markersize": 4,
+            "linewidth": 2,
+        },
+    }
+    shown = list(looks)[: 3 if ends else 2]
+    style.legend_above(figure, [left.plot([], [], **looks[name])[0] for name in shown], shown)
     return figure
 
 
 def _between_bounds(axes: Axes, rows: Sequence[Estimate], ends: dict[str, Estimate]) -> None:
-    quiet(axes)
-    axes.grid(False, axis="y")
     for i, first in enumerate(rows):
-        axes.plot([0, 1], [i, i], color=BAND, linewidth=0.8, zorder=0)
-        axes.plot(_share(first, first.start), i, color=LIMIT, marker="|", markersize=9, markeredgewidth=2)
-        _bar(axes, i - 0.14 if ends else i, first, first, COLOURS[1], "s")
+        axes.plot([0, 1], [i, i], color=style.BAND, linewidth=0.8, zorder=0)
+        axes.plot(_share(first, first.start), i, color=style.LIMIT, **_TICK)
+        _bar(axes, i - 0.14 if ends else i, first, first, style.COLOURS[1], "s")
         if first.name in ends:
-            _bar(axes, i + 0.14, first, ends[first.name], COLOURS[0], "o")
+            _bar(axes, i + 0.14, first, ends[first.name], style.COLOURS[0], "o")
     axes.set_xlim(-0.03, 1.03)
-    axes.set_xticks([0, 0.5, 1], ["lower\nbound", "", "upper\nbound"], fontsize=SMALL)
+    axes.set_xticks([0, 0.5, 1], ["lower\nbound", "", "upper\nbound"], fontsize=style.SMALL)
 
 
 def _bar(axes: Axes, y: float, scale: Estimate, estimate: Estimate, colour: str, marker: str) -> None:
@@ -89,28 +94,20 @@ def _share(scale: Estimate, value: float) -> float:
 
 def _moves(axes: Axes, rows: Sequence[Estimate], moves: dict[str, float | None], held: set[str]) -> None:
     """Bars on a logarithmic axis from a tenth of an interval's half width."""
-    quiet(axes)
-    axes.grid(False, axis="y")
     axes.set_xscale("log")
     high = max([10.0, *(m for m in moves.values() if m is not None)])
     axes.set_xlim(_LEAST, 8 * high)
-    axes.axvspan(_LEAST, 1.0, color=BAND, alpha=0.6, linewidth=0)
+    axes.axvspan(_LEAST, 1.0, color=style.BAND, alpha=0.6, linewidth=0)
     for i, row in enumerate(rows):
         move = moves.get(row.name)
         if move is None:
             words = "held, sets the scale" if row.name in held else "not determined by itself"
-            axes.text(1.2 * _LEAST, i, words, va="center", fontsize=SMALL, color="#5c5c5c")
+            axes.text(1.2 * _LEAST, i, words, va="center", fontsize=style.SMALL, color="#5c5c5c")
             continue
         if move > _LEAST:
-            axes.barh(i, move - _LEAST, left=_LEAST, height=0.56, color=COLOURS[0] if move > 1 else LIMIT)
-        axes.annotate(
-            f"{move:.1f}" if move < 100 else f"{move:,.0f}",
-            (max(move, _LEAST), i),
-            xytext=(4, 0),
-            textcoords="offset points",
-            va="center",
-            fontsize=SMALL,
-        )
+            axes.barh(i, move - _LEAST, left=_LEAST, height=0.56, color=style.COLOURS[0] if move > 1 else style.LIMIT)
+        text = f"{move:.1f}" if move < 100 else f"{move:,.0f}"
+        style.small_text(axes, text, (max(move, _LEAST), i), (4, 0), va="center")
     axes.set_xlabel("Moved by (half widths of its interval)")
 
 

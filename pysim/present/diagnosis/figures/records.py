@@ -10,7 +10,7 @@ import numpy as np
 
 from pysim.identify import HALF_95
 from pysim.io import shown_unit
-from pysim.present.style import BAND, COLOURS, DASHES, LIMIT, MEASURED, SMALL, legend_above, new_figure, quiet
+from pysim.present import style
 from pysim.types import BadInput, Diagnosis, ErrorStep, RecordFit
 from pysim.types.answer import PRIOR, REFIT
 
@@ -44,10 +44,10 @@ def same_record(record: RecordFit, step: ErrorStep) -> RecordFit | None:
 
 def steps_shown(diagnosis: Diagnosis) -> list[tuple[str, ErrorStep, str]]:
     """Untouched, refitted and final model: name, step and colour of each."""
-    looks = {PRIOR: ("as it is", LIMIT), REFIT: ("refitted", COLOURS[1])}
+    looks = {PRIOR: ("as it is", style.LIMIT), REFIT: ("refitted", style.COLOURS[1])}
     steps = [(*looks[step.step], step) for step in diagnosis.history if step.step in looks]
     if diagnosis.last is not None:
-        steps.append((f"with {diagnosis.last.step}", COLOURS[0], diagnosis.last))
+        steps.append((f"with {diagnosis.last.step}", style.COLOURS[0], diagnosis.last))
     return [(name, step, colour) for name, colour, step in steps if step.records]
 
 
@@ -75,14 +75,14 @@ def overlay_figure(diagnosis: Diagnosis, record: RecordFit) -> Figure:
     shown = [(name, one, colour) for name, one, colour in beside if one is not None]
     first = shown[min(1, len(shown) - 1)][1]
     names = first.measured.names
-    figure = new_figure(1.2 + 4.6 * max(len(names), 1.4), 4.8)
-    axes = figure.subplots(2, len(names), sharex=True, squeeze=False, height_ratios=(3, 2))
+    width = 1.2 + 4.6 * max(len(names), 1.4)
+    figure, axes = style.panels(width, 4.8, 2, len(names), sharex=True, height_ratios=(3, 2))
     part = _stretch(first)
     handles: dict[str, Artist] = {}
     for j in range(len(names)):
         _signal(axes[0, j], shown, j, part, handles)
         _residual(axes[1, j], shown, j, part)
-    legend_above(figure, list(handles.values()), list(handles))
+    style.legend_above(figure, list(handles.values()), list(handles))
     return figure
 
 
@@ -91,15 +91,19 @@ def _signal(
 ) -> None:
     measured = shown[0][1].measured
     unit, factor = shown_unit(measured.units[j])
-    quiet(axes)
     (dots,) = axes.plot(
-        measured.time[part], factor * measured.values[part, j], ".", color=MEASURED, markersize=2.4, rasterized=True
+        measured.time[part],
+        factor * measured.values[part, j],
+        ".",
+        color=style.MEASURED,
+        markersize=2.4,
+        rasterized=True,
     )
     handles["measured"] = dots
     for k, (name, record, colour) in enumerate(shown):
         (line,) = axes.plot(
             record.simulated.time[part], factor * record.simulated.values[part, j], color=colour, linewidth=1.5,
-            linestyle=DASHES[(len(shown) - 1 - k) % len(DASHES)],
+            linestyle=style.DASHES[(len(shown) - 1 - k) % len(style.DASHES)],
         )  # fmt: skip
         handles[name] = line
     axes.set_ylabel(f"{measured.names[j]} ({unit})")
@@ -107,8 +111,7 @@ def _signal(
 
 def _residual(axes: Axes, shown: Sequence[tuple[str, RecordFit, str]], j: int, part: slice) -> None:
     """Of all models but the untouched one where there are others: it would hide them."""
-    quiet(axes)
-    axes.axhspan(-HALF_95, HALF_95, color=BAND, linewidth=0)
+    axes.axhspan(-HALF_95, HALF_95, color=style.BAND, linewidth=0)
     words = []
     for name, record, colour in shown[1:] or shown:
         time, values = record.residual.time[part], record.residual.values[part, j]
@@ -120,9 +123,8 @@ def _residual(axes: Axes, shown: Sequence[tuple[str, RecordFit, str]], j: int, p
             time = time[_SMOOTH // 2 : _SMOOTH // 2 + values.size]
         axes.plot(time, values, color=colour, linewidth=1.4)
         words.append(f"{name} {math.sqrt(float(np.mean(record.residual.values[:, j] ** 2))):.2f}")
-    axes.set_title(f"rms of the whole record: {', '.join(words)}", fontsize=SMALL, loc="left", color="#444444")
-    axes.set_ylabel("Residual over noise (-)")
-    axes.set_xlabel("Time (s)")
+    axes.set_title(f"rms of the whole record: {', '.join(words)}", fontsize=style.SMALL, loc="left", color="#444444")
+    axes.set(xlabel="Time (s)", ylabel="Residual over noise (-)")
 
 
 def _stretch(record: RecordFit) -> slice:

@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from pysim.io import shown_point
+from pysim.present import style
 from pysim.present.diagnosis.figures.records import steps_compared
 from pysim.present.notes import USES
-from pysim.present.style import BAND, SMALL, TEXT, new_figure
 from pysim.types import BadInput, Dataset, Diagnosis, ErrorStep, RecordFit
 
 if TYPE_CHECKING:
@@ -58,16 +58,16 @@ def map_figure(diagnosis: Diagnosis, dataset: Dataset | None) -> Figure:
     panels = [one for name, step in shown for one in (_sines(name, step, dataset), _logs(name, step)) if one.rows]
     panels.sort(key=lambda panel: panel.title.startswith("Logs"))
     high = max(3.0, *(v for panel in panels for row in panel.rows.values() for v in row.values()))
-    figure = new_figure(8.2, 0.7 + sum(0.62 + 0.25 * len(panel.rows) for panel in panels))
+    figure = style.new_figure(8.2, 0.7 + sum(0.62 + 0.25 * len(panel.rows) for panel in panels))
     axes = figure.subplots(len(panels), 1, squeeze=False, height_ratios=[1.6 + len(p.rows) for p in panels])[:, 0]
     for own, panel in zip(axes, panels, strict=True):
         image = _draw(own, panel, LogNorm(1.0, high))
     bar = figure.colorbar(image, ax=list(axes), aspect=40, pad=0.015)
-    bar.set_label("Residual over noise (-)", fontsize=TEXT)
+    bar.set_label("Residual over noise (-)", fontsize=style.TEXT)
     ticks = [t for t in (1, 2, 3, 5, 7, 10, 20, 30, 50, 100, 200, 300, 500, 1000) if t <= high]
     bar.set_ticks(ticks, labels=[f"{t:g}" for t in ticks])
     bar.ax.minorticks_off()
-    bar.ax.tick_params(labelsize=SMALL)
+    bar.ax.tick_params(labelsize=style.SMALL)
     return figure
 
 
@@ -128,7 +128,7 @@ def _draw(axes: Axes, panel: _Field, norm: LogNorm) -> AxesImage:
     columns = list(dict.fromkeys(c for row in panel.rows.values() for c in row))
     columns.sort(key=float)
     values = panel.matrix(columns)
-    axes.set_facecolor(BAND)
+    axes.set_facecolor(style.BAND)
     image = axes.imshow(np.maximum(values, 1.0), cmap=_COLOURS, norm=norm, aspect="auto")
     for i, row in enumerate(values):
         for j, value in enumerate(row):
@@ -138,9 +138,9 @@ def _draw(axes: Axes, panel: _Field, norm: LogNorm) -> AxesImage:
                     j, i, f"{value:.1f}" if value < 99.5 else f"{value:.0f}", ha="center", va="center", fontsize=6.5,
                     color="white" if dark else "#222222",
                 )  # fmt: skip
-    axes.set_xticks(range(len(columns)), columns, fontsize=SMALL)
-    axes.set_yticks(range(len(panel.rows)), list(panel.rows), fontsize=SMALL)
+    axes.set_xticks(range(len(columns)), columns, fontsize=style.SMALL)
+    axes.set_yticks(range(len(panel.rows)), list(panel.rows), fontsize=style.SMALL)
     axes.tick_params(length=0)
     axes.spines[:].set_visible(False)
-    axes.set_title(panel.title, fontsize=TEXT, loc="left")
+    axes.set_title(panel.title, fontsize=style.TEXT, loc="left")
     return image
