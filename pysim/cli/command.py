@@ -134,6 +134,19 @@ class Given:
         _write_numbers(self, result)
 
     @contextmanager
+    def going_on(self, what: str) -> Iterator[None]:
+        """Where the user stops what is done within, the message says how to go on.
+
+        Args:
+            what: is stopped, in a word.
+        """
+        try:
+            yield
+        except KeyboardInterrupt:
+            cure = f"with --output DIR a {what} can be gone on with"
+            raise KeyboardInterrupt("the same command goes on where it was" if self.output else cure) from None
+
+    @contextmanager
     def progress(self, title: str) -> Iterator[ProgressBar]:
         """A bar on standard error that takes (done, total)."""
         from pysim.cli.progress import ProgressBar

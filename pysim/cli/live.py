@@ -8,10 +8,9 @@ import threading
 import time
 from collections.abc import Sequence
 from pathlib import Path
-from types import TracebackType
 from typing import TYPE_CHECKING
 
-from pysim.cli.terminal import draws_over
+from pysim.cli.progress import Ticking
 
 if TYPE_CHECKING:
     from pysim.types import ErrorStep, ProgressEvent
@@ -21,23 +20,19 @@ _BAR = 24
 _PAUSE = 0.5  # s between two drawings
 
 
-class Live:
+class Live(Ticking):
     """One block that is drawn over: stage and time, the error falling, what came out.
 
     Where standard error is no terminal, a line for each event.
     """
 
     def __init__(self, title: str) -> None:
-        self._title = title
-        self._begun = time.monotonic()
+        super().__init__(title, _PAUSE)
         self._stage = ""
         self._learned: list[str] = []
         self._steps: list[ErrorStep] = []
         self._drawn = 0
-        self._live = draws_over(sys.stderr)
         self._lock = threading.Lock()
-        self._ended = threading.Event()
-        self._clock = threading.Thread(target=self._tick, daemon=True)
 
     def __call__(self, event: ProgressEvent) -> None:
         """Show it."""
@@ -50,37 +45,20 @@ class Live:
                 self._steps.append(event.step)
             elif event.text:
                 self._learned = [*self._learned, event.text][-_LEARNED:]
-        self._draw()
+        self._say()
 
-    def __enter__(self) -> Live:
-        if self._live:
-            self._clock.start()
-        return self
+    def _end(self, error: BaseException | None) -> None:
+        self._stage = "stopped" if error else "done"
+        self._say()
 
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, where: TracebackType | None
-    ) -> None:
-        self._ended.set()
-        if self._live:
-            self._clock.join()
-            with self._lock:
-                self._stage = "stopped" if error else "done"
-            self._draw()
-
-    def _elapsed(self) -> float:
-        return time.monotonic() - self._begun
-
-    def _tick(self) -> None:
-        while not self._ended.wait(_PAUSE):
-            self._draw()
-
-    def _draw(self) -> None:
-        """Over the lines of the last drawing; each is cut to the terminal, so that none takes two."""
+    def _say(self) -> None:
+        """Draw over the lines of the last drawing; each is cut to the terminal, so that none takes two."""
+        if not self._live:
+            return
         with self._lock:
             width = shutil.get_terminal_size().columns - 1
-            lines = [
-                line[:width] for line in block(self._title, self._stage, self._elapsed(), self._steps, self._learned)
-            ]
+            shown = block(self._title, self._stage, self._elapsed(), self._steps, self._learned)
+            lines = [line[:width] for line in shown]
             up = f"\x1b[{self._drawn}A" if self._drawn else ""
             print(up + "".join(f"\r\x1b[K{line}\n" for line in lines), end="", file=sys.stderr, flush=True)
             self._drawn = len(lines)

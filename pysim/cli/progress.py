@@ -6,6 +6,7 @@ import sys
 import threading
 import time
 from types import TracebackType
+from typing import Self
 
 from pysim.cli.terminal import draws_over
 
@@ -22,21 +23,21 @@ def announce_compilation() -> None:
         print(f"{_COMPILING} ...", file=sys.stderr)
 
 
-class Working:
-    """Says what goes on, and for how long already, once it lasts longer than a moment.
+class Ticking:
+    """Says what goes on again and again while a block runs; `_say` writes it to standard error.
 
-    On a terminal one line is drawn over and taken away at the end; elsewhere there is a line every ten seconds.
+    Args:
+        first: s until it is said for the first time.
     """
 
-    def __init__(self, title: str) -> None:
-        self._title = title
+    def __init__(self, title: str, first: float) -> None:
+        self._title, self._first = title, first
         self._begun = time.monotonic()
         self._live = draws_over(sys.stderr)
-        self._shown = False
         self._ended = threading.Event()
         self._clock = threading.Thread(target=self._tick, daemon=True)
 
-    def __enter__(self) -> Working:
+    def __enter__(self) -> Self:
         self._clock.start()
         return self
 
@@ -45,17 +46,43 @@ class Working:
     ) -> None:
         self._ended.set()
         self._clock.join()
-        if self._shown and self._live:
-            print("\r\x1b[K", end="", file=sys.stderr, flush=True)
+        self._end(error)
 
     def _tick(self) -> None:
-        pause = _MOMENT
+        pause = self._first
         while not self._ended.wait(pause):
-            since = f" {time.monotonic() - self._begun:.0f} s" if self._shown else ""
-            line = f"{self._title} ...{since}"
-            start, end = ("\r\x1b[K", "") if self._live else ("", "\n")
-            print(f"{start}{line}", end=end, file=sys.stderr, flush=True)
-            self._shown, pause = True, _TICK if self._live else _PAUSE
+            self._say()
+            pause = _TICK if self._live else _PAUSE
+
+    def _elapsed(self) -> float:
+        return time.monotonic() - self._begun
+
+    def _say(self) -> None:
+        raise NotImplementedError
+
+    def _end(self, error: BaseException | None) -> None:
+        raise NotImplementedError
+
+
+class Working(Ticking):
+    """Says what goes on, and for how long already, once it lasts longer than a moment.
+
+    On a terminal one line is drawn over and taken away at the end; elsewhere there is a line every ten seconds.
+    """
+
+    def __init__(self, title: str) -> None:
+        super().__init__(title, _MOMENT)
+        self._shown = False
+
+    def _say(self) -> None:
+        line = f"{self._title} ...{f' {self._elapsed():.0f} s' if self._shown else ''}"
+        start, end = ("\r\x1b[K", "") if self._live else ("", "\n")
+        print(f"{start}{line}", end=end, file=sys.stderr, flush=True)
+        self._shown = True
+
+    def _end(self, error: BaseException | None) -> None:
+        if self._shown and self._live:
+            print("\r\x1b[K", end="", file=sys.stderr, flush=True)
 
 
 def simulating() -> Working:

@@ -5,27 +5,16 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from pysim.cli.command import Given
-from pysim.cli.option import Option, file, names
-from pysim.cli.options import (
-    BOUNDS,
-    DATASET,
-    FREE,
-    JSON,
-    LIBRARY,
-    MODEL,
-    OUTPUT,
-    PARAMETERS,
-    REFERENCE_HZ,
-    SET,
-)
+from pysim.cli.command import Command, Given
+from pysim.cli.option import Option, file
+from pysim.cli.options import BOUNDS, DATASET, FREE, JSON, LIBRARY, MODEL, OUTPUT, PARAMETERS, REFERENCE_HZ, SET
 from pysim.cli.outputs import CHECKPOINT
 
 if TYPE_CHECKING:
     from pysim.present.diagnosis import Diagnosed
-    from pysim.types import Diagnosis, ProgressEvent
+    from pysim.types import Diagnosis
     from pysim.workflow import SessionParts
 
 SUBJECT = (
@@ -38,21 +27,26 @@ SUBJECT = (
     PARAMETERS,
     REFERENCE_HZ,
 )
-EFFECTS = names("--effects", "consider only these of the catalogue")
 
 
-def results(what: str) -> tuple[Option, ...]:
-    """Options of what a step writes.
+def step_command(
+    name: str, about: str, run: Callable[[Given], Any], *options: Option, what: str = "", **more: Any
+) -> Command:
+    """A command that takes a model and its measurements one step further.
 
     Args:
+        options: of its own.
         what: lies in the folder besides report and pictures, for the help.
+        more: of the command, in place of what its kind has.
     """
-    return (
+    written = (
         replace(JSON, about="write the whole answer here"),
         replace(OUTPUT, about=f"write report.html, pictures{what} here; a stopped run goes on from it"),
         file("--records", "FILE.npz", "write every record beside every model here", suffixes=(".npz",)),
         file("--events", "FILE", "write progress here while it works, as JSON lines", suffixes=(".jsonl", ".json")),
     )
+    kind = {"files": write_model, "done": end_step, "goes_on": (CHECKPOINT,), **more}
+    return Command(name, about, run, options=(*SUBJECT, *options, *written), **kind)
 
 
 def read_parts(given: Given, *, refits: bool = True, only: Sequence[str] = ()) -> SessionParts:
@@ -81,7 +75,7 @@ def read_parts(given: Given, *, refits: bool = True, only: Sequence[str] = ()) -
 def run_step(
     given: Given,
     parts: SessionParts,
-    work: Callable[[Callable[[ProgressEvent], None], Path | None], Diagnosis],
+    work: Callable[..., Diagnosis],
     *,
     question: str = "Which effect is missing?",
     answer: Callable[[Diagnosis], str] | None = None,
@@ -89,7 +83,7 @@ def run_step(
     """Run a step of the diagnosis and show it; `--output` holds a checkpoint from which a stopped run goes on.
 
     Args:
-        work: the step; takes what reports progress, and the checkpoint's place.
+        work: the step; takes `progress`, which is told of each event, and `checkpoint`, a path or None.
         question, answer: what leads text and page; the verdict by default.
     Raises:
         KeyboardInterrupt: stopped by the user; says how to go on.
@@ -102,21 +96,17 @@ def run_step(
 
     announce_compilation()
     checkpoint = given.output / CHECKPOINT if given.output else None
-    try:
-        with Live(f"{parts.dataset.name}: {parts.model_name}") as live:
-            followers: list[Callable[[ProgressEvent], None]] = [live]
-            followers += [EventFile(given.events)] if given.events else []
+    log = EventFile(given.events) if given.events else None
+    with given.going_on("run"), Live(f"{parts.dataset.name}: {parts.model_name}") as live:
 
-            def progress(event: ProgressEvent) -> None:
-                for one in followers:
-                    one(event)
+        def progress(event: ProgressEvent) -> None:
+            live(event)
+            if log is not None:
+                log(event)
 
-            found = work(progress, checkpoint)
-            for one in followers[1:]:  # a program that follows must know why it does not end yet
-                one(ProgressEvent("writing report and files"))
-    except KeyboardInterrupt:
-        cure = "the same command goes on where it was" if checkpoint else "with --output DIR a run can be gone on with"
-        raise KeyboardInterrupt(cure) from None
+        found = work(progress=progress, checkpoint=checkpoint)
+        if log is not None:  # a program that follows must know why it does not end yet
+            log(ProgressEvent("writing report and files"))
     found = replace(found, conditions={**_conditions(given, parts), **found.conditions})
     if found.learned and parts.variants is not None:
         found = with_classes(found, parts.variants.class_name, parts.variants.libraries)

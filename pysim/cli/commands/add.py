@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING
 
-from pysim.cli.command import Command, Given
+from pysim.cli.command import Given
 from pysim.cli.option import names
-from pysim.cli.outputs import CHECKPOINT
-from pysim.cli.steps import SUBJECT, end_step, read_parts, results, run_step, write_model
+from pysim.cli.steps import read_parts, run_step, step_command
 
 if TYPE_CHECKING:
     from pysim.present.diagnosis import Diagnosed
@@ -21,26 +21,14 @@ def run(given: Given) -> Diagnosed:
 
     parts = read_parts(given)
     effects = effects_of(given.effects, parts)
-    session = session_of(parts)
-    return run_step(
-        given,
-        parts,
-        lambda progress, checkpoint: add(session, effects, progress=progress, checkpoint=checkpoint),
-        question="What do the effects mend?",
-        answer=added_sentence,
-    )
+    work = partial(add, session_of(parts), effects)
+    return run_step(given, parts, work, question="What do the effects mend?", answer=added_sentence)
 
 
-COMMAND = Command(
+COMMAND = step_command(
     "add",
     "Add effects to a model, refit everything, and write the extended class with its FMU.",
     run,
-    options=(
-        *SUBJECT,
-        names("--effects", "to add, by their standard names, in order", required=True),
-        *results(", parameters.toml, the extended class and its FMU"),
-    ),
-    files=write_model,
-    done=end_step,
-    goes_on=(CHECKPOINT,),
+    names("--effects", "to add, by their standard names, in order", required=True),
+    what=", parameters.toml, the extended class and its FMU",
 )

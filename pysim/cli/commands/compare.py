@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from pysim.cli.command import Command, Given
+from pysim.cli.command import Given
 from pysim.cli.option import switch
-from pysim.cli.outputs import CHECKPOINT
-from pysim.cli.steps import SUBJECT, end_step, read_parts, results, run_step, write_model
+from pysim.cli.steps import end_step, read_parts, run_step, step_command, write_model
 
 if TYPE_CHECKING:
     from pysim.present.diagnosis import Diagnosed
@@ -49,14 +49,9 @@ def _logs(given: Given) -> Diagnosed:
     from pysim.workflow import session_of
 
     parts = read_parts(given, refits=given.refit)
-    session = session_of(parts)
-    return run_step(
-        given,
-        parts,
-        lambda progress, checkpoint: compare(session, refitted=given.refit, progress=progress, checkpoint=checkpoint),
-        question="How far is the model from its measurements?",
-        answer=comparison_sentence,
-    )
+    work = partial(compare, session_of(parts), refitted=given.refit)
+    question = "How far is the model from its measurements?"
+    return run_step(given, parts, work, question=question, answer=comparison_sentence)
 
 
 def _responses(given: Given, dataset: Dataset) -> Comparison:
@@ -91,17 +86,13 @@ def _passes(result: Any) -> bool:
     return bool(last.passes and last.criteria)
 
 
-COMMAND = Command(
+COMMAND = step_command(
     "compare",
     "Hold a model against measurements and judge it by thesis Tables 1.3 and 1.4; with --refit also refitted.",
     run,
-    options=(
-        *SUBJECT,
-        switch("--refit", "refit within the bounds too, and say where it fails"),
-        *results(", with --refit parameters.toml"),
-    ),
+    switch("--refit", "refit within the bounds too, and say where it fails"),
+    what=", with --refit parameters.toml",
     passes=_passes,
     files=lambda given, result, folder: result if given.opened is None else write_model(given, result, folder),
-    goes_on=(CHECKPOINT,),
     done=lambda given, result: None if given.opened is None else end_step(given, result),
 )

@@ -2,19 +2,15 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING
 
-from pysim.cli.command import Command, Given
-from pysim.cli.option import number
-from pysim.cli.outputs import CHECKPOINT
-from pysim.cli.steps import EFFECTS, SUBJECT, end_step, read_parts, results, run_step, write_model
+from pysim.cli.command import Given
+from pysim.cli.option import names, number
+from pysim.cli.steps import read_parts, run_step, step_command
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-    from pathlib import Path
-
     from pysim.present.diagnosis import Diagnosed
-    from pysim.types import Diagnosis, ProgressEvent
 
 
 def run(given: Given) -> Diagnosed:
@@ -30,32 +26,17 @@ def run(given: Given) -> Diagnosed:
     parts = read_parts(given, only=given.effects)
     session = session_of(parts, Settings(max_effects=most))
     if most:
-
-        def work(progress: Callable[[ProgressEvent], None], checkpoint: Path | None) -> Diagnosis:
-            return diagnose(session, progress=progress, checkpoint=checkpoint)
-
-        return run_step(given, parts, work)
-    return run_step(
-        given,
-        parts,
-        lambda progress, checkpoint: rank(session, progress=progress, checkpoint=checkpoint),
-        question="What would each effect explain?",
-        answer=ranking_sentence,
-    )
+        return run_step(given, parts, partial(diagnose, session))
+    question = "What would each effect explain?"
+    return run_step(given, parts, partial(rank, session), question=question, answer=ranking_sentence)
 
 
-COMMAND = Command(
+COMMAND = step_command(
     "diagnose",
     "Say which physical effect a model lacks, from measurements.",
     run,
-    options=(
-        *SUBJECT,
-        EFFECTS,
-        number("--max-effects", "N", 3, "effects to add at most; 0 ranks them and adds none", convert=int),
-        number("--seed", "S", 0, "stands in the answer; the search draws nothing at random", convert=int),
-        *results(", parameters.toml, the extended class and its FMU"),
-    ),
-    files=write_model,
-    done=end_step,
-    goes_on=(CHECKPOINT,),
+    names("--effects", "consider only these of the catalogue"),
+    number("--max-effects", "N", 3, "effects to add at most; 0 ranks them and adds none", convert=int),
+    number("--seed", "S", 0, "stands in the answer; the search draws nothing at random", convert=int),
+    what=", parameters.toml, the extended class and its FMU",
 )

@@ -56,7 +56,7 @@ def run(given: Given) -> Fitted:
     log = given.output / LOG if given.output else None
     optimiser = {"gauss-newton": GaussNewton(), "interior-point": InteriorPoint(), None: None}[given.optimiser]
     announce_compilation()
-    try:
+    with given.going_on("fit"):
         found = fit(
             problem,
             objective=OBJECTIVES[given.objective],
@@ -65,9 +65,6 @@ def run(given: Given) -> Fitted:
             effort=Effort(given.starts, given.seed, log=log, resume=log is not None),
             progress=_say,
         )
-    except KeyboardInterrupt:
-        cure = "the same command goes on where it was" if log else "with --output DIR a fit can be gone on with"
-        raise KeyboardInterrupt(cure) from None
     result = Fitted(found, datasets)
     for name in given.profile:  # each may take as long as the fit
         given.keep(result)

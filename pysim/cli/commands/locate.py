@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING
 
-from pysim.cli.command import Command, Given
+from pysim.cli.command import Given
 from pysim.cli.option import names
-from pysim.cli.outputs import CHECKPOINT
-from pysim.cli.steps import SUBJECT, end_step, read_parts, results, run_step, write_model
+from pysim.cli.steps import read_parts, run_step, step_command
 
 if TYPE_CHECKING:
     from pysim.present.diagnosis import Diagnosed
@@ -21,22 +21,14 @@ def run(given: Given) -> Diagnosed:
 
     parts, there = read_parts(given), getattr(given, "with")  # a word of Python
     effects = effects_of(there, parts) if there else ()
-    session = session_of(parts)
-    return run_step(
-        given,
-        parts,
-        lambda progress, checkpoint: learn(session, effects, progress=progress, checkpoint=checkpoint),
-        question="Where is what missing?",
-        answer=learned_sentence,
-    )
+    work = partial(learn, session_of(parts), effects)
+    return run_step(given, parts, work, question="Where is what missing?", answer=learned_sentence)
 
 
-COMMAND = Command(
+COMMAND = step_command(
     "locate",
     "Estimate what is missing at each place of a model, and its shape, without naming an effect.",
     run,
-    options=(*SUBJECT, names("--with", "effects that the model is to have already"), *results(", parameters.toml")),
-    files=write_model,
-    done=end_step,
-    goes_on=(CHECKPOINT,),
+    names("--with", "effects that the model is to have already"),
+    what=", parameters.toml",
 )
