@@ -3,16 +3,30 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 
 from matplotlib.figure import Figure
 
+from pysim.io import write_file
 from pysim.present.page import cell, commands, heading, items, page, paragraph, picture, statement, table
 from pysim.present.render import render
 from validation.findings import Finding
 from validation.registry import CASES, GROUPS
 from validation.results import FAILS, HOLDS, SKIPPED, CaseResult, verdict_of
+from validation.summary import full_summary
 
 _KIND = {HOLDS: "pass", FAILS: "fail", SKIPPED: ""}
+
+
+def write_page(folder: Path, results: Sequence[CaseResult]) -> None:
+    """Write report.html, summary.md and the pictures of a run, which are made anew."""
+    drawn: dict[str, Mapping[str, Figure]] = {}
+    for result in results:
+        drawn[result.case] = {} if result.error else CASES[result.case].pictures()
+        for k, figure in enumerate(drawn[result.case].values(), 1):
+            write_file(folder / f"{result.case}-{k}.png", render(figure, "png"))
+    write_file(folder / "report.html", suite_page(results, drawn))
+    write_file(folder / "summary.md", full_summary(results, kept=False))
 
 
 def suite_page(results: Sequence[CaseResult], drawn: Mapping[str, Mapping[str, Figure]]) -> str:
@@ -43,17 +57,17 @@ def _verdict(results: Sequence[CaseResult]) -> str:
 def _overview(results: Sequence[CaseResult]) -> str:
     rows = [
         [
-            cell(result.case, "words"),
-            cell(CASES[result.case].about if result.case in CASES else result.about, "words"),
-            *(cell(str(result.count(verdict))) for verdict in (HOLDS, FAILS, SKIPPED)),
-            cell(f"{result.seconds:.1f}"),
-            cell(f"{result.cpu:.1f}"),
+            result.case,
+            CASES[result.case].about if result.case in CASES else result.about,
+            *(str(result.count(verdict)) for verdict in (HOLDS, FAILS, SKIPPED)),
+            f"{result.seconds:.1f}",
+            f"{result.cpu:.1f}",
             cell(result.verdict, _KIND[result.verdict]),
         ]
         for result in results
     ]
     head = ["case", "what", "holds", "fails", "skipped", "seconds", "CPU s", "verdict"]
-    return table("Every case of this run.", head, rows)
+    return table("Every case of this run.", head, rows, words=[0, 1])
 
 
 def _case(result: CaseResult) -> list[str]:
@@ -63,10 +77,8 @@ def _case(result: CaseResult) -> list[str]:
         parts.append(paragraph(f"Stopped: {result.error}", note=True))
     if notes:
         parts.append(items(notes))
-    return [
-        *parts,
-        table("Claims.", ["claim", "value", "limit", "unit", "verdict"], [_claim(f) for f in result.findings]),
-    ]
+    head = ["claim", "value", "limit", "unit", "verdict"]
+    return [*parts, table("Claims.", head, [*map(_claim, result.findings)], words=[0])]
 
 
 def _claim(finding: Finding) -> list[str]:
@@ -74,5 +86,4 @@ def _claim(finding: Finding) -> list[str]:
     said = finding.skipped or ""
     value = "" if finding.skipped else f"{finding.value:.4g}"
     claim = f"{finding.claim} ({said})" if said else finding.claim
-    numbers = [cell(value), cell(f"{finding.limit:g}"), cell(finding.unit)]
-    return [cell(claim, "words"), *numbers, cell(verdict, _KIND[verdict])]
+    return [claim, value, f"{finding.limit:g}", finding.unit, cell(verdict, _KIND[verdict])]

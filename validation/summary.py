@@ -4,12 +4,28 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Mapping
+from pathlib import Path
 
+from pysim.io import write_file
 from validation.findings import Finding
 from validation.registry import CASES, GROUPS
-from validation.results import FAILS, HOLDS, SKIPPED, CaseResult, newest, verdict_of
+from validation.results import FAILS, HOLDS, SKIPPED, CaseResult, keep_results, newest, verdict_of
 
 BEGIN, END = "<!-- validation: begin, written by pysim validate --record -->", "<!-- validation: end -->"
+
+
+def record(root: Path, results: Iterable[CaseResult]) -> Path:
+    """Keep results in a checkout, and write its summary and its README anew.
+
+    Returns:
+        the file of all that are kept.
+    """
+    kept_in = root / "validation" / "recorded.jsonl"
+    kept = keep_results(kept_in, results)
+    write_file(root / "validation" / "RESULTS.md", full_summary(kept))
+    readme = root / "README.md"
+    write_file(readme, between_markers(readme.read_text(encoding="utf-8"), short_summary(kept)))
+    return kept_in
 
 
 def short_summary(results: Iterable[CaseResult]) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -45,6 +45,17 @@ class Approximations:
 
     title: str
     found: tuple[tuple[str, BestLinearApproximation], ...]
+
+
+def named(found: Iterable[BestLinearApproximation]) -> tuple[tuple[str, BestLinearApproximation], ...]:
+    """Each with its test in words, and behind them its origin where another is of the same test."""
+    names: dict[str, BestLinearApproximation] = {}
+    for bla in found:
+        test = bla.test
+        offset, rms = shown_value(test.offset, test.input_unit, ".4g"), shown_value(test.rms, test.input_unit, ".3g")
+        name = f"{test.input} around {offset}, rms {rms}"
+        names[f"{name}, {bla.origin}" if name in names else name] = bla
+    return tuple(names.items())
 
 
 def text(result: Approximations) -> str:

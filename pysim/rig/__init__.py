@@ -2,7 +2,7 @@
 
 from pysim.rig.heave_test import HeaveFigures, HeaveTest, heave_figures
 from pysim.rig.rig_member import rig_member
-from pysim.rig.rig_system import OUTPUTS, rig_system
+from pysim.rig.rig_system import OUTPUTS, load_controllers, rig_system
 from pysim.rig.standstill import standstills
 from pysim.rig.step_test import StepFigures, StepTest, step_figures
 
@@ -13,6 +13,7 @@ __all__ = [
     "StepFigures",
     "StepTest",
     "heave_figures",
+    "load_controllers",
     "rig_member",
     "rig_system",
     "standstills",

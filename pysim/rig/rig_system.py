@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Literal
 
-from pysim.control import Block, LoadController, SpeedController
+from pysim.control import Block, CompensatedLoadController, LoadController, SpeedController
+from pysim.control.tuning import damping_gain
 from pysim.cosim import Connection, Member, Sampled, System
 from pysim.types import BadInput
 
@@ -15,6 +16,22 @@ _FEED: Mapping[str, str] = {"measured": "rig.omegaS", "true": "rig.omega"}
 
 # Worth recording of every run.
 OUTPUTS = ("rig.omega", "rig.omegaS", "rig.pL", "rig.pS", "rig.alphaPercent", "speed.alphaCMD", "load.u_ref")
+
+
+def load_controllers(dt: float) -> dict[str, LoadController | CompensatedLoadController]:
+    """The thesis' load controller, with its valve turned round, and both with the gain that calms the shaft.
+
+    Args:
+        dt: s between two steps of each.
+    """
+    plain = LoadController(dt)
+    gain = damping_gain(plain.T_i, speed=8.0)
+    return {
+        "thesis": plain,
+        "compensated": CompensatedLoadController(dt),
+        "gain for the shaft": LoadController(dt, K_p=gain),
+        "both": CompensatedLoadController(dt, K_p=gain * 0.0035),
+    }
 
 
 def rig_system(

@@ -8,16 +8,15 @@ from functools import cache
 
 import fmu_build
 from pysim.control import CompensatedLoadController, LoadController
-from pysim.control.tuning import TABLE_6_1, damping_gain
+from pysim.control.tuning import TABLE_6_1
 from pysim.cosim import System, cosimulate
 from pysim.cosim.members import Fmu
 from pysim.io import read_model
-from pysim.rig import HeaveFigures, HeaveTest, StepTest, heave_figures, rig_member, rig_system
+from pysim.rig import HeaveFigures, HeaveTest, StepTest, heave_figures, load_controllers, rig_member, rig_system
 from pysim.types import Model, Record
 from validation.findings import Finding
 
 DT = 1e-3
-_K_QU = 0.0035
 
 
 @cache
@@ -42,14 +41,8 @@ def crane_system(load: LoadController | CompensatedLoadController | None = None)
 @cache
 def heave(test: HeaveTest) -> Mapping[str, Record]:
     """Load controllers in the same wave: MATLAB's gains, the thesis', its valve turned round, more gain, both."""
-    gain = damping_gain(0.03, speed=8.0)
-    loads: dict[str, LoadController | CompensatedLoadController] = {
-        "MATLAB tuned": LoadController(DT, *TABLE_6_1["load"]["MATLAB tuned"]),
-        "thesis": LoadController(DT),
-        "compensated": CompensatedLoadController(DT),
-        "gain for the shaft": LoadController(DT, K_p=gain),
-        "both": CompensatedLoadController(DT, K_p=gain * _K_QU),
-    }
+    tuned = LoadController(DT, *TABLE_6_1["load"]["MATLAB tuned"])
+    loads = {"MATLAB tuned": tuned, **load_controllers(DT)}
     return {label: cosimulate(crane_system(load), test.experiment(), step=DT) for label, load in loads.items()}
 
 

@@ -19,14 +19,6 @@ if TYPE_CHECKING:
 
 QUICK_FREQUENCIES_HZ = (0.1, 1, 3, 6, 10, 15, 20, 30)
 _TITLE = "The pump's swash plate against the transfer functions of thesis Table 4.1"
-_TABLES = {"free": "4.8", "locked": "4.7"}
-_CAVEATS: dict[str, tuple[str, ...]] = {
-    "free": (),
-    "locked": (
-        "At 75/20 and -75/20 the volume of a chamber (Eq. 3.5) reaches zero inside the stroke with this set, 21.1 cm3 "
-        "against 21.5 cm3 swept. The model has a floor there; what the thesis' program did is not known.",
-    ),
-}
 
 
 def run(given: Given) -> int:
@@ -38,14 +30,16 @@ def run(given: Given) -> int:
     from pysim.cli.progress import Working
     from pysim.io import read_dataset, write_file
     from pysim.present.comparison import Comparisons, comparison_text, data, page
+    from validation.pump import CLASSES
     from validation.thesis import FREQUENCIES_HZ, write_dataset
+    from validation.thesis.page import against_the_thesis
 
     folder = prepare_folder(given.output)
     frequencies = QUICK_FREQUENCIES_HZ if given.quick else FREQUENCIES_HZ
     # On two cores the solver is compiled while the models are built, and pictures are drawn while the models run.
     with ProcessPoolExecutor(2, mp_context=get_context("spawn")) as helpers:
         compiled = helpers.submit(_build_kernel)
-        models = {label: _build(label, folder) for label in _TABLES}
+        models = {label: _build(label, folder) for label in CLASSES}
         dataset = read_dataset(write_dataset(folder / "measurements", frequencies))
         with Working("Compiling the solver, once on this machine"):
             compiled.result()
@@ -58,7 +52,7 @@ def run(given: Given) -> int:
             early.result()  # or it could be written after the last picture of its name
             pictures = write_pictures(comparisons, folder, helpers)
     # with fewer frequencies the largest deviations are others, and the thesis' tables cannot be held against them
-    remarks = () if given.quick else tuple(part for one in comparisons for part in _against_the_thesis(one))
+    remarks = () if given.quick else tuple(part for one in comparisons for part in against_the_thesis(one))
     result = Comparisons(_TITLE, tuple(comparisons), remarks)
     write_file(folder / "comparison.json", json.dumps(data(result), indent=1, allow_nan=False))
     write_file(folder / "report.html", page(result, pictures, given.repeated))
@@ -104,30 +98,6 @@ def _compare(label: str, model: Model, dataset: Dataset) -> Comparison:
 
     with ProgressBar(f"{label} set") as progress:
         return compare_responses(model, dataset, label=label, about=SOURCES[label], progress=progress)
-
-
-def _against_the_thesis(comparison: Comparison) -> list[str]:
-    """Our numbers beside the thesis' own, and why they differ."""
-    from pysim.present.page import cell, heading, items, table
-    from validation.thesis import differences, explain
-
-    printed = _TABLES[comparison.label]
-    rows = differences(comparison, printed)
-    head = ["offset %", "amplitude %"]
-    for name, unit in (("mean", "dB"), ("max", "dB"), ("mean", "deg"), ("max", "deg")):
-        head += [f"{name} {unit}", "thesis", "fit"]
-    cells = [
-        [cell(f"{row.offset:g}"), cell(f"{row.amplitude:g}")]
-        + [
-            cell(f"{value:.{2 if i < 2 else 1}f}")
-            for i in range(4)
-            for value in (row.ours[i], row.printed[i], row.misfit[i])
-        ]
-        for row in rows
-    ]
-    caption = f"{comparison.label}: this page | thesis Table {printed} | misfit of the transfer function, Table 4.4"
-    title = f"Where and why this differs from thesis Table {printed} ({comparison.label} set)"
-    return [heading(title), items([*explain(rows, printed), *_CAVEATS[comparison.label]]), table(caption, head, cells)]
 
 
 COMMAND = Command(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 from fnmatch import fnmatch
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -16,19 +17,26 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from pysim.present.multisine import Approximations
-    from pysim.types import BestLinearApproximation, Dataset, MeasuredRecord, Record
+    from pysim.types import MeasuredRecord, Record
 
-_METHODS = ("auto", "robust", "fast", "smooth", "arbitrary")
 _KINDS = ("multisine", "other")
 
 
 def run(given: Given) -> Approximations:
     """What was found for each test."""
-    from pysim.present.multisine import Approximations
+    from pysim.identify.multisine import approximations, local_polynomial_approximation
+    from pysim.present.multisine import Approximations, named
 
     _refuse_idle(given)
-    found = _found(given, *_read(given))
-    return Approximations(f"Best linear approximation of {given.dataset[0].name}", tuple(found))
+    records, columns = _read(given)
+    title = f"Best linear approximation of {given.dataset[0].name}"
+    if _is_arbitrary(given):
+        band = None if given.band is None else (given.band[0], given.band[1])
+        found = [(one.origin, local_polynomial_approximation(one, columns, band=band)) for one in records]
+        return Approximations(title, tuple(found))
+    excited = None if given.lines is None else _harmonics(given.lines)
+    how = {"method": given.method, "start": given.start, "count": given.periods, "drop": given.drop}
+    return Approximations(title, named(approximations(records, columns, given.period, excited=excited, **how)))
 
 
 def _is_arbitrary(given: Given) -> bool:
@@ -58,6 +66,7 @@ def _read(given: Given) -> tuple[list[Record], tuple[str, ...]]:
     """Records, each called by its file, and the columns to use."""
     from dataclasses import replace
 
+    from pysim.identify.columns import the_column
     from pysim.io import read_dataset, read_record
     from pysim.types import BadInput, Record
 
@@ -69,7 +78,8 @@ def _read(given: Given) -> tuple[list[Record], tuple[str, ...]]:
             what = f"no log of kind {' or '.join(_KINDS)}" if given.records == "*" else f"no log called {given.records}"
             raise BadInput(f"{given.dataset[0]}: there is {what}; name the logs to take, --records PATTERN")
         _refuse_forgotten_period(given, logs)
-        columns = tuple(_column(given, dataset, logs[0], role) for role in ("input", "output"))
+        wanted = (("input", given.input), ("output", given.signal))
+        columns = tuple(the_column(dataset, logs[0], role, name) for role, name in wanted)
         records = [replace(log.data, origin=log.source) for log in logs if isinstance(log.data, Record)]
     else:
         if not (given.input and given.signal):
@@ -91,51 +101,6 @@ def _refuse_forgotten_period(given: Given, logs: list[MeasuredRecord]) -> None:
         )
 
 
-def _column(given: Given, dataset: Dataset, log: MeasuredRecord, role: str) -> str:
-    """The one asked for, or the only one of that role."""
-    from pysim.types import BadInput
-
-    option, wanted = ("--input", given.input) if role == "input" else ("--signal", given.signal)
-    if wanted:
-        return str(wanted)
-    names = dataset.columns(log, role)
-    if len(names) != 1:
-        raise BadInput(f"{log.source}: its {role}s are {', '.join(names) or 'none'}; choose one with {option} NAME")
-    return names[0]
-
-
-def _found(given: Given, records: list[Record], columns: tuple[str, ...]) -> list[tuple[str, BestLinearApproximation]]:
-    """A result per test with its name, where the records are periodic, else one per record."""
-    from pysim.io import shown_value
-
-    if _is_arbitrary(given):
-        return [(record.origin, _arbitrary(given, record, columns)) for record in records]
-    found: list[tuple[str, BestLinearApproximation]] = []
-    for bla in _periodic(given, records, columns):
-        test = bla.test
-        offset, rms = shown_value(test.offset, test.input_unit, ".4g"), shown_value(test.rms, test.input_unit, ".3g")
-        name = f"{test.input} around {offset}, rms {rms}"
-        found.append((name if all(name != other for other, _ in found) else f"{name}, {bla.origin}", bla))
-    return found
-
-
-def _periodic(given: Given, records: list[Record], columns: tuple[str, ...]) -> list[BestLinearApproximation]:
-    """Realisations of the same test are put together."""
-    from pysim.identify import multisine
-
-    methods = {
-        "auto": multisine.best_linear_approximation,
-        "robust": multisine.robust_approximation,
-        "fast": multisine.fast_approximation,
-        "smooth": multisine.smooth_approximation,
-    }
-    cuts = [multisine.periods_of([r], given.period, columns, start=given.start, count=given.periods) for r in records]
-    transient = None if given.drop is None else multisine.DropPeriods(given.drop)
-    excited = None if given.lines is None else _harmonics(given.lines)
-    tests = multisine.grouped_realisations(cuts, excited=excited)
-    return [methods[given.method](periods, excited=excited, transient=transient) for periods in tests]
-
-
 def _harmonics(text: str) -> NDArray[np.intp]:
     """1,3,7-99:2 as numbers; the last of a range counts."""
     import numpy as np
@@ -152,11 +117,10 @@ def _harmonics(text: str) -> NDArray[np.intp]:
     return np.array(sorted(found), dtype=np.intp)
 
 
-def _arbitrary(given: Given, record: Record, columns: tuple[str, ...]) -> BestLinearApproximation:
-    from pysim.identify.multisine import local_polynomial_approximation
+def _methods() -> Iterable[str]:
+    from pysim.identify.multisine import METHODS
 
-    band = None if given.band is None else (given.band[0], given.band[1])
-    return local_polynomial_approximation(record, columns, band=band)
+    return (*METHODS, "arbitrary")
 
 
 COMMAND = Command(
@@ -177,7 +141,7 @@ COMMAND = Command(
         choice(
             "--method",
             "auto",
-            _METHODS,
+            _methods,
             "robust: several realisations; fast: lines left free; smooth: local polynomial over periods; arbitrary: "
             "local polynomial without periods; auto: what the logs allow",
         ),

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from pysim.cli.command import Command, Given
@@ -39,14 +38,13 @@ def _step(given: Given) -> Steps:
 def _heave(given: Given) -> Heave:
     """The same wave under each load controller."""
     from pysim.present.rig.heave import Heave
-    from pysim.rig import HeaveTest, heave_figures
+    from pysim.rig import HeaveTest, heave_figures, load_controllers
 
     every = _row(given.dt)
     test = HeaveTest(given.height, given.period, given.length, given.seed)
     experiment = test.experiment(every=every)
-    records = {
-        label: _run(given, experiment, load, label, crane=True) for label, load in _load_controllers(given.dt).items()
-    }
+    loads = load_controllers(given.dt)
+    records = {label: _run(given, experiment, load, label, crane=True) for label, load in loads.items()}
     return Heave(test, {label: heave_figures(record, test) for label, record in records.items()}, records)
 
 
@@ -61,21 +59,6 @@ def _row(dt: float) -> float:
     if not 0 < dt < _COARSEST:
         raise BadInput(f"--dt {dt:g}: give seconds, more than none and less than {_COARSEST:g}")
     return dt * max(1, math.ceil(_ROW / dt - 1e-6))
-
-
-def _load_controllers(dt: float) -> Mapping[str, LoadController | CompensatedLoadController]:
-    """Before and after: the thesis', with its valve turned round, and that with the gain that calms the shaft."""
-    from pysim.control import CompensatedLoadController, LoadController
-    from pysim.control.tuning import damping_gain
-
-    plain = LoadController(dt)
-    gain = damping_gain(plain.T_i, speed=8.0)
-    return {
-        "thesis": plain,
-        "compensated": CompensatedLoadController(dt),
-        "gain for the shaft": LoadController(dt, K_p=gain),
-        "both": CompensatedLoadController(dt, K_p=gain * 0.0035),
-    }
 
 
 def _run(

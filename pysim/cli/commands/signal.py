@@ -14,14 +14,13 @@ if TYPE_CHECKING:
     from pysim.present.excitation import Played
 
 
-def run(given: Given) -> int:
+def _made(given: Given, test: Excitation) -> int:
     """Write the file and say what is in it; the folder's page comes whole together with the file, or not at all."""
     from pysim import present
     from pysim.cli.outputs import answer_folder, prepare_answer, prepare_file
     from pysim.present.excitation import Played
 
     path, folder = _places(given)
-    test = _MAKE[given.command.name](given, _lead(given))
     _refuse_slow_sampling(test, given.sampling)
     prepare_file(path, "-o", (".csv",))
     about = given.command.about.rstrip(".")
@@ -91,49 +90,43 @@ def _lead(given: Given) -> LeadIn:
     return LeadIn(given.rest, given.ramp, given.hold, given.ramp_down)
 
 
-def _stepped_sine(given: Given, lead: LeadIn) -> Excitation:
+def _stepped_sine(given: Given) -> int:
     from pysim.excitation import SteppedSineCommand
 
-    return SteppedSineCommand(given.offset, given.amplitude, given.frequency, given.periods, lead)
+    sine = (given.offset, given.amplitude, given.frequency, given.periods)
+    return _made(given, SteppedSineCommand(*sine, _lead(given)))
 
 
-def _chirp(given: Given, lead: LeadIn) -> Excitation:
+def _chirp(given: Given) -> int:
     from pysim.excitation import Chirp
 
-    return Chirp(given.offset, given.amplitude, given.start_hz, given.stop_hz, given.sweep, lead)
+    sweep = (given.offset, given.amplitude, given.start_hz, given.stop_hz, given.sweep)
+    return _made(given, Chirp(*sweep, _lead(given)))
 
 
-def _stochastic(given: Given, lead: LeadIn) -> Excitation:
+def _stochastic(given: Given) -> int:
     from pysim.excitation import PiersonMoskowitz, StochasticWave
 
     spectrum = PiersonMoskowitz(given.height, given.peak_period)
-    return StochasticWave(spectrum, given.length, given.seed, given.components, given.offset, lead=lead)
+    wave = (spectrum, given.length, given.seed, given.components, given.offset)
+    return _made(given, StochasticWave(*wave, lead=_lead(given)))
 
 
-def _step(given: Given, lead: LeadIn) -> Excitation:
+def _step(given: Given) -> int:
     from pysim.excitation import Step
 
-    return Step(given.offset, given.height, given.length, given.back, lead)
+    return _made(given, Step(given.offset, given.height, given.length, given.back, _lead(given)))
 
 
-def _multisine(given: Given, lead: LeadIn) -> Excitation:
+def _multisine(given: Given) -> int:
     from pysim.excitation import LineGrid, Multisine
     from pysim.types import BadInput
 
     if (given.rms is None) == (given.peak is None):
         raise BadInput("one of the arguments --rms --peak is required; give the level by one of them")
     grid = LineGrid(given.period, given.low_hz, given.high_hz, given.lines)
-    more = {"offset": given.offset, "periods": given.periods, "lead": lead}
-    return Multisine(grid, given.seed, rms=given.rms, peak=given.peak, **more)
-
-
-_MAKE: dict[str, Callable[[Given, LeadIn], Excitation]] = {
-    "stepped-sine": _stepped_sine,
-    "chirp": _chirp,
-    "stochastic": _stochastic,
-    "step": _step,
-    "multisine": _multisine,
-}
+    more = {"offset": given.offset, "periods": given.periods, "lead": _lead(given)}
+    return _made(given, Multisine(grid, given.seed, rms=given.rms, peak=given.peak, **more))
 
 
 def _needed(flag: str, unit: str, about: str) -> Option:
@@ -155,72 +148,63 @@ _SHARED = (
     file("--output", "DIR", "write the picture and report.html here; a .csv is taken as --file", role=Role.VALUE),
 )
 
+
+def _kind(name: str, about: str, run: Callable[[Given], int], *options: Option) -> Command:
+    """A signal with its own options, ahead of those that all have."""
+    return Command(name, about, run, options=(*options, *_SHARED))
+
+
 COMMAND = Command(
     "signal",
     "Make a test signal: a file any bench can play, and a picture of it.",
     parts=(
-        Command(
+        _kind(
             "stepped-sine",
             "one sine around an offset (thesis Eq. 2.1)",
-            run,
-            options=(
-                _AMPLITUDE,
-                _needed("--frequency", "HZ", "of the sine"),
-                number("--periods", "N", 10.0, "how many"),
-                *_SHARED,
-            ),
+            _stepped_sine,
+            _AMPLITUDE,
+            _needed("--frequency", "HZ", "of the sine"),
+            number("--periods", "N", 10.0, "how many"),
         ),
-        Command(
+        _kind(
             "chirp",
             "a sine of linearly changing frequency (thesis Eq. 2.2)",
-            run,
-            options=(
-                _AMPLITUDE,
-                number("--start-hz", "HZ", 0.1, "frequency at its start"),
-                number("--stop-hz", "HZ", 30.0, "frequency at its end"),
-                _needed("--sweep", "SECONDS", "from the one to the other"),
-                *_SHARED,
-            ),
+            _chirp,
+            _AMPLITUDE,
+            number("--start-hz", "HZ", 0.1, "frequency at its start"),
+            number("--stop-hz", "HZ", 30.0, "frequency at its end"),
+            _needed("--sweep", "SECONDS", "from the one to the other"),
         ),
-        Command(
+        _kind(
             "stochastic",
             "a wave with the Pierson-Moskowitz spectrum (thesis Appendix A)",
-            run,
-            options=(
-                _needed("--height", "H", "significant height, in the command's unit"),
-                _needed("--peak-period", "SECONDS", "of the spectrum"),
-                number("--length", "SECONDS", 30.0, "of the wave"),
-                number("--components", "N", 100, "how many sines", convert=int),
-                _SEED,
-                *_SHARED,
-            ),
+            _stochastic,
+            _needed("--height", "H", "significant height, in the command's unit"),
+            _needed("--peak-period", "SECONDS", "of the spectrum"),
+            number("--length", "SECONDS", 30.0, "of the wave"),
+            number("--components", "N", 100, "how many sines", convert=int),
+            _SEED,
         ),
-        Command(
+        _kind(
             "step",
             "a step from one level to another",
-            run,
-            options=(
-                _needed("--height", "H", "of the step, either sign, in the command's unit"),
-                _needed("--length", "SECONDS", "at each level"),
-                switch("--back", "step back again"),
-                *_SHARED,
-            ),
+            _step,
+            _needed("--height", "H", "of the step, either sign, in the command's unit"),
+            _needed("--length", "SECONDS", "at each level"),
+            switch("--back", "step back again"),
         ),
-        Command(
+        _kind(
             "multisine",
             "a periodic sum of sines with random phases",
-            run,
-            options=(
-                _needed("--period", "SECONDS", "its inverse is the distance of the lines"),
-                number("--low-hz", "HZ", 0.1, "lowest line"),
-                number("--high-hz", "HZ", 30.0, "highest line"),
-                number("--rms", "LEVEL", None, "level without the offset, in the command's unit"),
-                number("--peak", "LEVEL", None, "or the largest deviation from the offset, in the command's unit"),
-                choice("--lines", "random-odd", ("full", "odd", "random-odd"), "that are excited"),
-                number("--periods", "N", 3.0, "how many"),
-                _SEED,
-                *_SHARED,
-            ),
+            _multisine,
+            _needed("--period", "SECONDS", "its inverse is the distance of the lines"),
+            number("--low-hz", "HZ", 0.1, "lowest line"),
+            number("--high-hz", "HZ", 30.0, "highest line"),
+            number("--rms", "LEVEL", None, "level without the offset, in the command's unit"),
+            number("--peak", "LEVEL", None, "or the largest deviation from the offset, in the command's unit"),
+            choice("--lines", "random-odd", ("full", "odd", "random-odd"), "that are excited"),
+            number("--periods", "N", 3.0, "how many"),
+            _SEED,
         ),
     ),
 )

@@ -10,10 +10,6 @@ from pysim.cli.command import DONE, NO, Command, Given
 from pysim.cli.option import Option, switch
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
-
-    from matplotlib.figure import Figure
-
     from pysim.cli.progress import ProgressBar
     from validation.findings import Finding
     from validation.results import CaseResult
@@ -22,9 +18,11 @@ if TYPE_CHECKING:
 def run(given: Given) -> int:
     """NO when one claim fails of those that could be tried."""
     from pysim.cli.outputs import prepare_file, prepare_folder
+    from validation.page import write_page
     from validation.registry import CASES
     from validation.results import FAILS, append_results
     from validation.suite import chosen, run_cases
+    from validation.summary import record
 
     names = chosen(given.names, quick=given.quick)
     if given.list:
@@ -46,9 +44,10 @@ def run(given: Given) -> int:
         if given.json:
             append_results(given.json, [result])
     if given.output:
-        _write_page(given.output, results)
+        write_page(given.output, results)
+        print(f"wrote {given.output / 'report.html'}")
     if checkout:
-        _record(checkout, results)
+        print(f"recorded {len(results)} cases in {record(checkout, results)}")
     return NO if any(result.verdict == FAILS for result in results) else DONE
 
 
@@ -77,29 +76,6 @@ class _Show:
         self._bar(self._done, self._total)
 
 
-def _write_page(folder: Path, results: Sequence[CaseResult]) -> None:
-    from pysim.io import write_file
-    from pysim.present.render import render
-    from validation.page import suite_page
-    from validation.registry import CASES
-    from validation.summary import full_summary
-
-    drawn: dict[str, Mapping[str, Figure]] = {}
-    for result in results:
-        drawn[result.case] = {} if result.error else CASES[result.case].pictures()
-        for k, figure in enumerate(drawn[result.case].values(), 1):
-            write_file(folder / f"{result.case}-{k}.png", render(figure, "png"))
-    write_file(folder / "report.html", suite_page(results, drawn))
-    write_file(folder / "summary.md", full_summary(results, kept=False))
-    print(f"wrote {folder / 'report.html'}")
-
-
-def _results_file() -> Path:
-    import validation
-
-    return Path(str(validation.__file__)).parent / "recorded.jsonl"
-
-
 def _checkout() -> Path:
     """The folder with the README.
 
@@ -112,18 +88,6 @@ def _checkout() -> Path:
     if not (root / "pyproject.toml").is_file():
         raise BadInput("--record writes into a checkout and this is an installed package; use --output or --json")
     return root
-
-
-def _record(root: Path, results: Sequence[CaseResult]) -> None:
-    from pysim.io import write_file
-    from validation.results import keep_results
-    from validation.summary import between_markers, full_summary, short_summary
-
-    kept = keep_results(_results_file(), results)
-    write_file(root / "validation" / "RESULTS.md", full_summary(kept))
-    readme = root / "README.md"
-    write_file(readme, between_markers(readme.read_text(encoding="utf-8"), short_summary(kept)))
-    print(f"recorded {len(results)} cases in {_results_file()}")
 
 
 COMMAND = Command(

@@ -7,11 +7,11 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from pysim.identify._columns import declared_noise, the_column
 from pysim.identify.chirp._extremes import apart_ones, extremes, paired_ones, samples_of, seen_ones
 from pysim.identify.chirp.branch import Branch, mean_branch
 from pysim.identify.chirp.cycle_fit import Extreme, Samples
 from pysim.identify.chirp.result import ChirpAnalysis
+from pysim.identify.columns import declared_noise, the_column
 from pysim.identify.logged import LoggedWave, logged_wave
 from pysim.types import BadInput, Dataset, MeasuredRecord, Record
 from pysim.types.note import Note, NoteCode

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from pysim.identify._columns import declared_noise, the_column
+from pysim.identify.columns import declared_noise, the_column
 from pysim.identify.frf.sine_point import SinePoint, Window, sine_point
 from pysim.types import BadInput, Dataset, FrequencyResponse, Record, SineTest
 from pysim.types.note import Note, NoteCode

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from pysim.identify._columns import declared_noise
+from pysim.identify.columns import declared_noise
 from pysim.types import BadInput, Dataset, MeasuredRecord, MeasuredSignal, Record
 
 Array = NDArray[np.float64]

@@ -11,6 +11,7 @@ from pysim.identify.multisine.groups import grouped_realisations
 from pysim.identify.multisine.lines import Lines, excited_lines, find_excited, lines_of
 from pysim.identify.multisine.local_polynomial import LocalPolynomial, local_polynomial_approximation
 from pysim.identify.multisine.periods import Periods, periods_of
+from pysim.identify.multisine.realisations import METHODS, approximations
 from pysim.identify.multisine.statistics import (
     difference_interval,
     distortion_p_value,
@@ -23,6 +24,7 @@ from pysim.identify.multisine.steady import DropPeriods, LocalTransient, SteadyS
 from pysim.identify.multisine.window_choice import WindowChoice, rank_local_polynomials
 
 __all__ = [
+    "METHODS",
     "DropPeriods",
     "Lines",
     "LocalPolynomial",
@@ -30,6 +32,7 @@ __all__ = [
     "Periods",
     "SteadySpectra",
     "WindowChoice",
+    "approximations",
     "as_frequency_response",
     "best_linear_approximation",
     "difference_interval",

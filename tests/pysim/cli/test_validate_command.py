@@ -58,7 +58,6 @@ def test_record(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     readme = tmp_path / "README.md"
     readme.write_text(f"# A\n{BEGIN}\n{END}\n", encoding="utf-8")
     monkeypatch.setattr(validate, "_checkout", lambda: tmp_path)
-    monkeypatch.setattr(validate, "_results_file", lambda: tmp_path / "validation" / "recorded.jsonl")
     for _ in range(2):
         assert main(["validate", "good", "--record"]) == 0
     assert len(read_results(tmp_path / "validation" / "recorded.jsonl")) == 1
