@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 import os
 import time
 import traceback
@@ -23,7 +24,9 @@ def chosen(names: Sequence[str], *, quick: bool) -> list[str]:
     """
     unknown = [name for name in names if name not in CASES]
     if unknown:
-        raise BadInput(f"no case named {', '.join(unknown)}; there are {', '.join(CASES)}")
+        near = difflib.get_close_matches(unknown[0], CASES, n=1)
+        hint = f"did you mean {near[0]}?" if near else "pysim validate --list names them"
+        raise BadInput(f"no case named {unknown[0]}; {hint}")
     return [name for name in names or CASES if CASES[name].quick or not quick]
 
 

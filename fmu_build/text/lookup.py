@@ -57,6 +57,8 @@ class Libraries:
         where = ", ".join(dict.fromkeys(str(place) for place in self.places)) or "no library"
         called = [place for place in self.places if place.is_dir() and package_name(place) == parts[0]]
         cure = f"rename the folder to {parts[0]}, as its package is called" if called else ""
+        near = difflib.get_close_matches(parts[0], [place.stem for place in self.places])
+        cure = cure or (f"near it: {', '.join(near)}" if near else "")
         raise TextError(f"class {name} is not in {where}; {cure or 'give its full name, and its library or file'}")
 
     def full(self, name: str) -> ClassText | None:

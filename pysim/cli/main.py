@@ -54,9 +54,9 @@ class Parser(argparse.ArgumentParser):
     def parse_known_args(self, args=None, namespace=None):  # type: ignore[no-untyped-def] # as argparse has it
         known = [flag for action in self._actions for flag in action.option_strings if flag.startswith("--")]
         leaf = not any(isinstance(action, argparse._SubParsersAction) for action in self._actions)
-        for word in args if leaf and args else ():
+        for word in args or ():
             flag = word.partition("=")[0]
-            if word == "--":
+            if word == "--" or not (leaf or word.startswith("-")):  # what is behind a command's name is its own
                 break
             if flag.startswith("--") and not any(one.startswith(flag) for one in known):
                 self.error(f"there is no option {flag}{did_you_mean(flag, known)}")
@@ -68,7 +68,10 @@ class Parser(argparse.ArgumentParser):
             word = choices.split("'")[1] if "'" in choices else ""
             names = [name for action in self._actions for name in action.choices or ()]
             message = f"{bad}there is no {word}{did_you_mean(word, names)}; choose of {', '.join(names)}"
-        super().error(message)
+        extra = message.removeprefix("unrecognized arguments: ")
+        if extra != message:
+            message = f"{extra} is one word too many; leave it out, or put a text with spaces between quotation marks"
+        super().error(message.replace("expected one argument", "its value is missing; write it behind"))
 
 
 class _Version(argparse.Action):

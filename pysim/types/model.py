@@ -14,7 +14,7 @@ from pysim.types.dataset import MeasuredSignal
 from pysim.types.errors import BadInput
 from pysim.types.units import UNITS, conversion
 
-_DIGEST = re.compile(r"[0-9a-f]{32,}")  # names a file in a cache
+_DIGEST = re.compile(r"[0-9a-f]{32,}(-[0-9a-f]{32,})?")  # names a file in a cache
 _LISTED = 20  # names in a message
 
 
@@ -96,8 +96,8 @@ class Model:
         if variable is not None:
             return variable
         near = self._near(name)
-        hint = f"; near it: {', '.join(near)}" if near else ""
-        raise BadInput(f"{self.label} has no variable {name!r}{hint}")
+        hint = f"near it: {', '.join(near)}" if near else f"pysim model {self.label} lists them"
+        raise BadInput(f"{self.label} has no variable {name!r}; {hint}")
 
     def _near(self, name: str) -> list[str]:
         return difflib.get_close_matches(name, list(self._by_name), n=3)

@@ -63,7 +63,7 @@ def _numbers(words: str, option: str, count: int | None = None) -> tuple[float, 
     except ValueError as error:
         raise BadInput(f"{option} {words}: write numbers with commas between them ({error})") from error
     if count is not None and len(found) != count:
-        raise BadInput(f"{option} {words}: {len(found)} numbers where {count} are meant; write {count}")
+        raise BadInput(f"{option} {words}: write {count} numbers with commas between them")
     return found
 
 

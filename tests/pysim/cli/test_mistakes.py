@@ -57,6 +57,9 @@ def place(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 FRICTION = ["friction", "d", "--speed", "y", "--supply", "u", "--inertia", "1"]
 AXIS = ["--model", "Axis", "--library", "Axis.mo"]
+CHIRP = ["signal", "chirp", "--sweep", "5"]
+RUN = ["simulate", "Axis", "--library", "Axis.mo"]
+BENCH = ["bench", "Axis", "--library", "Axis.mo", "--plan", "bench-01", "--seed", "1", "--output", "mine"]
 MISTAKES = [
     # commands, options, choices
     (["diagnos", "d"], ["diagnos", "did you mean diagnose?"]),
@@ -65,6 +68,14 @@ MISTAKES = [
     (["blackbox", "d", "--poles", "2", "--weights", "uniformly"], ["'uniformly'", "did you mean uniform?"]),
     (["data", "chek", "d"], ["chek", "check"]),
     (["frf"], ["DATASET"]),
+    (["frf", "d", "d"], ["d is one word too many", "quotation marks"]),
+    (["frf", "d", "--signal"], ["--signal", "its value is missing"]),
+    (["demo", "--quik"], ["--quik", "did you mean --quick?"]),
+    (["rig", "jump"], ["there is no jump", "choose of step, heave"]),
+    (["rig", "heave", "--fmi", "4"], ["--fmi", "none of 2, 3"]),
+    (["signal", "sine"], ["there is no sine", "stepped-sine"]),
+    (["simulate", "Axis", "--solver", "rk4"], ["'rk4'", "did you mean rk45?"]),
+    (["tune", "laod"], ["'laod'", "did you mean load?"]),
     (["diagnose", "d"], ["--model"]),
     # data sets
     (["frf", "nowhere"], ["nowhere", "there is no folder"]),
@@ -75,6 +86,15 @@ MISTAKES = [
     (["fit", "d", "nowhere", *AXIS], ["nowhere", "there is no folder"]),
     (["chirp", "bare/1Hz.csv"], ["--columns"]),
     (["chirp", "d", "--columns", "time,u,y"], ["--columns", "leave it out"]),
+    (["chirp", "bare/1Hz.csv", "--columns", "time,u"], ["bare/1Hz.csv", "at least one response"]),
+    (["chirp", "bare/1Hz.csv", "--columns", "time,u,y", "--units", "furlong,%"], ["'furlong'", "use one of"]),
+    (["chirp", "d"], ["'d'", "give its chirps that kind"]),
+    (["data", "check", "bare", "--input", "u", "--response", "y:%"], ["u: write NAME:UNIT", "as alphaCMD:%"]),
+    (["data", "describe", "d"], ["d/dataset.toml is there already", "remove it first"]),
+    (["data", "describe", "bare/1Hz.csv"], ["bare/1Hz.csv is no folder", "name the folder of the logs"]),
+    (["multisine", "d"], ["no log of kind multisine", "--records PATTERN"]),
+    (["multisine", "bare/1Hz.csv"], ["--input NAME --signal NAME"]),
+    (["multisine", "d", "--period", "1", "--band", "1", "2"], ["--band", "leave one of them out"]),
     # signals, numbers
     (["frf", "d", "--signal", "z"], ["'z'"]),
     (["frf", "d", "--settle", "0,5"], ["'0,5'", "0.5"]),
@@ -86,12 +106,29 @@ MISTAKES = [
     (["blackbox", "d", "--poles", "3", "--zeros", "1", "--orders", "suggest"], ["--zeros", "leave them out"]),
     (["multisine", "d", "--method", "robust"], ["--method robust", "--period"]),
     (["signal", "step", "--height", "1", "--length", "1"], ["name the file to write, -o FILE.csv"]),
+    ([*CHIRP, "--amplitude", "1,5", "-o", "s.csv"], ["'1,5'", "1.5"]),
+    ([*CHIRP, "--amplitude", "1", "-o", "s.txt"], ["s.txt", ".csv"]),
+    ([*CHIRP, "--amplitude", "1", "-o", "s.csv", "--sampling", "40"], ["--sampling 40", "more than twice that"]),
+    (["friction", "d", "--speed", "z", "--supply", "u", "--inertia", "1"], ["no signal 'z'", "it has u, y"]),
+    ([*FRICTION[:-1], "-1"], ["--inertia", "0 or above"]),
+    (["blackbox", "d", "--poles", "2", "--test", "50/10"], ["no test 50/10", "it has 0/1"]),
+    (["tune", "load", "--gains", "1"], ["--gains 1", "write 2 numbers"]),
     # models
     (["compare", "d", "--model", "nowhere.fmu"], ["nowhere.fmu"]),
     (["compare", "d", "--model", "broken.fmu"], ["broken.fmu"]),
     (["simulate", "Axsi", "--library", "Axis.mo"], ["Axsi", "Axis"]),
     (["compare", "d", "--model", "Axis", "--library", "nowhere.mo"], ["nowhere.mo"]),
     (["check-fmu", "nowhere.fmu"], ["nowhere.fmu"]),
+    (["check-fmu", "broken.fmu"], ["broken.fmu is not an FMU", "export it again"]),
+    (["model", "Axsi", "--library", "Axis.mo"], ["class Axsi", "near it: Axis"]),
+    (["model", "Axis", "--library", "nowhere"], ["the library nowhere does not exist", "package.mo"]),
+    ([*RUN, "--stop", "0"], ["--stop 0", "must be positive"]),
+    ([*RUN, "--step", "1e-12"], ["rows are more than", "widen the step"]),
+    ([*RUN, "--record", "z"], ["Axis has no variable 'z'", "pysim model Axis"]),
+    ([*RUN, "--input", "u"], ["--input u", "NAME=NUMBER or NAME=FILE.csv"]),
+    ([*RUN, "--input", "u=1,5"], ["--input u=1,5", "1.5"]),
+    ([*RUN, "--input", "u=nowhere.csv"], ["nowhere.csv", "correct the name"]),
+    ([*RUN, "--set", "u=1"], ["u of Axis", "set parameters only"]),
     # parameters, effects
     (["fit", "d", *AXIS, "--set", "m"], ["--set m", "write NAME=VALUE"]),
     (["fit", "d", *AXIS, "--set", "m=1,5"], ["--set m=1,5", "1.5"]),
@@ -106,6 +143,10 @@ MISTAKES = [
         ["shaft.frction", "did you mean shaft.friction?"],
     ),
     (["diagnose", "d", *AXIS, "--max-effects", "-1"], ["--max-effects -1", "0 or more"]),
+    (["fit", "d", *AXIS, "--profile", "q"], ["--profile q", "choose of m"]),
+    (["fit", "d", *AXIS, "--start", "q=1"], ["q has a start", "add it to --free"]),
+    (["compare", "d", *AXIS, "--refit", "--free", "mm"], ["Axis has no variable 'mm'", "near it: m"]),
+    (["locate", "d", *AXIS, "--bounds", "m=1"], ["--bounds m=1", "write NAME=LOW:HIGH"]),
     (["add", "d", *AXIS], ["--effects"]),
     (["add", "d", *AXIS, "--effects", "shaft.friction"], ["shaft.friction", "no slot of Axis takes it"]),
     (["locate", "d", *AXIS, "--with", "shaft.frction"], ["effect shaft.frction", "did you mean shaft.friction?"]),
@@ -116,7 +157,13 @@ MISTAKES = [
     (["cosim", "list.toml", "--stop", "-1"], ["--stop -1", "positive number"]),
     (["bench", "Axis", "--plan", "bench-01"], ["--output", "--seed"]),
     (["tune", "own", "--numerator", "1;2", "--denominator", "1,1"], ["--numerator 1;2"]),
-    (["validate", "table_4_44"], ["table_4_44"]),
+    (BENCH, ["--output mine", "choose a new folder"]),
+    ([*BENCH[:-1], "new", "--truth", "new/truth.json"], ["--truth new/truth.json", "choose a place outside"]),
+    (["bench", *BENCH[1:4], "--plan", "bench-99", *BENCH[6:]], ["bench-99", "one of bench-01, thesis"]),
+    (["cosim", "list.toml"], ["list.toml: the key 'm' is not known", "use system, members"]),
+    (["tune", "own", "--numerator", "1"], ["--denominator", "give both"]),
+    (["app", "broken.fmu"], ["broken.fmu", "choose another folder"]),
+    (["validate", "table-4-44"], ["table-4-44", "did you mean table-4-4?"]),
     (["app", "--port", "99999"], ["--port 99999", "65535"]),
     (["demo", "--output", "broken.fmu/out"], ["--output broken.fmu/out", "choose another folder"]),
     # results
@@ -125,6 +172,8 @@ MISTAKES = [
     (["frf", "d", "--output", "mine"], ["mine: notes.txt is there", "choose a new folder"]),
     (["compare", "d", *AXIS, "--output", "."], ["--output .", "choose"]),
     (["diagnose", "d", *AXIS, "--records", "r.csv"], ["--records r.csv", ".npz"]),
+    (["diagnose", "d", *AXIS, "--output", "d/out"], ["--output d/out", "choose a place outside"]),
+    ([*RUN, "--output", "run.txt"], ["run.txt", ".csv, .npz"]),
     (["frf", "d", "--output", "broken.fmu/out"], ["--output broken.fmu/out", "choose another folder"]),
 ]
 

@@ -40,7 +40,7 @@ def test_an_unstable_loop_is_a_no() -> None:
         (["load", "--numerator", "1"], "give both, or name a plant"),
         (["own", "--numerator", "1,x", "--denominator", "1,1"], "write numbers"),
         (["load", "--dt", "0"], "--dt 0: give a positive number"),
-        (["load", "--gains", "1"], "1 numbers where 2 are meant"),
+        (["load", "--gains", "1"], "write 2 numbers"),
         (["speed", "--crossover", "0.1", "--phase-margin", "60"], "out of a PI controller's reach"),
     ],
 )

@@ -103,7 +103,9 @@ def test_a_variable_that_is_not_there_is_said_with_its_signal_and_the_cure(role:
 
 
 def test_a_file_of_a_cache_goes_by_the_name_of_its_model() -> None:
-    kept = replace(model(), path=Path(f"{'31c6464d' * 8}.fmu"), name="Rig.Pump")
-    assert (kept.label, model().label) == ("Rig.Pump", "m.fmu")
-    with pytest.raises(BadInput, match=r"^Rig\.Pump has no variable 'x'$"):
+    digest = "31c6464d" * 8
+    for stem in (digest, f"{digest}-{digest[:32]}"):
+        kept = replace(model(), path=Path(f"{stem}.fmu"), name="Rig.Pump")
+        assert (kept.label, model().label) == ("Rig.Pump", "m.fmu")
+    with pytest.raises(BadInput, match=r"^Rig\.Pump has no variable 'x'; pysim model Rig\.Pump lists them$"):
         kept["x"]
