@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import math
-import re
 import sys
 import tomllib
 from collections.abc import Sequence
@@ -107,18 +106,12 @@ def assigned(texts: Sequence[str], option: str, unit: str) -> dict[str, float]:
 
 def point_in_place(text: str) -> str:
     """What to add to a message where numbers have a decimal comma; nothing where they have none."""
-    numbers = text.split(":")
-    if not all(re.fullmatch(r"\s*[+-]?\d*,\d+(e[+-]?\d+)?\s*", n, re.IGNORECASE) or _is_number(n) for n in numbers):
-        return ""
-    return f", and a point where the comma is: {text.replace(',', '.').strip()}" if "," in text else ""
-
-
-def _is_number(text: str) -> bool:
+    pointed = text.replace(",", ".").strip()
     try:
-        float(text)
+        _ = [float(number) for number in pointed.split(":")]
     except ValueError:
-        return False
-    return True
+        return ""
+    return f", and a point where the comma is: {pointed}" if "," in text else ""
 
 
 def _warn_beyond(variable: Variable, value: float, model: Model) -> None:

@@ -72,8 +72,7 @@ def text(result: Chirps) -> str:
 
 def data(result: Chirps) -> dict[str, Any]:
     """Everything that was found; magnitudes in dB, phases in degrees, doubts as standard deviations."""
-    found: dict[str, Any] = json_data({"dataset": result.dataset, "chirps": [*map(_analysis, result.analyses)]})
-    return found
+    return json_data({"dataset": result.dataset, "chirps": [*map(_analysis, result.analyses)]})
 
 
 def figures(result: Chirps) -> Iterator[Picture]:

@@ -67,8 +67,7 @@ def data(result: Responses) -> dict[str, Any]:
     """Everything that was found; magnitudes in dB, phases in degrees, intervals as standard deviations."""
     responses = [_response(one, result.reference_hz) for one in result.responses]
     about = {"dataset": result.dataset, "reference_hz": result.reference_hz}
-    found: dict[str, Any] = json_data({**about, "responses": responses})
-    return found
+    return json_data({**about, "responses": responses})
 
 
 def figures(result: Responses) -> Iterator[Picture]:

@@ -75,8 +75,7 @@ def text(result: Friction) -> str:
 def data(result: Friction) -> dict[str, Any]:
     """Everything for JSON; an open end is None."""
     by_filter = None if result.by_filter is None else _data(result.by_filter)
-    found: dict[str, Any] = json_data({**_data(result.fit), "by_filter": by_filter})
-    return found
+    return json_data({**_data(result.fit), "by_filter": by_filter})
 
 
 def figures(result: Friction) -> Iterator[Picture]:

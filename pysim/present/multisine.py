@@ -65,8 +65,7 @@ def text(result: Approximations) -> str:
 
 def data(result: Approximations) -> dict[str, Any]:
     """Everything, numbers finite or None: gain unit is output per input unit, levels are variances in its square."""
-    found: dict[str, Any] = json_data({"approximations": [_data(name, bla) for name, bla in result.found]})
-    return found
+    return json_data({"approximations": [_data(name, bla) for name, bla in result.found]})
 
 
 def figures(result: Approximations) -> Iterator[Picture]:

@@ -66,8 +66,7 @@ def text(result: Tuning) -> str:
 
 def data(result: Tuning) -> dict[str, Any]:
     """Everything, frequencies in Hz, margins in degrees and dB; null where there is none."""
-    found: dict[str, Any] = json_data({label: _data(gains) for label, gains in result.loops.items()})
-    return found
+    return json_data({label: _data(gains) for label, gains in result.loops.items()})
 
 
 def figures(result: Tuning) -> Iterator[Picture]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, overload
 
 import numpy as np
 
@@ -14,6 +14,10 @@ def json_number(value: float | None) -> float | None:
     return float(value) if value is not None and math.isfinite(value) else None
 
 
+@overload
+def json_data(value: Mapping[str, Any]) -> dict[str, Any]: ...
+@overload
+def json_data(value: Any) -> Any: ...
 def json_data(value: Any) -> Any:
     """The same in lists, dictionaries and plain numbers, each of which is finite or None.
 

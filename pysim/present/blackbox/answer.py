@@ -100,8 +100,7 @@ def _suggestion_text(suggestion: OrderSuggestion) -> Iterable[str]:
 def data(result: TransferFunctions) -> dict[str, Any]:
     """Everything as plain numbers; None where the data do not determine one. SI units; magnitudes absolute, in dB."""
     about = {"dataset": result.dataset, "level": 0.95}
-    found: dict[str, Any] = json_data({**about, "responses": [_data(one) for one in result.fitted]})
-    return found
+    return json_data({**about, "responses": [_data(one) for one in result.fitted]})
 
 
 def _data(one: FittedResponse) -> dict[str, Any]:

@@ -84,7 +84,7 @@ def data(result: Comparisons) -> dict[str, Any]:
     """Everything a Comparison holds; numbers are finite or None, magnitudes in dB relative to
     `reference_hz`, phases in deg."""
     first, limits = result.sets[0], zip(criteria.KEYS, FREQUENCY_CRITERIA, strict=True)
-    found: dict[str, Any] = json_data(
+    return json_data(
         {
             "dataset": first.dataset,
             "measured": first.measured_name,
@@ -93,7 +93,6 @@ def data(result: Comparisons) -> dict[str, Any]:
             "parameter_sets": [_set(comparison) for comparison in result.sets],
         }
     )
-    return found
 
 
 def _set(comparison: Comparison) -> dict[str, Any]:

@@ -89,8 +89,7 @@ def files(result: Fitted) -> dict[str, str]:
 def data(result: Fitted) -> dict[str, Any]:
     """Everything a fit holds but the samples; numbers are finite or None, parameters in the variables' units."""
     profiles = {p.name: {"interval": p.interval, "points": p.points} for p in result.profiles}
-    found: dict[str, Any] = json_data({**_data(result.fit), "profiles": profiles})
-    return found
+    return json_data({**_data(result.fit), "profiles": profiles})
 
 
 def _keys(of: object, *names: str) -> dict[str, Any]:

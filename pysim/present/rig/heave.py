@@ -74,13 +74,12 @@ def data(result: Heave) -> dict[str, Any]:
     """SI numbers, and the wave."""
     test = result.test
     wave = {"significant_height_m": test.significant_height, "peak_period_s": test.peak_period}
-    found: dict[str, Any] = json_data(
+    return json_data(
         {
             "wave": {**wave, "length_s": test.length, "seed": test.seed},
             "controllers": {label: _data(one) for label, one in result.runs.items()},
         }
     )
-    return found
 
 
 def figures(result: Heave) -> Iterator[Picture]:
