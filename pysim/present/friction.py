@@ -41,6 +41,13 @@ _MEANING = {
 _STEEP = 1e3  # s/rad, drawn for a steepness without an upper end
 
 
+_BESIDE = (
+    "As the thesis did it: the held speed of the pulse sensor, low-passed and differentiated. The reading is late "
+    "by half to one and a half of the time between pulses, so near standstill torque and speed do not belong "
+    "together: the steepness found this way is that of the filter, and the intervals do not know it."
+)
+
+
 @dataclass(frozen=True)
 class Friction:
     """What was found.
@@ -92,7 +99,7 @@ def page(result: Friction, drawings: Sequence[Drawing], redo: str) -> str:
     parts = [heading("Friction of the shaft"), _table(fit), items(_remarks(fit)), *pictures(drawings)]
     parts += [heading("How it was found"), items(_method(fit))]
     if thesis is not None:
-        parts += [heading("The same log by filter and Eq. 6.1"), _table(thesis), paragraph(_beside(), note=True)]
+        parts += [heading("The same log by filter and Eq. 6.1"), _table(thesis), paragraph(_BESIDE, note=True)]
     return whole_page("Friction torque of the shaft over its speed", lead, parts, redo)
 
 
@@ -182,14 +189,6 @@ def _method(fit: FrictionFit) -> list[str]:
         "Intervals take into account that residuals follow each other: a sandwich covariance with Bartlett's weights, "
         "Student's distribution with the effective number of samples. The interval of r is that of its profile.",
     ]
-
-
-def _beside() -> str:
-    return (
-        "As the thesis did it: the held speed of the pulse sensor, low-passed and differentiated. The reading is late "
-        "by half to one and a half of the time between pulses, so near standstill torque and speed do not belong "
-        "together: the steepness found this way is that of the filter, and the intervals do not know it."
-    )
 
 
 def friction_figure(fit: FrictionFit) -> Figure:

@@ -282,11 +282,8 @@ def _draw_levels(axes: Axes, bla: BestLinearApproximation, handles: dict[str, An
             continue
         axes.plot(level.frequency, _db(level.variance), color=colour, linestyle="", marker=marker, markersize=2.6)
         f = bla.frequency[(bla.frequency >= level.frequency[0]) & (bla.frequency <= level.frequency[-1])]
-        handles.setdefault(name, _curve(axes, _smoothed(level, f), colour, (0, (5, 2))))
-
-
-def _smoothed(level: Distortion, frequency: Array) -> Level:
-    return pooled(level, frequency, _POOL) if frequency.size > 1 else level
+        smooth = pooled(level, f, _POOL) if f.size > 1 else level
+        handles.setdefault(name, _curve(axes, smooth, colour, (0, (5, 2))))
 
 
 def _curve(axes: Axes, level: Level, colour: str, dash: Any) -> Any:

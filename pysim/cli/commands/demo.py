@@ -30,6 +30,7 @@ def run(given: Given) -> int:
     from pysim.cli.progress import Working
     from pysim.io import read_dataset, write_file
     from pysim.present.comparison import Comparisons, comparison_text, data, page
+    from pysim.simulate import build_kernel
     from validation.pump import CLASSES
     from validation.thesis import FREQUENCIES_HZ, write_dataset
     from validation.thesis.page import against_the_thesis
@@ -38,7 +39,7 @@ def run(given: Given) -> int:
     frequencies = QUICK_FREQUENCIES_HZ if given.quick else FREQUENCIES_HZ
     # On two cores the solver is compiled while the models are built, and pictures are drawn while the models run.
     with ProcessPoolExecutor(2, mp_context=get_context("spawn")) as helpers:
-        compiled = helpers.submit(_build_kernel)
+        compiled = helpers.submit(build_kernel)
         models = {label: _build(label, folder) for label in CLASSES}
         dataset = read_dataset(write_dataset(folder / "measurements", frequencies))
         with Working("Compiling the solver, once on this machine"):
@@ -73,12 +74,6 @@ def draw_picture(comparisons: Sequence[Comparison], folder: Path, name: str) -> 
     from pysim.present.render import draw
 
     return draw(comparison_picture(comparisons, name), folder)
-
-
-def _build_kernel() -> None:
-    from pysim.simulate import build_kernel
-
-    build_kernel()
 
 
 def _build(label: str, folder: Path) -> Model:

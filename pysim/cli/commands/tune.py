@@ -67,10 +67,6 @@ def _numbers(words: str, option: str, count: int | None = None) -> tuple[float, 
     return found
 
 
-def _is_stable(result: Tuning) -> bool:
-    return result.loops["tuned"].loop.stable
-
-
 COMMAND = Command(
     "tune",
     "Gains of a PI controller from a phase margin and a crossover frequency.",
@@ -90,5 +86,5 @@ COMMAND = Command(
         JSON,
         OUTPUT,
     ),
-    passes=_is_stable,
+    passes=lambda result: bool(result.loops["tuned"].loop.stable),
 )

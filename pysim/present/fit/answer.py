@@ -102,7 +102,13 @@ def _data(fit: Fit) -> dict[str, Any]:
         **_keys(fit, "values", "covariance", "correlation"),
         "outcome": fit.outcome.name.lower(),
         "converged": fit.outcome is FitOutcome.CONVERGED,
-        "estimates": {e.name: _estimate(e) for e in fit.estimates},
+        "estimates": {
+            e.name: {
+                **_keys(e, "value", "unit", "start", "lower", "upper", "std", "interval", "determined"),
+                "at_bound": e.at,
+            }
+            for e in fit.estimates
+        },
         "undetermined": [{**_keys(d, "exponents", "spread"), "words": direction_words(d)} for d in fit.undetermined],
         "combinations": [_keys(c, "name", "exponents", "value", "interval") for c in fit.combinations],
         "records": [_record(record) for record in fit.records],
@@ -111,11 +117,6 @@ def _data(fit: Fit) -> dict[str, Any]:
         "notes": [words(note) for note in fit.notes],
         "note_codes": [note.code.value for note in fit.notes],
     }
-
-
-def _estimate(e: Estimate) -> dict[str, Any]:
-    numbers = _keys(e, "value", "unit", "start", "lower", "upper", "std", "interval")
-    return {**numbers, "at_bound": e.at, "determined": e.determined}
 
 
 def _record(record: RecordFit) -> dict[str, Any]:

@@ -111,17 +111,14 @@ def _logs(name: str, step: ErrorStep) -> _Field:
     for record in step.records:
         if not record.harmonics:
             for signal in record.measured.names:
-                found.rows[f"{_short(record)}: {signal}"] = _windows(record, record.measured.names.index(signal))
+                name = f"{record.source} ({USES[record.use]}): {signal}"
+                found.rows[name] = _windows(record, record.measured.names.index(signal))
     return found
 
 
 def _windows(record: RecordFit, column: int) -> dict[str, float]:
     parts = np.array_split(record.residual.values[:, column], _WINDOWS)
     return {str(k + 1): math.sqrt(float(np.mean(part**2))) for k, part in enumerate(parts) if part.size}
-
-
-def _short(record: RecordFit) -> str:
-    return f"{record.source} ({USES[record.use]})"
 
 
 def _draw(axes: Axes, panel: _Field, norm: LogNorm) -> AxesImage:
