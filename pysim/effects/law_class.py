@@ -56,8 +56,8 @@ def law_class(
 ) -> str:
     """The Modelica class of a law, to be put into a file of its own and named as a library.
 
-    The law may name the slot's variables, its parameters, and what an equation of it gives. It has no memory: for a
-    derivative or an event write the class by hand.
+    The law may name the slot's variables, its parameters, `time`, and what an equation of it gives. It has no memory:
+    for a derivative or an event write the class by hand.
 
     Args:
         name: of the class, such as "QuadraticDrag".
@@ -72,7 +72,7 @@ def law_class(
             gives; says where in the law.
     """
     _check_names(name, slot, parameters)
-    units = slot_units(slot, libraries) | {one.name: one.unit for one in parameters}
+    units = slot_units(slot, libraries) | {one.name: one.unit for one in parameters} | {"time": "s"}
     equations = list(_equations(name, law, slot))
     given = [one.gives for one in equations]
     for one in slot.gives:
