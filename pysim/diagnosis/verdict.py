@@ -17,6 +17,7 @@ from pysim.diagnosis.session import Session
 from pysim.diagnosis.settings import Settings
 from pysim.identify.greybox import Nuisance, NuisanceKind
 from pysim.identify.greybox.effective_size import inflation
+from pysim.identify.greybox.trust import at_bound
 from pysim.types import Effect, EffectParameter, Estimate, Note, NoteCode, RecordFit
 from pysim.types.answer import ErrorStep, FoundEffect, GainTest, Left, Rival, Verdict
 from pysim.types.fit import HALF_95
@@ -142,12 +143,7 @@ def ties(found: Found) -> tuple[tuple[str, ...], ...]:
 def notes_of(found: Found, estimates: Sequence[Estimate], refused: Mapping[str, str], session: Session) -> list[Note]:
     """What a reader must know of the answer."""
     notes = [Note(NoteCode.NOT_TRIED, {"effect": name, "reason": why}) for name, why in refused.items()]
-    for one in estimates:
-        if one.at:
-            bound = one.lower if one.at == "lower" else one.upper
-            notes.append(
-                Note(NoteCode.AT_BOUND, {"parameter": one.name, "bound": bound, "value": one.value, "unit": one.unit})
-            )
+    notes += [at_bound(one) for one in estimates if one.at]
     if found.final.names:
         notes.append(Note(NoteCode.INTERVAL_CONDITIONAL, {}))
         chosen = [r.source for r in session.dataset.records if r.use == "validate"]

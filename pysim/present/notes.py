@@ -25,7 +25,19 @@ _WORDS = {
     NoteCode.NOT_SIMULATED: "{record} could not be simulated: {reason}",
     NoteCode.NOT_TRIED: "{effect} was not tried: {reason}.",
     NoteCode.HELD: "The data do not determine {parameter}; it was held at its value, and the intervals hold for that.",
-    NoteCode.AT_BOUND: "{parameter} stopped at its bound {shown}; the true value may lie beyond it.",
+    NoteCode.AT_BOUND: "{parameter} stopped at its bound ({shown}): widen the bound, or fix the parameter.",
+    NoteCode.POOR_FIT: (
+        "The fit is poor: the residuals of {signal} are {factor:.3g} standard deviations of the noise. Something is "
+        "missing in the model, so do not trust the intervals; run the diagnosis."
+    ),
+    NoteCode.CORRELATED: (
+        "{first} and {second} can hardly be told apart (correlation {correlation:.2f}): fix one of them, or log what "
+        "depends on one alone."
+    ),
+    NoteCode.NOT_AT_REST: (
+        '{record} does not begin at rest: estimate its initial state (initial = "estimate"), or cut the log where the '
+        "plant still stands."
+    ),
     NoteCode.USED_TO_CHOOSE: "{records}: these validation data also chose between models; their error is optimistic.",
     NoteCode.INTERVAL_CONDITIONAL: "Intervals hold for the chosen model; they ignore that another one may be right.",
     NoteCode.INTERVAL_WIDTHS: (
@@ -170,6 +182,9 @@ def words(note: Note) -> str:
         KeyError: a value that belongs to the note's code is missing, which is our mistake.
     """
     values = dict(note.values)
+    if note.code is NoteCode.INTERCHANGEABLE:
+        spread = float(values.pop("@spread"))
+        return direction_words(Direction({name: float(value) for name, value in values.items()}, spread))
     if note.code is NoteCode.INTERVAL_WIDTHS:
         values = {"widths": ", ".join(f"{name} {value:.2g}" for name, value in values.items())}
     others = float(values.get("others", 0.0))

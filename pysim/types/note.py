@@ -20,6 +20,10 @@ class NoteCode(Enum):
     NOT_TRIED = "not_tried"  # effect, reason (a code): it has no slot, does not compile, disturbs the others
     HELD = "held"  # parameter: the data do not determine it, intervals hold it where it stands
     AT_BOUND = "at_bound"  # parameter, bound, value, unit
+    POOR_FIT = "poor_fit"  # signal, factor: its residual over its noise
+    INTERCHANGEABLE = "interchangeable"  # parameter -> exponent, and "@spread": the data do not tell them apart
+    CORRELATED = "correlated"  # first, second, correlation: two estimates that are hardly told apart
+    NOT_AT_REST = "not_at_rest"  # record: a log that does not begin at rest, as it was taken
     USED_TO_CHOOSE = "used_to_choose"  # records that are reported as unseen also chose between models
     INTERVAL_CONDITIONAL = "interval_conditional"  # intervals hold for the model that was chosen only
     TABLES_LEFT_OUT = "tables_left_out"  # count: of tables of responses, beside logs over time

@@ -24,6 +24,7 @@ from pysim.identify.greybox.runs import Simulation
 from pysim.identify.greybox.search import Progress, search
 from pysim.identify.greybox.settings import FitSettings
 from pysim.identify.greybox.starts import starts
+from pysim.identify.greybox.trust import not_at_rest
 from pysim.identify.greybox.uncertainty import Uncertainty, uncertainty
 from pysim.types import BadInput, Fit, FitOutcome, Note, NoteCode, Start
 from pysim.types.answer import FloorSource
@@ -271,7 +272,12 @@ def _result(
             Start(name, space.values(x), states[name].first_cost, states[name].best.cost, _outcome(states[name]))
             for name, x in begun.items()
         ),
-        notes=(*problem.notes, *_interval_notes(doubt), *beside.notes),
+        notes=(
+            *problem.notes,
+            *_interval_notes(doubt),
+            *beside.notes,
+            *not_at_rest(residuals.runs, point.carried.states, beside.records),
+        ),
         experiments=beside.experiments,
     )
 

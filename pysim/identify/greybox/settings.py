@@ -145,3 +145,43 @@ class NoiseSettings:
         meaning="expected drift of a sensor from the first to the last record, as a share of its full scale",
         source="IEC 60770-1: as its offset",
     )
+
+
+@dataclass(frozen=True)
+class TrustSettings:
+    """When a fit warns of itself."""
+
+    poor: float = setting(
+        1.5,
+        unit="1",
+        meaning="residual of a signal over its noise from which on a fit is called poor",
+        source="intervals that take it for noise are then half as wide again",
+    )
+    correlated: float = setting(
+        0.98,
+        unit="1",
+        meaning="correlation of two estimates from which on they are hardly told apart",
+        source="one alone would be known five times as well: 1/sqrt(1 - r^2)",
+    )
+    vague: float = setting(
+        0.05,
+        unit="1",
+        meaning="standard deviation of an estimate over its value, below which a correlation does no harm",
+        source="the accuracy of a catalogue's data",
+    )
+    away: float = setting(
+        0.1,
+        unit="1",
+        meaning="share of a state's range over its log by which it begins from rest, from which on that is said",
+        source="measured: a mass that begins displaced, and logs that begin at rest stay below a fiftieth",
+    )
+    beginning: float = setting(
+        0.05, unit="1", meaning="share of a log that counts as its beginning", source="a twentieth, a sample of blocks"
+    )
+    fewest: int = setting(10, unit="1", meaning="samples of a beginning at least", source="their rms is known to 22 %")
+    apart: float = setting(
+        3.0,
+        unit="1",
+        meaning="rms residual of a beginning over that of the rest, from which on the log did not begin at rest",
+        source="three standard deviations of the noise, where the rest is noise",
+    )

@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import Any
 
-from pysim.identify.greybox import Profile
+from pysim.identify.greybox import Profile, fit_warnings
 from pysim.present.notes import direction_words, estimate_words, words
 from pysim.present.plain_text import wrapped
 from pysim.types import Dataset, Estimate, Fit, FitOutcome, RecordFit, ResponseFit
@@ -38,12 +38,11 @@ def text(result: Fitted) -> str:
     lines.append(f"residual over noise {fit.misfit:.4g} (1 is perfect); {gain_text(fit)}")
     lines.append(f"  {'parameter':<14}{'estimate':>12}  {'95 % from':>11} {'to':>11}  unit")
     lines += [_row(estimate) for estimate in fit.estimates]
-    for direction in fit.undetermined:
-        lines += wrapped(direction_words(direction))
     lines += [f"  {c.name} = {c.value:.5g}, 95 % {c.interval[0]:.5g} to {c.interval[1]:.5g}" for c in fit.combinations]
     lines += [f"  {text}" for text in _left_over(fit)]
-    for note in fit.notes:
-        lines += wrapped(f"Note: {words(note)}")
+    warnings = fit_warnings(fit)
+    for note in (*warnings, *(note for note in fit.notes if note not in warnings)):
+        lines += wrapped(f"{'Warning' if note in warnings else 'Note'}: {words(note)}")
     lines += [f"Profile of {p.name}: 95 % from {p.interval[0]:.5g} to {p.interval[1]:.5g}" for p in result.profiles]
     return "\n".join(lines)
 
@@ -114,6 +113,8 @@ def _data(fit: Fit) -> dict[str, Any]:
         "records": [_record(record) for record in fit.records],
         "responses": [_response(response) for response in fit.responses],
         "starts": [_keys(s, "name", "values", "first_cost", "cost") for s in fit.starts],
+        "warnings": [words(note) for note in fit_warnings(fit)],
+        "warning_codes": [note.code.value for note in fit_warnings(fit)],
         "notes": [words(note) for note in fit.notes],
         "note_codes": [note.code.value for note in fit.notes],
     }

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+from pysim.identify.greybox import fit_warnings
 from pysim.io import shown_value
 from pysim.present.fit.answer import Fitted, gain_text, outcome_text
-from pysim.present.notes import direction_words, estimate_words, words
+from pysim.present.notes import estimate_words, words
 from pysim.present.page import cell, heading, items, paragraph, pictures, table
 from pysim.present.page import page as whole_page
 from pysim.present.render import Drawing
@@ -22,10 +23,12 @@ def page(result: Fitted, drawings: Sequence[Drawing], redo: str) -> str:
         f"Root-mean-square residual over the noise: {fit.misfit:.3f} (1: nothing but noise is left).",
         f"{gain_text(fit).capitalize()}.",
     ]
-    parts = [heading("Outcome"), items([*verdict, *map(words, fit.notes)]), heading("Parameters"), _estimates(fit)]
-    if fit.undetermined:
-        parts += [heading("What the data do not determine"), items(map(direction_words, fit.undetermined))]
-        parts += [_combinations(fit)] if fit.combinations else []
+    warnings = fit_warnings(fit)
+    notes = [words(note) for note in fit.notes if note not in warnings]
+    parts = [heading("Outcome"), items([*verdict, *notes])]
+    parts += [heading("When not to trust it"), items(map(words, warnings))] if warnings else []
+    parts += [heading("Parameters"), _estimates(fit)]
+    parts += [_combinations(fit)] if fit.combinations else []
     parts += [heading("What each record leaves over"), _records(fit)]
     parts += [_responses(fit, units)] if fit.responses else []
     parts += [heading("Pictures"), *pictures(drawings)]
