@@ -92,7 +92,7 @@ def run_step(
     from pysim.cli.progress import announce_compilation
     from pysim.present.diagnosis import Diagnosed
     from pysim.types import ProgressEvent
-    from pysim.workflow import with_classes
+    from pysim.workflow import whole_answer
 
     announce_compilation()
     checkpoint = given.output / CHECKPOINT if given.output else None
@@ -107,9 +107,7 @@ def run_step(
         found = work(progress=progress, checkpoint=checkpoint)
         if log is not None:  # a program that follows must know why it does not end yet
             log(ProgressEvent("writing report and files"))
-    found = replace(found, conditions={**_conditions(given, parts), **found.conditions})
-    if found.learned and parts.variants is not None:
-        found = with_classes(found, parts.variants.class_name, parts.variants.libraries)
+    found = whole_answer(found, parts, _conditions(given, parts))
     sentence = answer(found) if answer is not None else ""
     given.opened = parts
     return Diagnosed(found, parts.dataset, f"{parts.model_name} against {parts.dataset.name}", question, sentence)
@@ -134,18 +132,9 @@ def end_step(given: Given, result: Diagnosed) -> None:
 
 
 def _conditions(given: Given, parts: SessionParts) -> dict[str, str]:
-    """What it takes to repeat it."""
-    from pysim.diagnosis.conditions import versions
-
-    model = parts.model
+    """What the command line knows of how to repeat it."""
     found = {
-        "model": f"{parts.model_name}, FMI {model.abilities.fmi}, token {model.token}",
         "data set": f"{parts.dataset.name}, {len(parts.dataset.records)} records, {given.typed['dataset']}",
-        "libraries": ", ".join(str(library) for library in parts.libraries) or "the one that comes along",
-        "free parameters": ", ".join(parts.free) or "none",
-        "parameters set": ", ".join(f"{name} = {value:g}" for name, value in parts.overrides.items()) or "none",
-        "candidates": ", ".join(effect.name for effect in parts.catalogue) or "none",
+        "command": given.repeated,
     }
-    if "seed" in given:
-        found["seed"] = str(given.seed)
-    return {**found, "versions": versions(), "command": given.repeated}
+    return {**found, "seed": str(given.seed)} if "seed" in given else found

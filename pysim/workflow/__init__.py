@@ -15,47 +15,62 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from pysim.workflow.answer import whole_answer
     from pysim.workflow.data import BY_DATA, data_of, reference_of
+    from pysim.workflow.export import export_model
     from pysim.workflow.extended import write_extended
-    from pysim.workflow.fitting import fit_problem
-    from pysim.workflow.free import free_parameters
-    from pysim.workflow.learned import keep_law, law_file, with_classes
-    from pysim.workflow.model import ModelInside, inside, is_fmu, model_of
-    from pysim.workflow.session import SessionParts, effects_of, open_session, session_of, session_parts
+    from pysim.workflow.fitting import Initial, beginning, fit_problem, fitted
+    from pysim.workflow.free import free_parameters, suggested
+    from pysim.workflow.learned import class_name_of, keep_law, law_file, with_classes
+    from pysim.workflow.model import ModelInside, class_in, inside, is_fmu, model_of, recorded_of, with_standard
+    from pysim.workflow.session import SessionParts, effects_of, named, open_session, session_of, session_parts
     from pysim.workflow.shell import command_line
     from pysim.workflow.variants import Variants
 
 _FILES = {
+    "answer": ("whole_answer",),
     "data": ("BY_DATA", "data_of", "reference_of"),
+    "export": ("export_model",),
     "extended": ("write_extended",),
-    "fitting": ("fit_problem",),
-    "free": ("free_parameters",),
-    "learned": ("keep_law", "law_file", "with_classes"),
-    "model": ("ModelInside", "inside", "is_fmu", "model_of"),
-    "session": ("SessionParts", "effects_of", "open_session", "session_of", "session_parts"),
+    "fitting": ("Initial", "beginning", "fit_problem", "fitted"),
+    "free": ("free_parameters", "suggested"),
+    "learned": ("class_name_of", "keep_law", "law_file", "with_classes"),
+    "model": ("ModelInside", "class_in", "inside", "is_fmu", "model_of", "recorded_of", "with_standard"),
+    "session": ("SessionParts", "effects_of", "named", "open_session", "session_of", "session_parts"),
     "shell": ("command_line",),
     "variants": ("Variants",),
 }
 __all__ = [
     "BY_DATA",
+    "Initial",
     "ModelInside",
     "SessionParts",
     "Variants",
+    "beginning",
+    "class_in",
+    "class_name_of",
     "command_line",
     "data_of",
     "effects_of",
+    "export_model",
     "fit_problem",
+    "fitted",
     "free_parameters",
     "inside",
     "is_fmu",
     "keep_law",
     "law_file",
     "model_of",
+    "named",
     "open_session",
+    "recorded_of",
     "reference_of",
     "session_of",
     "session_parts",
+    "suggested",
+    "whole_answer",
     "with_classes",
+    "with_standard",
     "write_extended",
 ]
 

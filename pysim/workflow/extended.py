@@ -47,7 +47,7 @@ def write_extended(
         write_file(files[key], law.modelica)
     if fitted:
         files["parameters"] = folder / PARAMETERS
-        write_file(files["parameters"], _parameters(f"Of {about}", fitted))
+        write_file(files["parameters"], parameters_text(f"Of {about}", fitted))
     return files
 
 
@@ -57,7 +57,7 @@ def _set_before(parts: SessionParts) -> str:
     return f"They hold with what was set: {values}." if values else ""
 
 
-def _parameters(about: str, values: Mapping[str, float]) -> str:
+def parameters_text(about: str, values: Mapping[str, float]) -> str:
     """Lines NAME = VALUE as `--parameters` takes them, below a comment."""
     plain = "".join(c if c.isprintable() else " " for c in about)  # a line break would end the comment
     head = textwrap.wrap(plain, _WIDTH, initial_indent="# ", subsequent_indent="# ")

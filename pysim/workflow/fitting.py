@@ -2,13 +2,34 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
 
 from pysim.diagnosis.adequacy import shortcomings
-from pysim.identify.greybox import Measurements, Parameter, Problem, Tie, Treatment, problem
+from pysim.identify.greybox import (
+    NOISE,
+    Effort,
+    Measurements,
+    Objective,
+    Parameter,
+    Problem,
+    Simulation,
+    Tie,
+    Treatment,
+    Tried,
+    fit,
+    problem,
+)
+from pysim.identify.greybox.optimiser import Optimiser
 from pysim.io import in_model_units
-from pysim.types import BadInput, Dataset, Model
+from pysim.types import BadInput, Dataset, Fit, FitOutcome, Model, Record
+from pysim.types.dataset import INITIAL
 from pysim.workflow.free import Bounds, free_parameters
+
+_REFINED = 2  # times that the integration is made ten times as fine
+Initial = str | Mapping[str, float] | None  # "rest", "estimate", state -> value, or None as the data say
 
 
 def fit_problem(
@@ -23,6 +44,8 @@ def fit_problem(
     ties: Sequence[Tie] = (),
     outputs: Sequence[str] = (),
     reference_hz: float | None = None,
+    initial: Initial = None,
+    nothing_free: bool = False,
 ) -> Problem:
     """A model beside data sets, with the parameters to fit.
 
@@ -35,22 +58,88 @@ def fit_problem(
         ties: parameters that follow fitted ones.
         outputs: to compare; all that are measured by default.
         reference_hz: whose gain counts as 0 dB in responses; None for absolute gains.
+        initial: of the model at each log's first sample: "rest", as its equations come to it at the first input;
+            "estimate", from each log; state -> value; None as the data say, and near rest where they say nothing.
+        nothing_free: the model is only compared as it is.
     Raises:
         BadInput: no parameter to fit, a start or bounds of one that is not fitted, logs in none of which an input
             moves, or what `problem` refuses.
     """
-    bounds, values, held = bounds or {}, values or {}, fixed or {}
+    bounds, values, held = bounds or {}, values or {}, dict(fixed or {})
+    treatment = Treatment(reference_hz=reference_hz)
+    if isinstance(initial, Mapping):
+        held, treatment = held | _states(model, initial), replace(treatment, rest=None)
+    datasets = [beginning(one, "rest" if isinstance(initial, Mapping) else initial) for one in datasets]
     tied = [tie.name for tie in ties]
-    names = [name for name in free_parameters(model, free, bounds, {**values, **held}) if name not in tied]
+    chosen = () if nothing_free else free_parameters(model, free, bounds, {**values, **held})
+    names = [name for name in chosen if name not in tied]
     begin = {name: value for name, value in values.items() if name in names} | dict(starts or {})
     rest = {name: value for name, value in values.items() if name not in (*names, *tied)} | dict(held)
     for name in (*begin, *bounds):
         if name not in names:
             raise BadInput(f"{name} has a start or bounds but is not free; add it to --free, or use --set")
-    _refuse_still(datasets)
+    if not nothing_free:
+        _refuse_still(datasets)
     data = [Measurements(in_model_units(one, model), outputs=tuple(outputs) or None) for one in datasets]
     parameters = [Parameter(name, begin.get(name), *bounds.get(name, (None, None))) for name in names]
-    return problem(model, data, parameters, fixed=rest, ties=ties, treatment=Treatment(reference_hz=reference_hz))
+    return problem(model, data, parameters, fixed=rest, ties=ties, treatment=treatment)
+
+
+def fitted(
+    problem: Problem,
+    *,
+    objective: Objective = NOISE,
+    optimiser: Optimiser | None = None,
+    simulation: Simulation | None = None,
+    effort: Effort | None = None,
+    progress: Callable[[Tried], None] | None = None,
+) -> Fit:
+    """The fit of a problem; where its search ends among the errors of the integration, it goes on with a finer one.
+
+    Args:
+        problem, objective, optimiser, simulation, effort, progress: as of `pysim.identify.greybox.fit`.
+    Raises:
+        BadInput: what that refuses.
+    """
+    simulation = simulation or Simulation()
+    found = fit(
+        problem, objective=objective, optimiser=optimiser, simulation=simulation, effort=effort, progress=progress
+    )
+    for _ in range(_REFINED):
+        if found.outcome is not FitOutcome.STALLED:
+            break
+        simulation, space = simulation.finer(), problem.space
+        here = np.array([found[key].value for key in space.keys])
+        problem = replace(problem, space=replace(space, start=here))
+        only = Effort(nominal=False)  # from where it is; what an earlier log holds is of the rougher integration
+        again = fit(problem, objective=objective, optimiser=optimiser, simulation=simulation, effort=only,
+                    progress=progress)  # fmt: skip
+        begun = {one.name: one.start for one in found.estimates}
+        estimates = tuple(replace(one, start=begun[one.name]) for one in again.estimates)
+        found = replace(again, estimates=estimates, starts=found.starts, iterations=found.iterations + again.iterations)
+    return found
+
+
+def beginning(dataset: Dataset, initial: str | None) -> Dataset:
+    """The data set, of whose logs this is known at their first sample; as it is where None.
+
+    Raises:
+        BadInput: a word that is not known.
+    """
+    if initial is None:
+        return dataset
+    if initial not in INITIAL:
+        raise BadInput(f"initial = {initial!r} is not known; write {' or '.join(map(repr, INITIAL))}, or state: value")
+    records = (replace(one, initial=initial) if isinstance(one.data, Record) else one for one in dataset.records)
+    return replace(dataset, records=tuple(records))
+
+
+def _states(model: Model, initial: Mapping[str, float]) -> dict[str, float]:
+    states = model.abilities.states
+    for name in initial:
+        if name not in states:
+            raise BadInput(f"initial: {name} is no state of {model.label}; its states: {', '.join(states) or 'none'}")
+    return dict(initial)
 
 
 def _refuse_still(datasets: Sequence[Dataset]) -> None:

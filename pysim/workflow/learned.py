@@ -33,7 +33,7 @@ def with_classes(found: Diagnosis, model: str, libraries: Sequence[Path]) -> Dia
         argument, name = law.argument.removeprefix(f"{law.slot}."), _effect_name(law)
         best = next(iter(formulas(law)), None)
         try:
-            text = law_class(law, _slot(law, model, libraries), _class_name(name), libraries, effect=name)
+            text = law_class(law, _slot(law, model, libraries), class_name_of(name), libraries, effect=name)
         except BadInput:
             text = ""
         laws.append(replace(law, modelica=text, formula=best.text(argument) if best else ""))
@@ -66,7 +66,7 @@ def keep_law(
     from pysim.diagnosis.learn.law_class import law_class
     from pysim.effects import read_catalogue
 
-    slot, own = _slot(law, model, libraries), _class_name(name)
+    slot, own = _slot(law, model, libraries), class_name_of(name)
     if not re.fullmatch(r"[A-Za-z]\w*", own, re.ASCII):
         raise BadInput(f"{name!r} makes no name of a class; begin with a letter, such as my.damping")
     file = folder / f"{own}.mo"
@@ -81,7 +81,7 @@ def keep_law(
 
 def law_file(law: LearnedLaw) -> str:
     """Name of the file of its class."""
-    return f"{_class_name(_effect_name(law))}.mo"
+    return f"{class_name_of(_effect_name(law))}.mo"
 
 
 def _effect_name(law: LearnedLaw) -> str:
@@ -98,5 +98,6 @@ def _slot(law: LearnedLaw, model: str, libraries: Sequence[Path]) -> Slot:
     return slot
 
 
-def _class_name(effect: str) -> str:
+def class_name_of(effect: str) -> str:
+    """Name of the class of an effect: "my.damping" -> MyDamping."""
     return "".join(word[:1].upper() + word[1:] for word in re.split(r"\W+|_", effect))

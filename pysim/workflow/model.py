@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -39,20 +39,47 @@ def compiled(
     *,
     fmi: int = 2,
     probes: Sequence[str] = (),
+    platforms: Sequence[str] = ("host",),
+    overrides: Mapping[str, float] | None = None,
 ) -> Model:
     """The model of a class, built into a file, or into the cache where none is named.
 
     Args:
         probes: variables that get a further input, as `fmu_build.build` says.
+        platforms: that the FMU runs on, as `fmu_build.build` says.
+        overrides: parameters that get another value, in SI units.
     Raises:
         BadInput: a class that does not compile; says where.
     """
     import fmu_build  # not needed for an FMU
 
     try:
-        return read_model(fmu_build.build(class_name, output, libraries=list(libraries), fmi=fmi, probes=probes))
+        fmu = fmu_build.build(
+            class_name, output, libraries=list(libraries), fmi=fmi, probes=probes, platforms=platforms,
+            overrides=overrides or {},
+        )  # fmt: skip
     except fmu_build.BuildError as error:
         raise BadInput(str(error)) from error
+    return read_model(fmu)
+
+
+def class_in(file: Path) -> str:
+    """Name of the one model that a .mo file declares.
+
+    Raises:
+        BadInput: it cannot be read, or declares none or several at its top; lists what it holds.
+    """
+    from fmu_build.text import Libraries, TextError
+
+    try:
+        declared = [one for one in Libraries([file]).classes() if one.kind in ("model", "block", "class")]
+    except TextError as error:
+        raise BadInput(str(error)) from error
+    outer = [one.full_name for one in declared if "." not in one.full_name]
+    if len(outer) == 1:
+        return outer[0]
+    names = ", ".join(one.full_name for one in declared if "partial" not in one.prefixes) or "no model"
+    raise BadInput(f"{file} holds {names}; name one of them, and the file as its library")
 
 
 @dataclass(frozen=True)
@@ -100,3 +127,12 @@ def with_standard(libraries: Sequence[Path | str]) -> list[Path]:
     from pysim.effects import STANDARD_LIBRARY
 
     return [STANDARD_LIBRARY, *(Path(one) for one in libraries)]
+
+
+def recorded_of(model: Model, names: Sequence[str] = ()) -> tuple[str, ...]:
+    """What a run records: the variables asked for, else every output that is a number, else every state."""
+    from pysim.simulate import is_number
+
+    numbers = (variable for variable in model.variables if is_number(model.abilities.fmi, variable.type))
+    outputs = tuple(variable.name for variable in numbers if variable.causality == "output")
+    return tuple(names) or outputs or model.abilities.states

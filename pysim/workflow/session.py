@@ -123,7 +123,7 @@ def session_parts(
     known = inside(model, libraries)
     if not known.class_name:
         notes += _from_outside(model)
-    catalogue = _named(effects, known) if effects else known.candidates
+    catalogue = named(effects, known) if effects else known.candidates
     if known.class_name and not catalogue:
         notes.append(Note(NoteCode.NO_EFFECT_FITS, {"model": known.class_name}))
     overrides, chosen = dict(values), free_parameters(model, free, bounds, values) if refits else ()
@@ -178,10 +178,15 @@ def effects_of(names: Sequence[str], parts: SessionParts) -> tuple[Effect, ...]:
     for name in names:
         if list(names).count(name) > 1:
             raise BadInput(f"effect {name}: named twice; name each effect once")
-    return _named(names, parts.inside)
+    return named(names, parts.inside)
 
 
-def _named(names: Sequence[str], known: ModelInside) -> tuple[Effect, ...]:
+def named(names: Sequence[str], known: ModelInside) -> tuple[Effect, ...]:
+    """The effects of these names that the model's slots take, in order.
+
+    Raises:
+        BadInput: one that is not in the catalogue, or that no slot takes.
+    """
     catalogue, taken = [effect.name for effect in known.catalogue], {effect.name: effect for effect in known.candidates}
     for name in names:
         if name not in catalogue:

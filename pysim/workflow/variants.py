@@ -74,6 +74,9 @@ class Variants:
         name: str = "",
         values: Mapping[str, float] | None = None,
         comment: str = "",
+        *,
+        fmi: int = 2,
+        platforms: Sequence[str] = ("host",),
     ) -> tuple[Model, dict[str, str]]:
         """Write the class into a folder and compile it, into the cache where no place is named.
 
@@ -81,6 +84,7 @@ class Variants:
             name: of the class; the base model's with `Variant` behind it where none is given.
             values: parameters to set, by their full names.
             comment: lines ahead of the class.
+            fmi, platforms: of the FMU, as `fmu_build.build` says.
         Raises:
             BadInput: a class that cannot be made or does not compile.
         """
@@ -88,7 +92,7 @@ class Variants:
 
         name = name or f"{self._own_name}Variant"
         made = variant(self.class_name, effects, self.libraries, name=name, values=values, comment=comment)
-        return self._compiled(name, made.text, folder, fmu), made.places
+        return self._compiled(name, made.text, folder, fmu, fmi=fmi, platforms=platforms), made.places
 
     def probed(self, effects: Sequence[Effect], law: Term) -> Model:
         """The model with these effects and a term at one place of it, as a table whose values are parameters.
@@ -103,16 +107,26 @@ class Variants:
         made = variant(self.class_name, effects, self.libraries, name=f"{name}Base") if effects else None
         text = (made.text if made else "") + wrapped(made.class_name if made else self.class_name, law, name)
         with TemporaryDirectory(prefix="pysim-located-") as folder, _refusals():
-            return self._compiled(name, text, Path(folder), None, law.probes)
+            return self._compiled(name, text, Path(folder), None, probes=law.probes)
 
     @property
     def _own_name(self) -> str:
         return self.class_name.rpartition(".")[2]
 
-    def _compiled(self, name: str, text: str, folder: Path, fmu: Path | None, probes: Sequence[str] = ()) -> Model:
+    def _compiled(
+        self,
+        name: str,
+        text: str,
+        folder: Path,
+        fmu: Path | None,
+        *,
+        fmi: int = 2,
+        probes: Sequence[str] = (),
+        platforms: Sequence[str] = ("host",),
+    ) -> Model:
         source = folder / f"{name}.mo"
         source.write_text(text, encoding="utf-8")
-        return compiled(name, [*self.libraries, source], fmu, probes=probes)
+        return compiled(name, [*self.libraries, source], fmu, fmi=fmi, probes=probes, platforms=platforms)
 
 
 @contextmanager

@@ -42,11 +42,11 @@ def run(given: Given) -> Fitted:
         InteriorPoint,
         Processes,
         Simulation,
-        fit,
         profile,
     )
     from pysim.io import in_model_units
     from pysim.present.fit import Fitted
+    from pysim.workflow import fitted
 
     model = given.model
     datasets = tuple(in_model_units(one, model) for one in given.dataset)
@@ -57,7 +57,7 @@ def run(given: Given) -> Fitted:
     optimiser = {"gauss-newton": GaussNewton(), "interior-point": InteriorPoint(), None: None}[given.optimiser]
     announce_compilation()
     with given.going_on("fit"):
-        found = fit(
+        found = fitted(
             problem,
             objective=OBJECTIVES[given.objective],
             optimiser=optimiser,

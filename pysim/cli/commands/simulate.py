@@ -47,6 +47,7 @@ def _experiment(given: Given, model: Model) -> Experiment:
     from pysim.cli._inputs import read_inputs
     from pysim.cli.options import names_of, read_parameters
     from pysim.types import BadInput, Experiment
+    from pysim.workflow import recorded_of
 
     stop = model.stop_time or _STOP if given.stop is None else given.stop
     step = stop / _ROWS if given.step is None else given.step
@@ -58,17 +59,8 @@ def _experiment(given: Given, model: Model) -> Experiment:
         )
     times = np.append(np.arange(0.0, stop - step / 2, step), stop)
     inputs = read_inputs(given, model)
-    recorded = _recorded(model, names_of(given.record))
+    recorded = recorded_of(model, names_of(given.record))
     return Experiment(times, recorded, inputs, read_parameters(given, model), rates=model.rate_inputs(inputs))
-
-
-def _recorded(model: Model, names: list[str]) -> tuple[str, ...]:
-    """The variables asked for, else every output that is a number, else every state."""
-    from pysim.simulate import is_number
-
-    numbers = (variable for variable in model.variables if is_number(model.abilities.fmi, variable.type))
-    outputs = tuple(variable.name for variable in numbers if variable.causality == "output")
-    return tuple(names) or outputs or model.abilities.states
 
 
 def _write(given: Given, record: Record) -> None:

@@ -36,6 +36,7 @@ class Unbuilt(Variants):
         name: str = "",
         values: Mapping[str, float] | None = None,
         comment: str = "",
+        **_: Any,
     ) -> Any:
         (folder / f"{name}.mo").write_text(comment)
 

@@ -5,9 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from pysim.identify.greybox import Tie, fit
-from pysim.types import BadInput, Record
-from pysim.workflow import fit_problem, model_of
+from pysim.identify.greybox import Simulation, Tie, fit
+from pysim.simulate import Esdirk
+from pysim.types import BadInput, FitOutcome, Record
+from pysim.workflow import beginning, fit_problem, fitted, model_of
 from tests.toy import library, measured
 
 MASS = model_of("Toy.Mass", [library()])
@@ -47,3 +48,31 @@ def test_logs_in_which_no_input_moves_are_refused() -> None:
     with pytest.raises(BadInput, match="the input F is constant"):
         fit_problem(MASS, [replace(DATA, records=tuple(still))])
     assert fit_problem(MASS, [replace(DATA, records=tuple(still), name="still"), DATA]).observations
+
+
+def test_what_is_known_of_the_first_sample_wins_over_what_the_data_say() -> None:
+    assert {one.initial for one in beginning(DATA, "estimate").records} == {"estimate"}
+    assert beginning(DATA, None) is DATA
+    free = fit_problem(MASS, [DATA], initial="estimate").observations[0].runs[0]
+    assert np.isinf(free.initial[free.free]).all()
+    held = fit_problem(MASS, [DATA], initial={"x": 0.1}).observations[0].runs[0]
+    assert (held.free.size, held.experiment.start, held.begins) == (0, 0.0, 0.0)  # nothing is run ahead of the log
+    assert fit_problem(MASS, [DATA], initial={"x": 0.1}).space.fixed["x"] == 0.1
+    for wrong, said in (("resting", "is not known"), ({"F": 1.0}, "F is no state")):
+        with pytest.raises(BadInput, match=said):
+            fit_problem(MASS, [DATA], initial=wrong)  # type: ignore[arg-type]
+
+
+def test_nothing_is_free_where_a_model_is_only_compared() -> None:
+    task = fit_problem(MASS, [DATA], values={"m": 1.3}, nothing_free=True)
+    assert (task.space.size, dict(task.space.fixed)) == (0, {"m": 1.3})
+
+
+def test_a_search_that_ends_among_errors_of_the_integration_goes_on_with_a_finer_one() -> None:
+    rough = Simulation(solver=Esdirk(rtol=3e-2, atol=3e-2))
+    task = fit_problem(MASS, [DATA])
+    first = fit(task, simulation=rough)
+    again = fitted(task, simulation=rough)
+    assert first.outcome is FitOutcome.STALLED
+    assert again.misfit < first.misfit
+    assert [one.start for one in again.estimates] == [one.start for one in first.estimates]

@@ -1,0 +1,72 @@
+"""A model to take away: its class, its FMU and its values."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+from pysim.io import write_file
+from pysim.types import BadInput, Effect, Model
+from pysim.workflow.extended import PARAMETERS, extended_name, parameters_text
+from pysim.workflow.variants import Variants
+
+
+def export_model(
+    model: Model,
+    variants: Variants | None,
+    effects: Sequence[Effect],
+    values: Mapping[str, float],
+    folder: Path,
+    *,
+    fmi: int = 2,
+    platforms: Sequence[str] = ("host",),
+) -> dict[str, Path]:
+    """Write a model with its values: class and FMU where its class is known, else a copy of the FMU.
+
+    Args:
+        model: without the effects.
+        variants: builds it with effects; None where its class is in no library.
+        effects: that it has besides.
+        values: parameters that differ from its own, by their full names.
+        folder: made where it is not there.
+        fmi, platforms: of the FMU, as `fmu_build.build` says; an FMU of others stays as it is.
+    Returns:
+        "modelica", "fmu" and "parameters" -> path; beside them the classes of effects that have a file of their own.
+    Raises:
+        BadInput: a class that does not compile, or a folder that cannot be written.
+    """
+    folder.mkdir(parents=True, exist_ok=True)
+    files: dict[str, Path] = {}
+    if variants is None:
+        files["fmu"] = folder / model.path.name
+        if files["fmu"].resolve() != model.path.resolve():
+            shutil.copyfile(model.path, files["fmu"])
+    else:
+        name = _name(variants, effects)
+        own = {name: value for name, value in values.items() if not _is_state(model, name)}
+        files |= {"modelica": folder / f"{name}.mo", "fmu": folder / f"{name}.fmu"}
+        about = f"{variants.class_name}{' with ' if effects else ''}{', '.join(effect.name for effect in effects)}."
+        variants.write(effects, folder, files["fmu"], name, own, about, fmi=fmi, platforms=platforms)
+        for library in variants.libraries:
+            if library.is_file() and any(library.stem == effect.class_name for effect in effects):
+                files[library.stem] = folder / library.name
+                shutil.copyfile(library, files[library.stem])
+    if values:
+        files["parameters"] = folder / PARAMETERS
+        write_file(files["parameters"], parameters_text(f"Of {files['fmu'].stem}.", values))
+    return files
+
+
+def _name(variants: Variants, effects: Sequence[Effect]) -> str:
+    if effects:
+        return extended_name(variants.class_name, [effect.class_name for effect in effects])
+    return f"{variants.class_name.rpartition('.')[2]}Fitted"
+
+
+def _is_state(model: Model, name: str) -> bool:
+    """Whether a value is one that a state starts at, which is no parameter of the class."""
+    try:
+        return model[name].causality != "parameter"
+    except BadInput:  # of an effect
+        return False

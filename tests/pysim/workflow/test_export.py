@@ -1,0 +1,61 @@
+"""A model to take away: what is written runs by itself and gives what the model gave."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from pysim.effects import STANDARD_LIBRARY
+from pysim.io import read_model
+from pysim.simulate import Rodas, simulate
+from pysim.types import BadInput, Experiment, Model, Signal
+from pysim.workflow import Variants, class_in, export_model, model_of, recorded_of
+from tests.toy import CATALOGUE, library
+
+MASS = model_of("Toy.Mass", [library()])
+VARIANTS = Variants("Toy.Mass", (STANDARD_LIBRARY, library()))
+TIMES = np.linspace(0.0, 2.0, 101)
+
+
+def answer(model: Model, **values: float) -> np.ndarray:
+    run = Experiment(TIMES, ("x",), {"F": Signal.constant(3.0)}, values)
+    return np.asarray(simulate(model, run, solver=Rodas(1e-8, 1e-8))["x"])
+
+
+def test_values_are_part_of_the_class_that_is_written(tmp_path: Path) -> None:
+    values = {"m": 1.7, "force.F_c": 0.4}
+    files = export_model(MASS, VARIANTS, [CATALOGUE["toy.friction"]], values, tmp_path / "better", fmi=3)
+    assert {name: path.name for name, path in files.items()} == {
+        "modelica": "MassWithRubbing.mo", "fmu": "MassWithRubbing.fmu", "parameters": "parameters.toml",
+    }  # fmt: skip
+    written = read_model(files["fmu"])
+    with_effect, _ = VARIANTS.build([CATALOGUE["toy.friction"]])
+    assert written.abilities.fmi == 3
+    assert answer(written) == pytest.approx(answer(with_effect, m=1.7, **{"force.F_c": 0.4}), abs=1e-7)
+
+
+def test_without_effects_the_class_has_the_values_alone(tmp_path: Path) -> None:
+    files = export_model(MASS, VARIANTS, [], {"m": 1.7, "x": 0.2}, tmp_path)
+    assert files["fmu"].name == "MassFitted.fmu"
+    assert answer(read_model(files["fmu"])) == pytest.approx(answer(MASS, m=1.7), abs=1e-7)
+
+
+def test_an_fmu_of_others_is_copied_as_it_is(tmp_path: Path) -> None:
+    files = export_model(MASS, None, [], {"m": 1.7}, tmp_path)
+    assert files["fmu"].read_bytes() == MASS.path.read_bytes()
+    assert files["parameters"].read_text().endswith('"m" = 1.7\n')
+
+
+def test_a_file_of_one_model_needs_no_name(tmp_path: Path) -> None:
+    one, two = tmp_path / "One.mo", tmp_path / "Two.mo"
+    one.write_text("model One output Real y = 1; end One;")
+    two.write_text("package Two model A end A; model B end B; end Two;")
+    assert class_in(one) == "One"
+    for file, said in ((two, "Two.A, Two.B"), (tmp_path / "none.mo", "none.mo")):
+        with pytest.raises(BadInput, match=said):
+            class_in(file)
+
+
+def test_a_run_records_what_is_asked_for_else_the_outputs() -> None:
+    assert recorded_of(MASS) == ("x", "v")
+    assert recorded_of(MASS, ["force.f"]) == ("force.f",)
