@@ -276,7 +276,7 @@ def _result(
             *problem.notes,
             *_interval_notes(doubt),
             *beside.notes,
-            *not_at_rest(residuals.runs, point.carried.states, beside.records),
+            *not_at_rest(residuals, problem.model, space, point),
         ),
         experiments=beside.experiments,
     )

@@ -175,6 +175,13 @@ class TrustSettings:
         meaning="share of a state's range over its log by which it begins from rest, from which on that is said",
         source="measured: a mass that begins displaced, and logs that begin at rest stay below a fiftieth",
     )
+    explained: float = setting(
+        0.3,
+        unit="1",
+        meaning="share of a log's sum of squares that other initial states take off, from which on it did not begin at "
+        "rest",
+        source="measured: a missing friction leaves a sixth to them at most, noise a hundredth",
+    )
     beginning: float = setting(
         0.05, unit="1", meaning="share of a log that counts as its beginning", source="a twentieth, a sample of blocks"
     )

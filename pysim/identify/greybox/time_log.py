@@ -154,8 +154,9 @@ def time_logs(context: Context, records: Sequence[tuple[int, MeasuredRecord]]) -
     free = [i for i, one in enumerate(known) if one != "rest"]
     ranges = _state_ranges(context, [logs[i].run.experiment for i in free])
     for i, spread in zip(free, ranges, strict=True):
-        sd = math.inf if known[i] == "estimate" else context.treatment.noise.initial * spread
-        run = replace(logs[i].run, initial=np.where(spread > 0, sd, 0.0))
+        unknown = known[i] == "estimate"  # of states too that no input moves, as of a mass that is let go
+        sd = np.full(spread.shape, math.inf) if unknown else context.treatment.noise.initial * spread
+        run = replace(logs[i].run, initial=sd)
         logs[i] = replace(logs[i], run=run)
     return logs
 

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from pysim.identify.greybox.observation import Run
+from pysim.identify.greybox.observation import Observation, Run
+from pysim.identify.greybox.parameters import ParameterSpace
+from pysim.identify.greybox.residuals import Point, WeightedResiduals
 from pysim.identify.greybox.settings import TrustSettings
-from pysim.types import Estimate, Fit, FitOutcome, Note, NoteCode, RecordFit
+from pysim.types import Estimate, Fit, FitOutcome, Model, Note, NoteCode
 
 _SETTINGS = TrustSettings()
 _SAID = (NoteCode.NOT_AT_REST, NoteCode.NOT_SIMULATED)
@@ -65,34 +68,52 @@ def _correlated(fit: Fit) -> Iterator[Note]:
             yield Note(NoteCode.CORRELATED, pair)
 
 
-def not_at_rest(
-    runs: Sequence[Run], states: Iterable[NDArray[np.float64] | None], records: Sequence[RecordFit]
-) -> list[Note]:
+def not_at_rest(residuals: WeightedResiduals, model: Model, space: ParameterSpace, point: Point) -> list[Note]:
     """Logs that did not begin at rest although they were taken so.
 
+    A log whose states are free around rest says it by where they begin. Of one that was held at rest, other initial
+    states would explain a good part of its residual, or the residual is much larger where the log begins.
+
     Args:
-        runs: of the fitted logs.
-        states: per run, (n_s,) how far its free states begin from rest; None where none is free.
-        records: every log beside the fitted model.
+        residuals: of the fitted logs.
+        model, space, point: the fit.
     """
-    found = {one.record for one, offset in zip(runs, states, strict=False) if _is_away(one, offset)}
-    found |= {one.source for one in records if not one.harmonics and _begins_apart(one)}
-    return [Note(NoteCode.NOT_AT_REST, {"record": name}) for name in sorted(found)]
+    if any(name in model.abilities.states for name in space.variables):
+        return []  # where a state begins is fitted
+    found, first = [], 0
+    for one in residuals.observations:
+        own = point.carried.states[first : first + len(one.runs)]
+        first += len(one.runs)
+        if one.domain == "time" and len(one.runs) == 1 and model.abilities.states:
+            run, offset = one.runs[0], own[0] if own else None
+            away = _is_away(run, offset) if run.free.size else _is_explained(residuals, one, model, space, point)
+            found += [Note(NoteCode.NOT_AT_REST, {"record": run.record})] * away
+    return found
 
 
 def _is_away(run: Run, offset: NDArray[np.float64] | None) -> bool:
-    """By a share of a state's range; where its state is free anyway nothing was taken to rest."""
-    if offset is None or not run.free.size:
+    """By a share of a state's range; where a state is free anyway it was not taken to be at rest."""
+    if offset is None:
         return False
     ranges = math.sqrt(12) * run.initial[run.free]
     return bool(np.any(np.isfinite(ranges) & (np.abs(offset[: run.free.size]) > _SETTINGS.away * ranges)))
 
 
-def _begins_apart(record: RecordFit) -> bool:
-    """Whether the first samples are much further from the model than the others, and than noise."""
-    values = record.residual.values
-    count = max(math.ceil(_SETTINGS.beginning * len(values)), _SETTINGS.fewest)
-    if len(values) < 4 * count:
+def _is_explained(
+    residuals: WeightedResiduals, one: Observation, model: Model, space: ParameterSpace, point: Point
+) -> bool:
+    """By the share of a log's residual that other initial states would take off, or by how it begins."""
+    run = replace(one.runs[0], initial=np.full(len(model.abilities.states), math.inf))
+    alone = replace(residuals, observations=(one.with_runs([run]),))
+    there = alone.evaluate(model, space, point.x, jacobian=False)
+    if not there.good:
         return False
-    first, rest = (np.sqrt(np.mean(part**2, axis=0)) for part in (values[:count], values[count:]))
-    return bool(np.any(first > _SETTINGS.apart * np.maximum(rest, 1.0)))
+    squares = float(there.residual @ there.residual)
+    return there.gain > 0.5 * _SETTINGS.explained * squares or _begins_apart(there.residual[run.free.size :])
+
+
+def _begins_apart(residual: NDArray[np.float64]) -> bool:
+    """Whether the first samples are much further from the model than the others, and than noise."""
+    count = max(math.ceil(_SETTINGS.beginning * residual.size), _SETTINGS.fewest)
+    first, rest = (math.sqrt(float(np.mean(part**2))) for part in (residual[:count], residual[count:]))
+    return residual.size > 4 * count and first > _SETTINGS.apart * rest
