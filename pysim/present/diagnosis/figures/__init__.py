@@ -49,7 +49,7 @@ def figures(result: Diagnosed) -> Iterator[Picture]:
                 f"What the model lacks at {law.slot}, over {law.argument}, with its 95 percent band: it explains "
                 f"{100 * law.share:.1f} % of the misfit."
             )
-            yield Picture(f"law_{k + 1}", caption, law_figure(law, _samples(found, law)), "learned")
+            yield Picture(f"law_{k + 1}", caption, law_figure(law, samples_of(found, law)), "learned")
     yield from _record_figures(found, dataset)
     if found.rivals:
         caption = "Candidates by what each explains of the misfit."
@@ -61,7 +61,7 @@ def figures(result: Diagnosed) -> Iterator[Picture]:
         yield Picture("parameters", caption, parameters_figure(base, found.last), "parameters")
 
 
-def _samples(found: Diagnosis, law: LearnedLaw) -> NDArray[np.float64] | None:
+def samples_of(found: Diagnosis, law: LearnedLaw) -> NDArray[np.float64] | None:
     """Of the law's argument, where it was logged."""
     records = found.history[-1].records if found.history else ()
     own = [r.measured[law.argument] for r in records if law.argument in r.measured.names]

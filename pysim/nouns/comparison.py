@@ -1,0 +1,211 @@
+"""Models held against measurements, as they are."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from pysim.nouns.common import dataset_of
+from pysim.nouns.model import Model
+from pysim.nouns.progress import Progress, showing
+from pysim.nouns.table import Table, html_of
+from pysim.nouns.where import Where
+from pysim.types import BadInput, Criterion, Dataset, Note, ProgressEvent, RecordFit
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from pysim.workflow import Initial
+
+Limits = Mapping[str, float]
+Criteria = str | Limits | None
+_FINE = 0.01  # of the tolerance that a search has
+_AT_LEAST = ("fit %",)  # columns of which more is better
+_HEAD = ("model", "log", "signal", "use", "fit %", "rms", "unit", "x noise")
+
+
+def compare(*given: Any, initial: Initial = None, criteria: Criteria = None, progress: Progress = None) -> Comparison:
+    """Hold models against measurements: fit percent, rms in the signal's unit, and residual in noise, log by log.
+
+    Args:
+        given: one model or several, then the measurements: `compare(before, after, data)`.
+        initial: of each log: "rest", "estimate", state -> value; None as the data say, else near rest. Initial states
+            that are not given are estimated from the log itself.
+        criteria: "thesis" judges logs by thesis Table 1.4; column of the table -> limit judges by your own.
+        progress: see `pysim.nouns.progress.showing`.
+    Raises:
+        BadInput: no model, what does not fit together, or a model that cannot be simulated along any log.
+    """
+    *models, data = given
+    if not models or not all(isinstance(one, Model) for one in models):
+        raise BadInput("compare: give one model or several, as pysim.model makes them, then the measurements")
+    dataset = dataset_of(data)
+    names = _names(models)
+    records: dict[str, tuple[RecordFit, ...]] = {}
+    notes: list[Note] = []
+    with showing(progress, "comparing") as say:
+        for name, one in zip(names, models, strict=True):
+            say(ProgressEvent(f"simulating {name}"))
+            records[name], more = _beside(one, dataset, initial)
+            notes += more
+    return Comparison(records, dataset, criteria, tuple(dict.fromkeys(notes)))
+
+
+def _beside(one: Model, dataset: Dataset, initial: Initial) -> tuple[tuple[RecordFit, ...], tuple[Note, ...]]:
+    """Every log beside the model, with the use that the data set says."""
+    from pysim.identify.greybox import Simulation
+    from pysim.identify.greybox.comparison import compared
+    from pysim.workflow import fit_problem, reference_of
+
+    uses = [record.use for record in dataset.logs()]
+    all_fit = replace(dataset, records=tuple(replace(record, use="fit") for record in dataset.records))
+    problem = fit_problem(
+        one.compiled, [all_fit], values=one.values, nothing_free=True, initial=initial,
+        reference_hz=reference_of(dataset.responses()),
+    )  # fmt: skip
+    found = compared(problem, np.zeros(0), Simulation().finer(_FINE))  # one run each: no error of it may count
+    if not found.records and not found.responses:
+        raise BadInput(f"{one.name} could not be simulated along any log; try model.simulate(data[...]) to see why")
+    return tuple(replace(record, use=uses[record.index]) for record in found.records), (*problem.notes, *found.notes)
+
+
+def _names(models: list[Model]) -> list[str]:
+    """Of each model, so that no two are the same."""
+    found: list[str] = []
+    for one in models:
+        name = one.shown
+        found.append(name if name not in found else f"{name} ({len(found) + 1})")
+    return found
+
+
+@dataclass(frozen=True, repr=False)
+class Comparison:
+    """Models beside measurements.
+
+    Args:
+        records: model -> each log beside it.
+        dataset: the measurements.
+        criteria: what they are judged by; nothing where None.
+        notes: what was assumed, and what could not be simulated.
+    """
+
+    records: Mapping[str, tuple[RecordFit, ...]]
+    dataset: Dataset
+    criteria: Criteria = None
+    notes: tuple[Note, ...] = ()
+
+    @property
+    def table(self) -> Table:
+        """A row per model, log and signal; "x noise" is the rms residual over the noise: 1 is noise alone."""
+        rows = [row for model, records in self.records.items() for one in records for row in _rows(model, one)]
+        limits = self._limits
+        if not limits:
+            return Table.of(_HEAD, [row for row, _ in rows])
+        return Table.of(
+            (*_HEAD, *(f"{name} limit" for name in limits), "passes"),
+            [(*row, *limits.values(), _passes(row, one, limits)) for row, one in rows],
+        )
+
+    @property
+    def passes(self) -> bool | None:
+        """Whether every row meets the criteria; None where there are none."""
+        return None if not self._limits else all(self.table["passes"])
+
+    @property
+    def _limits(self) -> Limits:
+        if self.criteria is None:
+            return {}
+        if isinstance(self.criteria, str):
+            if self.criteria != "thesis":
+                raise BadInput(f'criteria = {self.criteria!r} is not known; write "thesis", or column: limit')
+            return {one.symbol: one.limit for one in _thesis(self.records)}
+        known = [*_AT_LEAST, "rms", "x noise"]
+        for name in self.criteria:
+            if name not in known:
+                raise BadInput(f"criteria: there is no column {name!r}; limits are for {', '.join(known)}")
+        return self.criteria
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What could not be simulated or compared, in sentences."""
+        from pysim.present.notes import words
+
+        return tuple(words(note) for note in self.notes)
+
+    def where(self) -> Where:
+        """Where the last of the models fails, the worst region first."""
+        from pysim.diagnosis.failures import failures
+
+        return Where(failures(list(self.records.values())[-1], self.dataset))
+
+    def plot(self, log: str = "") -> Figure:
+        """One log, measured and as each model has it, with what is left.
+
+        Args:
+            log: its name; by default a log that was held out, where the first model fails most.
+        """
+        from pysim.present.overlay import logs_figure
+
+        index = self._chosen(log)
+        own = {name: [one for one in records if one.index == index] for name, records in self.records.items()}
+        return logs_figure({name: found[0] for name, found in own.items() if found})
+
+    def _chosen(self, log: str) -> int:
+        first = next(iter(self.records.values()))
+        if log:
+            named = [one for one in first if log in (one.source, _stem(one.source))]
+            if not named:
+                raise BadInput(f"no log {log!r} was compared; there are {', '.join(one.source for one in first)}")
+            return named[0].index
+        if not first:
+            raise BadInput("nothing to draw: no log over time was compared")
+        return max(first, key=lambda one: (one.use != "fit", max(one.rms.values()))).index
+
+    def to_dataframe(self) -> Any:
+        """The table, as a pandas DataFrame."""
+        return self.table.to_dataframe()
+
+    def __repr__(self) -> str:
+        table = self.table if len(self.records) > 1 else _without_model(self.table)
+        head = f"{', '.join(self.records)} against {self.dataset.name}"
+        return "\n".join([head, *table.lines(1700)])
+
+    def _repr_html_(self) -> str:
+        return html_of(f"{', '.join(self.records)} against {self.dataset.name}", self.table)
+
+
+def _rows(model: str, one: RecordFit) -> list[tuple[tuple[Any, ...], RecordFit]]:
+    from pysim.io import shown_unit
+
+    away = np.sqrt(np.mean((one.measured.values - one.simulated.values) ** 2, axis=0))
+    rows = []
+    for j, name in enumerate(one.measured.names):
+        unit, factor = shown_unit(one.measured.units[j])
+        numbers = (one.fit_percent[name], float(factor * away[j]), unit, one.rms[name])
+        rows.append(((model, one.source, name, one.use, *numbers), one))
+    return rows
+
+
+def _passes(row: tuple[Any, ...], one: RecordFit, limits: Limits) -> bool:
+    own = dict(zip(_HEAD, row, strict=True))
+    judged = {d.criterion.symbol: d.passes for d in one.deviations.get(own["signal"], ())}
+    return all(
+        judged.get(name, True) if name not in own else own[name] >= limit if name in _AT_LEAST else own[name] <= limit
+        for name, limit in limits.items()
+    )
+
+
+def _thesis(records: Mapping[str, tuple[RecordFit, ...]]) -> list[Criterion]:
+    found = [d.criterion for own in records.values() for one in own for ds in one.deviations.values() for d in ds]
+    return list(dict.fromkeys(found))
+
+
+def _stem(source: str) -> str:
+    return source.rpartition("/")[2].rpartition(".")[0] or source
+
+
+def _without_model(table: Table) -> Table:
+    return Table({name: values for name, values in table.columns.items() if name != "model"})

@@ -1,0 +1,272 @@
+"""What a model lacks, asked of measurements."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from pysim.nouns.common import Measured, dataset_of
+from pysim.nouns.fit import Fit
+from pysim.nouns.law import Law, laws_of
+from pysim.nouns.model import Model
+from pysim.nouns.progress import Listener, Progress, showing
+from pysim.nouns.table import MOST, Table, html_of
+from pysim.nouns.where import Where
+from pysim.types import BadInput, Dataset
+from pysim.types import Diagnosis as Answer
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from pysim.diagnosis import Session
+    from pysim.workflow import Initial, SessionParts
+
+Subject = Model | Fit
+
+
+def diagnose(
+    subject: Subject,
+    data: Measured | None = None,
+    *,
+    effects: Sequence[str] = (),
+    max_effects: int = 3,
+    initial: Initial = None,
+    checkpoint: Path | str | None = None,
+    progress: Progress = None,
+) -> Diagnosis:
+    """Say which physical effect a model lacks, or that none is missing, or that what is missing is not known.
+
+    Args:
+        subject: a fit, which brings its data, or a model.
+        data: what `pysim.load` gives; of a fit its own by default.
+        effects: names of the effects to consider; all that the model's slots take by default.
+        max_effects: that are added at most.
+        initial: of each log: "rest" or "estimate"; None as the fit had it, else as the data say.
+        checkpoint: file that a diagnosis which was stopped goes on from.
+        progress: see `pysim.nouns.progress.showing`.
+    Raises:
+        BadInput: what does not fit together, or measurements that cannot carry a diagnosis.
+    """
+    from pysim.diagnosis import Settings
+    from pysim.diagnosis import diagnose as searched
+
+    model, dataset, begin = subject_of(subject, data, initial)
+    if model.effects_in:
+        names = ", ".join(one.name for one in model.effects_in)
+        raise BadInput(
+            f"diagnose: the model has {names} already; diagnose the one without, which has it as a candidate"
+        )
+    parts = parts_of(model, dataset, begin, effects)
+    found = asked(
+        parts, lambda session, say: searched(session, progress=say, checkpoint=_path(checkpoint)),
+        progress, f"diagnosing {model.name}", Settings(max_effects=max_effects),
+    )  # fmt: skip
+    return Diagnosis(found, model, parts)
+
+
+def locate(
+    subject: Subject,
+    data: Measured | None = None,
+    *,
+    initial: Initial = None,
+    checkpoint: Path | str | None = None,
+    progress: Progress = None,
+) -> tuple[Law, ...]:
+    """Where a law is missing that no catalogue has, and what it looks like: of each place the best, likeliest first.
+
+    Args:
+        subject, data, initial, checkpoint, progress: as of `diagnose`; effects that the model has stay in.
+    Raises:
+        BadInput: the model's class is not at hand, or what `diagnose` refuses.
+    """
+    from pysim.diagnosis import learn
+
+    model, dataset, begin = subject_of(subject, data, initial)
+    parts = parts_of(replace(model, effects_in=()), dataset, begin)
+    found = asked(
+        parts, lambda session, say: learn(session, model.effects_in, progress=say, checkpoint=_path(checkpoint)),
+        progress, f"locating what {model.name} lacks",
+    )  # fmt: skip
+    return laws_of(found, model)
+
+
+def subject_of(subject: Subject, data: Measured | None, initial: Initial) -> tuple[Model, Dataset, str | None]:
+    """Model, measurements, and what is known of each log's first sample."""
+    if isinstance(subject, Fit):
+        model, dataset = subject.model, subject.dataset if data is None else dataset_of(data)
+        initial = subject.initial if initial is None else initial
+    elif isinstance(subject, Model):
+        if data is None:
+            raise BadInput("a model alone has no measurements; write diagnose(model, data), or diagnose(fit)")
+        model, dataset = subject, dataset_of(data)
+    else:
+        raise BadInput(f"{type(subject).__name__} is no model; give what pysim.model or pysim.fit returns")
+    if initial is not None and not isinstance(initial, str):
+        raise BadInput('initial: a diagnosis takes "rest" or "estimate"; numbers for states are for fit alone')
+    return model, dataset, initial
+
+
+def parts_of(model: Model, dataset: Dataset, initial: str | None, effects: Sequence[str] = ()) -> SessionParts:
+    """All that a session is made of."""
+    from pysim.workflow import beginning, reference_of, session_parts
+
+    free = model.free_names
+    return session_parts(
+        model.base,
+        beginning(dataset, initial),
+        libraries=model.libraries,
+        free=free,
+        bounds={name: pair for name, pair in model.bounds.items() if name in free},
+        values=model.values,
+        effects=effects,
+        reference_hz=reference_of(dataset.responses()),
+    )
+
+
+def asked(
+    parts: SessionParts,
+    work: Callable[[Session, Listener], Answer],
+    progress: Progress,
+    title: str,
+    settings: Any = None,
+) -> Answer:
+    """Run a step of the diagnosis and make its answer whole."""
+    from pysim.workflow import session_of, whole_answer
+
+    with showing(progress, title) as say:
+        return whole_answer(work(session_of(parts, settings), say), parts)
+
+
+def _path(checkpoint: Path | str | None) -> Path | None:
+    return None if checkpoint is None else Path(checkpoint)
+
+
+@dataclass(frozen=True, repr=False)
+class Diagnosis:
+    """The answer.
+
+    Args:
+        found: all numbers.
+        begun: the model that was asked about.
+        parts: with what it was asked.
+    """
+
+    found: Answer
+    begun: Model
+    parts: SessionParts
+
+    @property
+    def verdict(self) -> str:
+        """Name of the first effect that is missing; "none", or "unknown"."""
+        return self.found.verdict
+
+    @property
+    def sentence(self) -> str:
+        """The verdict in words, with what it does to the error."""
+        from pysim.present.diagnosis.words import verdict_sentence
+
+        return verdict_sentence(self.found)
+
+    @property
+    def steps(self) -> Table:
+        """The error, model by model: rms residual over noise on logs fitted, used to choose, and never seen."""
+        from pysim.present.diagnosis.words import step_name
+
+        rows = [(step_name(one.step), one.fit, one.validate, one.test) for one in self.found.history]
+        return Table.of(("model", "fitted", "held out", "unseen"), rows, key="model")
+
+    @property
+    def effects(self) -> Table:
+        """Parameters of the effects that were found: value and 95 percent interval."""
+        from pysim.present.diagnosis.words import sizes
+
+        rows = [
+            (one.effect.name, name, value, *ends, "" if unit == "1" else unit, one.share)
+            for one in self.found.effects
+            for name, value, ends, unit in sizes(one)
+        ]
+        return Table.of(("effect", "parameter", "value", "95 % from", "to", "unit", "share"), rows)
+
+    @property
+    def candidates(self) -> Table:
+        """What was compared, best first: share of the avoidable misfit, gain less penalty (nats), and how far tried."""
+        from pysim.present.diagnosis.words import candidates_shown
+
+        rows = [
+            (" + ".join(one.effects), one.explained, one.score, "refitted" if one.refitted else "screened")
+            for one in candidates_shown(self.found)
+        ]
+        return Table.of(("effects", "explains", "gain less penalty", "how"), rows)
+
+    @property
+    def missing(self) -> tuple[Law, ...]:
+        """Laws that no catalogue has, learned where effects do not explain the measurements; likeliest place first."""
+        return laws_of(self.found, self.begun)
+
+    @property
+    def model(self) -> Model:
+        """The model with what was found, refitted."""
+        effects = [one for one in self.found.effects if one.effect.class_name]
+        grown = self.begun.with_effects(*(one.effect.name for one in effects))
+        for law in self.missing[: len(self.found.learned)]:
+            if law.found.modelica:
+                grown = grown.with_effects(law.to_effect(f"learned.{law.slot}"))
+        values = {e.name: e.value for e in self.found.estimates if "@" not in e.name}
+        for one in effects:
+            ahead, place = grown.places[one.effect.name], one.place
+            values = {name: value for name, value in values.items() if not name.startswith(f"{place}.")} | {
+                f"{ahead}.{p.name}": e.value for p, e in zip(one.effect.parameters, one.estimates, strict=True)
+            }
+        known = {v.name for v in grown.compiled.variables}
+        return replace(grown, values={**self.begun.values, **{n: v for n, v in values.items() if n in known}})
+
+    def where(self) -> Where:
+        """Where the model fails before anything was added, the worst region first."""
+        return Where(self.found.failures)
+
+    def summary(self) -> str:
+        """All of it as text."""
+        from pysim.present.diagnosis import diagnosis_text
+
+        return diagnosis_text(self.found)
+
+    def plot(self) -> Figure:
+        """The error, step by step."""
+        from pysim.present.diagnosis import error_figure
+
+        return error_figure(self.found.history)
+
+    def report(self, folder: Path | str) -> dict[str, Path]:
+        """Write report.html with its pictures, the fitted values, and class and FMU where effects were added."""
+        from pysim.present import write_report
+        from pysim.present.diagnosis import Diagnosed
+        from pysim.workflow import write_extended
+
+        place = Path(folder)
+        place.mkdir(parents=True, exist_ok=True)
+        files = write_extended(self.found, self.parts, place)
+        title = f"{self.parts.model_name} against {self.parts.dataset.name}"
+        beside = {name: path.name for name, path in files.items()}
+        return write_report(place, Diagnosed(self.found, self.parts.dataset, title, files=beside)) | files
+
+    def to_dataframe(self) -> Any:
+        """The steps, as a pandas DataFrame."""
+        return self.steps.to_dataframe()
+
+    def __repr__(self) -> str:
+        parts = [[f"Verdict: {self.verdict}", *_wrapped(self.sentence)], self.steps.lines(500)]
+        parts += [self.effects.lines(500)] if len(self.effects) else []
+        parts += [self.candidates.lines(300)] if len(self.candidates) else []
+        text = "\n".join("\n".join(lines) for lines in parts)
+        return text if len(text) <= MOST + 90 else f"{text[: MOST - 40].rpartition(chr(10))[0]}\n... summary() has all"
+
+    def _repr_html_(self) -> str:
+        return html_of(f"Verdict: {self.verdict}. {self.sentence}"[:900], self.steps)
+
+
+def _wrapped(text: str) -> list[str]:
+    import textwrap
+
+    return textwrap.wrap(text if len(text) < 700 else f"{text[:697]}...", 100)

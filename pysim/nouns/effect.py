@@ -1,0 +1,218 @@
+"""An effect of the user's own, from a formula."""
+
+from __future__ import annotations
+
+import hashlib
+import shutil
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from pysim.nouns.model import Model, opened
+from pysim.nouns.table import Table, html_of
+from pysim.types import BadInput, EffectParameter
+from pysim.types import Effect as Described
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from pysim.effects import Slot
+
+Range = Sequence[Any]  # lowest, highest, usual, unit
+
+
+def effect(
+    name: str, *, at: str, law: str, model: Model | None = None, description: str = "", **parameters: Range
+) -> Effect:
+    """Write the class of an effect from its formula.
+
+    A parameter whose range holds zero and without which the law vanishes is a strength: it is 0 until it is fitted. Any
+    other one shapes the law, and has its usual value.
+
+    Args:
+        name: of the effect, "my.drag" -> class MyDrag.
+        at: slot that it fills, of a model that was opened.
+        law: an expression for what the slot gives, or equations "f = ...". It may name the slot's variables, the
+            parameters, `time`, and the functions tanh, exp, sqrt, abs, max, min, sin, cos and sign.
+        model: whose slot it is; needed where models that were opened have different slots of that name.
+        description: in words.
+        parameters: name = (lowest, highest, usual, unit), the unit SI.
+    Raises:
+        BadInput: no such slot, or what a law may not hold, with its place in the text.
+    """
+    from pysim.effects import law_class
+    from pysim.workflow import class_name_of, with_standard
+
+    slot, libraries = _slot(at, model)
+    ranges = {key: _range(key, given) for key, given in parameters.items()}
+    places = with_standard(libraries)
+    shaped = [_parameter(key, own, is_strength=False) for key, own in ranges.items()]
+    law_class(class_name_of(name), slot, law, shaped, places)  # refuses the law, before its values are asked for
+    strengths = _strengths(law, slot, ranges)
+    if not strengths:
+        raise BadInput(f"effect {name}: no parameter switches the law off at 0; give one a range that holds 0")
+    declared = [_parameter(key, own, is_strength=key in strengths) for key, own in ranges.items()]
+    text = law_class(class_name_of(name), slot, law, declared, places, effect=name, description=description)
+    file = effect_folder(text) / f"{class_name_of(name)}.mo"
+    if not file.exists():
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text(text, encoding="utf-8")
+    return own_effect(file, slot)
+
+
+def own_effect(file: Path, slot: Slot | None = None) -> Effect:
+    """The effect of a file that holds one."""
+    from pysim.effects import read_catalogue
+
+    (found,) = read_catalogue(file)
+    return Effect(found, file, slot)
+
+
+def effect_folder(content: str) -> Path:
+    """Where the class of this content is kept until it is saved."""
+    from pysim.io import cache_folder
+
+    return cache_folder("effects") / hashlib.sha256(content.encode()).hexdigest()[:24]
+
+
+@dataclass(frozen=True, repr=False)
+class Effect:
+    """An effect that can be added to a model: `model.with_effects(effect)`.
+
+    Args:
+        found: its slot, parameters and law.
+        file: that holds its class.
+        filled: the slot as its model declares it; None where that is not at hand.
+    """
+
+    found: Described
+    file: Path
+    filled: Slot | None = None
+
+    @property
+    def name(self) -> str:
+        """Its standard name."""
+        return self.found.name
+
+    @property
+    def slot(self) -> str:
+        """The part of a model that it fills."""
+        return self.found.slot
+
+    @property
+    def law(self) -> str:
+        """Its equations."""
+        return self.found.law
+
+    @property
+    def modelica(self) -> str:
+        """The class, to keep in a library of yours."""
+        return self.file.read_text(encoding="utf-8")
+
+    @property
+    def parameters(self) -> Table:
+        """Name, bounds, usual size, unit, and whether it is 0 until it is fitted."""
+        rows = [
+            (p.name, p.min, p.max, p.nominal, "" if p.unit == "1" else p.unit, p.off is not None)
+            for p in self.found.parameters
+        ]
+        return Table.of(("parameter", "min", "max", "usual", "unit", "0 is off"), rows, key="parameter")
+
+    def plot(self) -> Figure:
+        """The law at usual sizes, over its first variable; without numbers, as its range is the model's."""
+        from pysim.effects import law_constants, law_sketch
+        from pysim.present.effect import sketch_figure
+
+        drawn = None
+        if self.filled is not None:
+            drawn = law_sketch(self.found, self.filled, law_constants(self.found, [self.file]), {})
+        if drawn is None:
+            raise BadInput(
+                f"effect {self.name}: its law is more than a few strokes can show; simulate the model with it"
+            )
+        return sketch_figure(drawn, self.name)
+
+    def save(self, folder: Path | str) -> Path:
+        """Write the class into a folder; the path of its file.
+
+        Raises:
+            BadInput: the file is there already and holds something else.
+        """
+        place = Path(folder) / self.file.name
+        place.parent.mkdir(parents=True, exist_ok=True)
+        if place.exists() and place.read_text(encoding="utf-8") != self.modelica:
+            raise BadInput(f"{place} is there already; give the effect another name or folder")
+        shutil.copyfile(self.file, place)
+        return place
+
+    def to_dataframe(self) -> Any:
+        """The parameters, as a pandas DataFrame."""
+        return self.parameters.to_dataframe()
+
+    def __repr__(self) -> str:
+        law = self.law if len(self.law) < 500 else f"{self.law[:497]}..."
+        return "\n".join([f"{self.name} at {self.slot}: {law}", *self.parameters.lines(1000)])
+
+    def _repr_html_(self) -> str:
+        return html_of(f"{self.name} at {self.slot}: {self.law[:500]}", self.parameters)
+
+
+def _slot(at: str, model: Model | None) -> tuple[Slot, tuple[Path, ...]]:
+    """The slot, and the libraries that hold what it takes."""
+    if model is not None:
+        return model.slot(at), model.libraries
+    found = {}
+    for one in opened:
+        for slot in one.inside.slots:
+            if slot.name == at:
+                found[slot.takes] = (slot, one.libraries)
+    if not found:
+        names = sorted({slot.name for one in opened for slot in one.inside.slots})
+        cure = f"they have {', '.join(names)}" if names else "open one ahead: pysim.model(...)"
+        raise BadInput(f"effect: no model that was opened has a slot {at!r}; {cure}")
+    if len(found) > 1:
+        raise BadInput(f"effect: models that were opened have different slots {at!r}; say which: model=...")
+    return next(iter(found.values()))
+
+
+def _range(key: str, given: Range) -> tuple[float, float, float, str]:
+    try:
+        low, high, usual, unit = given
+        low, high, usual = float(low), float(high), float(usual)
+    except (TypeError, ValueError):
+        raise BadInput(f"effect: {key} = {given!r}; write {key}=(lowest, highest, usual, unit)") from None
+    if not low <= usual <= high or not low < high:
+        raise BadInput(f"effect: {key} is usually {usual:g}, outside {low:g} to {high:g}; give lowest, highest, usual")
+    return low, high, usual, str(unit)
+
+
+def _parameter(key: str, own: tuple[float, float, float, str], *, is_strength: bool) -> EffectParameter:
+    low, high, usual, unit = own
+    default, off = (0.0, 0.0) if is_strength else (usual, None)
+    return EffectParameter(key, unit, low, high, usual, default, off)
+
+
+def _strengths(law: str, slot: Slot, ranges: Mapping[str, tuple[float, float, float, str]]) -> set[str]:
+    """Parameters without which nothing is left: their range holds 0, and the law vanishes only where they are there."""
+    from pysim.effects.law import Moment, read_law
+
+    one_line = law if "=" in law.replace("==", "").replace("<=", "").replace(">=", "") else f"{slot.gives[0]} = {law}"
+    read, rng = read_law(one_line), np.random.default_rng(0)
+    seen = {name: rng.uniform(0.5, 2.0, 16) * rng.choice([-1.0, 1.0], 16) for name in (*slot.sees, "time")}
+    usual = {key: own[2] or 0.5 * (own[1] if own[1] else own[0]) for key, own in ranges.items()}
+
+    def is_off(zeros: set[str]) -> bool:
+        known = {**seen, **{key: 0.0 if key in zeros else value for key, value in usual.items()}}
+        at = Moment(read, known)
+        return all(bool(np.all(np.asarray(at[name]) == 0.0)) for name in slot.gives)
+
+    zeros = {key for key, (low, high, *_) in ranges.items() if low <= 0 <= high}
+    if not is_off(zeros):
+        return set()
+    for key in sorted(zeros, reverse=True):
+        if is_off(zeros - {key}):
+            zeros = zeros - {key}
+    return zeros

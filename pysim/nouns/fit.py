@@ -1,0 +1,260 @@
+"""A model fitted to measurements, with how well its parameters are known and when not to trust them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from pysim.nouns.common import Measured, dataset_of
+from pysim.nouns.model import Model
+from pysim.nouns.progress import Progress, showing
+from pysim.nouns.run import Run
+from pysim.nouns.table import MOST, Table, html_of
+from pysim.types import BadInput, Dataset, ProgressEvent, RecordFit
+from pysim.types import Fit as Found
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from pysim.identify.greybox import Problem, Profile, Tried
+    from pysim.workflow import Initial
+
+_CLOSE = 0.9  # correlation from which on a pair is printed
+
+
+def fit(
+    model: Model,
+    data: Measured,
+    *,
+    initial: Initial = None,
+    starts: int = 0,
+    seed: int = 0,
+    outputs: Sequence[str] = (),
+    folder: Path | str | None = None,
+    progress: Progress = None,
+) -> Fit:
+    """Fit the free parameters of a model to the logs whose use is "fit"; the others are compared alone.
+
+    Args:
+        model: its `free_names` are changed, from their values on.
+        data: what `pysim.load` gives.
+        initial: of the model at each log's first sample: "rest", "estimate" from the log, or state -> value; None as
+            the data say, and near rest where they say nothing. It holds for logs that were held out too.
+        starts: more searches, from starts drawn between the bounds.
+        seed: of the draw.
+        outputs: columns to compare; all that are measured by default.
+        folder: keeps the search, so that one that was stopped goes on from there.
+        progress: see `pysim.nouns.progress.showing`.
+    Raises:
+        BadInput: nothing free, what does not fit together, or a model that cannot be simulated.
+    """
+    from pysim.identify.greybox import Effort
+    from pysim.workflow import fit_problem, fitted, reference_of
+
+    dataset = dataset_of(data)
+    free = model.free_names
+    if not free:
+        raise BadInput(f"fit: no parameter of {model.name} is free; name some: model.free('m', d=(20, 60))")
+    problem = fit_problem(
+        model.compiled,
+        [dataset],
+        free=free,
+        bounds={name: pair for name, pair in model.bounds.items() if name in free},
+        values=model.values,
+        starts={name: value for name, value in model.usual().items() if name in free},
+        outputs=outputs,
+        reference_hz=reference_of(dataset.responses()),
+        initial=initial,
+    )
+    log = None if folder is None else Path(folder)
+    with showing(progress, f"fitting {model.name}") as say:
+
+        def heard(tried: Tried) -> None:
+            say(ProgressEvent(f"{tried.search}: point {tried.tried}, cost {tried.best:.6g}"))
+
+        effort = Effort(starts, seed, log=log, resume=log is not None)
+        return Fit(fitted(problem, effort=effort, progress=heard), model, dataset, problem, initial)
+
+
+@dataclass(frozen=True, repr=False)
+class Fit:
+    """A fitted model. Read `warnings` first: `ok` says that there are none.
+
+    Args:
+        found: all numbers.
+        begun: the model as it was before.
+        dataset: the measurements.
+        problem: what was fitted, for profiles.
+        initial: as it was asked for.
+    """
+
+    found: Found
+    begun: Model
+    dataset: Dataset
+    problem: Problem
+    initial: Initial = None
+
+    @property
+    def values(self) -> Mapping[str, float]:
+        """Parameter -> estimate, in its unit."""
+        return {one.name: one.value for one in self.found.estimates}
+
+    @property
+    def intervals(self) -> Mapping[str, tuple[float, float]]:
+        """Parameter -> ends of its 95 percent interval, in its unit."""
+        return {one.name: one.interval for one in self.found.estimates}
+
+    @property
+    def table(self) -> Table:
+        """A row per parameter: value, standard deviation, 95 percent interval, unit, start, bounds."""
+        rows = [
+            (e.name, e.value, e.std, *e.interval, "" if e.unit == "1" else e.unit, e.start, e.lower, e.upper,
+             "AT BOUND" if e.at else "" if e.determined else "not determined")
+            for e in self.found.estimates
+        ]  # fmt: skip
+        head = ("parameter", "value", "s.d.", "95 % from", "to", "unit", "start", "lower", "upper", "remark")
+        return Table.of(head, rows, key="parameter")
+
+    @property
+    def correlation(self) -> Table:
+        """Correlations of the estimates."""
+        names = [one.name for one in self.found.estimates]
+        rows = [(name, *row) for name, row in zip(names, self.found.correlation.tolist(), strict=True)]
+        return Table.of(("parameter", *names), rows, key="parameter")
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """Why not to trust it, in sentences; none where nothing speaks against it."""
+        from pysim.identify.greybox import fit_warnings
+        from pysim.present.notes import words
+
+        return tuple(words(note) for note in fit_warnings(self.found))
+
+    @property
+    def ok(self) -> bool:
+        """Whether nothing speaks against it."""
+        return not self.warnings
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What was assumed, in sentences."""
+        from pysim.present.notes import words
+
+        return tuple(words(note) for note in self.found.notes)
+
+    @property
+    def model(self) -> Model:
+        """The model at the estimates; its parameters stay as free as they were."""
+        values = {name: value for name, value in self.found.values.items() if "@" not in name}
+        return replace(self.begun, values={**self.begun.values, **values}, label=f"{self.begun.shown} fitted")
+
+    @property
+    def residuals(self) -> Mapping[str, Run]:
+        """Log -> measured minus simulated, in standard deviations of the noise."""
+        return {one.source: Run(one.residual, f"residual of {one.source}") for one in self.found.records}
+
+    @property
+    def signals(self) -> Table:
+        """A row per log and signal: use, fit percent, rms in the signal's unit, and over the noise."""
+        from pysim.nouns.comparison import Comparison
+
+        return Comparison({self.begun.name: self.found.records}, self.dataset).table
+
+    def profile(self, name: str) -> Profile:
+        """The exact 95 percent interval of a parameter, with the cost along it; takes as long as the fit."""
+        from pysim.identify.greybox import profile
+
+        return profile(self.problem, self.found, name)
+
+    def summary(self) -> str:
+        """All of it as text."""
+        from pysim.present.fit import text
+
+        return text(self._whole())
+
+    def plot(self, what: str = "log", log: str = "") -> Figure:
+        """Draw the fit.
+
+        Args:
+            what: "log" (measured and fitted, and what is left), "parameters" (between their bounds), "correlation".
+            log: its name; the one with the largest residual by default.
+        """
+        from pysim.nouns.comparison import Comparison
+        from pysim.present.fit import fit_correlation_figure, fit_parameters_figure
+
+        if what == "parameters":
+            return fit_parameters_figure(self.found)
+        if what == "correlation":
+            return fit_correlation_figure(self.found)
+        if what != "log":
+            raise BadInput(f'plot: {what!r} is not known; write "log", "parameters" or "correlation"')
+        return Comparison({"fitted": self.found.records}, self.dataset).plot(log)
+
+    def save(self, folder: Path | str) -> dict[str, Path]:
+        """Write report.html, its pictures and parameters.toml; name -> path."""
+        from pysim.present import write_report
+
+        Path(folder).mkdir(parents=True, exist_ok=True)
+        return write_report(Path(folder), self._whole())
+
+    def to_dataframe(self) -> Any:
+        """The parameters, as a pandas DataFrame."""
+        return self.table.to_dataframe()
+
+    def _whole(self) -> Any:
+        from pysim.present.fit import Fitted
+
+        return Fitted(self.found, (self.dataset,))
+
+    def _lines(self) -> list[str]:
+        """Fit of each signal over all logs, correlations, warnings."""
+        lines = []
+        for (name, use), records in _by_signal(self.found.records).items():
+            squares = [(one.measured[name] - one.simulated[name]) ** 2 for one in records]
+            moved = [(one.measured[name] - one.measured[name].mean()) ** 2 for one in records]
+            away, size = (sum(float(part.sum()) for part in parts) for parts in (squares, moved))
+            count = sum(part.size for part in squares)
+            noise = math.sqrt(sum(one.rms[name] ** 2 * one.measured.time.size for one in records) / count)
+            percent = f"fit {100 * (1 - math.sqrt(away / size)):.2f} %" if size else "never moves"
+            lines.append(f"{name} ({use}): {percent}, rms {_shown(records[0], name, math.sqrt(away / count))}, "
+                         f"{noise:.3g} x noise")  # fmt: skip
+        names, matrix = [one.name for one in self.found.estimates], self.found.correlation
+        pairs = [
+            f"{names[i]} and {names[j]} {matrix[i, j]:.2f}"
+            for i in range(len(names)) for j in range(i) if abs(matrix[i, j]) > _CLOSE
+        ]  # fmt: skip
+        return [*lines, *([f"correlations above {_CLOSE}: {', '.join(pairs[:4])}"] if pairs else [])]
+
+    def __repr__(self) -> str:
+        one, warnings = self.found, [f"! {text}" for text in self.warnings]
+        head = f"{self.begun.name} fitted to {self.dataset.name}: {one.outcome.value}, {one.iterations} points tried"
+        said = [head, *self._lines()[:12], *warnings]
+        while len("\n".join(said)) > MOST - 500:
+            said[-1:] = []
+            said[-1] = "! ... see .warnings for all"
+        shown = ("parameter", "value", "95 % from", "to", "unit", "start", "remark")
+        table = Table({name: self.table[name] for name in shown})
+        rows = table.lines(MOST - len("\n".join(said)) - 10)
+        return "\n".join([said[0], *rows, *said[1:]])
+
+    def _repr_html_(self) -> str:
+        head = f"{self.begun.name} fitted to {self.dataset.name}. {' | '.join(self._lines()[:4])}"
+        shown = ("parameter", "value", "95 % from", "to", "unit", "remark")
+        return html_of(head, Table({name: self.table[name] for name in shown}), self.warnings)
+
+
+def _by_signal(records: Sequence[RecordFit]) -> dict[tuple[str, str], list[RecordFit]]:
+    found: dict[tuple[str, str], list[RecordFit]] = {}
+    for one in records:
+        for name in one.measured.names:
+            found.setdefault((name, {"fit": "fitted"}.get(one.use, one.use)), []).append(one)
+    return found
+
+
+def _shown(record: RecordFit, name: str, value: float) -> str:
+    from pysim.io import shown_value
+
+    return shown_value(value, record.measured.units[record.measured.names.index(name)], ".3g")

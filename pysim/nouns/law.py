@@ -1,0 +1,115 @@
+"""A law that a model lacks, as the measurements show it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from pysim.nouns.effect import Effect, effect_folder, own_effect
+from pysim.nouns.model import Model
+from pysim.nouns.table import Table, html_of
+from pysim.types import BadInput, LearnedLaw
+from pysim.types import Diagnosis as Answer
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+
+def laws_of(found: Answer, model: Model) -> tuple[Law, ...]:
+    """The laws of an answer, those that were added ahead."""
+    from pysim.present.diagnosis.figures import samples_of
+
+    return tuple(Law(one, model, samples_of(found, one)) for one in found.laws)
+
+
+@dataclass(frozen=True, repr=False)
+class Law:
+    """What is missing at one place: a curve with its 95 percent band.
+
+    Args:
+        found: all numbers.
+        model: it was learned in.
+        samples: (n,) of its argument in the logs; None where that was not logged.
+    """
+
+    found: LearnedLaw
+    model: Model
+    samples: Any = None
+
+    @property
+    def slot(self) -> str:
+        """Place in the model."""
+        return self.found.slot
+
+    @property
+    def argument(self) -> str:
+        """The variable it depends on."""
+        return self.found.argument
+
+    @property
+    def share(self) -> float:
+        """Of the misfit that could be avoided, 0 ... 1."""
+        return self.found.share
+
+    @property
+    def formula(self) -> str:
+        """A short expression for the curve; "" where none fits."""
+        if self.found.formula:
+            return self.found.formula
+        from pysim.diagnosis.learn.formula import formulas
+
+        best = next(iter(formulas(self.found)), None)
+        return best.text(self.argument.removeprefix(f"{self.slot}.")) if best else ""
+
+    @property
+    def table(self) -> Table:
+        """The curve: argument, value and its 95 percent band."""
+        one = self.found
+        low, high = one.band
+        rows = list(zip(*(a.tolist() for a in (one.knots, one.coefficients, low, high)), strict=True))
+        return Table.of((f"{one.argument} [{one.argument_unit}]", f"value [{one.unit}]", "95 % from", "to"), rows)
+
+    @property
+    def sentence(self) -> str:
+        """What is missing, in words."""
+        from pysim.present.diagnosis.law_words import law_sentence
+
+        return law_sentence(replace(self.found, formula=self.formula))
+
+    def plot(self) -> Figure:
+        """The curve with its band, and where the data are."""
+        from pysim.present.diagnosis import law_figure
+
+        return law_figure(self.found, self.samples)
+
+    def to_effect(self, name: str, *, description: str = "") -> Effect:
+        """An effect whose law this curve is, to add to a model; `save(folder)` writes its class into a library.
+
+        Raises:
+            BadInput: no class can be written for the slot, or the name makes no name of a class.
+        """
+        from pysim.workflow import class_name_of, keep_law
+
+        if self.model.variants is None:
+            raise BadInput(f"nothing can be added to {self.model.name}: its class is in no library")
+        variants = self.model.variants
+        folder = effect_folder(f"{name}|{description}|{self.found.slot}|{self.found.coefficients.tobytes().hex()}")
+        file = folder / f"{class_name_of(name)}.mo"
+        if not file.exists():
+            keep_law(self.found, name, variants.class_name, variants.libraries, folder, description=description)
+        return own_effect(file)
+
+    def to_dataframe(self) -> Any:
+        """The curve, as a pandas DataFrame."""
+        return self.table.to_dataframe()
+
+    def save(self, folder: Path | str, name: str) -> Path:
+        """Write its class into a folder."""
+        return self.to_effect(name).save(folder)
+
+    def __repr__(self) -> str:
+        return "\n".join([self.sentence, *self.table.lines(1200)])
+
+    def _repr_html_(self) -> str:
+        return html_of(self.sentence, self.table)

@@ -1,0 +1,437 @@
+"""A model: what it holds, what of it is set or refitted, and how it runs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Protocol
+
+import numpy as np
+
+from pysim.nouns.common import Input, libraries_of, signal_of
+from pysim.nouns.run import Run
+from pysim.nouns.table import MOST, Table, html_of
+from pysim.types import BadInput, Effect, Experiment, MeasuredRecord, Record, Signal, Variable, conversion
+from pysim.types import Model as Compiled
+from pysim.types._frozen import FrozenMapping
+
+if TYPE_CHECKING:
+    from pysim.effects import Slot
+    from pysim.workflow import ModelInside, Variants
+
+_ROWS = 500  # of a run, where nothing says how many
+_OPENED = 20  # models whose slots are known by their names alone
+_LISTED = 12  # names on one line of what is printed
+
+opened: list[Model] = []  # in this process, the last one behind; a slot's name alone means one of theirs
+
+
+class OwnEffect(Protocol):
+    """An effect of the user's own, with the file that holds its class."""
+
+    @property
+    def name(self) -> str:
+        """Its standard name."""
+        ...
+
+    @property
+    def file(self) -> Path:
+        """That holds its class."""
+        ...
+
+
+def model(name: Path | str | Compiled, *, library: Path | str | Sequence[Path | str] = ()) -> Model:
+    """Open a model: a class of a library, a .mo file, or an FMU of any tool.
+
+    Args:
+        name: full name of a Modelica class, a .mo file with one model, or an .fmu.
+        library: with the class or with effects, folders with a package.mo or .mo files; ours is always there.
+    Raises:
+        BadInput: what cannot be read or does not compile; says where.
+    """
+    from pysim.workflow import class_in, model_of
+
+    places = libraries_of(library)
+    if isinstance(name, Compiled):
+        return _opened(Model(name, places))
+    text = str(name)
+    if text.lower().endswith(".mo"):
+        file = Path(text).absolute()
+        if not file.is_file():
+            raise BadInput(f"model {text}: there is no such file; name a .mo file, an .fmu or a class")
+        return _opened(Model(model_of(class_in(file), [*places, file]), (*places, file)))
+    return _opened(Model(model_of(text, places), places))
+
+
+def _opened(one: Model) -> Model:
+    opened.append(one)
+    del opened[:-_OPENED]
+    return one
+
+
+@dataclass(frozen=True, repr=False)
+class Model:
+    """A model with what the user said of it. Nothing changes it: each method gives another one.
+
+    Args:
+        base: as it was compiled, without effects.
+        libraries: of the user.
+        values: parameters that differ from the model's own, in their units.
+        chosen: parameters to refit; where none is named, all to which the model gives min, max and nominal.
+        bounds: parameter -> lower and upper bound, in place of the model's.
+        held: parameters that are not refitted.
+        effects_in: that were added.
+        candidates: effects of the user's own that a diagnosis considers too.
+        label: what a comparison calls it; the last words of its name where empty.
+    """
+
+    base: Compiled
+    libraries: tuple[Path, ...] = ()
+    values: Mapping[str, float] = field(default_factory=dict)
+    chosen: tuple[str, ...] = ()
+    bounds: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    held: frozenset[str] = frozenset()
+    effects_in: tuple[Effect, ...] = ()
+    candidates: tuple[Effect, ...] = ()
+    label: str = ""
+
+    def __post_init__(self) -> None:
+        for name in ("values", "bounds"):
+            object.__setattr__(self, name, FrozenMapping(getattr(self, name)))
+
+    # --- what it is --------------------------------------------------------------------------------------------------
+
+    @property
+    def name(self) -> str:
+        """The class, or the FMU's model, with the effects that were added."""
+        return " + ".join([self.inside.class_name or self.base.name, *(effect.name for effect in self.effects_in)])
+
+    @property
+    def shown(self) -> str:
+        """What a comparison calls it."""
+        first = self.inside.class_name or self.base.name
+        return self.label or " + ".join([first.rpartition(".")[2], *(effect.name for effect in self.effects_in)])
+
+    @cached_property
+    def inside(self) -> ModelInside:
+        """What the libraries know of it."""
+        from pysim.workflow import inside
+
+        return inside(self.base, self.libraries)
+
+    @cached_property
+    def variants(self) -> Variants | None:
+        """Builds it with effects; None where its class is in no library."""
+        from pysim.workflow import Variants, with_standard
+
+        known = self.inside.class_name
+        return Variants(known, tuple(with_standard(self.libraries))) if known else None
+
+    @cached_property
+    def _built(self) -> tuple[Compiled, Mapping[str, str]]:
+        if not self.effects_in:
+            return self.base, {}
+        assert self.variants is not None
+        return self.variants.build(self.effects_in)
+
+    @property
+    def compiled(self) -> Compiled:
+        """The FMU that runs, with the effects that were added."""
+        return self._built[0]
+
+    @property
+    def places(self) -> Mapping[str, str]:
+        """Effect that was added -> the name ahead of its parameters."""
+        return self._built[1]
+
+    @property
+    def free_names(self) -> tuple[str, ...]:
+        """Parameters that a fit may change."""
+        from pysim.workflow import suggested
+
+        names = self.chosen or suggested(self.compiled)
+        return tuple(name for name in names if name not in self.held)
+
+    @property
+    def inputs(self) -> Table:
+        """Name, unit, start value and description."""
+        return self._variables("input")
+
+    @property
+    def outputs(self) -> Table:
+        """Name, unit, start value and description."""
+        return self._variables("output")
+
+    @property
+    def states(self) -> Table:
+        """Name, unit, start value and description, in the order of the state vector."""
+        model = self.compiled
+        return _variable_table("states", (model[name] for name in model.abilities.states))
+
+    @property
+    def parameters(self) -> Table:
+        """Name, value, min, max, unit, description, and whether a fit may change it."""
+        free = set(self.free_names)
+        rows = [
+            (v.name, self.values.get(v.name, v.start), *self.bounds.get(v.name, (v.min, v.max)), _unit(v),
+             v.description, v.name in free)
+            for v in self.compiled.variables
+            if v.causality == "parameter"
+        ]  # fmt: skip
+        return Table.of(("name", "value", "min", "max", "unit", "description", "free"), rows, key="name")
+
+    @property
+    def slots(self) -> Table:
+        """Replaceable parts: what a missing term may depend on there, and what it gives."""
+        rows = [(s.name, ", ".join(s.sees), ", ".join(s.gives), s.description) for s in self.inside.slots]
+        return Table.of(("name", "sees", "gives", "description"), rows, key="name")
+
+    @property
+    def effects(self) -> Table:
+        """Effects that the slots take."""
+        own = (*self.inside.taken, *(one for one in self.candidates if one not in self.inside.taken))
+        rows = [(e.name, e.slot, ", ".join(p.name for p in e.parameters), e.description) for e in own]
+        return Table.of(("name", "slot", "parameters", "description"), rows, key="name")
+
+    def slot(self, name: str) -> Slot:
+        """The replaceable part of that name.
+
+        Raises:
+            BadInput: there is none; lists those there are.
+        """
+        for one in self.inside.slots:
+            if one.name == name:
+                return one
+        raise BadInput(f"{self.name} has no slot {name!r}; its slots: {', '.join(self.slots['name']) or 'none'}")
+
+    # --- what is said of it ------------------------------------------------------------------------------------------
+
+    def set(self, **values: float) -> Model:
+        """Give parameters a value, in their units; a fit leaves them there unless they are named as free."""
+        from pysim.simulate import check_override
+
+        for name, value in values.items():
+            check_override(self.compiled, name, value)
+        held = self.held | {name for name in values if name not in self.chosen}
+        return replace(self, values={**self.values, **values}, held=held)
+
+    def free(self, *names: str, **bounds: tuple[float, float]) -> Model:
+        """Let a fit change these parameters and no others, those of an earlier call besides.
+
+        Args:
+            names: with the model's own bounds.
+            bounds: parameter = (lowest, highest), in its unit.
+        Raises:
+            BadInput: no such parameter, or bounds that are not two increasing numbers.
+        """
+        for name in (*names, *bounds):
+            self._settable(name)
+        checked = {}
+        for name, pair in bounds.items():
+            if not (isinstance(pair, tuple | list) and len(pair) == 2 and pair[0] < pair[1]):
+                raise BadInput(f"free: the bounds of {name} are {pair!r}; write {name}=(lowest, highest)")
+            checked[name] = (float(pair[0]), float(pair[1]))
+        chosen = tuple(dict.fromkeys([*self.chosen, *names, *bounds]))
+        return replace(self, chosen=chosen, bounds={**self.bounds, **checked}, held=self.held - {*names, *bounds})
+
+    def fix(self, *names: str, **values: float) -> Model:
+        """Let a fit leave these parameters where they are, or at these values."""
+        for name in names:
+            self._settable(name)
+        gone = {*names, *values}
+        chosen = tuple(name for name in self.chosen if name not in gone)
+        bounds = {name: pair for name, pair in self.bounds.items() if name not in gone}
+        return replace(self, chosen=chosen, bounds=bounds, held=self.held | gone).set(**values)
+
+    def with_effects(self, *effects: str | OwnEffect) -> Model:
+        """Add effects of the catalogue by their names, or effects of your own.
+
+        Their parameters become free, but for the curve of a law that was learned: that has its values already.
+
+        Raises:
+            BadInput: the model's class is not at hand, no slot takes the effect, or it is there already.
+        """
+        wider, found = self._taking(effects)
+        names = [one.name for one in (*self.effects_in, *found)]
+        for name in names:
+            if names.count(name) > 1:
+                raise BadInput(f"effect {name}: named twice, or there already; name each effect once")
+        grown = replace(wider, effects_in=(*self.effects_in, *found), label="")
+        learned = {f"{grown.places[e.name]}.{p.name}" for e in found for p in e.strengths if p.default != p.off}
+        grown = replace(grown, held=grown.held | learned)  # they have their values already
+        if self.chosen:
+            more = [f"{grown.places[e.name]}.{p.name}" for e in found for p in e.parameters]
+            grown = replace(grown, chosen=(*self.chosen, *more))
+        return grown
+
+    def with_candidates(self, *effects: OwnEffect) -> Model:
+        """Let a diagnosis consider effects of your own beside those of the catalogue."""
+        wider, found = self._taking(effects)
+        return replace(wider, candidates=tuple(dict.fromkeys([*self.candidates, *found])))
+
+    def usual(self) -> dict[str, float]:
+        """Where a fit begins with the effects that were added: at usual sizes, as off may be no start."""
+        found = {}
+        for effect in self.effects_in:
+            for parameter in effect.strengths:
+                name = f"{self.places[effect.name]}.{parameter.name}"
+                if name not in self.values and parameter.default == parameter.off:
+                    found[name] = float(min(max(parameter.nominal, parameter.min), parameter.max))
+        return found
+
+    # --- what it does ------------------------------------------------------------------------------------------------
+
+    def simulate(
+        self,
+        what: float | MeasuredRecord | None = None,
+        /,
+        *,
+        dt: float | None = None,
+        record: Sequence[str] = (),
+        check: bool = True,
+        **inputs: Input,
+    ) -> Run:
+        """Run it.
+
+        Args:
+            what: end of the run in s, the FMU's own or 1 s by default; or a log, `data["run3"]`, whose columns that are
+                named like inputs drive them, over the log's time.
+            dt: s between two rows; a 500th of the run by default, and of a log its own.
+            record: variables; all outputs by default, else the states.
+            check: False gives back what a run that failed has reached, in place of an error.
+            inputs: input = number, pairs (s, value), a row of values, a pandas column, or a function of time.
+        Raises:
+            BadInput: an unknown name, or an input that is no signal.
+            SimulationError: the run stopped early.
+        """
+        from pysim.simulate import Rodas, simulate
+        from pysim.workflow import recorded_of
+
+        model = self.compiled
+        drives: dict[str, Signal] = {}
+        if isinstance(what, MeasuredRecord):
+            times, start, drives = self._log(what, dt)
+        else:
+            stop = float(what if what is not None else model.stop_time or 1.0)
+            if not 0 < stop < np.inf or not 0 < (dt or stop) <= stop:
+                raise BadInput(f"simulate: the run ends at {stop:g} s in steps of {dt} s; give times above zero")
+            times, start = np.linspace(0.0, stop, max(2, round(stop / (dt or stop / _ROWS)) + 1)), 0.0
+        for name, value in inputs.items():
+            drives[model[name].name] = signal_of(value, float(times[-1]), name)
+        experiment = Experiment(
+            times, recorded_of(model, record), drives, self.values, start, rates=model.rate_inputs(drives)
+        )
+        return Run(simulate(model, experiment, solver=Rodas(), check=check), self.name)
+
+    def export(self, folder: Path | str, *, fmi: int = 2, platforms: str | Sequence[str] = "host") -> dict[str, Path]:
+        """Write the model with its values: class, FMU, and parameters.toml; name -> path.
+
+        Args:
+            fmi: version 2 or 3.
+            platforms: that the FMU runs on; "host", or "all".
+        """
+        from pysim.workflow import export_model
+
+        systems = (platforms,) if isinstance(platforms, str) else tuple(platforms)
+        return export_model(
+            self.base, self.variants, self.effects_in, self.values, Path(folder), fmi=fmi, platforms=systems
+        )
+
+    def _log(self, log: MeasuredRecord, dt: float | None) -> tuple[Any, float, dict[str, Signal]]:
+        """Times, start and inputs of a log."""
+        from pysim.identify.logged import logged_command
+
+        if not isinstance(log.data, Record):
+            raise BadInput(f"simulate: {log.source} is a table over frequency; give a log over time")
+        model, data = self.compiled, log.data
+        wanted = {v.name: v for v in model.variables if v.causality == "input"}
+        columns = [(name, unit) for name, unit in zip(data.names, data.units, strict=True) if name in wanted]
+        if not columns:
+            raise BadInput(
+                f"simulate: no column of {log.source} is named like an input of {self.name}; it has "
+                f"{', '.join(data.names)}, the inputs are {', '.join(wanted) or 'none'}: rename the column"
+            )
+        drives = {}
+        for name, unit in columns:
+            scale = conversion(unit, wanted[name].unit) if model.declares_units else (1.0, 0.0)
+            if scale is None:
+                raise BadInput(f"simulate: {name} of {log.source} is in {unit}, the input in {wanted[name].unit}")
+            drives[name] = logged_command(log, name).times(scale[0]).plus(Signal.constant(scale[1]))
+        start, stop = float(data.time[0]), float(data.time[-1])
+        times = data.time if dt is None else np.linspace(start, stop, max(2, round((stop - start) / dt) + 1))
+        return times, start, drives
+
+    def _taking(self, effects: Iterable[str | OwnEffect]) -> tuple[Model, list[Effect]]:
+        """The model whose libraries hold these effects, and the effects as its slots take them."""
+        listed = list(effects)
+        files = [e.file for e in listed if not isinstance(e, str) and e.file not in self.libraries]
+        wider = replace(self, libraries=(*self.libraries, *files)) if files else self
+        if not wider.inside.class_name:
+            raise BadInput(f"nothing can be added to {self.name}: its class is in no library; name it with library=")
+        from pysim.workflow.session import named
+
+        return wider, list(named([e if isinstance(e, str) else e.name for e in listed], wider.inside))
+
+    def _settable(self, name: str) -> None:
+        variable = self.compiled[name]
+        if variable.causality != "parameter" and name not in self.compiled.abilities.states:
+            raise BadInput(f"{name} is of causality {variable.causality} in {self.name}; name a parameter")
+
+    def _variables(self, causality: str) -> Table:
+        return _variable_table(f"{causality}s", (v for v in self.compiled.variables if v.causality == causality))
+
+    # --- how it looks ------------------------------------------------------------------------------------------------
+
+    def _free_table(self) -> Table:
+        model = self.compiled
+        rows = []
+        for name in self.free_names:
+            v = model[name]
+            low, high = self.bounds.get(name, (v.min, v.max))
+            rows.append((name, self.values.get(name, v.start), low, high, _unit(v)))
+        return Table.of(("free", "value", "lowest", "highest", "unit"), rows, key="free")
+
+    def _head(self) -> list[str]:
+        model = self.compiled
+        lines = [f"{self.name}: FMI {model.abilities.fmi}, {len(model.abilities.states)} states"]
+        for causality in ("input", "output"):
+            names = [f"{v.name} [{v.unit}]" for v in model.variables if v.causality == causality]
+            lines.append(f"{causality}s: {_some(names)}")
+        own = [name for name in self.values if name not in self.free_names]
+        lines += [f"set: {_some([f'{name} = {self.values[name]:g}' for name in own])}"] if own else []
+        takes = {slot.name: [e.name for e in self.inside.taken if e.slot == slot.name] for slot in self.inside.slots}
+        if takes:
+            lines.append(f"slots: {_some([f'{name} ({len(its)} effects)' for name, its in takes.items()])}")
+        elif not self.inside.class_name:
+            lines.append("slots: none, as its class is in no library")
+        return lines
+
+    def __repr__(self) -> str:
+        head = self._head()
+        table = self._free_table()
+        return "\n".join(
+            [*head, *(table.lines(MOST - sum(map(len, head)) - len(head)) if len(table) else ["free: none"])]
+        )
+
+    def _repr_html_(self) -> str:
+        return html_of(" | ".join(self._head()), self._free_table())
+
+    def to_dataframe(self) -> Any:
+        """Its parameters, as a pandas DataFrame."""
+        return self.parameters.to_dataframe()
+
+
+def _some(texts: Sequence[str]) -> str:
+    more = f" and {len(texts) - _LISTED} more" if len(texts) > _LISTED else ""
+    return f"{', '.join(texts[:_LISTED]) or 'none'}{more}"
+
+
+def _unit(v: Variable) -> str:
+    return "" if v.unit == "1" else v.unit
+
+
+def _variable_table(title: str, variables: Iterable[Variable]) -> Table:
+    rows = [(v.name, _unit(v), v.start, v.description) for v in variables]
+    return Table.of(("name", "unit", "start", "description"), rows, key="name", title=title)

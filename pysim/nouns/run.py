@@ -1,0 +1,88 @@
+"""A run that was simulated: its columns over time."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pysim.nouns.table import Table, html_of, pandas
+from pysim.types import Outcome, Record
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+
+@dataclass(frozen=True)
+class Run:
+    """What a model, or a system of models and controllers, did.
+
+    Args:
+        record: its columns, in their units.
+        name: of the model.
+    """
+
+    record: Record
+    name: str = ""
+
+    def __getitem__(self, name: str) -> NDArray[np.float64]:
+        """A column, (n_t,) in its unit."""
+        return self.record[name]
+
+    @property
+    def time(self) -> NDArray[np.float64]:
+        """(n_t,) s."""
+        return self.record.time
+
+    @property
+    def table(self) -> Table:
+        """Lowest, highest and last value of each column."""
+        one = self.record
+        rows = [
+            (name, unit, *(float(f(one[name])) if one.time.size else None for f in (np.min, np.max, lambda v: v[-1])))
+            for name, unit in zip(one.names, one.units, strict=True)
+        ]
+        return Table.of(("signal", "unit", "lowest", "highest", "at the end"), rows, key="signal")
+
+    def to_dataframe(self) -> Any:
+        """Columns over time: a pandas DataFrame whose index is the time in s."""
+        one = self.record
+        index = pandas().Index(one.time, name="time [s]")
+        return pandas().DataFrame(one.values, index=index, columns=[_heading(*c) for c in _columns(one)])
+
+    def plot(self) -> Figure:
+        """All columns over time, one panel a unit."""
+        from pysim.present.cosim import cosim_figure
+
+        return cosim_figure(self.record)
+
+    def save(self, file: Path | str) -> Path:
+        """Write it as .csv or .npz, by the name of the file."""
+        from pysim.io import write_record
+
+        write_record(self.record, Path(file))
+        return Path(file)
+
+    def _summary(self) -> str:
+        one = self.record
+        ended = "" if one.outcome is Outcome.DONE else f", stopped: {one.message or one.outcome.value}"
+        counts = ", ".join(f"{count} {what}" for what, count in one.statistics.items() if count)
+        reached = f"{one.time[0]:g} to {one.time[-1]:g} s, {one.time.size} rows" if one.time.size else "no rows"
+        return f"{self.name or 'run'}: {reached}{f', {counts}' if counts else ''}{ended}"
+
+    def __repr__(self) -> str:
+        return "\n".join([self._summary(), *self.table.lines(1500)])
+
+    def _repr_html_(self) -> str:
+        return html_of(self._summary(), self.table)
+
+
+def _columns(record: Record) -> list[tuple[str, str]]:
+    return list(zip(record.names, record.units, strict=True))
+
+
+def _heading(name: str, unit: str) -> str:
+    return name if unit == "1" else f"{name} [{unit}]"

@@ -1,0 +1,101 @@
+"""Models held against measurements: the numbers, log by log, and where they are worst."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import pysim
+from pysim.nouns.diagnosis import Diagnosis
+from pysim.nouns.fit import Fit
+from pysim.nouns.model import Model
+from pysim.types import BadInput, Dataset, MeasuredRecord, MeasuredSignal, Record
+from tests.pysim.nouns.conftest import FRICTION, TRUE
+
+
+def truth(mass: Model) -> Model:
+    return mass.with_effects("toy.friction").set(**TRUE, **{"force.F_c": FRICTION})
+
+
+def test_the_plant_itself_leaves_the_noise(mass: Model, data: Dataset) -> None:
+    found = pysim.compare(truth(mass), data)
+    assert found.table["x noise"] == pytest.approx([1.0, 1.0], abs=0.06)  # 600 samples: 0.03 is one standard deviation
+    assert found.table["rms"] == pytest.approx([1.0, 1.0], abs=0.06)  # mm
+    assert found.table["unit"] == ("mm", "mm")
+    assert min(found.table["fit %"]) > 99.7
+
+
+def test_numbers_are_those_of_their_definitions(mass: Model, data: Dataset) -> None:
+    """Against a run from rest of one's own: the logs begin at rest, and initial="rest" compares them so."""
+    found = pysim.compare(mass, data, initial="rest")
+    for log, row in zip(data.records, found.table, strict=True):
+        assert isinstance(log.data, Record)
+        away = log.data["x"] - mass.simulate(log)["x"]
+        size = np.linalg.norm(log.data["x"] - log.data["x"].mean())
+        assert row["fit %"] == pytest.approx(100 * (1 - np.linalg.norm(away) / size), abs=0.01)
+        assert row["rms"] == pytest.approx(1e3 * np.sqrt(np.mean(away**2)), rel=1e-3)
+        assert row["x noise"] == pytest.approx(row["rms"], rel=1e-6)  # the noise is 1 mm
+        assert (row["log"], row["use"]) == (log.source, log.use)
+
+
+def test_several_models_are_rows_of_one_table(mass: Model, data: Dataset, fitted: Fit) -> None:
+    found = pysim.compare(mass, fitted.model, truth(mass), data)
+    assert tuple(dict.fromkeys(found.table["model"])) == ("Mass", "Mass fitted", "Mass + toy.friction")
+    rows = {(row["model"], row["log"]): row["x noise"] for row in found.table}
+    for log in ("a.txt", "b.txt"):
+        assert rows["Mass", log] > rows["Mass fitted", log] > 10 * rows["Mass + toy.friction", log]
+    legend = [text.get_text() for text in found.plot().legends[0].get_texts()]
+    assert len(legend) == 4
+    assert all("%" in text for text in legend[1:])
+    for one in (found, pysim.compare(mass, data)):
+        assert max(len(repr(one)), len(one._repr_html_())) < 2000
+
+
+def test_limits_are_the_users_or_those_of_the_thesis(mass: Model, data: Dataset) -> None:
+    good, bad = truth(mass), mass
+    own = {"fit %": 99.0, "x noise": 1.2}
+    assert pysim.compare(good, data).passes is None
+    assert pysim.compare(good, data, criteria=own).passes is True
+    assert pysim.compare(bad, data, criteria=own).passes is False
+    assert pysim.compare(good, data, criteria="thesis").passes is True
+    for wrong in ("strict", {"rmse": 1.0}):
+        with pytest.raises(BadInput, match="criteria"):
+            _ = pysim.compare(good, data, criteria=wrong).table
+
+
+def test_where_it_is_worst_comes_first(mass: Model, data: Dataset) -> None:
+    where = pysim.compare(mass, data).where()
+    errors = where.table["residual over noise"]
+    assert list(errors) == sorted(errors, reverse=True)
+    assert errors[0] > 50
+    assert len(where.plot().axes[0].patches) == 12
+
+
+def test_a_log_of_no_use_for_a_fit_is_compared_all_the_same(mass: Model, data: Dataset) -> None:
+    only = replace(data, records=tuple(replace(one, use="test") for one in data.records))
+    assert pysim.compare(truth(mass), only).table["use"] == ("test", "test")
+
+
+def test_a_displaced_start_is_estimated_from_the_log_itself(mass: Model) -> None:
+    """An undamped mass of 1 kg on 16 N/m, let go 0.1 m away: 0.1 cos 4 t."""
+    times = np.arange(0, 4, 0.01)
+    read = 0.1 * np.cos(4 * times) + 1e-3 * np.random.default_rng(1).standard_normal(times.size)
+    log = Record(times, np.column_stack([0 * times, read]), ("F", "x"), ("N", "m"))
+    signals = (MeasuredSignal("F", "input", "N", "", "F"), MeasuredSignal("x", "output", "m", "", "x", noise=1e-3))
+    held = Dataset("let go", "", "", signals, (MeasuredRecord("a.txt", "other", "test", log),))
+    free = mass.set(d=0.0, k=16.0)
+    assert pysim.compare(free, held, initial="estimate").table["x noise"][0] == pytest.approx(1.0, abs=0.1)
+    assert pysim.compare(free, held, initial={"x": 0.1}).table["x noise"][0] == pytest.approx(1.0, abs=0.1)
+    assert pysim.compare(free, held, initial="rest").table["x noise"][0] == pytest.approx(71, abs=2)  # 0.1/sqrt(2) m
+
+
+def test_what_is_no_model_or_no_data_is_refused(mass: Model, data: Dataset) -> None:
+    for given, said in (((data,), "one model"), (("Toy.Mass", data), "one model"), ((mass, 3), "no measurements")):
+        with pytest.raises(BadInput, match=said):
+            pysim.compare(*given)
+
+
+def test_comparison_diagnosis_and_fit_say_the_same(mass: Model, data: Dataset, why: Diagnosis) -> None:
+    """One number for one question."""
+    by_compare = pysim.compare(why.model, data).table["x noise"]
+    assert by_compare == pytest.approx([why.steps["fitted"][-1], why.steps["held out"][-1]], rel=1e-3)

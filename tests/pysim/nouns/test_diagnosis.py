@@ -1,0 +1,148 @@
+"""A diagnosis as a user holds it, laws that are learned, and effects from formulas."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import pysim
+from pysim.effects import read_catalogue
+from pysim.nouns.diagnosis import Diagnosis
+from pysim.nouns.fit import Fit
+from pysim.nouns.law import Law
+from pysim.nouns.model import Model, opened
+from pysim.types import BadInput, Dataset
+from tests.pysim.nouns.conftest import FRICTION, TRUE
+
+
+def test_the_effect_is_named_with_its_size(why: Diagnosis) -> None:
+    assert why.verdict == "toy.friction"
+    (row,) = list(why.effects)
+    assert row["95 % from"] < FRICTION < row["to"]
+    assert why.steps["fitted"][-1] == pytest.approx(1.0, abs=0.1)
+    assert why.steps["held out"][1] > 10 * why.steps["held out"][-1]
+    assert why.candidates["effects"][0] == "toy.friction"
+
+
+def test_its_model_is_the_base_with_what_was_found(why: Diagnosis, mass: Model) -> None:
+    assert why.model.free_names == (*mass.free_names, "force.F_c")
+    for name, true in TRUE.items():
+        assert why.model.values[name] == pytest.approx(true, rel=0.01)
+    assert why.model.values["force.F_c"] == pytest.approx(FRICTION, rel=0.02)
+
+
+def test_a_fit_that_warned_is_trusted_once_the_effect_is_there(why: Diagnosis, fitted: Fit, data: Dataset) -> None:
+    again = pysim.fit(why.model, data)
+    assert (fitted.ok, again.ok) == (False, True)
+    low, high = again.intervals["force.F_c"]
+    assert low < FRICTION < high
+
+
+def test_it_prints_draws_and_is_reported(why: Diagnosis, tmp_path: Path) -> None:
+    assert max(len(repr(why)), len(why._repr_html_())) < 2000
+    assert "toy.friction" in repr(why)
+    assert why.plot().axes
+    assert why.where().table["residual over noise"][0] > 10
+    files = why.report(tmp_path / "better")
+    assert {"report", "modelica", "fmu", "parameters"} <= set(files)
+    assert files["parameters"].suffix == ".toml"
+    assert why.sentence.split(".")[0] in files["report"].read_text(encoding="utf-8")
+
+
+def test_what_cannot_be_asked_is_refused(mass: Model, data: Dataset) -> None:
+    with pytest.raises(BadInput, match=r"diagnose\(model, data\)"):
+        pysim.diagnose(mass)
+    with pytest.raises(BadInput, match="without"):
+        pysim.diagnose(mass.with_effects("toy.bias"), data)
+    with pytest.raises(BadInput, match="numbers for states are for fit alone"):
+        pysim.diagnose(mass, data, initial={"x": 0.1})
+    with pytest.raises(BadInput, match=r"did you mean toy\.friction"):
+        pysim.diagnose(mass, data, effects=["toy.fricton"])
+
+
+@pytest.fixture(scope="module")
+def missing(fitted: Fit) -> Law:
+    return pysim.locate(fitted)[0]
+
+
+def test_what_is_missing_is_located_with_its_shape(missing: Law) -> None:
+    """A force with the sign of the speed: as a curve over the speed, or as its sign times a level that stays."""
+    assert missing.slot == "force"
+    assert missing.argument == "force.v" or missing.found.factor == "sign(v)"
+    assert missing.share > 0.95
+    assert np.median(np.abs(missing.found.coefficients)) == pytest.approx(FRICTION, rel=0.2)
+    assert max(len(repr(missing)), len(missing._repr_html_())) < 2000
+    assert missing.plot().axes
+
+
+def test_a_learned_law_becomes_an_effect_of_the_users(missing: Law, mass: Model, data: Dataset, tmp_path: Path) -> None:
+    own = missing.to_effect("my.rubbing")
+    assert missing.to_effect("my.rubbing").file == own.file
+    (kept,) = read_catalogue(own.save(tmp_path / "own"))
+    assert (kept.name, kept.slot, kept.class_name) == ("my.rubbing", "force", "MyRubbing")
+    with_law = mass.with_effects(own)
+    assert with_law.free_names == mass.free_names  # the curve has its values already
+    errors = pysim.compare(mass.set(**missing.found.parameters), with_law.set(**missing.found.parameters), data)
+    before, after = errors.table["x noise"][0], errors.table["x noise"][2]
+    assert after < 0.1 * before
+
+
+def drag(**more: object) -> dict[str, object]:
+    return {"at": "force", "law": "-F_0*tanh(v/0.02) - c_2*v*abs(v)",
+            "F_0": (0, 5, 0.3, "N"), "c_2": (0, 10, 1, "N.s2/m2"), **more}  # fmt: skip
+
+
+def test_an_effect_from_a_formula_is_fitted_and_a_candidate(mass: Model, data: Dataset) -> None:
+    own = pysim.effect("my.drag", **drag())  # type: ignore[arg-type]
+    assert "model MyDrag" in own.modelica
+    assert own.parameters["0 is off"] == (True, True)
+    assert own.plot().axes
+    found = pysim.fit(mass.with_effects(own), data)
+    assert abs(found.values["force.F_0"] - FRICTION) < 4 * found.found["force.F_0"].std
+    rows = pysim.compare(mass, found.model, data).table["x noise"]
+    assert rows[2] < 0.1 * rows[0]
+    assert "my.drag" in mass.with_candidates(own).effects["name"]
+
+
+def test_what_shapes_a_law_has_its_usual_value_and_a_strength_is_off() -> None:
+    own = pysim.effect("my.bump", at="force", law="-F*exp(-((x - x_0)/w)^2)",
+                       F=(-5, 5, 1, "N"), x_0=(-1, 1, 0.3, "m"), w=(0.1, 1, 0.2, "m"))  # fmt: skip
+    declared = {p.name: (p.default, p.off) for p in own.found.parameters}
+    assert declared == {"F": (0.0, 0.0), "x_0": (0.3, None), "w": (0.2, None)}
+
+
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        (drag(law="-c_2*v*abs(w)"), "line 1, column 12: w is no name"),
+        (drag(law="-c_2*v*log(v)"), "column 8: log is no function"),
+        (drag(law="__import__('os').system('ls')"), "law of MyDrag, line 1"),
+        (drag(law="-c_2*v"), "f is in N"),
+        (drag(law="1.0*F_0/F_0 - c_2*v*abs(v)"), "law of MyDrag|switches the law off"),
+        (drag(at="spool_of_nobody"), "no model that was opened has a slot"),
+        (drag(c_2=(0, 10)), r"c_2=\(lowest, highest, usual, unit\)"),
+        (drag(c_2=(0, 10, 20, "N.s2/m2")), "outside 0 to 10"),
+        (drag(c_2=(1, 10, 2, "N.s2/m2")), "switches the law off"),
+    ],
+)
+def test_what_a_law_may_not_be_is_refused_with_its_place(mass: Model, given: dict[str, object], said: str) -> None:
+    with pytest.raises(BadInput, match=said):
+        pysim.effect("my.drag", **given)  # type: ignore[arg-type]
+
+
+def test_a_slot_of_two_models_asks_which(mass: Model, tmp_path: Path) -> None:
+    text = (tmp_path / "Other.mo").write_text(
+        "package Other partial model Force input Real p; output Real f; end Force; "
+        "model None extends Force; equation f = 0; end None; "
+        "model Part output Real y(start=0, fixed=true); replaceable None force constrainedby Force; "
+        "equation force.p = y; der(y) = 1 + force.f; end Part; end Other;"
+    )
+    assert text
+    other = pysim.model("Other.Part", library=tmp_path / "Other.mo")
+    try:
+        with pytest.raises(BadInput, match="say which"):
+            pysim.effect("my.drag", **drag())  # type: ignore[arg-type]
+        assert pysim.effect("my.drag", model=mass, **drag()).slot == "force"  # type: ignore[arg-type]
+    finally:
+        opened.remove(other)
+    assert np.isfinite(other.simulate(0.1)["y"]).all()

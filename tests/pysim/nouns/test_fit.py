@@ -1,0 +1,104 @@
+"""A fit: its numbers, and when it warns."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import pysim
+from pysim.nouns.fit import Fit
+from pysim.nouns.model import Model
+from pysim.types import BadInput, Dataset, MeasuredRecord, MeasuredSignal, Record
+from tests.pysim.nouns.conftest import TRUE
+from tests.toy import measured
+
+
+def test_a_fit_without_what_is_missing_warns(fitted: Fit) -> None:
+    assert not fitted.ok
+    assert any("poor" in text for text in fitted.warnings)
+    assert set(fitted.values) == {"m", "d", "k"}
+    low, high = fitted.intervals["d"]
+    assert not low < TRUE["d"] < high  # biased, as the warning says
+
+
+def test_a_fit_of_the_right_model_is_trusted(mass: Model) -> None:
+    complete = measured(3, "toy.friction", F_c=0.0)
+    found = pysim.fit(mass, complete)
+    assert found.ok, found.warnings
+    for name, true in TRUE.items():
+        one = found.found[name]
+        assert abs(one.value - true) < 4 * one.std
+        assert found.table.row(name)["value"] == one.value
+    assert found.correlation.row("m")["m"] == pytest.approx(1.0)
+    assert np.sqrt(np.mean(found.residuals["a.txt"]["x"] ** 2)) == pytest.approx(1.0, abs=0.1)
+    assert max(len(repr(found)), len(found._repr_html_())) < 2000
+    assert found.model.free_names == mass.free_names
+    assert found.model.values == pytest.approx(found.values)
+
+
+def test_a_parameter_at_its_bound_is_said(mass: Model) -> None:
+    found = pysim.fit(mass.free("d", "k", m=(0.5, 0.9)).set(m=0.8), measured(3, "toy.friction", F_c=0.0))
+    assert found.table.row("m")["remark"] == "AT BOUND"
+    assert any("m stopped at its bound" in text for text in found.warnings)
+    assert "AT BOUND" in repr(found)
+
+
+def test_a_mass_that_is_let_go_is_fitted_and_its_held_out_log_too(mass: Model) -> None:
+    """1 kg on 16 N/m with 0.4 N.s/m, let go 0.05 m away: a decay of 0.2/s around a swing of sqrt(15.96) rad/s."""
+    rng, times = np.random.default_rng(2), np.arange(0, 6, 0.01)
+    omega = np.sqrt(16 - 0.04)
+    records = []
+    for source, use, away in (("a.txt", "fit", 0.05), ("b.txt", "validate", -0.08)):
+        clean = away * np.exp(-0.2 * times) * (np.cos(omega * times) + 0.2 / omega * np.sin(omega * times))
+        push = np.where(np.arange(times.size) >= 300, 0.5, 0.0)  # from 3 s on
+        late = np.maximum(times - times[300], 0)
+        step = 0.5 / 16 * (1 - np.exp(-0.2 * late) * (np.cos(omega * late) + 0.2 / omega * np.sin(omega * late)))
+        read = clean + step + 2e-4 * rng.standard_normal(times.size)
+        log = Record(times, np.column_stack([push, read]), ("F", "x"), ("N", "m"))
+        records.append(MeasuredRecord(source, "step", use, log))
+    signals = (MeasuredSignal("F", "input", "N", "", "F"), MeasuredSignal("x", "output", "m", "", "x", noise=2e-4))
+    data = Dataset("let go", "", "", signals, tuple(records))
+    free = mass.set(m=1.0).free("d", "k")
+    found = pysim.fit(free, data, initial="estimate")
+    for name, true in (("d", 0.4), ("k", 16.0)):
+        assert abs(found.values[name] - true) < 5 * found.found[name].std
+    held = [row for row in found.signals if row["use"] == "validate"]
+    assert held[0]["fit %"] > 95
+    assert not any("rest" in text for text in found.warnings)
+    at_rest = pysim.fit(free, data, initial="rest")
+    assert any("does not begin at rest" in text for text in at_rest.warnings)
+
+
+def test_what_stands_still_or_is_not_free_is_refused(mass: Model, data: Dataset) -> None:
+    with pytest.raises(BadInput, match=r"model\.free\('m'"):
+        pysim.fit(mass.fix("m", "d", "k"), data)
+    with pytest.raises(BadInput, match="initial"):
+        pysim.fit(mass, data, initial="resting")
+
+
+def test_it_draws_and_is_saved(fitted: Fit, tmp_path: Path) -> None:
+    assert len(fitted.plot().axes) == 2
+    assert fitted.plot("parameters").axes
+    assert fitted.plot("correlation").axes
+    with pytest.raises(BadInput, match="not known"):
+        fitted.plot("bode")
+    files = fitted.save(tmp_path / "fit")
+    assert "When not to trust it" in files["report"].read_text(encoding="utf-8")
+    assert "poor" in fitted.summary()
+
+
+def test_progress_goes_to_who_asked_for_it(mass: Model, caplog: pytest.LogCaptureFixture) -> None:
+    heard: list[str] = []
+    complete = measured(3, "toy.friction", F_c=0.0)
+    with caplog.at_level("INFO", logger="pysim"):
+        pysim.fit(mass.free("d"), complete, progress=lambda event: heard.append(event.stage))
+    assert heard
+    assert "point 0" in heard[0]
+    assert caplog.records
+    assert {one.name for one in caplog.records} == {"pysim"}
+
+    def stop(event: object) -> None:
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        pysim.fit(mass.free("d"), complete, progress=stop)

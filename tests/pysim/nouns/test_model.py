@@ -1,0 +1,158 @@
+"""A model: what it holds, what is said of it, and how it runs."""
+
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import pysim
+from pysim.io import read_model
+from pysim.nouns.model import Model
+from pysim.types import BadInput, Dataset, MeasuredRecord, Record, SimulationError
+
+
+def test_its_tables_say_what_it_holds(mass: Model) -> None:
+    assert (mass.inputs["name"], mass.outputs["name"], mass.states["name"]) == (("F",), ("x", "v"), ("x", "v"))
+    assert mass.parameters.row("m") == {
+        "name": "m", "value": 1.0, "min": 0.5, "max": 5.0, "unit": "kg", "description": "", "free": True,
+    }  # fmt: skip
+    assert mass.slots.row("force")["sees"] == "x, v"
+    assert "toy.friction" in mass.effects["name"]
+    assert mass.free_names == ("m", "d", "k")
+
+
+def test_what_is_said_of_it_makes_another_model(mass: Model) -> None:
+    one = mass.set(m=2.0)
+    assert (mass.values, one.values, one.free_names) == ({}, {"m": 2.0}, ("d", "k"))
+    some = mass.free("d", m=(0.8, 1.2))
+    assert (some.free_names, dict(some.bounds)) == (("d", "m"), {"m": (0.8, 1.2)})
+    assert some.set(m=1.1).free_names == ("d", "m")  # where it begins
+    assert some.fix("m").free_names == ("d",)
+    assert mass.fix(k=19.0).values == {"k": 19.0}
+    assert mass.fix("m").free("m", "k").free_names == ("m", "k")
+
+
+@pytest.mark.parametrize(
+    ("ask", "said"),
+    [
+        (lambda m: m.set(mm=1.0), "no variable 'mm'; near it: m"),
+        (lambda m: m.free("F"), "name a parameter"),
+        (lambda m: m.free(m=(2, 1)), r"m=\(lowest, highest\)"),
+        (lambda m: m.with_effects("toy.frction"), "did you mean toy.friction"),
+        (lambda m: m.with_effects("toy.bias", "toy.bias"), "once"),
+        (lambda m: m.slot("spool"), "its slots: force"),
+        (lambda m: m.simulate(-1), "above zero"),
+        (lambda m: m.simulate(1, F="much"), "input F"),
+        (lambda m: m.simulate(1, G=1.0), "no variable 'G'"),
+        (lambda m: pysim.model("Toy.Mass"), "Toy"),
+        (lambda m: pysim.model("Toy.Mass", library="nowhere"), "nowhere is not there"),
+        (lambda m: pysim.model("none.mo"), "no such file"),
+    ],
+)
+def test_mistakes_are_refused_with_a_cure(mass: Model, ask, said: str) -> None:  # type: ignore[no-untyped-def]
+    with pytest.raises(BadInput, match=said):
+        ask(mass)
+
+
+def swing(t: np.ndarray, force: float = 3.0) -> np.ndarray:
+    """An undamped mass of 1 kg on 16 N/m under a step of the force at 0.5 s: it swings at 4 rad/s."""
+    return np.where(t < 0.5, 0.0, force / 16 * (1 - np.cos(4 * (t - 0.5))))
+
+
+@pytest.mark.parametrize(
+    "push",
+    [
+        [(0, 0), (0.5, 3)],
+        np.array([[0.0, 0.0], [0.5, 3.0]]),
+        [(0.5, 3.0)],
+    ],
+)
+def test_an_input_may_be_pairs(mass: Model, push: object) -> None:
+    run = mass.set(d=0.0, k=16.0).simulate(2, dt=0.01, F=push if len(push) > 1 else [(0, 0), *push])  # type: ignore[arg-type]
+    assert run.time == pytest.approx(np.linspace(0, 2, 201))
+    assert run["x"] == pytest.approx(swing(run.time), abs=1e-3)
+
+
+def test_an_input_may_be_a_number_a_row_or_a_function(mass: Model) -> None:
+    """m x'' + 16 x = t is solved by (t - sin(4 t)/4)/16 from rest."""
+    free = mass.set(d=0.0, k=16.0)
+    expected = (np.linspace(0, 2, 501) - np.sin(4 * np.linspace(0, 2, 501)) / 4) / 16
+    for push in (lambda t: t, [0.0, 1.0, 2.0], np.linspace(0, 2, 5)):
+        assert free.simulate(2, F=push)["x"] == pytest.approx(expected, abs=1e-4)
+    still = free.simulate(2, F=0.0)["x"]
+    assert np.all(still == 0.0)
+
+
+def test_a_log_drives_the_inputs_that_its_columns_are_named_like(mass: Model, data: Dataset) -> None:
+    log = data.records[0]
+    run = mass.simulate(log)
+    assert isinstance(log.data, Record)
+    assert run.time == pytest.approx(log.data.time)
+    assert np.corrcoef(run["x"], log.data["x"])[0, 1] > 0.9
+    other = Record(log.data.time, log.data.values, ("force", "x"), log.data.units)
+    with pytest.raises(BadInput, match="rename the column"):
+        mass.simulate(MeasuredRecord("a.txt", "other", "fit", other))
+
+
+def test_a_log_in_another_unit_is_turned_into_that_of_the_input(mass: Model, data: Dataset) -> None:
+    log = data.records[0]
+    assert isinstance(log.data, Record)
+    values = log.data.values / np.array([1e3, 1.0])
+    kilo = Record(log.data.time, values, log.data.names, ("kN", "m"))
+    one, other = mass.simulate(log), mass.simulate(MeasuredRecord("a.txt", log.kind, "fit", kilo))
+    assert other["x"] == pytest.approx(one["x"], abs=1e-6)  # the solver's tolerance
+
+
+def test_a_run_that_fails_is_raised_or_given_back(tmp_path: Path) -> None:
+    (tmp_path / "Early.mo").write_text(
+        'model Early output Real x(start=0, fixed=true); equation der(x) = 1; when x > 0.5 then terminate("enough"); '
+        "end when; end Early;"
+    )
+    early = pysim.model(tmp_path / "Early.mo")
+    assert early.simulate(1, check=False).time[-1] == pytest.approx(0.5, abs=0.01)
+    with pytest.raises(SimulationError, match=r"ended the run at 0\.5 s"):
+        early.simulate(1)
+
+
+def test_an_effect_that_was_added_is_free_and_off_until_it_is_fitted(mass: Model) -> None:
+    one = mass.with_effects("toy.friction")
+    assert one.free_names == ("m", "d", "k", "force.F_c")
+    assert one.usual() == {"force.F_c": 0.3}
+    off = one.simulate(1, F=2.0)["x"]
+    assert off == pytest.approx(mass.simulate(1, F=2.0)["x"], abs=1e-6)
+    assert mass.free("m").with_effects("toy.friction").free_names == ("m", "force.F_c")
+    on = one.set(**{"force.F_c": 1.0}).simulate(1, F=2.0)["x"]
+    assert on.max() < off.max()
+
+
+def test_what_is_exported_runs_as_the_model_does(mass: Model, tmp_path: Path) -> None:
+    one = mass.with_effects("toy.friction").set(m=1.4, **{"force.F_c": 0.5})
+    files = one.export(tmp_path / "better")
+    again = pysim.model(files["fmu"])
+    assert again.simulate(1, F=2.0)["x"] == pytest.approx(one.simulate(1, F=2.0)["x"], abs=1e-5)
+    assert read_model(files["fmu"])["force.F_c"].start == 0.5
+
+
+def test_a_closed_fmu_says_that_nothing_can_be_added(foreign: Path) -> None:
+    closed = pysim.model(foreign)
+    assert (len(closed.slots), closed.variants) == (0, None)
+    with pytest.raises(BadInput, match="its class is in no library"):
+        closed.with_effects("toy.friction")
+
+
+def test_it_prints_in_a_few_lines(mass: Model, foreign: Path) -> None:
+    pump = pysim.model("HydraulicTestBench.Pump.FreeGreyBox")
+    for one in (mass, pump, pysim.model(foreign)):
+        assert max(len(repr(one)), len(one._repr_html_()), len(repr(one.parameters))) < 2000
+    assert "F [N]" in repr(mass)
+    assert "m_eff" in repr(pump)
+
+
+def test_a_run_prints_draws_and_is_saved(mass: Model, tmp_path: Path) -> None:
+    run = mass.simulate(1, F=2.0)
+    assert len(repr(run)) < 2000 > len(run._repr_html_())
+    assert run.table.row("x")["at the end"] == run["x"][-1]
+    assert len(run.plot().axes) == 2  # m and m/s
+    assert run.save(tmp_path / "run.csv").read_text().count("\n") > 500
+    assert math.isclose(run.time[-1], 1.0)
