@@ -15,6 +15,7 @@ from pysim.diagnosis.error_history import error_step, held_still
 from pysim.diagnosis.learn.described import answered
 from pysim.diagnosis.learn.learn import Learner, Learning
 from pysim.diagnosis.learn.names import without_the_unseated
+from pysim.diagnosis.learn.outside import outside_laws
 from pysim.diagnosis.left import follows
 from pysim.diagnosis.next_test import next_test
 from pysim.diagnosis.progress import Progress, Say
@@ -57,15 +58,23 @@ def learn(
 ) -> Diagnosis:
     """Where a law is missing that no catalogue has, and what it looks like: the best law of each place.
 
+    Of a model whose class is not at hand the places are its inputs and outputs, and no law is added.
+
     Args:
         effects: that the model has besides.
     Raises:
-        BadInput: the model's class is not at hand, or an effect cannot be built or simulated.
+        BadInput: an effect cannot be built or simulated.
     """
-    _needs_class(session)
+    if effects:
+        _needs_class(session)
     search = _search(session, progress, checkpoint, "learn")
     base = search.fit_base()
     search.say.stage("refit")
+    if session.build_law is None:
+        search.floors = search.floors.with_(base)
+        search.say.doing("trying laws at inputs and outputs")
+        laws = outside_laws(base, {channel: floor.sd for channel, floor in search.floors.floors.items()})
+        return replace(_answer(session, search, Found(base, base, (), search.floors)), missing=laws)
     present = search.with_effects(base, effects) if effects else base
     search.floors = search.floors.with_(base).with_(present)
     losses = {effect.name: search.test(base, present) for effect in effects}

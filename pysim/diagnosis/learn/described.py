@@ -26,7 +26,7 @@ _SHOWN = 0.01  # share of what is missing below which a place is not worth a row
 
 
 @dataclass(frozen=True)
-class _Known:
+class Known:
     """What the data tell of a curve: covariance of its coefficients (m, m), and ways (m, k) that they leave open."""
 
     covariance: Array
@@ -45,7 +45,7 @@ def answered(
     laws: list[LearnedLaw] = []
     for k, fit in enumerate(learning.fits):
         law = _law(fit.law, model, fit.knots, fit.unit * fit.values)
-        known = _known(fit.gram, fit.smoothness, fit.values, learning.inflated)
+        known = covariance_of(fit.gram, fit.smoothness, fit.values, learning.inflated)
         numbers = fit.fit.candidate.space.to_model(fit.fit.point.x).tolist()
         law = replace(law, share=learning.shares[k], edf=fit.edf, parameters=dict(zip(keys, numbers, strict=False)))
         laws.append(_with(law, known, fit.unit))
@@ -55,7 +55,7 @@ def answered(
         laws[0] = replace(laws[0], held_out=held_out)
     for one in learning.ranked:
         law = _law(one.law, model, one.knots, one.curve.values * one.unit)
-        known = _known(one.curve.gram, one.curve.smoothness, one.curve.values, 1.0)
+        known = covariance_of(one.curve.gram, one.curve.smoothness, one.curve.values, 1.0)
         laws.append(_with(replace(law, share=one.share, edf=one.curve.edf), known, one.unit))
     best: dict[str, LearnedLaw] = {}
     for law in (*laws[:1], *sorted(laws[1:], key=lambda law: -law.share)):
@@ -79,11 +79,11 @@ def _law(law: Law, model: Model, knots: Array, values: Array) -> LearnedLaw:
     )
 
 
-def _with(law: LearnedLaw, known: _Known, unit: float) -> LearnedLaw:
+def _with(law: LearnedLaw, known: Known, unit: float) -> LearnedLaw:
     return replace(law, covariance=unit**2 * known.covariance, absorbed=known.absorbed)
 
 
-def _known(gram: Array, smooth: Smoothness, values: Array, inflated: float) -> _Known:
+def covariance_of(gram: Array, smooth: Smoothness, values: Array, inflated: float) -> Known:
     """Covariance of a curve's coefficients, without the level or slope that the model's own parameters absorb."""
     k, m = smooth.knots, values.size
     rough = smooth.bending * bends(k).T @ bends(k)
@@ -98,7 +98,7 @@ def _known(gram: Array, smooth: Smoothness, values: Array, inflated: float) -> _
     beside = missed(k, values)
     beside = np.maximum(np.append(beside, 0.0), np.append(0.0, beside))
     whole = covariance + np.outer(bias, bias) / HALF_95**2 + np.diag((beside / HALF_95) ** 2)
-    return _Known(keep @ whole @ keep, absorbed)
+    return Known(keep @ whole @ keep, absorbed)
 
 
 def quotient(unit: str, by: str) -> str:

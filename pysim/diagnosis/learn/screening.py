@@ -217,12 +217,23 @@ def screen(
 
 
 def _ranked(law: Law, k: Array, unit: float, table: Products) -> Ranked:
-    """Levels follow what the law leaves: where misfit outweighs noise, those of the model without it say little."""
+    curve, gain, share = first_order(table, k)
+    return Ranked(law, k, unit / table.size, curve, gain, gain, share)
+
+
+def first_order(table: Products, k: Array) -> tuple[Curve, float, float]:
+    """The best curve of a law, the nats that it promises, and its share of what could be avoided.
+
+    Levels follow what the law leaves: where misfit outweighs noise, those of the model without it say little.
+
+    Args:
+        table: with the law's slopes (n_r, m).
+        k: (m,) knots.
+    """
     weights = np.ones(table.samples.size + 1)
     for _ in range(_REWEIGHTED):
         gram, right, whole = table.across(weights)
         curve = solve(gram, right, whole, table.rows, k)
         left = table.left(weights, curve.values)
         weights = table.weights(left)
-    gain = table.gain(left)
-    return Ranked(law, k, unit / table.size, curve, gain, gain, table.share(left))
+    return curve, table.gain(left), table.share(left)
