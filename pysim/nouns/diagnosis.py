@@ -228,9 +228,9 @@ class Diagnosis:
 
     def summary(self) -> str:
         """All of it as text."""
-        from pysim.present.diagnosis import diagnosis_text
+        from pysim.present.diagnosis import text, whole
 
-        return diagnosis_text(self.found)
+        return text(whole(self.found))
 
     def plot(self) -> Figure:
         """The error, step by step."""
