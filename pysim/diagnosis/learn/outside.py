@@ -1,7 +1,8 @@
 """A model that cannot be looked into: the law that its inputs or outputs would need.
 
-A law is added to an input, `u + h(z)`, or to an output, `y + h(z)`, over an input, an output, or an output's rate. All
-is to first order, with the parameters refitted. The inside of the model is not changed, so that no class can be written.
+A law is added to an input, `u + h(z)`, or to an output, `y + h(z)`, over an input, an output, or an output's rate.
+All is to first order, with the parameters refitted. The inside of the model is not changed, so that no class can be
+written.
 """
 
 from __future__ import annotations
