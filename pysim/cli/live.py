@@ -75,12 +75,13 @@ def _bars(steps: Sequence[ErrorStep]) -> list[str]:
     from math import log
 
     from pysim.present.diagnosis.words import step_name
+    from pysim.present.notes import USES
 
     values = [step.fit if step.fit is not None else step.validate or 1.0 for step in steps]
     top = log(max([2.0, *values]))
     lines = []
     for step, value in zip(steps, values, strict=True):
-        held = "" if step.validate is None or step.fit is None else f"  held out {step.validate:7.2f}"
+        held = "" if step.validate is None or step.fit is None else f"  {USES['validate']} {step.validate:7.2f}"
         bar = "#" * round(_BAR * max(0.0, log(max(value, 1e-9))) / top)
         lines.append(f"  {step_name(step.step):<24} {value:7.2f} {bar:<{_BAR}}{held}".rstrip())
     return [f"  {'residual over noise':<24}", *lines] if lines else []

@@ -9,6 +9,7 @@ from typing import Any
 
 from pysim.app.figures.look import Figure, axis, figure, plain
 from pysim.present.diagnosis.words import step_name
+from pysim.present.notes import USES
 
 
 def error_figure(steps: Sequence[Mapping[str, Any]], *, doing: str = "") -> Figure:
@@ -21,8 +22,8 @@ def error_figure(steps: Sequence[Mapping[str, Any]], *, doing: str = "") -> Figu
     names = [plain(step_name(s["step"])) for s in steps] + ([f"<i>{_wrapped(doing)} …</i>"] if doing else [])
     places = list(range(len(names)))
     lines = {
-        "fitted": ([s["fit"] for s in steps], "@final", "solid", "circle", -0.16),
-        "held out": ([s["validate"] for s in steps], "@base", "dash", "square", 0.16),
+        USES["fit"]: ([s["fit"] for s in steps], "@final", "solid", "circle", -0.16),
+        USES["validate"]: ([s["validate"] for s in steps], "@base", "dash", "square", 0.16),
     }
     known = [v for values, *_ in lines.values() for v in values if v]
     low, high = min([0.6, *(0.62 * v for v in known)]), max([3.0, *(1.9 * v for v in known)])

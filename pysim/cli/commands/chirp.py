@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from pysim.cli.command import Command, Given
-from pysim.cli.option import Option, Role, number, text
-from pysim.cli.options import JSON, OUTPUT, SIGNAL
+from pysim.cli.option import number, text
+from pysim.cli.options import DATASET, JSON, OUTPUT, SIGNAL
 
 if TYPE_CHECKING:
     from pysim.identify.chirp import ChirpAnalysis
@@ -68,14 +69,7 @@ COMMAND = Command(
     "Responses of tops, bottoms and their mean from chirp logs.",
     run,
     options=(
-        Option(
-            ("DATASET",),
-            "folder with a dataset.toml, or a single log",
-            "DATASET|LOG",
-            convert=Path,
-            role=Role.DATA,
-            read=_read,
-        ),
+        replace(DATASET, about="folder with a dataset.toml, or a single log", metavar="DATASET|LOG", read=_read),
         text("--columns", "TIME,COMMAND,RESPONSE", "of a single log, in its order; the first must be time"),
         text("--units", "UNIT,UNIT", f"of command and response there ({_UNITS})"),
         SIGNAL,

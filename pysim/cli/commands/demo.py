@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import json
 from collections.abc import Sequence
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from pysim.cli.command import DONE, Command, Given
-from pysim.cli.option import Option, switch
+from pysim.cli.option import Role, switch
+from pysim.cli.options import OUTPUT
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor
@@ -100,13 +102,7 @@ COMMAND = Command(
     "Build the thesis' pump, run its 18 tests for both parameter sets, and report.",
     run,
     options=(
-        Option(
-            ("-o", "--output"),
-            "write everything here (results/demo)",
-            "DIR",
-            default=Path("results/demo"),
-            convert=Path,
-        ),
+        replace(OUTPUT, about="write everything here (results/demo)", default=Path("results/demo"), role=Role.VALUE),
         switch("--quick", "8 frequencies in place of 19"),
     ),
 )

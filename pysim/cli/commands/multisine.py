@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable
+from dataclasses import replace
 from fnmatch import fnmatch
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from pysim.cli.command import Command, Given
-from pysim.cli.option import Option, Role, choice, number, text
-from pysim.cli.options import JSON, OUTPUT, SIGNAL
+from pysim.cli.option import choice, number, text
+from pysim.cli.options import DATASETS, JSON, OUTPUT, SIGNAL
 
 if TYPE_CHECKING:
     import numpy as np
@@ -64,8 +64,6 @@ def _is_dataset(given: Given) -> bool:
 
 def _read(given: Given) -> tuple[list[Record], tuple[str, ...]]:
     """Records, each called by its file, and the columns to use."""
-    from dataclasses import replace
-
     from pysim.identify.columns import the_column
     from pysim.io import read_dataset, read_record
     from pysim.types import BadInput, Record
@@ -128,9 +126,7 @@ COMMAND = Command(
     "Find the best linear approximation from multisine logs, with noise, even and odd distortion beside it.",
     run,
     options=(
-        Option(
-            ("DATASET",), "data set, or records as .csv or .npz", "DATASET", convert=Path, nargs="+", role=Role.DATA
-        ),
+        replace(DATASETS, about="data set, or records as .csv or .npz", read=None),
         number("--period", "SECONDS", None, "of the multisine; none: any broadband signal"),
         text("--input", "NAME", "what excites; the only input by default"),
         SIGNAL,

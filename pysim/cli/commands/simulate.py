@@ -4,18 +4,19 @@ from __future__ import annotations
 
 import json
 import sys
-from pathlib import Path
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from pysim.cli._inputs import INPUT
 from pysim.cli.command import DONE, NO, Command, Given
-from pysim.cli.option import Option, Role, choice, file, number, text
-from pysim.cli.options import LIBRARY, MODEL_FIRST, PARAMETERS, SET
+from pysim.cli.option import Role, choice, number, text
+from pysim.cli.options import JSON, LIBRARY, MODEL_FIRST, OUTPUT, PARAMETERS, SET
 
 if TYPE_CHECKING:
     from pysim.types import Experiment, Model, Record
 
 _STOP = 1.0  # s, where neither the command line nor the FMU says it
+_OUTPUT = ".csv or .npz to write; else csv to standard output"
 _ROWS = 500  # rows of a run, where the command line does not say it
 _MOST_ROWS = 10_000_000  # of a run; more is a slip of the keyboard, and would fill the memory
 
@@ -88,14 +89,7 @@ COMMAND = Command(
         SET,
         PARAMETERS,
         choice("--solver", "rodas", ("rodas", "rk45"), "for stiff models or for others"),
-        Option(
-            ("-o", "--output"),
-            ".csv or .npz to write; else csv to standard output",
-            "FILE",
-            convert=Path,
-            role=Role.FILE,
-            suffixes=(".csv", ".npz"),
-        ),
-        file("--json", "FILE", "write record and statistics here", suffixes=(".json",)),
+        replace(OUTPUT, about=_OUTPUT, metavar="FILE", role=Role.FILE, suffixes=(".csv", ".npz")),
+        replace(JSON, about="write record and statistics here"),
     ),
 )

@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -20,23 +18,12 @@ if TYPE_CHECKING:
     from matplotlib.colors import LogNorm
     from matplotlib.figure import Figure
     from matplotlib.image import AxesImage
-    from numpy.typing import NDArray
-
-    Array = NDArray[np.float64]
 
 _WINDOWS = 12  # of a log over time
 _COLOURS = "OrRd"
 
 
-@dataclass
-class _Field:
-    """A map under construction: rows (label -> value by column's label)."""
-
-    title: str
-    rows: dict[str, dict[str, float]] = field(default_factory=dict)
-
-    def matrix(self, columns: Sequence[str]) -> Array:
-        return np.array([[row.get(c, math.nan) for c in columns] for row in self.rows.values()])
+_Rows = dict[str, dict[str, float]]  # of a map: name of a row -> value by name of a column
 
 
 def map_figure(diagnosis: Diagnosis, dataset: Dataset | None) -> Figure:
@@ -52,16 +39,15 @@ def map_figure(diagnosis: Diagnosis, dataset: Dataset | None) -> Figure:
     """
     from matplotlib.colors import LogNorm
 
-    shown = [(name, step) for name, step, _ in steps_compared(diagnosis)]
-    if not any(step.records for _, step in shown):
+    shown = [(name, step, dataset) for name, step, _ in steps_compared(diagnosis)]
+    if not any(step.records for _, step, _ in shown):
         raise BadInput("residual map: no log over time was compared")
-    panels = [one for name, step in shown for one in (_sines(name, step, dataset), _logs(name, step)) if one.rows]
-    panels.sort(key=lambda panel: panel.title.startswith("Logs"))
-    high = max(3.0, *(v for panel in panels for row in panel.rows.values() for v in row.values()))
-    figure = style.new_figure(8.2, 0.7 + sum(0.62 + 0.25 * len(panel.rows) for panel in panels))
-    axes = figure.subplots(len(panels), 1, squeeze=False, height_ratios=[1.6 + len(p.rows) for p in panels])[:, 0]
-    for own, panel in zip(axes, panels, strict=True):
-        image = _draw(own, panel, LogNorm(1.0, high))
+    maps = [(title, rows) for title, rows in (*map(_sines, shown), *map(_logs, shown)) if rows]
+    high = max(3.0, *(v for _, rows in maps for row in rows.values() for v in row.values()))
+    figure = style.new_figure(8.2, 0.7 + sum(0.62 + 0.25 * len(rows) for _, rows in maps))
+    axes = figure.subplots(len(maps), 1, squeeze=False, height_ratios=[1.6 + len(rows) for _, rows in maps])[:, 0]
+    for own, (title, rows) in zip(axes, maps, strict=True):
+        image = _draw(own, title, rows, LogNorm(1.0, high))
     bar = figure.colorbar(image, ax=list(axes), aspect=40, pad=0.015)
     bar.set_label("Residual over noise (-)", fontsize=style.TEXT)
     ticks = [t for t in (1, 2, 3, 5, 7, 10, 20, 30, 50, 100, 200, 300, 500, 1000) if t <= high]
@@ -71,8 +57,9 @@ def map_figure(diagnosis: Diagnosis, dataset: Dataset | None) -> Figure:
     return figure
 
 
-def _sines(name: str, step: ErrorStep, dataset: Dataset | None) -> _Field:
+def _sines(shown: tuple[str, ErrorStep, Dataset | None]) -> tuple[str, _Rows]:
     """Rows by operating point; of a test that was repeated the worst is shown."""
+    name, step, dataset = shown
     own = [record for record in step.records if record.harmonics]
     several = len({name for record in own for name in record.measured.names}) > 1
     rows: dict[tuple[_Point, str], dict[str, float]] = {}
@@ -83,11 +70,10 @@ def _sines(name: str, step: ErrorStep, dataset: Dataset | None) -> _Field:
             row = rows.setdefault((point, signal if several else ""), {})
             row[frequency] = max(value, row.get(frequency, 0.0))
     named = {f"{point.label}{f': {signal}' if signal else ''}": rows[point, signal] for point, signal in sorted(rows)}
-    return _Field(f"Stepped sines by frequency (Hz), {name}", named)
+    return f"Stepped sines by frequency (Hz), {name}", named
 
 
-@dataclass(frozen=True, order=True)
-class _Point:
+class _Point(NamedTuple):
     """What a stepped sine swings around and how far, the command's unit in SI; the log where that is not known."""
 
     command: str
@@ -106,14 +92,15 @@ def _point(record: RecordFit, dataset: Dataset | None) -> _Point:
     return _Point(test.command, test.offset, test.amplitude, label)
 
 
-def _logs(name: str, step: ErrorStep) -> _Field:
-    found = _Field(f"Logs over time, in twelfths of their length, {name}")
-    for record in step.records:
-        if not record.harmonics:
-            for signal in record.measured.names:
-                name = f"{record.source} ({USES[record.use]}): {signal}"
-                found.rows[name] = _windows(record, record.measured.names.index(signal))
-    return found
+def _logs(shown: tuple[str, ErrorStep, Dataset | None]) -> tuple[str, _Rows]:
+    name, step, _ = shown
+    rows = {
+        f"{record.source} ({USES[record.use]}): {signal}": _windows(record, j)
+        for record in step.records
+        if not record.harmonics
+        for j, signal in enumerate(record.measured.names)
+    }
+    return f"Logs over time, in twelfths of their length, {name}", rows
 
 
 def _windows(record: RecordFit, column: int) -> dict[str, float]:
@@ -121,10 +108,9 @@ def _windows(record: RecordFit, column: int) -> dict[str, float]:
     return {str(k + 1): math.sqrt(float(np.mean(part**2))) for k, part in enumerate(parts) if part.size}
 
 
-def _draw(axes: Axes, panel: _Field, norm: LogNorm) -> AxesImage:
-    columns = list(dict.fromkeys(c for row in panel.rows.values() for c in row))
-    columns.sort(key=float)
-    values = panel.matrix(columns)
+def _draw(axes: Axes, title: str, rows: _Rows, norm: LogNorm) -> AxesImage:
+    columns = sorted({column for row in rows.values() for column in row}, key=float)
+    values = np.array([[row.get(column, math.nan) for column in columns] for row in rows.values()])
     axes.set_facecolor(style.BAND)
     image = axes.imshow(np.maximum(values, 1.0), cmap=_COLOURS, norm=norm, aspect="auto")
     for i, row in enumerate(values):
@@ -136,8 +122,8 @@ def _draw(axes: Axes, panel: _Field, norm: LogNorm) -> AxesImage:
                     color="white" if dark else "#222222",
                 )  # fmt: skip
     axes.set_xticks(range(len(columns)), columns, fontsize=style.SMALL)
-    axes.set_yticks(range(len(panel.rows)), list(panel.rows), fontsize=style.SMALL)
+    axes.set_yticks(range(len(rows)), list(rows), fontsize=style.SMALL)
     axes.tick_params(length=0)
     axes.spines[:].set_visible(False)
-    axes.set_title(panel.title, fontsize=style.TEXT, loc="left")
+    axes.set_title(title, fontsize=style.TEXT, loc="left")
     return image
