@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import Any, overload
+from typing import Any
 
 import numpy as np
 
@@ -14,20 +14,20 @@ def json_number(value: float | None) -> float | None:
     return float(value) if value is not None and math.isfinite(value) else None
 
 
-@overload
-def json_data(value: Mapping[str, Any]) -> dict[str, Any]: ...
-@overload
-def json_data(value: Any) -> Any: ...
-def json_data(value: Any) -> Any:
-    """The same in lists, dictionaries and plain numbers, each of which is finite or None.
+def json_data(value: Mapping[str, Any]) -> dict[str, Any]:
+    """The same as lists, dictionaries and plain numbers, each of which is finite or None.
 
     Args:
-        value: mappings, sequences and arrays, one within another.
+        value: holds mappings, sequences and arrays, one within another.
     """
+    return {key: _plain(one) for key, one in value.items()}
+
+
+def _plain(value: Any) -> Any:
     if isinstance(value, Mapping):
-        return {key: json_data(one) for key, one in value.items()}
+        return json_data(value)
     if isinstance(value, np.ndarray | np.generic):
         value = value.tolist()
     if isinstance(value, list | tuple):
-        return [json_data(one) for one in value]
+        return [_plain(one) for one in value]
     return json_number(value) if isinstance(value, float) else value
