@@ -8,8 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 
-from pysim.types.answer import Detectable, Diagnosis, ErrorStep, Failure, FoundEffect, LearnedLaw, Left, NextTest, Rival
-from pysim.types.fit import Estimate
+from pysim.types.answer import Diagnosis, ErrorStep, Failure, FoundEffect, LearnedLaw, Left, NextTest, Rival
 from pysim.types.json_number import json_data
 from pysim.types.note import NoteCode
 
@@ -33,11 +32,13 @@ def answer_data(diagnosis: Diagnosis, files: Mapping[str, str] | None = None) ->
         "error": [step_data(step, used_to_choose=chose) for step in diagnosis.history],
         "fit_percent": [_fit_percent(step) for step in diagnosis.history],
         "left": _left(diagnosis.left, last),
-        "parameters": {e.name: _estimate(e) for e in diagnosis.estimates},
+        "parameters": {
+            e.name: {"value": e.value, "interval": e.interval, "unit": e.unit, "at": e.at} for e in diagnosis.estimates
+        },
         "where": [_failure(one) for one in diagnosis.failures],
         "missing": [_missing(law) for law in diagnosis.laws],
         "learned": [_learned(law) for law in diagnosis.learned],
-        "detectable": [_detectable(one) for one in diagnosis.detectable],
+        "detectable": [{"effect": o.effect, "sizes": o.sizes, "unit": o.units} for o in diagnosis.detectable],
         "next_test": _next_test(diagnosis.next_test),
         "notes": [{"code": note.code.value, "values": note.values} for note in diagnosis.notes],
         "conditions": diagnosis.conditions,
@@ -66,10 +67,6 @@ def step_data(step: ErrorStep, *, used_to_choose: bool = False) -> Json:
             "not_simulated": step.not_simulated,
         }
     )
-
-
-def _detectable(one: Detectable) -> Json:
-    return {"effect": one.effect, "sizes": one.sizes, "unit": one.units}
 
 
 def _fit_percent(step: ErrorStep) -> Json:
@@ -160,7 +157,3 @@ def _next_test(test: NextTest | None) -> Json | None:
     if test is None:
         return None
     return {"separates": test.separates, "gain": test.gain, "about": test.about, "plan": test.plan}
-
-
-def _estimate(e: Estimate) -> Json:
-    return {"value": e.value, "interval": e.interval, "unit": e.unit, "at": e.at}
