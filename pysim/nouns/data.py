@@ -42,7 +42,7 @@ from pysim.types import UNITS, BadInput, Dataset, MeasuredRecord, Record, conver
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-_ROWS = 12  # logs that are shown one by one
+_ROWS = 8  # logs that are shown one by one
 _EXTRA = '"hydraulic-test-bench[data]"'
 
 
@@ -270,10 +270,10 @@ class Data:
         }
         lines = [f"{counted(len(self.now.records), 'log')}: inputs {named['input']}; outputs {named['output']}"]
         steps = ", ".join(call(step) for step in self.history)
-        return [_short(line, 400) for line in (*lines, *([f"prepared: {steps}"] if steps else []))]
+        return [_short(line, 300) for line in (*lines, *([f"prepared: {steps}"] if steps else []))]
 
     def _rows(self) -> list[tuple[str, ...]]:
-        """Name, use, samples, seconds and warnings of each log, of twelve at most."""
+        """Name, use, samples, seconds and warnings of each log, of eight at most."""
         rows: list[tuple[str, ...]] = []
         for name, record in list(zip(self.names, self.now.records, strict=True))[:_ROWS]:
             if isinstance(record.data, Record):

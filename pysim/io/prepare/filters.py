@@ -107,9 +107,11 @@ def filtered(values: Array, step: float, gain: Gain) -> Array:
     n = values.size
     front, back = 2 * values[0] - values[:0:-1], 2 * values[-1] - values[-2::-1]
     long = np.concatenate([front, values, back])
-    line: Array = np.linspace(long[0], long[-1], long.size)  # what is left is periodic
-    spectrum = np.fft.rfft(long - line) * gain(np.asarray(np.fft.rfftfreq(long.size, step), dtype=np.float64))
-    return np.asarray((np.fft.irfft(spectrum, long.size) + line)[n - 1 : 2 * n - 1])
+    line: Array = np.linspace(long[0], long[-1], long.size)  # what is left begins and ends with zero
+    size = 1 << (long.size - 1).bit_length()
+    share = gain(np.asarray(np.fft.rfftfreq(size, step), dtype=np.float64))
+    smooth = np.fft.irfft(np.fft.rfft(long - line, size) * share, size)[: long.size]
+    return np.asarray((smooth + line)[n - 1 : 2 * n - 1])
 
 
 def _quieter(changed: Dataset, before: Dataset, names: tuple[str, ...], gain: Gain) -> Dataset:

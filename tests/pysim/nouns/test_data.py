@@ -87,9 +87,13 @@ def test_what_is_shown_is_short_and_has_a_line_a_log() -> None:
         ["run1", "fit", "500", "4.99"],
         ["run2", "test", "500", "4.99"],
     ]
-    many = load({f"run{k}": {"t [s]": TIME, "F [N]": TIME, "x [m]": TIME} for k in range(60)}, inputs="F", outputs="x")
+    empty = np.where(TIME == 1, np.nan, TIME)
+    names = [f"output number {k}" for k in range(40)]
+    frame = {"t [s]": TIME**1.1, "F [N]": TIME, **{f"{name} [m]": empty for name in names}}
+    many = load({f"{'long' * 10}{k}": frame for k in range(60)}, inputs="F", outputs=names).flip(*names)
     assert len(repr(many)) < 2000
     assert len(many._repr_html_()) < 2000
+    assert repr(many).endswith("and 52 more")
 
 
 def test_a_table_has_the_units_of_the_logs() -> None:
