@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,7 +13,7 @@ from pysim.io.columns import standing
 from pysim.io.counted import counted
 from pysim.io.load.headings import heading_of, name_and_unit, unit_of
 from pysim.io.load.moments import moments_of, seconds_of_day
-from pysim.io.load.table import RawTable
+from pysim.io.load.table import RawTable, number_of
 from pysim.io.units import unit_cure
 from pysim.types import SECONDS, BadInput, sampling
 
@@ -83,12 +84,14 @@ def _found(table: RawTable, units: Mapping[str, str], signals: Collection[str]) 
         try:
             moments = moments_of(cells, f"{table.place}, {heading}") is not None or seconds_of_day(cells) is not None
         except BadInput:
-            moments = True  # whose form is asked for once it is chosen
+            moments = True  # what is wrong with them is said once they are chosen
         if moments:
             certain.append((heading, "it holds dates or times of day"))
             continue
         named = name.strip().lower() in TIME_NAMES or heading.strip().lower() in TIME_NAMES
         if (unit in SECONDS and (named or unit not in ("min", "h"))) or (named and not unit):
+            if _is_word_among_numbers(cells):
+                table.numbers(heading)  # is refused, with its place
             how = rises(table, heading)
             if how:
                 certain.append((heading, f"it is headed {heading!r}, {how}"))
@@ -104,6 +107,14 @@ def _found(table: RawTable, units: Mapping[str, str], signals: Collection[str]) 
         asked = " or ".join(map(repr, perhaps))
         raise BadInput(f'{table.place}: is {asked} the time? It rises evenly; if so name it: time="{perhaps[0]}"')
     raise BadInput(f'{table.place}: no column is a clock that never falls; name it, time="...", one of {shown}')
+
+
+def _is_word_among_numbers(cells: NDArray[Any]) -> bool:
+    """Whether a few cells of a column of numbers hold something else."""
+    if cells.dtype.kind != "O":
+        return False
+    wrong = sum(number_of(cell) is None for cell in cells.tolist())
+    return 0 < 2 * wrong < cells.size
 
 
 def rises(table: RawTable, heading: str) -> str:

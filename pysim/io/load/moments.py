@@ -58,10 +58,16 @@ def moments_of(cells: NDArray[Any], where: str, form: str = "") -> Moments | Non
     if form:
         return _by(own, lambda text: _utc(datetime.strptime(text, form)), where)
     if len(there) == len(own) and all(_PLAIN.fullmatch(text) for text in there):
-        return np.array(there, dtype="datetime64[ns]")
+        try:
+            return np.array(there, dtype="datetime64[ns]")
+        except ValueError as error:
+            raise BadInput(f"{where}: {error}; correct that cell") from error
     found = [_FORM.fullmatch(text.strip()) for text in there]
-    if not all(found):
+    if 2 * sum(match is not None for match in found) <= len(found):
         return None
+    if not all(found):
+        row = next(k for k, cell in enumerate(own, 1) if cell is not None and not _FORM.fullmatch(cell.strip()))
+        raise BadInput(f"{where}, row {row}: {own[row - 1]!r} is no moment; correct it or remove the row")
     order = _order([match for match in found if match is not None], where)
     return _by(own, lambda text: _read(text, order, where), where)
 

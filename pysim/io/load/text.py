@@ -14,12 +14,13 @@ from pysim.io.load.layout import Layout, is_empty, is_value, layout_of
 from pysim.io.load.table import RawTable
 from pysim.io.quotation_marks import unquoted
 from pysim.io.text_block import read_block
-from pysim.io.text_fields import COMMAS, DIALECTS, Dialect
+from pysim.io.text_fields import COMMAS, DIALECTS, Dialect, number
 from pysim.io.text_table import behind_labview_header, read_text
 from pysim.types import BadInput
 
 _HEAD, _TAIL = 400, 200  # lines that tell how the others are laid out
-_UNITS = "Y_Unit_Label"  # of LabVIEW's header
+_UNITS, _BEGIN, _STEP = "Y_Unit_Label", "X0", "Delta_X"  # of LabVIEW's header
+_MINUS = "\N{MINUS SIGN}"  # as word processors write it
 
 
 def read_text_log(path: Path) -> tuple[RawTable, ...]:
@@ -28,7 +29,7 @@ def read_text_log(path: Path) -> tuple[RawTable, ...]:
     Raises:
         BadInput: no rows of numbers, or a row of another width.
     """
-    lines = unquoted(read_text(path, "load"), " ").split("\n")
+    lines = unquoted(read_text(path, "load").replace(_MINUS, "-"), " ").split("\n")
     begin = behind_labview_header(lines)
     there = [k for k in range(begin, len(lines)) if lines[k].strip() and not lines[k].lstrip().startswith("#")]
     usual_rows = there[-_TAIL - 1 : -1] if len(there) > _TAIL else there[len(there) // 2 :]
@@ -51,10 +52,9 @@ def read_text_log(path: Path) -> tuple[RawTable, ...]:
         kept -= 1  # behind a separator at the end of every row
     names = found.headings[:kept]
     units = found.units | _labview_units(lines[:begin], names)
+    names, cells = _with_labview_clock(lines[:begin], names, cells[:kept])
     place = str(path)
-    return (
-        RawTable(place, path.name, names, cells[:kept], units, lambda k: f"line {body[k] + 1}", remarks, found.counted),
-    )
+    return (RawTable(place, path.name, names, cells, units, lambda k: f"line {body[k] + 1}", remarks, found.counted),)
 
 
 def _dialect(sample: Sequence[str]) -> tuple[Dialect, int] | None:
@@ -174,6 +174,21 @@ def _numbers_or_texts(column: Sequence[str]) -> NDArray[Any]:
 
 def _labview_units(header: Sequence[str], headings: tuple[str, ...]) -> dict[str, str]:
     """Units of the channels, which stand behind the column of times."""
-    line = next((line for line in header if line.startswith(_UNITS)), "")
-    units = [unit.strip() for unit in line.split("\t")[1:]]
-    return {name: unit for name, unit in zip(headings[1:], units, strict=False) if unit}
+    return {name: unit for name, unit in zip(headings[1:], _labview(header, _UNITS), strict=False) if unit}
+
+
+def _labview(header: Sequence[str], key: str) -> list[str]:
+    """What a line of the header says of each channel."""
+    line = next((line for line in header if line.startswith(f"{key}\t")), "")
+    return [word.strip() for word in line.split("\t")[1:]]
+
+
+def _with_labview_clock(
+    header: Sequence[str], names: tuple[str, ...], cells: tuple[NDArray[Any], ...]
+) -> tuple[tuple[str, ...], tuple[NDArray[Any], ...]]:
+    """The first column filled from begin and step, where LabVIEW was told to write no times."""
+    told = [_labview(header, key) for key in (_BEGIN, _STEP)]
+    begin, step = (number(words[0].replace(",", ".")) if words else None for words in told)
+    if begin is None or step is None or not all(is_empty(cell) for cell in cells[0].tolist()):
+        return names, cells
+    return ("X_Value", *names[1:]), (begin + step * np.arange(cells[0].size), *cells[1:])

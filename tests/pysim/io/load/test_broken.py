@@ -89,6 +89,16 @@ READ: dict[str, tuple[Callable[[Path], Path], dict[str, Any]]] = {
         of_lines("Zeit;F [kN];x [mm]", *(f"{d};{g.split(';', 1)[1]}" for d, g in zip(DATED, GERMAN, strict=True))),
         {},
     ),
+    "minus signs of a word processor": (of_lines(HEAD, *(one.replace("-", "\N{MINUS SIGN}") for one in LINES)), {}),
+    "LabVIEW without its column of times": (
+        of_lines(
+            *("LabVIEW Measurement\t", "***End_of_Header***\t", "Y_Unit_Label\tkN\tmm", "X0\t0,0\t0,0"),
+            *("Delta_X\t0,01\t0,01", "***End_of_Header***\t\t", "\tF\tx\tComment"),
+            *(f"\t{f}\t{x}\t".replace(".", ",") for _, f, x in ROWS),
+            name="log.lvm",
+        ),
+        {},
+    ),
     "a column of words": (of_lines(HEAD + ",state", *(one + ",running" for one in LINES)), {}),
     "a counter ahead of the time": (of_lines("n," + HEAD, *(f"{k},{one}" for k, one in enumerate(LINES))), {}),
     "time in the last column": (
@@ -176,6 +186,18 @@ REFUSED: dict[str, tuple[Callable[[Path], Path], dict[str, Any], str, str]] = {
     "day or month": (
         of_lines("t,F [kN],x [mm]", *(f"03/04/2026 14:05:{t:09.6f},{f},{x}" for t, f, x in ROWS)),
         {}, r"log\.csv, t: is '03/04/2026 14:05:00\.000000' day/month or month/day", "Say it in units",
+    ),
+    "a header again in the middle": (
+        of_lines(HEAD, *LINES[:20], HEAD, *LINES[20:]),
+        {}, r"log\.csv, line 22: 't \[s\]' is no number for t \[s\]", "correct it",
+    ),
+    "a moment that is none": (
+        of_lines("t,F [kN],x [mm]", *(f"2026-03-01 14:05:{t:06.3f},{f},{x}" for t, f, x in ROWS[:9]), "later,1.0,2.0"),
+        {}, r"log\.csv, t, row 10: 'later' is no moment", "correct it or remove the row",
+    ),
+    "a day that no month has": (
+        of_lines("t,F [kN],x [mm]", *(f"2026-02-31 14:05:{t:06.3f},{f},{x}" for t, f, x in ROWS)),
+        {}, r"log\.csv, t: .*2026-02-31", "correct that cell",
     ),
     "an empty time": (
         of_lines(HEAD, *LINES[:5], ",0.1,0.2", *LINES[6:]),
