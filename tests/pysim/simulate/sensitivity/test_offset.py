@@ -45,6 +45,15 @@ def test_slopes_by_the_offset(fixture_model, tangents):
     assert found.by_parameter.shape == (41, 2, 1)
 
 
+def test_slopes_that_have_faded_are_zero(fixture_model):
+    """Processors are slow on numbers below the least normal one, and a run may keep them up for its whole length."""
+    experiment = offset(np.linspace(0, 6000, 1501), (0.0, 0.0), None)
+    solver = dataclasses.replace(_TIGHT, max_step=4.0)
+    found = sensitivities_many(fixture_model(OSCILLATOR, 2), [experiment], (), offset=True, solver=solver)[0].by_offset
+    assert np.all(found[-1] == 0.0)
+    assert np.min(np.abs(found[found != 0.0])) > np.finfo(float).tiny
+
+
 def test_an_offset_needs_a_number_for_each_state(fixture_model):
     with pytest.raises(BadInput):
         simulate(fixture_model(OSCILLATOR, 2), offset(np.linspace(0, 4, 5), (0.5,)))
