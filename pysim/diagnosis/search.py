@@ -121,6 +121,7 @@ class Search:
         self.floors, self.tried = Floors(), 0
         self._tables: dict[frozenset[str], Table] = {}
         self._fits: dict[tuple[frozenset[str], bool], FinalFit] = {}
+        self._unfitted: dict[tuple[frozenset[str], bool], tuple[FinalFit, rivals.Rows | None, float]] = {}
 
     def fit_base(self) -> FinalFit:
         """The base model refitted.
@@ -438,19 +439,23 @@ class Search:
 
     def _held_out(self, smaller: FinalFit, larger: FinalFit) -> tuple[float, float] | None:
         """By how many nats the logs that may choose get worse, and how many chance makes of it; None without such."""
-        ends = []
-        for fit in (larger, smaller):
-            residuals = fit.candidate.residuals(fit.simulation, "validate")
-            residuals = replace(residuals, nuisances=(), known=fit.sensor_errors)
-            if not residuals.observations:
-                return None
-            space = fit.candidate.space
-            point = settled_initial_states(residuals, fit.candidate.model, space, fit.point.x)
-            ends.append((rivals.rows(fit.candidate, residuals, point) if point.good else None, point.cost))
-        (own, cost), (other, before) = ends
+        if not larger.candidate.residuals(larger.simulation, "validate").observations:
+            return None
+        (own, cost), (other, before) = map(self._beside_unfitted, (larger, smaller))
         if own is None or other is None:
             return None if own is other else (cost - before, 0.0)  # one cannot be simulated there: infinite
         return cost - before, rivals.reach(own, other, self.settings.tie)
+
+    def _beside_unfitted(self, fit: FinalFit) -> tuple[rivals.Rows | None, float]:
+        """A fit beside the logs that may choose: their rows, none where one cannot be simulated, and nats."""
+        known = self._unfitted.get(_key(fit))
+        if known is None or known[0] is not fit:
+            residuals = fit.candidate.residuals(fit.simulation, "validate")
+            residuals = replace(residuals, nuisances=(), known=fit.sensor_errors)
+            point = settled_initial_states(residuals, fit.candidate.model, fit.candidate.space, fit.point.x)
+            rows = rivals.rows(fit.candidate, residuals, point) if point.good else None
+            known = self._unfitted[_key(fit)] = fit, rows, point.cost
+        return known[1:]
 
     def _without(self, fit: FinalFit, label: str) -> FinalFit:
         """The model without one effect or sensor error: refitted from where the larger one stands, which a fit of its

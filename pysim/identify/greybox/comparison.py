@@ -8,18 +8,18 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from pysim.identify.greybox.least_squares import GaussNewton
 from pysim.identify.greybox.nuisance import SensorErrors
 from pysim.identify.greybox.observation import Observation, Simulated
 from pysim.identify.greybox.parameters import ParameterSpace
 from pysim.identify.greybox.problem import Problem
-from pysim.identify.greybox.residuals import Channel, Point, WeightedResiduals
+from pysim.identify.greybox.residuals import Carried, Channel, Point, WeightedResiduals
 from pysim.identify.greybox.runs import Failure, Simulation, simulate_runs
 from pysim.types import Experiment, Model, Note, NoteCode, RecordFit, ResponseFit
 
 Array = NDArray[np.float64]
 
 _ROUNDS = 40  # steps of the initial states of a log that was not fitted
+_SETTLED = 0.5  # nats that a step promises and that are not worth it: what a free number gains by chance (chi-squared)
 
 
 @dataclass(frozen=True)
@@ -86,11 +86,22 @@ def with_noise(record: RecordFit, noise: Mapping[Channel, float]) -> RecordFit:
 
 
 def settled_initial_states(residuals: WeightedResiduals, model: Model, space: ParameterSpace, x: Array) -> Point:
-    """The point at x (n,) with the initial states of its logs estimated, the parameters held."""
+    """The point at x (n,) with the initial states of its logs estimated, the parameters held.
+
+    Nothing but its own measurements moves the state at which a log begins, so that each log is settled by itself.
+    """
+    ends = [_settled(replace(residuals, observations=(one,)), model, space, x) for one in residuals.observations]
+    if len(ends) == 1 or not all(end.good for end in ends):
+        return next((end for end in ends if not end.good), ends[0])
+    carried = Carried(tuple(state for end in ends for state in end.carried.states))
+    return residuals.evaluate(model, space, x, carried, jacobian=False)
+
+
+def _settled(residuals: WeightedResiduals, model: Model, space: ParameterSpace, x: Array) -> Point:
     best = residuals.evaluate(model, space, x, jacobian=False)
     share = 1.0
     for _ in range(_ROUNDS):
-        if not best.good or best.gain < GaussNewton().tolerance:
+        if not best.good or best.gain < _SETTLED:
             break
         trial = residuals.evaluate(model, space, x, best.carried_to(x, share), jacobian=False)
         if trial.cost < best.cost:

@@ -5,10 +5,10 @@ model CardSampling "Mean of a sampled output of the controller card"
   constant Types.Duration T_min = 1e-4 "Shortest sampling time";
 protected
   final parameter Types.Duration T_held = max(T_s, T_min) "Sampling time in force";
-  Real y_t(start=0, fixed=true, nominal=100) "Rate of the output";
+  Real moved(start=0, fixed=true, nominal=1) "By what the output moves in a sampling time, at its rate";
 equation
-  der(y) = y_t;
-  der(y_t) = (12*(s - y)/T_held - 6*y_t)/T_held;
+  der(y) = moved/T_held;
+  der(moved) = (12*(s - y) - 6*moved)/T_held;
   annotation(__HydraulicTestBench(smooth="card.sampling", slot="cardOutput"), Documentation(info="<html>
 <p>What is held between samples is late by half a sampling time in the mean. The law has the series of
 (1 - exp(-s T<sub>s</sub>))/(s T<sub>s</sub>) up to the square of s.</p>
