@@ -101,7 +101,7 @@ def _settled(residuals: WeightedResiduals, model: Model, space: ParameterSpace, 
     best = residuals.evaluate(model, space, x, jacobian=False)
     share = 1.0
     for _ in range(_ROUNDS):
-        if not best.good or best.gain < _SETTLED:
+        if not best.good or share * (2 - share) * best.gain < _SETTLED:
             break
         trial = residuals.evaluate(model, space, x, best.carried_to(x, share), jacobian=False)
         if trial.cost < best.cost:
