@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from enum import Enum
 from functools import partial
 from pathlib import Path
@@ -13,6 +13,7 @@ from pysim.diagnosis.candidate import Models
 from pysim.diagnosis.checkpoint import Checkpoint, whose
 from pysim.diagnosis.error_history import error_step, held_still
 from pysim.diagnosis.learn.described import answered
+from pysim.diagnosis.learn.fit import LawFit
 from pysim.diagnosis.learn.learn import Learner, Learning
 from pysim.diagnosis.learn.names import without_the_unseated
 from pysim.diagnosis.learn.outside import outside_laws
@@ -24,7 +25,9 @@ from pysim.diagnosis.search import Found, Search
 from pysim.diagnosis.session import Session
 from pysim.identify.greybox import Simulation
 from pysim.types import BadInput, Effect, NextTest, Note, NoteCode
-from pysim.types.answer import Diagnosis, ErrorStep
+from pysim.types.answer import PRIOR, REFIT, Diagnosis, ErrorStep, Left
+
+Named = Sequence[tuple[str, FinalFit]]  # models of the error history, by the names of their steps
 
 
 class Learns(Enum):
@@ -144,6 +147,25 @@ def _search(session: Session, progress: Say | None, checkpoint: Path | None, ste
     return Search(Models(session), Simulation(workers=session.workers), session.settings, say, kept)
 
 
+@dataclass(frozen=True)
+class _Account:
+    """A chain of models beside the measurements, and what is left of these after the last one."""
+
+    history: tuple[ErrorStep, ...]
+    notes: tuple[Note, ...]
+    left: Left
+    complete: bool
+
+
+def _account(session: Session, found: Found, models: Named) -> _Account:
+    steps = [error_step(name, fit, session, found.floors.floors, fitted=name != PRIOR) for name, fit in models]
+    last, notes = steps[-1][0], dict.fromkeys(note for _, own in steps for note in own)
+    rest = follows(found.final, session.dataset, session.treatment.noise.blocks)
+    left = verdict.what_is_left(found, rest, last)
+    complete = verdict.is_complete(found, rest, left, last, session.settings)
+    return _Account(tuple(step for step, _ in steps), tuple(notes), left, complete)
+
+
 def _answer(
     session: Session,
     search: Search,
@@ -162,61 +184,53 @@ def _answer(
     search.say.doing("counting what is left")
     final = _alone(found.final, search) if found.final.names else found.final
     found = replace(found, final=final)
-    models_of = [("prior", search.as_it_is()), *([("refit", found.base)] if refitted else [])]
-    models_of += _kept(found, models, final, search)
-    last = _history(models_of[-1:], session, found)
-    rest = follows(final, session.dataset, session.treatment.noise.blocks)
-    left = verdict.what_is_left(found, rest, last[0][-1])
-    complete = verdict.is_complete(found, rest, left, last[0][-1], session.settings)
+    untouched = [(PRIOR, search.as_it_is()), *([(REFIT, found.base)] if refitted else [])]
+    named: Named = [*untouched, *_kept(found, models, final, search)]
+    account = _account(session, found, named)
+    complete, estimates = account.complete, held_still(final)[0] if refitted else ()
     wanted = learns is Learns.ALWAYS or (learns is Learns.IF_MISSING and not complete)
     wanted &= session.build_law is not None
     learning = _learned(session, search, found) if wanted and not final.candidate.has_events else None
-    law = None if learning is None else learning.law
-    if law is not None:
-        kept = {effect.name for effect in law.fit.candidate.effects}
-        unseated = {effect.name for effect in final.candidate.effects} - kept
-        models_of = [(name, fit) for name, fit in models_of if unseated.isdisjoint(fit.names)]
-        losses = {name: loss for name, loss in found.losses.items() if name in kept or name not in final.names}
-        found = replace(found, final=law.fit, floors=found.floors.with_(law.fit), losses=losses)
-        history, lost = _history([*models_of, (law.law.label, law.fit)], session, found)
-        history[-1] = replace(history[-1], estimates=law.of_the_model(history[-1].estimates))
-        rest = follows(law.fit, session.dataset, session.treatment.noise.blocks)
-        left = verdict.what_is_left(found, rest, history[-1])
-    else:
-        before, notes = _history(models_of[:-1], session, found)
-        history, lost = [*before, *last[0]], notes | last[1]
+    if learning is not None and learning.law is not None:
+        law, complete = learning.law, False  # what the law is has no name yet
+        found, named = _with_law(found, named, law)
+        account = _account(session, found, named)
+        estimates = law.of_the_model(account.history[-1].estimates)
+        account = replace(account, history=(*account.history[:-1], replace(account.history[-1], estimates=estimates)))
+    history = account.history
     _said(search.say, history)
-    estimates = history[-1].estimates if law is not None else held_still(final)[0] if refitted else ()
     search.say.stage("intervals")
     settles, unsettled = _next_test(session, found)
     learned, missing = answered(learning, (history[-2].validate, history[-1].validate)) if learning else ((), ())
-    of_law = [verdict.note_of_laws(learning, final)] if wanted and law is None else []
+    of_law = [verdict.note_of_laws(learning, final)] if wanted and not learned else []
     refused = {**search.models.refused, **({} if learning is None else learning.refused)}
+    own = verdict.notes_of(found, estimates, refused, session)
     return Diagnosis(
         effects=verdict.found_effects(found, estimates, session),
-        complete=complete and law is None,
-        left=left,
+        complete=complete,
+        left=account.left,
         rivals=verdict.ranking(search.tables),
         ties=verdict.ties(found),
-        history=tuple(history),
+        history=history,
         failures=history[min(1, len(history) - 1)].failures,
         learned=learned,
         missing=missing,
         next_test=settles,
         estimates=estimates,
-        notes=(*session.notes, *lost, *unsettled, *verdict.notes_of(found, estimates, refused, session), *of_law),
+        notes=(*session.notes, *account.notes, *unsettled, *own, *of_law),
         seconds=search.say.seconds,
         detectable=search.detectable(found.final),
     )
 
 
-def _history(
-    models: Sequence[tuple[str, FinalFit]], session: Session, found: Found
-) -> tuple[list[ErrorStep], dict[Note, None]]:
-    """The error of these models by name, and what could not be simulated."""
-    floors = found.floors.floors
-    steps = [error_step(name, fit, session, floors, fitted=name != "prior") for name, fit in models]
-    return [step for step, _ in steps], dict.fromkeys(note for _, notes in steps for note in notes)
+def _with_law(found: Found, models: Named, law: LawFit) -> tuple[Found, Named]:
+    """With a law in place of the effects that it made needless."""
+    kept = {effect.name for effect in law.fit.candidate.effects}
+    unseated = {effect.name for effect in found.final.candidate.effects} - kept
+    losses = {name: loss for name, loss in found.losses.items() if name not in unseated}
+    beside = [(name, fit) for name, fit in models if unseated.isdisjoint(fit.names)]
+    floors = found.floors.with_(law.fit)
+    return replace(found, final=law.fit, floors=floors, losses=losses), [*beside, (law.law.label, law.fit)]
 
 
 def _learned(session: Session, search: Search, found: Found) -> Learning:
@@ -264,7 +278,7 @@ def _alone(fit: FinalFit, search: Search) -> FinalFit:
     return again if again.good else fit
 
 
-def _kept(found: Found, models: Sequence[FinalFit], final: FinalFit, search: Search) -> list[tuple[str, FinalFit]]:
+def _kept(found: Found, models: Sequence[FinalFit], final: FinalFit, search: Search) -> Named:
     """Names and models of the steps of the error history; effects that came in together are one step."""
     if models:
         return [(fit.names[-1], final if fit is models[-1] else _alone(fit, search)) for fit in models]

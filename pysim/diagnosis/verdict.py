@@ -32,7 +32,7 @@ def found_effects(found: Found, estimates: Sequence[Estimate], session: Session)
     for effect in candidate.effects:
         place, loss = candidate.places[effect.name], found.losses[effect.name]
         own = tuple(by_name[f"{place}.{p.name}"] for p in effect.parameters)
-        rows.append((loss.gain, FoundEffect(effect, place, own, min(loss.gain / avoidable, 1.0), None)))
+        rows.append((loss.gain, FoundEffect(effect, place, own, min(loss.gain / avoidable, 1.0))))
     labels = candidate.labels[len(candidate.effects) :]
     sizes = found.final.point.carried.nuisances.tolist()
     for nuisance, label, size in zip(candidate.nuisances, labels, sizes, strict=True):

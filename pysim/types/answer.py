@@ -116,14 +116,12 @@ class FoundEffect:
         place: name ahead of its parameters' names in the extended model.
         estimates: of its parameters, by their names as the class declares them.
         share: of the avoidable sum of squares that leaving it out brings back, 0 ... 1; None where not counted.
-        held_out: rms over floor on unseen logs without it, over that with it; None where there are none.
     """
 
     effect: Effect
     place: str
     estimates: tuple[Estimate, ...]
     share: float | None = None
-    held_out: float | None = None
 
 
 @dataclass(frozen=True)

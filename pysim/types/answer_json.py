@@ -89,7 +89,7 @@ def _effect(one: FoundEffect) -> Json:
             intervals[parameter.inverse] = (high, low)
             units[parameter.inverse] = f"1/({estimate.unit})"
     found: Json = {"effect": one.effect.name, "place": one.place, "parameters": values, "intervals": intervals}
-    return {**found, "unit": units, "share": one.share, "held_out": one.held_out}
+    return {**found, "unit": units, "share": one.share}
 
 
 def _rival(row: Rival) -> Json:

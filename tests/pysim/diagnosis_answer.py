@@ -118,7 +118,7 @@ def found_offset(**changes: object) -> Diagnosis:
         model("toy.offset", 1.0, 1.01, 0.1, *after, undetermined=(open_,)),
     )
     values: dict[str, object] = {
-        "effects": (FoundEffect(OFFSET, "force", after[-1:], 0.99, 3.2),),
+        "effects": (FoundEffect(OFFSET, "force", after[-1:], 0.99),),
         "complete": True,
         "left": Left({}, 1.0, 1.01, 0.01, 0.5),
         "rivals": (
