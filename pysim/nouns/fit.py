@@ -104,16 +104,20 @@ class Fit:
 
     @property
     def intervals(self) -> Mapping[str, tuple[float, float]]:
-        """Parameter -> ends of its 95 percent interval, in its unit."""
-        return {one.name: one.interval for one in self.found.estimates}
+        """Parameter, and state at the first sample of a log, -> ends of its 95 percent interval, in its unit."""
+        return {one.name: one.interval for one in (*self.found.estimates, *self.found.initial)}
 
     @property
     def table(self) -> Table:
-        """A row per parameter: value, standard deviation, 95 percent interval, unit, start, bounds."""
+        """A row per parameter: value, standard deviation, 95 percent interval, unit, start, bounds.
+
+        Below them the states "x@run1.csv" at the first sample of logs whose initial states were estimated.
+        """
         rows = [
-            (e.name, e.value, e.std, *e.interval, "" if e.unit == "1" else e.unit, e.start, e.lower, e.upper,
+            (e.name, e.value, e.std, *e.interval, "" if e.unit == "1" else e.unit, e.start,
+             *(end if math.isfinite(end) else None for end in (e.lower, e.upper)),
              "AT BOUND" if e.at else "" if e.determined else "not determined")
-            for e in self.found.estimates
+            for e in (*self.found.estimates, *self.found.initial)
         ]  # fmt: skip
         head = ("parameter", "value", "s.d.", "95 % from", "to", "unit", "start", "lower", "upper", "remark")
         return Table.of(head, rows, key="parameter")

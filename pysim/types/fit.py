@@ -217,6 +217,7 @@ class Fit:
         starts: every search.
         notes: what a reader must know: noise that was estimated, records that were left out.
         experiments: exactly what was run for the logs over time, at the estimates.
+        initial: states at the first sample of logs of which nothing else says where they began; `start` is at rest.
     """
 
     model: str
@@ -238,6 +239,7 @@ class Fit:
     starts: tuple[Start, ...] = ()
     notes: tuple[Note, ...] = ()
     experiments: tuple[Experiment, ...] = ()
+    initial: tuple[Estimate, ...] = ()
 
     def __post_init__(self) -> None:
         covariance = np.array(self.covariance, dtype=np.float64)
@@ -249,8 +251,8 @@ class Fit:
             raise BadInput(f"fit: {n} estimates need a covariance of shape ({n}, {n}), got {covariance.shape}")
 
     def __getitem__(self, name: str) -> Estimate:
-        """The estimate of that parameter."""
-        for estimate in self.estimates:
+        """The estimate of that parameter, or of a state at the first sample of a log, "x@run1.csv"."""
+        for estimate in (*self.estimates, *self.initial):
             if estimate.name == name:
                 return estimate
         raise BadInput(f"fit: {name!r} was not free; free were {', '.join(e.name for e in self.estimates)}")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,13 +24,15 @@ _SETTLED = 0.5  # nats that a step promises and that are not worth it: what a fr
 
 @dataclass(frozen=True)
 class Compared:
-    """Everything at one point: logs, responses, the runs over time; why some records are not there, and how many."""
+    """Everything at one point: logs, responses, the runs over time; why some records are not there, and how many; by id
+    of a run where its orbit is, or the offset of its free states from rest."""
 
     records: tuple[RecordFit, ...]
     responses: tuple[ResponseFit, ...]
     experiments: tuple[Experiment, ...]
     notes: tuple[Note, ...]
     lost: int = 0
+    states: Mapping[int, Array | None] = field(default_factory=dict)
 
 
 def compared(
@@ -71,7 +73,7 @@ def compared(
             continue
         own = one.beside(one.sensed(simulated, errors) if errors else simulated)
         records, responses = [*records, *own[0]], [*responses, *own[1]]
-    return Compared(tuple(records), tuple(responses), tuple(experiments), tuple(notes), lost)
+    return Compared(tuple(records), tuple(responses), tuple(experiments), tuple(notes), lost, known)
 
 
 def with_noise(record: RecordFit, noise: Mapping[Channel, float]) -> RecordFit:

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from pysim.identify.greybox.checkpoint import Checkpoint, digest
 from pysim.identify.greybox.comparison import Compared, compared, with_noise
+from pysim.identify.greybox.initial_states import initial_states
 from pysim.identify.greybox.interior_point import InteriorPoint
 from pysim.identify.greybox.least_squares import GaussNewton, blur_of
 from pysim.identify.greybox.noise import white_floor
@@ -26,7 +27,7 @@ from pysim.identify.greybox.settings import FitSettings
 from pysim.identify.greybox.starts import starts
 from pysim.identify.greybox.trust import not_at_rest
 from pysim.identify.greybox.uncertainty import Uncertainty, uncertainty
-from pysim.types import BadInput, Fit, FitOutcome, Note, NoteCode, Start
+from pysim.types import BadInput, Estimate, Fit, FitOutcome, Note, NoteCode, Start
 from pysim.types.answer import FloorSource
 
 Array = NDArray[np.float64]
@@ -251,6 +252,11 @@ def _result(
     given = dict(zip(map(id, residuals.runs), simulated, strict=False))
     beside = compared(problem, point.x, simulation, carried, given)
     noise = _noise(problem, beside)
+    begun_at: tuple[Estimate, ...] = ()
+    if objective.squares:
+        slope, levels = space.slope(point.x), dict(zip(residuals.channels, point.levels.tolist(), strict=True))
+        spread = np.nan_to_num(doubt.covariance) / np.outer(slope, slope)
+        begun_at = initial_states(problem, point.x, spread, {**noise, **levels}, beside.states, simulation)
     return Fit(
         model=problem.model.name,
         objective=objective.words,
@@ -279,6 +285,7 @@ def _result(
             *not_at_rest(residuals, problem.model, space, point),
         ),
         experiments=beside.experiments,
+        initial=begun_at,
     )
 
 

@@ -246,7 +246,7 @@ class WeightedResiduals:
         errors = (*self.known, *zip(self.nuisances, sizes.tolist(), strict=True))
         own = self._own(answer.simulated)
         shown = [(one, one.sensed(answers, errors)) for one, answers in own] if errors else own
-        tables = [_rows(one, answers, self.measure) for one, answers in shown]
+        tables = [rows_of(one, answers, self.measure) for one, answers in shown]
         if not all(_finite(table.rows) for table in tables):
             return failed_point(x, Failure("residual", Outcome.DONE, "it is not finite; an output may not move at all"))
         if self.absolute or self.measure is Measure.THESIS:
@@ -414,7 +414,8 @@ class _Rows(NamedTuple):
         return 0.0 if self.reduction is None else float(self.reduction.count - len(self.rows))
 
 
-def _rows(one: Observation, own: Sequence[Simulated], measure: Measure) -> _Rows:
+def rows_of(one: Observation, own: Sequence[Simulated], measure: Measure = Measure.SIGNAL) -> _Rows:
+    """Residual and slopes of an observation by x and by its free initial states."""
     reduction = own[0].reduction if own else None
     if reduction is None:
         return _Rows(one.residual(own, measure), one.channel_of_row)

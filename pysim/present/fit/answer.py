@@ -37,7 +37,7 @@ def text(result: Fitted) -> str:
     lines = [f"{fit.model}: {fit.objective}; {fit.optimiser}, {fit.iterations} points tried, {outcome_text(fit)}"]
     lines.append(f"residual over noise {fit.misfit:.4g} (1 is perfect); {gain_text(fit)}")
     lines.append(f"  {'parameter':<14}{'estimate':>12}  {'95 % from':>11} {'to':>11}  unit")
-    lines += [_row(estimate) for estimate in fit.estimates]
+    lines += [_row(estimate) for estimate in (*fit.estimates, *fit.initial)]
     lines += [f"  {c.name} = {c.value:.5g}, 95 % {c.interval[0]:.5g} to {c.interval[1]:.5g}" for c in fit.combinations]
     lines += [f"  {text}" for text in _left_over(fit)]
     warnings = fit_warnings(fit)
@@ -108,6 +108,7 @@ def _data(fit: Fit) -> dict[str, Any]:
             }
             for e in fit.estimates
         },
+        "initial_states": {e.name: _keys(e, "value", "unit", "std", "interval", "determined") for e in fit.initial},
         "undetermined": [{**_keys(d, "exponents", "spread"), "words": direction_words(d)} for d in fit.undetermined],
         "combinations": [_keys(c, "name", "exponents", "value", "interval") for c in fit.combinations],
         "records": [_record(record) for record in fit.records],

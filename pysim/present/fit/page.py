@@ -11,7 +11,7 @@ from pysim.present.notes import estimate_words, words
 from pysim.present.page import cell, heading, items, paragraph, pictures, table
 from pysim.present.page import page as whole_page
 from pysim.present.render import Drawing
-from pysim.types import Fit
+from pysim.types import Estimate, Fit
 
 
 def page(result: Fitted, drawings: Sequence[Drawing], redo: str) -> str:
@@ -27,7 +27,8 @@ def page(result: Fitted, drawings: Sequence[Drawing], redo: str) -> str:
     notes = [words(note) for note in fit.notes if note not in warnings]
     parts = [heading("Outcome"), items([*verdict, *notes])]
     parts += [heading("When not to trust it"), items(map(words, warnings))] if warnings else []
-    parts += [heading("Parameters"), _estimates(fit)]
+    parts += [heading("Parameters"), _estimates(fit.estimates, "Estimates with 95 percent intervals")]
+    parts += [_estimates(fit.initial, "States at the first sample of a log, estimated from it")] if fit.initial else []
     parts += [_combinations(fit)] if fit.combinations else []
     parts += [heading("What each record leaves over"), _records(fit)]
     parts += [_responses(fit, units)] if fit.responses else []
@@ -43,13 +44,13 @@ _METHOD = (
 )
 
 
-def _estimates(fit: Fit) -> str:
+def _estimates(estimates: Sequence[Estimate], caption: str) -> str:
     rows = []
-    for e in fit.estimates:
+    for e in estimates:
         numbers = (e.value, *e.interval, e.start, e.lower, e.upper)
         rows.append([e.name, e.unit, *(f"{v:.5g}" for v in numbers), estimate_words(e)])
     head = ["parameter", "unit", "estimate", "95 % from", "to", "start", "lower", "upper", ""]
-    return table("Estimates with 95 percent intervals", head, rows, words=[8])
+    return table(caption, head, rows, words=[8])
 
 
 def _combinations(fit: Fit) -> str:

@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 
 import pysim
+from pysim.identify import greybox
+from pysim.identify.greybox import Parameter, Treatment, problem
 from pysim.nouns.fit import Fit
 from pysim.nouns.model import Model
 from pysim.types import BadInput, Dataset, MeasuredRecord, MeasuredSignal, Record
@@ -43,7 +45,7 @@ def test_a_parameter_at_its_bound_is_said(mass: Model) -> None:
     assert "AT BOUND" in repr(found)
 
 
-def test_a_mass_that_is_let_go_is_fitted_and_its_held_out_log_too(mass: Model) -> None:
+def let_go() -> Dataset:
     """1 kg on 16 N/m with 0.4 N.s/m, let go 0.05 m away: a decay of 0.2/s around a swing of sqrt(15.96) rad/s."""
     rng, times = np.random.default_rng(2), np.arange(0, 6, 0.01)
     omega = np.sqrt(16 - 0.04)
@@ -57,16 +59,42 @@ def test_a_mass_that_is_let_go_is_fitted_and_its_held_out_log_too(mass: Model) -
         log = Record(times, np.column_stack([push, read]), ("F", "x"), ("N", "m"))
         records.append(MeasuredRecord(source, "step", use, log))
     signals = (MeasuredSignal("F", "input", "N", "", "F"), MeasuredSignal("x", "output", "m", "", "x", noise=2e-4))
-    data = Dataset("let go", "", "", signals, tuple(records))
+    return Dataset("let go", "", "", signals, tuple(records))
+
+
+def test_a_mass_that_is_let_go_is_fitted_and_its_held_out_log_too(mass: Model) -> None:
+    data = let_go()
     free = mass.set(m=1.0).free("d", "k")
     found = pysim.fit(free, data, initial="estimate")
     for name, true in (("d", 0.4), ("k", 16.0)):
         assert abs(found.values[name] - true) < 5 * found.found[name].std
+    for log, away in (("a.txt", 0.05), ("b.txt", -0.08)):
+        for name, true in ((f"x@{log}", away), (f"v@{log}", 0.0)):
+            low, high = found.intervals[name]
+            assert low < true < high, name
+            assert found.table.row(name)["start"] == 0.0
+    assert found.table.row("x@a.txt")["s.d."] < 2e-4 / 4  # of a single sample; 600 know it better
+    assert "x@a.txt" in repr(found)
     held = [row for row in found.signals if row["use"] == "validate"]
     assert held[0]["fit %"] > 95
     assert not any("rest" in text for text in found.warnings)
     at_rest = pysim.fit(free, data, initial="rest")
     assert any("does not begin at rest" in text for text in at_rest.warnings)
+
+
+def test_a_beginning_is_known_as_well_as_if_it_were_a_parameter(mass: Model) -> None:
+    """The states are eliminated from the fit; as two more parameters of the log they have the same doubt."""
+    data = let_go()
+    found = pysim.fit(mass.set(m=1.0).free("d", "k"), data, initial="estimate").found
+    states = [Parameter(name, 0.0, -1.0, 1.0, record="a.txt") for name in ("x", "v")]
+    explicit = problem(mass.compiled, [data], ["d", "k", *states], treatment=Treatment(rest=None), fixed={"m": 1.0})
+    best = greybox.fit(explicit)
+    x = explicit.space.to_search(np.array([best.values[key] for key in explicit.space.keys]))
+    jacobian = explicit.residuals().evaluate(explicit.model, explicit.space, x).jacobian
+    white = np.sqrt(np.diag(np.linalg.inv(jacobian.T @ jacobian))) * explicit.space.slope(x)
+    for name, std in zip(("x@a.txt", "v@a.txt"), white[2:], strict=True):
+        assert abs(found[name].value - best[name].value) < 0.1 * std
+        assert found[name].std == pytest.approx(std, rel=0.1)
 
 
 def test_what_stands_still_or_is_not_free_is_refused(mass: Model, data: Dataset) -> None:
