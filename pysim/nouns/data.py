@@ -247,10 +247,7 @@ class Data:
         Raises:
             BadInput: the folder holds something, or cannot be written.
         """
-        texts = [PurePosixPath(record.source).with_suffix(".txt").as_posix() for record in self.raw.records]
-        records = tuple(replace(r, source=text) for r, text in zip(self.raw.records, texts, strict=True))
-        raw = replace(self.raw, records=records)
-        return write_dataset(folder, raw, units=self.logged, steps=self.history, exact=True)
+        return write_dataset(folder, as_text(self.raw), units=self.logged, steps=self.history, exact=True)
 
     def _unit(self, signal: str) -> str:
         """In which people read a signal."""
@@ -344,6 +341,14 @@ def load(
         raise BadInput(f'which columns are {what}? Name them: {what}=["..."], as the headings have them')
     found = load_logs(source, inputs=inputs, outputs=outputs, **given)  # type: ignore[arg-type]
     return Data(found.dataset, found.dataset, (), found.units, found.units, found.remarks)
+
+
+def as_text(dataset: Dataset, kept: tuple[str, ...] = (".txt",)) -> Dataset:
+    """The same with names for files of text, of which these endings may stay."""
+    names = [PurePosixPath(record.source) for record in dataset.records]
+    texts = [name if name.suffix in kept else name.with_suffix(".txt") for name in names]
+    records = (replace(r, source=text.as_posix()) for r, text in zip(dataset.records, texts, strict=True))
+    return replace(dataset, records=tuple(records))
 
 
 def _describes_itself(source: Any) -> bool:

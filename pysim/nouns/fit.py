@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
+import json
 import math
+import shutil
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from pysim.nouns.common import Measured, dataset_of
+from pysim.nouns.common import Measured, dataset_of, libraries_of
 from pysim.nouns.model import Model
 from pysim.nouns.progress import Progress, showing
 from pysim.nouns.run import Run
 from pysim.nouns.table import MOST, Table, html_of
-from pysim.types import BadInput, Dataset, ProgressEvent, RecordFit
+from pysim.types import BadInput, Dataset, FitOutcome, ProgressEvent, RecordFit
 from pysim.types import Fit as Found
 
 if TYPE_CHECKING:
@@ -23,6 +25,7 @@ if TYPE_CHECKING:
     from pysim.workflow import Initial
 
 _CLOSE = 0.9  # correlation from which on a pair is printed
+_KEPT, _FMU, _DATA = "fit.json", "model.fmu", "data"  # of a fit that is saved
 
 
 def fit(
@@ -52,13 +55,27 @@ def fit(
         BadInput: nothing free, what does not fit together, or a model that cannot be simulated.
     """
     from pysim.identify.greybox import Effort
-    from pysim.workflow import fit_problem, fitted, reference_of
+    from pysim.workflow import fitted
 
-    dataset = dataset_of(data)
+    dataset, outputs = dataset_of(data), tuple(outputs)
+    problem = _problem(model, dataset, initial, outputs)
+    log = None if folder is None else Path(folder)
+    with showing(progress, f"fitting {model.name}") as say:
+
+        def heard(tried: Tried) -> None:
+            say(ProgressEvent(f"{tried.search}: point {tried.tried}, cost {tried.best:.6g}"))
+
+        effort = Effort(starts, seed, log=log, resume=log is not None)
+        return Fit(fitted(problem, effort=effort, progress=heard), model, dataset, problem, initial, outputs)
+
+
+def _problem(model: Model, dataset: Dataset, initial: Initial, outputs: tuple[str, ...]) -> Problem:
+    from pysim.workflow import fit_problem, reference_of
+
     free = model.free_names
     if not free:
         raise BadInput(f"fit: no parameter of {model.name} is free; name some: model.free('m', d=(20, 60))")
-    problem = fit_problem(
+    return fit_problem(
         model.compiled,
         [dataset],
         free=free,
@@ -69,14 +86,6 @@ def fit(
         reference_hz=reference_of(dataset.responses()),
         initial=initial,
     )
-    log = None if folder is None else Path(folder)
-    with showing(progress, f"fitting {model.name}") as say:
-
-        def heard(tried: Tried) -> None:
-            say(ProgressEvent(f"{tried.search}: point {tried.tried}, cost {tried.best:.6g}"))
-
-        effort = Effort(starts, seed, log=log, resume=log is not None)
-        return Fit(fitted(problem, effort=effort, progress=heard), model, dataset, problem, initial)
 
 
 @dataclass(frozen=True, repr=False)
@@ -88,7 +97,7 @@ class Fit:
         begun: the model as it was before.
         dataset: the measurements.
         problem: what was fitted, for profiles.
-        initial: as it was asked for.
+        initial, outputs: as asked for.
     """
 
     found: Found
@@ -96,6 +105,7 @@ class Fit:
     dataset: Dataset
     problem: Problem
     initial: Initial = None
+    outputs: tuple[str, ...] = ()
 
     @property
     def values(self) -> Mapping[str, float]:
@@ -197,7 +207,66 @@ class Fit:
             raise BadInput(f'plot: {what!r} is not known; write "log", "parameters" or "correlation"')
         return Comparison({"fitted": self.found.records}, self.dataset).plot(log)
 
-    def save(self, folder: Path | str) -> dict[str, Path]:
+    def save(self, folder: Path | str) -> Path:
+        """Keep the fit: measurements, FMU, what was asked and what was found. `Fit.load(folder)` gives it back.
+
+        Args:
+            folder: a new or empty one.
+        Returns:
+            the path of its fit.json.
+        """
+        from pysim.io import write_dataset, write_file
+        from pysim.nouns.data import as_text
+
+        place, begun = Path(folder), self.begun
+        write_dataset(place / _DATA, as_text(self.dataset, (".txt", ".csv")), exact=True)
+        shutil.copyfile(begun.base.path, place / _FMU)
+        asked = {
+            "libraries": [str(one) for one in begun.libraries],
+            "values": {**begun.values},
+            "chosen": begun.chosen,
+            "bounds": {**begun.bounds},
+            "held": sorted(begun.held),
+            "effects": [one.name for one in begun.effects_in],
+            "label": begun.label,
+            "initial": self.initial if isinstance(self.initial, str | None) else {**self.initial},
+            "outputs": self.outputs,
+            "found": {one.name: one.value for one in self.found.estimates},
+            "outcome": self.found.outcome.value,
+            "search": {name: getattr(self.found, name) for name in ("message", "iterations", "start_cost")},
+        }
+        write_file(place / _KEPT, json.dumps(asked, indent=1))
+        return place / _KEPT
+
+    @classmethod
+    def load(cls, folder: Path | str) -> Fit:
+        """A fit that was saved. The model is simulated once more at what was found, which gives all the rest.
+
+        Raises:
+            BadInput: no fit was saved there, or a library of its model is not there any more.
+        """
+        from pysim.io import read_model
+        from pysim.workflow import fitted_at
+
+        place = Path(folder)
+        if not (place / _KEPT).is_file():
+            raise BadInput(f"{place} holds no {_KEPT}; name the folder that fit.save(...) wrote")
+        asked = json.loads((place / _KEPT).read_text(encoding="utf-8"))
+        plain = Model(read_model(place / _FMU), libraries_of(asked["libraries"]))
+        begun = replace(
+            plain.with_effects(*asked["effects"]) if asked["effects"] else plain,
+            values=asked["values"],
+            chosen=tuple(asked["chosen"]),
+            bounds={name: (low, high) for name, (low, high) in asked["bounds"].items()},
+            held=frozenset(asked["held"]),
+            label=asked["label"],
+        )
+        dataset, initial, outputs = dataset_of(place / _DATA), asked["initial"], tuple(asked["outputs"])
+        problem = _problem(begun, dataset, initial, outputs)
+        found = replace(fitted_at(problem, asked["found"]), outcome=FitOutcome(asked["outcome"]), **asked["search"])
+        return cls(found, begun, dataset, problem, initial, outputs)
+
+    def report(self, folder: Path | str) -> dict[str, Path]:
         """Write report.html, its pictures and parameters.toml; name -> path."""
         from pysim.present import write_report
 

@@ -6,7 +6,9 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
+from numpy.typing import NDArray
 
+from pysim.diagnosis import Settings
 from pysim.diagnosis.adequacy import shortcomings
 from pysim.identify.greybox import (
     NOISE,
@@ -20,15 +22,16 @@ from pysim.identify.greybox import (
     Treatment,
     Tried,
     fit,
+    fit_at,
     problem,
 )
 from pysim.identify.greybox.optimiser import Optimiser
 from pysim.io import in_model_units
-from pysim.types import BadInput, Dataset, Fit, FitOutcome, Model, Record
+from pysim.simulate import simulate_many
+from pysim.types import BadInput, Dataset, Fit, FitOutcome, Model, Outcome, Record
 from pysim.types.dataset import INITIAL
 from pysim.workflow.free import Bounds, free_parameters
 
-_REFINED = 2  # times that the integration is made ten times as fine
 Initial = str | Mapping[str, float] | None  # "rest", "estimate", state -> value, or None as the data say
 
 
@@ -94,7 +97,7 @@ def fitted(
     effort: Effort | None = None,
     progress: Callable[[Tried], None] | None = None,
 ) -> Fit:
-    """The fit of a problem; where its search ends among the errors of the integration, it goes on with a finer one.
+    """The fit of a problem; where errors of the integration count, or stopped the search, it goes on with a finer one.
 
     Args:
         problem, objective, optimiser, simulation, effort, progress: as of `pysim.identify.greybox.fit`.
@@ -105,19 +108,50 @@ def fitted(
     found = fit(
         problem, objective=objective, optimiser=optimiser, simulation=simulation, effort=effort, progress=progress
     )
-    for _ in range(_REFINED):
-        if found.outcome is not FitOutcome.STALLED:
+    settings = Settings()
+    for _ in range(settings.refinements):
+        finer, space = simulation.finer(), problem.space
+        if found.outcome is not FitOutcome.STALLED and _error(found, problem.model, finer) < settings.fine:
             break
-        simulation, space = simulation.finer(), problem.space
+        simulation = finer
         here = np.array([found[key].value for key in space.keys])
         problem = replace(problem, space=replace(space, start=here))
-        only = Effort(nominal=False)  # from where it is; what an earlier log holds is of the rougher integration
+        only = Effort(nominal=False, rough=False)  # an earlier log is of the rougher integration
         again = fit(problem, objective=objective, optimiser=optimiser, simulation=simulation, effort=only,
                     progress=progress)  # fmt: skip
         begun = {one.name: one.start for one in found.estimates}
         estimates = tuple(replace(one, start=begun[one.name]) for one in again.estimates)
         found = replace(again, estimates=estimates, starts=found.starts, iterations=found.iterations + again.iterations)
     return found
+
+
+def fitted_at(problem: Problem, values: Mapping[str, float]) -> Fit:
+    """The fit that ended at these values, by the rough integration whose errors do not count there.
+
+    Raises:
+        BadInput: the model cannot be simulated there.
+    """
+    simulation, settings = Simulation(), Settings()
+    found = fit_at(problem, values, simulation)
+    for _ in range(settings.refinements):
+        simulation = simulation.finer()
+        if _error(found, problem.model, simulation) < settings.fine:
+            break
+        found = fit_at(problem, values, simulation)
+    return found
+
+
+def _error(found: Fit, model: Model, finer: Simulation) -> float:
+    """Root-mean-square change of the fitted logs over their noise where the integration is finer; 0 without logs."""
+    logs = [one for one in found.records if not one.harmonics]
+    if len(logs) != len(found.experiments):
+        return 0.0  # some could not be simulated, which is said
+    squares: list[NDArray[np.float64]] = []
+    runs = simulate_many(model, list(found.experiments), solver=finer.solver)
+    for log, run in zip(logs, runs, strict=True):
+        if run.outcome is Outcome.DONE and not log.held_out:
+            squares.append(np.ravel((run.values - log.simulated.values) / np.array(log.noise)) ** 2)
+    return float(np.sqrt(np.mean(np.concatenate(squares)))) if squares else 0.0
 
 
 def beginning(dataset: Dataset, initial: str | None) -> Dataset:

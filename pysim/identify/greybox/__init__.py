@@ -1,6 +1,6 @@
 """Grey-box fitting: the parameters of a model from measurements, with their intervals (thesis Sections 2.6 and 4.4)."""
 
-from pysim.identify.greybox.fit import Effort, fit
+from pysim.identify.greybox.fit import Effort, fit, fit_at
 from pysim.identify.greybox.interior_point import InteriorPoint
 from pysim.identify.greybox.least_squares import GaussNewton
 from pysim.identify.greybox.nuisance import Nuisance, NuisanceKind
@@ -49,6 +49,7 @@ __all__ = [
     "Tried",
     "WeightedResiduals",
     "fit",
+    "fit_at",
     "fit_warnings",
     "problem",
     "profile",

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pysim.identify.greybox.checkpoint import Checkpoint, digest
-from pysim.identify.greybox.comparison import Compared, compared, with_noise
+from pysim.identify.greybox.comparison import Compared, compared, settled_initial_states, with_noise
 from pysim.identify.greybox.initial_states import initial_states
 from pysim.identify.greybox.interior_point import InteriorPoint
 from pysim.identify.greybox.least_squares import GaussNewton, blur_of
@@ -48,6 +48,7 @@ class Effort:
         seed: of the draw.
         nominal: search from the model's own values too, where the given start is another. A fit that starts from a
             bent optimum may never leave it; leave this out only where the start is trusted.
+        rough: begin with rough simulations; leave this out where their errors are known to count.
         log: folder for a log per search; None keeps none.
         resume: go on where the log of a killed fit ends; it has to be one of the same problem, to the last bit.
     """
@@ -55,6 +56,7 @@ class Effort:
     starts: int = 0
     seed: int | None = None
     nominal: bool = True
+    rough: bool = True
     log: Path | None = None
     resume: bool = False
 
@@ -115,6 +117,21 @@ def fit(
     return _result(problem, objective, optimiser, simulation, states, state, begun)
 
 
+def fit_at(problem: Problem, values: Mapping[str, float], simulation: Simulation | None = None) -> Fit:
+    """The fit whose search ended at these values of what is free: all that follows from them, and nothing is searched.
+
+    Raises:
+        BadInput: the model cannot be simulated there.
+    """
+    simulation = simulation or Simulation()
+    x = problem.space.to_search(np.array([values[key] for key in problem.space.keys]))
+    point = settled_initial_states(problem.residuals(NOISE, simulation), problem.model, problem.space, x)
+    if not point.good:
+        raise BadInput(f"fit: the model could not be simulated where it ended ({point.failure}); fit it again")
+    state = State(point, first_cost=point.cost, memory={"turned": 1.0}, outcome=FitOutcome.CONVERGED)
+    return _result(problem, NOISE, GaussNewton(), simulation, {"end": state}, state, {"end": x})
+
+
 def _forget_earlier(effort: Effort, begun: Mapping[str, Array]) -> None:
     """A fit that begins anew and is killed is not to meet, in searches it never came to, what an earlier one left."""
     if effort.log is None or effort.resume:
@@ -139,7 +156,7 @@ def _searched(
     progress: Progress | None,
 ) -> Mapping[str, State]:
     """A rough search from every start, one after the other: each uses all cores itself."""
-    rough = optimiser.rough()
+    rough = optimiser.rough() if effort.rough else None
     if rough is not None:
         optimiser, simulation = rough, simulation.rough()
     return {
@@ -171,7 +188,7 @@ def _polished(
     progress: Progress | None,
 ) -> State:
     """The end of a rough search, gone on with by fine simulations from where its next step leads."""
-    if optimiser.rough() is None:
+    if optimiser.rough() is None or not effort.rough:
         return best
     optimiser, simulation = optimiser.finer(best), simulation.searching()
     residuals, bounds = problem.residuals(objective, simulation), Bounds(*problem.space.bounds())

@@ -38,6 +38,16 @@ def test_a_fit_of_the_right_model_is_trusted(mass: Model) -> None:
     assert found.model.values == pytest.approx(found.values)
 
 
+def test_errors_of_the_integration_do_not_pass_for_missing_physics(mass: Model) -> None:
+    """A step across a sharp friction is wrong by as much as the noise at the tolerance that a fit begins with."""
+    complete = measured(1, "toy.friction", F_c=0.4)
+    found = pysim.fit(mass.free("m", "d", "k").with_effects("toy.friction").set(k=20.5), complete)
+    assert found.ok, found.warnings
+    for name, true in {**TRUE, "force.F_c": 0.4}.items():
+        assert abs(found.values[name] - true) < 4 * found.found[name].std, name
+    assert found.signals["x noise"] == pytest.approx([1.0, 1.0], abs=0.06)
+
+
 def test_a_parameter_at_its_bound_is_said(mass: Model) -> None:
     found = pysim.fit(mass.free("d", "k", m=(0.5, 0.9)).set(m=0.8), measured(3, "toy.friction", F_c=0.0))
     assert found.table.row("m")["remark"] == "AT BOUND"
@@ -104,15 +114,38 @@ def test_what_stands_still_or_is_not_free_is_refused(mass: Model, data: Dataset)
         pysim.fit(mass, data, initial="resting")
 
 
-def test_it_draws_and_is_saved(fitted: Fit, tmp_path: Path) -> None:
+def test_it_draws_and_is_reported(fitted: Fit, tmp_path: Path) -> None:
     assert len(fitted.plot().axes) == 2
     assert fitted.plot("parameters").axes
     assert fitted.plot("correlation").axes
     with pytest.raises(BadInput, match="not known"):
         fitted.plot("bode")
-    files = fitted.save(tmp_path / "fit")
+    files = fitted.report(tmp_path / "fit")
     assert "When not to trust it" in files["report"].read_text(encoding="utf-8")
     assert "poor" in fitted.summary()
+
+
+def test_a_fit_that_was_saved_is_the_same_again(mass: Model, tmp_path: Path) -> None:
+    wanted = mass.set(k=20.5).free("d", "k", m=(0.6, 4)).with_effects("toy.friction")
+    for name, found in (
+        ("added", pysim.fit(wanted, measured(1, "toy.friction", F_c=0.4), outputs=["x"])),
+        ("let go", pysim.fit(mass.set(m=1.0).free("d", "k"), let_go(), initial="estimate")),
+    ):
+        found.save(tmp_path / name)
+        again = Fit.load(tmp_path / name)
+        assert (again.model.name, again.model.free_names) == (found.model.name, found.model.free_names)
+        assert dict(again.begun.bounds) == dict(found.begun.bounds)
+        assert again.table["start"] == pytest.approx(found.table["start"], abs=1e-9)
+        assert found.ok, found.warnings
+        for one in (*found.found.estimates, *found.found.initial):
+            assert again.found[one.name].value == pytest.approx(one.value, abs=1e-3 * one.std)
+            assert again.found[one.name].std == pytest.approx(one.std, rel=0.01)
+        assert again.signals["x noise"] == pytest.approx(found.signals["x noise"], rel=1e-3)
+        assert again.warnings == found.warnings
+    with pytest.raises(BadInput, match="holds files already"):
+        found.save(tmp_path / "added")
+    with pytest.raises(BadInput, match=r"fit\.save"):
+        Fit.load(tmp_path)
 
 
 def test_progress_goes_to_who_asked_for_it(mass: Model, caplog: pytest.LogCaptureFixture) -> None:
