@@ -90,6 +90,7 @@ def session(
     *,
     free: Sequence[str] | None = None,
     bounds: Mapping[str, tuple[float, float]] | None = None,
+    priors: Mapping[str, tuple[float, float]] | None = None,
     overrides: Mapping[str, float] | None = None,
     slots: Sequence[Slot] = (),
     rest: Rest | None = None,
@@ -105,6 +106,7 @@ def session(
     Args:
         free: parameters that may be refitted; all that the model gives min, max and nominal where None.
         bounds: free parameter -> lower and upper bound in its unit, in place of the model's min and max.
+        priors: free parameter -> mean and standard deviation of what is known of it beforehand, in its unit.
         overrides: parameters of the model that differ in these tests.
         rest: how the model comes to rest ahead of a log.
         reference_hz: whose gain counts as 0 dB in measured responses (Eq. 2.12); None takes gains as they are.
@@ -116,10 +118,11 @@ def session(
             measurements that cannot carry a diagnosis.
     """
     names = identifiable(model) if free is None else tuple(free)
-    for name in bounds or {}:
+    bounds, priors = bounds or {}, priors or {}
+    for name in bounds:
         if name not in names:
             raise BadInput(f"{name} has bounds but is not free; free are {', '.join(names) or 'none'}")
-    parameters = tuple(Parameter(name, None, *(bounds or {}).get(name, (None, None))) for name in names)
+    parameters = tuple(Parameter(n, None, *bounds.get(n, (None, None)), prior=priors.get(n)) for n in names)
     read, unseen = _withheld(dataset)
     given = Session(
         model,

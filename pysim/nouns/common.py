@@ -41,7 +41,10 @@ def dataset_of(data: Measured) -> Dataset:
         return held
     if isinstance(held, str | Path):
         return data_of(held)
-    raise BadInput(f"data: {type(data).__name__} holds no measurements; give what pysim.load(...) returns, or a folder")
+    raise BadInput(
+        f"data: {type(data).__name__} holds no measurements; give what pysim.load(...) returns, or a folder",
+        argument="data",
+    )
 
 
 def libraries_of(library: Path | str | Sequence[Path | str]) -> tuple[Path, ...]:
@@ -50,7 +53,9 @@ def libraries_of(library: Path | str | Sequence[Path | str]) -> tuple[Path, ...]
     found = tuple(Path(one).absolute() for one in places)
     for place in found:
         if not place.exists():
-            raise BadInput(f"library {place} is not there; name the folder with its package.mo, or a .mo file")
+            raise BadInput(
+                f"library {place} is not there; name the folder with its package.mo, or a .mo file", argument="library"
+            )
     return found
 
 
@@ -81,5 +86,7 @@ def signal_of(value: Input, stop: float, name: str) -> Signal:
         if rows.ndim == 1:
             return Signal.lines(np.linspace(0.0, stop, rows.size), rows)
     except (TypeError, ValueError) as error:
-        raise BadInput(f"input {name}: {error}") from error
-    raise BadInput(f"input {name}: got {type(value).__name__}; give a number, pairs, a row of values, or a function")
+        raise BadInput(f"input {name}: {error}", argument=name) from error
+    raise BadInput(
+        f"input {name}: got {type(value).__name__}; give a number, pairs, a row of values, or a function", argument=name
+    )

@@ -41,7 +41,9 @@ def compare(*given: Any, initial: Initial = None, criteria: Criteria = None, pro
     """
     *models, data = given
     if not models or not all(isinstance(one, Model) for one in models):
-        raise BadInput("compare: give one model or several, as pysim.model makes them, then the measurements")
+        raise BadInput(
+            "compare: give one model or several, as pysim.model makes them, then the measurements", argument="given"
+        )
     dataset = dataset_of(data)
     names = _names(models)
     records: dict[str, tuple[RecordFit, ...]] = {}
@@ -120,12 +122,16 @@ class Comparison:
             return {}
         if isinstance(self.criteria, str):
             if self.criteria != "thesis":
-                raise BadInput(f'criteria = {self.criteria!r} is not known; write "thesis", or column: limit')
+                raise BadInput(
+                    f'criteria = {self.criteria!r} is not known; write "thesis", or column: limit', argument="criteria"
+                )
             return {one.symbol: one.limit for one in _thesis(self.records)}
         known = [*_AT_LEAST, "rms", "x noise"]
         for name in self.criteria:
             if name not in known:
-                raise BadInput(f"criteria: there is no column {name!r}; limits are for {', '.join(known)}")
+                raise BadInput(
+                    f"criteria: there is no column {name!r}; limits are for {', '.join(known)}", argument="criteria"
+                )
         return self.criteria
 
     @property
@@ -158,7 +164,9 @@ class Comparison:
         if log:
             named = [one for one in first if log in (one.source, _stem(one.source))]
             if not named:
-                raise BadInput(f"no log {log!r} was compared; there are {', '.join(one.source for one in first)}")
+                raise BadInput(
+                    f"no log {log!r} was compared; there are {', '.join(one.source for one in first)}", argument="log"
+                )
             return named[0].index
         if not first:
             raise BadInput("nothing to draw: no log over time was compared")

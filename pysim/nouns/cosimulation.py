@@ -54,7 +54,10 @@ def cosimulate(
     from pysim.cosim import cosimulate as stepped
 
     if not dt > 0 or not stop >= dt:
-        raise BadInput(f"cosimulate: dt = {dt:g} s and stop = {stop:g} s; give a stop of at least one dt, above zero")
+        raise BadInput(
+            f"cosimulate: dt = {dt:g} s and stop = {stop:g} s; give a stop of at least one dt, above zero",
+            argument="stop",
+        )
     pairs = [(a, one) for a, b in wires.items() for one in ([b] if isinstance(b, str) else b)]
     driven = {name: signal_of(value, stop, name) for name, value in (inputs or {}).items()}
     targets = {*(target for _, target in pairs), *driven}

@@ -338,7 +338,7 @@ def load(
         return data.after(*described.steps)
     if not inputs or not outputs:
         what = "inputs" if not inputs else "outputs"
-        raise BadInput(f'which columns are {what}? Name them: {what}=["..."], as the headings have them')
+        raise BadInput(f'which columns are {what}? Name them: {what}=["..."], as the headings have them', argument=what)
     found = load_logs(source, inputs=inputs, outputs=outputs, **given)  # type: ignore[arg-type]
     return Data(found.dataset, found.dataset, (), found.units, found.units, found.remarks)
 

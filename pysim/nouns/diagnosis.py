@@ -99,12 +99,18 @@ def subject_of(subject: Subject, data: Measured | None, initial: Initial) -> tup
         initial = subject.initial if initial is None else initial
     elif isinstance(subject, Model):
         if data is None:
-            raise BadInput("a model alone has no measurements; write diagnose(model, data), or diagnose(fit)")
+            raise BadInput(
+                "a model alone has no measurements; write diagnose(model, data), or diagnose(fit)", argument="data"
+            )
         model, dataset = subject, dataset_of(data)
     else:
-        raise BadInput(f"{type(subject).__name__} is no model; give what pysim.model or pysim.fit returns")
+        raise BadInput(
+            f"{type(subject).__name__} is no model; give what pysim.model or pysim.fit returns", argument="subject"
+        )
     if initial is not None and not isinstance(initial, str):
-        raise BadInput('initial: a diagnosis takes "rest" or "estimate"; numbers for states are for fit alone')
+        raise BadInput(
+            'initial: a diagnosis takes "rest" or "estimate"; numbers for states are for fit alone', argument="initial"
+        )
     return model, dataset, initial
 
 
@@ -119,6 +125,7 @@ def parts_of(model: Model, dataset: Dataset, initial: str | None, effects: Seque
         libraries=model.libraries,
         free=free,
         bounds={name: pair for name, pair in model.bounds.items() if name in free},
+        priors={name: known for name, known in model.priors.items() if name in free},
         values=model.values,
         effects=effects,
         reference_hz=reference_of(dataset.responses()),

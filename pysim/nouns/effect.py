@@ -172,9 +172,11 @@ def _slot(at: str, model: Model | None) -> tuple[Slot, tuple[Path, ...]]:
     if not found:
         names = sorted({slot.name for one in opened for slot in one.inside.slots})
         cure = f"they have {', '.join(names)}" if names else "open one ahead: pysim.model(...)"
-        raise BadInput(f"effect: no model that was opened has a slot {at!r}; {cure}")
+        raise BadInput(f"effect: no model that was opened has a slot {at!r}; {cure}", argument="at")
     if len(found) > 1:
-        raise BadInput(f"effect: models that were opened have different slots {at!r}; say which: model=...")
+        raise BadInput(
+            f"effect: models that were opened have different slots {at!r}; say which: model=...", argument="model"
+        )
     return next(iter(found.values()))
 
 
@@ -183,9 +185,12 @@ def _range(key: str, given: Range) -> tuple[float, float, float, str]:
         low, high, usual, unit = given
         low, high, usual = float(low), float(high), float(usual)
     except (TypeError, ValueError):
-        raise BadInput(f"effect: {key} = {given!r}; write {key}=(lowest, highest, usual, unit)") from None
+        raise BadInput(f"effect: {key} = {given!r}; write {key}=(lowest, highest, usual, unit)", argument=key) from None
     if not low <= usual <= high or not low < high:
-        raise BadInput(f"effect: {key} is usually {usual:g}, outside {low:g} to {high:g}; give lowest, highest, usual")
+        raise BadInput(
+            f"effect: {key} is usually {usual:g}, outside {low:g} to {high:g}; give lowest, highest, usual",
+            argument=key,
+        )
     return low, high, usual, str(unit)
 
 

@@ -28,7 +28,7 @@ def example(name: str) -> Any:
         BadInput: there is no example of that name.
     """
     if name != "pump":
-        raise BadInput(f'example: there is no {name!r}; write "pump"')
+        raise BadInput(f'example: there is no {name!r}; write "pump"', argument="name")
     from pysim.io import cache_folder, write_dataset
     from pysim.nouns.data import load
 

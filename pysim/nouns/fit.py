@@ -80,6 +80,7 @@ def _problem(model: Model, dataset: Dataset, initial: Initial, outputs: tuple[st
         [dataset],
         free=free,
         bounds={name: pair for name, pair in model.bounds.items() if name in free},
+        priors={name: known for name, known in model.priors.items() if name in free},
         values=model.values,
         starts={name: value for name, value in model.usual().items() if name in free},
         outputs=outputs,
@@ -226,6 +227,7 @@ class Fit:
             "values": {**begun.values},
             "chosen": begun.chosen,
             "bounds": {**begun.bounds},
+            "priors": {**begun.priors},
             "held": sorted(begun.held),
             "effects": [one.name for one in begun.effects_in],
             "label": begun.label,
@@ -258,6 +260,7 @@ class Fit:
             values=asked["values"],
             chosen=tuple(asked["chosen"]),
             bounds={name: (low, high) for name, (low, high) in asked["bounds"].items()},
+            priors={name: (mean, sd) for name, (mean, sd) in asked["priors"].items()},
             held=frozenset(asked["held"]),
             label=asked["label"],
         )

@@ -60,7 +60,7 @@ def model(name: Path | str | Compiled, *, library: Path | str | Sequence[Path | 
     if text.lower().endswith(".mo"):
         file = Path(text).absolute()
         if not file.is_file():
-            raise BadInput(f"model {text}: there is no such file; name a .mo file, an .fmu or a class")
+            raise BadInput(f"model {text}: there is no such file; name a .mo file, an .fmu or a class", argument="name")
         return _opened(Model(model_of(class_in(file), [*places, file]), (*places, file)))
     return _opened(Model(model_of(text, places), places))
 
@@ -81,6 +81,7 @@ class Model:
         values: parameters that differ from the model's own, in their units.
         chosen: parameters to refit; where none is named, all to which the model gives min, max and nominal.
         bounds: parameter -> lower and upper bound, in place of the model's.
+        priors: parameter -> mean and standard deviation of what is known of it beforehand.
         held: parameters that are not refitted.
         effects_in: that were added.
         candidates: effects of the user's own that a diagnosis considers too.
@@ -92,13 +93,14 @@ class Model:
     values: Mapping[str, float] = field(default_factory=dict)
     chosen: tuple[str, ...] = ()
     bounds: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    priors: Mapping[str, tuple[float, float]] = field(default_factory=dict)
     held: frozenset[str] = frozenset()
     effects_in: tuple[Effect, ...] = ()
     candidates: tuple[Effect, ...] = ()
     label: str = ""
 
     def __post_init__(self) -> None:
-        for name in ("values", "bounds"):
+        for name in ("values", "bounds", "priors"):
             object.__setattr__(self, name, FrozenMapping(getattr(self, name)))
 
     # --- what it is --------------------------------------------------------------------------------------------------
@@ -217,24 +219,33 @@ class Model:
         held = self.held | {name for name in values if name not in self.chosen}
         return replace(self, values={**self.values, **values}, held=held)
 
-    def free(self, *names: str, **bounds: tuple[float, float]) -> Model:
+    def free(
+        self, *names: str, prior: Mapping[str, tuple[float, float]] | None = None, **bounds: tuple[float, float]
+    ) -> Model:
         """Let a fit change these parameters and no others, those of an earlier call besides.
 
         Args:
             names: with the model's own bounds.
+            prior: parameter -> (mean, standard deviation) of what is known of it beforehand, in its unit; it counts as
+                one more measurement. It frees the parameter too.
             bounds: parameter = (lowest, highest), in its unit.
         Raises:
             BadInput: no such parameter, or bounds that are not two increasing numbers.
         """
+        prior = prior or {}
+        names = (*names, *prior)
         for name in (*names, *bounds):
             self._settable(name)
         checked = {}
         for name, pair in bounds.items():
             if not (isinstance(pair, tuple | list) and len(pair) == 2 and pair[0] < pair[1]):
-                raise BadInput(f"free: the bounds of {name} are {pair!r}; write {name}=(lowest, highest)")
+                raise BadInput(
+                    f"free: the bounds of {name} are {pair!r}; write {name}=(lowest, highest)", argument=name
+                )
             checked[name] = (float(pair[0]), float(pair[1]))
         chosen = tuple(dict.fromkeys([*self.chosen, *names, *bounds]))
-        return replace(self, chosen=chosen, bounds={**self.bounds, **checked}, held=self.held - {*names, *bounds})
+        grown = replace(self, bounds={**self.bounds, **checked}, priors={**self.priors, **prior})
+        return replace(grown, chosen=chosen, held=self.held - {*names, *bounds})
 
     def fix(self, *names: str, **values: float) -> Model:
         """Let a fit leave these parameters where they are, or at these values."""
@@ -316,7 +327,9 @@ class Model:
         else:
             stop = float(what if what is not None else model.stop_time or 1.0)
             if not 0 < stop < np.inf or not 0 < (dt or stop) <= stop:
-                raise BadInput(f"simulate: the run ends at {stop:g} s in steps of {dt} s; give times above zero")
+                raise BadInput(
+                    f"simulate: the run ends at {stop:g} s in steps of {dt} s; give times above zero", argument="what"
+                )
             times, start = np.linspace(0.0, stop, max(2, round(stop / (dt or stop / _ROWS)) + 1)), 0.0
         for name, value in inputs.items():
             drives[model[name].name] = signal_of(value, float(times[-1]), name)
@@ -369,7 +382,10 @@ class Model:
         files = [e.file for e in listed if not isinstance(e, str) and e.file not in self.libraries]
         wider = replace(self, libraries=(*self.libraries, *files)) if files else self
         if not wider.inside.class_name:
-            raise BadInput(f"nothing can be added to {self.name}: its class is in no library; name it with library=")
+            raise BadInput(
+                f"nothing can be added to {self.name}: its class is in no library; name it with library=",
+                argument="library",
+            )
         from pysim.workflow.session import named
 
         return wider, list(named([e if isinstance(e, str) else e.name for e in listed], wider.inside))

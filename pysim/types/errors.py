@@ -1,5 +1,24 @@
 """The user's mistake, as a type."""
 
+_RED, _PLAIN = "\x1b[31m", "\x1b[0m"
+
 
 class BadInput(ValueError):
-    """The caller asked for something that cannot be: one sentence with what, where and the cure."""
+    """The caller asked for something that cannot be: one sentence with what and where; behind a semicolon the cure.
+
+    Args:
+        argument: of the function that was called, which has to change; "" where that is not known.
+    """
+
+    def __init__(self, sentence: str = "", *, argument: str = "") -> None:
+        super().__init__(sentence)
+        self.argument = argument
+
+    @property
+    def cure(self) -> str:
+        """What to do about it, for whoever shows it apart from the rest; "" where the sentence has none."""
+        return str(self).rpartition("; ")[2] if "; " in str(self) else ""
+
+    def _render_traceback_(self) -> list[str]:
+        """What a notebook shows: the sentence, and no frames of ours, as the mistake is in the cell."""
+        return [f"{_RED}{self}{_PLAIN}"]

@@ -41,6 +41,7 @@ def fit_problem(
     *,
     free: Sequence[str] = (),
     bounds: Bounds | None = None,
+    priors: Bounds | None = None,
     values: Mapping[str, float] | None = None,
     fixed: Mapping[str, float] | None = None,
     starts: Mapping[str, float] | None = None,
@@ -55,6 +56,7 @@ def fit_problem(
     Args:
         free: parameters to fit; all to which the model gives min, max and nominal and that are not set by default.
         bounds: parameter -> lower and upper bound in its unit, in place of the model's; frees it too.
+        priors: fitted parameter -> mean and standard deviation of what is known of it beforehand, in its unit.
         values: of parameters, in their units: where those that are fitted begin, and what all others are.
         fixed: of parameters that are not fitted; wins over `values`.
         starts: of parameters that are fitted; wins over `values`.
@@ -84,7 +86,8 @@ def fit_problem(
     if not nothing_free:
         _refuse_still(datasets)
     data = [Measurements(in_model_units(one, model), outputs=tuple(outputs) or None) for one in datasets]
-    parameters = [Parameter(name, begin.get(name), *bounds.get(name, (None, None))) for name in names]
+    known = priors or {}
+    parameters = [Parameter(n, begin.get(n), *bounds.get(n, (None, None)), prior=known.get(n)) for n in names]
     return problem(model, data, parameters, fixed=rest, ties=ties, treatment=treatment)
 
 
@@ -163,7 +166,10 @@ def beginning(dataset: Dataset, initial: str | None) -> Dataset:
     if initial is None:
         return dataset
     if initial not in INITIAL:
-        raise BadInput(f"initial = {initial!r} is not known; write {' or '.join(map(repr, INITIAL))}, or state: value")
+        raise BadInput(
+            f"initial = {initial!r} is not known; write {' or '.join(map(repr, INITIAL))}, or state: value",
+            argument="initial",
+        )
     records = (replace(one, initial=initial) if isinstance(one.data, Record) else one for one in dataset.records)
     return replace(dataset, records=tuple(records))
 
@@ -172,7 +178,10 @@ def _states(model: Model, initial: Mapping[str, float]) -> dict[str, float]:
     states = model.abilities.states
     for name in initial:
         if name not in states:
-            raise BadInput(f"initial: {name} is no state of {model.label}; its states: {', '.join(states) or 'none'}")
+            raise BadInput(
+                f"initial: {name} is no state of {model.label}; its states: {', '.join(states) or 'none'}",
+                argument="initial",
+            )
     return dict(initial)
 
 

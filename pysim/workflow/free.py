@@ -8,7 +8,7 @@ from dataclasses import replace
 
 from pysim.types import BadInput, Model
 
-Bounds = Mapping[str, tuple[float, float]]
+Bounds = Mapping[str, tuple[float, float]]  # parameter -> lowest and highest; of what is known, mean and s.d.
 
 
 def free_parameters(model: Model, named: Sequence[str], bounds: Bounds, values: Mapping[str, float]) -> tuple[str, ...]:

@@ -30,6 +30,7 @@ class SessionParts:
         variants: builds models with effects; None where the model's class is in no library.
         free: parameters that may be refitted.
         bounds: free parameter -> lower and upper bound in its unit, where they are not the model's.
+        priors: free parameter -> mean and standard deviation of what is known of it beforehand, in its unit.
         overrides: parameters that keep the value they were set to, in their units.
         reference_hz: whose gain counts as 0 dB in responses; None for absolute gains.
         libraries: the user's own, beside the one that comes along.
@@ -43,6 +44,7 @@ class SessionParts:
     variants: Variants | None
     free: tuple[str, ...]
     bounds: Bounds
+    priors: Bounds
     overrides: Mapping[str, float]
     reference_hz: float | None
     libraries: tuple[Path, ...]
@@ -105,6 +107,7 @@ def session_parts(
     libraries: Sequence[Path | str] = (),
     free: Sequence[str] = (),
     bounds: Bounds,
+    priors: Bounds | None = None,
     values: Mapping[str, float],
     effects: Sequence[str] = (),
     reference_hz: float | None,
@@ -138,7 +141,18 @@ def session_parts(
     variants = Variants(known.class_name, tuple(with_standard(libraries))) if known.class_name else None
     places = tuple(Path(one) for one in libraries)
     return SessionParts(
-        model, dataset, known, catalogue, variants, chosen, bounds, overrides, reference_hz, places, tuple(notes)
+        model,
+        dataset,
+        known,
+        catalogue,
+        variants,
+        chosen,
+        bounds,
+        priors or {},
+        overrides,
+        reference_hz,
+        places,
+        tuple(notes),
     )
 
 
@@ -155,6 +169,7 @@ def session_of(parts: SessionParts, settings: Settings | None = None) -> Session
         parts.variants.build if parts.variants else None,
         free=parts.free,
         bounds=parts.bounds,
+        priors=parts.priors,
         overrides=parts.overrides,
         slots=parts.inside.slots,
         reference_hz=parts.reference_hz,

@@ -15,7 +15,7 @@ from pysim.diagnosis.learn.screening import LawModel, Ranked
 from pysim.diagnosis.refit import Evaluate, FinalFit, advance, exact
 from pysim.identify.greybox import GaussNewton, Point, Simulation
 from pysim.identify.greybox.optimiser import Bounds, State
-from pysim.identify.greybox.residuals import Carried
+from pysim.identify.greybox.residuals import Carried, with_rows
 from pysim.types import Estimate, FitOutcome
 
 Array = NDArray[np.float64]
@@ -91,15 +91,7 @@ def penalised(evaluate: Evaluate, smoothness: Smoothness) -> Evaluate:
         if not point.good:
             return point
         own = rows @ x[-rows.shape[1] :]
-        slopes = np.hstack([np.zeros((len(rows), x.size - rows.shape[1])), rows])
-        return replace(
-            point,
-            cost=point.cost + 0.5 * float(own @ own),
-            residual=np.append(point.residual, own),
-            jacobian=np.vstack([point.jacobian, slopes]),
-            blocks=np.append(point.blocks, np.zeros(len(rows), dtype=np.intp)),
-            series=np.append(point.series, np.full(len(rows), -1, dtype=np.intp)),
-        )
+        return with_rows(point, own, np.hstack([np.zeros((len(rows), x.size - rows.shape[1])), rows]), 0)
 
     return evaluated
 

@@ -363,11 +363,11 @@ def _at_levels(
         last = optimiser.propose(state, Bounds(*space.bounds()))
         carried = best.carried_to(last.x, last.share)
         answer = residuals.simulate(model, space, last.x, carried)
-        point = residuals.weigh(last.x, answer, carried, last.x.size)
+        point = residuals.with_priors(residuals.weigh(last.x, answer, carried, last.x.size), space)
         if point.good and point.cost < best.cost + blur_of(best):
             return point, answer.simulated
     answer = residuals.simulate(model, space, best.x, best.carried_to(best.x))
-    point = residuals.weigh(best.x, answer, best.carried_to(best.x), best.x.size)
+    point = residuals.with_priors(residuals.weigh(best.x, answer, best.carried_to(best.x), best.x.size), space)
     if point.good:
         return point, answer.simulated
     return (point if objective.measure is not Measure.SIGNAL else best), ()

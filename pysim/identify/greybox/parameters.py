@@ -25,6 +25,7 @@ class Parameter:
         lower, upper: bounds, in its unit.
         log: search on a logarithmic scale; where None, wherever the lower bound is above zero.
         record: source of the one log this value belongs to, as an unknown initial state; all logs where None.
+        prior: mean and standard deviation of what is known of it beforehand, in its unit; None where nothing is.
     """
 
     name: str
@@ -33,6 +34,7 @@ class Parameter:
     upper: float | None = None
     log: bool | None = None
     record: str | None = None
+    prior: tuple[float, float] | None = None
 
     @property
     def key(self) -> str:
@@ -60,6 +62,7 @@ class ParameterSpace:
         keys, variables, records, units: (n) name in the fit, variable, log it belongs to, and unit.
         start, lower, upper, scale: (n) in the variables' units.
         log: (n) whether the scale is logarithmic.
+        priors: key -> mean and standard deviation of what is known beforehand.
         ties, fixed: as given.
     """
 
@@ -74,9 +77,11 @@ class ParameterSpace:
     log: NDArray[np.bool_]
     ties: tuple[Tie, ...] = ()
     fixed: Mapping[str, float] = field(default_factory=dict)
+    priors: Mapping[str, tuple[float, float]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "fixed", FrozenMapping(self.fixed))
+        for name in ("fixed", "priors"):
+            object.__setattr__(self, name, FrozenMapping(getattr(self, name)))
 
     @classmethod
     def held(cls, values: Mapping[str, float]) -> ParameterSpace:
@@ -112,6 +117,14 @@ class ParameterSpace:
         """Every free, tied and fixed parameter by its name in the fit."""
         p = dict(zip(self.keys, self.to_model(x).tolist(), strict=True))
         return {**self.fixed, **p, **{tie.name: tie.factor * p[tie.of] for tie in self.ties}}
+
+    def prior_rows(self, x: Array) -> tuple[Array, Array]:
+        """How far x (n,) is from what is known beforehand, in standard deviations (k,), and the slopes (k, n)."""
+        places = [place for place, key in enumerate(self.keys) if key in self.priors]
+        mean, sd = np.array([self.priors[self.keys[place]] for place in places]).reshape(-1, 2).T
+        rows = np.zeros((len(places), self.size))
+        rows[np.arange(len(places)), places] = self.slope(x)[places] / sd
+        return (self.to_model(x)[places] - mean) / sd, rows
 
     def overrides(self, x: Array, record: str) -> dict[str, float]:
         """Variable -> value for the run of one log, x (n,) of the whole space."""
@@ -175,6 +188,7 @@ def parameter_space(
         log=log.astype(bool),
         ties=tuple(ties),
         fixed=fixed or {},
+        priors={parameter.key: parameter.prior for parameter in free if parameter.prior is not None},
     )
 
 
@@ -206,6 +220,8 @@ def _resolved(model: Model, parameter: Parameter) -> tuple[float, float, float, 
             f"fit: {name} starts at {start:g}, outside its bounds {lower:g} to {upper:g} {variable.unit}; "
             "give another start, or wider bounds"
         )
+    if parameter.prior is not None and not (math.isfinite(parameter.prior[0]) and 0 < parameter.prior[1] < math.inf):
+        raise BadInput(f"fit: the prior of {name} is {parameter.prior}; give its mean and a standard deviation above 0")
     log = lower > 0 if parameter.log is None else parameter.log
     if log and not lower > 0:
         raise BadInput(

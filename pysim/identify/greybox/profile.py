@@ -100,7 +100,8 @@ class _Walker:
         state = search(evaluate, GaussNewton(), rest, rest.to_search(self.others), squares=True)
         if state.best.good:
             self.others = rest.to_model(state.best.x)
-        return state.best.cost
+        known = self.problem.space.priors.get(self.problem.space.keys[self.place]) if everywhere else None
+        return state.best.cost + (0.5 * ((value - known[0]) / known[1]) ** 2 if known else 0.0)
 
     def _rest(self) -> ParameterSpace:
         """The space of all other parameters."""

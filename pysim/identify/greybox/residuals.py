@@ -33,6 +33,7 @@ Array = NDArray[np.float64]
 Rows = NDArray[np.intp]  # a number for each row
 
 Channel = tuple[str, str]  # data set and signal
+BEFOREHAND = -1  # block of rows that no data gave
 
 
 @dataclass(frozen=True)
@@ -64,7 +65,8 @@ class Point:
         squares: (n_c,) sums of squares of the residuals, in the units squared.
         known: sum of squares of the residuals whose level is known.
         more: rows that those of triangles stand for, beyond their own number.
-        blocks: (n_r,) number of the block that each row belongs to; blocks count as independent of each other.
+        blocks: (n_r,) number of the block that each row belongs to; blocks count as independent of each other. What
+            was known of parameters beforehand has the block BEFOREHAND.
         series: (n_r,) number of the log and channel that each row belongs to, in the order of time.
         carried: what was found along with x.
         steps: what a full step adds to each array of `carried` (n_s,), and how that depends on x (n_s, n).
@@ -122,6 +124,18 @@ class Point:
         nuisances = moved[-1]
         assert nuisances is not None
         return Carried(tuple(moved[:-1]), nuisances, self.carried.pieces)
+
+
+def with_rows(point: Point, residual: Array, slopes: Array, block: int) -> Point:
+    """The point with priors (k,) as more rows of one block, and their slopes (k, n)."""
+    return replace(
+        point,
+        cost=point.cost + 0.5 * float(residual @ residual),
+        residual=np.append(point.residual, residual),
+        jacobian=np.vstack([point.jacobian, slopes]),
+        blocks=np.append(point.blocks, np.full(residual.size, block, dtype=np.intp)),
+        series=np.append(point.series, np.full(residual.size, -1, dtype=np.intp)),
+    )
 
 
 def failed_point(x: Array, failure: Failure) -> Point:
@@ -201,7 +215,14 @@ class WeightedResiduals:
         """
         carried = carried or Carried()
         answer = self.simulate(model, space, x, carried, jacobian=jacobian, states=states)
-        return self.weigh(x, answer, carried, x.size if jacobian else 0)
+        return self.with_priors(self.weigh(x, answer, carried, x.size if jacobian else 0), space)
+
+    def with_priors(self, point: Point, space: ParameterSpace) -> Point:
+        """The point with what is known of parameters beforehand; where sizes are summed up that does not count."""
+        if not space.priors or self.absolute or self.measure is Measure.THESIS or not point.good:
+            return point
+        away, slopes = space.prior_rows(point.x)
+        return with_rows(point, away, slopes[:, : point.jacobian.shape[1]], BEFOREHAND)
 
     def simulate(
         self,

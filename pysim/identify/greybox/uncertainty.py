@@ -19,7 +19,7 @@ from scipy.special import ndtri, stdtrit
 from pysim.identify.greybox.effective_size import inflation
 from pysim.identify.greybox.identifiability import EXACT, Identifiability, identifiability, whole_exponents
 from pysim.identify.greybox.parameters import ParameterSpace
-from pysim.identify.greybox.residuals import Point
+from pysim.identify.greybox.residuals import BEFOREHAND, Point
 from pysim.identify.greybox.settings import FitSettings
 from pysim.types import Combination, Estimate
 
@@ -131,9 +131,11 @@ def _covariance(slopes: Array, point: Point, free: NDArray[np.bool_]) -> _Covari
     excess = point.count / max(point.count - n, 1)
     white[places] = bread * excess
     numbers = np.unique(point.blocks[np.any(rows != 0, axis=1)]) if point.blocks.size else np.zeros(0)
+    numbers = numbers[numbers != BEFOREHAND]
     if len(numbers) >= _SETTINGS.fewest_blocks:
         own = [point.blocks == number for number in numbers]
-        full[places], freedom[free] = _sandwich(q @ u[:, held], point.residual, back, own)
+        known = (q @ u[:, held])[point.blocks == BEFOREHAND]
+        full[places], freedom[free] = _sandwich(q @ u[:, held], point.residual, back, own, known)
         return _Covariance(full, white, freedom, len(own))
     colour = np.array([_colour(point, rows[:, j]) for j in range(rows.shape[1])])
     full[places] = bread * excess * np.sqrt(np.outer(colour, colour))
@@ -141,19 +143,23 @@ def _covariance(slopes: Array, point: Point, free: NDArray[np.bool_]) -> _Covari
     return _Covariance(full, white, freedom, 0)
 
 
-def _sandwich(rows: Array, residual: Array, back: Array, blocks: Sequence[NDArray[np.bool_]]) -> tuple[Array, Array]:
+def _sandwich(
+    rows: Array, residual: Array, back: Array, blocks: Sequence[NDArray[np.bool_]], known: Array
+) -> tuple[Array, Array]:
     """Covariance (n, n) by scores of blocks, their leverage made up for (CR2), and degrees of freedom (n,).
 
     In directions of information one, H_b and s_b are the information and the score of block b. White residuals give s_b
     the covariance H_b - H_b^2, so that (I - H_b)^-1/2 s_b has H_b, and all of them together one. What a block alone
-    determines has no scatter, and the variance of white residuals. The degrees are Satterthwaite's, of white residuals.
+    determines has no scatter, and the variance of white residuals, as what was known beforehand has. The degrees are
+    Satterthwaite's, of white residuals.
 
     Args:
         rows: (n_r, m) orthonormal slopes.
         back: (n, m) from their directions to the parameters.
+        known: (k, m) those of the rows that were known beforehand.
     """
     changes, pushes = [], []
-    alone = np.zeros((rows.shape[1], rows.shape[1]))
+    alone = known.T @ known
     for block in blocks:
         part = rows[block]
         own, directions = np.linalg.eigh(part.T @ part)

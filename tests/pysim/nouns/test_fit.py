@@ -38,6 +38,24 @@ def test_a_fit_of_the_right_model_is_trusted(mass: Model) -> None:
     assert found.model.values == pytest.approx(found.values)
 
 
+def test_what_is_known_beforehand_counts_as_one_more_measurement(mass: Model) -> None:
+    """The mean of two normal errors, each weighted by its own precision, in the fit as in the diagnosis."""
+    data = measured(3, "toy.friction", F_c=0.0)
+    alone = pysim.fit(mass, data).found["m"]
+    mean = alone.value + 2 * alone.std
+    known = mass.free("d", "k", prior={"m": (mean, alone.std)})
+    found = pysim.fit(known, data)
+    assert known.free_names == ("d", "k", "m")
+    assert found.values["m"] == pytest.approx(alone.value + alone.std, abs=0.2 * alone.std)
+    assert found.found["m"].std == pytest.approx(alone.std / np.sqrt(2), rel=0.05)
+    low, high = found.profile("m").interval
+    assert (high - low) / 2 / 1.96 == pytest.approx(alone.std / np.sqrt(2), rel=0.1)
+    same = pysim.diagnose(known, data, effects=["toy.bias"]).found
+    assert next(e.value for e in same.estimates if e.name == "m") == pytest.approx(found.values["m"], rel=1e-5)
+    with pytest.raises(BadInput, match="standard deviation above 0"):
+        pysim.fit(mass.free(prior={"m": (1.0, 0.0)}), data)
+
+
 def test_errors_of_the_integration_do_not_pass_for_missing_physics(mass: Model) -> None:
     """A step across a sharp friction is wrong by as much as the noise at the tolerance that a fit begins with."""
     complete = measured(1, "toy.friction", F_c=0.4)

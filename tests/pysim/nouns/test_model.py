@@ -55,6 +55,24 @@ def test_mistakes_are_refused_with_a_cure(mass: Model, ask, said: str) -> None: 
         ask(mass)
 
 
+@pytest.mark.parametrize(
+    ("ask", "argument", "cure"),
+    [
+        (lambda m, data: pysim.model("Toy.Mass", library="nowhere"), "library", "name the folder"),
+        (lambda m, data: m.free(m=(2, 1)), "m", "write m=(lowest, highest)"),
+        (lambda m, data: m.simulate(1, F="much"), "F", ""),
+        (lambda m, data: pysim.fit(m, 3), "data", "give what pysim.load"),
+        (lambda m, data: pysim.fit(m, data, initial="resting"), "initial", ""),
+        (lambda m, data: pysim.load({"t": [0, 1, 2], "x": [0, 1, 2]}, outputs="x"), "inputs", ""),
+    ],
+)
+def test_a_mistake_names_the_argument_and_the_cure(mass, data, ask, argument, cure) -> None:  # type: ignore[no-untyped-def]
+    with pytest.raises(BadInput) as refused:
+        ask(mass, data)
+    assert refused.value.argument == argument
+    assert refused.value.cure.startswith(cure)
+
+
 def swing(t: np.ndarray, force: float = 3.0) -> np.ndarray:
     """An undamped mass of 1 kg on 16 N/m under a step of the force at 0.5 s: it swings at 4 rad/s."""
     return np.where(t < 0.5, 0.0, force / 16 * (1 - np.cos(4 * (t - 0.5))))

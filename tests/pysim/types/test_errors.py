@@ -1,0 +1,22 @@
+"""A mistake of the user is one sentence, wherever it is shown."""
+
+import pickle
+
+import pytest
+
+from pysim.types import BadInput
+
+
+def test_the_cure_stands_behind_the_semicolon() -> None:
+    error = BadInput("run1.csv: x lacks 3 samples, the first at 2 s; type data.fill_gaps(0.02)", argument="data")
+    assert (error.argument, error.cure) == ("data", "type data.fill_gaps(0.02)")
+    assert BadInput("no cure").cure == ""
+    again = pickle.loads(pickle.dumps(error))
+    assert (str(again), again.argument) == (str(error), "data")
+
+
+def test_a_notebook_shows_the_sentence_alone() -> None:
+    """IPython asks an exception for `_render_traceback_` and prints the lines that it gives."""
+    with pytest.raises(BadInput) as caught:
+        raise BadInput("m is no number; give one")
+    assert caught.value._render_traceback_() == ["\x1b[31mm is no number; give one\x1b[0m"]
