@@ -93,7 +93,7 @@ def session(
     priors: Mapping[str, tuple[float, float]] | None = None,
     overrides: Mapping[str, float] | None = None,
     slots: Sequence[Slot] = (),
-    rest: Rest | None = None,
+    rested: bool = True,
     reference_hz: float | None = THESIS_REFERENCE_HZ,
     initial: str = "near rest",
     notes: Sequence[Note] = (),
@@ -108,7 +108,7 @@ def session(
         bounds: free parameter -> lower and upper bound in its unit, in place of the model's min and max.
         priors: free parameter -> mean and standard deviation of what is known of it beforehand, in its unit.
         overrides: parameters of the model that differ in these tests.
-        rest: how the model comes to rest ahead of a log.
+        rested: whether the model comes to rest ahead of a log; else it begins as its start values say.
         reference_hz: whose gain counts as 0 dB in measured responses (Eq. 2.12); None takes gains as they are.
         initial: what is known of the plant at a log's first sample: "near rest", "rest" or "estimate".
         workers: runs at a time; all cores where None.
@@ -122,7 +122,8 @@ def session(
     for name in bounds:
         if name not in names:
             raise BadInput(f"{name} has bounds but is not free; free are {', '.join(names) or 'none'}")
-    parameters = tuple(Parameter(n, None, *bounds.get(n, (None, None)), prior=priors.get(n)) for n in names)
+    ends = {name: bounds.get(name, (None, None)) for name in names}
+    parameters = tuple(Parameter(n, None, low, high, prior=priors.get(n)) for n, (low, high) in ends.items())
     read, unseen = _withheld(dataset)
     given = Session(
         model,
@@ -132,15 +133,15 @@ def session(
         tuple(catalogue),
         build,
         tuple(slots),
-        Treatment(rest=rest or Rest(), reference_hz=reference_hz, initial=initial),
+        Treatment(rest=Rest() if rested else None, reference_hz=reference_hz, initial=initial),
         settings=settings or Settings(),
         workers=Threads(workers),
         build_law=build_law,
     )
     checked = given.problems[0]
     more = [*(Note(NoteCode.OTHER, {"text": text}) for text in shortcomings(read, names)), *checked.notes]
-    ends = zip(checked.space.keys, checked.space.lower, checked.space.upper, strict=True)
-    open_ = [name for name, lower, upper in ends if not (math.isfinite(lower) and math.isfinite(upper))]
+    found = zip(checked.space.keys, checked.space.lower, checked.space.upper, strict=True)
+    open_ = [name for name, lower, upper in found if not (math.isfinite(lower) and math.isfinite(upper))]
     more += [Note(NoteCode.UNBOUNDED, {"parameters": ", ".join(open_)})] if open_ else []
     return replace(given, notes=(*notes, *more))
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -43,7 +43,7 @@ def diagnose(
         data: what `pysim.load` gives; of a fit its own by default.
         effects: names of the effects to consider; all that the model's slots take by default.
         max_effects: that are added at most.
-        initial: of each log: "rest" or "estimate"; None as the fit had it, else as the data say.
+        initial: of each log: "rest", "estimate", or state -> value; None as the fit had it, else as the data say.
         checkpoint: file that a diagnosis which was stopped goes on from.
         progress: see `pysim.nouns.progress.showing`.
     Raises:
@@ -92,7 +92,7 @@ def locate(
     return laws_of(found, model)
 
 
-def subject_of(subject: Subject, data: Measured | None, initial: Initial) -> tuple[Model, Dataset, str | None]:
+def subject_of(subject: Subject, data: Measured | None, initial: Initial) -> tuple[Model, Dataset, Initial]:
     """Model, measurements, and what is known of each log's first sample."""
     if isinstance(subject, Fit):
         model, dataset = subject.model, subject.dataset if data is None else dataset_of(data)
@@ -107,29 +107,28 @@ def subject_of(subject: Subject, data: Measured | None, initial: Initial) -> tup
         raise BadInput(
             f"{type(subject).__name__} is no model; give what pysim.model or pysim.fit returns", argument="subject"
         )
-    if initial is not None and not isinstance(initial, str):
-        raise BadInput(
-            'initial: a diagnosis takes "rest" or "estimate"; numbers for states are for fit alone', argument="initial"
-        )
     return model, dataset, initial
 
 
-def parts_of(model: Model, dataset: Dataset, initial: str | None, effects: Sequence[str] = ()) -> SessionParts:
+def parts_of(model: Model, dataset: Dataset, initial: Initial, effects: Sequence[str] = ()) -> SessionParts:
     """All that a session is made of."""
-    from pysim.workflow import beginning, reference_of, session_parts
+    from pysim.workflow import beginning, initial_values, reference_of, session_parts
 
-    free = model.free_names
-    return session_parts(
+    free, begun = model.free_names, {}
+    if isinstance(initial, Mapping):
+        begun, initial = initial_values(model.base, initial), "rest"
+    parts = session_parts(
         model.base,
         beginning(dataset, initial),
         libraries=model.libraries,
         free=free,
         bounds={name: pair for name, pair in model.bounds.items() if name in free},
         priors={name: known for name, known in model.priors.items() if name in free},
-        values=model.values,
+        values={**model.values, **begun},
         effects=effects,
         reference_hz=reference_of(dataset.responses()),
     )
+    return replace(parts, rested=not begun)
 
 
 def asked(

@@ -18,6 +18,8 @@ from pysim.types import Model as Compiled
 from pysim.types._frozen import FrozenMapping
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
     from pysim.effects import Slot
     from pysim.workflow import ModelInside, Variants
 
@@ -433,6 +435,18 @@ class Model:
 
     def _repr_html_(self) -> str:
         return html_of(" | ".join(self._head()), self._free_table())
+
+    def plot(self) -> Figure:
+        """A sketch: inputs, outputs, what is free, and slots with the effects in them."""
+        from pysim.present.model import model_figure
+
+        inputs, outputs = ([f"{v.name} [{v.unit}]" for v in self.compiled.variables if v.causality == causality]
+                           for causality in ("input", "output"))  # fmt: skip
+        free = [f"{row['free']} = {row['value']:.4g} {row['unit']}" for row in self._free_table()]
+        inside = [f"{len(self.compiled.abilities.states)} states", *(free[:_LISTED] or ["nothing is free"])]
+        filled = {slot: [e.name for e in self.effects_in if e.slot == slot] for slot in self.slots["name"]}
+        slots = ["\n".join([name, *(own or ["empty"])]) for name, own in filled.items()]
+        return model_figure(self.name, inputs, outputs, inside, slots)
 
     def to_dataframe(self) -> Any:
         """Its parameters, as a pandas DataFrame."""

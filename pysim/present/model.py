@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
     from pysim.effects import Slot
     from pysim.types import Effect, Model, Variable
+
+_ABREAST = 5  # slots in a row of a sketch
 
 
 @dataclass(frozen=True)
@@ -98,6 +103,34 @@ def _effect(effect: Effect, model: Model, slots: tuple[Slot, ...], libraries: li
     about = {"name": effect.name, "slot": effect.slot, "class": effect.class_name, "about": effect.description}
     picture = None if drawn is None else asdict(drawn)
     return {**about, "law": effect.law, "parameters": parameters, "constants": constants, "sketch": picture}
+
+
+def model_figure(
+    title: str, inputs: Sequence[str], outputs: Sequence[str], inside: Sequence[str], slots: Sequence[str]
+) -> Figure:
+    """A sketch: inputs into a box with some lines, outputs out of it, and boxes of its slots below."""
+    from pysim.present.style import LIMIT, SMALL, TEXT, new_figure
+
+    tall = 0.2 * max(len(inputs), len(outputs), len(inside), 3)  # in
+    below = 0.55 * -(-len(slots) // _ABREAST)
+    figure = new_figure(8.0, 0.6 + tall + below)
+    axes = figure.subplots()
+    axes.set(xlim=(0, 1), ylim=(-below / tall, 1))
+    axes.set_title(title, fontsize=TEXT)
+    axes.axis("off")
+    axes.plot([0.3, 0.7, 0.7, 0.3, 0.3], [0, 0, 1, 1, 0], color="black", linewidth=1.0, clip_on=False)
+    axes.text(0.5, 0.5, "\n".join(inside), ha="center", va="center", fontsize=SMALL)
+    for names, (near, far), at, side in ((inputs, (0.3, 0.25), 0.24, "right"), (outputs, (0.75, 0.7), 0.76, "left")):
+        for k, name in enumerate(names):
+            y = 1 - (k + 0.5) / len(names)
+            axes.annotate("", (near, y), (far, y), arrowprops={"arrowstyle": "->"})
+            axes.text(at, y, name, ha=side, va="center", fontsize=SMALL)
+    frame = {"boxstyle": "square,pad=0.3", "facecolor": "white", "edgecolor": LIMIT}
+    for k, words in enumerate(slots):
+        row, place = divmod(k, _ABREAST)
+        at_x, at_y = (place + 0.5) / min(len(slots), _ABREAST), -(row + 0.6) * 0.55 / tall
+        axes.text(at_x, at_y, words, ha="center", va="center", fontsize=SMALL, bbox=frame)
+    return figure
 
 
 def _of(model: Model, causality: str) -> list[Variable]:

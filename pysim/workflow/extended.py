@@ -35,7 +35,8 @@ def write_extended(
     effects = [one.effect for one in found.effects if one.effect.class_name]  # a sensor's error has none
     if effects and parts.variants is not None:
         name = extended_name(parts.variants.class_name, [effect.class_name for effect in effects])
-        values, fmu = {**parts.overrides, **fitted}, folder / f"{name}.fmu"
+        states, fmu = parts.model.abilities.states, folder / f"{name}.fmu"
+        values = {key: value for key, value in {**parts.overrides, **fitted}.items() if key not in states}
         parts.variants.write(effects, folder, fmu, name, values, _comment(found, parts, place or folder, name))
         files = {"modelica": folder / f"{name}.mo", "fmu": fmu}
         about = f"{name}, the class in {name}.mo, fitted to data set {parts.dataset.name}."

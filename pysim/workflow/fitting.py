@@ -73,7 +73,7 @@ def fit_problem(
     bounds, values, held = bounds or {}, values or {}, dict(fixed or {})
     treatment = Treatment(reference_hz=reference_hz)
     if isinstance(initial, Mapping):
-        held, treatment = held | _states(model, initial), replace(treatment, rest=None)
+        held, treatment = held | initial_values(model, initial), replace(treatment, rest=None)
     datasets = [beginning(one, "rest" if isinstance(initial, Mapping) else initial) for one in datasets]
     tied = [tie.name for tie in ties]
     chosen = () if nothing_free else free_parameters(model, free, bounds, {**values, **held})
@@ -86,8 +86,8 @@ def fit_problem(
     if not nothing_free:
         _refuse_still(datasets)
     data = [Measurements(in_model_units(one, model), outputs=tuple(outputs) or None) for one in datasets]
-    known = priors or {}
-    parameters = [Parameter(n, begin.get(n), *bounds.get(n, (None, None)), prior=known.get(n)) for n in names]
+    known, ends = priors or {}, {name: bounds.get(name, (None, None)) for name in names}
+    parameters = [Parameter(n, begin.get(n), low, high, prior=known.get(n)) for n, (low, high) in ends.items()]
     return problem(model, data, parameters, fixed=rest, ties=ties, treatment=treatment)
 
 
@@ -174,7 +174,12 @@ def beginning(dataset: Dataset, initial: str | None) -> Dataset:
     return replace(dataset, records=tuple(records))
 
 
-def _states(model: Model, initial: Mapping[str, float]) -> dict[str, float]:
+def initial_values(model: Model, initial: Mapping[str, float]) -> dict[str, float]:
+    """The same, once each is a state of the model.
+
+    Raises:
+        BadInput: one is not.
+    """
     states = model.abilities.states
     for name in initial:
         if name not in states:

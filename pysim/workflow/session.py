@@ -35,6 +35,7 @@ class SessionParts:
         reference_hz: whose gain counts as 0 dB in responses; None for absolute gains.
         libraries: the user's own, beside the one that comes along.
         notes: what was assumed.
+        rested: whether logs begin near rest, where they do not say it themselves; else as states were set.
     """
 
     model: Model
@@ -49,6 +50,7 @@ class SessionParts:
     reference_hz: float | None
     libraries: tuple[Path, ...]
     notes: tuple[Note, ...]
+    rested: bool = True
 
     @property
     def model_name(self) -> str:
@@ -173,6 +175,7 @@ def session_of(parts: SessionParts, settings: Settings | None = None) -> Session
         overrides=parts.overrides,
         slots=parts.inside.slots,
         reference_hz=parts.reference_hz,
+        rested=parts.rested,
         notes=parts.notes,
         settings=settings,
         build_law=parts.variants.probed if parts.variants else None,

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from math import inf
 from typing import Any
 
 from pysim.app.answers import Answer, history
@@ -12,8 +11,6 @@ from pysim.app.figures import CRITERIA, criteria_figure, error_figure, parameter
 from pysim.app.pages.common import attempt, busy, ended, nothing, start
 from pysim.app.parts import Chart, Table, box, button, card, head, live, note, text
 from pysim.present.diagnosis.words import step_name
-from pysim.present.notes import direction_words
-from pysim.types import Direction
 
 
 def add_page(desk: Desk) -> None:
@@ -102,8 +99,14 @@ def _below(desk: Desk) -> None:
         return
     _criteria(answer, settings.added)
     _parameters(answer)
-    for line in answer.data["notes"]:
-        note(str(line["text"]))
+    for line in doubts(answer):
+        note(line)
+
+
+def doubts(answer: Answer) -> list[str]:
+    """Why not to trust the last model, and what was assumed, each once."""
+    warnings = answer.data.get("warnings", {}).get(answer.last["step"], ())  # none in answers of an earlier version
+    return list(dict.fromkeys(map(str, [*warnings, *(one["text"] for one in answer.data["notes"])])))
 
 
 def _criteria(answer: Answer, added: Sequence[str]) -> None:
@@ -167,9 +170,6 @@ def _parameters(answer: Answer) -> None:
         if drawn:
             Chart(parameters_figure(drawn), "Parameters between their bounds", height=80 + 27 * len(drawn))
         Table("Parameters", columns, rows)
-        for direction in answer.last["undetermined"]:
-            spread = direction["spread"]
-            text("p", direction_words(Direction(direction["exponents"], inf if spread is None else spread)), "small")
 
 
 def _three(e: Mapping[str, Any] | None) -> list[str]:

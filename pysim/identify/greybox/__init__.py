@@ -14,7 +14,7 @@ from pysim.identify.greybox.runs import Simulation
 from pysim.identify.greybox.search import Tried
 from pysim.identify.greybox.settings import FitSettings, NoiseSettings
 from pysim.identify.greybox.treatment import Measurements, Rest, SinePlan, Treatment
-from pysim.identify.greybox.trust import fit_warnings
+from pysim.identify.greybox.trust import fit_warnings, step_warnings
 from pysim.identify.greybox.workers import Cluster, Processes, Threads
 
 __all__ = [
@@ -53,4 +53,5 @@ __all__ = [
     "fit_warnings",
     "problem",
     "profile",
+    "step_warnings",
 ]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -13,7 +13,7 @@ from pysim.identify.greybox.observation import Observation, Run
 from pysim.identify.greybox.parameters import ParameterSpace
 from pysim.identify.greybox.residuals import Point, WeightedResiduals
 from pysim.identify.greybox.settings import TrustSettings
-from pysim.types import Estimate, Fit, FitOutcome, Model, Note, NoteCode
+from pysim.types import ErrorStep, Estimate, Fit, FitOutcome, Model, Note, NoteCode, RecordFit
 
 _SETTINGS = TrustSettings()
 _SAID = (NoteCode.NOT_AT_REST, NoteCode.NOT_SIMULATED)
@@ -25,14 +25,23 @@ def fit_warnings(fit: Fit) -> tuple[Note, ...]:
     The residuals are far above the noise, a parameter stands at a bound, parameters are nearly interchangeable, a log
     did not begin at rest, a record could not be simulated, or the search ended before it had converged.
     """
-    found = [*_poor(fit), *(note for note in fit.notes if note.code in _SAID)]
-    found += [at_bound(one) for one in fit.estimates if one.at]
-    for one in fit.undetermined:
-        found.append(Note(NoteCode.INTERCHANGEABLE, {**one.exponents, "@spread": one.spread}))
-    found += _correlated(fit)
+    found = [*_poor(fit.records, fit.misfit), *(note for note in fit.notes if note.code in _SAID)]
+    found += [*_open(fit), *_correlated(fit)]
     if fit.outcome in (FitOutcome.STALLED, FitOutcome.ITERATION_LIMIT):
         found.append(Note(NoteCode.SEARCH_GAVE_UP, {"evaluations": float(fit.iterations)}))
     return tuple(dict.fromkeys(found))
+
+
+def step_warnings(step: ErrorStep) -> tuple[Note, ...]:
+    """The same of a model that a diagnosis has refitted."""
+    return (*_poor(step.records, 0.0), *_open(step))
+
+
+def _open(found: Fit | ErrorStep) -> Iterator[Note]:
+    """Parameters at a bound, and those that the data do not tell apart."""
+    yield from (at_bound(one) for one in found.estimates if one.at)
+    for one in found.undetermined:
+        yield Note(NoteCode.INTERCHANGEABLE, {**one.exponents, "@spread": one.spread})
 
 
 def at_bound(one: Estimate) -> Note:
@@ -41,10 +50,10 @@ def at_bound(one: Estimate) -> Note:
     return Note(NoteCode.AT_BOUND, {"parameter": one.name, "bound": bound, "value": one.value, "unit": one.unit})
 
 
-def _poor(fit: Fit) -> Iterator[Note]:
-    """The worst signal, where its residual on the fitted logs is more than noise."""
+def _poor(records: Sequence[RecordFit], misfit: float) -> Iterator[Note]:
+    """The worst signal, where its residual on the fitted logs is more than noise; without logs the misfit of all."""
     squares: dict[str, list[float]] = {}
-    for record in fit.records:
+    for record in records:
         if record.use == "fit":
             for name, value in record.rms.items():
                 squares.setdefault(name, []).append(value**2)
@@ -52,8 +61,8 @@ def _poor(fit: Fit) -> Iterator[Note]:
     worst = max(sizes, key=lambda name: sizes[name], default="")
     if worst and sizes[worst] > _SETTINGS.poor:
         yield Note(NoteCode.POOR_FIT, {"signal": worst, "factor": sizes[worst]})
-    elif not worst and fit.misfit > _SETTINGS.poor:
-        yield Note(NoteCode.POOR_FIT, {"signal": "the responses", "factor": fit.misfit})
+    elif not worst and misfit > _SETTINGS.poor:
+        yield Note(NoteCode.POOR_FIT, {"signal": "the responses", "factor": misfit})
 
 
 def _correlated(fit: Fit) -> Iterator[Note]:

@@ -8,6 +8,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
+from pysim.identify.greybox import step_warnings
 from pysim.io import shown_value
 from pysim.present.diagnosis.law_words import ABSORBED, law_kind
 from pysim.present.diagnosis.words import (
@@ -26,6 +27,7 @@ from pysim.present.diagnosis.words import (
 from pysim.present.notes import listed, words
 from pysim.present.plain_text import wrapped
 from pysim.types import Dataset, Diagnosis, LearnedLaw, answer_data
+from pysim.types.answer import PRIOR
 
 _ROWS = 6  # candidates and laws that are listed
 _KNOTS = 5  # of a curve that are listed
@@ -69,10 +71,12 @@ def text(result: Diagnosed) -> str:
 
 
 def data(result: Diagnosed) -> dict[str, object]:
-    """The answer, with the verdict and each note in words too; every number is finite or None."""
+    """The answer, with its verdict, notes and doubts in words too; every number is finite or None."""
     found = result.found
     notes = [{"code": one.code.value, "values": dict(one.values), "text": words(one)} for one in found.notes]
-    return {**answer_data(found, result.files), "reason": verdict_sentence(found), "notes": notes}
+    warnings = {one.step: [words(note) for note in step_warnings(one)] for one in found.history if one.step != PRIOR}
+    shown = {"reason": verdict_sentence(found), "notes": notes, "warnings": warnings}
+    return {**answer_data(found, result.files), **shown}
 
 
 def files(result: Diagnosed) -> dict[str, str]:

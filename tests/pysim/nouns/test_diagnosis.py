@@ -1,5 +1,6 @@
 """A diagnosis as a user holds it, laws that are learned, and effects from formulas."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -11,7 +12,7 @@ from pysim.nouns.diagnosis import Diagnosis
 from pysim.nouns.fit import Fit
 from pysim.nouns.law import Law
 from pysim.nouns.model import Model, opened
-from pysim.types import BadInput, Dataset
+from pysim.types import BadInput, Dataset, Record
 from tests.pysim.nouns.conftest import FRICTION, TRUE
 
 
@@ -54,10 +55,25 @@ def test_what_cannot_be_asked_is_refused(mass: Model, data: Dataset) -> None:
         pysim.diagnose(mass)
     with pytest.raises(BadInput, match="without"):
         pysim.diagnose(mass.with_effects("toy.bias"), data)
-    with pytest.raises(BadInput, match="numbers for states are for fit alone"):
-        pysim.diagnose(mass, data, initial={"x": 0.1})
+    with pytest.raises(BadInput, match="initial: y is no state"):
+        pysim.diagnose(mass, data, initial={"y": 0.1})
     with pytest.raises(BadInput, match=r"did you mean toy\.friction"):
         pysim.diagnose(mass, data, effects=["toy.fricton"])
+
+
+def test_a_log_may_begin_where_the_user_says(mass: Model, data: Dataset, tmp_path: Path) -> None:
+    """A mass with friction that is let go 0.1 m away from rest, as fit and diagnosis are told."""
+    plant = mass.with_effects("toy.friction").set(**TRUE, **{"force.F_c": FRICTION, "x": 0.1})
+    rng, records = np.random.default_rng(5), []
+    for one in data.records:
+        assert isinstance(one.data, Record)
+        x = plant.simulate(one)["x"] + 1e-3 * rng.standard_normal(one.data.time.size)
+        records.append(replace(one, data=replace(one.data, values=np.column_stack([one.data["F"], x]))))
+    let_go = replace(data, records=tuple(records))
+    begun = pysim.diagnose(mass, let_go, effects=["toy.friction", "toy.bias"], initial={"x": 0.1})
+    assert begun.verdict == "toy.friction"
+    assert begun.report(tmp_path)["fmu"].is_file()  # where a state began is no parameter of the class
+    assert begun.steps["fitted"][-1] == pytest.approx(1.0, abs=0.1)
 
 
 @pytest.fixture(scope="module")

@@ -167,6 +167,13 @@ def test_it_prints_in_a_few_lines(mass: Model, foreign: Path) -> None:
     assert "m_eff" in repr(pump)
 
 
+def test_it_is_sketched_with_its_ports_and_what_is_in_its_slots(mass: Model, foreign: Path) -> None:
+    shown = {text.get_text() for text in mass.with_effects("toy.friction").plot().axes[0].texts}
+    assert {"F [N]", "x [m]", "v [m/s]", "force\ntoy.friction"} <= shown
+    assert any("m = 1 kg" in text and "force.F_c" in text for text in shown)
+    assert not any("empty" in text.get_text() for text in pysim.model(foreign).plot().axes[0].texts)
+
+
 def test_a_run_prints_draws_and_is_saved(mass: Model, tmp_path: Path) -> None:
     run = mass.simulate(1, F=2.0)
     assert len(repr(run)) < 2000 > len(run._repr_html_())

@@ -184,6 +184,17 @@ def test_json_has_each_sentence_beside_its_numbers() -> None:
     assert written["files"] == {"report": "r.html"}
 
 
+def test_json_says_of_each_refitted_model_why_not_to_trust_it() -> None:
+    """The base model is poor; nothing is wrong with the last one but a direction that the data leave open."""
+    poor = data(found_offset())["warnings"]
+    assert isinstance(poor, dict)
+    assert set(poor) == {"refit", "toy.offset"}
+    assert any("fit is poor" in line for line in poor["refit"])
+    assert not any("fit is poor" in line for line in poor["toy.offset"])
+    for lines in poor.values():
+        assert sum("do not tell" in line for line in lines) == 1
+
+
 def page(found: Diagnosis, drawings: Sequence[Drawing] = (), **more: Any) -> str:
     return diagnosis.page(Diagnosed(found, **{"title": "toy"} | more), drawings, "pysim diagnose x")
 
