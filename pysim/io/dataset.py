@@ -95,7 +95,9 @@ def _read(folder: Path, *, keep_going: bool) -> Described:
     toml.whole.refuse_unknown(_KEYS)
     head.refuse_unknown(_DATASET_KEYS)
     described = toml.tables("signals")
-    written = {name: _signal(name, section) for name, section in described.items()}
+    for section in described.values():
+        section.refuse_unknown((*SIGNAL_KEYS, *_SCALE_KEYS))
+    written = {name: described_signal(name, section, UNITS) for name, section in described.items()}
     scales = {name: _scale(written[name].unit, section) for name, section in described.items()}
     sections = toml.rows("records", "log or table")
     kinds = [_kind(section) for section in sections]
@@ -178,11 +180,6 @@ def described_signal(name: str, section: Section, units: Sequence[str] = tuple(S
         resolution=section.not_negative("resolution"),
         hold=HOLDS[section.text("hold", among=tuple(HOLDS))] if "hold" in section.values else None,
     )
-
-
-def _signal(name: str, section: Section) -> MeasuredSignal:
-    section.refuse_unknown((*SIGNAL_KEYS, *_SCALE_KEYS))
-    return described_signal(name, section, UNITS)
 
 
 def _scale(unit: str, section: Section) -> Scale:

@@ -86,7 +86,7 @@ def draft_dataset(folder: Path, inputs: Mapping[str, str], responses: Mapping[st
         found.roles[name], found.units[name] = "input" if name in inputs else "output", unit
     logs = sorted(path for path in folder.rglob("*") if path.suffix.lower() in LOG_SUFFIXES and path.is_file())
     for path in logs:
-        columns = [_column(heading) for heading in column_names(path)]
+        columns = [Column(heading, *name_and_unit(heading)) for heading in column_names(path)]
         if columns[0].heading == _TABLE:
             found.remarks.append(f"left out: {_source(found, path)} is a table of responses; docs/data.md shows how")
         else:
@@ -97,10 +97,6 @@ def draft_dataset(folder: Path, inputs: Mapping[str, str], responses: Mapping[st
         raise BadInput(f"{folder}: {_NEEDED}")
     _find_sines(found)
     return found
-
-
-def _column(heading: str) -> Column:
-    return Column(heading, *name_and_unit(heading))
 
 
 def _take_clock(found: Draft, path: Path, clock: Column) -> None:

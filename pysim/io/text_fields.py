@@ -63,7 +63,7 @@ def row_fields(line: str, columns: tuple[str, ...], usual: Dialect | None = None
     bare = line.strip()
     first = dialect(bare) if usual is None or LEFT_OUT not in columns else usual
     tried = (first, *DIALECTS) if LEFT_OUT in columns else ()
-    for judge in (fits, _as_wide):
+    for judge in (fits, lambda fields, columns: len(fields) == len(columns)):
         for one in tried:
             for text in (bare, line):
                 fields = one.fields(text)
@@ -77,7 +77,3 @@ def fits(fields: list[str], columns: tuple[str, ...]) -> bool:
     return len(fields) == len(columns) and all(
         name == LEFT_OUT or number(field) is not None for name, field in zip(columns, fields, strict=True)
     )
-
-
-def _as_wide(fields: list[str], columns: tuple[str, ...]) -> bool:
-    return len(fields) == len(columns)

@@ -130,17 +130,12 @@ def _content(
     if isinstance(record.data, FrequencyResponse):
         return _table(record.data, scales)
     log = record.data
-    columns = [log.time, *(_unscaled(log[name], scales[name]) for name in log.names)]
+    columns = [log.time, *((log[name] - scales[name].zero) / scales[name].gain for name in log.names)]
     heads = ["time_s", *(name + _suffix(units[name]) for name in log.names)]
     decimals = [None if None in digits.values() else _time_digits(log.time), *(digits[name] for name in log.names)]
     form = "\t".join("%.17g" if count is None else f"%.{count}f" for count in decimals)
     rows = (form % row for row in zip(*(column.tolist() for column in columns), strict=True))
     return "\n".join(["\t".join(heads), *rows]) + "\n"
-
-
-def _unscaled(column: Array, scale: Scale) -> Array:
-    """In the unit of the file."""
-    return (column - scale.zero if scale.zero else column) / scale.gain
 
 
 def _time_digits(time: Array) -> int:

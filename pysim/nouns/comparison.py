@@ -11,7 +11,7 @@ import numpy as np
 from pysim.nouns.common import dataset_of
 from pysim.nouns.model import Model
 from pysim.nouns.progress import Progress, showing
-from pysim.nouns.table import Table, html_of
+from pysim.nouns.table import Shown, Table
 from pysim.nouns.where import Where
 from pysim.types import BadInput, Criterion, Dataset, Note, ProgressEvent, RecordFit
 
@@ -84,7 +84,7 @@ def _names(models: list[Model]) -> list[str]:
 
 
 @dataclass(frozen=True, repr=False)
-class Comparison:
+class Comparison(Shown):
     """Models beside measurements.
 
     Args:
@@ -172,17 +172,15 @@ class Comparison:
             raise BadInput("nothing to draw: no log over time was compared")
         return max(first, key=lambda one: (one.use != "fit", max(one.rms.values()))).index
 
-    def to_dataframe(self) -> Any:
-        """The table, as a pandas DataFrame."""
-        return self.table.to_dataframe()
+    @property
+    def _shown(self) -> Table:
+        table = self.table
+        alone = len(self.records) == 1
+        return Table({name: own for name, own in table.columns.items() if not (alone and name == "model")})
 
-    def __repr__(self) -> str:
-        table = self.table if len(self.records) > 1 else _without_model(self.table)
-        head = f"{', '.join(self.records)} against {self.dataset.name}"
-        return "\n".join([head, *table.lines(1700)])
-
-    def _repr_html_(self) -> str:
-        return html_of(f"{', '.join(self.records)} against {self.dataset.name}", self.table)
+    @property
+    def _words(self) -> list[str]:
+        return [f"{', '.join(self.records)} against {self.dataset.name}"]
 
 
 def _rows(model: str, one: RecordFit) -> list[tuple[tuple[Any, ...], RecordFit]]:
@@ -213,7 +211,3 @@ def _thesis(records: Mapping[str, tuple[RecordFit, ...]]) -> list[Criterion]:
 
 def _stem(source: str) -> str:
     return source.rpartition("/")[2].rpartition(".")[0] or source
-
-
-def _without_model(table: Table) -> Table:
-    return Table({name: values for name, values in table.columns.items() if name != "model"})

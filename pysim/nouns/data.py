@@ -37,17 +37,15 @@ from pysim.io.prepare import (
 )
 from pysim.io.write_dataset import write_dataset
 from pysim.nouns.data_check import Check
+from pysim.nouns.table import Shown, Table, pandas
 from pysim.types import UNITS, BadInput, Dataset, MeasuredRecord, Record, conversion
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-_ROWS = 8  # logs that are shown one by one
-_EXTRA = '"hydraulic-test-bench[data]"'
-
 
 @dataclass(frozen=True, repr=False)
-class Data:
+class Data(Shown):
     """Logs and tables of responses, and the steps that made them ready. Every method gives a new one; files stay.
 
     Args:
@@ -221,16 +219,15 @@ class Data:
 
     def to_dataframe(self) -> Any:
         """A pandas.DataFrame over log and time in s, columns "x [mm]" in the units of the logs."""
-        pandas = optional_package("pandas", "a DataFrame needs pandas", _EXTRA)
         frames = {}
         for name, record in zip(self.names, self.now.records, strict=True):
             if isinstance(record.data, Record):
                 log = record.data
                 columns = {f"{own} [{self._unit(own)}]": self._read(own, log[own]) for own in log.names}
-                frames[name] = pandas.DataFrame(columns, index=pandas.Index(log.time, name="time [s]"))
+                frames[name] = pandas().DataFrame(columns, index=pandas().Index(log.time, name="time [s]"))
         if not frames:
             raise BadInput("there are no logs over time to make a table of")
-        return pandas.concat(frames, names=["log"])
+        return pandas().concat(frames, names=["log"])
 
     def to_xarray(self) -> Any:
         """An xarray.Dataset with the same columns over log and time; a log has no values at the times of others."""
@@ -259,8 +256,8 @@ class Data:
         factor, zero = conversion(self.now.signal(signal).unit, self._unit(signal)) or (1.0, 0.0)
         return factor * np.asarray(values) + zero
 
-    def _head(self) -> list[str]:
-        """What all logs share, in lines."""
+    @property
+    def _words(self) -> list[str]:
         named = {
             role: ", ".join(f"{s.name} [{self._unit(s.name)}]" for s in self.now.signals if s.role == role)
             for role in ("input", "output")
@@ -269,10 +266,11 @@ class Data:
         steps = ", ".join(call(step) for step in self.history)
         return [_short(line, 300) for line in (*lines, *([f"prepared: {steps}"] if steps else []))]
 
-    def _rows(self) -> list[tuple[str, ...]]:
-        """Name, use, samples, seconds and warnings of each log, of eight at most."""
+    @property
+    def table(self) -> Table:
+        """Name, use, samples, seconds and warnings of each log."""
         rows: list[tuple[str, ...]] = []
-        for name, record in list(zip(self.names, self.now.records, strict=True))[:_ROWS]:
+        for name, record in zip(self.names, self.now.records, strict=True):
             if isinstance(record.data, Record):
                 size, span = record.data.time.size, f"{record.data.time[-1] - record.data.time[0]:.4g}"
                 empty = int(np.count_nonzero(~np.isfinite(record.data.values)))
@@ -280,26 +278,8 @@ class Data:
                 size, span, empty = record.data.frequency.size, "-", 0
             told = [counted(empty, "empty cell")] if empty else []
             uneven = [text for text in self.remarks.get(record.source, ()) if text.startswith("uneven")]
-            rows.append((_short(name, 24), record.use, str(size), span, _short("; ".join([*told, *uneven]), 60)))
-        return rows
-
-    def __repr__(self) -> str:
-        rows = [("log", "use", "samples", "seconds", "warnings"), *self._rows()]
-        widths = [max(len(row[k]) for row in rows) for k in range(5)]
-        lines = ["  ".join(f"{cell:<{w}}" for cell, w in zip(row, widths, strict=True)).rstrip() for row in rows]
-        more = len(self.now.records) - _ROWS
-        return "\n".join([*self._head(), *lines, *([f"and {more} more"] if more > 0 else [])])
-
-    def _repr_html_(self) -> str:
-        from html import escape
-
-        head = "".join(f"<p>{escape(line)}</p>" for line in self._head())
-        cells = "".join(
-            "<tr>" + "".join(f"<td>{escape(cell)}" for cell in row)
-            for row in [("log", "use", "samples", "seconds", "warnings"), *self._rows()]
-        )
-        more = len(self.now.records) - _ROWS
-        return f"{head}<table>{cells}</table>" + (f"<p>and {more} more</p>" if more > 0 else "")
+            rows.append((name, record.use, str(size), span, "; ".join([*told, *uneven])))
+        return Table.of(("log", "use", "samples", "seconds", "warnings"), rows, key="log")
 
 
 def load(

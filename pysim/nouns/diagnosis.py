@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -12,7 +13,7 @@ from pysim.nouns.fit import Fit
 from pysim.nouns.law import Law, laws_of
 from pysim.nouns.model import Model
 from pysim.nouns.progress import Listener, Progress, showing
-from pysim.nouns.table import MOST, Table, html_of
+from pysim.nouns.table import MOST, Shown, Table
 from pysim.nouns.where import Where
 from pysim.types import BadInput, Dataset
 from pysim.types import Diagnosis as Answer
@@ -150,7 +151,7 @@ def _path(checkpoint: Path | str | None) -> Path | None:
 
 
 @dataclass(frozen=True, repr=False)
-class Diagnosis:
+class Diagnosis(Shown):
     """The answer.
 
     Args:
@@ -257,22 +258,19 @@ class Diagnosis:
         beside = {name: path.name for name, path in files.items()}
         return write_report(place, Diagnosed(self.found, self.parts.dataset, title, files=beside)) | files
 
-    def to_dataframe(self) -> Any:
-        """The steps, as a pandas DataFrame."""
-        return self.steps.to_dataframe()
+    @property
+    def table(self) -> Table:
+        """The steps."""
+        return self.steps
+
+    @property
+    def _words(self) -> list[str]:
+        sentence = self.sentence if len(self.sentence) < 700 else f"{self.sentence[:697]}..."
+        return [f"Verdict: {self.verdict}", *textwrap.wrap(sentence, 100)]
 
     def __repr__(self) -> str:
-        parts = [[f"Verdict: {self.verdict}", *_wrapped(self.sentence)], self.steps.lines(500)]
+        parts = [self._words, self.steps.lines(500)]
         parts += [self.effects.lines(500)] if len(self.effects) else []
         parts += [self.candidates.lines(300)] if len(self.candidates) else []
         text = "\n".join("\n".join(lines) for lines in parts)
         return text if len(text) <= MOST + 90 else f"{text[: MOST - 40].rpartition(chr(10))[0]}\n... summary() has all"
-
-    def _repr_html_(self) -> str:
-        return html_of(f"Verdict: {self.verdict}. {self.sentence}"[:900], self.steps)
-
-
-def _wrapped(text: str) -> list[str]:
-    import textwrap
-
-    return textwrap.wrap(text if len(text) < 700 else f"{text[:697]}...", 100)

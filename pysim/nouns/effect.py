@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from pysim.nouns.model import Model, opened
-from pysim.nouns.table import Table, html_of
+from pysim.nouns.table import Shown, Table
 from pysim.types import BadInput, EffectParameter
 from pysim.types import Effect as Described
 
@@ -79,7 +79,7 @@ def effect_folder(content: str) -> Path:
 
 
 @dataclass(frozen=True, repr=False)
-class Effect:
+class Effect(Shown):
     """An effect that can be added to a model: `model.with_effects(effect)`.
 
     Args:
@@ -148,16 +148,15 @@ class Effect:
         shutil.copyfile(self.file, place)
         return place
 
-    def to_dataframe(self) -> Any:
-        """The parameters, as a pandas DataFrame."""
-        return self.parameters.to_dataframe()
+    @property
+    def table(self) -> Table:
+        """The parameters."""
+        return self.parameters
 
-    def __repr__(self) -> str:
+    @property
+    def _words(self) -> list[str]:
         law = self.law if len(self.law) < 500 else f"{self.law[:497]}..."
-        return "\n".join([f"{self.name} at {self.slot}: {law}", *self.parameters.lines(1000)])
-
-    def _repr_html_(self) -> str:
-        return html_of(f"{self.name} at {self.slot}: {self.law[:500]}", self.parameters)
+        return [f"{self.name} at {self.slot}: {law}"]
 
 
 def _slot(at: str, model: Model | None) -> tuple[Slot, tuple[Path, ...]]:

@@ -14,7 +14,7 @@ from pysim.nouns.common import Measured, dataset_of, libraries_of
 from pysim.nouns.model import Model
 from pysim.nouns.progress import Progress, showing
 from pysim.nouns.run import Run
-from pysim.nouns.table import MOST, Table, html_of
+from pysim.nouns.table import MOST, Shown, Table, html_of
 from pysim.types import BadInput, Dataset, FitOutcome, ProgressEvent, RecordFit
 from pysim.types import Fit as Found
 
@@ -90,7 +90,7 @@ def _problem(model: Model, dataset: Dataset, initial: Initial, outputs: tuple[st
 
 
 @dataclass(frozen=True, repr=False)
-class Fit:
+class Fit(Shown):
     """A fitted model. Read `warnings` first: `ok` says that there are none.
 
     Args:
@@ -275,10 +275,6 @@ class Fit:
 
         Path(folder).mkdir(parents=True, exist_ok=True)
         return write_report(Path(folder), self._whole())
-
-    def to_dataframe(self) -> Any:
-        """The parameters, as a pandas DataFrame."""
-        return self.table.to_dataframe()
 
     def _whole(self) -> Any:
         from pysim.present.fit import Fitted

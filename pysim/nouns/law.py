@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from pysim.nouns.effect import Effect, effect_folder, own_effect
 from pysim.nouns.model import Model
-from pysim.nouns.table import Table, html_of
+from pysim.nouns.table import Shown, Table
 from pysim.types import BadInput, LearnedLaw
 from pysim.types import Diagnosis as Answer
 
@@ -24,7 +24,7 @@ def laws_of(found: Answer, model: Model) -> tuple[Law, ...]:
 
 
 @dataclass(frozen=True, repr=False)
-class Law:
+class Law(Shown):
     """What is missing at one place: a curve with its 95 percent band.
 
     Args:
@@ -100,16 +100,10 @@ class Law:
             keep_law(self.found, name, variants.class_name, variants.libraries, folder, description=description)
         return own_effect(file)
 
-    def to_dataframe(self) -> Any:
-        """The curve, as a pandas DataFrame."""
-        return self.table.to_dataframe()
-
     def save(self, folder: Path | str, name: str) -> Path:
         """Write its class into a folder."""
         return self.to_effect(name).save(folder)
 
-    def __repr__(self) -> str:
-        return "\n".join([self.sentence, *self.table.lines(1200)])
-
-    def _repr_html_(self) -> str:
-        return html_of(self.sentence, self.table)
+    @property
+    def _words(self) -> list[str]:
+        return [self.sentence]

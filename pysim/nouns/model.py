@@ -12,7 +12,7 @@ import numpy as np
 
 from pysim.nouns.common import Input, libraries_of, signal_of
 from pysim.nouns.run import Run
-from pysim.nouns.table import MOST, Table, html_of
+from pysim.nouns.table import Shown, Table
 from pysim.types import BadInput, Effect, Experiment, MeasuredRecord, Record, Signal, Variable, conversion
 from pysim.types import Model as Compiled
 from pysim.types._frozen import FrozenMapping
@@ -74,7 +74,7 @@ def _opened(one: Model) -> Model:
 
 
 @dataclass(frozen=True, repr=False)
-class Model:
+class Model(Shown):
     """A model with what the user said of it. Nothing changes it: each method gives another one.
 
     Args:
@@ -402,7 +402,9 @@ class Model:
 
     # --- how it looks ------------------------------------------------------------------------------------------------
 
-    def _free_table(self) -> Table:
+    @property
+    def table(self) -> Table:
+        """What a fit may change: value and bounds."""
         model = self.compiled
         rows = []
         for name in self.free_names:
@@ -411,7 +413,8 @@ class Model:
             rows.append((name, self.values.get(name, v.start), low, high, _unit(v)))
         return Table.of(("free", "value", "lowest", "highest", "unit"), rows, key="free")
 
-    def _head(self) -> list[str]:
+    @property
+    def _words(self) -> list[str]:
         model = self.compiled
         lines = [f"{self.name}: FMI {model.abilities.fmi}, {len(model.abilities.states)} states"]
         for causality in ("input", "output"):
@@ -426,23 +429,13 @@ class Model:
             lines.append("slots: none, as its class is in no library")
         return lines
 
-    def __repr__(self) -> str:
-        head = self._head()
-        table = self._free_table()
-        return "\n".join(
-            [*head, *(table.lines(MOST - sum(map(len, head)) - len(head)) if len(table) else ["free: none"])]
-        )
-
-    def _repr_html_(self) -> str:
-        return html_of(" | ".join(self._head()), self._free_table())
-
     def plot(self) -> Figure:
         """A sketch: inputs, outputs, what is free, and slots with the effects in them."""
         from pysim.present.model import model_figure
 
         inputs, outputs = ([f"{v.name} [{v.unit}]" for v in self.compiled.variables if v.causality == causality]
                            for causality in ("input", "output"))  # fmt: skip
-        free = [f"{row['free']} = {row['value']:.4g} {row['unit']}" for row in self._free_table()]
+        free = [f"{row['free']} = {row['value']:.4g} {row['unit']}" for row in self.table]
         inside = [f"{len(self.compiled.abilities.states)} states", *(free[:_LISTED] or ["nothing is free"])]
         filled = {slot: [e.name for e in self.effects_in if e.slot == slot] for slot in self.slots["name"]}
         slots = ["\n".join([name, *(own or ["empty"])]) for name, own in filled.items()]

@@ -9,15 +9,15 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from pysim.nouns.table import Table, html_of, pandas
+from pysim.nouns.table import Shown, Table, pandas
 from pysim.types import Outcome, Record
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-@dataclass(frozen=True)
-class Run:
+@dataclass(frozen=True, repr=False)
+class Run(Shown):
     """What a model, or a system of models and controllers, did.
 
     Args:
@@ -51,7 +51,9 @@ class Run:
         """Columns over time: a pandas DataFrame whose index is the time in s."""
         one = self.record
         index = pandas().Index(one.time, name="time [s]")
-        return pandas().DataFrame(one.values, index=index, columns=[_heading(*c) for c in _columns(one)])
+        named = zip(one.names, one.units, strict=True)
+        heads = [name if unit == "1" else f"{name} [{unit}]" for name, unit in named]
+        return pandas().DataFrame(one.values, index=index, columns=heads)
 
     def plot(self) -> Figure:
         """All columns over time, one panel a unit."""
@@ -66,23 +68,10 @@ class Run:
         write_record(self.record, Path(file))
         return Path(file)
 
-    def _summary(self) -> str:
+    @property
+    def _words(self) -> list[str]:
         one = self.record
         ended = "" if one.outcome is Outcome.DONE else f", stopped: {one.message or one.outcome.value}"
         counts = ", ".join(f"{count} {what}" for what, count in one.statistics.items() if count)
         reached = f"{one.time[0]:g} to {one.time[-1]:g} s, {one.time.size} rows" if one.time.size else "no rows"
-        return f"{self.name or 'run'}: {reached}{f', {counts}' if counts else ''}{ended}"
-
-    def __repr__(self) -> str:
-        return "\n".join([self._summary(), *self.table.lines(1500)])
-
-    def _repr_html_(self) -> str:
-        return html_of(self._summary(), self.table)
-
-
-def _columns(record: Record) -> list[tuple[str, str]]:
-    return list(zip(record.names, record.units, strict=True))
-
-
-def _heading(name: str, unit: str) -> str:
-    return name if unit == "1" else f"{name} [{unit}]"
+        return [f"{self.name or 'run'}: {reached}{f', {counts}' if counts else ''}{ended}"]

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from html import escape
 from typing import Any
 
+from pysim.io.named_columns import optional_package
 from pysim.types import BadInput
 from pysim.types._frozen import FrozenMapping
 
@@ -103,6 +104,36 @@ class Table:
         return self.html()
 
 
+class Shown:
+    """How a noun is shown: some words, warnings, and a table with as many rows as there is room for."""
+
+    @property
+    def table(self) -> Table:
+        """What it holds, in rows."""
+        raise NotImplementedError
+
+    @property
+    def _words(self) -> list[str]:
+        """Lines ahead of the table."""
+        return []
+
+    @property
+    def _shown(self) -> Table:
+        """Of the table what is printed."""
+        return self.table
+
+    def to_dataframe(self) -> Any:
+        """The table, as a pandas DataFrame."""
+        return self.table.to_dataframe()
+
+    def __repr__(self) -> str:
+        words = "\n".join(self._words)
+        return "\n".join([*([words] if words else []), *self._shown.lines(MOST - len(words) - 10)])
+
+    def _repr_html_(self) -> str:
+        return html_of(" | ".join(self._words), self._shown)
+
+
 def html_of(text: str, table: Table | None = None, warnings: Sequence[str] = ()) -> str:
     """Some words, a table, and warnings in red, in no more characters than a noun may take."""
     said = "".join(f'<p style="color:#b00020">{escape(one)}</p>' for one in warnings)
@@ -118,11 +149,7 @@ def pandas() -> Any:
     Raises:
         BadInput: it is not installed.
     """
-    try:
-        import pandas
-    except ImportError:
-        raise BadInput('pandas is not installed; type: pip install "hydraulic-test-bench[data]"') from None
-    return pandas
+    return optional_package("pandas", "a DataFrame needs pandas", '"hydraulic-test-bench[data]"')
 
 
 def _is_number(value: Any) -> bool:

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from pysim.nouns.table import Table
+from pysim.nouns.table import Shown, Table
 from pysim.types.answer import Failure
 
 if TYPE_CHECKING:
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, repr=False)
-class Where:
+class Where(Shown):
     """Regions of the measurements, the worst first.
 
     Args:
@@ -28,18 +28,8 @@ class Where:
         rows = [(one.record, one.signal, one.region, one.error) for one in self.failures]
         return Table.of(("log", "signal", "region", "residual over noise"), rows)
 
-    def to_dataframe(self) -> Any:
-        """As a pandas DataFrame."""
-        return self.table.to_dataframe()
-
     def plot(self) -> Figure:
         """The worst of them as bars."""
         from pysim.present.overlay import regions_figure
 
         return regions_figure(self.failures)
-
-    def __repr__(self) -> str:
-        return repr(self.table)
-
-    def _repr_html_(self) -> str:
-        return self.table.html()

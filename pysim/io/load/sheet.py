@@ -50,7 +50,7 @@ def _table(path: Path, sheet: str, rows: list[list[Any]], count: int) -> RawTabl
         return None
     body, remarks = own[found.first :], []
     places = there[found.first :]
-    while body and all(is_empty(cell) or _is_word(cell) for cell in body[-1]):  # notes below the numbers
+    while body and all(is_empty(cell) or isinstance(cell, str) for cell in body[-1]):  # notes below the numbers
         remarks.append(f"row {places[-1] + 1} at its end holds no numbers and was left out")
         body, places = body[:-1], places[:-1]
     place = f"{path}, sheet {sheet}" if count > 1 else str(path)
@@ -59,10 +59,6 @@ def _table(path: Path, sheet: str, rows: list[list[Any]], count: int) -> RawTabl
     return RawTable(
         place, name, found.headings, cells, found.units, lambda k: f"row {places[k] + 1}", tuple(reversed(remarks))
     )
-
-
-def _is_word(cell: object) -> bool:
-    return isinstance(cell, str)
 
 
 def _column(cells: list[Any]) -> NDArray[Any]:

@@ -56,7 +56,7 @@ def _tables(source: Any, name: str) -> Iterator[RawTable]:
             for table in _tables(one, str(own)):
                 yield replace(table, name=f"{own}{Path(table.name).suffix}")
     elif isinstance(source, str | Path):
-        yield from _of_files(str(source))
+        yield from _read(_paths(str(source)))
     elif isinstance(source, Sequence):
         own = [one for one in source if isinstance(one, str | Path)]
         if len(own) == len(source):
@@ -69,10 +69,6 @@ def _tables(source: Any, name: str) -> Iterator[RawTable]:
             f"a log cannot be read from a {type(source).__name__}; give a path, a DataFrame, an xarray.Dataset or a "
             "dict of arrays"
         )
-
-
-def _of_files(place: str) -> Iterator[RawTable]:
-    yield from _read(_paths(place))
 
 
 def _paths(place: str) -> list[Path]:

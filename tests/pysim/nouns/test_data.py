@@ -93,7 +93,7 @@ def test_what_is_shown_is_short_and_has_a_line_a_log() -> None:
     many = load({f"{'long' * 10}{k}": frame for k in range(60)}, inputs="F", outputs=names).flip(*names)
     assert len(repr(many)) < 2000
     assert len(many._repr_html_()) < 2000
-    assert repr(many).endswith("and 52 more")
+    assert repr(many).endswith("... and 50 more")
 
 
 def test_a_table_has_the_units_of_the_logs() -> None:
