@@ -15,7 +15,7 @@ from pysim.nouns.model import Model
 from pysim.nouns.progress import Progress, showing
 from pysim.nouns.run import Run
 from pysim.nouns.table import MOST, Shown, Table, html_of
-from pysim.types import BadInput, Dataset, FitOutcome, ProgressEvent, RecordFit
+from pysim.types import BadInput, Dataset, FitOutcome, ProgressEvent
 from pysim.types import Fit as Found
 
 if TYPE_CHECKING:
@@ -283,16 +283,13 @@ class Fit(Shown):
 
     def _lines(self) -> list[str]:
         """Fit of each signal over all logs, correlations, warnings."""
+        from pysim.io import shown_value
+        from pysim.present.diagnosis.words import signal_rows
+
         lines = []
-        for (name, use), records in _by_signal(self.found.records).items():
-            squares = [(one.measured[name] - one.simulated[name]) ** 2 for one in records]
-            moved = [(one.measured[name] - one.measured[name].mean()) ** 2 for one in records]
-            away, size = (sum(float(part.sum()) for part in parts) for parts in (squares, moved))
-            count = sum(part.size for part in squares)
-            noise = math.sqrt(sum(one.rms[name] ** 2 * one.measured.time.size for one in records) / count)
-            percent = f"fit {100 * (1 - math.sqrt(away / size)):.2f} %" if size else "never moves"
-            lines.append(f"{name} ({use}): {percent}, rms {_shown(records[0], name, math.sqrt(away / count))}, "
-                         f"{noise:.3g} x noise")  # fmt: skip
+        for name, use, noise, percent, away, unit in signal_rows(self.found.records):
+            fit = "never moves" if math.isnan(percent) else f"fit {percent:.2f} %"
+            lines.append(f"{name} ({use}): {fit}, rms {shown_value(away, unit, '.3g')}, {noise:.3g} x noise")
         names, matrix = [one.name for one in self.found.estimates], self.found.correlation
         pairs = [
             f"{names[i]} and {names[j]} {matrix[i, j]:.2f}"
@@ -316,17 +313,3 @@ class Fit(Shown):
         head = f"{self.begun.name} fitted to {self.dataset.name}. {' | '.join(self._lines()[:4])}"
         shown = ("parameter", "value", "95 % from", "to", "unit", "remark")
         return html_of(head, Table({name: self.table[name] for name in shown}), self.warnings)
-
-
-def _by_signal(records: Sequence[RecordFit]) -> dict[tuple[str, str], list[RecordFit]]:
-    found: dict[tuple[str, str], list[RecordFit]] = {}
-    for one in records:
-        for name in one.measured.names:
-            found.setdefault((name, {"fit": "fitted"}.get(one.use, one.use)), []).append(one)
-    return found
-
-
-def _shown(record: RecordFit, name: str, value: float) -> str:
-    from pysim.io import shown_value
-
-    return shown_value(value, record.measured.units[record.measured.names.index(name)], ".3g")

@@ -128,7 +128,7 @@ def _history(diagnosis: Diagnosis) -> Iterator[str]:
 
 
 def _signals(diagnosis: Diagnosis) -> Iterator[str]:
-    rows = signal_rows(diagnosis.history[-1]) if diagnosis.history else []
+    rows = signal_rows(diagnosis.history[-1].records) if diagnosis.history else []
     if rows:
         yield f"Signals, {step_name(diagnosis.history[-1].step).removeprefix('+ ')}"
     for name, use, residual, percent, rms, unit in rows:

@@ -111,7 +111,7 @@ def _signals(step: ErrorStep) -> str:
             "" if math.isnan(percent) else f"{percent:.1f}",
             shown_value(rms, unit, ".3g"),
         ]
-        for name, use, residual, percent, rms, unit in signal_rows(step)
+        for name, use, residual, percent, rms, unit in signal_rows(step.records)
     ]
     head = ["signal", "logs", "residual over noise", "fit (%)", "rms residual"]
     return table(f"Signals of the model {step_name(step.step)}", head, rows, words=[0]) if rows else ""

@@ -11,7 +11,7 @@ from pysim.identify.accuracy import FREQUENCY_CRITERIA, TIME_CRITERIA
 from pysim.io import counted
 from pysim.present.diagnosis.law_words import law_sentence
 from pysim.present.notes import USES, listed
-from pysim.types import Criterion, Diagnosis, ErrorStep, FoundEffect, Left, NextTest, NoteCode, Rival
+from pysim.types import Criterion, Diagnosis, ErrorStep, FoundEffect, Left, NextTest, NoteCode, RecordFit, Rival
 from pysim.types.answer import NONE, PRIOR, REFIT, UNKNOWN
 
 UNIT = "standard deviations of the noise"
@@ -215,11 +215,11 @@ def _fall(steps: Sequence[ErrorStep]) -> str:
     return f"With {who} the residual {verb} {listed(parts)}, in {UNIT}."
 
 
-def signal_rows(step: ErrorStep) -> list[tuple[str, str, float, float, float, str]]:
+def signal_rows(records: Sequence[RecordFit]) -> list[tuple[str, str, float, float, float, str]]:
     """Signal, use of the logs, residual over noise, fit in percent, rms residual and its unit, over all logs."""
     sums: dict[tuple[str, str], list[float]] = {}
     units: dict[str, str] = {}
-    for record in step.records:
+    for record in records:
         measured, residual = record.measured.values, record.measured.values - record.simulated.values
         for j, name in enumerate(record.measured.names):
             units.setdefault(name, record.measured.units[j])

@@ -122,7 +122,7 @@ def test_a_size_that_people_turn_over_is_given_both_ways() -> None:
 
 def test_each_signal_has_one_residual_one_fit_and_one_rms_in_its_unit() -> None:
     """Noise of 0.5 m on a wave of 20 m, and nothing else."""
-    fitted, held = signal_rows(found_offset().history[-1])
+    fitted, held = signal_rows(found_offset().history[-1].records)
     assert (fitted[:2], held[:2]) == (("x", "fitted"), ("x", "held out"))
     for _, _, residual, percent, rms, unit in (fitted, held):
         assert residual == pytest.approx(1.0, abs=0.01)
