@@ -1,7 +1,7 @@
 """Finished FMUs kept by the content they were made from, so that an unchanged model is not built twice.
 
 An FMU is loaded as code, so it is given out only from a folder that no other user could have written into, and only as
-long as it has the digest in its name.
+long as it has the digest in its name. What the compilers keep becomes part of an FMU, so it lies in such a folder too.
 """
 
 import hashlib
@@ -32,8 +32,8 @@ _OWN_FILES = (".py", ".c", ".h", ".txt")  # how their names end
 _MODELICA_FILES = (".mo", ".mos", "package.order")
 
 
-def cache_folder() -> Path:
-    """The folder of finished FMUs, made for this user alone (mode 0700) where it is missing.
+def cache_folder(purpose: str = "fmu") -> Path:
+    """The folder of finished FMUs, or for what a compiler keeps, made for this user alone (mode 0700) where missing.
 
     It lies below $HTB_CACHE, else in the place this system has for such files.
 
@@ -42,7 +42,7 @@ def cache_folder() -> Path:
     """
     given = os.environ.get(FOLDER_VARIABLE)
     root = Path(given).absolute() if given else user_cache_path(_NAME, appauthor=False, opinion=False)
-    folder = root / "fmu"
+    folder = root / purpose
     try:
         root.parent.mkdir(parents=True, exist_ok=True)
         for made in (root, folder):
@@ -59,10 +59,10 @@ def _check_private(folder: Path) -> None:
         return
     known = folder.stat()
     if known.st_uid != os.geteuid():
-        raise BuildError(f"{folder} belongs to another user, so no FMU is taken from it; {_ANOTHER}.")
+        raise BuildError(f"{folder} belongs to another user, so nothing is taken from it; {_ANOTHER}.")
     if known.st_mode & (stat.S_IWGRP | stat.S_IWOTH):
         raise BuildError(
-            f"other users may write into {folder}, so no FMU is taken from it; delete it, or type "
+            f"other users may write into {folder}, so nothing is taken from it; delete it, or type "
             f"`chmod -R go-w {folder}` if you trust what is in it."
         )
 
@@ -137,7 +137,7 @@ def _place(key: str, fmu: Path) -> Path:
 
 
 def _unwritable(folder: Path, error: OSError) -> BuildError:
-    return BuildError(f"cannot keep an FMU in {folder}: {error.strerror or error}; {_ANOTHER}.")
+    return BuildError(f"cannot keep what is built in {folder}: {error.strerror or error}; {_ANOTHER}.")
 
 
 @cache

@@ -17,6 +17,7 @@ from hypothesis import HealthCheck, settings
 ROOT = Path(__file__).parents[1]
 STORE = Path(os.environ.setdefault("HTB_CACHE", str(ROOT / "build" / "cache")))  # by content: all workers share it
 os.environ.setdefault("NUMBA_CACHE_DIR", str(STORE / "numba"))
+os.environ.setdefault("ZIG_GLOBAL_CACHE_DIR", str(STORE / "zig"))  # tests that compile C share what our builds keep
 # Before numpy is loaded: the matrices here are small, and threads that wait for each other count as processor time.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
@@ -29,6 +30,15 @@ settings.load_profile("untimed")
 
 _before = pytest.StashKey[int]()
 _spent: list[pytest.TestReport] = []  # in the process that prints the summary
+
+
+def new_cache(folder: Path) -> Path:
+    """`folder`, made to hold nothing but zig's start-up code, whose compiling takes 5 s of processor time."""
+    from fmu_build.cache import cache_folder
+
+    folder.mkdir(mode=0o700)
+    (folder / "zig").symlink_to(cache_folder("zig"), target_is_directory=True)
+    return folder
 
 
 def cpu() -> float:

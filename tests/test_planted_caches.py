@@ -9,11 +9,12 @@ from pathlib import Path
 import pytest
 
 from fmu_build import build
-from tests.conftest import STORE
+from tests.conftest import STORE, new_cache
 
 ROOT = Path(__file__).parents[1]
 SOMEBODY = 12345
-PURPOSES = ("fmu", "kernel")  # finished and unpacked FMUs; the compiled kernel
+PURPOSES = ("fmu", "kernel", "modelica", "zig")  # FMUs, finished and unpacked; the kernel; what the compilers keep
+COMPILERS = ("rumoca", "zig")  # where they would keep it by themselves, below the place for such files
 
 pytestmark = pytest.mark.skipif(
     not hasattr(os, "geteuid") or os.geteuid() != 0, reason="only root can give a file to another user"
@@ -23,11 +24,11 @@ pytestmark = pytest.mark.skipif(
 @pytest.fixture
 def home(tmp_path: Path) -> Path:
     """A home of its own, whose cache holds what a run needs."""
-    cache = tmp_path / "home" / ".cache" / "hydraulic-test-bench"
-    for purpose in PURPOSES:
-        shutil.copytree(STORE / purpose, cache / purpose) if purpose == "kernel" else (cache / purpose).mkdir(
-            parents=True
-        )
+    (tmp_path / "home" / ".cache").mkdir(parents=True)
+    cache = new_cache(tmp_path / "home" / ".cache" / "hydraulic-test-bench")
+    shutil.copytree(STORE / "kernel", cache / "kernel")
+    for purpose in ("fmu", "modelica"):
+        (cache / purpose).mkdir()
     for folder, _, _ in os.walk(tmp_path):
         Path(folder).chmod(0o700)
     return tmp_path / "home"
@@ -37,13 +38,23 @@ def cache_of(home: Path) -> Path:
     return home / ".cache" / "hydraulic-test-bench"
 
 
+def run_in(home: Path, words: list[str], **further: str) -> "subprocess.CompletedProcess[str]":
+    taken = ("HTB_CACHE", "XDG_CACHE_HOME", "ZIG_GLOBAL_CACHE_DIR", "ZIG_LOCAL_CACHE_DIR")
+    kept = {name: value for name, value in os.environ.items() if name not in taken}
+    surroundings = {**kept, "HOME": str(home), "TMPDIR": str(home.parent), **further}
+    words = [sys.executable, "-m", *words]
+    return subprocess.run(words, env=surroundings, cwd=ROOT, capture_output=True, text=True, check=False)
+
+
 def simulated(home: Path, tmp_path: Path) -> "subprocess.CompletedProcess[str]":
     """A run of an FMU, which unpacks it and loads the kernel."""
-    kept = {name: value for name, value in os.environ.items() if name not in ("HTB_CACHE", "XDG_CACHE_HOME")}
-    surroundings = {**kept, "HOME": str(home), "TMPDIR": str(tmp_path)}
     fmu = build("HydraulicTestBench.Controllers.Gain")
-    words = [sys.executable, "-m", "pysim", "simulate", str(fmu), "-o", str(tmp_path / "out.csv")]
-    return subprocess.run(words, env=surroundings, cwd=ROOT, capture_output=True, text=True, check=False)
+    return run_in(home, ["pysim", "simulate", str(fmu), "-o", str(tmp_path / "out.csv")])
+
+
+def built(home: Path, tmp_path: Path, **further: str) -> "subprocess.CompletedProcess[str]":
+    """A model compiled from Modelica by way of C."""
+    return run_in(home, ["fmu_build", "HydraulicTestBench.Controllers.Gain", "-o", str(tmp_path / "g.fmu")], **further)
 
 
 def test_a_cache_of_our_own_serves(home: Path, tmp_path: Path) -> None:
@@ -82,3 +93,41 @@ def test_a_planted_library_of_another_content_is_not_loaded(home: Path, tmp_path
     done = simulated(home, tmp_path)
     assert "Traceback" not in done.stderr
     assert done.returncode == 2 or (tmp_path / "out.csv").exists()
+
+
+@pytest.mark.parametrize("purpose", ["modelica", "zig"])
+def test_what_another_user_has_planted_for_a_compiler_is_refused(purpose: str, home: Path, tmp_path: Path) -> None:
+    folder = cache_of(home) / purpose
+    folder.unlink() if folder.is_symlink() else folder.rmdir()
+    folder.mkdir(mode=0o700)
+    os.chown(folder, SOMEBODY, SOMEBODY)
+    done = built(home, tmp_path)
+    assert done.returncode == 2, done.stderr
+    assert f"{folder} belongs to another user" in done.stderr
+    assert not (tmp_path / "g.fmu").exists()
+    assert list(folder.iterdir()) == []
+
+
+def test_the_compilers_use_no_folder_of_their_own(home: Path, tmp_path: Path) -> None:
+    """Another user's folders, where each compiler would go by itself or is sent by the surroundings."""
+    named = tmp_path / "named"
+    theirs = [named / "global", named / "local", *(home / ".cache" / name for name in COMPILERS)]
+    for folder in theirs:
+        folder.mkdir(parents=True)
+        folder.chmod(0o777)
+        os.chown(folder, SOMEBODY, SOMEBODY)
+    done = built(home, tmp_path, ZIG_GLOBAL_CACHE_DIR=str(theirs[0]), ZIG_LOCAL_CACHE_DIR=str(theirs[1]))
+    assert done.returncode == 0, done.stderr
+    assert [list(folder.iterdir()) for folder in theirs] == [[], [], [], []]
+    assert list((cache_of(home) / "modelica").iterdir())
+
+
+def test_the_kernel_is_not_compiled_with_what_another_user_has_planted(home: Path, tmp_path: Path) -> None:
+    shutil.rmtree(cache_of(home) / "kernel")
+    (cache_of(home) / "zig").unlink()
+    (cache_of(home) / "zig").mkdir(mode=0o700)
+    os.chown(cache_of(home) / "zig", SOMEBODY, SOMEBODY)
+    done = simulated(home, tmp_path)
+    assert done.returncode == 2, done.stderr
+    assert f"{cache_of(home) / 'zig'} belongs to another user" in done.stderr
+    assert not (tmp_path / "out.csv").exists()

@@ -7,6 +7,7 @@ import subprocess
 from collections.abc import Sequence
 from pathlib import Path
 
+from fmu_build.cache import cache_folder
 from fmu_build.errors import BuildError
 from fmu_build.pack.platforms import Platform
 
@@ -35,10 +36,12 @@ def compile_shared(sources: Sequence[Path], includes: Sequence[str], platform: P
     """
     command = [_zig(), "cc", "-target", platform.zig_target, *FLAGS, *_linker_flags(platform, library)]
     command += [*includes, *(str(source) for source in sources)]
+    kept = str(cache_folder("zig"))  # zig links what it has compiled before: from where no other user can write
     try:
         done = subprocess.run(
             [*command, "-lm", "-o", str(library)],
             cwd=sources[-1].parent,
+            env={**os.environ, "ZIG_GLOBAL_CACHE_DIR": kept, "ZIG_LOCAL_CACHE_DIR": kept},
             capture_output=True,
             text=True,
             errors="replace",

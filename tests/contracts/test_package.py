@@ -9,6 +9,7 @@ from fmpy.validation import validate_fmu
 
 from fmu_build.pack import host_platform
 from tests.cases import CASES
+from tests.conftest import new_cache
 from tests.contracts.building import build_case
 from tests.contracts.fmu import Fmu
 
@@ -36,7 +37,7 @@ def test_all_parts_are_there(fmu: Fmu, fmi: int) -> None:
 @pytest.mark.parametrize("fmi", [2, 3])
 def test_the_same_input_gives_the_same_bytes(fmi: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     first = build_case(CASES[0], fmi, tmp_path).read_bytes()
-    monkeypatch.setenv("HTB_CACHE", str(tmp_path / "another"))
+    monkeypatch.setenv("HTB_CACHE", str(new_cache(tmp_path / "another")))
     assert build_case(CASES[0], fmi, tmp_path).read_bytes() == first
 
 

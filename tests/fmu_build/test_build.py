@@ -15,6 +15,7 @@ from fmu_build import BuildError, CannotCompile, build
 from fmu_build.build import bundled_library
 from fmu_build.errors import WrongCall
 from tests import ode_models
+from tests.conftest import new_cache
 
 build_module = importlib.import_module("fmu_build.build")
 
@@ -22,7 +23,7 @@ build_module = importlib.import_module("fmu_build.build")
 @pytest.fixture
 def loads(tmp_path, monkeypatch):
     """Own cache, and a front end that gives the oscillator; collects the arguments it is called with."""
-    monkeypatch.setenv("HTB_CACHE", str(tmp_path / "cache"))
+    monkeypatch.setenv("HTB_CACHE", str(new_cache(tmp_path / "cache")))
     calls = []
 
     def load(class_name, libraries, overrides):

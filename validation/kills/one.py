@@ -86,7 +86,7 @@ def _new(subject: Subject, place: Path) -> Path:
 def _begun(subject: Subject, folder: Path) -> subprocess.Popen[bytes]:
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join([str(_ROOT), os.environ.get("PYTHONPATH", "")])}
     if subject.cold:
-        environment |= {"HTB_CACHE": str(folder / "cache"), "ZIG_GLOBAL_CACHE_DIR": str(folder / "zig")}
+        environment["HTB_CACHE"] = str(folder / "cache")
     with (folder / "said.txt").open("wb") as said:
         words = [sys.executable, "-m", *subject.words]
         return subprocess.Popen(words, cwd=folder, env=environment, stdout=said, stderr=subprocess.STDOUT)

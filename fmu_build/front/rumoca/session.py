@@ -10,6 +10,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from fmu_build.cache import cache_folder
 from fmu_build.errors import BuildError
 from fmu_build.front.overrides import Override, modification
 from fmu_build.front.rumoca.failures import unresolved
@@ -117,9 +118,13 @@ def _ask_rumoca(request: Mapping[str, Any], source: ClassText) -> dict[str, Any]
 
 
 def _surroundings() -> dict[str, str]:
-    """Without the variable from which rumoca would take libraries that were not named, and that no cache knows of."""
+    """Without the variable from which rumoca would take libraries that were not named, and that no cache knows of.
+
+    What it keeps of the files it has read becomes part of a model, so it lies where no other user can write.
+    """
     kept = {name: value for name, value in os.environ.items() if name.upper() != "MODELICAPATH"}
-    return {**kept, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
+    ours = str(cache_folder("modelica"))
+    return {**kept, "PYTHONPATH": os.pathsep.join(filter(None, sys.path)), "XDG_CACHE_HOME": ours}
 
 
 def _explain(answer: Mapping[str, Any], source: ClassText, joined: JoinedText, libraries: Sequence[Path]) -> BuildError:

@@ -114,7 +114,16 @@ def compile_for(name: str, library: Path) -> None:
     """
     sources = [str(path) for path in sorted(SOURCES.glob("*.c"))]
     command = [_zig(), "cc", "-target", TARGETS[name][0], *FLAGS, *sources, "-lm", "-o", str(library)]
-    done = subprocess.run(command, cwd=SOURCES, capture_output=True, text=True, timeout=_LONGEST, check=False)
+    kept = str(cache_folder("zig"))  # zig links what it has compiled before: from where no other user can write
+    done = subprocess.run(
+        command,
+        cwd=SOURCES,
+        env={**os.environ, "ZIG_GLOBAL_CACHE_DIR": kept, "ZIG_LOCAL_CACHE_DIR": kept},
+        capture_output=True,
+        text=True,
+        timeout=_LONGEST,
+        check=False,
+    )
     if done.returncode:
         raise BadInput(f"the kernel could not be compiled for {name}; reinstall ziglang.\n{done.stderr.strip()}")
 

@@ -14,6 +14,7 @@ from fmu_build.openmodelica import installation
 from fmu_build.pack import select_platforms
 from fmu_build.pack.fmu import pack
 from tests import ode_models
+from tests.conftest import new_cache
 from tests.fmu_build.openmodelica.repack import as_of_omc
 
 FAKE = Path(__file__).with_name("fake_omc.py")
@@ -41,7 +42,7 @@ def omc(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, built: Path) -> Callabl
     program.chmod(program.stat().st_mode | stat.S_IXUSR)
     monkeypatch.setenv("OPENMODELICAHOME", str(home))
     monkeypatch.setenv("FAKE_OMC", str(tmp_path / "told.json"))
-    monkeypatch.setenv("HTB_CACHE", str(tmp_path / "cache"))
+    monkeypatch.setenv("HTB_CACHE", str(new_cache(tmp_path / "cache")))
     monkeypatch.setattr(installation, "is_root", lambda: False)
 
     def behave(**told: Any) -> Path:
