@@ -149,6 +149,8 @@ def _from_file(name: str | None) -> dict[str, float | str]:
         raise BuildError(f"--parameters {name}: cannot be read ({error.strerror}); correct the name.") from error
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         raise BuildError(f"--parameters {name}: {error}; write lines NAME = VALUE.") from error
+    except RecursionError as error:
+        raise BuildError(f"--parameters {name}: it is nested too deeply; write lines NAME = VALUE.") from error
     return _numbers(content, "", name)
 
 

@@ -2,6 +2,8 @@
 
 from pathlib import Path
 
+from fmu_build.text.tokens import printable
+
 
 class BuildError(Exception):
     """Modelica text that cannot become an FMU; `str()` is "file:line: message" as far as the place is known."""
@@ -13,10 +15,8 @@ class BuildError(Exception):
         self.line = line
 
     def __str__(self) -> str:
-        if self.file is None:
-            return self.message
-        place = str(self.file) if self.line is None else f"{self.file}:{self.line}"
-        return f"{place}: {self.message}"
+        place = ":".join(str(part) for part in (self.file, self.line) if part is not None)
+        return printable(f"{place}: {self.message}" if place else self.message)
 
 
 class CannotCompile(BuildError):

@@ -80,6 +80,8 @@ def read_text(file: Path) -> str:
     Raises:
         TextError: it cannot be read, or is in another encoding, with the line.
     """
+    if file.is_fifo() or file.is_char_device():
+        raise TextError("is a pipe or a device, which may never end; write it into a file", file)
     try:
         raw = file.read_bytes()
     except OSError as failure:

@@ -12,6 +12,11 @@ _TOKEN = re.compile(
 )
 
 
+def printable(message: str) -> str:
+    """Signs that command a terminal or break a line, which a quoted file may hold, by their codes."""
+    return "".join(sign if sign.isprintable() or sign == "\n" else ascii(sign)[1:-1] for sign in message)
+
+
 class TextError(Exception):
     """Modelica text that cannot be used; `str()` is "file:line: message" as far as the place is known."""
 
@@ -21,7 +26,7 @@ class TextError(Exception):
 
     def __str__(self) -> str:
         place = ":".join(str(part) for part in (self.file, self.line) if part is not None)
-        return f"{place}: {self.message}" if place else self.message
+        return printable(f"{place}: {self.message}" if place else self.message)
 
 
 class Token(NamedTuple):

@@ -105,7 +105,7 @@ class Project:
             known = {f.name for f in fields(Settings)}
             values: dict[str, Any] = {k: tuple(v) if isinstance(v, list) else v for k, v in found.items() if k in known}
             settings = Settings(**values)
-        except (OSError, ValueError, TypeError) as error:
+        except (OSError, ValueError, TypeError, RecursionError) as error:
             raise BadInput(f"{path}: {error}; correct it, or remove it to begin anew") from error
         for one in fields(Settings):
             if not isinstance(getattr(settings, one.name), type(one.default)):

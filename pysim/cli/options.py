@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 import math
 import sys
-import tomllib
 from collections.abc import Sequence
 from contextlib import nullcontext
 from dataclasses import replace
@@ -129,14 +128,9 @@ def parameters_of(path: Path) -> dict[str, float]:
     Raises:
         BadInput: it cannot be read, or holds something else.
     """
-    from pysim.io import read_text
-    from pysim.types import BadInput
+    from pysim.io import read_toml
 
-    try:
-        content = tomllib.loads(read_text(path, "--parameters"))
-    except tomllib.TOMLDecodeError as error:
-        raise BadInput(f"--parameters {path}: {error}; write lines NAME = VALUE") from error
-    return _flat(content, "", path)
+    return _flat(read_toml(path, "--parameters", "write lines NAME = VALUE").whole.values, "", path)
 
 
 def _flat(table: dict[str, object], prefix: str, path: Path) -> dict[str, float]:

@@ -30,6 +30,7 @@ Array = NDArray[np.float64]
 _LABVIEW_END, _LABVIEW_LINES = "***End_of_Header***", 200
 _SHOWN = 60  # characters of a line in a message
 _UTF_16 = (b"\xff\xfe", b"\xfe\xff")
+_LONG = re.compile(r"[^\n]{1000000}")  # no row and no line of a description is as long
 _UNIT = re.compile(r"\s*[\[(].*")  # behind the name of a column
 
 
@@ -43,6 +44,8 @@ def read_text(path: Path, wanted_by: str) -> str:
     Raises:
         BadInput: the file cannot be read, or is no text.
     """
+    if path.is_fifo() or path.is_char_device():
+        raise BadInput(f"{wanted_by}: {path} is a pipe or a device, which may never end; write it into a file first")
     try:
         raw = path.read_bytes()
     except OSError as error:
@@ -54,7 +57,12 @@ def read_text(path: Path, wanted_by: str) -> str:
         text = raw.decode("utf-16" if raw[:2] in _UTF_16 else "utf-8-sig")
     except UnicodeDecodeError:
         text = raw.decode("latin-1")
-    return text.replace("\r\n", "\n").replace("\r", "\n")
+    text = text.replace("\r\n", "\n").replace("\r", "\n")
+    long = _LONG.search(text)
+    if long:
+        line = text.count("\n", 0, long.start()) + 1
+        raise BadInput(f"{wanted_by}: {path}, line {line} is longer than a million characters; break it into rows")
+    return text
 
 
 def read_table(

@@ -16,6 +16,7 @@ from pysim.types import BadInput
 # Of the parser's messages: where it stopped, and how those about a value begin.
 _LINE = re.compile(r"\(at line (\d+), column \d+\)$")
 _NO_VALUE = ("Invalid value", "Expected newline")
+_DEEP = re.compile(r"""(?:\.\s*[\w"'-]+\s*){100}""")  # sections within sections; the parser counts them again for each
 _SHOWN = 60  # characters of a value in a message
 _BARE = re.compile(r"""\s*([\w.-]+)\s*=\s*([^"'\[\]{}#]*[^"'\[\]{}#\s])\s*(?:#.*)?""")  # a value without quotes
 
@@ -226,33 +227,38 @@ class TomlFile:
         return Section(place, values)
 
 
-def read_toml(path: Path, wanted_by: str) -> TomlFile:
+def read_toml(path: Path, wanted_by: str, cure: str = "correct the TOML") -> TomlFile:
     """A TOML file.
 
     Args:
         wanted_by: what it is, for messages.
+        cure: of what has none of its own.
     Raises:
         BadInput: it cannot be read or is no TOML, with the line.
     """
     text = read_text(path, wanted_by)
+    if _DEEP.search(text):
+        raise BadInput(f"{path}: a name has more than a hundred points; {cure}")
     try:
         content = tomllib.loads(text)
+    except RecursionError as error:
+        raise BadInput(f"{path}: its brackets stand too deep within each other; {cure}") from error
     except ValueError as error:  # beside faults of the TOML, numbers of thousands of digits
-        raise BadInput(f"{path}: {error}; {_cure(error, text)}") from error
+        raise BadInput(f"{path}: {error}; {_cure(error, text) or cure}") from error
     lines = ((number, line.replace('"', "").strip()) for number, line in enumerate(text.split("\n"), 1))
     headers = tuple((number, line) for number, line in lines if line.startswith("["))
     return TomlFile(path, Section(str(path), content), headers)
 
 
 def _cure(error: ValueError, text: str) -> str:
-    """What to do about a text that is no TOML, by the line at which the parser stopped."""
+    """What to do about a text that is no TOML, by the line at which the parser stopped; "" where that says nothing."""
     place = _LINE.search(str(error))
     line = text.split("\n")[int(place[1]) - 1] if place else ""
     if "\\" in line:
         return "write / between folders"
     bare = _BARE.fullmatch(line)
     if bare is None or not str(error).startswith(_NO_VALUE):
-        return "correct the TOML"
+        return ""
     try:
         return f"write {bare[1]} = {float(bare[2].replace(',', '.'))}"
     except ValueError:

@@ -6,6 +6,8 @@ _RED, _PLAIN = "\x1b[31m", "\x1b[0m"
 class BadInput(ValueError):
     """The caller asked for something that cannot be: one sentence with what and where; behind a semicolon the cure.
 
+    What it quotes from files may hold signs that command a terminal or break a line; `str()` shows them by their codes.
+
     Args:
         argument: of the function that was called, which has to change; "" where that is not known.
     """
@@ -13,6 +15,9 @@ class BadInput(ValueError):
     def __init__(self, sentence: str = "", *, argument: str = "") -> None:
         super().__init__(sentence)
         self.argument = argument
+
+    def __str__(self) -> str:
+        return "".join(sign if sign.isprintable() or sign == "\n" else ascii(sign)[1:-1] for sign in super().__str__())
 
     @property
     def cure(self) -> str:
