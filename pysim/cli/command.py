@@ -187,9 +187,10 @@ def _write_numbers(given: Given, result: Any) -> None:
 def _shown(given: Given, result: Any) -> int:
     """Print a result, and write it where that was asked for."""
     from pysim.present import text
+    from pysim.types import printable
 
     command = given.command
-    print(text(result))
+    print(printable(text(result)))
     if "output" in given and given.output:
         result = _reported(given, result)
     _write_numbers(given, result)

@@ -21,7 +21,7 @@ from pysim.types.comparison import Comparison, ResponseComparison
 from pysim.types.criterion import Criterion, Deviation
 from pysim.types.dataset import Dataset, MeasuredRecord, MeasuredSignal
 from pysim.types.effect import Effect, EffectParameter
-from pysim.types.errors import BadInput
+from pysim.types.errors import BadInput, printable
 from pysim.types.experiment import Experiment
 from pysim.types.fit import (
     Combination,
@@ -107,6 +107,7 @@ __all__ = [
     "answer_data",
     "conversion",
     "in_si",
+    "printable",
     "sampling",
     "setting",
     "step_data",

@@ -3,10 +3,13 @@
 _RED, _PLAIN = "\x1b[31m", "\x1b[0m"
 
 
+def printable(text: str) -> str:
+    """Signs that command a terminal or break a line, which names in a file may hold, by their codes."""
+    return "".join(sign if sign.isprintable() or sign == "\n" else ascii(sign)[1:-1] for sign in text)
+
+
 class BadInput(ValueError):
     """The caller asked for something that cannot be: one sentence with what and where; behind a semicolon the cure.
-
-    What it quotes from files may hold signs that command a terminal or break a line; `str()` shows them by their codes.
 
     Args:
         argument: of the function that was called, which has to change; "" where that is not known.
@@ -17,7 +20,7 @@ class BadInput(ValueError):
         self.argument = argument
 
     def __str__(self) -> str:
-        return "".join(sign if sign.isprintable() or sign == "\n" else ascii(sign)[1:-1] for sign in super().__str__())
+        return printable(super().__str__())
 
     @property
     def cure(self) -> str:

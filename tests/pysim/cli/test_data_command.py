@@ -56,6 +56,15 @@ def test_warnings_are_no_errors(folder: Path, tmp_path: Path) -> None:
     assert numbers_of(tmp_path, str(description))["warnings"] == 1
 
 
+def test_a_name_that_commands_the_terminal_is_shown_by_its_codes(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    description = folder / "dataset.toml"
+    description.write_text(description.read_text().replace('"by hand"', '"by\\u001b[2J hand"'))
+    assert main(["data", "check", str(folder)]) == 0
+    assert r"by\x1b[2J hand" in capsys.readouterr().out
+
+
 def test_numbers_report_and_pictures(folder: Path, tmp_path: Path) -> None:
     before = {path: path.stat().st_mtime_ns for path in folder.rglob("*")}
     out = tmp_path / "report"
