@@ -204,6 +204,21 @@ def test_the_limits_on_the_page_are_those_that_judge() -> None:
     assert [(row[k], row[3]) for row in rows for k in (1, 2)] == limits
 
 
+@pytest.mark.parametrize(
+    ("page", "words"),
+    [
+        ("cosim.md", ("An FMU is native code", "Open what you trust", "--isolate")),
+        ("validate.md", ("An FMU is native code",)),
+        ("app.md", ("--host",)),
+        ("simulationx.md", ("output intervals of at most 1 ms", "500 steps per output interval", "tell FMPy's authors")),
+    ],
+)
+def test_a_reader_is_warned(page: str, words: tuple[str, ...]) -> None:
+    """Of code that an FMU runs, of what an open port means, and of what an importer does to inputs."""
+    text = " ".join((ROOT / "docs" / page).read_text(encoding="utf-8").split())
+    assert [word for word in words if word not in text] == []
+
+
 @pytest.mark.parametrize("page", [ROOT / "README.md", *PAGES], ids=page_name)
 def test_commands_can_be_typed_into_any_shell(page: Path) -> None:
     """The consoles of Windows know no line that goes on behind a backslash."""
