@@ -210,7 +210,10 @@ def test_the_limits_on_the_page_are_those_that_judge() -> None:
         ("cosim.md", ("An FMU is native code", "Open what you trust", "--isolate")),
         ("validate.md", ("An FMU is native code",)),
         ("app.md", ("--host",)),
-        ("simulationx.md", ("output intervals of at most 1 ms", "500 steps per output interval", "tell FMPy's authors")),
+        (
+            "simulationx.md",
+            ("output intervals of at most 1 ms", "500 steps per output interval", "tell FMPy's authors"),
+        ),
     ],
 )
 def test_a_reader_is_warned(page: str, words: tuple[str, ...]) -> None:

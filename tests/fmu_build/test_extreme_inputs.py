@@ -63,9 +63,11 @@ def test_a_value_far_beyond_gives_an_error_or_numbers(fmi: int, kind: str, value
 @pytest.mark.parametrize("kind", ["ModelExchange", "CoSimulation"])
 @pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf, 1e40, -1e40])
 def test_another_importer_gets_an_error_and_never_a_value(fmi: int, kind: str, value: float) -> None:
-    command = np.array([(0.0, 0.0), (0.01, 0.0), (0.01, value), (1.0, value)], dtype=[("time", float), (COMMAND, float)])
+    command = np.array(
+        [(0.0, 0.0), (0.01, 0.0), (0.01, value), (1.0, value)], dtype=[("time", float), (COMMAND, float)]
+    )
     run = {"output_interval": 0.01, "input": command, "output": [COMMAND], "logger": lambda *said: None}
-    with pytest.raises((FMICallException, RuntimeError), match="failed with status|CVode error"):
+    with pytest.raises((FMICallException, RuntimeError), match=r"failed with status|CVode error"):
         fmpy.simulate_fmu(str(pump(fmi)), fmi_type=kind, start_time=0, stop_time=0.05, **run)
 
 
