@@ -214,4 +214,4 @@ def _reported(given: Given, result: Any) -> Any:
     written = {name: folder / path.name for name, path in written.items()}
     more = ", ".join(path.name for path in written.values() if path.suffix not in (".html", ".png"))
     print(f"Report: {written['report']}{f'; beside it: {more}' if more else ''}")
-    return with_places(result, written, given.json.parent if given.json else folder)
+    return with_places(result, written, given.json.parent if "json" in given and given.json else folder)

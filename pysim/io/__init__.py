@@ -16,7 +16,7 @@ from pysim.io.headings import column_names
 from pysim.io.load.headings import name_and_unit
 from pysim.io.model_units import in_model_units
 from pysim.io.records import read_record, record_data, record_text, write_record
-from pysim.io.signals import read_signal, write_signal
+from pysim.io.signals import read_signal, signal_times, write_signal
 from pysim.io.single_log import read_single_log
 from pysim.io.stages import StageFile, read_stages, write_stages
 from pysim.io.text_table import read_text
@@ -68,6 +68,7 @@ __all__ = [
     "shown_unit",
     "shown_value",
     "signal_in_si",
+    "signal_times",
     "toml_key",
     "toml_table",
     "unusable_name",

@@ -6,6 +6,7 @@ import re
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
 from pysim.io.files import write_file
 from pysim.io.text_table import read_table, read_text
@@ -54,6 +55,20 @@ def _has_rate(text: str) -> bool:
     return False
 
 
+def signal_times(path: Path | str, duration: float, sampling_hz: float) -> NDArray[np.float64]:
+    """Times in s of the rows of a file, (n_r,).
+
+    Raises:
+        BadInput: that are no two rows, or too many.
+    """
+    count = duration * sampling_hz
+    if 1 <= count < _MOST_ROWS:
+        return np.arange(int(np.ceil(count - 1e-9)) + 1) / sampling_hz
+    raise BadInput(
+        f"{path}: {duration:g} s at {sampling_hz:g} Hz give {count:.3g} rows; between 2 and {_MOST_ROWS:,} belong"
+    )
+
+
 def write_signal(
     signal: Signal, path: Path | str, *, duration: float, unit: str, sampling_hz: float = 1000.0, title: str = ""
 ) -> None:
@@ -70,12 +85,7 @@ def write_signal(
     Raises:
         BadInput: a duration or sampling that gives no two rows or too many, or a place that cannot be written.
     """
-    count = duration * sampling_hz
-    if not 1 <= count < _MOST_ROWS:
-        raise BadInput(
-            f"{path}: {duration:g} s at {sampling_hz:g} Hz give {count:.3g} rows; between 2 and {_MOST_ROWS:,} belong"
-        )
-    time = np.arange(int(np.ceil(count - 1e-9)) + 1) / sampling_hz
+    time = signal_times(path, duration, sampling_hz)
     header = [f"# {line}" for line in title.splitlines()]
     header += [f"# {time.size} rows, {sampling_hz:g} per second; the rate is the exact derivative of the command"]
     header += [f"time [s],value [{unit}],rate [{unit}/s]"]

@@ -180,9 +180,10 @@ class Diagnosis(Shown):
     def steps(self) -> Table:
         """The error, model by model: rms residual over noise on logs fitted, used to choose, and never seen."""
         from pysim.present.diagnosis.words import step_name
+        from pysim.present.notes import USES
 
         rows = [(step_name(one.step), one.fit, one.validate, one.test) for one in self.found.history]
-        return Table.of(("model", "fitted", "held out", "unseen"), rows, key="model")
+        return Table.of(("model", *USES.values()), rows, key="model")
 
     @property
     def effects(self) -> Table:

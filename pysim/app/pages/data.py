@@ -17,6 +17,7 @@ from pysim.app.records import MOST, measured_overlay
 from pysim.identify.data_check import DataCheck, RecordCheck
 from pysim.io import counted
 from pysim.present.data_check import sentence
+from pysim.present.notes import USES
 from pysim.types import UNITS, BadInput, Record
 
 MODELS = ("HydraulicTestBench.Pump.FreeGreyBox", "HydraulicTestBench.Pump.LockedGreyBox")
@@ -183,7 +184,7 @@ def _records(desk: Desk, preview: dict[str, int]) -> None:
     check = desk.loaded.check if desk.loaded else None
     if check is None or not check.records:
         return
-    columns = [("record", "words"), ("held out", "tick"), ("kind", "words"), ("rows", "number"), ("s", "number")]
+    columns = [("record", "words"), (USES["validate"], "tick"), ("kind", "words"), ("rows", "number"), ("s", "number")]
     columns += [
         ("samples/s", "number"),
         ("offset", "number"),
@@ -193,10 +194,10 @@ def _records(desk: Desk, preview: dict[str, int]) -> None:
     ]
     held = sum(record.use != "fit" for record in check.records)
     read = [record.source for record in check.records]
-    with card(f"{counted(len(check.records), 'record')}, {held} held out"):
+    with card(f"{counted(len(check.records), 'record')}, {held} {USES['validate']}"):
         text(
             "p",
-            "What is held out is never fitted: it shows whether the model foresees. Click a row to see the record.",
+            f"What is {USES['validate']} is never fitted: it shows whether the model foresees. Click a row to see it.",
             "small",
         )
         Table(

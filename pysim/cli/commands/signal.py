@@ -6,7 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from pysim.cli.command import DONE, Command, Given
+from pysim.cli.command import Command, Given
 from pysim.cli.option import Option, Role, choice, file, number, switch, text
 
 if TYPE_CHECKING:
@@ -14,36 +14,25 @@ if TYPE_CHECKING:
     from pysim.present.excitation import Played
 
 
-def _made(given: Given, test: Excitation) -> int:
-    """Write the file and say what is in it; the folder's page comes whole together with the file, or not at all."""
-    from pysim import present
-    from pysim.cli.outputs import answer_folder, prepare_answer, prepare_file
+def _made(given: Given, test: Excitation) -> Played:
+    """What the file will hold, which is written last: with its page, or not at all."""
+    from pysim.io import signal_times
     from pysim.present.excitation import Played
 
-    path, folder = _places(given)
     _refuse_slow_sampling(test, given.sampling)
-    prepare_file(path, "-o", (".csv",))
+    given.typed |= _places(given)
+    signal_times(given.file, test.duration, given.sampling)  # refused before anything is shown
     about = given.command.about.rstrip(".")
-    played = Played(path, given.command.name, about, test, given.unit, given.sampling, _settings(given))
-    if folder is None:
-        _write(played)
-        print(present.text(played))
-        return DONE
-    prepare_answer(folder, data=[], read=[], beside=[path])
-    with answer_folder(folder, beside=[path]) as new:
-        written = present.write_report(new, played, redo=given.repeated)
-        _write(played)
-    print(present.text(played))
-    print(f"Report: {folder / written['report'].name}")
-    return DONE
+    return Played(given.file, given.command.name, about, test, given.unit, given.sampling, _settings(given))
 
 
-def _places(given: Given) -> tuple[Path, Path | None]:
+def _places(given: Given) -> dict[str, Path | None]:
     """The file, and the folder of its report; elsewhere the option of the one result is --output.
 
     Raises:
-        BadInput: no file is named.
+        BadInput: no file is named, or nothing can be written there.
     """
+    from pysim.cli.outputs import prepare_answer, prepare_file
     from pysim.types import BadInput
 
     path, folder = given.file, given.output
@@ -51,10 +40,13 @@ def _places(given: Given) -> tuple[Path, Path | None]:
         path, folder = folder, None
     if path is None:
         raise BadInput("name the file to write, -o FILE.csv")
-    return path, folder
+    prepare_file(path, "-o", (".csv",))
+    if folder is not None:
+        prepare_answer(folder, data=[], read=[], beside=[path])
+    return {"file": path, "output": folder}
 
 
-def _write(played: Played) -> None:
+def _write(_given: Given, played: Played) -> None:
     from pysim.io import write_signal
 
     write_signal(
@@ -90,21 +82,21 @@ def _lead(given: Given) -> LeadIn:
     return LeadIn(given.rest, given.ramp, given.hold, given.ramp_down)
 
 
-def _stepped_sine(given: Given) -> int:
+def _stepped_sine(given: Given) -> Played:
     from pysim.excitation import SteppedSineCommand
 
     sine = (given.offset, given.amplitude, given.frequency, given.periods)
     return _made(given, SteppedSineCommand(*sine, _lead(given)))
 
 
-def _chirp(given: Given) -> int:
+def _chirp(given: Given) -> Played:
     from pysim.excitation import Chirp
 
     sweep = (given.offset, given.amplitude, given.start_hz, given.stop_hz, given.sweep)
     return _made(given, Chirp(*sweep, _lead(given)))
 
 
-def _stochastic(given: Given) -> int:
+def _stochastic(given: Given) -> Played:
     from pysim.excitation import PiersonMoskowitz, StochasticWave
 
     spectrum = PiersonMoskowitz(given.height, given.peak_period)
@@ -112,13 +104,13 @@ def _stochastic(given: Given) -> int:
     return _made(given, StochasticWave(*wave, lead=_lead(given)))
 
 
-def _step(given: Given) -> int:
+def _step(given: Given) -> Played:
     from pysim.excitation import Step
 
     return _made(given, Step(given.offset, given.height, given.length, given.back, _lead(given)))
 
 
-def _multisine(given: Given) -> int:
+def _multisine(given: Given) -> Played:
     from pysim.excitation import LineGrid, Multisine
     from pysim.types import BadInput
 
@@ -144,14 +136,14 @@ _SHARED = (
     number("--ramp-down", "SECONDS", 0.5, "back to zero"),
     text("--unit", "UNIT", "of the command, for header and picture", default="%"),
     number("--sampling", "HZ", 1000.0, "rows per second"),
-    Option(("-o", "--file"), "time, value and rate; needed", "FILE.csv", convert=Path),
+    Option(("-o", "--file"), "time, value and rate; needed", "FILE.csv", convert=Path, role=Role.FILE),
     file("--output", "DIR", "write the picture and report.html here; a .csv is taken as --file", role=Role.VALUE),
 )
 
 
-def _kind(name: str, about: str, run: Callable[[Given], int], *options: Option) -> Command:
+def _kind(name: str, about: str, run: Callable[[Given], Played], *options: Option) -> Command:
     """A signal with its own options, ahead of those that all have."""
-    return Command(name, about, run, options=(*options, *_SHARED))
+    return Command(name, about, run, options=(*options, *_SHARED), done=_write)
 
 
 COMMAND = Command(

@@ -73,10 +73,11 @@ def inside(path: Path, folder: Path, owner: str, source: str) -> Path:
         BadInput: it lies elsewhere.
     """
     parts = urlsplit(source)
-    file = (folder / unquote(parts.path)).resolve()
+    name = unquote(parts.path)
+    file = (folder / name.replace("\0", "")).resolve()
     if parts.scheme or parts.netloc or not file.is_relative_to(folder.resolve()):
         raise BadInput(f"{path}: {owner} comes from {source!r}, outside the package; put the file into resources/")
-    if not file.is_file():
+    if "\0" in name or not file.is_file():
         raise BadInput(f"{path}: {owner} comes from {source!r}, which is not in the package; export it again")
     return file
 

@@ -10,6 +10,7 @@ import numpy as np
 
 from pysim.identify.data_check import DataCheck
 from pysim.io import shown_unit
+from pysim.present.notes import USES
 from pysim.present.render import Picture
 from pysim.present.style import COLOURS, DASHES, MEASURED, SMALL, TEXT, frequency_axis, legend_above, new_figure, quiet
 from pysim.types import BadInput, Dataset, MeasuredRecord, Record
@@ -66,7 +67,7 @@ def coverage_figure(dataset: Dataset) -> Figure:
     axes = figure.subplots()
     quiet(axes)
     handles: dict[str, Any] = {}
-    for held_out, label, face in ((False, "to fit", COLOURS[0]), (True, "held out", "white")):
+    for held_out, label, face in ((False, "to fit", COLOURS[0]), (True, USES["validate"], "white")):
         chosen = [record for record in sines if record.held_out == held_out]
         rows = [tests.index(_test(record)) for record in chosen]
         frequencies = np.array([record.frequency for record in chosen])

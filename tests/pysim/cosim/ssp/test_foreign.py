@@ -147,8 +147,14 @@ def test_units_are_converted_as_the_standard_has_it(tmp_path: Path, fmus: dict[s
     [
         ('source="resources/0002_Spring.fmu"', 'source="http://a.b/c.fmu"', "outside the package"),
         ('source="resources/0002_Spring.fmu"', 'source="resources/none.fmu"', "which is not in the package"),
+        ('source="resources/0002_Spring.fmu"', 'source="resources/%00.fmu"', "which is not in the package"),
         ('source="resources/0002_Spring.fmu"', "", "which is not in the package|outside the package"),
         ("0001_Mass.fmu", '0001_Mass.fmu" implementation="ScheduledExecution', "only co-simulation and model exchange"),
+        (
+            'stopTime="0.500000"',
+            'stopTime="1e300"',
+            "1e\\+303 rows are more than 10,000,000; let rows be further apart",
+        ),
         ("root%20values", "other", "a parameter file of root comes from 'resources/other.ssv', which is not in the"),
         ("/SSP1/SystemStructureDescription", "/Draft/SystemStructureDescription", "which is not SSP 1.0"),
         ('stepSize="0.001000"', 'stepSize="fast"', "stepSize = 'fast' of a FixedStepMaster is no number"),
