@@ -45,6 +45,8 @@ def main(argv: Sequence[str] | None = None) -> int:
         args = parser.parse_args(words)
     except SystemExit as end:  # argparse has said what is wrong, or shown the help
         return int(end.code or 0)
+    except KeyboardInterrupt as stop:  # some options load libraries to say what they take
+        return _stopped(stop)
     return _guarded(args)
 
 
@@ -108,9 +110,8 @@ def _guarded(args: argparse.Namespace) -> int:
     except BrokenPipeError:  # `pysim ... | head` has seen enough
         _silence()
         return WRONG_USE
-    except KeyboardInterrupt as stop:  # a command that can be gone on with says how
-        print(f"pysim: stopped{f'; {stop}' if str(stop) else ''}", file=sys.stderr)
-        return WRONG_USE
+    except KeyboardInterrupt as stop:
+        return _stopped(stop)
     except Exception as error:
         code = _answer(error)
         if code != OUR_BUG:
@@ -119,6 +120,12 @@ def _guarded(args: argparse.Namespace) -> int:
         traceback.print_exc()
         print(f"pysim {args.command}: this is our mistake, please report the lines above", file=sys.stderr)
         return OUR_BUG
+
+
+def _stopped(stop: KeyboardInterrupt) -> int:
+    """A command that can be gone on with says how."""
+    print(f"pysim: stopped{f'; {stop}' if str(stop) else ''}", file=sys.stderr)
+    return WRONG_USE
 
 
 def _silence() -> None:

@@ -118,6 +118,15 @@ def test_the_fluid_adapter_has_a_medium_that_is_whole() -> None:
     assert least == "Modelica.Media.Interfaces.PartialMedium"
 
 
+def test_the_percent_sign_has_its_reason() -> None:
+    """Unit 1 with display unit % would show 5000 % for the command 50, which users type and logs hold."""
+    percent, rate = (
+        (LIBRARY / "Types" / f"{name}.mo").read_text(encoding="utf-8") for name in ("Percent", "PercentRate")
+    )
+    assert ('unit="%"' in percent, 'unit="%/s"' in rate) == (True, True)
+    assert "shows 5000 %" in " ".join(percent.split())
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("name", RUNNABLE)
 @pytest.mark.parametrize("check", QUIET)

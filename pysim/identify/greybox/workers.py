@@ -5,6 +5,7 @@ from __future__ import annotations
 import atexit
 import multiprocessing
 import os
+import signal
 import threading
 from collections.abc import Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
@@ -99,7 +100,7 @@ class Processes:
         results: dict[int, Result] = {}
         again: list[int] = []
         chunks = _chunks(len(jobs), 4 * count)
-        with ProcessPoolExecutor(count, mp_context=multiprocessing.get_context("spawn")) as pool:
+        with _pool(count) as pool:
             waiting = [pool.submit(_run_share, _share(model, jobs, chunk, solver)) for chunk in chunks]
             for chunk, job in zip(chunks, waiting, strict=True):
                 try:
@@ -107,12 +108,18 @@ class Processes:
                 except BrokenProcessPool:
                     again += chunk
         for i in again:
-            with ProcessPoolExecutor(1, mp_context=multiprocessing.get_context("spawn")) as pool:
+            with _pool(1) as pool:
                 try:
                     results[i] = pool.submit(_run_share, _share(model, jobs, [i], solver)).result()[0]
                 except BrokenProcessPool:
                     results[i] = Lost("the FMU crashed and took its worker process with it")
         return [results[i] for i in range(len(jobs))]
+
+
+def _pool(count: int) -> ProcessPoolExecutor:
+    """Processes that Ctrl-C ends at once and without a word; the parent says what has to be said."""
+    context, silent = multiprocessing.get_context("spawn"), (signal.SIGINT, signal.SIG_DFL)
+    return ProcessPoolExecutor(count, mp_context=context, initializer=signal.signal, initargs=silent)
 
 
 @dataclass(frozen=True)

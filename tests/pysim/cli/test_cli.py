@@ -223,3 +223,14 @@ def test_a_reader_that_went_away_ends_the_command_quietly() -> None:
         process.stdout.close()
         assert process.stderr.read() == b""
     assert process.returncode == 2
+
+
+def test_ctrl_c_while_the_options_are_looked_up_is_a_word(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def stopped(command: str) -> argparse.ArgumentParser:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(sys.modules["pysim.cli.main"], "argument_parser", stopped)
+    assert main(["fit", "--help"]) == 2
+    assert capsys.readouterr().err == "pysim: stopped\n"

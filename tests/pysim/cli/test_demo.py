@@ -63,7 +63,7 @@ def demo(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Path:
     class InThisProcess(ThreadPoolExecutor):
         """In place of two processes, which would know nothing of the stand-ins."""
 
-        def __init__(self, workers: int, mp_context: object) -> None:
+        def __init__(self, workers: int, mp_context: object, **quiet: object) -> None:
             super().__init__(1)
 
     def draw_picture(comparisons: Sequence[Comparison], folder: Path, name: str) -> Drawing:

@@ -1,5 +1,6 @@
 """Wherever the runs go, the fit is the same; what a worker loses is a bad point."""
 
+import signal
 from concurrent.futures import Future
 from pathlib import Path
 from typing import Any
@@ -8,7 +9,7 @@ import numpy as np
 import pytest
 
 from pysim.identify.greybox import Cluster, Parameter, Processes, Simulation, Threads, problem
-from pysim.identify.greybox.workers import Job
+from pysim.identify.greybox.workers import Job, _pool
 from pysim.io import read_model
 from pysim.simulate import Esdirk
 from pysim.types import Experiment, Model, Outcome
@@ -84,6 +85,12 @@ def test_an_fmu_that_crashes_ends_its_worker_and_not_the_run(tmp_path: Path) -> 
     for result in (first, last):
         assert result.record.outcome is Outcome.DONE
         assert result.record["x"] == pytest.approx((1 - times[:3] / 2) ** 2, abs=3e-3)
+
+
+def test_ctrl_c_ends_a_worker_process_at_once() -> None:
+    """One that caught it would go on with the shares that wait, and show a traceback for each."""
+    with _pool(1) as pool:
+        assert pool.submit(signal.getsignal, signal.SIGINT).result() == signal.SIG_DFL
 
 
 @pytest.mark.slow
