@@ -23,8 +23,8 @@ def row_times(start: float, stop: float, step: float, every: float, place: str =
         BadInput: the stop is no communication point, or there are too many rows.
     """
     if not (stop - start) / every <= _MOST_ROWS:
-        rows = (stop - start) / every
-        raise BadInput(f"{place}{rows:.3g} rows are more than {_MOST_ROWS:,}; let rows be further apart (rows_every)")
+        wanted = (stop - start) / every
+        raise BadInput(f"{place}{wanted:.3g} rows are more than {_MOST_ROWS:,}; let rows be further apart (rows_every)")
     count = int((stop - start) / every + _NEAR)
     rows = np.asarray(start + every * np.arange(count + 1), dtype=np.float64)
     if stop - rows[-1] <= _NEAR * every:

@@ -12,6 +12,7 @@ from pysim.diagnosis.candidate import Candidate, Values
 from pysim.diagnosis.secants import Secants
 from pysim.diagnosis.settings import Settings
 from pysim.identify.greybox import GaussNewton, Nuisance, Point, Simulation
+from pysim.identify.greybox.beginning import first_point
 from pysim.identify.greybox.optimiser import Bounds, State
 from pysim.identify.greybox.residuals import Carried
 from pysim.types import FitOutcome
@@ -101,30 +102,15 @@ def begin(candidate: Candidate, values: Values, simulation: Simulation, present:
     return FinalFit(candidate, replace(state, first_cost=point.cost), simulation, evaluate)
 
 
-def from_first_samples(fit: FinalFit) -> FinalFit:
-    """The same start with states that are logged where their logs begin, if that is better: rest may be far away."""
-    if not fit.good:
-        return fit
-    candidate, states = fit.candidate, list(fit.point.carried.states)
-    residuals = candidate.residuals(fit.simulation)
-    rows = fit.point.residual * candidate.levels(residuals, fit.point)
-    names, place = candidate.model.abilities.states, {id(run): i for i, run in enumerate(residuals.runs)}
-    for number, (one, name) in enumerate(residuals.series):
-        if one.domain != "time" or name is None:
-            continue
-        run = one.runs[0]
-        offset = states[place[id(run)]]
-        free = [names[i] for i in run.free.tolist()]
-        variable = run.experiment.record[one.channels.index(name)]
-        if offset is not None and variable in free:
-            moved = offset.copy()
-            moved[free.index(variable)] += rows[fit.point.series == number][0]
-            states[place[id(run)]] = moved
-    point = fit.evaluate(fit.point.x, replace(fit.point.carried, states=tuple(states)))
-    if not (point.good and point.cost < fit.point.cost):
-        return fit
+def begin_anywhere(candidate: Candidate, simulation: Simulation) -> FinalFit:
+    """The candidate at its own values, or where a search on longer and longer stretches of its logs has come."""
+    residuals = candidate.residuals(simulation)
+    point = first_point(residuals, candidate.model, candidate.space, candidate.at({}))
+    evaluate = exact(candidate, simulation)
+    if not point.good:
+        return FinalFit(candidate, State(point, outcome=FitOutcome.NO_START), simulation, evaluate)
     state = _optimiser().begin(point, _bounds(candidate), squares=True)
-    return replace(fit, state=replace(state, first_cost=point.cost))
+    return FinalFit(candidate, replace(state, first_cost=point.cost), simulation, evaluate)
 
 
 def again(

@@ -17,12 +17,12 @@ from pysim.diagnosis.candidate import Candidate, Models, Values
 from pysim.diagnosis.checkpoint import Checkpoint
 from pysim.diagnosis.left import Floors
 from pysim.diagnosis.progress import Progress
-from pysim.diagnosis.refit import FinalFit, begin, converged, from_first_samples, race
+from pysim.diagnosis.refit import FinalFit, begin, begin_anywhere, converged, race
 from pysim.diagnosis.screen import Screened, best_of_each, own_values, screen, screened
 from pysim.diagnosis.sensors import sensor_candidates
 from pysim.diagnosis.settings import Settings
 from pysim.identify.greybox import Simulation
-from pysim.identify.greybox.comparison import settled_initial_states
+from pysim.identify.greybox.beginning import settled_initial_states
 from pysim.types import BadInput, Effect
 from pysim.types.answer import Detectable, GainTest, Verdict
 
@@ -90,7 +90,8 @@ class Found:
         steps: forward, in the order they were made.
         losses: name of each effect kept -> what leaving it out costs.
         undecidable: whether too few independent samples are there to decide anything.
-        more: whether something passes its test that is not kept, since unseen logs or blocks argue against it.
+        more: whether something passes its test that is not kept, since unseen logs or blocks argue against it, or may
+            pass that was not tried, since no more effects were asked for.
     """
 
     base: FinalFit
@@ -132,7 +133,7 @@ class Search:
         candidate = self.models.of(())
 
         def found() -> FinalFit:
-            first = from_first_samples(begin(candidate, {}, self.rough))
+            first = begin_anywhere(candidate, self.rough)
             if not first.good:
                 failure = first.point.failure
                 raise BadInput(f"{candidate.model.label} cannot be simulated at its own parameters: {failure}")
@@ -228,7 +229,9 @@ class Search:
             steps = self._forward(base, most, way, first)
             if not steps:
                 break
-            ends.append(self._backward(base, steps))
+            end = self._backward(base, steps)
+            limited = len(steps) == most and not self._is_done(end.final)
+            ends.append(replace(end, more=end.more or limited))
             if way == 0 and self._is_done(ends[0].final):
                 break
             first = first or steps

@@ -8,18 +8,15 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from pysim.identify.greybox.beginning import settled_initial_states
 from pysim.identify.greybox.nuisance import SensorErrors
 from pysim.identify.greybox.observation import Observation, Simulated
-from pysim.identify.greybox.parameters import ParameterSpace
 from pysim.identify.greybox.problem import Problem
-from pysim.identify.greybox.residuals import Carried, Channel, Point, WeightedResiduals
+from pysim.identify.greybox.residuals import Channel
 from pysim.identify.greybox.runs import Failure, Simulation, simulate_runs
-from pysim.types import Experiment, Model, Note, NoteCode, RecordFit, ResponseFit
+from pysim.types import Experiment, Note, NoteCode, RecordFit, ResponseFit
 
 Array = NDArray[np.float64]
-
-_ROUNDS = 40  # steps of the initial states of a log that was not fitted
-_SETTLED = 0.5  # nats that a step promises and that are not worth it: what a free number gains by chance (chi-squared)
 
 
 @dataclass(frozen=True)
@@ -85,32 +82,6 @@ def with_noise(record: RecordFit, noise: Mapping[Channel, float]) -> RecordFit:
     scale = {name: new / old for name, new, old in zip(record.measured.names, sizes, record.noise, strict=True)}
     harmonics = tuple(replace(one, std=one.std * scale[one.signal]) for one in record.harmonics)
     return replace(record, noise=sizes, harmonics=harmonics)
-
-
-def settled_initial_states(residuals: WeightedResiduals, model: Model, space: ParameterSpace, x: Array) -> Point:
-    """The point at x (n,) with the initial states of its logs estimated, the parameters held.
-
-    Nothing but its own measurements moves the state at which a log begins, so that each log is settled by itself.
-    """
-    ends = [_settled(replace(residuals, observations=(one,)), model, space, x) for one in residuals.observations]
-    if len(ends) == 1 or not all(end.good for end in ends):
-        return next((end for end in ends if not end.good), ends[0])
-    carried = Carried(tuple(state for end in ends for state in end.carried.states))
-    return residuals.evaluate(model, space, x, carried, jacobian=False)
-
-
-def _settled(residuals: WeightedResiduals, model: Model, space: ParameterSpace, x: Array) -> Point:
-    best = residuals.evaluate(model, space, x, jacobian=False)
-    share = 1.0
-    for _ in range(_ROUNDS):
-        if not best.good or share * (2 - share) * best.gain < _SETTLED:
-            break
-        trial = residuals.evaluate(model, space, x, best.carried_to(x, share), jacobian=False)
-        if trial.cost < best.cost:
-            best, share = trial, min(1.0, 2 * share)
-        else:
-            share *= 0.25
-    return best
 
 
 def _simulated(

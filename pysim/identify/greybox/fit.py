@@ -10,8 +10,9 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from pysim.identify.greybox.beginning import first_point, settled_initial_states
 from pysim.identify.greybox.checkpoint import Checkpoint, digest
-from pysim.identify.greybox.comparison import Compared, compared, settled_initial_states, with_noise
+from pysim.identify.greybox.comparison import Compared, compared, with_noise
 from pysim.identify.greybox.initial_states import initial_states
 from pysim.identify.greybox.interior_point import InteriorPoint
 from pysim.identify.greybox.least_squares import GaussNewton, blur_of
@@ -222,7 +223,7 @@ def _one_search(
     first: Callable[[], Point] | None = None,
 ) -> State:
     folder = None if effort.log is None else effort.log / name
-    residuals = problem.residuals(objective, simulation)
+    residuals, bounds = problem.residuals(objective, simulation), Bounds(*problem.space.bounds())
 
     def evaluate(x: Array, carried: Carried) -> Point:
         return residuals.evaluate(problem.model, problem.space, x, carried)
@@ -231,7 +232,7 @@ def _one_search(
         evaluate,
         optimiser,
         problem.space,
-        first or x,
+        first or (lambda: first_point(residuals, problem.model, problem.space, optimiser.first(x, bounds))),
         squares=objective.squares,
         name=name,
         checkpoint=None if folder is None else _checkpoint(problem, objective, optimiser, simulation, folder, x),

@@ -110,6 +110,10 @@ class Observation(Protocol):
         """The same measurements beside other runs, one for each of `runs`."""
         ...
 
+    def head(self, share: float) -> Observation:
+        """The first share of a log that begins anywhere; anything else as it is."""
+        ...
+
     @property
     def channels(self) -> tuple[str, ...]:
         """Signals with a level of their own; none where the residuals have a known one, 1."""

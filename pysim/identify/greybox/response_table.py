@@ -63,6 +63,10 @@ class ResponseTable:
         """See Observation."""
         return replace(self, runs=tuple(runs))
 
+    def head(self, share: float) -> ResponseTable:
+        """See Observation."""
+        return self
+
     @property
     def specified(self) -> bool:
         """Whether the table says how uncertain it is."""

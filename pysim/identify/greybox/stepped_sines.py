@@ -65,6 +65,10 @@ class SteppedSines:
         """See Observation."""
         return replace(self, runs=tuple(runs))
 
+    def head(self, share: float) -> SteppedSines:
+        """See Observation."""
+        return self
+
     @property
     def channels(self) -> tuple[str, ...]:
         """The compared columns."""

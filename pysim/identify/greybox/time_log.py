@@ -63,6 +63,18 @@ class TimeLog:
         """See Observation."""
         return replace(self, run=runs[0])
 
+    def head(self, share: float) -> TimeLog:
+        """See Observation. There are twice as many numbers as states at least."""
+        if not np.isinf(self.run.initial).any():
+            return self
+        least = math.ceil(2 * self.run.free.size / len(self.channels))
+        count = min(max(math.ceil(share * self.measured.time.size), least), self.measured.time.size)
+        whole = self.measured
+        measured = replace(whole, time=whole.time[:count], values=whole.values[:count])
+        experiment = replace(self.run.experiment, times=self.run.experiment.times[:count])
+        run = replace(self.run, experiment=experiment, measured=self.run.measured[:count])
+        return replace(self, measured=measured, run=run)
+
     @property
     def channels(self) -> tuple[str, ...]:
         """The compared columns."""

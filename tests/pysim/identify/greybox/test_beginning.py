@@ -1,0 +1,71 @@
+"""Logs that begin anywhere, of a swing of many periods: the search starts from rest, a period out of step."""
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+import fmu_build
+from pysim.identify.greybox import Parameter, Treatment, fit, problem
+from pysim.identify.greybox.beginning import settled_initial_states
+from pysim.io import read_model
+from pysim.types import Dataset, MeasuredRecord, MeasuredSignal, Model, Record
+
+SWING = """model Swing "Pendulum that hangs"
+  parameter Real w2(unit="1/s2", min=20, max=120, nominal=60) = 55;
+  parameter Real d(unit="1/s", min=0, max=2, nominal=0.1) = 0.1;
+  input Real u(unit="1/s2");
+  output Real x(unit="rad", start=0, fixed=true);
+  Real v(unit="rad/s", start=0, fixed=true);
+equation
+  der(x) = v;
+  der(v) = u - w2*sin(x) - d*v;
+end Swing;
+"""
+W2, D, NOISE = 62.0, 0.06, 1e-3
+
+
+@pytest.fixture(scope="module")
+def swing(tmp_path_factory: pytest.TempPathFactory) -> Model:
+    folder = tmp_path_factory.mktemp("swing")
+    (folder / "Swing.mo").write_text(SWING)
+    return read_model(fmu_build.build("Swing", folder / "Swing.fmu", libraries=[folder / "Swing.mo"]))
+
+
+def let_go(x: float, v: float, use: str, seed: int) -> MeasuredRecord:
+    """Ten seconds of the angle, by another integrator."""
+    time = np.arange(0, 10, 0.01)
+    found = solve_ivp(
+        lambda t, y: (y[1], -W2 * np.sin(y[0]) - D * y[1]), (0, 10), (x, v), t_eval=time, rtol=1e-10, atol=1e-10
+    )
+    angle = found.y[0] + NOISE * np.random.default_rng(seed).standard_normal(time.size)
+    record = Record(time, np.column_stack([0 * time, angle]), ("u", "x"), ("1/s2", "rad"))
+    return MeasuredRecord(f"{use}-{seed}.txt", "other", use, record)
+
+
+@pytest.fixture(scope="module")
+def data() -> Dataset:
+    signals = (
+        MeasuredSignal("u", "input", "1/s2", "torque", "u"),
+        MeasuredSignal("x", "output", "rad", "angle", "x", noise=NOISE),
+    )
+    records = (let_go(2.4, 3.0, "fit", 1), let_go(-1.2, 6.0, "fit", 2), let_go(2.0, -5.0, "validate", 3))
+    return Dataset("swing", "", "pendulum", signals, records)
+
+
+def test_a_fit_falls_into_step(swing: Model, data: Dataset) -> None:
+    task = problem(swing, [data], (Parameter("w2"), Parameter("d")), treatment=Treatment(initial="estimate"))
+    found = fit(task)
+    for estimate, truth in zip(found.estimates, (W2, D), strict=True):
+        low, high = estimate.interval
+        assert low - (high - low) < truth < high + (high - low)
+    for record in found.records:
+        assert np.std(record.residual.values) == pytest.approx(1.0, rel=0.1)  # of the noise
+
+
+def test_a_log_that_was_not_fitted_falls_into_step(swing: Model, data: Dataset) -> None:
+    task = problem(swing, [data], (Parameter("w2", W2), Parameter("d", D)), treatment=Treatment(initial="estimate"))
+    point = settled_initial_states(
+        task.residuals(use="validate"), swing, task.space, task.space.to_search(task.space.start)
+    )
+    (states,) = point.carried.states
+    assert states == pytest.approx([2.0, -5.0], abs=5e-3)
