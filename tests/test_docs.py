@@ -125,7 +125,7 @@ def page_name(page: Path) -> str:
 
 def pages_to_run() -> list[Any]:
     """Those that fit and diagnose take their time, and run where slow tests are asked for."""
-    long = ("diagnosis.md", "from_logs_to_fmu.md", "own_model.md")
+    long = ("missing_effect.md", "from_logs_to_fmu.md", "own_model.md")
     own = ("python.md",)  # each of its scripts is run in a folder with its files, by tests/pysim/nouns/test_scripts.py
     return [
         pytest.param(page, marks=[pytest.mark.slow] * (page.name in long)) for page in PAGES if page.name not in own

@@ -16,7 +16,8 @@ _UNITS = ("units", "unit")
 
 def is_frame(source: object) -> bool:
     """Whether it is a table in memory, of any kind."""
-    return _package(source) in _FRAMES or (isinstance(source, Mapping) and _holds_arrays(source))
+    is_column = _package(source) in ("pandas", "polars") and len(source.shape) == 1  # type: ignore[attr-defined]
+    return not is_column and (_package(source) in _FRAMES or (isinstance(source, Mapping) and _holds_arrays(source)))
 
 
 def frame_log(source: Any, name: str) -> RawTable:

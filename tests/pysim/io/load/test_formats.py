@@ -107,6 +107,12 @@ def pandas_index(path: Path) -> Any:
     return module.DataFrame({h: COLUMNS[h] for h in HEADS[1:]}, index=module.Index(TIME, name="t [s]"))
 
 
+def pandas_columns(path: Path) -> Any:
+    """A dict whose columns are pandas' own, the first an index."""
+    frame = pandas_index(path)
+    return {HEADS[0]: frame.index, **{heading: frame[heading] for heading in HEADS[1:]}}
+
+
 def polars(path: Path) -> Any:
     return pytest.importorskip("polars").DataFrame(COLUMNS)
 
@@ -118,7 +124,7 @@ def xarray(path: Path) -> Any:
 
 FORMS = (
     *(csv, german_csv, text, lvm, xlsx, ods, mat, mat_struct, mat73, parquet, tdms),
-    *(arrays, arrow, pandas, pandas_index, polars, xarray),
+    *(arrays, arrow, pandas, pandas_index, pandas_columns, polars, xarray),
 )
 NAMED = (mat, mat_struct, mat73)  # whose names hold no unit
 
