@@ -33,6 +33,13 @@ def test_the_error_falls_and_marks_the_criteria() -> None:
     assert [label.get_text() for label in low.get_yticklabels()] == ["mean magnitude ≤ 0.5 dB"]
 
 
+def test_the_error_of_logs_that_nobody_looked_at_is_drawn_too() -> None:
+    steps = [replace(one, test=one.fit + 1) for one in found_offset().history if one.fit is not None]
+    figure = error_figure(steps)
+    assert list(figure.axes[0].lines[-1].get_ydata()) == pytest.approx([9.1, 5.2, 2.0])
+    assert [text.get_text() for text in figure.legends[0].get_texts()] == ["fitted", "held out", "unseen"]
+
+
 def test_an_error_without_held_out_data_has_one_line() -> None:
     figure = error_figure([step("prior", 2.0, None, 0.1)])
     assert len([line for line in figure.axes[0].lines if len(line.get_xdata()) == 1]) == 1

@@ -25,7 +25,7 @@ _ROWS = 14  # candidates shown
 
 
 def error_figure(steps: Sequence[ErrorStep]) -> Figure:
-    """The residual over noise, step by step, fitted and held out; below, each criterion of Tables 1.3 and 1.4.
+    """The residual over noise, step by step, of each use of logs; below, each criterion of Tables 1.3 and 1.4.
 
     Args:
         steps: of the error history, in order.
@@ -51,7 +51,7 @@ def error_figure(steps: Sequence[ErrorStep]) -> Figure:
 def _levels(figure: Figure, axes: Axes, steps: Sequence[ErrorStep]) -> None:
     axes.grid(False, axis="x")
     axes.set_yscale("log")
-    lines = {USES["fit"]: [s.fit for s in steps], USES["validate"]: [s.validate for s in steps]}
+    lines = {words: [_of(step)[use] for step in steps] for use, words in USES.items()}
     known = [v for values in lines.values() for v in values if v is not None]
     low, high = min([0.72, *(0.72 * v for v in known)]), max([1.6, *(1.7 * v for v in known)])
     axes.set_ylim(low, high)
@@ -75,12 +75,21 @@ def _levels(figure: Figure, axes: Axes, steps: Sequence[ErrorStep]) -> None:
     style.legend_above(figure, handles, names)
 
 
+def _of(step: ErrorStep) -> dict[str, float | None]:
+    """By the use of logs."""
+    return {"fit": step.fit, "validate": step.validate, "test": step.test}
+
+
 def _numbers(axes: Axes, i: int, step: ErrorStep) -> None:
-    """The larger one's value above its line, the smaller one's below, so that they never meet."""
-    values = [(v, style.COLOURS[k]) for k, v in enumerate((step.fit, step.validate)) if v is not None]
-    for rank, (value, colour) in enumerate(sorted(values, reverse=True)):
-        away, end = ((0, 6), "bottom") if rank == 0 else ((0, -6), "top")
-        style.small_text(axes, size_text(value), (i, value), away, ha="center", va=end, color=colour)
+    """The largest one's value above its line, the smallest one's below, one between them beside, so that none meet."""
+    values = [(v, style.COLOURS[k]) for k, v in enumerate(_of(step).values()) if v is not None]
+    places = [
+        ((0, 6), "center", "bottom"),
+        *[((8, 0), "left", "center")] * (len(values) - 2),
+        ((0, -6), "center", "top"),
+    ]
+    for (value, colour), (away, ha, va) in zip(sorted(values, reverse=True), places, strict=False):
+        style.small_text(axes, size_text(value), (i, value), away, ha=ha, va=va, color=colour)
 
 
 def _criteria(axes: Axes, steps: Sequence[ErrorStep], symbols: Sequence[str]) -> None:
