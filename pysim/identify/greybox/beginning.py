@@ -19,14 +19,12 @@ from pysim.identify.greybox.observation import Measure
 from pysim.identify.greybox.parameters import ParameterSpace
 from pysim.identify.greybox.residuals import Carried, Point, WeightedResiduals
 from pysim.identify.greybox.search import search
+from pysim.identify.greybox.settings import BeginningSettings
 from pysim.types import Model
 
 Array = NDArray[np.float64]
 
-_ROUNDS = 40  # steps of the initial states of a log that was not fitted
-_SETTLED = 0.5  # nats that a step promises and that are not worth it: what a free number gains by chance (chi-squared)
-_HEADS = 6  # stretches ahead of a whole log, each twice as long as the one before
-_POINTS = 10  # of a search on one of them, whose end is a start and no answer
+_SETTINGS = BeginningSettings()
 
 
 def first_point(residuals: WeightedResiduals, model: Model, space: ParameterSpace, x: Array) -> Point:
@@ -39,7 +37,7 @@ def first_point(residuals: WeightedResiduals, model: Model, space: ParameterSpac
             return head.evaluate(model, space, x, carried)
 
         start = partial(evaluate, x, carried or Carried())
-        end = search(evaluate, GaussNewton(max_iterations=_POINTS), space, start, squares=True).best
+        end = search(evaluate, GaussNewton(max_iterations=_SETTINGS.points), space, start, squares=True).best
         if end.good:
             x, carried = end.x, replace(end.carried, pieces=())
     if carried is None or not carried.states:
@@ -72,8 +70,8 @@ def _settled(residuals: WeightedResiduals, model: Model, space: ParameterSpace, 
 def _settle(residuals: WeightedResiduals, model: Model, space: ParameterSpace, x: Array, carried: Carried) -> Point:
     best = residuals.evaluate(model, space, x, carried, jacobian=False)
     share = 1.0
-    for _ in range(_ROUNDS):
-        if not best.good or share * (2 - share) * best.gain < _SETTLED:
+    for _ in range(_SETTINGS.rounds):
+        if not best.good or share * (2 - share) * best.gain < _SETTINGS.settled:
             break
         trial = residuals.evaluate(model, space, x, best.carried_to(x, share), jacobian=False)
         if trial.cost < best.cost:
@@ -88,5 +86,5 @@ def _heads(residuals: WeightedResiduals) -> Iterator[WeightedResiduals]:
     anywhere = any(np.isinf(run.initial).any() for run in residuals.runs)
     if residuals.absolute or residuals.measure is not Measure.SIGNAL or not anywhere:
         return
-    for k in range(_HEADS, 0, -1):
+    for k in range(_SETTINGS.heads, 0, -1):
         yield replace(residuals, observations=tuple(one.head(0.5**k) for one in residuals.observations))

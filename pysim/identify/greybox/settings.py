@@ -192,3 +192,30 @@ class TrustSettings:
         meaning="rms residual of a beginning over that of the rest, from which on the log did not begin at rest",
         source="three standard deviations of the noise, where the rest is noise",
     )
+
+
+@dataclass(frozen=True)
+class BeginningSettings:
+    """How the state is found at which a log begins."""
+
+    heads: int = setting(
+        6,
+        unit="1",
+        meaning="stretches ahead of a whole log that begins anywhere, each twice as long as the one before",
+        source="the first, a 64th, is a part of one swing where the log has sixty",
+    )
+    points: int = setting(
+        10,
+        unit="1",
+        meaning="points of a search on one of these stretches, whose end is a start and no answer",
+        source="measured: real-machines; a search that is in step needs five",
+    )
+    rounds: int = setting(
+        40, unit="1", meaning="steps of the initial states of a log that was not fitted", source="measured: mismatch"
+    )
+    settled: float = setting(
+        0.5,
+        unit="nats",
+        meaning="what a step of these must promise to be worth it",
+        source="what a free number gains by chance in the mean (chi-squared of one degree over 2)",
+    )
