@@ -234,6 +234,7 @@ class Fit(Shown):
             "initial": self.initial if isinstance(self.initial, str | None) else {**self.initial},
             "outputs": self.outputs,
             "found": {one.name: one.value for one in self.found.estimates},
+            "tolerance": self.found.tolerance,
             "outcome": self.found.outcome.value,
             "search": {name: getattr(self.found, name) for name in ("message", "iterations", "start_cost")},
         }
@@ -247,8 +248,8 @@ class Fit(Shown):
         Raises:
             BadInput: no fit was saved there, or a library of its model is not there any more.
         """
+        from pysim.identify.greybox import Simulation, fit_at
         from pysim.io import read_model
-        from pysim.workflow import fitted_at
 
         place = Path(folder)
         if not (place / _KEPT).is_file():
@@ -266,7 +267,8 @@ class Fit(Shown):
         )
         dataset, initial, outputs = dataset_of(place / _DATA), asked["initial"], tuple(asked["outputs"])
         problem = _problem(begun, dataset, initial, outputs)
-        found = replace(fitted_at(problem, asked["found"]), outcome=FitOutcome(asked["outcome"]), **asked["search"])
+        found = fit_at(problem, asked["found"], Simulation().as_fine_as(asked["tolerance"]))
+        found = replace(found, outcome=FitOutcome(asked["outcome"]), **asked["search"])
         return cls(found, begun, dataset, problem, initial, outputs)
 
     def report(self, folder: Path | str) -> dict[str, Path]:

@@ -217,6 +217,7 @@ class Fit:
         starts: every search.
         notes: what a reader must know: noise that was estimated, records that were left out.
         experiments: exactly what was run for the logs over time, at the estimates.
+        tolerance: relative, of the integration.
         initial: states at the first sample of logs of which nothing else says where they began; `start` is at rest.
     """
 
@@ -240,6 +241,7 @@ class Fit:
     notes: tuple[Note, ...] = ()
     experiments: tuple[Experiment, ...] = ()
     initial: tuple[Estimate, ...] = ()
+    tolerance: float = 1e-5
 
     def __post_init__(self) -> None:
         covariance = np.array(self.covariance, dtype=np.float64)

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from pysim.workflow.data import BY_DATA, data_of, reference_of
     from pysim.workflow.export import export_model
     from pysim.workflow.extended import write_extended
-    from pysim.workflow.fitting import Initial, beginning, fit_problem, fitted, fitted_at, initial_values
+    from pysim.workflow.fitting import Initial, beginning, fit_problem, fitted, initial_values
     from pysim.workflow.free import free_parameters, suggested
     from pysim.workflow.learned import class_name_of, keep_law, law_file, with_classes
     from pysim.workflow.model import ModelInside, class_in, inside, is_fmu, model_of, recorded_of, with_standard
@@ -32,7 +32,7 @@ _FILES = {
     "data": ("BY_DATA", "data_of", "reference_of"),
     "export": ("export_model",),
     "extended": ("write_extended",),
-    "fitting": ("Initial", "beginning", "fit_problem", "fitted", "fitted_at", "initial_values"),
+    "fitting": ("Initial", "beginning", "fit_problem", "fitted", "initial_values"),
     "free": ("free_parameters", "suggested"),
     "learned": ("class_name_of", "keep_law", "law_file", "with_classes"),
     "model": ("ModelInside", "class_in", "inside", "is_fmu", "model_of", "recorded_of", "with_standard"),
@@ -55,7 +55,6 @@ __all__ = [
     "export_model",
     "fit_problem",
     "fitted",
-    "fitted_at",
     "free_parameters",
     "initial_values",
     "inside",

@@ -22,7 +22,6 @@ from pysim.identify.greybox import (
     Treatment,
     Tried,
     fit,
-    fit_at,
     problem,
 )
 from pysim.identify.greybox.optimiser import Optimiser
@@ -125,22 +124,6 @@ def fitted(
         begun = {one.name: one.start for one in found.estimates}
         estimates = tuple(replace(one, start=begun[one.name]) for one in again.estimates)
         found = replace(again, estimates=estimates, starts=found.starts, iterations=found.iterations + again.iterations)
-    return found
-
-
-def fitted_at(problem: Problem, values: Mapping[str, float]) -> Fit:
-    """The fit that ended at these values, by the rough integration whose errors do not count there.
-
-    Raises:
-        BadInput: the model cannot be simulated there.
-    """
-    simulation, settings = Simulation(), Settings()
-    found = fit_at(problem, values, simulation)
-    for _ in range(settings.refinements):
-        simulation = simulation.finer()
-        if _error(found, problem.model, simulation) < settings.fine:
-            break
-        found = fit_at(problem, values, simulation)
     return found
 
 

@@ -304,6 +304,7 @@ def _result(
         ),
         experiments=beside.experiments,
         initial=begun_at,
+        tolerance=simulation.solver.rtol,
     )
 
 

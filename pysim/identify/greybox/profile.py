@@ -59,7 +59,7 @@ def profile(
     """
     place = _place(problem.space, name)
     limit = 0.5 * float(chdtri(1, 1 - level))
-    walker = _Walker(problem, fit, place, simulation or Simulation())
+    walker = _Walker(problem, fit, place, (simulation or Simulation()).as_fine_as(fit.tolerance))
     rows = {fit[name].value: walker.best}
     ends = tuple(_end(walker, fit, name, side, limit, steps, rows) for side in (-1, 1))
     return Profile(name, np.array(sorted(rows.items())), (ends[0], ends[1]))

@@ -47,6 +47,10 @@ class Simulation:
         solver = replace(self.solver, rtol=factor * self.solver.rtol, atol=factor * self.solver.atol)
         return replace(self, solver=solver, mismatch=factor * self.mismatch)
 
+    def as_fine_as(self, tolerance: float) -> Simulation:
+        """Settings with this relative tolerance, where theirs is larger."""
+        return self.finer(min(tolerance / self.solver.rtol, 1.0))
+
     def searching(self) -> Simulation:
         """Settings for points that are only passed.
 

@@ -64,6 +64,8 @@ def test_errors_of_the_integration_do_not_pass_for_missing_physics(mass: Model) 
     for name, true in {**TRUE, "force.F_c": 0.4}.items():
         assert abs(found.values[name] - true) < 4 * found.found[name].std, name
     assert found.signals["x noise"] == pytest.approx([1.0, 1.0], abs=0.06)
+    assert found.found.tolerance < 1e-5
+    assert found.profile("k").interval == pytest.approx(found.intervals["k"], abs=found.found["k"].std)
 
 
 def test_a_parameter_at_its_bound_is_said(mass: Model) -> None:
