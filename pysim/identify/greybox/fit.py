@@ -274,7 +274,8 @@ def _result(
     if objective.squares:
         slope, levels = space.slope(point.x), dict(zip(residuals.channels, point.levels.tolist(), strict=True))
         spread = np.nan_to_num(doubt.covariance) / np.outer(slope, slope)
-        begun_at = initial_states(problem, point.x, spread, {**noise, **levels}, beside.states, simulation)
+        doubts = spread, spread * np.outer(doubt.half, doubt.half)
+        begun_at = initial_states(problem, point.x, doubts, {**noise, **levels}, beside.states, simulation)
     return Fit(
         model=problem.model.name,
         objective=objective.words,

@@ -24,7 +24,7 @@ Array = NDArray[np.float64]
 def initial_states(
     problem: Problem,
     x: Array,
-    covariance: Array,
+    covariances: tuple[Array, Array],
     levels: Mapping[Channel, float],
     offsets: Mapping[int, Array | None],
     simulation: Simulation,
@@ -35,7 +35,8 @@ def initial_states(
     that of the parameters, which they follow. The colour of the residual widens the first.
 
     Args:
-        x, covariance: (n,) of the fit in the search's numbers, and (n, n) of these.
+        x: (n,) of the fit in the search's numbers.
+        covariances: (n, n) of these, and with the ends of their intervals in place of standard deviations.
         levels: what residuals of a channel are counted in.
         offsets: id of a run -> its free states less those at rest.
     """
@@ -44,7 +45,7 @@ def initial_states(
         unknown = one.domain == "time" and len(one.runs) == 1 and bool(np.isinf(one.runs[0].initial).any())
         offset = offsets.get(id(one.runs[0])) if unknown else None
         if offset is not None:
-            found += _of_log(problem, one, x, covariance, levels, offset, simulation)
+            found += _of_log(problem, one, x, covariances, levels, offset, simulation)
     return tuple(found)
 
 
@@ -52,7 +53,7 @@ def _of_log(
     problem: Problem,
     one: Observation,
     x: Array,
-    covariance: Array,
+    covariances: tuple[Array, Array],
     levels: Mapping[Channel, float],
     offset: Array,
     simulation: Simulation,
@@ -79,12 +80,14 @@ def _of_log(
     if table.reduction is None:
         shape = (-1, len(one.channels))
         colour = np.array([inflation([rows[:, 0].reshape(shape)], [own.reshape(shape)]) for own in back])
-    variance = colour * np.sum(back**2, axis=1) + np.sum((follow @ covariance) * follow, axis=1)
+    own_variance = colour * np.sum(back**2, axis=1)
+    followed = [np.sum((follow @ covariance) * follow, axis=1) for covariance in covariances]
     unseen = np.sum(vt[~held] ** 2, axis=0) > EXACT  # a share of it moves nothing that was measured
-    std = np.where(unseen, math.inf, np.sqrt(variance))
+    std = np.where(unseen, math.inf, np.sqrt(own_variance + followed[0]))
+    half = np.where(unseen, math.inf, np.sqrt(HALF_95**2 * own_variance + followed[1]))
     value, rest = begins.values[0], begins.values[0] - begins.by_initial[0] @ offset
     return [
         Estimate(f"{name}@{run.record}", model[name].unit, v, at_rest, -math.inf, math.inf, sd,
-                 (v - HALF_95 * sd, v + HALF_95 * sd))
-        for name, v, at_rest, sd in zip(names, value.tolist(), rest.tolist(), std.tolist(), strict=True)
+                 (v - reach, v + reach))
+        for name, v, at_rest, sd, reach in zip(names, *(a.tolist() for a in (value, rest, std, half)), strict=True)
     ]  # fmt: skip

@@ -42,6 +42,7 @@ class Uncertainty:
         known: directions the data leave open.
         combinations: what is determined of those.
         ratio: (n,) interval from blocks over that of white residuals; not a number where there is none from blocks.
+        half: (n,) standard deviations to the ends of the intervals.
         blocks: that gave the intervals; 0 where they were too few and colour was allowed for by lambda alone.
     """
 
@@ -50,6 +51,7 @@ class Uncertainty:
     known: Identifiability
     combinations: tuple[Combination, ...]
     ratio: Array
+    half: Array
     blocks: int
 
 
@@ -82,12 +84,12 @@ def uncertainty(space: ParameterSpace, point: Point) -> Uncertainty:
     estimates = tuple(Estimate(*row) for row in zip(*columns, intervals, at, strict=True))
     covariance = logarithmic * np.outer(relative, relative)
     covariance[open_, :] = covariance[:, open_] = math.nan
-    half = [_quantile(f) for f in freedom]
+    half = np.array([_quantile(f) for f in freedom])
     white = np.sqrt(np.diag(np.where(inner, found[0].white, found[1].white))) * _quantile(math.inf)
     with np.errstate(divide="ignore", invalid="ignore"):
         ratio = np.where(open_ | (white == 0), math.nan, half * std / relative / white)
-    combinations = _combinations(space, value, known, found[1].matrix, float(np.median(half)) if half else 0.0)
-    return Uncertainty(estimates, covariance, known, combinations, ratio, found[0].blocks)
+    combinations = _combinations(space, value, known, found[1].matrix, float(np.median(half)) if half.size else 0.0)
+    return Uncertainty(estimates, covariance, known, combinations, ratio, half, found[0].blocks)
 
 
 def _quantile(freedom: float, *, one_sided: bool = False) -> float:
