@@ -10,7 +10,7 @@ from pysim.identify import greybox
 from pysim.identify.greybox import Parameter, Treatment, problem
 from pysim.nouns.fit import Fit
 from pysim.nouns.model import Model
-from pysim.types import BadInput, Dataset, MeasuredRecord, MeasuredSignal, Record
+from pysim.types import BadInput, Dataset, MeasuredRecord, MeasuredSignal, ProgressEvent, Record
 from tests.pysim.nouns.conftest import TRUE
 from tests.toy import measured
 
@@ -183,3 +183,20 @@ def test_progress_goes_to_who_asked_for_it(mass: Model, caplog: pytest.LogCaptur
 
     with pytest.raises(KeyboardInterrupt):
         pysim.fit(mass.free("d"), complete, progress=stop)
+
+
+def test_a_fit_that_was_interrupted_goes_on_from_its_folder(mass: Model, tmp_path: Path) -> None:
+    complete = measured(3, "toy.friction", F_c=0.0)
+    whole, first, rest = list[str](), list[str](), list[str]()
+
+    def interrupt(event: ProgressEvent) -> None:
+        first.append(event.stage)
+        if len(first) == 4:
+            raise KeyboardInterrupt
+
+    uninterrupted = pysim.fit(mass, complete, progress=lambda event: whole.append(event.stage))
+    with pytest.raises(KeyboardInterrupt):
+        pysim.fit(mass, complete, folder=tmp_path, progress=interrupt)
+    found = pysim.fit(mass, complete, folder=tmp_path, progress=lambda event: rest.append(event.stage))
+    assert len(rest) < len(whole)
+    assert found.values == pytest.approx(uninterrupted.values, rel=1e-9)
