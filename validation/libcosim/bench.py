@@ -13,8 +13,8 @@ from pysim.cosim.members import Fmu
 from pysim.io import read_model
 from pysim.types import Experiment, Model
 
-STEP = 1e-3  # s
-STEPS = 2000
+STEP = 2.0**-9  # s, some 2 ms: a whole number of nanoseconds, in which libcosim counts, and exact in binary
+STEPS = 1024
 
 _CLASSES = {"rig": "Rig", "speed": "SpeedController", "load": "LoadController"}
 # References: 60 rad/s and 30 bar from standstill. Constants, because libcosim gives an input no signal.
