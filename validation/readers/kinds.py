@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import os
 import zipfile
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 from types import MappingProxyType
+from unittest.mock import patch
 
 import fmu_build
 from fmu_build.front import load
@@ -148,7 +150,8 @@ def _ssp(data: bytes, folder: Path) -> object:
     with zipfile.ZipFile(folder / "a.ssp", "w") as archive:
         archive.writestr("SystemStructure.ssd", data)
         archive.write(_fmu(_right_description(), folder / "a.fmu"), "resources/a.fmu")
-    return read_ssp(folder / "a.ssp", step=0.1)
+    with patch.dict(os.environ, {"HTB_CACHE": str(folder / "cache")}):  # it unpacks: the user's cache would fill
+        return read_ssp(folder / "a.ssp", step=0.1)
 
 
 def _plan(data: bytes, folder: Path) -> object:
