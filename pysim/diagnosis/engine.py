@@ -161,7 +161,7 @@ def _account(session: Session, found: Found, models: Named) -> _Account:
     steps = [error_step(name, fit, session, found.floors.floors, fitted=name != PRIOR) for name, fit in models]
     last, notes = steps[-1][0], dict.fromkeys(note for _, own in steps for note in own)
     rest = follows(found.final, session.dataset, session.treatment.noise.blocks)
-    left = verdict.what_is_left(found, rest, last)
+    left = verdict.what_is_left(found, rest, last, session.settings)
     complete = verdict.is_complete(found, rest, left, last, session.settings)
     return _Account(tuple(step for step, _ in steps), tuple(notes), left, complete)
 

@@ -15,6 +15,7 @@ from pysim.diagnosis.refit import FinalFit
 from pysim.diagnosis.search import Compared, Found, Table
 from pysim.diagnosis.session import Session
 from pysim.diagnosis.settings import Settings
+from pysim.diagnosis.tone import tone
 from pysim.identify.greybox import Nuisance, NuisanceKind
 from pysim.identify.greybox.effective_size import inflation
 from pysim.identify.greybox.trust import at_bound
@@ -57,20 +58,20 @@ def _sensor(
     )
 
 
-def what_is_left(found: Found, follows: Follows | None, last: ErrorStep) -> Left:
+def what_is_left(found: Found, follows: Follows | None, last: ErrorStep, settings: Settings) -> Left:
     """Of the final model, whose step of the error history is the last."""
     floors = {f"{dataset}/{signal}": floor for (dataset, signal), floor in found.floors.floors.items()}
     share, t = (None, None) if follows is None else (follows.share, follows.t)
-    return Left(floors, last.fit, last.validate, share, t)
+    return Left(floors, last.fit, last.validate, share, t, tone(found.final, settings.false_alarm))
 
 
 def is_complete(found: Found, follows: Follows | None, left: Left, last: ErrorStep, settings: Settings) -> bool:
     """Whether nothing but noise is left.
 
-    No candidate passes its test, the residual does not follow the model's signals, and the error on logs that were not
-    fitted is within a few percent of that on those that were, or within the scatter of the two.
+    No candidate passes its test, the residual does not follow the model's signals and holds no tone, and the error on
+    logs that were not fitted is within a few percent of that on those that were, or within the scatter of the two.
     """
-    if found.undecidable or found.more:
+    if found.undecidable or found.more or left.tone is not None:
         return False
     if follows is not None and follows.share > settings.small and follows.t > settings.follows_t:
         return False

@@ -317,6 +317,7 @@ class Left:
         fit, validate: rms over floor.
         share_explained: of the residual, by regression on the model's own signals, 0 ... 1; None where not judged.
         t: of that share.
+        tone: Hz, of one that the residual holds; None where it holds none.
     """
 
     floors: Mapping[str, NoiseFloor]
@@ -324,6 +325,7 @@ class Left:
     validate: float | None
     share_explained: float | None = None
     t: float | None = None
+    tone: float | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "floors", FrozenMapping(self.floors))

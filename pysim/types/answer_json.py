@@ -110,6 +110,7 @@ def _left(left: Left, last: ErrorStep | None) -> Json:
         "rms_over_floor": {"fit": left.fit, "validate": left.validate},
         "share_explained": left.share_explained,
         "t": left.t,
+        "tone": left.tone,
         "parts": [_failure(one) for one in (last.failures if last else ())],
         "floors": {name: {"sd": f.sd, "source": f.source.value} for name, f in left.floors.items()},
     }

@@ -60,9 +60,14 @@ def _left(diagnosis: Diagnosis) -> str:
     left = diagnosis.left
     parts = [f"{value:.2f} {_on_logs(use)}" for use, value in errors(left).items() if value]
     size = f"The residual is {listed(parts)}, in {UNIT}." if parts else "Only frequency responses were compared."
-    if diagnosis.complete or left.share_explained is None:
+    if diagnosis.complete:
         return size
-    return f"{size} {100 * left.share_explained:.0f} % of it follows the model's own signals."
+    share = left.share_explained
+    follows = [] if share is None else [f"{100 * share:.0f} % of it follows the model's own signals."]
+    tone = (
+        [] if left.tone is None else [f"It holds a tone of {left.tone:.4g} Hz, which no effect of the catalogue gives."]
+    )
+    return " ".join([size, *follows, *tone])
 
 
 def comparison_sentence(diagnosis: Diagnosis) -> str:
