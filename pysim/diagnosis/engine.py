@@ -23,6 +23,7 @@ from pysim.diagnosis.progress import Progress, Say
 from pysim.diagnosis.refit import FinalFit, begin, converged
 from pysim.diagnosis.search import Found, Search
 from pysim.diagnosis.session import Session
+from pysim.diagnosis.tone import tone
 from pysim.identify.greybox import Simulation
 from pysim.types import BadInput, Effect, NextTest, Note, NoteCode
 from pysim.types.answer import PRIOR, REFIT, Diagnosis, ErrorStep, Left
@@ -161,7 +162,8 @@ def _account(session: Session, found: Found, models: Named) -> _Account:
     steps = [error_step(name, fit, session, found.floors.floors, fitted=name != PRIOR) for name, fit in models]
     last, notes = steps[-1][0], dict.fromkeys(note for _, own in steps for note in own)
     rest = follows(found.final, session.dataset, session.treatment.noise.blocks)
-    left = verdict.what_is_left(found, rest, last, session.settings)
+    heard = tone(found.final, session.dataset, session.settings.false_alarm)
+    left = verdict.what_is_left(found, rest, heard, last)
     complete = verdict.is_complete(found, rest, left, last, session.settings)
     return _Account(tuple(step for step, _ in steps), tuple(notes), left, complete)
 

@@ -126,13 +126,13 @@ def follows(fit: FinalFit, dataset: Dataset, blocks: int) -> Follows | None:
 def _columns(fit: FinalFit) -> dict[Channel, list[Array]]:
     """Residuals of the logs over time, (n_t,) each, in the channels' units."""
     found: dict[Channel, list[Array]] = {}
-    for _, rests in _logs(fit):
+    for _, rests in logs(fit):
         for channel, rest in rests.items():
             found.setdefault(channel, []).append(rest)
     return found
 
 
-def _logs(fit: FinalFit) -> Iterator[tuple[str, dict[Channel, Array]]]:
+def logs(fit: FinalFit) -> Iterator[tuple[str, dict[Channel, Array]]]:
     """Source of each log over time that was fitted, and its residuals by channel."""
     left, found = of(fit), dict[str, dict[Channel, Array]]()
     for number, (one, name) in enumerate(fit.candidate.residuals(fit.simulation).series):
@@ -144,22 +144,22 @@ def _logs(fit: FinalFit) -> Iterator[tuple[str, dict[Channel, Array]]]:
 def _regressors(fit: FinalFit, dataset: Dataset) -> Iterator[tuple[Array, dict[Channel, Array]]]:
     """Per log what its residuals may follow (n_t, m), and the residuals; of signals, those that every log has."""
     records = {record.source: record.data for record in dataset.records}
-    logs = []
-    for source, rests in _logs(fit):
+    found = []
+    for source, rests in logs(fit):
         record = records[source]
         if not isinstance(record, Record) or any(rest.size != record.time.size for rest in rests.values()):
             continue
         simulated = {name: record[name] - rest for (_, name), rest in rests.items() if name in record.names}
         others = {name: record[name] for name in record.names if name not in simulated}
-        logs.append((others | simulated, rests))
-    if not logs:
+        found.append((others | simulated, rests))
+    if not found:
         return
-    names = [name for name in logs[0][0] if all(name in signals for signals, _ in logs)]
-    tables = [np.column_stack([signals[name] for name in names]) for signals, _ in logs]
+    names = [name for name in found[0][0] if all(name in signals for signals, _ in found)]
+    tables = [np.column_stack([signals[name] for name in names]) for signals, _ in found]
     lags = [lag for lag in _LAGS if lag < min(map(len, tables)) // 4]
     whole = np.concatenate(tables)
     scale = whole.mean(axis=0), np.maximum(whole.std(axis=0), np.finfo(float).tiny)
-    for table, (_, rests) in zip(tables, logs, strict=True):
+    for table, (_, rests) in zip(tables, found, strict=True):
         yield _features((table - scale[0]) / scale[1], lags), rests
 
 

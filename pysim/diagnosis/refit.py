@@ -95,18 +95,18 @@ def begin(candidate: Candidate, values: Values, simulation: Simulation, present:
     if candidate.has_events:
         known = None if present is None else present.candidate.slopes(present.simulation, present.point)
         evaluate = Secants(candidate, simulation, known).evaluate
-    point = evaluate(x, carried)
-    if not point.good:
-        return FinalFit(candidate, State(point, outcome=FitOutcome.NO_START), simulation, evaluate)
-    state = _optimiser().begin(point, _bounds(candidate), squares=True)
-    return FinalFit(candidate, replace(state, first_cost=point.cost), simulation, evaluate)
+    return begun(candidate, evaluate(x, carried), simulation, evaluate)
 
 
 def begin_anywhere(candidate: Candidate, simulation: Simulation) -> FinalFit:
     """The candidate at its own values, or where a search on longer and longer stretches of its logs has come."""
     residuals = candidate.residuals(simulation)
     point = first_point(residuals, candidate.model, candidate.space, candidate.at({}))
-    evaluate = exact(candidate, simulation)
+    return begun(candidate, point, simulation, exact(candidate, simulation))
+
+
+def begun(candidate: Candidate, point: Point, simulation: Simulation, evaluate: Evaluate) -> FinalFit:
+    """The beginning of a search at a point; not good where the model could not be simulated there."""
     if not point.good:
         return FinalFit(candidate, State(point, outcome=FitOutcome.NO_START), simulation, evaluate)
     state = _optimiser().begin(point, _bounds(candidate), squares=True)

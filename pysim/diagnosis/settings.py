@@ -171,3 +171,30 @@ class TestSettings:
         0.1, unit="1", meaning="noise over range from which on a signal is not worth logging", source="nothing is read"
     )
     seed: int = setting(1, unit="1", meaning="of waves", source="convention")
+
+
+@dataclass(frozen=True)
+class ToneSettings:
+    """When one line of a residual's spectrum is a tone."""
+
+    lobe: int = setting(
+        2, unit="1", meaning="lines on either side that belong to a tone", source="main lobe of Hann's window"
+    )
+    beside: int = setting(
+        8,
+        unit="1",
+        meaning="lines beyond them, on either side, that tell the level",
+        source="noise is level there",
+    )
+    worth: int = setting(
+        8,
+        unit="1",
+        meaning="independent lines that those are worth",
+        source="half, as Hann's window joins two",
+    )
+    even: float = setting(
+        0.01,
+        unit="1",
+        meaning="of a sampling interval: how much it may vary",
+        source="half a percent of the shortest period",
+    )

@@ -13,26 +13,26 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from pysim.diagnosis.left import logs
 from pysim.diagnosis.refit import FinalFit
-from pysim.diagnosis.rivals import of
+from pysim.diagnosis.settings import ToneSettings
+from pysim.types import Dataset, Record
 
 Array = NDArray[np.float64]
 
-# Lines on either side that belong to a tone (the main lobe of Hann's window), lines beyond them that tell the level,
-# and how many independent ones these are worth, since the window makes neighbours alike.
-_LOBE, _BESIDE, _WORTH = 2, 8, 8
-_EVEN = 0.01  # of the interval between two samples: how much it may vary
+_SETTINGS = ToneSettings()
 
 
-def tone(fit: FinalFit, false_alarm: float) -> float | None:
+def tone(fit: FinalFit, dataset: Dataset, false_alarm: float) -> float | None:
     """Frequency in Hz of the clearest tone in what a model leaves of the logs over time; None where there is none.
 
     Args:
+        dataset: that was fitted.
         false_alarm: chance of finding one in noise.
     """
-    left, series = of(fit), fit.candidate.residuals(fit.simulation).series
-    logs = [(k, one.runs[0].experiment.times) for k, (one, name) in enumerate(series) if one.domain == "time" and name]
-    found = [line for k, times in logs if (line := clearest(times, left.residual[left.series == k])) is not None]
+    times = {record.source: record.data.time for record in dataset.records if isinstance(record.data, Record)}
+    lines = [clearest(times[source], rest) for source, rests in logs(fit) for rest in rests.values()]
+    found = [line for line in lines if line is not None]
     if not found:
         return None
     chance, frequency = min(found)
@@ -46,14 +46,15 @@ def clearest(times: Array, rest: Array) -> tuple[float, float] | None:
         None where the log is too short, or its samples are not evenly spaced.
     """
     step = np.diff(times)
-    far = _LOBE + _BESIDE
-    if rest.size != times.size or rest.size < 8 * far or np.ptp(step) > _EVEN * step.mean():
+    lobe, worth = _SETTINGS.lobe, _SETTINGS.worth
+    far = lobe + _SETTINGS.beside
+    if rest.size != times.size or rest.size < 8 * far or np.ptp(step) > _SETTINGS.even * step.mean():
         return None
     power = np.abs(np.fft.rfft((rest - rest.mean()) * np.hanning(rest.size))) ** 2
-    beside = [np.roll(power, shift) for k in range(_LOBE + 1, far + 1) for shift in (k, -k)]
+    beside = [np.roll(power, shift) for k in range(lobe + 1, far + 1) for shift in (k, -k)]
     level = np.median(beside, axis=0) / math.log(2)  # the mean of an exponential law, from its median
     inner = slice(far, power.size - far)
     over = power[inner] / np.maximum(level[inner], np.finfo(float).tiny)
     line = int(np.argmax(over))
-    chance = over.size * (1 + over[line] / _WORTH) ** -_WORTH  # F with 2 and 2 times as many degrees of freedom
+    chance = over.size * (1 + over[line] / worth) ** -worth  # F with 2 and 2 times as many degrees of freedom
     return float(chance), (line + far) / (rest.size * float(step.mean()))

@@ -15,7 +15,6 @@ from pysim.diagnosis.refit import FinalFit
 from pysim.diagnosis.search import Compared, Found, Table
 from pysim.diagnosis.session import Session
 from pysim.diagnosis.settings import Settings
-from pysim.diagnosis.tone import tone
 from pysim.identify.greybox import Nuisance, NuisanceKind
 from pysim.identify.greybox.effective_size import inflation
 from pysim.identify.greybox.trust import at_bound
@@ -58,11 +57,11 @@ def _sensor(
     )
 
 
-def what_is_left(found: Found, follows: Follows | None, last: ErrorStep, settings: Settings) -> Left:
+def what_is_left(found: Found, follows: Follows | None, tone: float | None, last: ErrorStep) -> Left:
     """Of the final model, whose step of the error history is the last."""
     floors = {f"{dataset}/{signal}": floor for (dataset, signal), floor in found.floors.floors.items()}
     share, t = (None, None) if follows is None else (follows.share, follows.t)
-    return Left(floors, last.fit, last.validate, share, t, tone(found.final, settings.false_alarm))
+    return Left(floors, last.fit, last.validate, share, t, tone)
 
 
 def is_complete(found: Found, follows: Follows | None, left: Left, last: ErrorStep, settings: Settings) -> bool:

@@ -8,15 +8,15 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from pysim.diagnosis import refit
 from pysim.diagnosis.learn.basis import Smoothness, missed
 from pysim.diagnosis.learn.laws import Law
 from pysim.diagnosis.learn.products import Products
 from pysim.diagnosis.learn.screening import LawModel, Ranked
 from pysim.diagnosis.refit import Evaluate, FinalFit, advance, exact
 from pysim.identify.greybox import GaussNewton, Point, Simulation
-from pysim.identify.greybox.optimiser import Bounds, State
 from pysim.identify.greybox.residuals import Carried, with_rows
-from pysim.types import Estimate, FitOutcome
+from pysim.types import Estimate
 
 Array = NDArray[np.float64]
 
@@ -129,15 +129,7 @@ def started(
     candidate = replace(candidate, precision=precision)
     evaluate = penalised(exact(candidate, simulation), smoothness)
     point = evaluate(x, carried or model.present.point.carried)
-    return LawFit(law, knots, unit, smoothness, _searching(FinalFit(candidate, State(point), simulation, evaluate)))
-
-
-def _searching(fit: FinalFit) -> FinalFit:
-    """At the beginning of a search from where it stands."""
-    if not fit.good:
-        return replace(fit, state=State(fit.point, outcome=FitOutcome.NO_START))
-    state = GaussNewton().begin(fit.point, Bounds(*fit.candidate.space.bounds()), squares=True)
-    return replace(fit, state=replace(state, first_cost=fit.point.cost))
+    return LawFit(law, knots, unit, smoothness, refit.begun(candidate, point, simulation, evaluate))
 
 
 def moved(model: LawModel, one: LawFit, points: int) -> LawFit:

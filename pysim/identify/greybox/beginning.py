@@ -30,20 +30,20 @@ _SETTINGS = BeginningSettings()
 def first_point(residuals: WeightedResiduals, model: Model, space: ParameterSpace, x: Array) -> Point:
     """Where a search begins: at x (n,), or where it came on longer and longer stretches of logs that begin anywhere."""
     first = residuals.evaluate(model, space, x)
-    carried = Carried() if first.good else None
+    carried = Carried()
     for head in _heads(residuals):
 
         def evaluate(x: Array, carried: Carried, head: WeightedResiduals = head) -> Point:
             return head.evaluate(model, space, x, carried)
 
-        start = partial(evaluate, x, carried or Carried())
+        start = partial(evaluate, x, carried)
         end = search(evaluate, GaussNewton(max_iterations=_SETTINGS.points), space, start, squares=True).best
         if end.good:
             x, carried = end.x, replace(end.carried, pieces=())
-    if carried is None or not carried.states:
+    if not carried.states:
         return first
     found = residuals.evaluate(model, space, x, carried)
-    return found if found.good and found.cost < first.cost else first
+    return found if found.cost < first.cost else first
 
 
 def settled_initial_states(residuals: WeightedResiduals, model: Model, space: ParameterSpace, x: Array) -> Point:
@@ -83,7 +83,7 @@ def _settle(residuals: WeightedResiduals, model: Model, space: ParameterSpace, x
 
 def _heads(residuals: WeightedResiduals) -> Iterator[WeightedResiduals]:
     """The same with logs that begin anywhere cut to longer and longer stretches; none where no log does."""
-    anywhere = any(np.isinf(run.initial).any() for run in residuals.runs)
+    anywhere = any(run.begins_anywhere for run in residuals.runs)
     if residuals.absolute or residuals.measure is not Measure.SIGNAL or not anywhere:
         return
     for k in range(_SETTINGS.heads, 0, -1):

@@ -42,7 +42,7 @@ def initial_states(
     """
     found: list[Estimate] = []
     for one in problem.observations:
-        unknown = one.domain == "time" and len(one.runs) == 1 and bool(np.isinf(one.runs[0].initial).any())
+        unknown = one.domain == "time" and len(one.runs) == 1 and one.runs[0].begins_anywhere
         offset = offsets.get(id(one.runs[0])) if unknown else None
         if offset is not None:
             found += _of_log(problem, one, x, covariances, levels, offset, simulation)

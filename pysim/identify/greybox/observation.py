@@ -51,6 +51,11 @@ class Run:
         """Places of the states that are free at the log's start."""
         return np.flatnonzero(self.initial)
 
+    @property
+    def begins_anywhere(self) -> bool:
+        """Whether nothing is known of some state at the log's start."""
+        return bool(np.isinf(self.initial).any())
+
     def over_time(self, overrides: Mapping[str, float], offset: Array | None) -> Experiment:
         """The run over time with parameters set, its free states begun at an offset (n_s,) from rest, or at rest."""
         experiment = self.experiment.override(**overrides)

@@ -208,10 +208,10 @@ class BeginningSettings:
         10,
         unit="1",
         meaning="points of a search on one of these stretches, whose end is a start and no answer",
-        source="measured: real-machines; a search that is in step needs five",
+        source="chosen: a tenth of what a whole search may try",
     )
     rounds: int = setting(
-        40, unit="1", meaning="steps of the initial states of a log that was not fitted", source="measured: mismatch"
+        40, unit="1", meaning="steps of the initial states of a log that was not fitted", source="chosen: a pump took 7"
     )
     settled: float = setting(
         0.5,

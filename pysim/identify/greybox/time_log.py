@@ -65,7 +65,7 @@ class TimeLog:
 
     def head(self, share: float) -> TimeLog:
         """See Observation. There are twice as many numbers as states at least."""
-        if not np.isinf(self.run.initial).any():
+        if not self.run.begins_anywhere:
             return self
         least = math.ceil(2 * self.run.free.size / len(self.channels))
         count = min(max(math.ceil(share * self.measured.time.size), least), self.measured.time.size)

@@ -16,7 +16,7 @@ _UNITS = ("units", "unit")
 
 def is_frame(source: object) -> bool:
     """Whether it is a table in memory, of any kind."""
-    is_column = _package(source) in ("pandas", "polars") and len(source.shape) == 1  # type: ignore[attr-defined]
+    is_column = _package(source) in ("pandas", "polars") and len(getattr(source, "shape", ())) == 1
     return not is_column and (_package(source) in _FRAMES or (isinstance(source, Mapping) and _holds_arrays(source)))
 
 

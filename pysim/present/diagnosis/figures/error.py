@@ -10,7 +10,7 @@ import numpy as np
 
 from pysim.identify.accuracy import FREQUENCY_CRITERIA, TIME_CRITERIA
 from pysim.present import style
-from pysim.present.diagnosis.words import candidates_shown, size_text, step_name
+from pysim.present.diagnosis.words import candidates_shown, errors, size_text, step_name
 from pysim.present.notes import USES
 from pysim.types import BadInput, Criterion, Diagnosis, ErrorStep, Rival
 
@@ -51,7 +51,7 @@ def error_figure(steps: Sequence[ErrorStep]) -> Figure:
 def _levels(figure: Figure, axes: Axes, steps: Sequence[ErrorStep]) -> None:
     axes.grid(False, axis="x")
     axes.set_yscale("log")
-    lines = {words: [_of(step)[use] for step in steps] for use, words in USES.items()}
+    lines = {words: [errors(step).get(words) for step in steps] for words in USES.values()}
     known = [v for values in lines.values() for v in values if v is not None]
     low, high = min([0.72, *(0.72 * v for v in known)]), max([1.6, *(1.7 * v for v in known)])
     axes.set_ylim(low, high)
@@ -75,14 +75,10 @@ def _levels(figure: Figure, axes: Axes, steps: Sequence[ErrorStep]) -> None:
     style.legend_above(figure, handles, names)
 
 
-def _of(step: ErrorStep) -> dict[str, float | None]:
-    """By the use of logs."""
-    return {"fit": step.fit, "validate": step.validate, "test": step.test}
-
-
 def _numbers(axes: Axes, i: int, step: ErrorStep) -> None:
     """The largest one's value above its line, the smallest one's below, one between them beside, so that none meet."""
-    values = [(v, style.COLOURS[k]) for k, v in enumerate(_of(step).values()) if v is not None]
+    known = errors(step)
+    values = [(known[words], style.COLOURS[k]) for k, words in enumerate(USES.values()) if words in known]
     places = [
         ((0, 6), "center", "bottom"),
         *[((8, 0), "left", "center")] * (len(values) - 2),
