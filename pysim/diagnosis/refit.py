@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+import math
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -109,8 +110,16 @@ def begun(candidate: Candidate, point: Point, simulation: Simulation, evaluate: 
     """The beginning of a search at a point; not good where the model could not be simulated there."""
     if not point.good:
         return FinalFit(candidate, State(point, outcome=FitOutcome.NO_START), simulation, evaluate)
-    state = _optimiser().begin(point, _bounds(candidate), squares=True)
-    return FinalFit(candidate, replace(state, first_cost=point.cost), simulation, evaluate)
+    bounds = _bounds(candidate)
+    state = replace(_optimiser().begin(point, bounds, squares=True), first_cost=point.cost)
+    return FinalFit(candidate, _expecting(state, bounds), simulation, evaluate)
+
+
+def cost_at(candidate: Candidate, values: Values, simulation: Simulation, present: FinalFit) -> float:
+    """Of a start that goes on from the present model, without slopes; infinite where it could not be simulated."""
+    x, carried = candidate.at(values), candidate.carried(present.candidate, present.point)
+    residuals = candidate.residuals(simulation)
+    return residuals.evaluate(candidate.model, candidate.space, x, carried, jacobian=False, states=False).cost
 
 
 def again(
@@ -143,10 +152,15 @@ def advance(fit: FinalFit, points: int) -> FinalFit:
         carried = state.best.carried_to(proposal.x, proposal.share)
         trial = fit.evaluate(proposal.x, carried)
         state = optimiser.tell(state, proposal, trial, bounds)
-    if state.outcome is None:
-        expected = optimiser.propose(replace(state, memory={**state.memory, "radius": 1e6}), bounds).predicted
-        state = replace(state, memory={**state.memory, "expected": expected})
-    return replace(fit, state=state)
+    return replace(fit, state=_expecting(state, bounds))
+
+
+def _expecting(state: State, bounds: Bounds) -> State:
+    """With what a full step from there promises, nats."""
+    if state.outcome is not None:
+        return state
+    far = replace(state, memory={**state.memory, "radius": 1e6})
+    return replace(state, memory={**state.memory, "expected": _optimiser().propose(far, bounds).predicted})
 
 
 def converged(fit: FinalFit, simulation: Simulation | None = None) -> FinalFit:
@@ -158,33 +172,55 @@ def converged(fit: FinalFit, simulation: Simulation | None = None) -> FinalFit:
     return advance(again, _optimiser().max_iterations) if again.good else fit
 
 
-def race(runners: Iterable[tuple[FinalFit, float]], settings: Settings, fine: Simulation) -> list[FinalFit]:
-    """Refits of rivals, the largest gain first: those that still promise enough go on, the best of them to the end.
-
-    Of several starts of one candidate, one that is higher after a point, and promises less, is given up at once; later
-    the better one goes on.
+@dataclass(frozen=True)
+class Runner:
+    """A rival of a race.
 
     Args:
-        runners: at their starts, each with the cost of the present model as it is compared.
+        start: simulates it where its refit begins.
+        before: cost of the present model, compared as the rival is.
+        most: nats that it can gain; infinite where nobody knows.
+    """
+
+    start: Callable[[], FinalFit]
+    before: float
+    most: float = math.inf
+
+
+def race(runners: Sequence[Runner], settings: Settings, fine: Simulation) -> list[FinalFit]:
+    """Refits of rivals, the largest gain first: those that still promise enough go on, the best of them to the end.
+
+    One that can gain too little beside what others have gained does not start, and one that promises nothing after a
+    point rests. Of several starts of one candidate, one that is higher after a point, and promises less, is given up
+    at once; later the better one goes on.
+
+    Args:
+        runners: the most promising first.
         fine: simulation by which the best end.
     """
-    running = _not_worse([(advance(fit, 1), before) for fit, before in runners if fit.good])
-    resting: list[tuple[FinalFit, float]] = []
-    points = settings.heat - 1
+    running, gained = list[tuple[FinalFit, float]](), 0.0
+    for runner in runners:
+        fit = runner.start() if runner.most >= settings.promising * gained else None
+        if fit is not None and fit.good:
+            running.append((advance(fit, 1), runner.before))
+            gained = max(gained, runner.before - running[-1][0].point.cost)
+    running = _not_worse(running)
+    resting = [(fit, before) for fit, before in running if fit.expected >= before]
+    running = [(fit, before) for fit, before in running if fit.expected < before]
+    points, least = settings.heat - 1, 0.0
     while running:
         running = _best_starts([(advance(fit, points), before) for fit, before in running])
         points = settings.heat
-        most = max(before - fit.expected for fit, before in (*running, *resting))
-        least = settings.promising * max(most, 0.0)
+        least = settings.promising * max(before - fit.expected for fit, before in (*running, *resting))
         going = [one for one in running if one[0].state.outcome is None and one[1] - one[0].expected >= least]
         if len(going) <= settings.finalists:
             break
         resting += [one for one in running if not any(one is other for other in going)]
         running = going
-    running += resting
-    running.sort(key=lambda one: one[0].expected - one[1])
+    ranked = sorted(_best_starts([*running, *resting]), key=lambda one: one[0].expected - one[1])
     ended = [
-        (converged(fit, fine) if k < settings.finalists else fit, before) for k, (fit, before) in enumerate(running)
+        (converged(fit, fine) if k < settings.finalists and before - fit.expected >= max(least, 0.0) else fit, before)
+        for k, (fit, before) in enumerate(ranked)
     ]
     return [fit for fit, before in sorted(ended, key=lambda one: one[0].point.cost - one[1])]
 

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from pysim.diagnosis.candidate import Candidate, Key, Models, Values
 from pysim.diagnosis.refit import FinalFit
 from pysim.diagnosis.rivals import Rows, of, rows
-from pysim.identify.greybox import Simulation
+from pysim.identify.greybox import Point, Simulation
 from pysim.identify.greybox.identifiability import EXACT
 from pysim.simulate import Rodas, simulate_many
 from pysim.types import BadInput, Effect, EffectParameter, Outcome
@@ -56,12 +56,14 @@ class Sizes:
         bypassed: of one whose off is a limit of its equations.
         limits: of a limit, over the largest value that the limited variable reaches.
         limits_unknown: of a limit of which that is not known, over its usual value.
+        moved: what initial states may still take, as a share of what the effect does, above which they move along.
     """
 
     usual: tuple[float, ...] = (0.3,)
     bypassed: tuple[float, ...] = (0.5, 2.0)
     limits: tuple[float, ...] = (0.92, 0.75, 0.55, 0.35)
     limits_unknown: tuple[float, ...] = (0.25, 0.6, 1.0, 2.0)
+    moved: float = 0.02
 
 
 def screen(
@@ -125,20 +127,25 @@ def _screened(
     residual = before.residual / before.level
     carried = candidate.carried(present.candidate, present.point)
     residuals = candidate.residuals(simulation)
+
+    def changed(point: Point) -> tuple[Array, Array]:
+        """What the effect does to the residual over its levels (n_r,), and what of it refitting leaves."""
+        change = (rows(candidate, residuals, point).residual - before.residual) / before.level
+        return change, change - span @ (span.T @ change)
+
     for tried in _values(effect, _largest(candidate, effect, present, simulation), sizes):
         values = with_effect(present.values, effect, tried)
         space = candidate.held(values)
         free = not candidate.has_events
         point = residuals.evaluate(candidate.model, space, np.zeros(0), carried, jacobian=False, states=free)
-        if point.good and point.gain > 0:  # the initial states move along
-            again = residuals.evaluate(
-                candidate.model, space, np.zeros(0), point.carried_to(np.zeros(0)), jacobian=False
-            )
-            point = again if again.good and again.cost < point.cost else point
         if not point.good:
             continue
-        change = (rows(candidate, residuals, point).residual - before.residual) / before.level
-        left = change - span @ (span.T @ change)
+        change, left = changed(point)
+        if 2 * point.gain > sizes.moved * float(left @ left):
+            moved = point.carried_to(np.zeros(0))
+            again = residuals.evaluate(candidate.model, space, np.zeros(0), moved, jacobian=False, states=False)
+            if again.good and again.cost < point.cost:
+                change, left = changed(again)
         size = float(left @ left)
         if not size > EXACT * float(change @ change):
             continue

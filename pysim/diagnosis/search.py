@@ -17,9 +17,9 @@ from pysim.diagnosis.candidate import Candidate, Models, Values
 from pysim.diagnosis.checkpoint import Checkpoint
 from pysim.diagnosis.left import Floors
 from pysim.diagnosis.progress import Progress
-from pysim.diagnosis.refit import FinalFit, begin, begin_anywhere, converged, race
+from pysim.diagnosis.refit import FinalFit, Runner, begin, begin_anywhere, converged, cost_at, race
 from pysim.diagnosis.screen import Screened, best_of_each, own_values, screen, screened
-from pysim.diagnosis.sensors import sensor_candidates
+from pysim.diagnosis.sensors import with_sensor_errors
 from pysim.diagnosis.settings import Settings
 from pysim.identify.greybox import Simulation
 from pysim.identify.greybox.beginning import settled_initial_states
@@ -293,11 +293,9 @@ class Search:
     def _expanded(self, present: FinalFit) -> Table:
         self.say.doing(f"trying effects beside {' + '.join(present.names) or 'the base model'}")
         beside = partial(self._beside, present)
+        near = self.floors.within(present, self.settings.near)
+        simulation = self.fine if near else self.rough
         tried = best_of_each(screen(self.models, beside, self.rough))
-        sensors = sensor_candidates(present, self.models)
-        self.tried = max(self.tried, len(tried) + len(sensors))
-        going, aside = self._put_aside(present, tried)
-        simulation = self.fine if self.floors.within(present, self.settings.near) else self.rough
 
         @cache
         def here(transient: bool, simulation: Simulation) -> FinalFit:
@@ -305,24 +303,30 @@ class Search:
             fit = beside(transient)
             return fit if fit.simulation == simulation else begin(fit.candidate, fit.values, simulation, fit)
 
-        starts = [(one.candidate, one.values) for one in going] + [(one, present.values) for one in sensors]
-        if simulation != self.fine:  # far from the floor the present parameters may be those of a wrong optimum
-            starts += [(one.candidate, own_values(one)) for one in going]
+        def runner(candidate: Candidate, values: Values, most: float) -> Runner:
+            start = partial(begin, candidate, values, simulation, beside(candidate.transient))
+            return Runner(start, here(candidate.transient, simulation).point.cost, most)
 
-        def raced() -> list[FinalFit]:
-            runners = (
-                (begin(c, values, simulation, beside(c.transient)), here(c.transient, simulation).point.cost)
-                for c, values in starts
-            )
-            return race(runners, self.settings, self.fine)
-
+        sensors = with_sensor_errors(here(present.candidate.transient, simulation), self.models)
+        self.tried = max(self.tried, len(tried) + len(sensors))
+        runners = [
+            *self._effects_to_refit(present, tried, near, runner),
+            *self._sensors_to_refit(here(present.candidate.transient, simulation), sensors, near),
+        ]
+        if not near:  # the present parameters may be those of a wrong optimum
+            runners += self._from_own_values(tried, simulation, beside, runner)
         part = f"beside {' + '.join(present.candidate.labels) or 'the base model'}"
-        fits = self._checkpoint.once(part, raced, [candidate for candidate, _ in starts], self._simulations)
+        candidates = [one.candidate for one in (*tried, *sensors)]
+        fits = self._checkpoint.once(
+            part, partial(race, runners, self.settings, self.fine), candidates, self._simulations
+        )
         have, compared = set(present.candidate.labels), list[Compared]()
         for fit in fits:
             added = next(label for label in fit.candidate.labels if label not in have)
             if fit.believable(added, self.settings.believable):
                 compared.append(Compared(fit, added, self.test(here(fit.candidate.transient, fit.simulation), fit)))
+        refitted = {one.added for one in compared}
+        aside = [one for one in tried if one.effect.name not in refitted]
         return Table(present.candidate.labels, self.floors.potential(present), self._ordered(compared), aside, tried)
 
     def _beside(self, fit: FinalFit, transient: bool) -> FinalFit:
@@ -337,20 +341,45 @@ class Search:
             self._fits[key] = self._once(part, find, other)
         return self._fits[key]
 
-    def _put_aside(self, present: FinalFit, screened: Sequence[Screened]) -> tuple[list[Screened], list[Screened]]:
-        """What is refitted and what is not: near the floor first-order gains are good enough to tell."""
-        if not self.floors.within(present, self.settings.near):
-            return list(screened), []
-        left, count = rivals.of(present), rivals.samples(present)
-        going: list[Screened] = []
-        aside: list[Screened] = []
-        for one in screened:
-            inflated = rivals.effective(left, one.change)
-            df = len(one.effect.parameters)
-            gain = self.settings.first_order_error * one.gain
-            p = rivals.p_value(gain, df, count, present.candidate.size + df, inflated)
-            (going if p * self.tried < self.settings.false_alarm else aside).append(one)
-        return going, aside
+    def _effects_to_refit(
+        self, present: FinalFit, tried: Sequence[Screened], near: bool, runner: Callable[..., Runner]
+    ) -> list[Runner]:
+        """Effects, the most promising first: near the floor first-order gains are good enough to put some aside."""
+        if not near:
+            return [runner(one.candidate, one.values, math.inf) for one in tried]
+        left, found = rivals.of(present), list[Runner]()
+        for one in tried:
+            most = self.settings.first_order_error * one.gain
+            if self._may_pass(present, most, len(one.effect.parameters), rivals.effective(left, one.change)):
+                found.append(runner(one.candidate, one.values, most))
+        return found
+
+    def _sensors_to_refit(self, present: FinalFit, starts: Sequence[FinalFit], near: bool) -> list[Runner]:
+        """The same of sensors' errors."""
+        found: list[Runner] = []
+        for fit in starts:
+            most = self.settings.first_order_error * (present.point.cost - fit.expected) if near else math.inf
+            if self._may_pass(present, most, 1, 1.0):
+                found.append(Runner(lambda fit=fit: fit, present.point.cost, most))
+        return found
+
+    def _may_pass(self, present: FinalFit, most: float, df: int, inflated: float) -> bool:
+        """Whether a gain of so many nats would be significant."""
+        p = rivals.p_value(most, df, rivals.samples(present), present.candidate.size + df, inflated)
+        return p * self.tried < self.settings.false_alarm
+
+    def _from_own_values(
+        self,
+        tried: Sequence[Screened],
+        simulation: Simulation,
+        beside: Callable[[bool], FinalFit],
+        runner: Callable[..., Runner],
+    ) -> list[Runner]:
+        """Effects from the model's own parameters: those that are closest to the data there, as many as finalists."""
+        starts = [(one.candidate, own_values(one)) for one in tried]
+        costs = [cost_at(candidate, own, simulation, beside(candidate.transient)) for candidate, own in starts]
+        order = np.argsort(costs, kind="stable")[: self.settings.finalists]
+        return [runner(*starts[k], math.inf) for k in order if math.isfinite(costs[k])]
 
     def test(self, smaller: FinalFit, larger: FinalFit, choices: int | None = None) -> GainTest:
         """The larger model against the smaller by what was fitted alone.
@@ -474,7 +503,7 @@ class Search:
         return self._keep(self._once(f"without {label} of {' + '.join(labels)}", find, candidate))
 
     def _refitted(self, candidate: Candidate, values: Values, present: FinalFit) -> FinalFit:
-        return converged(begin(candidate, values, self.fine, present))
+        return converged(begin(candidate, values, self.rough, present), self.fine)
 
     def _keep(self, fit: FinalFit) -> FinalFit:
         key = _key(fit)

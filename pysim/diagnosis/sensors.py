@@ -1,20 +1,33 @@
-"""Errors of sensors as candidates beside effects: where one does the same as an effect, the two are a tie."""
+"""Errors of sensors as rivals of effects: where one does the same as an effect, the two are a tie."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
-from pysim.diagnosis.candidate import Candidate, Models
-from pysim.diagnosis.refit import FinalFit
+from pysim.diagnosis.candidate import Models
+from pysim.diagnosis.refit import FinalFit, begin, begun, exact
 from pysim.identify.greybox import Nuisance, NuisanceKind
 from pysim.types import Record
 
 
-def sensor_candidates(present: FinalFit, models: Models) -> list[Candidate]:
-    """The present model with one sensor's error more, each."""
-    have = set(present.candidate.nuisances)
-    free = [one for one in _nuisances(models) if one not in have]
-    return [models.of(present.candidate.effects, (*present.candidate.nuisances, one)) for one in free]
+def with_sensor_errors(present: FinalFit, models: Models) -> list[FinalFit]:
+    """The present model with one sensor's error more, each where the present model stands.
+
+    They share one simulation: a sensor's error changes no run.
+    """
+    own, point, simulation = present.candidate, present.point, present.simulation
+    free = [one for one in _nuisances(models) if one not in own.nuisances]
+    candidates = [models.of(own.effects, (*own.nuisances, one), transient=own.transient) for one in free]
+    if own.has_events:  # slopes are those of secants
+        return [begin(one, present.values, simulation, present) for one in candidates]
+    found: list[FinalFit] = []
+    answer = None
+    for one in candidates:
+        residuals, carried = one.residuals(simulation), one.carried(own, point)
+        answer = answer or residuals.simulate(one.model, one.space, point.x, carried)
+        there = residuals.with_priors(residuals.weigh(point.x, answer, carried, point.x.size), one.space)
+        found.append(begun(one, there, simulation, exact(one, simulation)))
+    return found
 
 
 def _nuisances(models: Models) -> Iterator[Nuisance]:

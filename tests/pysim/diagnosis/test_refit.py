@@ -6,7 +6,7 @@ from functools import cache
 import pytest
 
 from pysim.diagnosis.candidate import Models, Values
-from pysim.diagnosis.refit import FinalFit, advance, begin, converged, race
+from pysim.diagnosis.refit import FinalFit, Runner, advance, begin, converged, race
 from pysim.diagnosis.settings import Settings
 from pysim.identify.greybox.optimiser import State
 from pysim.identify.greybox.residuals import failed_point
@@ -36,7 +36,7 @@ def start(name: str, size: float = 0.1, values: Values | None = None) -> FinalFi
 
 
 def raced(*fits: FinalFit, **settings: object) -> list[FinalFit]:
-    return race([(fit, base().point.cost) for fit in fits], replace(Settings(), **settings), FINE)
+    return race([Runner(lambda fit=fit: fit, base().point.cost) for fit in fits], replace(Settings(), **settings), FINE)
 
 
 def test_the_right_effect_wins_and_ends_where_a_fit_of_it_alone_ends() -> None:
@@ -62,8 +62,8 @@ def test_those_that_promise_too_little_are_left_where_they_are() -> None:
 
 
 def test_of_two_starts_of_one_candidate_the_better_one_is_kept() -> None:
-    bad = start("mass.drag", 20.0, {"k": 150.0})
-    good = start("mass.drag")
+    bad = start("mass.friction", 20.0, {"k": 150.0})
+    good = start("mass.friction")
     for order in ((good, bad), (bad, good)):
         (found,) = raced(*order)
         assert found.point.cost == pytest.approx(converged(good, FINE).point.cost, abs=0.1)
